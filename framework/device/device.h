@@ -1,0 +1,36 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/scene/world.h"
+#include "framework/schedule/tick.h"
+#include "framework/state/device_state.h"
+
+namespace presa {
+
+/// A haptic device of one finger: position out, force in. read and write run on the haptic thread and
+/// neither allocate nor block longer than the device exchange; open and close may do anything.
+class Device {
+ public:
+  virtual ~Device() = default;
+  /// Makes the device ready. Throws InputError with the exact reason when it cannot.
+  virtual void open() {}
+  virtual void close() noexcept {}
+
+  /// The sample for this tick.
+  virtual FingerInput read(const Tick& tick) noexcept = 0;
+  /// Sends the force on the finger, held until the next write [N, world frame].
+  virtual void write(const Vec3& f_H_W, const Tick& tick) noexcept = 0;
+
+  /// Names of the phases that FingerInput::phase counts; empty for a real hand.
+  virtual std::vector<std::string> phases() const { return {}; }
+  /// Start times of those phases [s], one more for the end; empty for a real hand.
+  virtual std::vector<double> phaseTimes() const { return {}; }
+  /// Viscous damping b of device plus hand that the stiffness bound K <= (b + B) / ((d + 1/2) T) may count on [N s/m].
+  virtual double damping() const { return 0; }
+  /// Lines worth telling the user at start ("finger damping raised to 10 N s/m for 10 N/mm").
+  virtual std::vector<std::string> notes() const { return {}; }
+};
+
+}  // namespace presa

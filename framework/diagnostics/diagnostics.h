@@ -1,0 +1,65 @@
+#pragma once
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace presa {
+
+/// Where a value came from. line and column count from 1; 0: unknown.
+struct SourceLocation {
+  std::string file;  ///< path as the user gave it, or "--set" / "command line"
+  int line = 0;
+  int column = 0;
+};
+
+/// One finding about user input. Printed as
+///   file:line:col: error[E203]: what is wrong, what was found, what is allowed
+///     help: what to do
+struct Diagnostic {
+  enum class Severity { kWarning, kError };
+  Severity severity = Severity::kError;
+  int code = 0;  ///< E1xx reading and well-formedness, E2xx scene, E3xx mesh, E4xx rig and devices, E5xx graph, E6xx recording
+  std::string message;
+  std::string help;  ///< may be empty
+  SourceLocation where;
+};
+
+/// Collects every finding of one load, so that a user sees all of them at once (at most 50).
+class Diagnostics {
+ public:
+  void error(int code, const SourceLocation& where, std::string message, std::string help = {});
+  void warning(int code, const SourceLocation& where, std::string message, std::string help = {});
+
+  bool hasErrors() const noexcept { return errors_ > 0; }
+  std::size_t errorCount() const noexcept { return errors_; }
+  const std::vector<Diagnostic>& all() const noexcept { return all_; }
+  /// Sorted by file, line, column; one diagnostic after another in the format above.
+  std::string text() const;
+
+  static constexpr std::size_t kLimit = 50;
+
+ private:
+  void add(Diagnostic diagnostic);
+  std::vector<Diagnostic> all_;
+  std::size_t errors_ = 0;
+};
+
+std::string format(const Diagnostic& diagnostic);
+
+/// Thrown where a caller cannot go on: carries every finding.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(Diagnostics diagnostics);
+  const Diagnostics& diagnostics() const noexcept { return diagnostics_; }
+
+ private:
+  Diagnostics diagnostics_;
+};
+
+/// The candidate nearest to `word` by edit distance, or "" when none is close.
+std::string nearestName(const std::string& word, const std::vector<std::string>& candidates);
+/// " (did you mean 'x'?)" or "".
+std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace presa

@@ -1,0 +1,59 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+namespace presa {
+
+/// Data that may cross threads: no owner, no pointer to free. (Eigen's fixed-size types are plain
+/// bytes but declare a copy constructor, so std::is_trivially_copyable is not the question here.)
+template <class T>
+concept PlainData = std::is_trivially_destructible_v<T> && std::is_default_constructible_v<T> &&
+                    std::is_copy_assignable_v<T>;
+
+/// Wait-free hand-over of the latest value from one writer thread to one reader thread (triple
+/// buffer). The writer never waits and never fails; the reader sees whole values in order and may
+/// miss some. Each value carries a version (1, 2, 3 …) and the writer's simulated time.
+/// Several readers need one LatestValue each.
+template <PlainData T>
+class LatestValue {
+ public:
+  /// Writer: copies `value` in and makes it the latest.
+  void publish(const T& value, double time) noexcept {
+    Slot& slot = slots_[write_];
+    slot.value = value;
+    slot.time = time;
+    slot.version = ++published_;
+    // release: the slot's contents are visible to whoever takes this index
+    write_ = middle_.exchange(static_cast<std::uint8_t>(write_ | kNew), std::memory_order_acq_rel) & kIndex;
+  }
+
+  /// Reader: takes the latest value if there is a newer one; true when there was.
+  bool update() noexcept {
+    if ((middle_.load(std::memory_order_relaxed) & kNew) == 0) return false;
+    read_ = middle_.exchange(read_, std::memory_order_acq_rel) & kIndex;
+    return true;
+  }
+
+  /// Reader: the value last taken; version 0 and a default T before the first.
+  const T& value() const noexcept { return slots_[read_].value; }
+  std::uint64_t version() const noexcept { return slots_[read_].version; }
+  double time() const noexcept { return slots_[read_].time; }
+
+ private:
+  static constexpr std::uint8_t kNew = 4;
+  static constexpr std::uint8_t kIndex = 3;
+  struct alignas(64) Slot {
+    T value{};
+    std::uint64_t version = 0;
+    double time = 0;
+  };
+  std::array<Slot, 3> slots_{};
+  alignas(64) std::atomic<std::uint8_t> middle_{1};
+  alignas(64) std::uint8_t write_ = 0;
+  std::uint64_t published_ = 0;
+  alignas(64) std::uint8_t read_ = 2;
+};
+
+}  // namespace presa

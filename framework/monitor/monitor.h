@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/graph/port.h"
+#include "framework/schedule/timing_stats.h"
+#include "framework/scene/world.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/device_state.h"
+#include "framework/state/object_state.h"
+
+namespace presa {
+
+/// What one contact point felt over a run.
+struct FingerSummary {
+  std::array<double, 3> seconds{};   ///< by ContactMode: none, stick, slip
+  double max_normal_force = 0;       ///< [N]
+  double mean_normal_force = 0;      ///< over the ticks in contact [N]
+};
+
+struct ObjectSummary {
+  Vec3 start = Vec3::Zero(), highest = Vec3::Zero(), final = Vec3::Zero();  ///< body origins [m]
+  bool grasped = false;              ///< was held by at least two fingers at once
+  double lost_at = -1;               ///< first time after a grasp with no finger in contact [s]; -1 never
+  bool dropped = false;              ///< lost before the scripted loosening began (any loss when nothing is scripted)
+  double peak_speed = 0;             ///< [m/s]
+};
+
+/// One sample of the plots: everything figure 12 of the PERCRO paper shows.
+struct TraceSample {
+  double time = 0;
+  std::int32_t phase = -1;
+  std::array<FingerContact, kMaxFingers> fingers;   ///< HIP, proxy, mode, forces
+  std::array<Vec3, kMaxFingers> f_command;          ///< after the output stage [N]
+  std::array<Pose, 4> bodies;                       ///< the first four free bodies at this time
+};
+
+/// Haptic-rate observer: sums, hash and a decimated trace. Allocates everything at construction.
+/// In ports: device_state, contact_exchange, force_command, object_state (optional).
+class Monitor final : public Module {
+ public:
+  /// `loosen_time`: scripted start of letting go [s], or infinity. trace_rate 0: no trace.
+  Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate);
+  ~Monitor() override;
+  void step(const Tick& tick) noexcept override;
+  std::vector<std::string> stages() const override;
+
+  const std::array<FingerSummary, kMaxFingers>& fingers() const noexcept;
+  /// As Scene::bodies.
+  const std::vector<ObjectSummary>& objects() const noexcept;
+  /// FNV-1a over the bits of every Device, Object and contact state of every haptic tick.
+  std::uint64_t hash() const noexcept;
+  const std::vector<TraceSample>& trace() const noexcept;
+  /// Scene indices of the bodies in TraceSample::bodies.
+  const std::vector<std::int32_t>& tracedBodies() const noexcept;
+  std::uint32_t popThrough() const noexcept;
+  double simulatedTime() const noexcept;
+
+ private:
+  struct Impl;
+  In<DeviceState> device_{*this, "device_state"};
+  In<ContactExchange> contact_{*this, "contact_exchange"};
+  In<ForceCommand> command_{*this, "force_command"};
+  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace presa

@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "framework/device/device.h"
+#include "framework/graph/module.h"
+#include "framework/scene/world.h"
+
+/// A plug-in is a shared object `presa_<folder>.so` built from one folder under modules/ or devices/. It exports one
+/// C function that returns its table; it is loaded only when the plan calls for it.
+namespace presa {
+
+inline constexpr int kPluginAbi = 1;
+
+struct ModulePlugin {
+  int abi = kPluginAbi;
+  const char* name;      ///< folder name
+  const char* summary;   ///< one line for --help and explain
+  std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world);
+};
+
+struct DevicePlugin {
+  int abi = kPluginAbi;
+  const char* name;
+  const char* summary;
+  /// Checks binding.settings (all findings to `diagnostics`); null when something is wrong.
+  std::unique_ptr<Device> (*create)(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
+};
+
+}  // namespace presa
+
+#define PRESA_MODULE_PLUGIN(table) \
+  extern "C" __attribute__((visibility("default"))) const presa::ModulePlugin* presaModulePlugin() { return &(table); }
+#define PRESA_DEVICE_PLUGIN(table) \
+  extern "C" __attribute__((visibility("default"))) const presa::DevicePlugin* presaDevicePlugin() { return &(table); }

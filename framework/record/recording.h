@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/exchange/event_ring.h"
+#include "framework/graph/module.h"
+#include "framework/scene/world.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/device_state.h"
+#include "framework/state/object_state.h"
+
+namespace presa {
+
+/// One tick of one rate group, with the version of every value that it read across rates, in the graph's
+/// bridge order. Threads make these versions differ from run to run; with them a replay is exact.
+struct ScheduleRow {
+  static constexpr int kMaxBridges = 12;
+  std::uint64_t index = 0;
+  std::array<std::uint64_t, kMaxBridges> versions{};
+};
+
+/// The executors write here when a run is recorded: one ring per rate group (one writer each), drained by
+/// the recorder's thread.
+struct ScheduleLog {
+  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kRateGroupCount> rings;
+  ScheduleLog();
+};
+
+struct RecorderStatus {
+  std::uint64_t rows = 0;       ///< haptic ticks on disk or on their way
+  std::uint64_t dropped = 0;    ///< haptic ticks or schedule rows lost because the disk was too slow
+  bool failed = false;          ///< the file could not be written (disk full)
+};
+
+/// Haptic-rate tap with its own writer thread. In ports: "device_state", "contact_exchange", "force_command",
+/// "object_state" (optional). step() only copies into a ring.
+class Recorder : public Module {
+ public:
+  using Module::Module;
+  /// The graph's schedule; before start().
+  virtual void attach(ScheduleLog& schedule) = 0;
+  /// Flushes everything and closes the file; after the executor has stopped.
+  virtual void finish() = 0;
+  virtual RecorderStatus status() const noexcept = 0;
+};
+
+/// A recording read back whole.
+struct Recording {
+  std::string scene_xml;        ///< resolved scene, as it ran
+  std::string scene_file;       ///< name it had
+  std::string rig_xml;
+  std::string program_version;
+  std::uint64_t seed = 0;
+  bool realtime = false;
+  std::uint64_t dropped = 0;
+  double haptic_period = 0;                     ///< [s]
+  std::vector<double> time;                     ///< one entry per haptic tick
+  std::vector<DeviceState> device;
+  std::vector<ForceCommand> command;
+  std::array<std::vector<ScheduleRow>, kRateGroupCount> schedule;
+};
+
+/// The record plug-in (HDF5), loaded when a run is recorded or replayed.
+struct RecordPlugin {
+  int abi;
+  /// Creates the file world.options.record; throws InputError when that cannot be written.
+  std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world);
+  /// Throws InputError (missing, not HDF5, not a recording, newer version).
+  Recording (*read)(const std::string& file);
+};
+
+}  // namespace presa

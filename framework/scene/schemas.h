@@ -1,0 +1,7 @@
+#pragma once
+/// Texts of config/schema/*.xsd, embedded at build time.
+namespace presa::schemas {
+extern const char* const scene;
+extern const char* const rig;
+extern const char* const motion;
+}  // namespace presa::schemas

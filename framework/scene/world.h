@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/geometry/tri_mesh.h"
+#include "framework/scene/scene.h"
+
+namespace presa {
+
+/// What the user asked of this run, beyond the scene.
+struct RunOptions {
+  enum class View { kNone, kOffscreen, kWindow };
+  bool realtime = false;
+  double duration = 10;           ///< simulated seconds
+  std::uint64_t seed = 1;
+  View view = View::kNone;
+  std::string screenshot;         ///< PNG path, may be empty
+  double screenshot_time = -1;    ///< [s]; -1: at the end
+  std::string record;             ///< HDF5 path, may be empty
+};
+
+/// Meshes of one body; null where the geometry is a primitive or absent.
+struct BodyMeshes {
+  std::shared_ptr<const TriMesh> visual, haptic, physics;
+};
+
+/// Mass, centre of mass (body frame) and inertia about it (body axes). Zero mass: fixed.
+struct BodyInertia {
+  double mass = 0;
+  Vec3 p_BCm = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+};
+
+/// The scene with its meshes read and its masses computed: constant during a run, shared by all modules.
+struct World {
+  Scene scene;
+  Rig rig;
+  RunOptions options;
+  std::vector<BodyMeshes> meshes;      ///< as Scene::bodies
+  std::vector<BodyInertia> inertias;   ///< as Scene::bodies
+};
+
+/// Reads every mesh the scene names (each file once) and computes mass properties from the physics geometry.
+World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics);
+
+}  // namespace presa

@@ -1,0 +1,19 @@
+#pragma once
+#include <cstdint>
+
+namespace presa {
+
+/// The groups of modules that run together, each at its own rate and, in real time, on its own thread.
+enum class RateGroup : std::uint8_t { kHaptic, kCollision, kDynamics, kView };
+inline constexpr int kRateGroupCount = 4;
+const char* toString(RateGroup group) noexcept;
+
+/// One step of a rate group. Time is simulated time, index * period exactly, in both executors; no module
+/// reads a wall clock, so a recording can be replayed to the bit.
+struct Tick {
+  std::uint64_t index = 0;
+  double time = 0;     ///< [s]
+  double period = 0;   ///< [s]
+};
+
+}  // namespace presa

@@ -1,0 +1,40 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+namespace presa {
+
+/// Distribution of durations in fixed memory: 32 buckets per octave of nanoseconds (error below 2.2 %),
+/// exact maximum. One writer; read after the run or, for a live display, approximately.
+class DurationHistogram {
+ public:
+  void add(std::int64_t nanoseconds) noexcept;
+  std::uint64_t count() const noexcept { return count_; }
+  std::int64_t max() const noexcept { return max_; }
+  double mean() const noexcept { return count_ == 0 ? 0.0 : static_cast<double>(sum_) / static_cast<double>(count_); }
+  /// Smallest duration that a fraction q of all samples do not exceed [ns]; 0 when empty.
+  std::int64_t percentile(double q) const noexcept;
+
+ private:
+  static constexpr int kSubBuckets = 32;
+  static constexpr int kBuckets = 64 * kSubBuckets;
+  static int bucketOf(std::int64_t nanoseconds) noexcept;
+  static std::int64_t upperEdge(int bucket) noexcept;
+  std::array<std::uint32_t, kBuckets> buckets_{};
+  std::uint64_t count_ = 0;
+  std::int64_t sum_ = 0;
+  std::int64_t max_ = 0;
+};
+
+/// What one rate group did. Execution time is CPU work per tick; period and lateness are wall clock and
+/// stay empty in lockstep, where there is no deadline to miss.
+struct GroupTiming {
+  std::uint64_t ticks = 0;
+  std::uint64_t missed = 0;    ///< ticks that began more than one period late
+  std::uint64_t skipped = 0;   ///< ticks given up after a stall too long to catch up
+  DurationHistogram execution;
+  DurationHistogram period;
+  DurationHistogram lateness;
+};
+
+}  // namespace presa
