@@ -16,7 +16,7 @@ void Executor::stepTimed(RateGroup group, std::uint64_t index) noexcept {
     schedule_->rings[static_cast<std::size_t>(group)]->push(row);
   }
   timing.execution.add(monotonicNs() - begin);
-  ++timing.ticks;
+  timing.ticks.fetch_add(1, std::memory_order_relaxed);
 }
 
 }  // namespace presa

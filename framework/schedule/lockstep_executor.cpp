@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "framework/schedule/executor.h"
 
 namespace presa {
