@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 namespace presa {
@@ -29,9 +30,10 @@ class DurationHistogram {
 /// What one rate group did. Execution time is CPU work per tick; period and lateness are wall clock and
 /// stay empty in lockstep, where there is no deadline to miss.
 struct GroupTiming {
-  std::uint64_t ticks = 0;
-  std::uint64_t missed = 0;    ///< ticks that began more than one period late
-  std::uint64_t skipped = 0;   ///< ticks given up after a stall too long to catch up
+  // counters are atomic for the live display; the histograms are read after the run
+  std::atomic<std::uint64_t> ticks{0};
+  std::atomic<std::uint64_t> missed{0};    ///< ticks that began more than one period late
+  std::atomic<std::uint64_t> skipped{0};   ///< ticks given up after a stall too long to catch up
   DurationHistogram execution;
   DurationHistogram period;
   DurationHistogram lateness;

@@ -1,0 +1,76 @@
+#include "framework/device/device_modules.h"
+
+namespace presa {
+
+DeviceInput::DeviceInput(DeviceList& devices, const RunControl& control)
+    : Module("device_input", RateGroup::kHaptic), devices_(devices), control_(control) {}
+
+void DeviceInput::step(const Tick& tick) noexcept {
+  DeviceState& state = state_.value;
+  state.time = tick.time;
+  state.count = static_cast<std::int32_t>(devices_.size());
+  state.stop_requested = control_.stop_requested.load(std::memory_order_relaxed);
+  for (std::size_t f = 0; f < devices_.size(); ++f) state.fingers[f] = devices_[f]->read(tick);
+}
+
+std::vector<std::string> DeviceInput::stages() const { return {"read every device into the Device State"}; }
+
+DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles)
+    : Module("device_output", RateGroup::kHaptic), devices_(devices), reported_(roles.size(), 0) {
+  for (const DeviceRole& role : roles) {
+    stages_.emplace_back(OutputLimits{.force = role.limits.force, .force_rate = role.limits.force_rate});
+    watchdog_.push_back(role.limits.watchdog_ms * 1e-3);
+  }
+}
+
+bool DeviceOutput::informationOld(std::size_t finger, const Tick& tick) const noexcept {
+  const FingerInput& input = device_->fingers[finger];
+  if (!input.valid) return true;
+  if (contact_->time < tick.time) return true;
+  if (objects_.connected() && objects_.age(tick) > watchdog_[finger]) return true;
+  return patches_.connected() && patches_.age(tick) > kPatchAge;
+}
+
+void DeviceOutput::step(const Tick& tick) noexcept {
+  last_tick_ = tick;
+  ForceCommand& command = command_.value;
+  command.time = tick.time;
+  command.count = static_cast<std::int32_t>(devices_.size());
+  command.status = 0;
+  for (std::size_t f = 0; f < devices_.size(); ++f) {
+    const OutputStage::Input input{contact_->fingers[f].f_H_W, informationOld(f, tick), device_->stop_requested};
+    command.f_H_W[f] = stages_[f].step(input, tick.period);
+    command.status |= stages_[f].status();
+    report(f, reported_[f], stages_[f].status(), tick.time);
+    reported_[f] = stages_[f].status();
+    devices_[f]->write(command.f_H_W[f], tick);
+  }
+}
+
+// One event when a bit comes up, not one per tick.
+void DeviceOutput::report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept {
+  const std::uint32_t risen = now & ~before & (kOutputNotFinite | kOutputWatchdog);
+  if (risen != 0) events_.push({time, static_cast<std::int32_t>(finger), risen});
+}
+
+void DeviceOutput::stop() {
+  Tick tick = last_tick_;
+  for (bool moving = true; moving;) {
+    moving = false;
+    ++tick.index;
+    tick.time += tick.period;
+    for (std::size_t f = 0; f < devices_.size(); ++f) {
+      const Vec3 force = stages_[f].step({Vec3::Zero(), false, true}, tick.period);
+      devices_[f]->write(force, tick);
+      moving = moving || force.norm() > 0;
+    }
+  }
+}
+
+std::vector<std::string> DeviceOutput::stages() const {
+  return {"finite: a command that is not a number latches a fault", "magnitude: clip to the role's force limit",
+          "fade: soft start, watchdog on contact ages, stop", "slew: change by at most the role's force rate",
+          "write to the device"};
+}
+
+}  // namespace presa

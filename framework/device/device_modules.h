@@ -1,0 +1,72 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "framework/device/device.h"
+#include "framework/device/output_stage.h"
+#include "framework/exchange/event_ring.h"
+#include "framework/graph/port.h"
+#include "framework/schedule/executor.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/contact_patch.h"
+#include "framework/state/object_state.h"
+
+namespace presa {
+
+/// The devices of a run, in the order of the scene's roles. Opened and closed by the program's main thread.
+using DeviceList = std::vector<std::unique_ptr<Device>>;
+
+/// Something went wrong while running. Carried to the main thread by a ring.
+struct FaultEvent {
+  double time = 0;              ///< [s]
+  std::int32_t finger = -1;
+  std::uint32_t status = 0;     ///< the OutputStatus bit that came up
+};
+
+/// First module of the haptic group: reads every device into one Device State.
+class DeviceInput final : public Module {
+ public:
+  DeviceInput(DeviceList& devices, const RunControl& control);
+  void step(const Tick& tick) noexcept override;
+  std::vector<std::string> stages() const override;
+
+ private:
+  DeviceList& devices_;
+  const RunControl& control_;
+  Out<DeviceState> state_{*this, "device_state"};
+};
+
+/// The output stages and the devices behind them. Reads the ages of what the command was made from.
+class DeviceOutput final : public Module {
+ public:
+  DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles);
+  void step(const Tick& tick) noexcept override;
+  /// Takes every force down to zero within the slew limit, then lets go.
+  void stop() override;
+  std::vector<std::string> stages() const override;
+
+  /// Main thread: the next fault or watchdog event; false when there is none.
+  bool nextEvent(FaultEvent& event) noexcept { return events_.pop(event); }
+
+  /// A contact patch older than this is no longer trusted [s]: three periods of the collision thread.
+  static constexpr double kPatchAge = 0.030;
+
+ private:
+  bool informationOld(std::size_t finger, const Tick& tick) const noexcept;
+  void report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept;
+
+  DeviceList& devices_;
+  std::vector<OutputStage> stages_;
+  std::vector<double> watchdog_;         ///< [s] per finger
+  std::vector<std::uint32_t> reported_;
+  Tick last_tick_;
+  EventRing<FaultEvent> events_{256};
+  In<DeviceState> device_{*this, "device_state"};
+  In<ContactExchange> contact_{*this, "contact_exchange"};
+  In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}, WhenOld::kFadeToZero, kPatchAge};
+  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kFadeToZero, kPatchAge};
+  Out<ForceCommand> command_{*this, "force_command"};
+};
+
+}  // namespace presa

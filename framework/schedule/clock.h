@@ -1,0 +1,21 @@
+#pragma once
+#include <ctime>
+#include <cstdint>
+
+namespace presa {
+
+/// CLOCK_MONOTONIC [ns]: never jumps with the wall clock.
+inline std::int64_t monotonicNs() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+/// Sleeps until an instant of that clock; returns at once when it has passed.
+inline void sleepUntilNs(std::int64_t deadline) noexcept {
+  const timespec until{deadline / 1'000'000'000, deadline % 1'000'000'000};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
+  }
+}
+
+}  // namespace presa

@@ -1,0 +1,22 @@
+#include "framework/schedule/executor.h"
+
+#include "framework/schedule/clock.h"
+
+namespace presa {
+
+void Executor::stepTimed(RateGroup group, std::uint64_t index) noexcept {
+  GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
+  const Tick tick = rates_.tick(group, index);
+  const std::int64_t begin = monotonicNs();
+  if (schedule_ == nullptr) {
+    graph_.step(group, tick);
+  } else {
+    ScheduleRow row;
+    graph_.step(group, tick, &row);
+    schedule_->rings[static_cast<std::size_t>(group)]->push(row);
+  }
+  timing.execution.add(monotonicNs() - begin);
+  timing.ticks.fetch_add(1, std::memory_order_relaxed);
+}
+
+}  // namespace presa

@@ -1,0 +1,83 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/graph/graph.h"
+#include "framework/schedule/rates.h"
+#include "framework/schedule/timing_stats.h"
+
+namespace presa {
+
+/// How a run ends early, and where it is. Shared by the program's main thread and an executor.
+struct RunControl {
+  std::atomic<bool> stop_requested{false};   ///< device input sees it at its next tick: forces fade
+  std::atomic<bool> abort{false};            ///< leave now
+  std::atomic<double> time{0};               ///< simulated time reached [s]
+};
+
+/// Runs a graph for a while. Both executors run the same graph with the same ticks; they differ only in
+/// who waits for whom.
+class Executor {
+ public:
+  Executor(Graph& graph, RateTable rates, RunControl& control) : graph_(graph), rates_(rates), control_(control) {}
+  virtual ~Executor() = default;
+
+  /// Runs for `duration` simulated seconds, or, after a stop request, for kFadeTime longer. Returns when
+  /// every group has stopped. Rethrows what a module threw in start().
+  virtual void run(double duration) = 0;
+
+  void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }
+  const GroupTiming& timing(RateGroup group) const noexcept { return timings_[static_cast<std::size_t>(group)]; }
+  const RateTable& rates() const noexcept { return rates_; }
+  /// What could not be had (scheduling class, locked memory), in words for the user.
+  const std::vector<std::string>& notes() const noexcept { return notes_; }
+
+  /// Simulated time from a stop request to the end: the output stage fades within it.
+  static constexpr double kFadeTime = 0.15;
+
+ protected:
+  /// One tick of one group with its timing and its row in the schedule.
+  void stepTimed(RateGroup group, std::uint64_t index) noexcept;
+
+  Graph& graph_;
+  RateTable rates_;
+  RunControl& control_;
+  ScheduleLog* schedule_ = nullptr;
+  std::array<GroupTiming, kRateGroupCount> timings_;
+  std::vector<std::string> notes_;
+};
+
+/// All groups on the calling thread in virtual time: deterministic to the bit, as fast as the machine goes.
+/// At one instant the slow groups step before the fast ones: dynamics, collision, haptic, view.
+class LockstepExecutor final : public Executor {
+ public:
+  using Executor::Executor;
+  void run(double duration) override;
+  /// Called on the running thread every `every` haptic ticks.
+  void onProgress(std::uint64_t every, std::function<void()> callback);
+
+ private:
+  std::uint64_t progress_every_ = 0;
+  std::function<void()> progress_;
+};
+
+/// One thread per rate group with absolute deadlines; SCHED_FIFO and locked memory where the system allows it.
+class RealtimeExecutor final : public Executor {
+ public:
+  using Executor::Executor;
+  void run(double duration) override;
+
+  /// A group that is late runs its missed ticks at once, so that simulated time follows the clock; after
+  /// a stall longer than this it gives them up and counts them.
+  static constexpr double kCatchUpLimit = 0.1;
+
+ private:
+  struct Shared;
+  void runGroup(RateGroup group, double duration, Shared& shared);
+  void loop(RateGroup group, double duration, Shared& shared);
+};
+
+}  // namespace presa

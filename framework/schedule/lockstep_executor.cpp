@@ -1,0 +1,35 @@
+#include <algorithm>
+#include <array>
+
+#include "framework/schedule/executor.h"
+
+namespace presa {
+
+void LockstepExecutor::onProgress(std::uint64_t every, std::function<void()> callback) {
+  progress_every_ = every;
+  progress_ = std::move(callback);
+}
+
+void LockstepExecutor::run(double duration) {
+  static constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView};
+  for (RateGroup group : kOrder) graph_.start(group);
+
+  std::uint64_t end = rates_.ticksWithin(RateGroup::kHaptic, duration);
+  const std::uint64_t fade = rates_.ticksWithin(RateGroup::kHaptic, kFadeTime);
+  bool stopping = false;
+  for (std::uint64_t i = 0; i < end && !control_.abort.load(std::memory_order_relaxed); ++i) {
+    for (RateGroup group : kOrder) {
+      const auto divisor = static_cast<std::uint64_t>(rates_.divisor(group));
+      if (graph_.runs(group) && i % divisor == 0) stepTimed(group, i / divisor);
+    }
+    control_.time.store(rates_.tick(RateGroup::kHaptic, i + 1).time, std::memory_order_relaxed);
+    if (!stopping && control_.stop_requested.load(std::memory_order_relaxed)) {
+      stopping = true;
+      end = std::min(end, i + 1 + fade);
+    }
+    if (progress_every_ > 0 && i % progress_every_ == 0) progress_();
+  }
+  for (auto group = kOrder.rbegin(); group != kOrder.rend(); ++group) graph_.stop(*group);
+}
+
+}  // namespace presa
