@@ -57,7 +57,7 @@ struct MeshReport {
 };
 MeshReport checkMesh(const TriMesh& mesh);
 
-/// Triangulations of the primitives, closed, centred at the origin; chord error below 0.1 % of the radius.
+/// Triangulations of the primitives, closed, centred at the origin; chord error below 0.12 % of the radius.
 TriMesh makeBox(const Vec3& size);
 TriMesh makeSphere(double radius, int subdivisions = 4);
 TriMesh makeCylinder(double radius, double length, int segments = 96);
