@@ -1,5 +1,7 @@
 #include "framework/device/device_modules.h"
 
+#include "framework/schedule/clock.h"
+
 namespace presa {
 
 DeviceInput::DeviceInput(DeviceList& devices, const RunControl& control)
@@ -15,8 +17,11 @@ void DeviceInput::step(const Tick& tick) noexcept {
 
 std::vector<std::string> DeviceInput::stages() const { return {"read every device into the Device State"}; }
 
-DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles)
-    : Module("device_output", RateGroup::kHaptic), devices_(devices), reported_(roles.size(), 0) {
+DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles, bool realtime)
+    : Module("device_output", RateGroup::kHaptic),
+      devices_(devices),
+      reported_(roles.size(), 0),
+      realtime_(realtime) {
   for (const DeviceRole& role : roles) {
     stages_.emplace_back(OutputLimits{.force = role.limits.force, .force_rate = role.limits.force_rate});
     watchdog_.push_back(role.limits.watchdog_ms * 1e-3);
@@ -59,6 +64,7 @@ void DeviceOutput::stop() {
     moving = false;
     ++tick.index;
     tick.time += tick.period;
+    if (realtime_) sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(tick.period * 1e9));
     for (std::size_t f = 0; f < devices_.size(); ++f) {
       const Vec3 force = stages_[f].step({Vec3::Zero(), false, true}, tick.period);
       devices_[f]->write(force, tick);

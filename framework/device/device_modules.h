@@ -40,7 +40,8 @@ class DeviceInput final : public Module {
 /// The output stages and the devices behind them. Reads the ages of what the command was made from.
 class DeviceOutput final : public Module {
  public:
-  DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles);
+  /// `realtime`: the last fade, after the run, keeps the pace of the clock.
+  DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles, bool realtime);
   void step(const Tick& tick) noexcept override;
   /// Takes every force down to zero within the slew limit, then lets go.
   void stop() override;
@@ -60,6 +61,7 @@ class DeviceOutput final : public Module {
   std::vector<OutputStage> stages_;
   std::vector<double> watchdog_;         ///< [s] per finger
   std::vector<std::uint32_t> reported_;
+  bool realtime_;
   Tick last_tick_;
   EventRing<FaultEvent> events_{256};
   In<DeviceState> device_{*this, "device_state"};

@@ -8,12 +8,14 @@ namespace presa {
 Vec3 OutputStage::step(const Input& input, double period) noexcept {
   status_ = kOutputClean;
 
-  Vec3 force = input.command;
-  if (!std::isfinite(force.x()) || !std::isfinite(force.y()) || !std::isfinite(force.z())) latched_ = true;
-  if (latched_) {
-    status_ |= kOutputNotFinite;
-    force = last_;   // fade from where the finger is
+  const Vec3& wanted = input.command;
+  if (std::isfinite(wanted.x()) && std::isfinite(wanted.y()) && std::isfinite(wanted.z())) {
+    if (!latched_) good_ = wanted;
+  } else {
+    latched_ = true;
   }
+  if (latched_) status_ |= kOutputNotFinite;
+  Vec3 force = good_;   // after a fault: fade from the last command that made sense
 
   // scaled by the largest component first: the square of 1e308 would overflow
   if (const double largest = force.cwiseAbs().maxCoeff(); largest > limits_.force) {
@@ -29,7 +31,7 @@ Vec3 OutputStage::step(const Input& input, double period) noexcept {
   const bool falling = latched_ || input.stop || input.information_old;
   gain_ = falling ? std::max(0.0, gain_ - period / limits_.fade_out) : std::min(1.0, gain_ + period / limits_.soft_start);
   if (gain_ < 1) status_ |= kOutputFading;
-  force *= latched_ ? (gain_ > 0 ? 1 - period / limits_.fade_out : 0.0) : gain_;
+  force *= gain_;
 
   // last, so that nothing above can make a step
   const double step = limits_.force_rate * period;

@@ -43,7 +43,8 @@ class OutputStage {
 
  private:
   OutputLimits limits_;
-  Vec3 last_ = Vec3::Zero();
+  Vec3 good_ = Vec3::Zero();   // last finite command
+  Vec3 last_ = Vec3::Zero();   // last force sent
   double gain_ = 0;
   bool latched_ = false;
   std::uint32_t status_ = 0;

@@ -33,9 +33,15 @@ struct MassProperties {
 };
 MassProperties massProperties(const TriMesh& mesh);
 
-/// Merges vertices closer than `tolerance` [m], drops triangles that collapse by it, returns vertices removed.
+/// Merges each vertex into the first earlier kept one not farther than `tolerance` [m], drops triangles that collapse by
+/// it, returns vertices removed. Tolerance 0 merges equal ones. Deterministic; all indices must be valid.
 std::size_t weld(TriMesh& mesh, double tolerance);
+/// Removes vertices that no triangle names; returns how many.
+std::size_t dropUnused(TriMesh& mesh);
+/// Fills TriMesh::adjacency. An edge of one triangle or of more than two has no neighbour (-1).
 void buildAdjacency(TriMesh& mesh);
+/// Reverses every triangle (and the adjacency with it).
+void turnInsideOut(TriMesh& mesh);
 
 /// What a mesh is fit for. Counts of what is wrong; all zero: a closed, consistently oriented surface.
 struct MeshReport {
@@ -51,19 +57,23 @@ struct MeshReport {
 };
 MeshReport checkMesh(const TriMesh& mesh);
 
-/// Triangulations of the primitives, closed, centred at the origin; chord error below 0.1 % of the radius.
+/// Triangulations of the primitives, closed, centred at the origin; chord error below 0.12 % of the radius.
 TriMesh makeBox(const Vec3& size);
 TriMesh makeSphere(double radius, int subdivisions = 4);
 TriMesh makeCylinder(double radius, double length, int segments = 96);
-TriMesh makeCapsule(double radius, double length, int segments = 48);
+TriMesh makeCapsule(double radius, double length, int segments = 104);
 
 /// Reads OBJ, STL, PLY, glTF/GLB or COLLADA through the mesh-import plug-in (assimp), which is loaded at the first call;
 /// scales, welds (tolerance: 1e-6 of the diagonal), drops what is degenerate, checks, and builds adjacency.
 /// Findings (missing file, empty, NaN, degenerate, non-manifold, open, inverted) go to `diagnostics` at `where`; an
 /// inverted closed mesh is turned with a warning; few degenerate triangles are dropped with a warning.
+/// Axes and units: OBJ, STL and PLY state none and are taken as metres, z up. glTF is metres, y up by its standard, and
+/// COLLADA states both: they are turned and scaled to metres, z up. Coordinates pass through single precision (assimp).
+/// Thread: any, not the haptic group. Never throws for bad input: the result is empty when an error was reported.
 struct ImportOptions {
-  bool must_be_closed = true;
-  Vec3 scale = Vec3::Ones();
+  bool must_be_closed = true;   ///< false: an open mesh is a warning
+  bool display_only = false;    ///< topology does not matter: open, non-manifold or degenerate is no finding
+  Vec3 scale = Vec3::Ones();    ///< a negative factor mirrors (the triangles are turned with it)
 };
 TriMesh importMesh(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                    Diagnostics& diagnostics);

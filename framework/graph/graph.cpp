@@ -36,8 +36,8 @@ void Graph::stop(RateGroup group) {
   for (auto it = modules.rbegin(); it != modules.rend(); ++it) (*it)->stop();
 }
 
-void Graph::keepHistory(std::size_t depth) {
-  for (const auto& bridge : bridges_) bridge->keepHistory(depth);
+void Graph::keepHistory(std::size_t bytes) {
+  for (const auto& bridge : bridges_) bridge->keepHistory(bytes);
 }
 
 bool Graph::replayStep(RateGroup group, const Tick& tick, const ScheduleRow& row) noexcept {

@@ -33,7 +33,7 @@ class Graph {
   void stop(RateGroup group);
 
   /// Replay: keep published values, then step with exactly the recorded ones.
-  void keepHistory(std::size_t depth);
+  void keepHistory(std::size_t bytes);
   /// False, and nothing done, when a version in `row` has not been published yet.
   bool replayStep(RateGroup group, const Tick& tick, const ScheduleRow& row) noexcept;
 

@@ -22,8 +22,8 @@ class BridgeBase {
   virtual std::uint64_t pull() noexcept = 0;
   /// Writer's side, after its module's step.
   virtual void push(double time) noexcept = 0;
-  /// Replay only: keep this many published values, and read exactly the given version.
-  virtual void keepHistory(std::size_t depth) = 0;
+  /// Replay only: keep published values in about this much memory, and read exactly the given version.
+  virtual void keepHistory(std::size_t bytes) = 0;
   virtual bool pullVersion(std::uint64_t version) noexcept = 0;
 };
 
@@ -121,7 +121,7 @@ class Bridge final : public BridgeBase {
     Kept& kept = history_[++pushed_ % history_.size()];
     kept = {source_, pushed_, time};
   }
-  void keepHistory(std::size_t depth) override { history_.resize(depth); }
+  void keepHistory(std::size_t bytes) override { history_.resize(bytes / sizeof(Kept) + 64); }
   bool pullVersion(std::uint64_t version) noexcept override {
     if (version == 0) return true;
     const Kept& kept = history_[version % history_.size()];

@@ -1,0 +1,68 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/load_world.h"
+
+namespace presa {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> scenes;
+  std::string rig, format = "text";
+  std::vector<std::string> sets;
+};
+
+nlohmann::json toJson(const Diagnostic& diagnostic) {
+  return {{"severity", diagnostic.severity == Diagnostic::Severity::kError ? "error" : "warning"},
+          {"code", diagnostic.code},
+          {"file", diagnostic.where.file},
+          {"line", diagnostic.where.line},
+          {"column", diagnostic.where.column},
+          {"message", diagnostic.message},
+          {"help", diagnostic.help}};
+}
+
+int check(const Arguments& arguments) {
+  bool good = true;
+  nlohmann::json report = nlohmann::json::array();
+  for (const std::string& scene : arguments.scenes) {
+    Diagnostics diagnostics;
+    const Loaded loaded = loadWorld({scene, arguments.rig, arguments.sets}, {}, diagnostics);
+    good = good && !diagnostics.hasErrors();
+    if (arguments.format == "json") {
+      nlohmann::json findings = nlohmann::json::array();
+      for (const Diagnostic& diagnostic : diagnostics.all()) findings.push_back(toJson(diagnostic));
+      report.push_back({{"scene", scene}, {"valid", !diagnostics.hasErrors()}, {"findings", findings}});
+      continue;
+    }
+    std::fputs(diagnostics.text().c_str(), stderr);
+    if (diagnostics.hasErrors()) {
+      std::printf("%s: %zu error%s\n", scene.c_str(), diagnostics.errorCount(), diagnostics.errorCount() == 1 ? "" : "s");
+      continue;
+    }
+    std::size_t triangles = 0;
+    for (const BodyMeshes& meshes : loaded.world->meshes) triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
+    std::printf("%s: good (%zu bodies, %zu materials, %zu devices, %zu haptic triangles)\n", scene.c_str(),
+                loaded.world->scene.bodies.size(), loaded.world->scene.materials.size(),
+                loaded.world->scene.devices.size(), triangles);
+  }
+  if (arguments.format == "json") std::printf("%s\n", report.dump(2).c_str());
+  return good ? kExitOk : kExitBadInput;
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app, int& status) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("check", "Read scenes with their rigs and meshes, and report everything that is wrong");
+  command->add_option("SCENE", arguments->scenes, "scene files")->required();
+  command->add_option("--rig", arguments->rig, "rig file instead of the scene's own");
+  command->add_option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");
+  command->add_option("--format", arguments->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command->footer("Exit status: 0 every scene is good, 2 otherwise.\nExample:  presa check config/scenes/*.xml");
+  command->callback([arguments, &status] { status = check(*arguments); });
+}
+
+}  // namespace presa

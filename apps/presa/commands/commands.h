@@ -1,0 +1,20 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace presa {
+
+/// Exit statuses of the program.
+enum ExitStatus : int {
+  kExitOk = 0,
+  kExitFault = 1,         ///< the run ended with a fault, or a verification failed
+  kExitBadInput = 2,      ///< nothing was run and nothing written
+  kExitInterrupted = 130, ///< Ctrl-C
+};
+
+/// Each adds one subcommand, which leaves its exit status in `status`.
+void addRun(CLI::App& app, int& status);
+void addCheck(CLI::App& app, int& status);
+void addExplain(CLI::App& app, int& status);
+void addReplay(CLI::App& app, int& status);
+
+}  // namespace presa

@@ -1,0 +1,68 @@
+#include <cstdio>
+#include <memory>
+
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/load_world.h"
+#include "framework/record/record_plugin.h"
+#include "framework/record/replay.h"
+
+namespace presa {
+namespace {
+
+struct Arguments {
+  std::string file;
+  bool verify = false;
+};
+
+int runReplay(const Arguments& arguments) {
+  const Recording recording = recordPlugin().read(arguments.file);
+  std::printf("%s: scene %s, %zu haptic ticks, %.3f s, seed %llu, %s%s\n", arguments.file.c_str(),
+              recording.scene_file.c_str(), recording.time.size(),
+              recording.time.empty() ? 0.0 : recording.time.back() + recording.haptic_period,
+              static_cast<unsigned long long>(recording.seed), recording.realtime ? "real time" : "lockstep",
+              recording.dropped > 0 ? ", INCOMPLETE" : "");
+  if (recording.dropped > 0) {
+    std::fprintf(stderr, "%s: error[E610]: %llu rows were dropped while recording, so the run cannot be repeated exactly\n",
+                 arguments.file.c_str(), static_cast<unsigned long long>(recording.dropped));
+    return kExitFault;
+  }
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.seed = recording.seed;
+  const Loaded loaded = loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+
+  RunControl control;
+  Session::Options session_options;
+  session_options.devices = recordedDevices(recording);
+  Session session(loaded.world, loaded.plan, control, std::move(session_options));
+  const ReplayResult result = replay(recording, session, RateTable(loaded.world->scene.rates), control);
+  if (!result.problem.empty()) {
+    std::fprintf(stderr, "%s: error[E611]: %s\n", arguments.file.c_str(), result.problem.c_str());
+    return kExitFault;
+  }
+  std::printf("replayed %llu ticks, state hash 0x%016llx\n", static_cast<unsigned long long>(result.ticks),
+              static_cast<unsigned long long>(session.monitor().hash()));
+  if (!arguments.verify) return kExitOk;
+  if (result.differing == 0) {
+    std::printf("verified: every commanded force is the same to the bit\n");
+    return kExitOk;
+  }
+  std::printf("NOT the same: %llu ticks differ, first at %.3f s, by up to %.3g N\n",
+              static_cast<unsigned long long>(result.differing), result.first_difference, result.largest_difference);
+  return kExitFault;
+}
+
+}  // namespace
+
+void addReplay(CLI::App& app, int& status) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("replay", "Run a recording again from its device input");
+  command->add_option("FILE", arguments->file, "recording made with presa run --record")->required();
+  command->add_flag("--verify", arguments->verify, "compare every commanded force with the recorded one, bit by bit");
+  command->footer("Exit status: 0 replayed (and, with --verify, equal), 1 different, 2 not a recording.");
+  command->callback([arguments, &status] { status = runReplay(*arguments); });
+}
+
+}  // namespace presa

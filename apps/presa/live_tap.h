@@ -1,0 +1,39 @@
+#pragma once
+#include <array>
+#include <atomic>
+
+#include "framework/graph/port.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/device_state.h"
+
+namespace presa {
+
+/// What the terminal shows, a few times a second. Written by the haptic thread, read by the main thread;
+/// each value is whole, the set may mix two ticks.
+struct LiveValues {
+  std::atomic<std::int32_t> phase{-1};
+  std::array<std::atomic<double>, kMaxFingers> normal_force{};
+  std::array<std::atomic<std::int32_t>, kMaxFingers> mode{};
+};
+
+/// Haptic-rate tap for the status line.
+class LiveTap final : public Module {
+ public:
+  explicit LiveTap(LiveValues& values) : Module("live_tap", RateGroup::kHaptic), values_(values) {}
+
+  void step(const Tick&) noexcept override {
+    values_.phase.store(device_->fingers[0].phase, std::memory_order_relaxed);
+    for (std::size_t f = 0; f < static_cast<std::size_t>(contact_->count); ++f) {
+      values_.normal_force[f].store(contact_->fingers[f].normal_force, std::memory_order_relaxed);
+      values_.mode[f].store(static_cast<std::int32_t>(contact_->fingers[f].mode), std::memory_order_relaxed);
+    }
+  }
+  std::vector<std::string> stages() const override { return {"copy forces and modes for the terminal"}; }
+
+ private:
+  LiveValues& values_;
+  In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
+  In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
+};
+
+}  // namespace presa

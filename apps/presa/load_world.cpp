@@ -1,0 +1,55 @@
+#include "apps/presa/load_world.h"
+
+#include "framework/plan/session.h"
+#include "framework/scene/load.h"
+
+namespace presa {
+namespace {
+
+std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostics& diagnostics) {
+  std::vector<Override> overrides;
+  for (const std::string& set : sets) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      diagnostics.error(110, {"--set " + set, 0, 0}, "expected PATH=VALUE, found '" + set + "'",
+                        "for example --set body/cube/physics/mass=0.1");
+      continue;
+    }
+    overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics) {
+  Loaded loaded;
+  loaded.plan = makePlan(scene, rig, options, diagnostics);
+  // meshes are read even when the scene has findings of its own: the user sees all at once
+  loaded.world = std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
+  if (!diagnostics.hasErrors()) createDevices(*loaded.world, loaded.plan, diagnostics);
+  return loaded;
+}
+
+}  // namespace
+
+Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics) {
+  const std::vector<Override> overrides = parseSets(inputs.sets, diagnostics);
+  Scene scene = loadScene(inputs.scene, overrides, diagnostics);
+  const std::string rig_file = inputs.rig.empty() ? scene.default_rig : inputs.rig;
+  Rig rig;
+  if (!rig_file.empty()) rig = loadRig(rig_file, diagnostics);
+  if (diagnostics.hasErrors() && scene.bodies.empty()) return {};
+  return finish(std::move(scene), std::move(rig), std::move(options), diagnostics);
+}
+
+Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_name, const std::string& rig_xml,
+                         RunOptions options, Diagnostics& diagnostics) {
+  Scene scene = parseScene(scene_xml, scene_name, ".", {}, diagnostics);
+  Rig rig = parseRig(rig_xml, "rig of " + scene_name, ".", diagnostics);
+  if (diagnostics.hasErrors()) return {};
+  Loaded loaded;
+  loaded.plan = makePlan(scene, rig, options, diagnostics);
+  loaded.world = std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
+  return loaded;
+}
+
+}  // namespace presa

@@ -1,0 +1,36 @@
+#include <cstdio>
+#include <exception>
+
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/version.h"
+#include "framework/diagnostics/diagnostics.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Presa: virtual environments that people pick up with their fingers"};
+  app.name("presa");
+  app.set_version_flag("--version", std::string("presa ") + presa::kVersion);
+  app.require_subcommand(1);
+  app.footer("First steps:\n"
+             "  presa run config/scenes/cube.xml                      two fingers lift a cube, live\n"
+             "  presa run config/scenes/cube.xml --lockstep --report cube.html\n"
+             "  presa explain config/scenes/cube.xml                  which parts run, and why\n"
+             "  presa COMMAND --help                                  all options of a command");
+  int status = presa::kExitOk;
+  presa::addRun(app, status);
+  presa::addCheck(app, status);
+  presa::addExplain(app, status);
+  presa::addReplay(app, status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // help and version are not errors; everything else is bad input
+    return app.exit(error) == 0 ? presa::kExitOk : presa::kExitBadInput;
+  } catch (const presa::InputError& error) {
+    std::fputs(error.diagnostics().text().c_str(), stderr);
+    return presa::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "presa: error: %s\n", error.what());
+    return presa::kExitFault;
+  }
+  return status;
+}

@@ -1,0 +1,204 @@
+#include "apps/presa/run_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <future>
+
+#include "apps/presa/live_tap.h"
+#include "apps/presa/terminal/status_line.h"
+#include "apps/presa/version.h"
+#include "framework/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+// the run that a signal stops; a second signal leaves at once
+std::atomic<RunControl*> signalled{nullptr};
+std::atomic<bool> interrupted{false};
+
+extern "C" void onSignal(int) {
+  RunControl* control = signalled.load();
+  if (control == nullptr) return;
+  if (control->stop_requested.exchange(true)) control->abort = true;
+  interrupted = true;
+}
+
+/// While it lives, Ctrl-C and SIGTERM stop the run instead of the process.
+class SignalGuard {
+ public:
+  explicit SignalGuard(RunControl& control) {
+    signalled = &control;
+    interrupted = false;
+    struct sigaction action {};
+    action.sa_handler = onSignal;
+    sigaction(SIGINT, &action, &old_int_);
+    sigaction(SIGTERM, &action, &old_term_);
+  }
+  ~SignalGuard() {
+    sigaction(SIGINT, &old_int_, nullptr);
+    sigaction(SIGTERM, &old_term_, nullptr);
+    signalled = nullptr;
+  }
+  SignalGuard(const SignalGuard&) = delete;
+  SignalGuard& operator=(const SignalGuard&) = delete;
+
+ private:
+  struct sigaction old_int_ {}, old_term_ {};
+};
+
+constexpr double kDefaultDuration = 10;   // [s], for scenes without a script
+
+}  // namespace
+
+struct Run::Live {
+  LiveValues values;
+  StatusLine line;
+  std::int64_t start_ns = 0;
+  explicit Live(bool quiet) : line(quiet) {}
+};
+
+Run::Run(const Loaded& loaded, Settings settings)
+    : loaded_(loaded), settings_(std::move(settings)), live_(std::make_unique<Live>(settings_.quiet)) {
+  // duration and the moment of the picture follow the script unless the user said otherwise
+  Diagnostics diagnostics;
+  const DeviceList devices = createDevices(*loaded_.world, loaded_.plan, diagnostics);
+  RunOptions options = loaded_.world->options;
+  double end = 0;
+  for (const auto& device : devices) {
+    const auto names = device->phases();
+    const auto times = device->phaseTimes();
+    if (times.empty()) continue;
+    end = std::max(end, times.back());
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      if (device == devices.front()) result_.phases.push_back({names[p], times[p], times[p + 1]});
+      if (names[p] == "hold" && options.screenshot_time < 0) options.screenshot_time = (times[p] + times[p + 1]) / 2;
+    }
+  }
+  if (!(options.duration > 0)) options.duration = end > 0 ? end : kDefaultDuration;
+  if (options.screenshot_time > options.duration) options.screenshot_time = -1;
+  World world = *loaded_.world;
+  world.options = options;
+  loaded_.world = std::make_shared<const World>(std::move(world));
+
+  Session::Options session_options;
+  session_options.trace_rate = settings_.trace_rate;
+  session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
+  session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
+  const RateTable rates(loaded_.world->scene.rates);
+  if (options.realtime) {
+    executor_ = std::make_unique<RealtimeExecutor>(session_->graph(), rates, control_);
+  } else {
+    executor_ = std::make_unique<LockstepExecutor>(session_->graph(), rates, control_);
+  }
+  executor_->recordTo(session_->schedule());
+  if (View* view = session_->view()) {
+    std::array<const GroupTiming*, kRateGroupCount> timings{};
+    for (int g = 0; g < kRateGroupCount; ++g) {
+      const auto group = static_cast<RateGroup>(g);
+      timings[static_cast<std::size_t>(g)] = session_->graph().runs(group) ? &executor_->timing(group) : nullptr;
+    }
+    view->setTimings(timings);
+  }
+  for (const auto& device : session_->devices()) {
+    for (const std::string& note : device->notes()) result_.notes.push_back(note);
+  }
+}
+
+Run::~Run() = default;
+
+void Run::execute() {
+  const SignalGuard guard(control_);
+  live_->start_ns = monotonicNs();
+  for (const std::string& note : result_.notes) live_->line.note(note);
+  if (loaded_.world->options.realtime) {
+    executeRealtime();
+  } else {
+    executeLockstep();
+  }
+  live_->line.finish();
+  finish(static_cast<double>(monotonicNs() - live_->start_ns) * 1e-9);
+}
+
+void Run::executeLockstep() {
+  auto& executor = static_cast<LockstepExecutor&>(*executor_);
+  executor.onProgress(100, [this] { poll(); });
+  executor.run(loaded_.world->options.duration);
+}
+
+void Run::executeRealtime() {
+  auto running = std::async(std::launch::async, [this] { executor_->run(loaded_.world->options.duration); });
+  while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) poll();
+  running.get();
+}
+
+// Main thread, between other things: faults, a closed window, the status line.
+void Run::poll() {
+  FaultEvent event;
+  while (session_->output() != nullptr && session_->output()->nextEvent(event)) {
+    const std::string role = loaded_.world->scene.devices[static_cast<std::size_t>(event.finger)].role;
+    if ((event.status & kOutputNotFinite) != 0) {
+      result_.faults.push_back({event.time, role + ": the commanded force was not a number; forces faded to zero"});
+    }
+    if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
+      char text[160];
+      std::snprintf(text, sizeof text, "%.3f s: %s: contact information was too old, force faded until it came back",
+                    event.time, role.c_str());
+      result_.notes.emplace_back(text);
+    }
+  }
+  if (session_->view() != nullptr && session_->view()->wantsStop()) control_.stop_requested = true;
+  showStatus();
+}
+
+void Run::showStatus() {
+  if (!live_->line.due()) return;
+  LiveStatus status;
+  status.time = control_.time.load(std::memory_order_relaxed);
+  status.duration = loaded_.world->options.duration;
+  status.realtime = loaded_.world->options.realtime;
+  status.wall_seconds = static_cast<double>(monotonicNs() - live_->start_ns) * 1e-9;
+  status.haptic_ticks = executor_->timing(RateGroup::kHaptic).ticks;
+  status.haptic_missed = executor_->timing(RateGroup::kHaptic).missed;
+  const auto phase = live_->values.phase.load(std::memory_order_relaxed);
+  if (phase >= 0 && static_cast<std::size_t>(phase) < result_.phases.size()) {
+    status.phase = result_.phases[static_cast<std::size_t>(phase)].name;
+  }
+  for (std::size_t f = 0; f < loaded_.world->scene.devices.size(); ++f) {
+    status.fingers.push_back({loaded_.world->scene.devices[f].role,
+                              static_cast<ContactMode>(live_->values.mode[f].load(std::memory_order_relaxed)),
+                              live_->values.normal_force[f].load(std::memory_order_relaxed)});
+  }
+  live_->line.show(status);
+}
+
+void Run::finish(double wall_seconds) {
+  poll();
+  const RunOptions& options = loaded_.world->options;
+  result_.world = loaded_.world;
+  result_.version = kVersion;
+  result_.command = settings_.command;
+  result_.realtime = options.realtime;
+  result_.interrupted = interrupted;
+  result_.wall_seconds = wall_seconds;
+  result_.realtime_missing = executor_->notes();
+  for (int g = 0; g < kRateGroupCount; ++g) {
+    const auto group = static_cast<RateGroup>(g);
+    if (session_->graph().runs(group)) result_.rates.push_back({group, executor_->rates().rate(group), &executor_->timing(group)});
+  }
+  takeMonitor(session_->monitor(), result_);
+  if (Recorder* recorder = session_->recorder()) {
+    recorder->finish();
+    const RecorderStatus status = recorder->status();
+    result_.recording = {options.record, status.rows, status.dropped};
+    if (status.failed) result_.faults.push_back({result_.simulated_seconds, "the recording could not be written: " + options.record});
+    if (status.dropped > 0) result_.notes.push_back(std::to_string(status.dropped) + " rows of the recording were dropped: the disk was too slow");
+  }
+  if (View* view = session_->view()) {
+    const View::Screenshot shot = view->screenshot();
+    if (shot.outcome == View::Screenshot::Outcome::kWritten) result_.screenshot = options.screenshot;
+    if (shot.outcome == View::Screenshot::Outcome::kFailed) result_.faults.push_back({result_.simulated_seconds, shot.message});
+  }
+}
+
+}  // namespace presa

@@ -1,0 +1,46 @@
+#pragma once
+#include <string>
+
+#include "apps/presa/load_world.h"
+#include "apps/presa/run_result.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/executor.h"
+
+namespace presa {
+
+/// One run from start to end: session, executor, status line. Used by every command that runs a scene.
+/// Thread: main.
+class Run {
+ public:
+  struct Settings {
+    double trace_rate = 0;       ///< samples per second kept for plots
+    bool quiet = false;          ///< no status line
+    std::string command;         ///< command line, for the report
+  };
+  /// Builds the session. Throws InputError; nothing has been written then.
+  Run(const Loaded& loaded, Settings settings);
+  ~Run();
+
+  /// Runs to the end, or until Ctrl-C (forces fade first). Throws what a module threw in start().
+  void execute();
+  /// Everything there is to tell about it. Valid while this Run lives.
+  const RunResult& result() const noexcept { return result_; }
+
+ private:
+  void executeLockstep();
+  void executeRealtime();
+  void poll();
+  void showStatus();
+  void finish(double wall_seconds);
+
+  Loaded loaded_;
+  Settings settings_;
+  RunControl control_;
+  struct Live;
+  std::unique_ptr<Live> live_;
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<Executor> executor_;
+  RunResult result_;
+};
+
+}  // namespace presa

@@ -1,0 +1,4 @@
+#pragma once
+namespace presa {
+inline constexpr const char* kVersion = PRESA_VERSION;
+}  // namespace presa

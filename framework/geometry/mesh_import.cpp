@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "framework/geometry/mesh_import_abi.h"
+#include "framework/geometry/tri_mesh.h"
+#include "framework/plan/plugin_loader.h"
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Vertices nearer than this part of the diagonal are one [-]: above single-precision rounding of the files (6e-8),
+/// below any detail that can be felt (0.1 um on a 10 cm object).
+constexpr double kWeldTolerance = 1e-6;
+/// From so many degenerate triangles on, a mesh is broken rather than untidy.
+constexpr std::size_t kTooManyDegenerate = 10;
+
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string text(const Vec3& p) {
+  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+}
+
+/// Reads, checks and repairs one file; the first finding that makes the mesh useless ends it.
+class Import {
+ public:
+  Import(const std::string& file, const ImportOptions& options, const SourceLocation& where, Diagnostics& diagnostics)
+      : file_(file), options_(options), where_(where), diagnostics_(diagnostics) {}
+
+  TriMesh run() {
+    const bool good = checkScale() && checkFile() && read() && checkNumbers() && repair() && checkSurface();
+    if (!good) return {};
+    buildAdjacency(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  bool fail(int code, const std::string& what, const std::string& help) {
+    diagnostics_.error(code, where_, "mesh " + file_ + ": " + what, help);
+    return false;
+  }
+  void warn(int code, const std::string& what, const std::string& help) {
+    diagnostics_.warning(code, where_, "mesh " + file_ + ": " + what, help);
+  }
+
+  bool checkScale();
+  bool checkFile();
+  bool read();
+  bool take(const ImportedMesh& imported);
+  bool checkNumbers();
+  bool repair();
+  bool checkSurface();
+  bool checkClosed(const MeshReport& report);
+
+  const std::string& file_;
+  const ImportOptions& options_;
+  const SourceLocation& where_;
+  Diagnostics& diagnostics_;
+  std::string extension_;
+  TriMesh mesh_;
+};
+
+bool Import::checkScale() {
+  const bool usable = options_.scale.allFinite() && (options_.scale.array() != 0).all();
+  return usable || fail(312, "scale " + text(options_.scale) + " leaves nothing of it", "each factor must be finite and not zero");
+}
+
+bool Import::checkFile() {
+  std::error_code ignored;
+  const fs::path path(file_);
+  if (!fs::exists(path, ignored)) return fail(301, "there is no such file", "paths are relative to the scene file");
+  if (!fs::is_regular_file(path, ignored) || !std::ifstream(path).good()) {
+    return fail(301, "it cannot be opened for reading", "give a readable file");
+  }
+  extension_ = path.extension().string();
+  std::erase(extension_, '.');
+  std::ranges::transform(extension_, extension_.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  static constexpr std::array kFormats{"obj", "stl", "ply", "gltf", "glb", "dae"};
+  if (std::ranges::find(kFormats, extension_) == kFormats.end()) {
+    return fail(302, "unknown mesh format '" + extension_ + "'", "use obj, stl, ply, gltf, glb or dae");
+  }
+  return true;
+}
+
+bool Import::read() {
+  try {
+    const auto import = reinterpret_cast<ImportMeshFunction>(pluginSymbol("mesh_import", kMeshImportSymbol));
+    const auto release = reinterpret_cast<ReleaseMeshFunction>(pluginSymbol("mesh_import", kMeshReleaseSymbol));
+    const std::unique_ptr<const ImportedMesh, ReleaseMeshFunction> imported(import(file_.c_str(), extension_.c_str()), release);
+    return take(*imported);
+  } catch (const InputError& error) {
+    for (const Diagnostic& found : error.diagnostics().all()) fail(300, found.message, found.help);
+    return false;
+  } catch (const std::bad_alloc&) {
+    return fail(303, "it does not fit into memory", "simplify it");
+  }
+}
+
+bool Import::take(const ImportedMesh& imported) {
+  if (imported.abi != kMeshImportAbi) return fail(300, "the mesh reader is of another version", "build presa_mesh_import again");
+  if (imported.problem != nullptr) {
+    return fail(303, std::string("it is not a mesh that can be read: ") + imported.problem,
+                "open it in a mesh editor and export it again");
+  }
+  if (imported.triangle_count == 0) return fail(304, "it holds no triangles", "export a triangulated surface");
+  mesh_.vertices.reserve(imported.vertex_count);
+  for (std::size_t i = 0; i < imported.vertex_count; ++i) {
+    const Vec3 vertex(imported.coordinates[3 * i], imported.coordinates[3 * i + 1], imported.coordinates[3 * i + 2]);
+    mesh_.vertices.emplace_back(vertex.cwiseProduct(options_.scale));
+  }
+  mesh_.triangles.reserve(imported.triangle_count);
+  for (std::size_t i = 0; i < imported.triangle_count; ++i) {
+    mesh_.triangles.push_back({imported.indices[3 * i], imported.indices[3 * i + 1], imported.indices[3 * i + 2]});
+  }
+  if (options_.scale.prod() < 0) turnInsideOut(mesh_);
+  return true;
+}
+
+bool Import::checkNumbers() {
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t index = mesh_.triangles[t][i];
+      const std::string corner = "corner " + std::to_string(i) + " of triangle " + std::to_string(t);
+      if (index < 0 || static_cast<std::size_t>(index) >= mesh_.vertices.size()) {
+        return fail(306, corner + " names a vertex that does not exist", "export the mesh again");
+      }
+      const Vec3& vertex = mesh_.vertices[static_cast<std::size_t>(index)];
+      if (!vertex.allFinite()) {
+        return fail(305, "vertex " + std::to_string(index) + " (" + corner + ", counting from 0) is " + text(vertex),
+                    "every coordinate must be a finite number");
+      }
+    }
+  }
+  return true;
+}
+
+bool Import::repair() {
+  dropUnused(mesh_);
+  const AxisBox box = boundsOf(mesh_);
+  const double diagonal = (box.high - box.low).norm();
+  if (!(diagonal > 0) || !std::isfinite(diagonal)) {
+    return fail(307, "all its points are one, or too far apart to measure", "check the scale and the export");
+  }
+  const std::size_t before = mesh_.triangles.size();
+  weld(mesh_, kWeldTolerance * diagonal);
+  dropUnused(mesh_);
+  const std::size_t vanished = before - mesh_.triangles.size();
+  const std::size_t degenerate = vanished + checkMesh(mesh_).degenerate;
+  if (mesh_.triangles.empty()) {
+    return fail(307, "all its " + std::to_string(before) + " triangles are degenerate (no area)", "check the scale and the export");
+  }
+  if (options_.display_only || degenerate == 0) return true;
+  if (degenerate >= kTooManyDegenerate || degenerate > vanished) {
+    return fail(307, counted(degenerate, "triangle is", "triangles are") + " degenerate (no area)",
+                "merge coincident vertices and dissolve flat triangles in a mesh editor");
+  }
+  warn(307, counted(vanished, "degenerate triangle was", "degenerate triangles were") + " dropped", "");
+  return true;
+}
+
+bool Import::checkSurface() {
+  if (options_.display_only) return true;
+  const MeshReport report = checkMesh(mesh_);
+  if (report.non_manifold > 0) {
+    return fail(308, counted(report.non_manifold, "edge belongs", "edges belong") + " to more than two triangles",
+                "remove inner faces and doubled triangles: a surface has two triangles at each edge");
+  }
+  if (report.flipped_edges > 0) {
+    return fail(310, "at " + counted(report.flipped_edges, "edge", "edges") + " the two triangles disagree about which side is outside",
+                "recalculate the normals (make them consistent) in a mesh editor");
+  }
+  return checkClosed(report);
+}
+
+bool Import::checkClosed(const MeshReport& report) {
+  if (!report.closed()) {
+    const std::string what = "it is open: " + counted(report.open_edges, "edge has", "edges have") + " only one triangle";
+    if (options_.must_be_closed) return fail(309, what, "fill the holes: the body of a free object must enclose its volume");
+    warn(309, what, "fingers can get in through the holes");
+    return true;
+  }
+  if (report.inverted) {
+    turnInsideOut(mesh_);
+    warn(311, "it is inside out and was turned", "flip its normals to be rid of this warning");
+  }
+  return true;
+}
+
+}  // namespace
+
+TriMesh importMesh(const std::string& file, const ImportOptions& options, const SourceLocation& where,
+                   Diagnostics& diagnostics) {
+  return Import(file, options, where, diagnostics).run();
+}
+
+}  // namespace presa

@@ -1,0 +1,65 @@
+#include "framework/plan/plan.h"
+
+#include <algorithm>
+
+namespace presa {
+namespace {
+
+template <class Wanted>
+std::string firstBody(const Scene& scene, const Wanted& wanted) {
+  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), wanted);
+  return found == scene.bodies.end() ? std::string{} : found->name;
+}
+
+void bindDevices(Plan& plan, const Scene& scene, const Rig& rig, Diagnostics& diagnostics) {
+  std::vector<std::string> bound;
+  for (const DeviceBinding& binding : rig.devices) bound.push_back(binding.role);
+  for (const DeviceRole& role : scene.devices) {
+    const auto binding = std::find_if(rig.devices.begin(), rig.devices.end(),
+                                      [&](const DeviceBinding& b) { return b.role == role.role; });
+    if (binding == rig.devices.end()) {
+      diagnostics.error(405, role.where, "role '" + role.role + "' is played by no device of the rig '" + rig.name + "'" +
+                                             didYouMean(role.role, bound),
+                        rig.file.empty() ? "name a rig: --rig FILE, or the scene's attribute rig"
+                                         : "add <device role=\"" + role.role + "\" driver=\"…\"/> to " + rig.file);
+      continue;
+    }
+    plan.devices.push_back({role.role, binding->driver});
+  }
+}
+
+}  // namespace
+
+bool Plan::has(const std::string& plugin) const {
+  return std::any_of(modules.begin(), modules.end(), [&](const PlannedModule& m) { return m.plugin == plugin; });
+}
+
+Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Diagnostics& diagnostics) {
+  Plan plan;
+  bindDevices(plan, scene, rig, diagnostics);
+  const auto call = [&](bool wanted, const char* plugin, RateGroup group, std::string why, std::string why_not) {
+    if (wanted) {
+      plan.modules.push_back({plugin, group, std::move(why)});
+    } else {
+      plan.left_out.push_back({plugin, std::move(why_not)});
+    }
+  };
+
+  const std::string free = firstBody(scene, [](const Body& b) { return !b.fixed; });
+  const std::string mesh = firstBody(
+      scene, [](const Body& b) { return b.haptic && std::holds_alternative<MeshRef>(b.haptic->shape); });
+  const std::string touchable = firstBody(scene, [](const Body& b) { return b.haptic.has_value(); });
+  const bool fingers = !scene.devices.empty();
+
+  call(fingers, "haptics_proxy", RateGroup::kHaptic,
+       touchable.empty() ? "the scene has devices" : "fingers can touch body '" + touchable + "'", "the scene has no device");
+  call(fingers && !mesh.empty(), "collision_fcl", RateGroup::kCollision, "body '" + mesh + "' has a mesh as haptic geometry",
+       fingers ? "every haptic geometry is a primitive, which the haptic tick handles exactly" : "the scene has no device");
+  call(!free.empty(), "dynamics_ode", RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
+  call(!options.record.empty(), "record", RateGroup::kHaptic, "--record " + options.record, "nothing is recorded");
+  call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,
+       options.view == RunOptions::View::kWindow ? "--view window" : "a picture is wanted", "no view is wanted");
+  return plan;
+}
+
+}  // namespace presa

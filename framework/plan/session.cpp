@@ -1,0 +1,96 @@
+#include "framework/plan/session.h"
+
+#include <algorithm>
+
+#include "framework/graph/graph_builder.h"
+#include "framework/plan/plugin.h"
+#include "framework/plan/plugin_loader.h"
+#include "framework/record/record_plugin.h"
+
+namespace presa {
+namespace {
+
+template <class Table>
+const Table& tableOf(const std::string& plugin, const char* symbol) {
+  using Entry = const Table* (*)();
+  const Table& table = *reinterpret_cast<Entry>(pluginSymbol(plugin, symbol))();
+  if (table.abi != kPluginAbi) {
+    Diagnostics diagnostics;
+    diagnostics.error(510, {"presa_" + plugin + ".so", 0, 0},
+                      "built for plug-in interface " + std::to_string(table.abi) + ", this program has " +
+                          std::to_string(kPluginAbi),
+                      "build it again: ./dev build");
+    throw InputError(diagnostics);
+  }
+  return table;
+}
+
+}  // namespace
+
+DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics) {
+  DeviceList devices;
+  for (const PlannedDevice& planned : plan.devices) {
+    const auto binding = std::find_if(world.rig.devices.begin(), world.rig.devices.end(),
+                                      [&](const DeviceBinding& b) { return b.role == planned.role; });
+    try {
+      const auto& driver = tableOf<DevicePlugin>(planned.driver, "presaDevicePlugin");
+      if (auto device = driver.create(*binding, world, diagnostics)) devices.push_back(std::move(device));
+    } catch (const InputError& error) {
+      diagnostics.error(406, binding->where, "role '" + planned.role + "': driver '" + planned.driver + "' cannot be loaded",
+                        error.what());
+    }
+  }
+  return devices;
+}
+
+Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
+    : devices_(std::move(options.devices)) {
+  if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);
+  GraphBuilder builder;
+  if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
+  for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
+  if (!devices_.empty()) {
+    output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, world->scene.devices, world->options.realtime));
+  }
+  monitor_ = &builder.add(std::make_unique<Monitor>(world, phaseStart("loosen"), options.trace_rate));
+  for (auto& module : options.more) builder.add(std::move(module));
+  builder.connectByName();
+  graph_ = builder.build();
+}
+
+Session::~Session() {
+  for (const auto& device : devices_) device->close();
+}
+
+void Session::bringUpDevices(const World& world, const Plan& plan, bool open) {
+  Diagnostics diagnostics;
+  devices_ = createDevices(world, plan, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  if (!open) return;
+  for (const auto& device : devices_) device->open();
+}
+
+std::unique_ptr<Module> Session::load(const PlannedModule& planned, const std::shared_ptr<const World>& world) {
+  if (planned.plugin == "record") {
+    auto recorder = recordPlugin().create(world);
+    recorder_ = recorder.get();
+    schedule_ = std::make_unique<ScheduleLog>();
+    recorder->attach(*schedule_);
+    return recorder;
+  }
+  auto module = tableOf<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world);
+  if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
+  return module;
+}
+
+double Session::phaseStart(const std::string& phase) const {
+  for (const auto& device : devices_) {
+    const auto names = device->phases();
+    const auto times = device->phaseTimes();
+    const auto found = std::find(names.begin(), names.end(), phase);
+    if (found != names.end()) return times[static_cast<std::size_t>(found - names.begin())];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace presa

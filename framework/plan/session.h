@@ -1,0 +1,57 @@
+#pragma once
+#include <limits>
+#include <memory>
+
+#include "framework/device/device_modules.h"
+#include "framework/graph/graph.h"
+#include "framework/monitor/monitor.h"
+#include "framework/plan/plan.h"
+#include "framework/plan/view.h"
+#include "framework/record/recording.h"
+
+namespace presa {
+
+/// A planned run brought to life: plug-ins loaded, devices opened, graph built and frozen.
+/// Thread: main. The executor runs graph(); everything else is read after it, or through atomics.
+class Session {
+ public:
+  struct Options {
+    double trace_rate = 0;             ///< samples per second for plots; 0: none
+    DeviceList devices;                ///< replay: used instead of the rig's drivers
+    bool open_devices = true;          ///< explain: looks at the drivers without touching hardware
+    std::vector<std::unique_ptr<Module>> more;   ///< the program's own taps
+  };
+  /// Throws InputError with every finding.
+  Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  Graph& graph() noexcept { return graph_; }
+  const DeviceList& devices() const noexcept { return devices_; }
+  DeviceOutput* output() noexcept { return output_; }         ///< null without devices
+  const Monitor& monitor() const noexcept { return *monitor_; }
+  Recorder* recorder() noexcept { return recorder_; }         ///< null when nothing is recorded
+  ScheduleLog* schedule() noexcept { return schedule_.get(); }
+  View* view() noexcept { return view_; }                     ///< null without a view
+
+  /// Start of the scripted phase of that name [s]; infinity when no device has one.
+  double phaseStart(const std::string& phase) const;
+
+ private:
+  void bringUpDevices(const World& world, const Plan& plan, bool open);
+  std::unique_ptr<Module> load(const PlannedModule& planned, const std::shared_ptr<const World>& world);
+
+  DeviceList devices_;
+  std::unique_ptr<ScheduleLog> schedule_;
+  Graph graph_;
+  DeviceOutput* output_ = nullptr;
+  Monitor* monitor_ = nullptr;
+  Recorder* recorder_ = nullptr;
+  View* view_ = nullptr;
+};
+
+/// The drivers of a rig, checked but not opened, in the order of the plan. Findings go to `diagnostics`.
+DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics);
+
+}  // namespace presa

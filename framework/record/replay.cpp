@@ -1,0 +1,103 @@
+#include "framework/record/replay.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace presa {
+namespace {
+
+bool sameBits(const Vec3& a, const Vec3& b) noexcept {
+  for (int i = 0; i < 3; ++i) {
+    if (std::bit_cast<std::uint64_t>(a[i]) != std::bit_cast<std::uint64_t>(b[i])) return false;
+  }
+  return true;
+}
+
+const ForceCommand* commandOf(const Graph& graph) {
+  for (const Connection& connection : graph.connections()) {
+    if (connection.from->name() != "force_command") continue;
+    return &static_cast<const Out<ForceCommand>*>(connection.from)->value;
+  }
+  return nullptr;
+}
+
+class Replayer {
+ public:
+  Replayer(const Recording& recording, Session& session, const RateTable& rates, RunControl& control)
+      : recording_(recording), session_(session), rates_(rates), control_(control), command_(commandOf(session.graph())) {}
+
+  ReplayResult run() {
+    Graph& graph = session_.graph();
+    constexpr std::size_t kHistoryBytes = 32u << 20;
+    graph.keepHistory(kHistoryBytes);
+    for (RateGroup group : kGroups) graph.start(group);
+    // each group goes on while what its next tick read has been written: some order of the original run
+    bool moved = true;
+    while (moved) {
+      moved = false;
+      for (RateGroup group : kGroups) moved = advance(group) || moved;
+    }
+    for (RateGroup group : kGroups) graph.stop(group);
+    if (next_[static_cast<std::size_t>(RateGroup::kHaptic)] < rows(RateGroup::kHaptic)) {
+      result_.problem = "tick " + std::to_string(result_.ticks) + " read a value that the recording does not hold";
+    }
+    return result_;
+  }
+
+ private:
+  static constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
+
+  std::size_t rows(RateGroup group) const {
+    const std::size_t schedule = recording_.schedule[static_cast<std::size_t>(group)].size();
+    return group == RateGroup::kHaptic ? std::min(schedule, recording_.device.size()) : schedule;
+  }
+
+  bool advance(RateGroup group) {
+    if (!session_.graph().runs(group)) return false;
+    const auto g = static_cast<std::size_t>(group);
+    if (next_[g] >= rows(group)) return false;
+    const ScheduleRow& row = recording_.schedule[g][next_[g]];
+    if (group == RateGroup::kHaptic) control_.stop_requested = recording_.device[next_[g]].stop_requested;
+    if (!session_.graph().replayStep(group, rates_.tick(group, row.index), row)) return false;
+    if (group == RateGroup::kHaptic) compare(next_[g]);
+    ++next_[g];
+    return true;
+  }
+
+  void compare(std::size_t row) {
+    ++result_.ticks;
+    if (command_ == nullptr) return;
+    bool same = true;
+    for (std::size_t f = 0; f < static_cast<std::size_t>(command_->count); ++f) {
+      const Vec3 &now = command_->f_H_W[f], &then = recording_.command[row].f_H_W[f];
+      if (sameBits(now, then)) continue;
+      same = false;
+      result_.largest_difference = std::max(result_.largest_difference, (now - then).norm());
+    }
+    if (same) return;
+    if (result_.differing++ == 0) result_.first_difference = recording_.time[row];
+  }
+
+  const Recording& recording_;
+  Session& session_;
+  const RateTable& rates_;
+  RunControl& control_;
+  const ForceCommand* command_;
+  std::array<std::size_t, kRateGroupCount> next_{};
+  ReplayResult result_;
+};
+
+}  // namespace
+
+DeviceList recordedDevices(const Recording& recording) {
+  DeviceList devices;
+  const int count = recording.device.empty() ? 0 : recording.device.front().count;
+  for (int f = 0; f < count; ++f) devices.push_back(std::make_unique<RecordedFinger>(recording, static_cast<std::size_t>(f)));
+  return devices;
+}
+
+ReplayResult replay(const Recording& recording, Session& session, const RateTable& rates, RunControl& control) {
+  return Replayer(recording, session, rates, control).run();
+}
+
+}  // namespace presa

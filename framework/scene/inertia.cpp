@@ -1,0 +1,87 @@
+#include "framework/scene/inertia.h"
+
+#include <Eigen/Eigenvalues>
+#include <numbers>
+
+namespace presa {
+namespace {
+
+using std::numbers::pi;
+
+/// Moments of a real body obey the triangle inequality; this much rounding is forgiven [-].
+constexpr double kInequalitySlack = 1e-9;
+
+MassProperties centred(double volume, const Vec3& moments) { return {volume, Vec3::Zero(), moments.asDiagonal()}; }
+
+MassProperties of(const Box& box) {
+  const Vec3 squares = box.size.cwiseAbs2();
+  const double volume = box.size.prod();
+  return centred(volume, volume / 12 * Vec3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y()));
+}
+
+MassProperties of(const Sphere& sphere) {
+  const double volume = 4.0 / 3.0 * pi * sphere.radius * sphere.radius * sphere.radius;
+  return centred(volume, Vec3::Constant(0.4 * volume * sphere.radius * sphere.radius));
+}
+
+MassProperties of(const Cylinder& cylinder) {
+  const double r2 = cylinder.radius * cylinder.radius, l2 = cylinder.length * cylinder.length;
+  const double volume = pi * r2 * cylinder.length;
+  const double across = volume * (r2 / 4 + l2 / 12);
+  return centred(volume, {across, across, 0.5 * volume * r2});
+}
+
+MassProperties of(const Capsule& capsule) {
+  const double r = capsule.radius, l = capsule.length;
+  const MassProperties middle = of(Cylinder{r, l});
+  const MassProperties caps = of(Sphere{r});
+  // each half-sphere has its centre 3/8 r beyond the end of the cylinder
+  const double across = middle.inertia(0, 0) + caps.inertia(0, 0) + caps.volume * (l * l / 4 + 3 * l * r / 8);
+  return centred(middle.volume + caps.volume, {across, across, middle.inertia(2, 2) + caps.inertia(2, 2)});
+}
+
+bool physical(const BodyInertia& inertia) {
+  if (!(inertia.mass > 0) || !inertia.p_BCm.allFinite() || !inertia.inertia.allFinite()) return false;
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia.inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  return moments[0] > 0 && moments[0] + moments[1] >= moments[2] * (1 - kInequalitySlack);
+}
+
+}  // namespace
+
+MassProperties massPropertiesOf(const Shape& shape, const TriMesh* mesh) {
+  return std::visit(
+      [&](const auto& concrete) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(concrete)>, MeshRef>) {
+          return mesh != nullptr ? massProperties(*mesh) : MassProperties{};
+        } else {
+          return of(concrete);
+        }
+      },
+      shape);
+}
+
+BodyInertia inertiaOf(const Body& body, const TriMesh* physics_mesh, Diagnostics& diagnostics) {
+  if (body.fixed) return {};
+  if (!body.physics) {
+    diagnostics.error(320, body.where, "body '" + body.name + "' is free but has no physics geometry",
+                      "add <physics> with a mass or density, or make it fixed=\"true\"");
+    return {};
+  }
+  const MassProperties unit = massPropertiesOf(body.physics->shape, physics_mesh);
+  const Mat3 R_BG = body.physics->X_BG.q.toRotationMatrix();
+  const double density = body.mass ? *body.mass / unit.volume : body.density.value_or(0.0);
+  BodyInertia result;
+  result.mass = body.mass ? *body.mass : density * unit.volume;
+  result.p_BCm = body.physics->X_BG * unit.center;
+  result.inertia = density * R_BG * unit.inertia * R_BG.transpose();
+  if (!physical(result)) {
+    diagnostics.error(321, body.physics->where,
+                      "body '" + body.name + "': its physics geometry gives a mass of " + std::to_string(result.mass) +
+                          " kg and a volume of " + std::to_string(unit.volume) + " m^3, and no inertia of a real body",
+                      "give a positive mass or density and a geometry that encloses a volume");
+    return {};
+  }
+  return result;
+}
+
+}  // namespace presa

@@ -1,0 +1,157 @@
+#include "modules/collision_fcl/collision_module.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "modules/collision_fcl/reach.h"
+
+namespace presa {
+namespace {
+
+constexpr std::size_t kPatchCapacity = kMaxPatchTriangles;
+
+}  // namespace
+
+CollisionModule::CollisionModule(std::shared_ptr<const World> world)
+    : Module("collision_fcl", RateGroup::kCollision), world_(std::move(world)), dynamics_period_(1 / world_->scene.rates.dynamics) {
+  std::map<const TriMesh*, std::shared_ptr<const TriangleIndex>> indices;  // bodies of one mesh share its index
+  for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
+    const std::shared_ptr<const TriMesh>& mesh = world_->meshes[b].haptic;
+    if (!mesh) continue;
+    if (mesh->adjacency.size() != mesh->triangles.size()) throw std::invalid_argument("a haptic mesh needs its adjacency");
+    std::shared_ptr<const TriangleIndex>& index = indices[mesh.get()];
+    if (!index) index = std::make_shared<TriangleIndex>(mesh);
+    mesh_bodies_.push_back({static_cast<std::int32_t>(b), world_->scene.bodies[b].haptic->X_BG, index});
+  }
+  candidates_.resize(mesh_bodies_.size());
+  for (Candidate& candidate : candidates_) candidate.triangles.reserve(kPatchCapacity);
+  contenders_.reserve(kMaxNearBodies * kPatchCapacity);
+}
+
+void CollisionModule::step(const Tick& tick) noexcept {
+  ContactPatches& patches = contact_patches.value;
+  patches.time = tick.time;
+  patches.count = device_state->count;
+  for (std::size_t f = 0; f < static_cast<std::size_t>(patches.count); ++f) {
+    gatherAround(f, tick);
+    patches.capped_total += keepNearestBodies();
+    keepNearestTriangles();
+    FingerPatch& patch = patches.fingers[f];
+    patch.body_count = 0;
+    patch.triangle_count = 0;
+    for (std::size_t c = 0; c < candidate_count_; ++c) {
+      write(candidates_[c], patch);
+      patches.capped_total += candidates_[c].gathered.capped;
+    }
+  }
+}
+
+Pose CollisionModule::poseOf(std::int32_t body, double time) const noexcept {
+  if (object_state.hasValue() && body < object_state->count) return object_state->poseAt(body, time);
+  return world_->scene.bodies[static_cast<std::size_t>(body)].X_WB;
+}
+
+Vec3 CollisionModule::centerOf(std::size_t finger, std::int32_t body, const Pose& X_WB) const noexcept {
+  if (contact_exchange.hasValue() && static_cast<int>(finger) < contact_exchange->count) {
+    const FingerContact& contact = contact_exchange->fingers[finger];
+    // a proxy in contact moves with its body: its body coordinates are the ones that are still true now
+    const Vec3 proxy_B = contact.body == body ? contact.p_BP : X_WB.inverseTimes(contact.p_WP);
+    if (proxy_B.allFinite()) return proxy_B;
+  }
+  return X_WB.inverseTimes(device_state->fingers[finger].p_WH);
+}
+
+double CollisionModule::reachOf(std::size_t finger, std::int32_t body, const Pose& X_WB, const Vec3& center_B,
+                                const Tick& tick) const noexcept {
+  const FingerInput& input = device_state->fingers[finger];
+  RelativeMotion motion{input.p_WH - X_WB.p, input.v_WH, Vec3::Zero(), Vec3::Zero()};
+  if (object_state.hasValue() && body < object_state->count) {
+    const BodyMotion& moving = object_state->bodies[static_cast<std::size_t>(body)];
+    motion.v_WB = moving.v_WB;
+    motion.w_WB = moving.w_WB;
+  }
+  const double horizon = reach::kCollisionPeriods * tick.period + reach::kDynamicsPeriods * dynamics_period_ +
+                         std::max(device_state.age(tick), 0.0);
+  const double stretch = (input.p_WH - X_WB * center_B).norm();
+  return stretch + world_->scene.devices[finger].fingertip_radius + motionBound(motion, horizon) + reach::kMargin;
+}
+
+void CollisionModule::gatherAround(std::size_t finger, const Tick& tick) noexcept {
+  candidate_count_ = 0;
+  for (const MeshBody& mesh_body : mesh_bodies_) {
+    const Pose X_WB = poseOf(mesh_body.body, tick.time);
+    const Vec3 center_B = centerOf(finger, mesh_body.body, X_WB);
+    const double radius = reachOf(finger, mesh_body.body, X_WB, center_B, tick);
+    const Vec3 center_G = mesh_body.X_BG.inverseTimes(center_B);
+    const TriangleIndex& index = *mesh_body.index;
+    // written so that a position that is not a number is out of reach
+    if (!((center_G - index.sphereCenter()).norm() <= index.sphereRadius() + radius)) continue;
+    Candidate& candidate = candidates_[candidate_count_];
+    candidate.gathered = index.gather(center_G, radius, kPatchCapacity, candidate.triangles);
+    if (candidate.triangles.empty()) continue;
+    candidate.mesh_body = &mesh_body;
+    candidate.center_B = center_B;
+    candidate.nearest = std::ranges::min_element(candidate.triangles, nearer)->distance;
+    ++candidate_count_;
+  }
+}
+
+std::size_t CollisionModule::keepNearestBodies() noexcept {
+  const std::size_t kept = std::min<std::size_t>(candidate_count_, kMaxNearBodies);
+  std::partial_sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
+                    candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_),
+                    [](const Candidate& a, const Candidate& b) {
+                      return std::pair(a.nearest, a.mesh_body->body) < std::pair(b.nearest, b.mesh_body->body);
+                    });
+  return candidate_count_ - std::exchange(candidate_count_, kept);
+}
+
+void CollisionModule::keepNearestTriangles() noexcept {
+  contenders_.clear();
+  for (std::size_t c = 0; c < candidate_count_; ++c) {
+    for (const NearTriangle& triangle : candidates_[c].triangles) contenders_.push_back({triangle, c});
+  }
+  if (contenders_.size() <= kPatchCapacity) return;
+  std::ranges::sort(contenders_, [](const Contender& a, const Contender& b) {
+    return std::tuple(a.triangle.distance, a.candidate, a.triangle.id) < std::tuple(b.triangle.distance, b.candidate, b.triangle.id);
+  });
+  for (std::size_t c = 0; c < candidate_count_; ++c) candidates_[c].triangles.clear();
+  for (std::size_t i = 0; i < kPatchCapacity; ++i) {
+    candidates_[contenders_[i].candidate].triangles.push_back(contenders_[i].triangle);
+  }
+  for (std::size_t i = kPatchCapacity; i < contenders_.size(); ++i) {
+    Gathered& gathered = candidates_[contenders_[i].candidate].gathered;
+    gathered.capped = true;
+    gathered.radius = std::min(gathered.radius, std::nextafter(contenders_[i].triangle.distance, 0.0));
+  }
+}
+
+void CollisionModule::write(Candidate& candidate, FingerPatch& patch) noexcept {
+  const TriMesh& mesh = candidate.mesh_body->index->mesh();
+  const Pose& X_BG = candidate.mesh_body->X_BG;
+  std::ranges::sort(candidate.triangles, {}, &NearTriangle::id);
+  BodyPatch& body = patch.bodies[static_cast<std::size_t>(patch.body_count++)];
+  body = {candidate.mesh_body->body, patch.triangle_count, static_cast<std::int32_t>(candidate.triangles.size()),
+          candidate.center_B, candidate.gathered.radius, candidate.gathered.capped};
+  for (const NearTriangle& near : candidate.triangles) {
+    PatchTriangle& out = patch.triangles[static_cast<std::size_t>(patch.triangle_count++)];
+    const auto id = static_cast<std::size_t>(near.id);
+    for (std::size_t i = 0; i < 3; ++i) {
+      out.v_B[i] = X_BG * mesh.vertices[static_cast<std::size_t>(mesh.triangles[id][i])];
+    }
+    out.id = near.id;
+    out.neighbour = mesh.adjacency[id];
+  }
+}
+
+std::vector<std::string> CollisionModule::stages() const {
+  return {"pose of each mesh body at this tick, reject bodies whose bounding sphere is out of reach",
+          "triangles within fingertip radius, stretch and motion bound of each proxy (own traversal of an FCL box tree)",
+          "share the patch capacity among the nearest bodies, deliver in body coordinates"};
+}
+
+}  // namespace presa

@@ -1,0 +1,15 @@
+#include "framework/plan/plugin.h"
+#include "modules/collision_fcl/collision_module.h"
+
+namespace {
+
+std::unique_ptr<presa::Module> create(std::shared_ptr<const presa::World> world) {
+  return std::make_unique<presa::CollisionModule>(std::move(world));
+}
+
+const presa::ModulePlugin kPlugin{presa::kPluginAbi, "collision_fcl",
+                                  "local triangle patches around each finger (FCL hierarchy as spatial index)", create};
+
+}  // namespace
+
+PRESA_MODULE_PLUGIN(kPlugin)

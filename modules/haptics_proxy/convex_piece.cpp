@@ -1,0 +1,110 @@
+#include "modules/haptics_proxy/convex_piece.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa {
+namespace {
+
+constexpr double kNoTouch = 2.0;
+
+Vec3 unitOr(const Vec3& v, const Vec3& fallback) noexcept {
+  const double norm = v.norm();
+  return norm > 0 ? Vec3(v / norm) : fallback;
+}
+
+Nearest nearestTriangle(const ConvexPiece& t, const Vec3& p) noexcept {
+  const Vec3 away = p - nearestOnTriangle(t.a, t.b, t.c, p);
+  const double distance = away.norm();
+  if (distance > 0) return {away / distance, distance};
+  return {unitOr((t.b - t.a).cross(t.c - t.a), Vec3::UnitZ()), 0};
+}
+
+// p in the geometry frame; so are the following two
+Nearest nearestBox(const Vec3& half, const Vec3& p) noexcept {
+  const Vec3 over = p.cwiseAbs() - half;
+  if (over.maxCoeff() <= 0) {
+    int axis = 0;
+    const double depth = over.maxCoeff(&axis);
+    Vec3 nhat = Vec3::Zero();
+    nhat[axis] = p[axis] < 0 ? -1.0 : 1.0;
+    return {nhat, depth};
+  }
+  const Vec3 away = p - p.cwiseMax(-half).cwiseMin(half);
+  const double distance = away.norm();
+  return {away / distance, distance};
+}
+
+Nearest nearestCylinder(double radius, double half_length, const Vec3& p) noexcept {
+  const double rho = std::hypot(p.x(), p.y());
+  const Vec3 radial = rho > 0 ? Vec3(p.x() / rho, p.y() / rho, 0) : Vec3::UnitX();
+  const Vec3 axial(0, 0, p.z() < 0 ? -1.0 : 1.0);
+  const double over_side = rho - radius;
+  const double over_cap = std::abs(p.z()) - half_length;
+  if (over_side <= 0 && over_cap <= 0) {
+    return over_side > over_cap ? Nearest{radial, over_side} : Nearest{axial, over_cap};
+  }
+  const double side = std::max(over_side, 0.0);
+  const double cap = std::max(over_cap, 0.0);
+  const double distance = std::hypot(side, cap);
+  return {(side * radial + cap * axial) / distance, distance};
+}
+
+Nearest nearestCapsule(double radius, double half_length, const Vec3& p) noexcept {
+  const Vec3 on_axis(0, 0, std::clamp(p.z(), -half_length, half_length));
+  const Vec3 away = p - on_axis;
+  return {unitOr(away, Vec3::UnitX()), away.norm() - radius};
+}
+
+}  // namespace
+
+Vec3 nearestOnTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3 bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  const Vec3 cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double denominator = va + vb + vc;
+  return a + ab * (vb / denominator) + ac * (vc / denominator);
+}
+
+Nearest nearest(const ConvexPiece& piece, const Vec3& p) noexcept {
+  if (piece.kind == ConvexPiece::Kind::kTriangle) return nearestTriangle(piece, p);
+  const Vec3 p_G = piece.X_AG.inverseTimes(p);
+  Nearest result;
+  switch (piece.kind) {
+    case ConvexPiece::Kind::kBox: result = nearestBox(piece.half, p_G); break;
+    case ConvexPiece::Kind::kCylinder: result = nearestCylinder(piece.radius, piece.half_length, p_G); break;
+    case ConvexPiece::Kind::kSphere: result = nearestCapsule(piece.radius, 0, p_G); break;
+    default: result = nearestCapsule(piece.radius, piece.half_length, p_G); break;
+  }
+  result.nhat = piece.X_AG.q * result.nhat;
+  return result;
+}
+
+double firstTouch(const ConvexPiece& piece, const Vec3& x, const Vec3& move, double r, double tolerance) noexcept {
+  constexpr int kMaxSteps = 64;   // quadratic convergence; a grazing touch halves the gap each time
+  double s = 0;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Nearest at = nearest(piece, x + s * move);
+    const double gap = at.distance - r;
+    const double slope = at.nhat.dot(move);
+    if (slope >= 0) return kNoTouch;   // convex: from here on it only grows
+    if (gap <= tolerance) return s;
+    s += gap / -slope;
+    if (s > 1) return kNoTouch;
+  }
+  return s;
+}
+
+}  // namespace presa
