@@ -66,7 +66,7 @@ bool reportFromScan(const std::string& name, const SourceScan& scan, int code, D
   const bool in_value = code == XML_ERR_LT_IN_ATTRIBUTE || code == XML_ERR_ATTRIBUTE_NOT_FINISHED;
   if (in_value && scan.unclosed_value) {
     diagnostics.error(kNotWellFormed, at(scan.unclosed_value->at),
-                      "the value of " + quoted(scan.unclosed_value->name) + " is not closed with a quote",
+                      "the value of " + quote(scan.unclosed_value->name) + " is not closed with a quote",
                       "a real '<' in a value is written &lt;");
     return true;
   }
@@ -81,7 +81,7 @@ bool reportRepeatedAttributes(const std::string& name, const SourceScan& scan, D
     for (const ScannedAttribute& attribute : tag.attributes) {
       if (seen.insert(attribute.name).second) continue;
       diagnostics.error(kNotWellFormed, {name, attribute.at.line, attribute.at.column},
-                        "<" + tag.name + "> has " + quoted(attribute.name) + " twice");
+                        "<" + tag.name + "> has " + quote(attribute.name) + " twice");
       found = true;
     }
   }

@@ -47,7 +47,7 @@ std::vector<std::string> DynamicsModule::stages() const {
   return {
       "extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades",
       "collide the physics geometries (hash space, at most 8 contacts per pair)",
-      "friction directions along the slip that would follow without friction",
+      "solve once without friction between bodies, to point friction along the coming slip",
       "fingers as implicit spring-dampers (soft contact joints) inside their friction cone",
       "solve: islands up to " + std::to_string(options_.direct_limit) + " contacts directly, larger ones with " +
           std::to_string(options_.quick_iterations) + " iterations",
