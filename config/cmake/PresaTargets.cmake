@@ -16,7 +16,7 @@ set(CMAKE_BUILD_RPATH "$ORIGIN/../lib/presa;$ORIGIN")
 
 add_library(presa_options INTERFACE)
 # no -ffast-math and no -march: results are the same to the bit on every x86-64
-target_compile_options(presa_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror=return-type
+target_compile_options(presa_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wno-restrict -Werror=return-type
   -ffp-contract=off -fno-math-errno)
 target_include_directories(presa_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(presa_options INTERFACE Eigen3::Eigen Boost::headers Threads::Threads)

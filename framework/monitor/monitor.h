@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -14,11 +15,25 @@
 
 namespace presa {
 
+/// A change from stick to slip on the same body, as seen in the first slipping tick and in the tick before it.
+struct SlipOnset {
+  double time = -1;                      ///< first slipping tick [s]; -1: there was none
+  std::int32_t body = kNoBody;
+  double normal_force = 0;               ///< first slipping tick [N]
+  double tangential_force = 0;           ///< magnitude, first slipping tick [N]
+  double last_stick_normal_force = 0;    ///< tick before [N]
+  double last_stick_tangential_force = 0;  ///< magnitude, tick before: the friction that gave way [N]
+};
+inline constexpr std::size_t kMaxSlipOnsets = 64;  ///< kept per finger; later ones are only counted
+
 /// What one contact point felt over a run.
 struct FingerSummary {
   std::array<double, 3> seconds{};   ///< by ContactMode: none, stick, slip
   double max_normal_force = 0;       ///< [N]
   double mean_normal_force = 0;      ///< over the ticks in contact [N]
+  std::uint32_t pop_through = 0;     ///< times the fingertip got past a surface
+  std::uint64_t slip_onsets = 0;     ///< changes from stick to slip
+  SlipOnset loosening_slip;          ///< the first one at or after loosen_time
 };
 
 struct ObjectSummary {
@@ -46,12 +61,18 @@ class Monitor final : public Module {
   Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate);
   ~Monitor() override;
   void step(const Tick& tick) noexcept override;
+  /// What step does, on states given directly; `objects` null: no dynamics, bodies rest where the scene puts them.
+  /// An Object State is summed and hashed when `objects_version` changes.
+  void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
+               const ObjectState* objects, std::uint64_t objects_version) noexcept;
   std::vector<std::string> stages() const override;
 
   const std::array<FingerSummary, kMaxFingers>& fingers() const noexcept;
   /// As Scene::bodies.
   const std::vector<ObjectSummary>& objects() const noexcept;
-  /// FNV-1a over the bits of every Device, Object and contact state of every haptic tick.
+  /// The first kMaxSlipOnsets of one finger, in time order.
+  const std::vector<SlipOnset>& slipOnsets(std::size_t finger) const noexcept;
+  /// FNV-1a over the bits of every Device, Object and contact state of the run, as StateHash says.
   std::uint64_t hash() const noexcept;
   const std::vector<TraceSample>& trace() const noexcept;
   /// Scene indices of the bodies in TraceSample::bodies.

@@ -8,9 +8,10 @@
 namespace presa {
 namespace {
 
-// All relative to the fingertip radius, so that metres and millimetres give the same answer.
-constexpr double kTouchGap = 1e-7;    // a sweep stops this far off
-constexpr double kInContact = 3e-7;   // a gap below this makes a constraint
+// All relative to the fingertip radius, so that metres and millimetres give the same answer. A gap of e r at an
+// edge tilts the normal by sqrt(2 e): at 1e-10 that is 1.4e-5, no force one could feel; below, rounding would show.
+constexpr double kTouchGap = 3e-11;   // a sweep stops this far off
+constexpr double kInContact = 1e-10;  // a gap below this makes a constraint
 constexpr double kStill = 1e-9;       // a leg shorter than this ends the motion
 constexpr int kMaxLegs = 24;          // a leg per face or edge crossed in one tick; curved edges converge by d / r
 
@@ -25,6 +26,13 @@ double insideCover(const Surroundings::Cover& cover, const Vec3& x, const Vec3& 
 }
 
 }  // namespace
+
+bool isClear(const Vec3& x, double r, const Surroundings& surroundings) noexcept {
+  for (int i = 0; i < surroundings.count; ++i) {
+    if (nearest(surroundings.pieces[static_cast<std::size_t>(i)], x).distance < r * (1 - kInContact)) return false;
+  }
+  return true;
+}
 
 ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, const Surroundings& surroundings) noexcept {
   ProxyMove result;

@@ -47,6 +47,9 @@ struct ProxyMove {
 /// Tolerances are relative to r. Thread: haptic; nonblocking.
 ProxyMove moveProxy(const Vec3& x, const Vec3& g, double r, const Surroundings& surroundings) noexcept;
 
+/// True when a fingertip at x overlaps no piece.
+bool isClear(const Vec3& x, double r, const Surroundings& surroundings) noexcept;
+
 /// Two-state friction cone of the PERCRO paper (section 3.3, figure 10), applied to the proxy.
 struct FrictionCone {
   double mu_static = 0;

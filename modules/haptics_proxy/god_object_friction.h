@@ -28,11 +28,15 @@ ProxyContact stepProxy(const Vec3& x, const Vec3& g, double r, bool was_touching
   contact.slipping = length > mu * depth;
   if (contact.slipping) stretch *= cone.mu_dynamic * depth / length;
 
-  // the border of the cone is reached along the surface: move the goal sideways, and go there
-  const ProxyMove moved = moveProxy(held, g + stretch, r, surroundings);
-  const bool stays = !contact.slipping && (moved.x - held).norm() <= 1e-9 * r;
-  contact.x = stays ? held : moved.x;
-  contact.covered = contact.covered && moved.covered;
+  // what sticks does not move at all: it lives in the body's coordinates, so there is no drift to correct
+  if (!contact.slipping && isClear(held, r, surroundings)) {
+    contact.x = held;
+  } else {
+    // the border of the cone is reached along the surface: move the goal sideways, and go there
+    const ProxyMove moved = moveProxy(held, g + stretch, r, surroundings);
+    contact.x = moved.x;
+    contact.covered = contact.covered && moved.covered;
+  }
   const Vec3 away = contact.x - g;
   contact.depth = away.dot(contact.nhat);
   contact.stretch = away - contact.depth * contact.nhat;

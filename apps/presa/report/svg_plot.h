@@ -1,0 +1,91 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// Plots as SVG text, for one page that needs nothing else. Colours are CSS classes ("finger", "object", "force" …)
+/// that the page defines for light, dark and paper. All text is escaped here.
+namespace presa::svg {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+/// A shaded, named stretch of the time axis.
+struct Band {
+  std::string label;
+  double begin = 0, end = 0;
+};
+
+/// A level worth comparing with, drawn across the panel.
+struct Level {
+  double value = 0;
+  std::string label;
+  std::string css_class;
+};
+
+struct Series {
+  std::string label;
+  std::string css_class;
+  std::vector<double> y;          ///< as TimeFigure::time; NaN interrupts the line
+  bool step = false;              ///< keeps its value until the next sample
+};
+
+/// One plot of a stack that shares the time axis.
+struct Panel {
+  std::string title;              ///< "Height"
+  std::string unit;               ///< "m"; may be empty
+  double height = 160;            ///< of the plotting area [px]
+  bool from_zero = false;         ///< the y axis includes 0
+  std::vector<std::string> names; ///< not empty: y counts these names from 0
+  std::vector<Series> series;
+  std::vector<Level> levels;
+};
+
+struct TimeFigure {
+  std::string title;              ///< for those who cannot see it
+  std::vector<double> time;       ///< ascending [s]
+  std::vector<Band> bands;
+  std::vector<Panel> panels;
+};
+
+struct Cloud {
+  std::string label;
+  std::string css_class;
+  std::vector<Point> points;
+};
+/// Straight line through the origin.
+struct Ray {
+  std::string label;
+  std::string css_class;
+  double slope = 0;
+};
+struct Mark {
+  std::string label;
+  std::string css_class;
+  Point at;
+};
+struct ScatterFigure {
+  std::string title;
+  std::string x_label, y_label;   ///< with unit
+  std::vector<Cloud> clouds;
+  std::vector<Ray> rays;
+  std::vector<Mark> marks;
+};
+
+/// The panels over one time axis, with legend, bands and the data for the page's hover read-out.
+std::string render(const TimeFigure& figure);
+/// Both axes from 0.
+std::string render(const ScatterFigure& figure);
+
+/// Round numbers (1, 2 or 5 times a power of ten apart) inside [low, high], about `target` of them.
+std::vector<double> niceTicks(double low, double high, int target);
+/// With as many decimals as ticks `step` apart need.
+std::string tickText(double value, double step);
+/// The polyline as a plot `columns` pixels wide can show it: first, lowest, highest and last point of every column.
+/// Points are kept or dropped, never moved; no extreme is lost.
+std::vector<Point> decimate(const std::vector<Point>& line, double x_low, double x_high, int columns);
+/// & < > " ' as entities.
+std::string escape(const std::string& text);
+
+}  // namespace presa::svg

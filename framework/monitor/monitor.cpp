@@ -1,0 +1,183 @@
+#include "framework/monitor/monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/monitor/state_hash.h"
+
+namespace presa {
+namespace {
+
+// 2.6 kB each: a run of any length keeps its plots within about 100 MB
+constexpr double kMaxTraceSamples = 40'000;
+
+std::uint64_t traceStride(const World& world, double trace_rate) {
+  const double haptic = world.scene.rates.haptic;
+  const double wanted = std::round(haptic / trace_rate);
+  const double fitting = std::ceil(world.options.duration * haptic / kMaxTraceSamples);
+  const double stride = std::max({1.0, wanted, std::isfinite(fitting) ? fitting : wanted});
+  return static_cast<std::uint64_t>(stride);
+}
+
+bool touches(const FingerContact& finger) noexcept { return finger.mode != ContactMode::kNone; }
+
+std::int32_t scriptedPhase(const DeviceState& device) noexcept {
+  for (std::size_t f = 0; f < static_cast<std::size_t>(device.count); ++f) {
+    if (device.fingers[f].phase >= 0) return device.fingers[f].phase;
+  }
+  return -1;
+}
+
+}  // namespace
+
+struct Monitor::Impl {
+  Impl(std::shared_ptr<const World> shared_world, double loosen, double trace_rate)
+      : world(std::move(shared_world)), loosen_time(loosen) {
+    const std::vector<Body>& bodies = world->scene.bodies;
+    objects.resize(bodies.size());
+    fingers_on.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      objects[i].start = objects[i].highest = objects[i].final = bodies[i].X_WB.p;
+      if (!bodies[i].fixed && traced.size() < TraceSample{}.bodies.size()) traced.push_back(static_cast<std::int32_t>(i));
+    }
+    for (auto& list : slip_onsets) list.reserve(kMaxSlipOnsets);
+    if (!(trace_rate > 0)) return;
+    stride = traceStride(*world, trace_rate);
+    const double samples = world->options.duration * world->scene.rates.haptic / static_cast<double>(stride) + 2;
+    // filled and emptied again, so that no page of it is met for the first time inside the haptic loop
+    trace.resize(static_cast<std::size_t>(std::clamp(samples, 1.0, kMaxTraceSamples)));
+    trace.clear();
+  }
+
+  void sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept;
+  void noteSlip(std::size_t f, const FingerContact& now, double time) noexcept;
+  void sumObjects(const Tick& tick, const ObjectState* state, bool fresh) noexcept;
+  void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
+              const ObjectState* state) noexcept;
+  Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
+    return state && body < state->count ? state->poseAt(body, time) : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
+  }
+
+  std::shared_ptr<const World> world;
+  double loosen_time;
+  std::uint64_t stride = 0;             ///< haptic ticks per trace sample; 0: no trace
+  std::uint64_t objects_version = 0;
+  double simulated_time = 0;
+  std::uint32_t pop_through = 0;
+  StateHash hash;
+  std::array<FingerSummary, kMaxFingers> fingers;
+  std::array<double, kMaxFingers> force_sum{};
+  std::array<std::uint64_t, kMaxFingers> ticks_in_contact{};
+  std::array<FingerContact, kMaxFingers> previous;
+  std::array<std::vector<SlipOnset>, kMaxFingers> slip_onsets;
+  std::vector<ObjectSummary> objects;
+  std::vector<std::int32_t> fingers_on;  ///< by body, this tick
+  std::vector<std::int32_t> traced;
+  std::vector<TraceSample> trace;
+};
+
+void Monitor::Impl::sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept {
+  FingerSummary& sum = fingers[f];
+  sum.seconds[static_cast<std::size_t>(now.mode)] += tick.period;
+  if (touches(now)) {
+    sum.max_normal_force = std::max(sum.max_normal_force, now.normal_force);
+    force_sum[f] += now.normal_force;
+    sum.mean_normal_force = force_sum[f] / static_cast<double>(++ticks_in_contact[f]);
+    if (now.body >= 0 && static_cast<std::size_t>(now.body) < fingers_on.size()) {
+      ++fingers_on[static_cast<std::size_t>(now.body)];
+    }
+  }
+  const FingerContact& before = previous[f];
+  if (now.mode == ContactMode::kSlip && before.mode == ContactMode::kStick && now.body == before.body) {
+    noteSlip(f, now, tick.time);
+  }
+  previous[f] = now;
+}
+
+void Monitor::Impl::noteSlip(std::size_t f, const FingerContact& now, double time) noexcept {
+  const FingerContact& before = previous[f];
+  const SlipOnset onset{time, now.body, now.normal_force, now.tangential_force_W.norm(), before.normal_force,
+                        before.tangential_force_W.norm()};
+  FingerSummary& sum = fingers[f];
+  ++sum.slip_onsets;
+  if (slip_onsets[f].size() < kMaxSlipOnsets) slip_onsets[f].push_back(onset);
+  if (time >= loosen_time && sum.loosening_slip.time < 0) sum.loosening_slip = onset;
+}
+
+void Monitor::Impl::sumObjects(const Tick& tick, const ObjectState* state, bool fresh) noexcept {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (world->scene.bodies[i].fixed) continue;
+    ObjectSummary& object = objects[i];
+    const auto body = static_cast<std::int32_t>(i);
+    object.final = poseOf(body, state, tick.time).p;
+    if (object.final.z() > object.highest.z()) object.highest = object.final;
+    if (fresh && body < state->count) object.peak_speed = std::max(object.peak_speed, state->bodies[i].v_WB.norm());
+    if (fingers_on[i] >= 2) object.grasped = true;
+    if (object.grasped && object.lost_at < 0 && fingers_on[i] == 0) {
+      object.lost_at = tick.time;
+      object.dropped = tick.time < loosen_time;
+    }
+  }
+}
+
+void Monitor::Impl::sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                           const ForceCommand& command, const ObjectState* state) noexcept {
+  if (stride == 0 || tick.index % stride != 0 || trace.size() == trace.capacity()) return;
+  TraceSample& now = trace.emplace_back();
+  now.time = tick.time;
+  now.phase = scriptedPhase(device);
+  std::copy_n(contact.fingers.begin(), contact.count, now.fingers.begin());
+  now.f_command.fill(Vec3::Zero());
+  std::copy_n(command.f_H_W.begin(), command.count, now.f_command.begin());
+  for (std::size_t slot = 0; slot < traced.size(); ++slot) now.bodies[slot] = poseOf(traced[slot], state, tick.time);
+}
+
+Monitor::Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate)
+    : Module("monitor", RateGroup::kHaptic), impl_(std::make_unique<Impl>(std::move(world), loosen_time, trace_rate)) {}
+
+Monitor::~Monitor() = default;
+
+void Monitor::step(const Tick& tick) noexcept {
+  const bool moving = objects_.connected() && objects_.hasValue();
+  observe(tick, device_.value(), contact_.value(), command_.value(), moving ? &objects_.value() : nullptr,
+          objects_.version());
+}
+
+void Monitor::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                      const ForceCommand& command, const ObjectState* objects, std::uint64_t objects_version) noexcept {
+  Impl& m = *impl_;
+  const bool fresh = objects != nullptr && objects_version != m.objects_version;
+  m.objects_version = objects_version;
+  m.hash.add(device);
+  m.hash.add(contact);
+  if (fresh) m.hash.add(*objects);
+
+  std::fill(m.fingers_on.begin(), m.fingers_on.end(), 0);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    m.sumFinger(f, contact.fingers[f], tick);
+    m.fingers[f].pop_through = contact.pop_through_by_finger[f];
+  }
+  m.sumObjects(tick, objects, fresh);
+  m.pop_through = contact.pop_through;
+  m.simulated_time = static_cast<double>(tick.index + 1) * tick.period;
+  m.sample(tick, device, contact, command, objects);
+}
+
+std::vector<std::string> Monitor::stages() const {
+  std::vector<std::string> stages{"hash of Device, contact and Object State",
+                                  "time in each contact mode, normal force, slip onsets",
+                                  "object path, grasp and loss"};
+  if (impl_->stride > 0) stages.push_back("trace sample every " + std::to_string(impl_->stride) + " ticks");
+  return stages;
+}
+
+const std::array<FingerSummary, kMaxFingers>& Monitor::fingers() const noexcept { return impl_->fingers; }
+const std::vector<ObjectSummary>& Monitor::objects() const noexcept { return impl_->objects; }
+const std::vector<SlipOnset>& Monitor::slipOnsets(std::size_t finger) const noexcept { return impl_->slip_onsets[finger]; }
+std::uint64_t Monitor::hash() const noexcept { return impl_->hash.value(); }
+const std::vector<TraceSample>& Monitor::trace() const noexcept { return impl_->trace; }
+const std::vector<std::int32_t>& Monitor::tracedBodies() const noexcept { return impl_->traced; }
+std::uint32_t Monitor::popThrough() const noexcept { return impl_->pop_through; }
+double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
+
+}  // namespace presa

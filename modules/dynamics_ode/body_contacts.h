@@ -1,0 +1,31 @@
+#pragma once
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/body_contact.h"
+
+namespace presa::ode {
+
+/// Finds where bodies touch. ODE reports each contact with its normal from the second geometry into the first and
+/// depth >= 0; here it becomes ours. Pairs are taken in scene order whatever the broad phase says, so that the
+/// same state gives the same contacts to the bit.
+class BodyContacts {
+ public:
+  static constexpr int kMaxPerPair = 8;
+  /// Fills `contacts` with every contact between a moving body and another body.
+  void find(dSpaceID space, const BodySet& bodies, std::vector<BodyContact>& contacts);
+
+ private:
+  static constexpr int kMaxReported = 64;  ///< asked of ODE per pair, then thinned to kMaxPerPair
+  using Pair = std::pair<std::size_t, std::size_t>;
+  void collidePair(const BodySet& bodies, const Pair& pair, std::vector<BodyContact>& contacts);
+
+  std::vector<Pair> pairs_;
+  dContactGeom reported_[kMaxReported];
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/graph/port.h"
+#include "framework/plan/plugin.h"
+#include "modules/dynamics_ode/ode_world.h"
+
+namespace presa::ode {
+
+/// The moving bodies of a scene: fingers in, Object State out. Thread: dynamics.
+class DynamicsModule final : public Module {
+ public:
+  explicit DynamicsModule(std::shared_ptr<const World> world, const OdeOptions& options = {});
+
+  void start() override;
+  void step(const Tick& tick) noexcept override;
+  void stop() override;
+  std::vector<std::string> stages() const override;
+
+  const Faults& faults() const noexcept { return bodies_->faults(); }  ///< between start and stop
+
+ private:
+  In<ContactExchange> fingers_;
+  Out<ObjectState> objects_;
+  std::shared_ptr<const World> world_;
+  OdeOptions options_;
+  std::unique_ptr<OdeWorld> bodies_;
+};
+
+}  // namespace presa::ode

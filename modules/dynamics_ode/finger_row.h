@@ -1,0 +1,59 @@
+#pragma once
+#include <optional>
+
+#include "framework/math/spatial.h"
+#include "framework/state/contact_exchange.h"
+
+namespace presa::ode {
+
+/// Inertia of a free body at the start of a step, as a force at a point of it is felt.
+struct BodyInertiaState {
+  Pose X_WB;
+  Vec3 p_WCm = Vec3::Zero();
+  double inverse_mass = 0;
+  Mat3 inverse_inertia_W = Mat3::Zero();
+};
+
+/// One finger as three rows of ODE's velocity constraint J v+ + cfm * force = rhs.
+///
+/// The haptic side renders f_H_W = k (p_WP - p_WH) (+ damping) on the finger, with the proxy P fixed to the body. The
+/// body must get the negative. With the stretch s = X_WB p_BP - p_WH taken at the *start* of the step, split into
+/// depth = s . nhat and t = s - depth nhat, and n_in = -nhat (into the body), t1 = -t/|t|, the rows are
+///   n_in . v+ + cfm f_n = erp/h depth + n_in . v_H     erp = hk/(hk+d), cfm = 1/(hk+d)
+///   t1   . v+ + cfm f_1 = erp/h |t|   + t1   . v_H     |f_1| <= mu f_n
+///   t2   . v+ + cfm f_2 =               t2   . v_H     |f_2| <= mu f_n,  t2 = n_in x t1
+/// where v+ is the velocity of the touched surface point at the end of the step. Solved: f_n = k (depth at the end of
+/// the step) + d (closing velocity), the implicit spring-damper; at rest f_n = k depth and f_1 = k |t| exactly. A finger
+/// that left the surface since its sample (depth < 0) closes the gap within the step or gets no force.
+///
+/// The force acts at the surface point C, but the stretch changes with the proxy P one fingertip radius further
+/// out: when the body turns, t grows faster than C moves. cfm of the tangential rows counts that ratio (>= 1), or
+/// light bodies thinner than the fingertip would be unstable; the force at rest is the same.
+struct FingerRow {
+  Vec3 p_WC = Vec3::Zero();      ///< where the force acts [m]
+  Vec3 n_in = Vec3::UnitZ();     ///< into the body
+  Vec3 t1 = Vec3::UnitX();       ///< first friction direction; t2 = n_in x t1
+  double depth = 0;              ///< >= 0 [m]
+  double erp = 0;                ///< normal row
+  double cfm = 0;                ///< normal row [m/(N s)]
+  double motion_n = 0;           ///< [m/s]
+  double motion_1 = 0, motion_2 = 0;
+  double slip_1 = 0, slip_2 = 0;  ///< cfm of the tangential rows
+  double mu = 0;                  ///< static while the proxy sticks, dynamic while it slips
+  Vec3 expected_force_W = Vec3::Zero();  ///< on the body, at the start of the step, inside the cone [N]
+};
+
+/// Time after which a finger that is no longer reported fades, and the span of the fade [s].
+inline constexpr double kFingerOldAfter = 0.020;
+inline constexpr double kFingerFade = 0.020;
+/// 1 while the contact is fresh, falling to 0 over kFingerFade after kFingerOldAfter.
+double fingerWeight(double age);
+
+/// Every number the rows are made of is finite and the normal is one.
+bool isUsable(const FingerContact& contact);
+
+/// The rows of a usable `contact`, sampled `age` seconds before the step (its HIP is extrapolated with its velocity, at most
+/// kFingerOldAfter), over a step of `h`. Nothing when there is no contact or it has faded.
+std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age, double h);
+
+}  // namespace presa::ode

@@ -1,0 +1,60 @@
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "framework/schedule/clock.h"
+#include "modules/haptics_proxy/god_object.h"
+
+namespace presa {
+namespace {
+
+// The patch a fingertip of 8 mm sees on a bumpy surface of about 20 000 triangles (edge 1.5 mm): a height field.
+std::unique_ptr<Surroundings> bumpyPatch(double edge, double reach) {
+  auto s = std::make_unique<Surroundings>();
+  const auto height = [](double x, double y) { return 3e-4 * std::sin(900 * x) * std::cos(700 * y); };
+  const auto corner = [&](double x, double y) { return Vec3(x, y, height(x, y)); };
+  for (double x = -reach; x < reach; x += edge) {
+    for (double y = -reach; y < reach; y += edge) {
+      ConvexPiece piece;
+      piece.body = 0;
+      piece.a = corner(x, y), piece.b = corner(x + edge, y), piece.c = corner(x + edge, y + edge);
+      s->add(piece);
+      piece.b = piece.c, piece.c = corner(x, y + edge);
+      s->add(piece);
+    }
+  }
+  return s;
+}
+
+// One haptic tick of two fingers that slide over a bumpy mesh with friction: time per tick, and its 99.9th percentile.
+void BM_HapticTickTwoFingers(benchmark::State& state) {
+  const auto s = bumpyPatch(static_cast<double>(state.range(0)) * 1e-6, 0.014);
+  const auto cone = [](std::int32_t) { return FrictionCone{0.8, 0.6}; };
+  struct Finger {
+    Vec3 x{0, 0, 0.01};
+    bool touching = false, slipping = false;
+  } fingers[2];
+  std::vector<std::int64_t> ticks;
+  ticks.reserve(1 << 20);
+  double t = 0;
+  for (auto _ : state) {
+    const std::int64_t begin = monotonicNs();
+    for (Finger& finger : fingers) {
+      const Vec3 g(3e-3 * std::sin(2 * t), 3e-3 * std::cos(3 * t), 0.0065);
+      const ProxyContact c = stepProxy(finger.x, g, 0.008, finger.touching, finger.slipping, *s, cone);
+      finger = {c.x, c.touching, c.slipping};
+    }
+    t += 1e-3;
+    if (ticks.size() < ticks.capacity()) ticks.push_back(monotonicNs() - begin);
+  }
+  std::sort(ticks.begin(), ticks.end());
+  state.counters["p999_us"] = static_cast<double>(ticks[ticks.size() * 999 / 1000]) * 1e-3;
+  state.counters["triangles"] = s->count;
+}
+BENCHMARK(BM_HapticTickTwoFingers)->Arg(2000)->Arg(1500)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,223 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "modules/haptics_proxy/god_object.h"
+#include "modules/haptics_proxy/nearest_feasible.h"
+
+namespace presa {
+namespace {
+
+constexpr double kR = 0.008;
+constexpr auto kFrictionless = [](std::int32_t) { return FrictionCone{}; };
+
+void addTriangle(Surroundings& s, const Vec3& a, const Vec3& b, const Vec3& c, std::int32_t body = 0) {
+  ConvexPiece piece;
+  piece.a = a, piece.b = b, piece.c = c, piece.body = body;
+  s.add(piece);
+}
+
+// A square of two triangles about the origin in the plane z = 0.
+std::unique_ptr<Surroundings> plate(double size = 0.2) {
+  auto s = std::make_unique<Surroundings>();
+  const double h = size / 2;
+  addTriangle(*s, {-h, -h, 0}, {h, -h, 0}, {h, h, 0});
+  addTriangle(*s, {-h, -h, 0}, {h, h, 0}, {-h, h, 0});
+  return s;
+}
+
+std::unique_ptr<Surroundings> box(const Vec3& half, const Vec3& center = Vec3::Zero()) {
+  auto s = std::make_unique<Surroundings>();
+  ConvexPiece piece;
+  piece.kind = ConvexPiece::Kind::kBox;
+  piece.half = half;
+  piece.body = 0;
+  piece.X_AG.p = center;
+  s->add(piece);
+  return s;
+}
+
+// On a plane the god-object is the projection of the HIP, one fingertip radius up. Rounding only.
+TEST(GodObject, IsTheProjectionOnAPlane) {
+  const auto s = plate();
+  const ProxyMove move = moveProxy({0.01, 0.02, 0.05}, {0.03, -0.01, -0.02}, kR, *s);
+  EXPECT_TRUE(move.touching);
+  EXPECT_NEAR((move.x - Vec3(0.03, -0.01, kR)).norm(), 0, 1e-8 * kR);
+}
+
+// Going down a step of any size and any scale gives the same answer: no tolerance is absolute.
+TEST(GodObject, GivesTheSameAnswerAtEveryScale) {
+  Vec3 unit = Vec3::Zero();
+  for (const double scale : {1e-3, 1.0, 20.0}) {
+    const auto s = plate(0.2 * scale);
+    const ProxyMove move = moveProxy(scale * Vec3(0.01, 0.02, 0.05), scale * Vec3(0.03, -0.01, -0.02), scale * kR, *s);
+    if (scale == 1e-3) unit = move.x / scale;
+    EXPECT_NEAR((move.x / scale - unit).norm(), 0, 1e-8 * kR);
+  }
+}
+
+// A V-groove of every opening angle: two faces hold the fingertip at (0, r / sin(half angle)).
+TEST(GodObject, RestsInAGrooveOnBothFaces) {
+  for (const double degrees : {30.0, 60.0, 90.0, 120.0, 160.0}) {
+    const double half = degrees / 2 * std::numbers::pi / 180;
+    const Vec3 left(-0.3 * std::sin(half), 0, 0.3 * std::cos(half)), right(-left.x(), 0, left.z());
+    Surroundings s;
+    const Vec3 front(0, -0.1, 0), back(0, 0.1, 0);
+    addTriangle(s, front, left + front, left + back);
+    addTriangle(s, front, left + back, back);
+    addTriangle(s, front, back, right + back);
+    addTriangle(s, front, right + back, right + front);
+    const ProxyMove move = moveProxy({0.001, 0.01, 0.25}, {0.0005, 0.02, -0.02}, kR, s);
+    EXPECT_NEAR(move.x.x(), 0, 1e-6) << degrees;
+    EXPECT_NEAR(move.x.z(), kR / std::sin(half), 1e-6) << degrees;
+    EXPECT_NEAR(move.x.y(), 0.02, 1e-6) << degrees;
+  }
+}
+
+// Oracle for a convex solid: the god-object is the point of the offset surface nearest to the HIP, which for a HIP
+// just inside a sphere lies on the ray from the centre. Iterates to 1e-6 of the radius.
+TEST(GodObject, FindsTheNearestPointOfASphere) {
+  Surroundings s;
+  ConvexPiece piece;
+  piece.kind = ConvexPiece::Kind::kSphere;
+  piece.radius = 0.04;
+  piece.body = 0;
+  s.add(piece);
+  Vec3 x(0, 0, 0.1);
+  const Vec3 g = 0.042 * Vec3(0.3, 0.1, 1).normalized();
+  for (int tick = 0; tick < 3; ++tick) x = moveProxy(x, g, kR, s).x;
+  EXPECT_NEAR((x - 0.048 * g.normalized()).norm(), 0, 1e-6 * kR);
+}
+
+// Thrown at a 0.5 mm plate at any speed and angle, the fingertip never gets through.
+TEST(GodObject, NeverPassesAThinPlate) {
+  const auto s = box({0.1, 0.1, 0.00025});
+  for (const double speed : {0.01, 0.1, 1.0, 10.0, 100.0}) {
+    for (double angle = 0; angle < 1.4; angle += 0.1) {
+      const Vec3 step = speed * 1e-3 * Vec3(std::sin(angle), 0, -std::cos(angle));
+      Vec3 x(0, 0, 0.02), g = x;
+      for (int tick = 0; tick < 200 && g.norm() < 0.08; ++tick) {
+        g += step;
+        x = moveProxy(x, g, kR, *s).x;
+        ASSERT_GE(nearest(s->pieces[0], x).distance, kR * (1 - 1e-6)) << speed << ' ' << angle;
+        ASSERT_GT(x.z(), 0);
+      }
+    }
+  }
+}
+
+// Over a convex edge the proxy goes round the edge, not through it.
+TEST(GodObject, GoesRoundTheEdgeOfABox) {
+  const auto s = box({0.05, 0.05, 0.05});
+  Vec3 x(0, 0, 0.05 + kR), g(0, 0, 0.055);
+  for (int tick = 0; tick < 80; ++tick) {
+    g += Vec3(0.001, 0, 0);   // sideways past the edge at x = 0.05
+    if (g.x() > 0.056) g.z() -= 0.002;
+    x = moveProxy(x, g, kR, *s).x;
+    ASSERT_GE(nearest(s->pieces[0], x).distance, kR * (1 - 1e-6));
+  }
+  EXPECT_NEAR((x - g).norm(), 0, 1e-9);   // it came free
+}
+
+// A patch that ends is a wall of ignorance: the proxy waits at its border and says so.
+TEST(GodObject, WaitsWhereThePatchEnds) {
+  const auto s = plate();
+  s->covers[0] = {{0, 0, 0}, 0.02};
+  s->cover_count = 1;
+  const ProxyMove move = moveProxy({0, 0, 0.01}, {0.05, 0, 0.01}, kR, *s);
+  EXPECT_FALSE(move.covered);
+  EXPECT_NEAR(move.x.norm() + kR, 0.02, 1e-9);
+}
+
+// Without friction no force acts along the surface, at any depth and speed: the floor of every friction study.
+TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
+  const auto s = plate();
+  Vec3 x(-0.05, 0, 0.02);
+  bool touching = false, slipping = false;
+  for (int tick = 0; tick < 500; ++tick) {
+    const Vec3 g(-0.05 + 2e-4 * tick, 1e-5 * tick, 0.006);
+    const ProxyContact c = stepProxy(x, g, kR, touching, slipping, *s, kFrictionless);
+    x = c.x, touching = c.touching, slipping = c.slipping;
+    ASSERT_TRUE(touching);
+    ASSERT_LT(c.stretch.norm(), 1e-8 * kR);
+  }
+}
+
+// The two-state cone of the PERCRO paper: holds up to mu_s, slides at mu_d, in every direction alike.
+TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
+  const auto s = plate();
+  const auto cone = [](std::int32_t) { return FrictionCone{0.8, 0.6}; };
+  for (double heading = 0; heading < 6.28; heading += 0.4) {
+    const Vec3 along(std::cos(heading), std::sin(heading), 0);
+    const double depth = 0.002;
+    Vec3 x(0, 0, kR);
+    bool touching = false, slipping = false;
+    double most = 0, sliding = 0;
+    for (int tick = 0; tick < 400; ++tick) {
+      const Vec3 g = Vec3(0, 0, kR - depth) + along * (1e-5 * tick);
+      const ProxyContact c = stepProxy(x, g, kR, touching, slipping, *s, cone);
+      x = c.x, touching = c.touching, slipping = c.slipping;
+      const double ratio = c.stretch.norm() / c.depth;
+      if (!slipping) most = std::max(most, ratio);
+      if (slipping) sliding = ratio;
+    }
+    EXPECT_NEAR(most, 0.8, 1e-5 / depth) << heading;   // within one step of the motion
+    EXPECT_NEAR(sliding, 0.6, 1e-6) << heading;
+  }
+}
+
+// A finger that sticks does not creep: after a minute of shaking inside the cone the proxy is where it was, to the bit.
+TEST(Friction, StickingProxyDoesNotDrift) {
+  const auto s = plate();
+  const auto cone = [](std::int32_t) { return FrictionCone{0.8, 0.6}; };
+  Vec3 x(0, 0, kR);
+  bool touching = false, slipping = false;
+  Vec3 first = Vec3::Zero();
+  for (int tick = 0; tick < 60'000; ++tick) {
+    const double t = tick * 1e-3;
+    const Vec3 g(4e-4 * std::sin(7 * t), 4e-4 * std::sin(11 * t), kR - 0.002 + 2e-4 * std::sin(5 * t));
+    const ProxyContact c = stepProxy(x, g, kR, touching, slipping, *s, cone);
+    x = c.x, touching = c.touching, slipping = c.slipping;
+    if (tick == 0) first = x;
+    ASSERT_FALSE(slipping);
+  }
+  EXPECT_EQ(x, first);
+}
+
+// The programme against brute force: no feasible sample is nearer to the goal than the answer.
+TEST(NearestFeasible, BeatsEveryFeasibleSample) {
+  std::uint64_t seed = 88172645463325252ull;
+  const auto uniform = [&seed] {
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return static_cast<double>(seed >> 11) / 9007199254740992.0 * 2 - 1;
+  };
+  for (int trial = 0; trial < 300; ++trial) {
+    HalfSpaces half_spaces;
+    const Vec3 inside(uniform(), uniform(), uniform());
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 nhat = Vec3(uniform(), uniform(), uniform()).normalized();
+      half_spaces.add({nhat, nhat.dot(inside) - 0.2 * std::abs(uniform()), i}, inside);
+    }
+    const Vec3 g = 3 * Vec3(uniform(), uniform(), uniform());
+    const Feasible answer = nearestFeasible(half_spaces, g);
+    const auto feasible = [&](const Vec3& y, double slack) {
+      for (int i = 0; i < half_spaces.count; ++i) {
+        const auto& h = half_spaces.item[static_cast<std::size_t>(i)];
+        if (h.nhat.dot(y) < h.offset - slack) return false;
+      }
+      return true;
+    };
+    ASSERT_TRUE(feasible(answer.y, 1e-8)) << trial;
+    for (int sample = 0; sample < 300; ++sample) {
+      const double reach = sample < 150 ? 0.05 : 1;
+      const Vec3 y = answer.y + reach * Vec3(uniform(), uniform(), uniform());
+      if (!feasible(y, 0)) continue;
+      ASSERT_GE((y - g).norm(), (answer.y - g).norm() - 1e-8);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace presa
