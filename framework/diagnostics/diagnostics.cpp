@@ -70,7 +70,7 @@ std::string format(const Diagnostic& diagnostic) {
 InputError::InputError(Diagnostics diagnostics)
     : std::runtime_error(diagnostics.text()), diagnostics_(std::move(diagnostics)) {}
 
-std::string quoted(const std::string& value) {
+std::string quote(const std::string& value) {
   std::string text = "'";
   std::size_t characters = 0;
   for (const char c : value) {

@@ -60,7 +60,7 @@ class InputError : public std::runtime_error {
 };
 
 /// 'value' for use in a message: at most 60 characters, control characters shown as '?'.
-std::string quoted(const std::string& value);
+std::string quote(const std::string& value);
 /// The candidate nearest to `word` by edit distance (Damerau-Levenshtein, upper and lower case alike), or "" when none is close:
 /// one slip in up to five letters, one more for every three letters after that.
 std::string nearestName(const std::string& word, const std::vector<std::string>& candidates);

@@ -22,7 +22,7 @@ void addSetting(DeviceBinding& binding, const std::string& key, const DeviceBind
                 const SourceLocation& where, Diagnostics& diagnostics) {
   const auto [found, is_new] = binding.settings.try_emplace(key, setting);
   if (is_new) return;
-  diagnostics.error(kDuplicateKey, where, "device " + quoted(binding.role) + " sets " + quoted(key) + " twice",
+  diagnostics.error(kDuplicateKey, where, "device " + quote(binding.role) + " sets " + quote(key) + " twice",
                     "the first is in line " + std::to_string(found->second.where.line));
 }
 
@@ -55,7 +55,7 @@ void checkRoles(const std::vector<Element>& devices, Diagnostics& diagnostics) {
     const auto [found, is_new] = first.try_emplace(device.attribute("role"), device.where("role"));
     if (is_new) continue;
     diagnostics.error(kDuplicateRole, device.where("role"),
-                      "a second device plays the role " + quoted(device.attribute("role")),
+                      "a second device plays the role " + quote(device.attribute("role")),
                       "the first is in line " + std::to_string(found->second.line));
   }
   if (devices.size() > static_cast<std::size_t>(kMaxFingers)) {

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "framework/scene/scene_parts.h"
@@ -27,10 +29,13 @@ enum Code {
   kNoGeometry = 221
 };
 
+/// Different values of one attribute, in order.
 std::vector<std::string> valuesOf(const std::vector<Element>& elements, const std::string& attribute) {
   std::vector<std::string> values;
   for (const Element& element : elements) {
-    if (element.hasAttribute(attribute)) values.push_back(element.attribute(attribute));
+    const std::string value = element.attribute(attribute);
+    const bool is_new = std::find(values.begin(), values.end(), value) == values.end();
+    if (is_new && element.hasAttribute(attribute)) values.push_back(value);
   }
   return values;
 }
@@ -75,7 +80,7 @@ class SceneCheck {
       const std::string name = element.attribute(attribute);
       const auto [found, is_new] = first.try_emplace(name, element.where(attribute));
       if (is_new) continue;
-      diagnostics_.error(kDuplicateName, element.where(attribute), "a second " + kind + " is named " + quoted(name),
+      diagnostics_.error(kDuplicateName, element.where(attribute), "a second " + kind + " is named " + quote(name),
                          "the first is in " + lineText(found->second));
     }
   }
@@ -180,7 +185,7 @@ class SceneCheck {
       if (name == material) return;
     }
     diagnostics_.error(kUnknownMaterial, body.where("material"),
-                       body.label() + " has material " + quoted(material) + ", which does not exist" +
+                       body.label() + " has material " + quote(material) + ", which does not exist" +
                            didYouMean(material, names),
                        "materials: " + listed(names));
   }
@@ -189,7 +194,7 @@ class SceneCheck {
     for (const char* attribute : {"mass", "density"}) {
       if (!physics.hasAttribute(attribute)) continue;
       diagnostics_.warning(kMassOfFixed, physics.where(attribute),
-                           quoted(attribute) + " of " + physics.label() + " has no effect: the body is fixed");
+                           quote(attribute) + " of " + physics.label() + " has no effect: the body is fixed");
     }
   }
 
@@ -201,9 +206,18 @@ class SceneCheck {
     }
     const bool has_mass = physics[0].hasAttribute("mass"), has_density = physics[0].hasAttribute("density");
     if (has_mass != has_density) return;
+    if (!has_mass && isMisplaced(body, physics[0])) return;
     diagnostics_.error(kMassOrDensity, has_mass ? physics[0].where("density") : physics[0].where(),
                        physics[0].label() + " needs one of 'mass' and 'density', found " + (has_mass ? "both" : "neither"),
                        "mass [kg] or density [kg/m^3]; a body that never moves has fixed=\"true\"");
+  }
+
+  /// The mass stands where it does not belong: the schema has complained about that already.
+  static bool isMisplaced(const Element& body, const Element& physics) {
+    for (const char* name : {"mass", "density"}) {
+      if (body.hasAttribute(name) || !body.children(name).empty() || !physics.children(name).empty()) return true;
+    }
+    return false;
   }
 
   Element root_;

@@ -42,12 +42,12 @@ void checkVersion(const xml::Element& root, const std::string& kind, int code, D
   const std::string ours = std::to_string(kFormatMajor) + "." + std::to_string(kFormatMinor);
   if (major != kFormatMajor) {
     diagnostics.error(code, root.where("version"),
-                      "this " + kind + " is written in format " + quoted(version) + "; this release of Presa reads " +
+                      "this " + kind + " is written in format " + quote(version) + "; this release of Presa reads " +
                           std::to_string(kFormatMajor) + ".x",
                       major > kFormatMajor ? "use a newer release of Presa" : "write version=\"" + ours + "\"");
   } else if (minor > kFormatMinor) {
     diagnostics.warning(code, root.where("version"),
-                        "this " + kind + " is written in format " + quoted(version) + ", newer than " + ours,
+                        "this " + kind + " is written in format " + quote(version) + ", newer than " + ours,
                         "names that are new in it are refused as unknown");
   }
 }

@@ -65,6 +65,10 @@ class PathWalk {
         diagnostics_(diagnostics) {}
 
   void run() {
+    if (std::find(parts_.begin(), parts_.end(), "") != parts_.end()) {
+      fail("a part of the path is empty", "write --set PATH=VALUE, such as --set body/cube/physics/mass=0.5");
+      return;
+    }
     while (index_ + 1 < parts_.size()) {
       if (!descend()) return;
     }
@@ -73,7 +77,7 @@ class PathWalk {
 
  private:
   bool fail(const std::string& message, const std::string& help) {
-    diagnostics_.error(kBadPath, origin_, quoted(change_.path) + ": " + message, help);
+    diagnostics_.error(kBadPath, origin_, quote(change_.path) + ": " + message, help);
     return false;
   }
 
@@ -99,7 +103,7 @@ class PathWalk {
 
   bool unknownPart() {
     const std::vector<std::string> names = choices();
-    return fail("there is no " + quoted(parts_[index_]) + didYouMean(parts_[index_], names),
+    return fail("there is no " + quote(parts_[index_]) + didYouMean(parts_[index_], names),
                 "possible" + (index_ > 0 ? " after " + here() : std::string(" at the start")) + ": " + listed(names));
   }
 
@@ -118,7 +122,7 @@ class PathWalk {
       return enterNamed(*inner, candidates);
     }
     if (rule_->attribute(part)) {
-      return fail(quoted(part) + " is a value, nothing can follow it", "end the path after " + here() + part);
+      return fail(quote(part) + " is a value, nothing can follow it", "end the path after " + here() + part);
     }
     return unknownPart();
   }
@@ -154,7 +158,7 @@ class PathWalk {
     const std::string& wanted = parts_[index_];
     const auto found = std::find(names.begin(), names.end(), wanted);
     if (found == names.end()) {
-      return fail("there is no " + kind + " " + quoted(wanted) + didYouMean(wanted, names),
+      return fail("there is no " + kind + " " + quote(wanted) + didYouMean(wanted, names),
                   names.empty() ? "the scene has no " + kind : kind + " is one of: " + listed(names));
     }
     if (index_ + 1 == parts_.size()) {

@@ -88,8 +88,9 @@ class Checker {
     }
     for (const AttributeRule& required : rule.attributes) {
       if (!required.required || present.count(required.name) > 0) continue;
-      diagnostics_.error(kMissingAttribute, data_.locate(node), labelOf(node) + " has no " + quoted(required.name),
-                         helpFor(required) + "; " + describe(required.value));
+      diagnostics_.error(kMissingAttribute, data_.locate(node), labelOf(node) + " has no " + quote(required.name),
+                         required.name + ": " + describe(required.value) +
+                             (required.documentation.empty() ? "" : "; " + required.documentation));
     }
   }
 
@@ -103,19 +104,19 @@ class Checker {
     const SourceLocation where = data_.locate(attribute);
     const std::vector<std::string> owners = ownersOfAttribute(name);
     if (rule.child(name)) {
-      diagnostics_.error(kUnknownAttribute, where, quoted(name) + " is no attribute of " + labelOf(node),
+      diagnostics_.error(kUnknownAttribute, where, quote(name) + " is no attribute of " + labelOf(node),
                          "it is an element of its own within it: " + tag(name));
       return nullptr;
     }
     if (!owners.empty() && owners.size() <= 2) {
-      diagnostics_.error(kUnknownAttribute, where, "attribute " + quoted(name) + " does not belong on " + labelOf(node),
+      diagnostics_.error(kUnknownAttribute, where, "attribute " + quote(name) + " does not belong on " + labelOf(node),
                          "it belongs on " + joined(owners));
       return nullptr;
     }
     const std::string nearest = attribute->ns ? "" : nearestName(name, free_names);
     diagnostics_.error(kUnknownAttribute, where,
-                       "unknown attribute " + quoted(name) + " on " + labelOf(node) +
-                           (nearest.empty() ? "" : " (did you mean " + quoted(nearest) + "?)"),
+                       "unknown attribute " + quote(name) + " on " + labelOf(node) +
+                           (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
                        rule.attributes.empty() ? tag(rule.name) + " has no attributes"
                                                : "allowed: " + joined(rule.attributeNames()));
     if (nearest.empty()) return nullptr;
@@ -129,12 +130,12 @@ class Checker {
     if (!problem) return;
     data_.flawed.insert(attribute);
     diagnostics_.error(problem->code, data_.locate(attribute),
-                       quoted(rule.name) + " of " + labelOf(node) + " " + problem->message,
+                       quote(rule.name) + " of " + labelOf(node) + " " + problem->message,
                        problem->help.empty() ? helpFor(rule) : problem->help);
   }
 
   static std::string helpFor(const AttributeRule& rule) {
-    return rule.documentation.empty() ? rule.name : rule.name + ": " + rule.documentation;
+    return rule.documentation.empty() ? "" : rule.name + ": " + rule.documentation;
   }
 
   void children(xmlNode* node, const ElementRule& rule) {
@@ -186,7 +187,7 @@ class Checker {
     } else {
       diagnostics_.error(kUnknownElement, where,
                          "unknown element " + tag(name) + " in " + in +
-                             (nearest.empty() ? "" : " (did you mean " + quoted(nearest) + "?)"),
+                             (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
                          parent.content.empty() ? in + " has no elements in it"
                                                 : "allowed: " + joined(parent.childNames()));
     }

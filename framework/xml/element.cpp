@@ -13,7 +13,7 @@ xmlAttr* findAttribute(void* node, const std::string& attribute) { return xmlHas
 std::string identityOf(const xmlNode* node) {
   for (const char* attribute : {"name", "role", "key"}) {
     const auto value = attributeOf(node, attribute);
-    if (value) return quoted(*value);
+    if (value) return quote(*value);
   }
   return {};
 }

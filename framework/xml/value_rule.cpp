@@ -73,18 +73,18 @@ std::string numberHelp(const std::string& word) {
 std::optional<ValueProblem> numberProblem(const ValueRule& rule, const std::string& value) {
   const std::vector<std::string> words = splitWords(value);
   const std::string must = "must be " + describe(rule) + ", found ";
-  const std::string within = rule.count > 1 ? " in " + quoted(value) : "";
+  const std::string within = rule.count > 1 ? " in " + quote(value) : "";
   for (const std::string& word : words) {
     double number = 0;
     const NumberKind kind = readNumber(word, number);
-    if (kind == NumberKind::kNotANumber) return ValueProblem{kWrongKind, must + quoted(word) + within, numberHelp(word)};
+    if (kind == NumberKind::kNotANumber) return ValueProblem{kWrongKind, must + quote(word) + within, numberHelp(word)};
     if (kind == NumberKind::kNotFinite) {
-      return ValueProblem{kOutOfRange, must + quoted(word) + within, "the number must be finite"};
+      return ValueProblem{kOutOfRange, must + quote(word) + within, "the number must be finite"};
     }
-    if (!inRange(rule, number)) return ValueProblem{kOutOfRange, must + quoted(word) + within, {}};
+    if (!inRange(rule, number)) return ValueProblem{kOutOfRange, must + quote(word) + within, {}};
   }
   if (words.size() == rule.count) return std::nullopt;
-  if (rule.count == 1) return ValueProblem{kWrongKind, must + quoted(value), {}};
+  if (rule.count == 1) return ValueProblem{kWrongKind, must + quote(value), {}};
   return ValueProblem{kWrongCount, must + std::to_string(words.size()) + within, {}};
 }
 
@@ -158,7 +158,7 @@ std::string describe(const ValueRule& rule) {
       return (rule.count > 1 ? std::to_string(rule.count) + " numbers" : "a number") + rangeText(rule);
     case ValueRule::Kind::kWord: {
       std::vector<std::string> parts;
-      for (const std::string& word : rule.words) parts.push_back(quoted(word));
+      for (const std::string& word : rule.words) parts.push_back(quote(word));
       return listText(parts);
     }
     default:
@@ -174,13 +174,13 @@ std::optional<ValueProblem> problemOf(const ValueRule& rule, const std::string& 
       if (!alternative_problem) return std::nullopt;
       if (!problem || alternative_problem->code == kOutOfRange) problem = alternative_problem;
     }
-    problem->message = "must be " + describe(rule) + ", found " + quoted(value);
+    problem->message = "must be " + describe(rule) + ", found " + quote(value);
     return problem;
   }
   if (rule.kind == ValueRule::Kind::kNumber) return numberProblem(rule, value);
   if (fits(rule, value)) return std::nullopt;
   return ValueProblem{
-      kWrongKind, "must be " + describe(rule) + ", found " + quoted(value) + didYouMean(value, rule.words), {}};
+      kWrongKind, "must be " + describe(rule) + ", found " + quote(value) + didYouMean(value, rule.words), {}};
 }
 
 }  // namespace presa::xml
