@@ -36,7 +36,8 @@ struct RecorderStatus {
 };
 
 /// Haptic-rate tap with its own writer thread. In ports: "device_state", "contact_exchange", "force_command",
-/// "object_state" (optional). step() only copies into a ring.
+/// "object_state" (optional). In real time step() only copies into a ring, and drops and counts a row that finds it
+/// full. In lockstep, where no deadline exists, step() waits for the disk instead: nothing is ever dropped.
 class Recorder : public Module {
  public:
   using Module::Module;
@@ -55,6 +56,7 @@ struct Recording {
   std::string program_version;
   std::uint64_t seed = 0;
   bool realtime = false;
+  bool complete = false;        ///< false: the run was killed; everything up to its last flush is here
   std::uint64_t dropped = 0;
   double haptic_period = 0;                     ///< [s]
   std::vector<double> time;                     ///< one entry per haptic tick
@@ -66,9 +68,11 @@ struct Recording {
 /// The record plug-in (HDF5), loaded when a run is recorded or replayed.
 struct RecordPlugin {
   int abi;
-  /// Creates the file world.options.record; throws InputError when that cannot be written.
+  /// Creates the file world.options.record. Throws InputError: E601 it exists (and options.overwrite is not set),
+  /// E602 it cannot be written. Call it from an ordinary thread: the writer inherits priority and CPU set.
   std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world);
-  /// Throws InputError (missing, not HDF5, not a recording, newer version).
+  /// Throws InputError: E603 cannot be read, E604 not HDF5, E605 not a recording, E606 newer format, E607 holds no
+  /// tick, E608 damaged. The file of a killed run is read up to its last flush.
   Recording (*read)(const std::string& file);
 };
 

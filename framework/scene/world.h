@@ -19,6 +19,7 @@ struct RunOptions {
   std::string screenshot;         ///< PNG path, may be empty
   double screenshot_time = -1;    ///< [s]; -1: at the end
   std::string record;             ///< HDF5 path, may be empty
+  bool overwrite = false;         ///< `record` may replace an existing file
 };
 
 /// Meshes of one body; null where the geometry is a primitive or absent.

@@ -1,0 +1,69 @@
+#pragma once
+#include <hdf5.h>
+
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/record/record_plugin/rows.h"
+
+/// The little of HDF5 that a recording needs, with owned handles and errors as exceptions.
+namespace presa::record::h5 {
+
+class Failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Debian's HDF5 is not thread-safe: whoever calls it holds this.
+std::mutex& libraryMutex();
+/// Before any other call (any number of times): no error text on stderr, no clean-up at exit. The clean-up would try
+/// again, and print, what failed when a disk was full.
+void prepareLibrary();
+
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle() = default;
+  /// Takes `id`; throws Failure(what) when it is not valid.
+  Handle(hid_t id, Close close, const std::string& what);
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle() { reset(); }
+  operator hid_t() const noexcept { return id_; }
+  /// False when closing failed: what was not flushed before may be lost.
+  bool reset() noexcept;
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// Throws Failure(what) when `status` is an error.
+void check(herr_t status, const std::string& what);
+
+enum class Side { kFile, kMemory };
+/// Compound type of a table: little-endian IEEE in the file, native in memory.
+Handle compoundType(const Table& table, Side side);
+
+Handle group(hid_t parent, const std::string& name);
+/// Fixed-length UTF-8 strings: read by h5py, MATLAB and R without variable-length support.
+void writeAttribute(hid_t object, const std::string& name, const std::string& value);
+void writeAttribute(hid_t object, const std::string& name, const std::vector<std::string>& values);
+void writeAttribute(hid_t object, const std::string& name, double value);
+void writeAttribute(hid_t object, const std::string& name, std::uint64_t value);
+/// Text that may be longer than the 64 kB an attribute holds.
+void writeText(hid_t parent, const std::string& name, const std::string& text);
+void writeTexts(hid_t parent, const std::string& name, const std::vector<std::string>& texts);
+
+bool hasAttribute(hid_t object, const std::string& name);
+std::string readStringAttribute(hid_t object, const std::string& name);
+double readRealAttribute(hid_t object, const std::string& name);
+std::uint64_t readCountAttribute(hid_t object, const std::string& name);
+std::string readText(hid_t parent, const std::string& name);
+/// Names of a group's members.
+std::vector<std::string> members(hid_t group);
+
+}  // namespace presa::record::h5

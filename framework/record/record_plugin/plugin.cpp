@@ -1,0 +1,18 @@
+#include "framework/plan/plugin.h"
+#include "framework/record/record_plugin.h"
+#include "framework/record/record_plugin/reader.h"
+#include "framework/record/record_plugin/recorder.h"
+
+namespace {
+
+const presa::RecordPlugin kPlugin{
+    presa::kPluginAbi,
+    [](std::shared_ptr<const presa::World> world) -> std::unique_ptr<presa::Recorder> {
+      return std::make_unique<presa::record::FileRecorder>(std::move(world));
+    },
+    presa::record::readRecording,
+};
+
+}  // namespace
+
+const presa::RecordPlugin* presaRecordPlugin() { return &kPlugin; }

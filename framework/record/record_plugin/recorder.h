@@ -1,0 +1,98 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "framework/graph/port.h"
+#include "framework/record/record_plugin/row_ring.h"
+#include "framework/record/record_plugin/rows.h"
+#include "framework/record/recording.h"
+
+namespace presa::record {
+
+class RecordingFile;
+
+/// How often the writer looks, and what a test may do meanwhile (on the writer's thread).
+struct WriterSettings {
+  std::chrono::milliseconds look_every{100};
+  std::chrono::milliseconds flush_every{800};
+  std::function<void()> before_round;
+  std::function<void(std::uint64_t flushed_ticks)> after_flush;
+};
+
+/// Two threads: step() belongs to the haptic one and puts rows into a ring; the writer, an ordinary thread, takes
+/// them out and is, between construction and finish(), the only one that touches the file.
+class FileRecorder final : public Recorder {
+ public:
+  explicit FileRecorder(std::shared_ptr<const World> world, WriterSettings settings = {});
+  ~FileRecorder() override;
+
+  void step(const Tick& tick) noexcept override;
+  std::vector<std::string> stages() const override;
+  void attach(ScheduleLog& schedule) override { schedule_.store(&schedule, std::memory_order_release); }
+  void finish() override;
+  RecorderStatus status() const noexcept override;
+
+  /// Rows that the ring holds.
+  std::size_t capacity() const noexcept { return capacity_; }
+
+ private:
+  void fillRow(const Tick& tick) noexcept;
+  void fillFinger(std::size_t finger, const Tick& tick) noexcept;
+  void fillBody(std::size_t slot, const Tick& tick) noexcept;
+  template <class Row>
+  void put(std::size_t offset, const Row& row) noexcept;
+  void hurryWriter() noexcept;
+  void waitForSpace() noexcept;
+
+  void startWriter();
+  void joinWriter();
+  void write();
+  void drain();
+  std::size_t drainBlock();
+  void drainSchedule();
+  void flushWhenDue();
+  void closeFile();
+  template <class Work>
+  void onFile(const Work& work);
+  std::uint64_t lostInRings() const noexcept;
+
+  In<DeviceState> device_{*this, "device_state"};
+  In<ContactExchange> contact_{*this, "contact_exchange"};
+  In<ForceCommand> command_{*this, "force_command"};
+  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+
+  std::shared_ptr<const World> world_;
+  WriterSettings settings_;
+  const bool realtime_;
+  std::unique_ptr<RecordingFile> file_;
+  RowLayout layout_;
+  std::vector<std::int32_t> free_bodies_;   ///< scene indices, as the body tables
+  std::size_t capacity_;
+  RowRing ring_;
+  std::vector<std::uint64_t> row_;          ///< haptic thread: the row being filled
+  std::vector<std::uint64_t> block_;        ///< writer: rows taken from the ring
+  std::vector<ScheduleRow> schedule_block_;
+  std::chrono::steady_clock::time_point flushed_at_;
+  std::atomic<ScheduleLog*> schedule_{nullptr};
+
+  std::atomic<std::uint64_t> accepted_{0};
+  std::atomic<std::uint64_t> dropped_{0};
+  std::atomic<std::uint64_t> kept_{0};      ///< ticks in the file when it failed
+  std::atomic<bool> failed_{false};
+
+  std::mutex mutex_;
+  std::condition_variable wake_;            ///< the writer waits
+  std::condition_variable space_;           ///< step() waits, in lockstep only
+  std::atomic<bool> hurry_{false};
+  bool stop_ = false;
+  bool complete_ = false;
+  std::thread writer_;
+};
+
+}  // namespace presa::record

@@ -1,0 +1,230 @@
+#include "framework/record/record_plugin/recording_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+
+#include "framework/diagnostics/diagnostics.h"
+#include "framework/schedule/rates.h"
+
+namespace presa::record {
+namespace {
+
+[[noreturn]] void refuse(int code, const std::string& message, const std::string& help) {
+  Diagnostics diagnostics;
+  diagnostics.error(code, {"--record", 0, 0}, message, help);
+  throw InputError(std::move(diagnostics));
+}
+
+/// Makes sure that the file may be written, with the system's own reason when not, and that nothing is lost.
+void claim(const std::string& file, bool overwrite) {
+  const int exclusive = overwrite ? 0 : O_EXCL;
+  const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC | exclusive, 0666);
+  if (fd < 0 && errno == EEXIST) {
+    refuse(601, "'" + file + "' exists already", "choose another name, or add --overwrite to replace it");
+  }
+  if (fd < 0) refuse(602, "'" + file + "' cannot be written: " + std::strerror(errno), "choose another name or folder");
+  struct stat info {};
+  const bool regular = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+  const bool busy = flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(fd);
+  if (!regular) refuse(602, "'" + file + "' is not a regular file", "choose another name");
+  if (busy) refuse(602, "'" + file + "' is being written by another run", "choose another name");
+}
+
+h5::Handle createFile(const std::string& name) {
+  const h5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+  h5::check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "file access");
+  // space is taken from the file system in large steps: the end of file that the superblock states, written last in
+  // a flush, then almost always covers the new chunks that the rest of the flush refers to
+  h5::check(H5Pset_small_data_block_size(access, hsize_t{4} << 20), "file access");
+  h5::check(H5Pset_meta_block_size(access, hsize_t{64} << 10), "file access");
+  h5::check(H5Pset_file_locking(access, true, true), "file access");
+  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "file " + name};
+}
+
+std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+/// A name as HDF5 link: '/' would start a sub-group.
+std::string linkName(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+}  // namespace
+
+Table scheduleTable() {
+  Table table{sizeof(ScheduleRow), {}};
+  table.columns.push_back({"index", offsetof(ScheduleRow, index), Cell::kU64, "1", "number of the group's tick"});
+  for (std::size_t i = 0; i < ScheduleRow::kMaxBridges; ++i) {
+    table.columns.push_back({"version_" + std::to_string(i), offsetof(ScheduleRow, versions) + i * sizeof(std::uint64_t),
+                             Cell::kU64, "1", "version read from the group's bridge " + std::to_string(i) + "; 0: none"});
+  }
+  return table;
+}
+
+RecordingFile::RecordingFile(const World& world) {
+  const std::string& name = world.options.record;
+  claim(name, world.options.overwrite);
+  try {
+    create(world);
+    flush();
+  } catch (const h5::Failure& failure) {
+    file_.reset();
+    std::error_code ignored;
+    std::filesystem::remove(name, ignored);   // it holds nothing yet
+    refuse(602, "'" + name + "' cannot be written: " + failure.what(), "is the disk full?");
+  }
+}
+
+void RecordingFile::create(const World& world) {
+  file_ = createFile(world.options.record);
+  const h5::Handle haptic = h5::group(file_, "haptic");
+  tables_.push_back(createTable(haptic, "ticks", tickTable()));
+
+  const h5::Handle fingers = h5::group(haptic, "fingers");
+  layout_.fingers = std::min<std::size_t>(world.scene.devices.size(), kMaxFingers);
+  for (std::size_t f = 0; f < layout_.fingers; ++f) {
+    tables_.push_back(createTable(fingers, linkName(world.scene.devices[f].role), fingerTable()));
+    h5::writeAttribute(tables_.back().dataset, "finger", std::uint64_t{f});
+    h5::writeAttribute(tables_.back().dataset, "fingertip_radius_m", world.scene.devices[f].fingertip_radius);
+  }
+  const h5::Handle bodies = h5::group(haptic, "bodies");
+  for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
+    if (world.scene.bodies[b].fixed) continue;
+    ++layout_.bodies;
+    tables_.push_back(createTable(bodies, linkName(world.scene.bodies[b].name), bodyTable()));
+    h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
+  }
+  const h5::Handle schedule = h5::group(file_, "schedule");
+  for (int g = 0; g < kRateGroupCount; ++g) {
+    schedule_.push_back(createTable(schedule, toString(static_cast<RateGroup>(g)), scheduleTable()));
+  }
+  describe(world);
+}
+
+void RecordingFile::describe(const World& world) {
+  const RateTable rates(world.scene.rates);
+  h5::writeAttribute(file_, "format", std::string(kFormatName));
+  h5::writeAttribute(file_, "format_version", kFormatVersion);
+  h5::writeAttribute(file_, "complete", std::uint64_t{0});
+  h5::writeAttribute(file_, "dropped", std::uint64_t{0});
+  h5::writeAttribute(file_, "program_version", std::string(PRESA_VERSION));
+  h5::writeAttribute(file_, "start_utc", utcNow());
+  h5::writeAttribute(file_, "scene_name", world.scene.name);
+  h5::writeAttribute(file_, "scene_file", world.scene.file);
+  h5::writeAttribute(file_, "rig_file", world.rig.file);
+  h5::writeAttribute(file_, "seed", world.options.seed);
+  h5::writeAttribute(file_, "realtime", std::uint64_t{world.options.realtime});
+  h5::writeAttribute(file_, "haptic_period_s", rates.period(RateGroup::kHaptic));
+  for (int g = 0; g < kRateGroupCount; ++g) {
+    const auto group = static_cast<RateGroup>(g);
+    h5::writeAttribute(file_, std::string("rate_") + toString(group) + "_hz", rates.rate(group));
+  }
+  h5::writeText(file_, "scene_xml", world.scene.resolved_xml);
+  h5::writeText(file_, "rig_xml", world.rig.resolved_xml);
+  std::vector<std::string> names;
+  for (const Body& body : world.scene.bodies) names.push_back(body.name);
+  h5::writeTexts(file_, "body_names", names);
+}
+
+RecordingFile::TableFile RecordingFile::createTable(hid_t group, const std::string& name, const Table& table) {
+  const hsize_t none = 0, chunk = kBlockRows, unlimited = H5S_UNLIMITED;
+  const h5::Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "table space");
+  const h5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "table properties");
+  h5::check(H5Pset_chunk(properties, 1, &chunk), "table properties");
+  h5::check(H5Pset_obj_track_times(properties, false), "table properties");
+  const h5::Handle file_type = h5::compoundType(table, h5::Side::kFile);
+  TableFile result;
+  result.dataset = h5::Handle(
+      H5Dcreate2(group, name.c_str(), file_type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "table " + name);
+  result.memory_type = h5::compoundType(table, h5::Side::kMemory);
+  result.row_bytes = table.row_bytes;
+
+  std::vector<std::string> names, units, descriptions;
+  for (const Column& column : table.columns) {
+    names.push_back(column.name);
+    units.push_back(column.unit);
+    descriptions.push_back(column.description);
+  }
+  h5::writeAttribute(result.dataset, "columns", names);
+  h5::writeAttribute(result.dataset, "units", units);
+  h5::writeAttribute(result.dataset, "descriptions", descriptions);
+  return result;
+}
+
+void RecordingFile::appendTo(TableFile& table, const void* rows, std::size_t count) {
+  const hsize_t begin = table.rows, length = count, end = begin + length;
+  h5::check(H5Dset_extent(table.dataset, &end), "table length");
+  const h5::Handle file_space(H5Dget_space(table.dataset), H5Sclose, "table space");
+  h5::check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, &begin, nullptr, &length, nullptr), "table selection");
+  const h5::Handle memory_space(H5Screate_simple(1, &length, nullptr), H5Sclose, "row space");
+  h5::check(H5Dwrite(table.dataset, table.memory_type, memory_space, file_space, H5P_DEFAULT, rows), "rows");
+  table.rows = end;
+}
+
+void RecordingFile::append(const std::uint64_t* rows, std::size_t count) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(rows);
+  std::size_t offset = 0;
+  for (TableFile& table : tables_) {
+    gathered_.resize(count * table.row_bytes);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(&gathered_[i * table.row_bytes], bytes + i * layout_.bytes() + offset, table.row_bytes);
+    }
+    appendTo(table, gathered_.data(), count);
+    offset += table.row_bytes;
+  }
+}
+
+void RecordingFile::appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) {
+  appendTo(schedule_[static_cast<std::size_t>(group)], rows, count);
+}
+
+void RecordingFile::writeDropped(std::uint64_t dropped) { h5::writeAttribute(file_, "dropped", dropped); }
+
+void RecordingFile::flush() {
+  h5::check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush");
+  for (TableFile& table : tables_) table.flushed = table.rows;
+  for (TableFile& table : schedule_) table.flushed = table.rows;
+}
+
+void RecordingFile::close() {
+  tables_.erase(tables_.begin() + 1, tables_.end());   // the first one keeps its row counts for flushedTicks()
+  schedule_.clear();
+  tables_.front().dataset.reset();
+  tables_.front().memory_type.reset();
+  if (!file_.reset()) throw h5::Failure("close");
+}
+
+void RecordingFile::finish() {
+  flush();
+  h5::writeAttribute(file_, "complete", std::uint64_t{1});   // only when everything else is there
+  close();
+}
+
+void RecordingFile::rollBack() noexcept {
+  const auto shorten = [](TableFile& table) { H5Dset_extent(table.dataset, &table.flushed); };
+  std::for_each(tables_.begin(), tables_.end(), shorten);
+  std::for_each(schedule_.begin(), schedule_.end(), shorten);
+  try {
+    close();
+  } catch (const h5::Failure&) {
+    // the disk refuses even this: what was flushed before is on it already
+  }
+}
+
+}  // namespace presa::record

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "framework/record/record_plugin/h5.h"
+#include "framework/record/recording.h"
+#include "framework/scene/world.h"
+
+namespace presa::record {
+
+/// Version of the layout below; a reader refuses a higher one.
+inline constexpr std::uint64_t kFormatVersion = 1;
+inline constexpr const char* kFormatName = "presa-recording";
+/// Rows of one chunk in the file and of one write.
+inline constexpr std::size_t kBlockRows = 1024;
+
+Table scheduleTable();
+
+/// A recording being written: tables of named columns that only grow, and are flushed as a whole. Killed at any
+/// moment, the file reads up to its last flush, which is why nothing is compressed (a compressed chunk moves when it
+/// grows) and why library bounds are the default ones (newer ones mark the file as open). See README.md.
+/// Thread: one at a time, holding h5::libraryMutex(). Throws h5::Failure.
+class RecordingFile {
+ public:
+  /// Throws InputError E601, E602.
+  explicit RecordingFile(const World& world);
+
+  const RowLayout& layout() const noexcept { return layout_; }
+  /// `count` rows of layout().bytes() each.
+  void append(const std::uint64_t* rows, std::size_t count);
+  void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count);
+  void writeDropped(std::uint64_t dropped);
+  void flush();
+  std::uint64_t flushedTicks() const noexcept { return tables_.front().flushed; }
+  /// Marks the run as ended in order, and closes.
+  void finish();
+  /// After a Failure: takes back what was not flushed and closes, so that the rest stays readable.
+  void rollBack() noexcept;
+
+ private:
+  struct TableFile {
+    h5::Handle dataset;
+    h5::Handle memory_type;
+    std::size_t row_bytes = 0;
+    hsize_t rows = 0;
+    hsize_t flushed = 0;
+  };
+  void create(const World& world);
+  void describe(const World& world);
+  TableFile createTable(hid_t group, const std::string& name, const Table& table);
+  static void appendTo(TableFile& table, const void* rows, std::size_t count);
+  void close();
+
+  RowLayout layout_;
+  h5::Handle file_;
+  std::vector<TableFile> tables_;     ///< as RowLayout: the ticks, each finger, each free body
+  std::vector<TableFile> schedule_;   ///< by RateGroup
+  std::vector<std::byte> gathered_;
+};
+
+}  // namespace presa::record

@@ -1,0 +1,90 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// The tables of a recording, as C++ structs and as named columns with units. Every table repeats index and time, so
+/// that each can be used alone, and so that a reader can prove that a row is whole.
+namespace presa::record {
+
+/// /haptic/ticks
+struct TickRow {
+  std::uint64_t index = 0;
+  double time = 0;
+  double device_time = 0;
+  double command_time = 0;
+  double object_time_end = 0;
+  std::int32_t device_count = 0;
+  std::int32_t command_count = 0;
+  std::int32_t stop_requested = 0;
+  std::uint32_t output_status = 0;
+  std::uint32_t coverage_lost = 0;
+  std::uint32_t pop_through = 0;
+};
+
+/// /haptic/fingers/<role>
+struct FingerRow {
+  std::uint64_t index = 0;
+  double time = 0;
+  double p_WH[3] = {}, v_WH[3] = {};
+  double p_WP[3] = {}, p_BP[3] = {}, p_BC[3] = {}, nhat_W[3] = {};
+  double depth = 0;
+  double normal_force = 0;
+  double tangential_force_W[3] = {}, f_rendered_W[3] = {}, f_command_W[3] = {};
+  std::int32_t phase = -1;
+  std::int32_t valid = 0;
+  std::int32_t mode = 0;
+  std::int32_t body = -1;
+};
+
+/// /haptic/bodies/<name>
+struct BodyRow {
+  std::uint64_t index = 0;
+  double time = 0;
+  double p_WB[3] = {};
+  double q_WB[4] = {1, 0, 0, 0};
+  double v_WB[3] = {}, w_WB[3] = {};
+};
+
+// rows travel through the ring as 64-bit words and go to the file byte by byte: no padding may hide in them
+template <class Row>
+inline constexpr bool kPacked = std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(std::uint64_t) == 0;
+static_assert(kPacked<TickRow> && sizeof(TickRow) == 5 * 8 + 6 * 4);
+static_assert(kPacked<FingerRow> && sizeof(FingerRow) == (2 + 3 * 9 + 2) * 8 + 4 * 4);
+static_assert(kPacked<BodyRow> && sizeof(BodyRow) == (2 + 13) * 8);
+
+enum class Cell { kU64, kF64, kI32, kU32 };
+
+struct Column {
+  std::string name;
+  std::size_t offset;
+  Cell cell;
+  std::string unit;   ///< "1" for a number without unit
+  std::string description;
+};
+
+struct Table {
+  std::size_t row_bytes;
+  std::vector<Column> columns;
+};
+
+Table tickTable();
+Table fingerTable();
+Table bodyTable();
+
+/// One row of everything, as it travels through the ring: the tick, then each finger, then each free body.
+struct RowLayout {
+  std::size_t fingers = 0;
+  std::size_t bodies = 0;
+  std::size_t fingerOffset(std::size_t finger) const { return sizeof(TickRow) + finger * sizeof(FingerRow); }
+  std::size_t bodyOffset(std::size_t body) const { return fingerOffset(fingers) + body * sizeof(BodyRow); }
+  std::size_t bytes() const { return bodyOffset(bodies); }
+  std::size_t words() const { return bytes() / sizeof(std::uint64_t); }
+};
+
+/// The part of a table that a replay needs, read by name into the same structs.
+Table subset(const Table& table, const std::vector<std::string>& columns);
+
+}  // namespace presa::record

@@ -1,0 +1,39 @@
+#include "framework/record/recording.h"
+
+#include "framework/plan/plugin.h"
+#include "framework/plan/plugin_loader.h"
+#include "framework/record/record_plugin.h"
+
+namespace presa {
+namespace {
+
+// Eight seconds at the highest haptic rate (4 kHz); no group is faster than the haptic one. The recorder counts on
+// twice as many rows here as in its own ring, see Recorder::step in lockstep.
+constexpr std::size_t kScheduleCapacity = 32768;
+
+}  // namespace
+
+ScheduleLog::ScheduleLog() {
+  for (auto& ring : rings) {
+    ring = std::make_unique<EventRing<ScheduleRow>>(kScheduleCapacity);
+    // touch every page now, so that no tick pays for a page fault
+    ScheduleRow row;
+    for (std::size_t i = 0; i < kScheduleCapacity; ++i) ring->push(row);
+    while (ring->pop(row)) {
+    }
+  }
+}
+
+const RecordPlugin& recordPlugin() {
+  using Entry = const RecordPlugin* (*)();
+  static const RecordPlugin* const plugin = reinterpret_cast<Entry>(pluginSymbol("record", "presaRecordPlugin"))();
+  if (plugin->abi != kPluginAbi) {
+    Diagnostics diagnostics;
+    diagnostics.error(600, {}, "the plug-in presa_record.so belongs to another version of Presa",
+                      "build it again with this version");
+    throw InputError(std::move(diagnostics));
+  }
+  return *plugin;
+}
+
+}  // namespace presa
