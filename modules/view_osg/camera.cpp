@@ -8,7 +8,7 @@ namespace presa::view {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kElevation = 24 * kDegree;
+constexpr double kElevation = 26 * kDegree;
 constexpr double kUsedHeight = 0.80;  ///< share of the picture's height for the subject
 constexpr double kUsedWidth = 0.52;   ///< the head-up display takes the sides
 
@@ -42,7 +42,7 @@ Ball enclose(const std::vector<Ball>& balls) {
 
 CameraPose frameSubject(const std::vector<Ball>& balls, double aspect) {
   const auto rightOf = [](double heading) { return Vec3(std::cos(heading), std::sin(heading), 0); };
-  constexpr double kFront = 25 * kDegree, kSide = 65 * kDegree;
+  constexpr double kFront = 12 * kDegree, kSide = 78 * kDegree;
   const double heading = spread(balls, rightOf(kSide)) > spread(balls, rightOf(kFront)) ? kSide : kFront;
   const Ball all = enclose(balls);
   const double half_height = kUsedHeight * kFieldOfView / 2 * kDegree;

@@ -22,7 +22,7 @@ inline constexpr double kFieldOfView = 28;  ///< vertical [degree]
 Ball enclose(const std::vector<Ball>& balls);
 
 /// Three-quarter view from the front, right and above (front: -y, right: +x) that holds every ball, with room for the
-/// head-up display at the sides. Of the headings 25 and 65 degrees to the right it takes the one that shows the
+/// head-up display at the sides. Of the headings 12 and 78 degrees to the right it takes the one that shows the
 /// balls' centres further apart, so that opposed fingers do not hide behind the object.
 CameraPose frameSubject(const std::vector<Ball>& balls, double aspect);
 

@@ -71,6 +71,7 @@ ContactGlyphs::ContactGlyphs(std::size_t fingers) {
   makeTranslucent(*ghost, 9);
   ghost->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0, 1, false));
   through->addChild(solid_);
+  through->addChild(arrows_);
 
   for (osg::Node* part : {static_cast<osg::Node*>(solid_), static_cast<osg::Node*>(arrows_),
                           static_cast<osg::Node*>(through), static_cast<osg::Node*>(cones_),
@@ -106,9 +107,11 @@ void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
   for (std::size_t i = 0; i < fingers_.size() && i < fingers.size(); ++i) {
     const FingerView& view = fingers[i];
     Finger& finger = fingers_[i];
+    setShown(*finger.hip, view.valid);
+    setShown(*finger.tip, view.valid);
     finger.hip->setMatrix(osg::Matrixd::translate(toOsg(view.p_WH)));
     const Vec3 link = view.p_WP - view.p_WH;
-    setShown(*finger.link, link.norm() > 1e-5);
+    setShown(*finger.link, view.valid && link.norm() > 1e-5);
     if (link.norm() > 1e-5)
       finger.link->setMatrix(alongZ(view.p_WH, link, {kLinkRadius, kLinkRadius, link.norm()}));
     finger.tip->setMatrix(toOsg(Pose{view.p_WP, Quat::Identity()}));

@@ -62,15 +62,16 @@ Hud::Hud(const World& world) {
   camera_->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
   camera_->setCullingActive(false);
   camera_->setAllowEventFocus(false);
-  osg::StateSet* state = camera_->getOrCreateStateSet();
+  osg::StateSet* state = content_->getOrCreateStateSet();
   state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
   state->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   state->setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
-  // in the order of the graph: panels first, their text after
+  // in the order of the graph: panels first, their text after (on the camera itself this would sort its parent)
   state->setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
-  camera_->addChild(left_);
-  camera_->addChild(right_);
-  camera_->addChild(center_);
+  camera_->addChild(content_);
+  content_->addChild(left_);
+  content_->addChild(right_);
+  content_->addChild(center_);
   center_->addChild(help_);
 
   addTitle(world);
@@ -110,7 +111,7 @@ void Hud::addCard(std::size_t index) {
             Label(*left_, right - 28, top - 20, 13, kInk, Typeface::kRegular, Label::Align::kRight),
             Label(*left_, kMargin + 12, top - 38, 13, kInk, Typeface::kMono),
             Label(*left_, right - 12, top - 54, 11.5F, kSoftInk, Typeface::kRegular, Label::Align::kRight),
-            Bar(*left_, {kMargin + 12, top - 53, 132, 7}),
+            Bar(*left_, {kMargin + 12, top - 53, 114, 7}),
             lamp};
   cards_.push_back(std::move(card));
 }

@@ -50,6 +50,7 @@ class Hud {
   void updateRates(const GroupTimings& timings);
 
   osg::ref_ptr<osg::Camera> camera_ = new osg::Camera;
+  osg::ref_ptr<osg::Group> content_ = new osg::Group;
   osg::ref_ptr<osg::Group> left_ = new osg::Group;
   osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;   ///< x = 0 is the right edge
   osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;  ///< origin in the middle

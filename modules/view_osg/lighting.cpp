@@ -17,8 +17,6 @@ Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) {
   addMap("key", 0, kKeyDirection, Vec3::UnitZ(), casters, receivers);
   addMap("sky", 1, Vec3::UnitZ(), Vec3::UnitY(), casters, receivers);
   receivers->addUniform(new osg::Uniform("key_direction", osg::Vec3(toOsg(kKeyDirection))));
-  radius_ = new osg::Uniform("focus_radius", 1.0F);
-  receivers->addUniform(radius_);
   picture_size_ = new osg::Uniform("picture_size", osg::Vec2(1, 1));
   receivers->addUniform(picture_size_);
 }
@@ -60,7 +58,6 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
 }
 
 void Lighting::setFocus(const Vec3& center, double radius) {
-  radius_->set(static_cast<float>(radius));
   for (Map& map : maps_) {
     map.camera->setViewMatrixAsLookAt(toOsg(Vec3(center + 2 * radius * map.direction)), toOsg(center), toOsg(map.up));
     map.camera->setProjectionMatrixAsOrtho(-radius, radius, -radius, radius, 0, 4 * radius);

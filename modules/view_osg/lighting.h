@@ -3,6 +3,7 @@
 #include <osg/Group>
 #include <osg/Texture2D>
 #include <osg/Uniform>
+#include <vector>
 
 #include "framework/math/spatial.h"
 
@@ -33,7 +34,6 @@ class Lighting {
 
   osg::ref_ptr<osg::Group> passes_ = new osg::Group;
   std::vector<Map> maps_;
-  osg::ref_ptr<osg::Uniform> radius_;
   osg::ref_ptr<osg::Uniform> picture_size_;
 };
 

@@ -5,7 +5,7 @@
 namespace presa::view {
 namespace {
 
-constexpr double kFloorRadius = 2.5;    ///< [m]
+constexpr double kFloorRadius = 1.2;    ///< [m], at least
 constexpr double kLitAround = 2.2;      ///< shadows reach this many radii of the subject
 
 std::vector<Pose> startPoses(const World& world) {
@@ -24,7 +24,7 @@ Picture::Picture(std::shared_ptr<const World> world)
   ViewFrame start;
   start.X_WB = startPoses(*world_);
   updateSubject(start, {});
-  const double reach = std::max(kFloorRadius, 6 * enclose(subject_).radius);
+  const double reach = std::max(kFloorRadius, 10 * enclose(subject_).radius);
   for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
                           static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(hud_.camera())})
     root_->addChild(part);

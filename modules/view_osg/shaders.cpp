@@ -37,7 +37,10 @@ vec3 skyColor(float height) {
 }
 vec3 skyBehindFragment() { return skyColor(gl_FragCoord.y / picture_size.y); }
 vec3 toDisplay(vec3 linear) {
-  vec3 c = linear * (1.0 + linear / 6.0) / (1.0 + linear);
+  // hue stays: the brightest channel is bent towards 1, the others follow
+  float top = max(max(linear.r, linear.g), max(linear.b, 1e-6));
+  float bent = top < 0.6 ? top : 1.0 - 0.4 * exp(-(top - 0.6) / 0.4);
+  vec3 c = linear * (bent / top);
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
 )";
@@ -48,34 +51,36 @@ uniform sampler2DShadow sky_map;
 uniform mat4 key_matrix;
 uniform mat4 sky_matrix;
 uniform vec3 key_direction;
-uniform float focus_radius;
 const vec2 kTaps[16] = vec2[](
   vec2(-0.942, -0.399), vec2(0.946, -0.769), vec2(-0.094, -0.929), vec2(0.345, 0.294),
   vec2(-0.916, 0.458), vec2(-0.815, -0.879), vec2(-0.383, 0.277), vec2(0.975, 0.756),
   vec2(0.443, -0.975), vec2(0.537, -0.474), vec2(-0.265, -0.419), vec2(0.792, 0.191),
   vec2(-0.242, 0.997), vec2(-0.814, 0.914), vec2(0.200, 0.786), vec2(0.143, -0.141));
 
-// share of light that arrives; blur [m] is the half width of the penumbra
-float visibility(sampler2DShadow map, mat4 to_map, vec3 p, float blur) {
+// share of light that arrives; blur [m] is the half width of the penumbra. Samples lie in the surface's own plane, so
+// that a slanted surface does not shade itself.
+float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   vec3 c = (to_map * vec4(p, 1.0)).xyz;
   if (any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)))) return 1.0;
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  mat2 spin = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * (blur * 0.5 / focus_radius);
+  vec3 side = normalize(abs(n.z) < 0.7 ? cross(n, vec3(0, 0, 1)) : cross(n, vec3(1, 0, 0)));
+  vec3 a = mat3(to_map) * (side * blur), b = mat3(to_map) * (cross(n, side) * blur);
+  vec3 u = cos(turn) * a + sin(turn) * b, v = cos(turn) * b - sin(turn) * a;
   float sum = 0.0;
-  for (int i = 0; i < 16; ++i) sum += texture(map, vec3(c.xy + spin * kTaps[i], c.z));
+  for (int i = 0; i < 16; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
   return sum / 16.0;
 }
 
 vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
   float facing = dot(n, key_direction);
   float margin = 0.0008 + 0.0015 * (1.0 - max(facing, 0.0));
-  float key = facing > 0.0 ? facing * visibility(key_map, key_matrix, p + n * margin, 0.0035) : 0.0;
-  float open = mix(1.0, visibility(sky_map, sky_matrix, p + n * 0.0015, 0.022), 0.72 * (0.5 + 0.5 * n.z));
-  vec3 sky = mix(vec3(0.23, 0.22, 0.22), vec3(0.52, 0.58, 0.68), 0.5 + 0.5 * n.z) * open;
-  vec3 fill = vec3(0.10, 0.13, 0.18) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
+  float key = facing > 0.0 ? facing * visibility(key_map, key_matrix, p + n * margin, n, 0.0035) : 0.0;
+  float open = mix(1.0, visibility(sky_map, sky_matrix, p + n * 0.0015, n, 0.022), 0.72 * (0.5 + 0.5 * n.z));
+  vec3 sky = mix(vec3(0.16, 0.15, 0.15), vec3(0.30, 0.34, 0.40), 0.5 + 0.5 * n.z) * open;
+  vec3 fill = vec3(0.08, 0.10, 0.14) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
   vec3 half_way = normalize(key_direction + to_eye);
-  float shine = gloss * pow(max(dot(n, half_way), 0.0), 48.0) * key;
-  return albedo * (vec3(2.35, 2.22, 2.02) * key + sky + fill) + vec3(shine);
+  float shine = 0.5 * gloss * pow(max(dot(n, half_way), 0.0), 48.0) * key;
+  return albedo * (vec3(0.98, 0.93, 0.85) * key + sky + fill) + vec3(shine);
 }
 
 float gridLine(vec2 p, float spacing, float strength) {
