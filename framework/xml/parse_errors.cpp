@@ -21,12 +21,6 @@ const std::map<int, Words>& wordsByCode() {
       {XML_ERR_DOCUMENT_EMPTY, {"this is no XML: it does not start with '<'", ""}},
       {XML_ERR_DOCUMENT_END,
        {"something follows after the end of the root element", "a file holds one root element; is one closed too early?"}},
-      {XML_ERR_ATTRIBUTE_NOT_STARTED,
-       {"the value of an attribute is not in quotes", "write name=\"value\""}},
-      {XML_ERR_ATTRIBUTE_WITHOUT_VALUE, {"an attribute has no value", "write name=\"value\""}},
-      {XML_ERR_ATTRIBUTE_NOT_FINISHED, {"the value of an attribute is not closed with a quote", ""}},
-      {XML_ERR_LT_IN_ATTRIBUTE,
-       {"the value of an attribute holds '<'", "is a closing quote missing? A real '<' is written &lt;"}},
       {XML_ERR_SPACE_REQUIRED,
        {"a start tag is broken here", "between two attributes stands a space; the tag ends with '>' or '/>'"}},
       {XML_ERR_NAME_REQUIRED,
@@ -63,14 +57,24 @@ bool reportFromScan(const std::string& name, const SourceScan& scan, int code, D
                       "add </" + open.name + ">");
     return true;
   }
-  const bool in_value = code == XML_ERR_LT_IN_ATTRIBUTE || code == XML_ERR_ATTRIBUTE_NOT_FINISHED;
-  if (in_value && scan.unclosed_value) {
-    diagnostics.error(kNotWellFormed, at(scan.unclosed_value->at),
-                      "the value of " + quote(scan.unclosed_value->name) + " is not closed with a quote",
-                      "a real '<' in a value is written &lt;");
-    return true;
+  if (!scan.broken_attribute) return false;
+  const std::string attribute = quote(scan.broken_attribute->name);
+  const SourceLocation where = at(scan.broken_attribute->at);
+  switch (code) {
+    case XML_ERR_LT_IN_ATTRIBUTE:
+    case XML_ERR_ATTRIBUTE_NOT_FINISHED:
+      diagnostics.error(kNotWellFormed, where, "the value of " + attribute + " is not closed with a quote",
+                        "a real '<' in a value is written &lt;");
+      return true;
+    case XML_ERR_ATTRIBUTE_NOT_STARTED:
+      diagnostics.error(kNotWellFormed, where, "the value of " + attribute + " is not in quotes", "write name=\"value\"");
+      return true;
+    case XML_ERR_ATTRIBUTE_WITHOUT_VALUE:
+      diagnostics.error(kNotWellFormed, where, "attribute " + attribute + " has no value", "write name=\"value\"");
+      return true;
+    default:
+      return false;
   }
-  return false;
 }
 
 /// A repeated attribute does not stop the parser, so that all of them can be told.

@@ -109,19 +109,25 @@ class Scanner {
     attribute.at = at_;
     attribute.name = word("=/><\"'");
     skipSpace();
-    if (attribute.name.empty() || atEnd() || current() != '=') return false;
+    if (attribute.name.empty()) return false;
+    if (!value()) {
+      scan_.broken_attribute = std::move(attribute);
+      return false;
+    }
+    tag.attributes.push_back(std::move(attribute));
+    return true;
+  }
+
+  bool value() {
+    if (atEnd() || current() != '=') return false;
     advance();
     skipSpace();
     if (atEnd() || (current() != '"' && current() != '\'')) return false;
     const char quote = current();
     advance();
     while (!atEnd() && current() != quote && current() != '<') advance();
-    if (atEnd() || current() == '<') {
-      scan_.unclosed_value = std::move(attribute);
-      return false;
-    }
+    if (atEnd() || current() == '<') return false;
     advance();
-    tag.attributes.push_back(std::move(attribute));
     return true;
   }
 

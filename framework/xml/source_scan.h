@@ -36,7 +36,7 @@ struct SourceScan {
   std::vector<ScannedTag> tags;
   std::vector<std::size_t> open;  ///< tags still open at the end, innermost last
   std::optional<MismatchedEnd> mismatch;
-  std::optional<ScannedAttribute> unclosed_value;  ///< attribute whose value runs on to the next '<'
+  std::optional<ScannedAttribute> broken_attribute;  ///< without value or quotes, or running on to the next '<'
   std::optional<Position> doctype;  ///< of "<!DOCTYPE"; the scan stops there
 };
 SourceScan scanSource(std::string_view text);
