@@ -24,7 +24,6 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
   }
   result.trace = monitor.trace().empty() ? nullptr : &monitor.trace();
   result.state_hash = monitor.hash();
-  result.pop_through = monitor.popThrough();
   result.simulated_seconds = monitor.simulatedTime();
 }
 

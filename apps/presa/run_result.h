@@ -67,7 +67,6 @@ struct RunResult {
   std::string screenshot;                  ///< PNG path, may be empty
   Recording recording;
   std::uint64_t state_hash = 0;
-  std::uint32_t pop_through = 0;           ///< of all contact points
 };
 
 /// Fills contact points, objects, trace, hash and simulated time from the monitor, after the run.

@@ -63,6 +63,7 @@ Json contactPoints(const RunResult& result) {
                    {"seconds", {{"none", sum.seconds[0]}, {"stick", sum.seconds[1]}, {"slip", sum.seconds[2]}}},
                    {"max_normal_force_N", sum.max_normal_force},
                    {"mean_normal_force_N", sum.mean_normal_force},
+                   {"pop_through", sum.pop_through},
                    {"slip_onsets", sum.slip_onsets}});
   }
   return all;
@@ -124,7 +125,6 @@ std::string summaryJson(const RunResult& result) {
   json["interrupted"] = result.interrupted;
   json["rates"] = rates(result);
   json["contact_points"] = contactPoints(result);
-  json["pop_through"] = result.pop_through;
   json["objects"] = objects(result);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
   json["faults"] = Json::array();

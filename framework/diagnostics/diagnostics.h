@@ -14,18 +14,19 @@ struct SourceLocation {
 };
 
 /// One finding about user input. Printed as
-///   file:line:col: error[E203]: what is wrong, what was found, what is allowed
+///   file:line:col: error[E203]: what is wrong, what was found, what is allowed   (warning[W203] for a warning)
 ///     help: what to do
 struct Diagnostic {
   enum class Severity { kWarning, kError };
   Severity severity = Severity::kError;
-  int code = 0;  ///< E1xx reading and well-formedness, E2xx scene, E3xx mesh, E4xx rig and devices, E5xx graph, E6xx recording
+  int code = 0;  ///< E1xx reading, well-formedness and schema, E2xx scene, E3xx mesh, E4xx rig and devices, E5xx graph, E6xx recording
   std::string message;
   std::string help;  ///< may be empty
   SourceLocation where;
 };
 
-/// Collects every finding of one load, so that a user sees all of them at once (at most 50).
+/// Collects every finding of one load, so that a user sees all of them at once. Keeps the first 50 (errors before
+/// warnings) and says how many more there were.
 class Diagnostics {
  public:
   void error(int code, const SourceLocation& where, std::string message, std::string help = {});
@@ -43,6 +44,7 @@ class Diagnostics {
   void add(Diagnostic diagnostic);
   std::vector<Diagnostic> all_;
   std::size_t errors_ = 0;
+  std::size_t dropped_ = 0;
 };
 
 std::string format(const Diagnostic& diagnostic);
@@ -57,7 +59,10 @@ class InputError : public std::runtime_error {
   Diagnostics diagnostics_;
 };
 
-/// The candidate nearest to `word` by edit distance, or "" when none is close.
+/// 'value' for use in a message: at most 60 characters, control characters shown as '?'.
+std::string quote(const std::string& value);
+/// The candidate nearest to `word` by edit distance (Damerau-Levenshtein, upper and lower case alike), or "" when none is close:
+/// one slip in up to five letters, one more for every three letters after that.
 std::string nearestName(const std::string& word, const std::vector<std::string>& candidates);
 /// " (did you mean 'x'?)" or "".
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "framework/geometry/mesh_import_abi.h"
 #include "framework/geometry/tri_mesh.h"
@@ -24,7 +25,9 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 }
 
 std::string text(const Vec3& p) {
-  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+  std::ostringstream stream;
+  stream << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
+  return stream.str();
 }
 
 /// Reads, checks and repairs one file; the first finding that makes the mesh useless ends it.
@@ -128,11 +131,11 @@ bool Import::checkNumbers() {
       const std::int32_t index = mesh_.triangles[t][i];
       const std::string corner = "corner " + std::to_string(i) + " of triangle " + std::to_string(t);
       if (index < 0 || static_cast<std::size_t>(index) >= mesh_.vertices.size()) {
-        return fail(306, corner + " names a vertex that does not exist", "export the mesh again");
+        return fail(306, corner + " (counting from 0) names a vertex that does not exist", "export the mesh again");
       }
       const Vec3& vertex = mesh_.vertices[static_cast<std::size_t>(index)];
       if (!vertex.allFinite()) {
-        return fail(305, "vertex " + std::to_string(index) + " (" + corner + ", counting from 0) is " + text(vertex),
+        return fail(305, corner + " (counting from 0) is at " + text(vertex),
                     "every coordinate must be a finite number");
       }
     }

@@ -18,7 +18,7 @@ struct ImportedMesh {
   std::uint64_t ignored_faces = 0;          ///< points and lines
 };
 
-/// Symbol kMeshImportSymbol: reads `file`, whose format is `extension` (lower case, no dot). Never null, never throws.
+/// Symbol kMeshImportSymbol: reads `file`, whose format is `extension` (lower case, no dot). Never null; throws only std::bad_alloc.
 /// Thread: any.
 using ImportMeshFunction = const ImportedMesh* (*)(const char* file, const char* extension);
 /// Symbol kMeshReleaseSymbol: frees a result.

@@ -153,7 +153,10 @@ void Monitor::observe(const Tick& tick, const DeviceState& device, const Contact
   if (fresh) m.hash.add(*objects);
 
   std::fill(m.fingers_on.begin(), m.fingers_on.end(), 0);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) m.sumFinger(f, contact.fingers[f], tick);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    m.sumFinger(f, contact.fingers[f], tick);
+    m.fingers[f].pop_through = contact.pop_through_by_finger[f];
+  }
   m.sumObjects(tick, objects, fresh);
   m.pop_through = contact.pop_through;
   m.simulated_time = static_cast<double>(tick.index + 1) * tick.period;

@@ -31,6 +31,7 @@ struct FingerSummary {
   std::array<double, 3> seconds{};   ///< by ContactMode: none, stick, slip
   double max_normal_force = 0;       ///< [N]
   double mean_normal_force = 0;      ///< over the ticks in contact [N]
+  std::uint32_t pop_through = 0;     ///< times the fingertip got past a surface
   std::uint64_t slip_onsets = 0;     ///< changes from stick to slip
   SlipOnset loosening_slip;          ///< the first one at or after loosen_time
 };

@@ -54,7 +54,9 @@ void StateHash::add(const ContactExchange& state) noexcept {
   add(state.count);
   add(state.coverage_lost);
   add(state.pop_through);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(state.count); ++f) add(state.fingers[f]);
+  const auto count = static_cast<std::size_t>(state.count);
+  for (std::size_t f = 0; f < count; ++f) add(state.pop_through_by_finger[f]);
+  for (std::size_t f = 0; f < count; ++f) add(state.fingers[f]);
 }
 
 void StateHash::add(const ObjectState& state) noexcept {

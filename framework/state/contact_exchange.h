@@ -39,6 +39,7 @@ struct ContactExchange {
   std::int32_t count = 0;
   std::uint32_t coverage_lost = 0;   ///< ticks in which a proxy waited at the border of its patch, since start
   std::uint32_t pop_through = 0;     ///< times a HIP got past a surface without contact, since start
+  std::array<std::uint32_t, kMaxFingers> pop_through_by_finger{};  ///< the same, finger by finger
   std::array<FingerContact, kMaxFingers> fingers;
 };
 

@@ -14,7 +14,7 @@ constexpr double kSamePoint = 1e-3;
 constexpr double kSameNormal = 0.999;
 
 void rememberPair(void* data, dGeomID a, dGeomID b) {
-  const auto [low, high] = std::minmax(BodySet::indexOf(a), BodySet::indexOf(b));
+  const auto [low, high] = std::minmax({BodySet::indexOf(a), BodySet::indexOf(b)});
   static_cast<std::vector<std::pair<std::size_t, std::size_t>>*>(data)->emplace_back(low, high);
 }
 

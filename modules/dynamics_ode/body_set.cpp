@@ -119,13 +119,6 @@ BodyInertiaState BodySet::inertiaState(std::size_t i) const {
   return {poseOf(entry, state), state.p_WCm, 1 / entry.mass, R_WB * entry.inverse_inertia * R_WB.transpose()};
 }
 
-Vec3 BodySet::gyroscopicTorque(std::size_t i) const {
-  const Entry& entry = bodies_[i];
-  const State state = read(entry);
-  const Vec3 w_B = state.q_WB.conjugate() * state.w_WB;
-  return state.q_WB * (entry.inertia * w_B).cross(w_B);
-}
-
 Vec3 BodySet::centreVelocity(std::size_t i) const {
   return moves(i) ? toVec3(dBodyGetLinearVel(bodies_[i].body)) : Vec3(Vec3::Zero());
 }

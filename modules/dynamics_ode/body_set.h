@@ -31,7 +31,8 @@ class BodySet {
 
   /// State at the start of the step: pose, mass, inverse inertia in W. Only for bodies that move.
   BodyInertiaState inertiaState(std::size_t i) const;
-  Vec3 gyroscopicTorque(std::size_t i) const;   ///< -w x I w, expressed in W [N m]
+  /// [1/kg]; zero when it does not move
+  double inverseMass(std::size_t i) const noexcept { return moves(i) ? 1 / bodies_[i].mass : 0; }
   Vec3 centreVelocity(std::size_t i) const;     ///< of the centre of mass [m/s]; zero when it does not move
   Vec3 angularVelocity(std::size_t i) const;    ///< [rad/s]
 

@@ -47,9 +47,9 @@ std::vector<std::string> DynamicsModule::stages() const {
   return {
       "extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades",
       "collide the physics geometries (hash space, at most 8 contacts per pair)",
-      "friction directions along the slip that would follow without friction",
+      "solve once without friction between bodies, to point friction along the coming slip",
       "fingers as implicit spring-dampers (soft contact joints) inside their friction cone",
-      "solve: islands up to " + std::to_string(options_.direct_limit) + " contacts directly, larger ones with " +
+      "solve: islands up to " + std::to_string(options_.direct_limit) + " contacts directly, larger ones with up to " +
           std::to_string(options_.quick_iterations) + " iterations",
       "rotate free bodies by one Runge-Kutta step of Euler's equations",
       "freeze a body whose state is not finite; publish poses at both ends of the step",

@@ -9,14 +9,17 @@ double pairFriction(const Material& a, const Material& b, double slip_speed) {
                                  : std::sqrt(a.friction_dynamic * b.friction_dynamic);
 }
 
-Vec3 slipDirection(const Vec3& nhat_AB, const Vec3& p_W, const PredictedMotion& A, const PredictedMotion& B) {
+Vec3 slipVelocity(const Vec3& nhat_AB, const Vec3& p_W, const Motion& A, const Motion& B) {
+  const Vec3 relative = B.at(p_W) - A.at(p_W);
+  return relative - relative.dot(nhat_AB) * nhat_AB;
+}
+
+Vec3 frictionDirection(const Vec3& nhat_AB, const Vec3& slip) {
   constexpr double kNoSlip = 1e-9;  // [m/s]
-  const auto tangential = [&nhat_AB](const Vec3& v) -> Vec3 { return v - v.dot(nhat_AB) * nhat_AB; };
-  Vec3 slip = tangential(B.at(p_W) - A.at(p_W));
-  if (slip.norm() < kNoSlip) slip = tangential(B.at(p_W));
-  if (slip.norm() < kNoSlip) return nhat_AB.unitOrthogonal();
-  // twice, so that it is perpendicular to the normal to the last bit
-  return tangential(slip.normalized()).normalized();
+  if (!(slip.norm() > kNoSlip)) return nhat_AB.unitOrthogonal();
+  // once more, so that it is perpendicular to the normal to the last bit
+  const Vec3 direction = slip.normalized();
+  return (direction - direction.dot(nhat_AB) * nhat_AB).normalized();
 }
 
 }  // namespace presa::ode

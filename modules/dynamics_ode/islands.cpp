@@ -17,7 +17,7 @@ std::size_t Islands::root(std::size_t a) {
 }
 
 void Islands::join(std::size_t a, std::size_t b) {
-  const auto [low, high] = std::minmax(root(a), root(b));
+  const auto [low, high] = std::minmax({root(a), root(b)});
   ++contacts_[low];
   if (low == high) return;
   parent_[high] = low;

@@ -16,6 +16,8 @@ namespace {
 
 // far below any compliance that matters, enough to keep redundant rows solvable
 constexpr double kWorldCfm = 1e-10;
+// enough for a direction
+constexpr int kPredictionIterations = 20;
 
 dWorldID createWorld(const Scene& scene) {
   attachThread();
@@ -62,7 +64,7 @@ struct OdeWorld::Impl {
   Impl(std::shared_ptr<const World> world_, const OdeOptions& options_)
       : world(std::move(world_)), options(options_), ode(createWorld(world->scene)), space(createSpace()),
         joints(dJointGroupCreate(0)), bodies(std::make_unique<BodySet>(*world, ode, space)), random(options.seed) {
-    predicted.resize(bodies->size());
+    motions.resize(bodies->size());
     contacts.reserve(4 * bodies->size());
   }
   ~Impl() {
@@ -74,6 +76,10 @@ struct OdeWorld::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
+  struct ContactSurface {
+    double cfm = 0, mu = 0;
+    Vec3 direction = Vec3::UnitX();
+  };
   struct ActiveFinger {
     std::size_t finger = 0, body = 0;
     FingerRow row;
@@ -81,14 +87,18 @@ struct OdeWorld::Impl {
 
   void solveStep(const ContactExchange& exchange, double time, double h);
   void readFingers(const ContactExchange& exchange, double time, double h);
-  void predict(double h);
+  void countIslands();
+  void readMotions(bool start);
+  void chooseFriction(double h);
   void addFingerJoint(const ActiveFinger& active);
-  void addContactJoint(const BodyContact& contact);
+  void addFingerJoints();
+  void addContactJoint(const BodyContact& contact, const ContactSurface& surface);
+  int quickIterations() const;
   void applyExplicitForces();
-  void integrate(double h);
+  void integrate(double h, int iterations);
   void enableOnly(bool large);
-  void stepDirect(double h);
-  void stepQuick(double h);
+  void stepDirect(double h, int iterations);
+  void stepQuick(double h, int iterations);
   void fault(Faults::Bit bit, std::uint64_t count = 1);
 
   std::shared_ptr<const World> world;
@@ -101,13 +111,15 @@ struct OdeWorld::Impl {
   BodyContacts collider;
   Islands islands;
   std::vector<BodyContact> contacts;
-  std::vector<PredictedMotion> predicted;
+  std::vector<ContactSurface> surfaces;  // as contacts
+  std::vector<Motion> motions;     // as bodies
   std::vector<ActiveFinger> fingers;
   std::array<dJointFeedback, kMaxFingers> feedback{};
   std::array<Vec3, kMaxFingers> finger_force;
   Faults faults;
   std::uint64_t fallback_steps = 0;
-  bool failed = false;
+  bool solver_failed = false;  // the direct solver, in this step
+  bool failed = false;         // ODE itself: nothing moves any more
 };
 
 void OdeWorld::Impl::fault(Faults::Bit bit, std::uint64_t count) {
@@ -130,23 +142,6 @@ void OdeWorld::Impl::readFingers(const ContactExchange& exchange, double time, d
     if (!bodies->moves(body)) continue;
     const auto row = makeFingerRow(contact, bodies->inertiaState(body), time - exchange.time, h);
     if (row) fingers.push_back({f, body, *row});
-  }
-}
-
-void OdeWorld::Impl::predict(double h) {
-  for (std::size_t i = 0; i < bodies->size(); ++i) {
-    predicted[i] = {};
-    if (!bodies->moves(i)) continue;
-    const BodyInertiaState inertia = bodies->inertiaState(i);
-    Vec3 force = Vec3::Zero(), torque = bodies->gyroscopicTorque(i);
-    for (const ActiveFinger& active : fingers) {
-      if (active.body != i) continue;
-      force += active.row.expected_force_W;
-      torque += (active.row.p_WC - inertia.p_WCm).cross(active.row.expected_force_W);
-    }
-    predicted[i].p_WCm = inertia.p_WCm;
-    predicted[i].v_WCm = bodies->centreVelocity(i) + h * (world->scene.gravity + inertia.inverse_mass * force);
-    predicted[i].w_WB = bodies->angularVelocity(i) + h * inertia.inverse_inertia_W * torque;
   }
 }
 
@@ -173,33 +168,33 @@ void OdeWorld::Impl::addFingerJoint(const ActiveFinger& active) {
   dJointSetFeedback(joint, &feedback[active.finger]);
 }
 
-void OdeWorld::Impl::addContactJoint(const BodyContact& c) {
-  const auto A = static_cast<std::size_t>(c.A), B = static_cast<std::size_t>(c.B);
-  const Scene& scene = world->scene;
-  const auto velocity = [&](std::size_t i) -> Vec3 {
-    return bodies->moves(i) ? Vec3(bodies->centreVelocity(i) + bodies->angularVelocity(i).cross(c.p_W - predicted[i].p_WCm))
-                            : Vec3(Vec3::Zero());
-  };
-  const Vec3 relative = velocity(B) - velocity(A);
-  const double slip_speed = (relative - relative.dot(c.nhat_AB_W) * c.nhat_AB_W).norm();
+void OdeWorld::Impl::addContactJoint(const BodyContact& c, const ContactSurface& s) {
   dContact contact{};
   dSurfaceParameters& surface = contact.surface;
   surface.mode = dContactSoftERP | dContactSoftCFM | dContactFDir1 | dContactApprox1_1 | dContactApprox1_2;
-  surface.mu = pairFriction(scene.materialOf(scene.bodies[A]), scene.materialOf(scene.bodies[B]), slip_speed);
+  surface.mu = s.mu;
   surface.soft_erp = options.contact_erp;
-  surface.soft_cfm = options.contact_cfm;
+  surface.soft_cfm = s.cfm;
   assign(contact.geom.pos, c.p_W);
   assign(contact.geom.normal, c.nhat_AB_W);
   contact.geom.depth = c.depth;
-  assign(contact.fdir1, slipDirection(c.nhat_AB_W, c.p_W, predicted[A], predicted[B]));
+  assign(contact.fdir1, s.direction);
   const dJointID joint = dJointCreateContact(ode, joints, &contact);
-  dJointAttach(joint, bodies->body(B), bodies->body(A));
+  dJointAttach(joint, bodies->body(static_cast<std::size_t>(c.B)), bodies->body(static_cast<std::size_t>(c.A)));
 }
 
+void OdeWorld::Impl::addFingerJoints() {
+  if (options.coupling == OdeOptions::Coupling::kExplicitForce) return;
+  for (const ActiveFinger& active : fingers) addFingerJoint(active);
+}
+
+// Before each call of a solver: ODE forgets forces with every step, and those of disabled bodies must wait.
 void OdeWorld::Impl::applyExplicitForces() {
+  if (options.coupling == OdeOptions::Coupling::kSoftContact) return;
   for (const ActiveFinger& active : fingers) {
     const Vec3& f = active.row.expected_force_W;
     const Vec3& p = active.row.p_WC;
+    if (dBodyIsEnabled(bodies->body(active.body)) == 0) continue;
     dBodyAddForceAtPos(bodies->body(active.body), f.x(), f.y(), f.z(), p.x(), p.y(), p.z());
   }
 }
@@ -216,23 +211,25 @@ void OdeWorld::Impl::enableOnly(bool large) {
   }
 }
 
-void OdeWorld::Impl::stepQuick(double h) {
-  dWorldSetQuickStepNumIterations(ode, options.quick_iterations);
+void OdeWorld::Impl::stepQuick(double h, int iterations) {
+  applyExplicitForces();
+  dWorldSetQuickStepNumIterations(ode, iterations);
   random.with([&] { dWorldQuickStep(ode, h); });
 }
 
-void OdeWorld::Impl::stepDirect(double h) {
+void OdeWorld::Impl::stepDirect(double h, int iterations) {
   const std::uint64_t messages = messageCount();
+  applyExplicitForces();
   dWorldStep(ode, h);
   if (messageCount() == messages) return;
-  ++fallback_steps;
+  solver_failed = true;
   for (std::size_t i = 0; i < bodies->size(); ++i) {
     if (bodies->moves(i) && dBodyIsEnabled(bodies->body(i)) != 0) bodies->restore(i);
   }
-  stepQuick(h);
+  stepQuick(h, iterations);
 }
 
-void OdeWorld::Impl::integrate(double h) {
+void OdeWorld::Impl::integrate(double h, int iterations) {
   bool any_small = false, any_large = false;
   for (std::size_t i = 0; i < bodies->size(); ++i) {
     if (bodies->moves(i)) (islands.contacts(i) > options.direct_limit ? any_large : any_small) = true;
@@ -240,34 +237,79 @@ void OdeWorld::Impl::integrate(double h) {
   // a disabled body keeps its state and its joints are left out: each solver sees its own islands only
   if (any_small) {
     enableOnly(false);
-    stepDirect(h);
+    stepDirect(h, iterations);
   }
   if (any_large) {
     enableOnly(true);
-    stepQuick(h);
+    stepQuick(h, iterations);
+  }
+}
+
+int OdeWorld::Impl::quickIterations() const {
+  const int affordable = options.quick_budget / std::max(1, static_cast<int>(contacts.size()));
+  return std::min(options.quick_iterations, std::max(options.min_quick_iterations, affordable));
+}
+
+void OdeWorld::Impl::countIslands() {
+  islands.reset(bodies->size());
+  for (const BodyContact& contact : contacts) {
+    const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
+    bodies->moves(A) ? islands.join(A, B) : islands.touch(B);
+  }
+  for (const ActiveFinger& active : fingers) islands.touch(active.body);
+}
+
+// `start`: the bodies are where the step began; otherwise only their velocities are taken
+void OdeWorld::Impl::readMotions(bool start) {
+  for (std::size_t i = 0; i < bodies->size(); ++i) {
+    if (start) motions[i].p_WCm = bodies->moves(i) ? bodies->inertiaState(i).p_WCm : Vec3(Vec3::Zero());
+    motions[i].v_WCm = bodies->centreVelocity(i);
+    motions[i].w_WB = bodies->angularVelocity(i);
+  }
+}
+
+// Friction must point along the slip that the end of the step would see without it, and that depends on all that acts
+// on the bodies, their supports included. So the step is solved once without friction between bodies (a third of the
+// rows), the slip read, and everything put back.
+void OdeWorld::Impl::chooseFriction(double h) {
+  surfaces.resize(contacts.size());
+  readMotions(true);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const BodyContact& c = contacts[i];
+    const auto A = static_cast<std::size_t>(c.A), B = static_cast<std::size_t>(c.B);
+    const double slip_speed = slipVelocity(c.nhat_AB_W, c.p_W, motions[A], motions[B]).norm();
+    const Scene& scene = world->scene;
+    const double cfm = h * options.contact_softness * (bodies->inverseMass(A) + bodies->inverseMass(B));
+    surfaces[i] = {std::min(cfm, options.max_contact_cfm), 0, c.nhat_AB_W.unitOrthogonal()};
+    addContactJoint(c, surfaces[i]);
+    surfaces[i].mu = pairFriction(scene.materialOf(scene.bodies[A]), scene.materialOf(scene.bodies[B]), slip_speed);
+  }
+  addFingerJoints();
+  integrate(h, std::min(quickIterations(), kPredictionIterations));
+  dJointGroupEmpty(joints);
+  readMotions(false);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const BodyContact& c = contacts[i];
+    const Vec3 slip = slipVelocity(c.nhat_AB_W, c.p_W, motions[static_cast<std::size_t>(c.A)],
+                                   motions[static_cast<std::size_t>(c.B)]);
+    surfaces[i].direction = frictionDirection(c.nhat_AB_W, slip);
+  }
+  for (std::size_t i = 0; i < bodies->size(); ++i) {
+    if (bodies->moves(i)) bodies->restore(i);
   }
 }
 
 void OdeWorld::Impl::solveStep(const ContactExchange& exchange, double time, double h) {
   bodies->beginStep();
   readFingers(exchange, time, h);
-  predict(h);
   collider.find(space, *bodies, contacts);
-  islands.reset(bodies->size());
-  for (const BodyContact& contact : contacts) {
-    const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
-    bodies->moves(A) ? islands.join(A, B) : islands.touch(B);
-    addContactJoint(contact);
-  }
-  if (options.coupling == OdeOptions::Coupling::kExplicitForce) {
-    applyExplicitForces();
-  } else {
-    for (const ActiveFinger& active : fingers) {
-      islands.touch(active.body);
-      addFingerJoint(active);
-    }
-  }
-  integrate(h);
+  countIslands();
+  if (!contacts.empty()) chooseFriction(h);
+  solver_failed = false;  // a look ahead that failed costs a direction only
+  for (std::size_t i = 0; i < contacts.size(); ++i) addContactJoint(contacts[i], surfaces[i]);
+  addFingerJoints();
+  integrate(h, quickIterations());
+  if (solver_failed) ++fallback_steps;
   for (const ActiveFinger& active : fingers) {
     finger_force[active.finger] = options.coupling == OdeOptions::Coupling::kExplicitForce
                                       ? active.row.expected_force_W

@@ -6,7 +6,7 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kMaxAngle = 0.25;  // [rad] per Runge-Kutta step
+constexpr double kMaxAngle = 0.025;  // [rad] per Runge-Kutta step
 constexpr int kMaxSubsteps = 64;
 
 Vec3 spin(const Quat& q, const Mat3& inverse_inertia, const Vec3& momentum_W) {

@@ -5,7 +5,7 @@ namespace presa::ode {
 
 /// Free rotation of a rigid body over `h` [s]: orientation q_WB and angular velocity w_WB [rad/s] (both in and out)
 /// for inertia I about the centre of mass in body axes [kg m^2] and its inverse. The angular momentum is constant, so
-/// only q_WB' = 1/2 w(q_WB) q_WB is integrated (classical Runge-Kutta, sub-steps of at most 1/4 rad) and w follows from it:
+/// only q_WB' = 1/2 w(q_WB) q_WB is integrated (classical Runge-Kutta, sub-steps of 1/40 rad) and w follows from it:
 /// momentum is exact to rounding, energy to fifth order in h per step.
 void driftRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h);
 

@@ -144,7 +144,7 @@ void HapticsProxy::stepFinger(std::size_t f) noexcept {
   };
   const ProxyContact contact = stepProxy(proxy.p_AP, g, r, proxy.mode != ContactMode::kNone,
                                          proxy.mode == ContactMode::kSlip, *surroundings_, coneOf);
-  countPopThrough(proxy, contact, r);
+  countPopThrough(f, contact, r);
   if (!contact.covered) ++contact_.value.coverage_lost;
   proxy.p_AP = contact.x;
   proxy.mode = !contact.touching ? ContactMode::kNone : contact.slipping ? ContactMode::kSlip : ContactMode::kStick;
@@ -202,12 +202,16 @@ std::int32_t HapticsProxy::nearestBody(const Vec3& p) const noexcept {
 
 // Checked apart from the algorithm that should prevent it: the fingertip's centre must never come within
 // half its radius of a surface.
-void HapticsProxy::countPopThrough(Proxy& proxy, const ProxyContact& contact, double r) noexcept {
+void HapticsProxy::countPopThrough(std::size_t f, const ProxyContact& contact, double r) noexcept {
+  Proxy& proxy = proxies_[f];
   bool overlapping = false;
   for (int i = 0; i < surroundings_->count && !overlapping; ++i) {
     overlapping = nearest(surroundings_->pieces[static_cast<std::size_t>(i)], contact.x).distance < 0.5 * r;
   }
-  if (overlapping && !proxy.overlapping) ++contact_.value.pop_through;
+  if (overlapping && !proxy.overlapping) {
+    ++contact_.value.pop_through;
+    ++contact_.value.pop_through_by_finger[f];
+  }
   proxy.overlapping = overlapping;
 }
 

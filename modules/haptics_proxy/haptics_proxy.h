@@ -47,7 +47,7 @@ class HapticsProxy final : public Module {
   std::int32_t nearestBody(const Vec3& p) const noexcept;
   void writeContact(FingerContact& out, const Proxy& proxy, const ProxyContact& contact, const Pose& X_WA, double r) const noexcept;
   Vec3 surfaceVelocity(std::int32_t body, const Vec3& p_W) const noexcept;
-  void countPopThrough(Proxy& proxy, const ProxyContact& contact, double r) noexcept;
+  void countPopThrough(std::size_t f, const ProxyContact& contact, double r) noexcept;
 
   std::shared_ptr<const World> world_;
   std::vector<Primitive> primitives_;

@@ -61,6 +61,7 @@ TEST(StateHash, EveryFieldCounts) {
       [](States& s) { s.contact.time = 1; },
       [](States& s) { s.contact.coverage_lost = 1; },
       [](States& s) { s.contact.pop_through = 1; },
+      [](States& s) { s.contact.pop_through_by_finger[1] = 1; },
       [](States& s) { s.contact.fingers[1].mode = ContactMode::kSlip; },
       [](States& s) { s.contact.fingers[1].body = 7; },
       [](States& s) { s.contact.fingers[1].p_WH.x() = 1; },

@@ -1,144 +1,45 @@
-#include <assimp/BaseImporter.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
-#include <assimp/Importer.hpp>
-#include <cmath>
-#include <limits>
+#include <filesystem>
 #include <memory>
-#include <new>
-#include <set>
-#include <string>
-#include <vector>
 
 #include "framework/geometry/mesh_import_abi.h"
+#include "framework/geometry/mesh_import_plugin/isolation.h"
+#include "framework/geometry/mesh_import_plugin/mesh_reader.h"
 
 namespace presa {
 namespace {
 
-/// The arrays of a result live as long as the result.
+/// What a reader may allocate: assimp keeps below 100 bytes for each byte of a file (ASCII formats less), small files
+/// need room for its own tables. A header that claims more than that is lying.
+constexpr std::size_t kBaseMemory = 256u << 20;
+constexpr std::size_t kMemoryPerByte = 100;
+/// Processor time: a good megabyte takes below a second even as text.
+constexpr unsigned kBaseSeconds = 2;
+constexpr unsigned kSecondsPerMegabyte = 1;
+
+/// The arrays live as long as the result.
 struct OwnedMesh : ImportedMesh {
-  std::vector<double> coordinates_owned;
-  std::vector<std::int32_t> indices_owned;
-  std::string problem_owned;
-
-  void finish() {
-    problem = problem_owned.empty() ? nullptr : problem_owned.c_str();
-    coordinates = coordinates_owned.data();
-    vertex_count = coordinates_owned.size() / 3;
-    indices = indices_owned.data();
-    triangle_count = indices_owned.size() / 3;
+  explicit OwnedMesh(RawMesh mesh) : raw(std::move(mesh)) {
+    problem = raw.problem.empty() ? nullptr : raw.problem.c_str();
+    coordinates = raw.coordinates.data();
+    vertex_count = raw.coordinates.size() / 3;
+    indices = raw.indices.data();
+    triangle_count = raw.indices.size() / 3;
+    ignored_faces = raw.ignored_faces;
   }
+  RawMesh raw;
 };
-
-/// Assimp tries every one of its 40-odd readers on a file that the first one refuses. A broken OBJ file is a broken OBJ
-/// file: leave only the readers of its extension.
-void keepReadersOf(Assimp::Importer& importer, const std::string& extension) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    Assimp::BaseImporter* reader = importer.GetImporter(i);
-    std::set<std::string> extensions;
-    reader->GetExtensionList(extensions);
-    if (extensions.contains(extension)) continue;
-    importer.UnregisterLoader(reader);
-    delete reader;  // unregistering hands over ownership
-  }
-}
-
-bool indicesValid(const aiMesh& mesh) {
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    for (unsigned i = 0; i < mesh.mFaces[f].mNumIndices; ++i) {
-      if (mesh.mFaces[f].mIndices[i] >= mesh.mNumVertices) return false;
-    }
-  }
-  return true;
-}
-
-bool verticesFinite(const aiMesh& mesh) {
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-    const aiVector3D& p = mesh.mVertices[v];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-  }
-  return true;
-}
-
-/// Whether polygons may be split by assimp, which trusts indices and positions.
-bool sound(const aiScene& scene) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    if (!indicesValid(*scene.mMeshes[m]) || !verticesFinite(*scene.mMeshes[m])) return false;
-  }
-  return true;
-}
-
-/// Appends one instance of a mesh, placed by the accumulated transforms of its node.
-void append(const aiMesh& mesh, const aiMatrix4x4& placement, OwnedMesh& out) {
-  if ((out.coordinates_owned.size() / 3) + mesh.mNumVertices > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
-    throw std::bad_alloc();
-  }
-  const auto base = static_cast<std::int32_t>(out.coordinates_owned.size() / 3);
-  const auto number = [&](unsigned index) {
-    return index < mesh.mNumVertices ? base + static_cast<std::int32_t>(index) : -1;  // -1: does not exist
-  };
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-    const aiVector3D p = placement * mesh.mVertices[v];
-    out.coordinates_owned.insert(out.coordinates_owned.end(), {p.x, p.y, p.z});
-  }
-  const bool mirrored = placement.Determinant() < 0;
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& face = mesh.mFaces[f];
-    out.ignored_faces += face.mNumIndices < 3;
-    for (unsigned i = 2; i < face.mNumIndices; ++i) {
-      const std::int32_t a = number(face.mIndices[0]), b = number(face.mIndices[i - 1]), c = number(face.mIndices[i]);
-      out.indices_owned.insert(out.indices_owned.end(), {a, mirrored ? c : b, mirrored ? b : c});
-    }
-  }
-}
-
-void appendNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, OwnedMesh& out) {
-  const aiMatrix4x4 placement = parent * node.mTransformation;
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) append(*scene.mMeshes[node.mMeshes[i]], placement, out);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) appendNode(scene, *node.mChildren[i], placement, out);
-}
-
-/// Assimp delivers glTF and COLLADA with y up (it turns COLLADA's own up axis to y and applies its unit).
-void turnToZUp(std::vector<double>& coordinates) {
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
-    const double y = coordinates[i + 1], z = coordinates[i + 2];
-    coordinates[i + 1] = -z;
-    coordinates[i + 2] = y;
-  }
-}
-
-void read(const std::string& file, const std::string& extension, OwnedMesh& out) {
-  Assimp::Importer importer;
-  keepReadersOf(importer, extension);
-  const aiScene* scene = importer.ReadFile(file, 0);
-  if (scene != nullptr && sound(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (scene == nullptr) {
-    const std::string reason = importer.GetErrorString();
-    out.problem_owned = reason.empty() ? "it cannot be read" : reason;
-    return;
-  }
-  if (scene->mRootNode != nullptr) appendNode(*scene, *scene->mRootNode, aiMatrix4x4(), out);
-  if (extension == "dae" || extension == "gltf" || extension == "glb") turnToZUp(out.coordinates_owned);
-}
 
 }  // namespace
 }  // namespace presa
 
 extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* presaImportMesh(const char* file,
                                                                                              const char* extension) {
-  auto result = std::make_unique<presa::OwnedMesh>();
-  try {
-    presa::read(file, extension, *result);
-  } catch (const std::bad_alloc&) {
-    result->problem_owned = "it claims more vertices than memory holds";
-  } catch (const std::exception& error) {
-    result->problem_owned = error.what();
-  } catch (...) {
-    result->problem_owned = "the reader failed";
-  }
-  result->finish();
-  return result.release();
+  std::error_code unknown;
+  const std::uintmax_t found = std::filesystem::file_size(file, unknown);
+  const std::uintmax_t size = unknown ? 0 : found;
+  const presa::IsolationLimits limits{presa::kBaseMemory + presa::kMemoryPerByte * size,
+                                      presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
+  return new presa::OwnedMesh(presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, out); }));
 }
 
 extern "C" __attribute__((visibility("default"))) void presaReleaseMesh(const presa::ImportedMesh* mesh) {

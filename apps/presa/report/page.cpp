@@ -1,0 +1,113 @@
+#include "apps/presa/report/page.h"
+
+namespace presa::page {
+
+// Colours keep their order of lightness for readers who do not tell hues apart; paper is always light.
+const char* const kStyle = R"CSS(
+:root { color-scheme: light dark;
+  --bg: #ffffff; --card: #f6f7f9; --ink: #1b1f24; --soft: #5b6570; --rule: #dde1e6; --grid: #e7eaee;
+  --band0: #eef3f8; --band1: #ffffff; --good: #0b7a53; --bad: #b3261e; --neutral: #44546a;
+  --finger: #1a936f; --proxy: #7fcfb2; --object: #c8451b; --force: #1f6fb5; --tangential: #8aa5bd; --state: #1b1f24;
+  --limit: #a0522d; }
+@media screen and (prefers-color-scheme: dark) { :root {
+  --bg: #14171b; --card: #1d2127; --ink: #e6e9ed; --soft: #9aa5b1; --rule: #343b44; --grid: #2a3038;
+  --band0: #1c232b; --band1: #14171b; --good: #4cc38a; --bad: #ff8a80; --neutral: #a9b8cc;
+  --finger: #3ddc97; --proxy: #2a7d62; --object: #ff8552; --force: #5aa9e6; --tangential: #4d6f8c; --state: #e6e9ed;
+  --limit: #d9a066; } }
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--bg); color: var(--ink); font: 15px/1.5 system-ui, "Liberation Sans", sans-serif; }
+main { max-width: 1120px; margin: 0 auto; padding: 28px 20px 60px; }
+h1 { font-size: 26px; line-height: 1.25; margin: 0 0 4px; }
+h2 { font-size: 18px; margin: 36px 0 10px; }
+h3 { font-size: 15px; margin: 18px 0 4px; }
+p { margin: 6px 0; }
+.lead { color: var(--soft); margin: 0 0 18px; }
+.verdict { background: var(--card); border-left: 5px solid var(--neutral); border-radius: 4px; padding: 14px 18px; }
+.verdict.good { border-color: var(--good); } .verdict.bad { border-color: var(--bad); }
+.verdict b { font-size: 18px; }
+.verdict.good b { color: var(--good); } .verdict.bad b { color: var(--bad); }
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(165px, 1fr)); gap: 10px; margin: 14px 0; }
+.tile { background: var(--card); border-radius: 4px; padding: 10px 14px; }
+.tile span { display: block; color: var(--soft); font-size: 13px; }
+.tile strong { font-size: 20px; font-variant-numeric: tabular-nums; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; font-size: 14px; }
+th, td { padding: 5px 10px; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
+th { color: var(--soft); font-weight: 600; }
+th:first-child, td:first-child { text-align: left; padding-left: 0; }
+table.facts td { text-align: left; white-space: normal; overflow-wrap: anywhere; }
+table.facts td:first-child { color: var(--soft); width: 170px; white-space: nowrap; vertical-align: top; }
+.caption, .empty { color: var(--soft); font-size: 14px; }
+ul { margin: 6px 0; padding-left: 20px; }
+.fault { color: var(--bad); }
+code { font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
+pre { background: var(--card); border-radius: 4px; padding: 10px 14px; white-space: pre-wrap; overflow-wrap: anywhere; margin: 8px 0; }
+img { max-width: 100%; border-radius: 4px; display: block; }
+.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 16px; }
+.plot { position: relative; overflow-x: auto; }
+.plot > svg { width: 100%; height: auto; display: block; }
+svg text { font: 12px system-ui, "Liberation Sans", sans-serif; fill: var(--ink); }
+svg .tick { fill: var(--soft); font-variant-numeric: tabular-nums; } svg .ytick { text-anchor: end; } svg .xtick, svg .phase { text-anchor: middle; }
+svg .phase { fill: var(--soft); font-weight: 600; } svg .panel-title { font-weight: 600; font-size: 13px; }
+svg .level-label { text-anchor: end; fill: var(--limit); }
+svg .grid { stroke: var(--grid); } svg .axis { stroke: var(--soft); } svg .cursor { stroke: var(--soft); visibility: hidden; }
+svg .band0 { fill: var(--band0); } svg .band1 { fill: var(--band1); }
+svg .line { fill: none; stroke-width: 1.8; stroke-linejoin: round; }
+svg .finger { stroke: var(--finger); } svg .proxy { stroke: var(--proxy); stroke-dasharray: 6 4; } svg .object { stroke: var(--object); }
+svg .force { stroke: var(--force); } svg .tangential { stroke: var(--tangential); } svg .state { stroke: var(--state); }
+svg .level { stroke: var(--limit); stroke-dasharray: 3 3; }
+svg .dots { fill: none; stroke-width: 3; stroke-linecap: round; stroke-opacity: .75; } svg .dots.big { stroke-width: 8; }
+svg .stick { stroke: var(--force); } svg .slip { stroke: var(--object); }
+svg .ray { stroke-width: 1.5; } svg .static { stroke: var(--ink); } svg .dynamic { stroke: var(--soft); stroke-dasharray: 5 4; }
+svg .mark { fill: none; stroke: var(--bad); stroke-width: 2; }
+.readout { position: absolute; top: 50px; pointer-events: none; background: var(--bg); border: 1px solid var(--rule); border-radius: 4px;
+  padding: 6px 10px; font-size: 13px; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.readout div { display: flex; justify-content: space-between; gap: 18px; }
+.readout span { color: var(--soft); }
+@media (max-width: 700px) { .plot > svg { min-width: 640px; } .pair .plot > svg { min-width: 0; } }
+@media print {
+  @page { margin: 14mm; } body { font-size: 11pt; } main { padding: 0; max-width: none; }
+  * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  .plot, .tiles, .verdict, table, figure, h3 + .plot { break-inside: avoid; } h2, h3 { break-after: avoid; } .readout { display: none; }
+  .pair { grid-template-columns: 1fr 1fr; } .plot, .scroll { overflow: visible; } }
+)CSS";
+
+// Shows the values under the pointer. Without it the page loses nothing else.
+const char* const kScript = R"JS(
+for (const plot of document.querySelectorAll('.plot')) {
+  const block = plot.querySelector('script[type="application/json"]');
+  if (!block) continue;
+  const data = JSON.parse(block.textContent);
+  const svg = plot.querySelector('svg'), cursor = svg.querySelector('.cursor'), box = plot.querySelector('.readout');
+  const nearest = t => {
+    let low = 0, high = data.time.length - 1;
+    while (high - low > 1) { const mid = (low + high) >> 1; if (data.time[mid] < t) low = mid; else high = mid; }
+    return t - data.time[low] < data.time[high] - t ? low : high;
+  };
+  const row = (name, value) => {
+    const div = document.createElement('div'), span = document.createElement('span');
+    span.textContent = name; div.append(span, value); return div;
+  };
+  const hide = () => { box.hidden = true; cursor.style.visibility = 'hidden'; };
+  svg.addEventListener('pointermove', event => {
+    const area = svg.getBoundingClientRect();
+    const x = (event.clientX - area.left) / area.width * svg.viewBox.baseVal.width;
+    if (x < data.x0 || x > data.x1) return hide();
+    const t = data.t0 + (x - data.x0) / (data.x1 - data.x0) * (data.t1 - data.t0), i = nearest(t);
+    const at = data.x0 + (data.time[i] - data.t0) / (data.t1 - data.t0) * (data.x1 - data.x0);
+    cursor.setAttribute('x1', at); cursor.setAttribute('x2', at); cursor.style.visibility = 'visible';
+    const band = data.bands.find(b => b[1] <= data.time[i] && data.time[i] < b[2]);
+    box.replaceChildren(row(band ? band[0] : 'time', data.time[i].toFixed(3) + ' s'));
+    for (const s of data.series) {
+      const y = s.y[i];
+      box.append(row(s.label, y === null ? '\u2013' : s.names.length ? s.names[y] : y.toPrecision(4) + ' ' + s.unit));
+    }
+    box.hidden = false;
+    const left = at / svg.viewBox.baseVal.width * area.width;
+    box.style.left = (left + box.offsetWidth + 24 > area.width ? left - box.offsetWidth - 12 : left + 12) + 'px';
+  });
+  svg.addEventListener('pointerleave', hide);
+}
+)JS";
+
+}  // namespace presa::page

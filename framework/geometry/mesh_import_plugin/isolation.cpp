@@ -1,0 +1,135 @@
+#include "framework/geometry/mesh_import_plugin/isolation.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+namespace presa {
+namespace {
+
+/// Sizes of what follows in the pipe: problem, coordinates, indices.
+struct Header {
+  std::uint64_t problem = 0, coordinates = 0, indices = 0, ignored_faces = 0;
+};
+
+bool writeAll(int descriptor, const void* data, std::size_t size) {
+  const char* bytes = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(descriptor, bytes, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+bool readAll(int descriptor, void* data, std::size_t size) {
+  char* bytes = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t got = read(descriptor, bytes, size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    bytes += got;
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool send(int descriptor, const RawMesh& mesh) {
+  const Header header{mesh.problem.size(), mesh.coordinates.size(), mesh.indices.size(), mesh.ignored_faces};
+  return writeAll(descriptor, &header, sizeof header) && writeAll(descriptor, mesh.problem.data(), header.problem) &&
+         writeAll(descriptor, mesh.coordinates.data(), header.coordinates * sizeof(double)) &&
+         writeAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
+}
+
+bool receive(int descriptor, RawMesh& mesh) {
+  Header header;
+  if (!readAll(descriptor, &header, sizeof header)) return false;
+  mesh.problem.resize(header.problem);
+  mesh.coordinates.resize(header.coordinates);
+  mesh.indices.resize(header.indices);
+  mesh.ignored_faces = header.ignored_faces;
+  return readAll(descriptor, mesh.problem.data(), header.problem) &&
+         readAll(descriptor, mesh.coordinates.data(), header.coordinates * sizeof(double)) &&
+         readAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
+}
+
+/// Writable memory this process has mapped already [bytes]: the limit of the child counts from there.
+std::size_t mappedData() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t pages = 0;
+  for (int field = 0; field < 6; ++field) statm >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit(int resource, std::size_t value) {
+  rlimit wanted{value, value};
+  setrlimit(static_cast<__rlimit_resource>(resource), &wanted);
+}
+
+[[noreturn]] void child(int descriptor, const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
+  // what a crashing reader prints would only hide the finding that names the file
+  if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
+  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, limits.seconds);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of shadow memory
+  limit(RLIMIT_DATA, mappedData() + limits.memory);
+#endif
+  RawMesh mesh;
+  try {
+    work(mesh);
+  } catch (const std::bad_alloc&) {
+    mesh = {};
+    mesh.problem = "it claims more data than it holds";
+  } catch (const std::exception& error) {
+    mesh = {};
+    mesh.problem = error.what();
+  }
+  send(descriptor, mesh);
+  _exit(0);  // neither destructors nor exit handlers of the parent
+}
+
+std::string causeOfDeath(int status) {
+  if (!WIFSIGNALED(status)) return "the reader gave up";
+  if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL) return "the reader did not come to an end";
+  return std::string("the reader crashed on it (") + strsignal(WTERMSIG(status)) + ")";
+}
+
+}  // namespace
+
+RawMesh runIsolated(const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
+  RawMesh mesh;
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    mesh.problem = std::string("no pipe for the reader: ") + std::strerror(errno);
+    return mesh;
+  }
+  const pid_t process = fork();
+  if (process == 0) {
+    close(ends[0]);
+    child(ends[1], limits, work);
+  }
+  close(ends[1]);
+  const bool whole = process > 0 && receive(ends[0], mesh);
+  close(ends[0]);
+  int status = 0;
+  while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!whole) {
+    mesh = {};
+    mesh.problem = process > 0 ? causeOfDeath(status) : std::string("no process for the reader: ") + std::strerror(errno);
+  }
+  return mesh;
+}
+
+}  // namespace presa

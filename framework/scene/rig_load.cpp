@@ -1,0 +1,109 @@
+#include <filesystem>
+
+#include "framework/scene/scene_parts.h"
+#include "framework/scene/schemas.h"
+#include "framework/state/limits.h"
+
+namespace presa {
+namespace {
+
+using xml::Element;
+
+enum Code { kVersion = 401, kDuplicateRole = 402, kDuplicateKey = 403, kCapacity = 404 };
+
+const xml::Schema& rigSchema() {
+  static const xml::Schema schema(schemas::rig);
+  return schema;
+}
+
+bool isPath(const std::string& key) { return key == "motion" || key == "file"; }
+
+void addSetting(DeviceBinding& binding, const std::string& key, const DeviceBinding::Setting& setting,
+                const SourceLocation& where, Diagnostics& diagnostics) {
+  const auto [found, is_new] = binding.settings.try_emplace(key, setting);
+  if (is_new) return;
+  diagnostics.error(kDuplicateKey, where, "device " + quote(binding.role) + " sets " + quote(key) + " twice",
+                    "the first is in line " + std::to_string(found->second.where.line));
+}
+
+DeviceBinding readBinding(const Element& device, Diagnostics& diagnostics) {
+  DeviceBinding binding;
+  binding.role = device.attribute("role");
+  binding.driver = device.attribute("driver");
+  binding.where = device.where();
+  if (device.hasAttribute("serial")) {
+    const SourceLocation where = device.where("serial");
+    addSetting(binding, "serial", {device.attribute("serial"), where}, where, diagnostics);
+  }
+  for (const Element& set : device.children("set")) {
+    if (!set.hasAttribute("key") || set.flawed("key")) continue;
+    addSetting(binding, set.attribute("key"), {set.attribute("value"), set.where("value")}, set.where("key"), diagnostics);
+  }
+  return binding;
+}
+
+void resolvePaths(const Element& device, const std::string& directory) {
+  for (Element set : device.children("set")) {
+    if (isPath(set.attribute("key"))) set.setAttribute("value", resolvePath(set.attribute("value"), directory));
+  }
+}
+
+void checkRoles(const std::vector<Element>& devices, Diagnostics& diagnostics) {
+  std::map<std::string, SourceLocation> first;
+  for (const Element& device : devices) {
+    if (!device.hasAttribute("role") || device.flawed("role")) continue;
+    const auto [found, is_new] = first.try_emplace(device.attribute("role"), device.where("role"));
+    if (is_new) continue;
+    diagnostics.error(kDuplicateRole, device.where("role"),
+                      "a second device plays the role " + quote(device.attribute("role")),
+                      "the first is in line " + std::to_string(found->second.line));
+  }
+  if (devices.size() > static_cast<std::size_t>(kMaxFingers)) {
+    diagnostics.error(kCapacity, devices[static_cast<std::size_t>(kMaxFingers)].where(),
+                      "the rig has " + std::to_string(devices.size()) + " devices, at most " +
+                          std::to_string(kMaxFingers) + " are possible");
+  }
+}
+
+Rig readDocument(xml::Document& document, const std::string& directory, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.errorCount();
+  Rig rig;
+  document.validate(rigSchema(), diagnostics);
+  const Element root = document.root();
+  if (root.name() == rigSchema().root().name) {
+    checkVersion(root, "rig", kVersion, diagnostics);
+    checkRoles(root.children("device"), diagnostics);
+    document.writeDefaults(rigSchema());
+    rig.name = root.attribute("name");
+    for (const Element& device : root.children("device")) {
+      resolvePaths(device, directory);
+      rig.devices.push_back(readBinding(device, diagnostics));
+    }
+    rig.resolved_xml = document.text();
+  }
+  if (diagnostics.errorCount() > errors_before) rig = {};  // all or nothing: no half-read rig
+  rig.file = document.name();
+  return rig;
+}
+
+Rig emptyRig(const std::string& file) {
+  Rig rig;
+  rig.file = file;
+  return rig;
+}
+
+}  // namespace
+
+Rig loadRig(const std::string& file, Diagnostics& diagnostics) {
+  const auto document = xml::Document::load(file, diagnostics);
+  if (!document) return emptyRig(file);
+  return readDocument(*document, std::filesystem::path(file).parent_path().string(), diagnostics);
+}
+
+Rig parseRig(const std::string& xml, const std::string& name, const std::string& directory, Diagnostics& diagnostics) {
+  const auto document = xml::Document::parse(xml, name, diagnostics);
+  if (!document) return emptyRig(name);
+  return readDocument(*document, directory, diagnostics);
+}
+
+}  // namespace presa

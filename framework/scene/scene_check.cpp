@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "framework/scene/scene_parts.h"
+#include "framework/state/limits.h"
+#include "framework/xml/value_rule.h"
+
+namespace presa {
+namespace {
+
+using xml::Element;
+using xml::numberText;
+
+enum Code {
+  kDuplicateName = 203,
+  kUnknownMaterial = 204,
+  kNoMaterial = 205,
+  kNoPhysics = 206,
+  kMassOrDensity = 207,
+  kFriction = 208,
+  kRates = 209,
+  kCapacity = 210,
+  kTwoOrientations = 211,
+  kZeroQuat = 212,
+  kNoBody = 213,
+  kMassOfFixed = 220,
+  kNoGeometry = 221
+};
+
+/// Different values of one attribute, in order.
+std::vector<std::string> valuesOf(const std::vector<Element>& elements, const std::string& attribute) {
+  std::vector<std::string> values;
+  for (const Element& element : elements) {
+    const std::string value = element.attribute(attribute);
+    const bool is_new = std::find(values.begin(), values.end(), value) == values.end();
+    if (is_new && element.hasAttribute(attribute)) values.push_back(value);
+  }
+  return values;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string lineText(const SourceLocation& where) {
+  return where.line > 0 ? "line " + std::to_string(where.line) : where.file;
+}
+
+class SceneCheck {
+ public:
+  SceneCheck(const Element& root, Diagnostics& diagnostics)
+      : root_(root), diagnostics_(diagnostics), materials_(materialElements(root)) {}
+
+  void run() {
+    const std::vector<Element> bodies = root_.children("body"), devices = deviceElements(root_);
+    unique(materials_, "name", "material");
+    unique(bodies, "name", "body");
+    unique(devices, "role", "device role");
+    capacity(bodies, kMaxBodies, "bodies");
+    capacity(devices, kMaxFingers, "devices");
+    for (const Element& rates : root_.children("rates")) checkRates(rates);
+    for (const Element& material : materials_) checkFriction(material);
+    if (bodies.empty()) diagnostics_.error(kNoBody, root_.where(), "the scene has no <body>", "a scene needs at least one body");
+    if (materials_.empty() && !bodies.empty()) {
+      diagnostics_.error(kNoMaterial, root_.where(), "the scene has no <material>, and bodies need one",
+                         "add <materials><material name=\"rubber\" stiffness=\"1000\"/></materials>");
+    }
+    for (const Element& body : bodies) checkBody(body);
+  }
+
+ private:
+  void unique(const std::vector<Element>& elements, const std::string& attribute, const std::string& kind) {
+    std::map<std::string, SourceLocation> first;
+    for (const Element& element : elements) {
+      if (!element.hasAttribute(attribute) || element.flawed(attribute)) continue;
+      const std::string name = element.attribute(attribute);
+      const auto [found, is_new] = first.try_emplace(name, element.where(attribute));
+      if (is_new) continue;
+      diagnostics_.error(kDuplicateName, element.where(attribute), "a second " + kind + " is named " + quote(name),
+                         "the first is in " + lineText(found->second));
+    }
+  }
+
+  void capacity(const std::vector<Element>& elements, int limit, const std::string& kind) {
+    if (elements.size() <= static_cast<std::size_t>(limit)) return;
+    diagnostics_.error(kCapacity, elements[static_cast<std::size_t>(limit)].where(),
+                       "the scene has " + std::to_string(elements.size()) + " " + kind + ", at most " +
+                           std::to_string(limit) + " are possible");
+  }
+
+  void checkRates(const Element& rates) {
+    const Rates defaults;
+    if (rates.flawed("haptic")) return;
+    const double haptic = rates.number("haptic", defaults.haptic);
+    wholeRatio(rates, haptic, "collision", defaults.collision);
+    wholeRatio(rates, haptic, "dynamics", defaults.dynamics);
+  }
+
+  void wholeRatio(const Element& rates, double haptic, const std::string& name, double fallback) {
+    if (rates.flawed(name)) return;
+    const double rate = rates.number(name, fallback);
+    const double ratio = haptic / rate;
+    // 1e-9: a rate such as 333.3333333333 is meant as a third, a rate such as 333 is not
+    const bool is_whole = ratio > 0.5 && std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
+    if (is_whole) return;
+    const std::string culprit = rates.hasAttribute(name) ? name : "haptic";
+    diagnostics_.error(kRates, rates.where(culprit),
+                       "haptic / " + name + " must be a whole number, found " + numberText(haptic) + " / " +
+                           numberText(rate) + " = " + shortText(ratio),
+                       "nearest " + name + " rates that fit: " + fittingRates(haptic, ratio));
+  }
+
+  static std::string shortText(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+  }
+
+  /// The next slower and the next faster rate that divide `haptic` and are short to write.
+  static std::string fittingRates(double haptic, double ratio) {
+    const auto is_short = [&](double n) { return std::abs(haptic / n * 1000 - std::round(haptic / n * 1000)) < 1e-9; };
+    std::vector<std::string> rates;
+    double slower = std::max(1.0, std::ceil(ratio));
+    while (slower < haptic && !is_short(slower)) ++slower;
+    if (is_short(slower)) rates.push_back(shortText(haptic / slower));
+    double faster = std::floor(ratio);
+    while (faster > 1 && !is_short(faster)) --faster;
+    if (faster >= 1) rates.push_back(shortText(haptic / faster));
+    return listed(rates);
+  }
+
+  void checkFriction(const Element& material) {
+    for (const Element& friction : material.children("friction")) {
+      const bool has_both = friction.hasAttribute("static") && friction.hasAttribute("dynamic");
+      if (!has_both || friction.flawed("static") || friction.flawed("dynamic")) continue;
+      if (friction.number("dynamic", 0) <= friction.number("static", 0)) continue;
+      diagnostics_.error(kFriction, friction.where("dynamic"),
+                         "dynamic friction of " + material.label() + " must not be above static friction, found " +
+                             friction.attribute("dynamic") + " > " + friction.attribute("static"));
+    }
+  }
+
+  void checkBody(const Element& body) {
+    checkOrientation(body);
+    for (const Element& geometry : body.children()) checkOrientation(geometry);
+    checkMaterial(body);
+    const std::vector<Element> physics = body.children("physics");
+    if (body.boolean("fixed", false)) {
+      for (const Element& one : physics) checkFixedPhysics(one);
+    } else if (!body.flawed("fixed")) {
+      checkFreePhysics(body, physics);
+    }
+    if (body.children().empty() && body.boolean("fixed", false)) {
+      diagnostics_.warning(kNoGeometry, body.where(), body.label() + " has no geometry: it is neither seen nor felt");
+    }
+  }
+
+  void checkOrientation(const Element& element) {
+    if (element.hasAttribute("euler_deg") && element.hasAttribute("quat")) {
+      diagnostics_.error(kTwoOrientations, element.where("quat"),
+                         element.label() + " has both 'euler_deg' and 'quat', only one is allowed");
+    }
+    const std::vector<double> quat = element.numbers("quat");
+    if (quat == std::vector<double>{0, 0, 0, 0}) {
+      diagnostics_.error(kZeroQuat, element.where("quat"), "'quat' of " + element.label() + " is zero: no rotation",
+                         "quat: w x y z; no turn is \"1 0 0 0\"");
+    }
+  }
+
+  void checkMaterial(const Element& body) {
+    const std::vector<std::string> names = valuesOf(materials_, "name");
+    if (materials_.empty() || body.flawed("material")) return;
+    if (!body.hasAttribute("material")) {
+      if (materials_.size() == 1) return;
+      diagnostics_.error(kNoMaterial, body.where(), body.label() + " has no 'material', and there are several",
+                         "materials: " + listed(names));
+      return;
+    }
+    const std::string material = body.attribute("material");
+    for (const std::string& name : names) {
+      if (name == material) return;
+    }
+    diagnostics_.error(kUnknownMaterial, body.where("material"),
+                       body.label() + " has material " + quote(material) + ", which does not exist" +
+                           didYouMean(material, names),
+                       "materials: " + listed(names));
+  }
+
+  void checkFixedPhysics(const Element& physics) {
+    for (const char* attribute : {"mass", "density"}) {
+      if (!physics.hasAttribute(attribute)) continue;
+      diagnostics_.warning(kMassOfFixed, physics.where(attribute),
+                           quote(attribute) + " of " + physics.label() + " has no effect: the body is fixed");
+    }
+  }
+
+  void checkFreePhysics(const Element& body, const std::vector<Element>& physics) {
+    if (physics.empty()) {
+      diagnostics_.error(kNoPhysics, body.where(), body.label() + " is free to move, but has no <physics>",
+                         "add <physics mass=\"...\"> with a shape, or fixed=\"true\"");
+      return;
+    }
+    const bool has_mass = physics[0].hasAttribute("mass"), has_density = physics[0].hasAttribute("density");
+    if (has_mass != has_density) return;
+    if (!has_mass && isMisplaced(body, physics[0])) return;
+    diagnostics_.error(kMassOrDensity, has_mass ? physics[0].where("density") : physics[0].where(),
+                       physics[0].label() + " needs one of 'mass' and 'density', found " + (has_mass ? "both" : "neither"),
+                       "mass [kg] or density [kg/m^3]; a body that never moves has fixed=\"true\"");
+  }
+
+  /// The mass stands where it does not belong: the schema has complained about that already.
+  static bool isMisplaced(const Element& body, const Element& physics) {
+    for (const char* name : {"mass", "density"}) {
+      if (body.hasAttribute(name) || !body.children(name).empty() || !physics.children(name).empty()) return true;
+    }
+    return false;
+  }
+
+  Element root_;
+  Diagnostics& diagnostics_;
+  std::vector<Element> materials_;
+};
+
+}  // namespace
+
+void checkScene(const Element& root, Diagnostics& diagnostics) { SceneCheck(root, diagnostics).run(); }
+
+}  // namespace presa

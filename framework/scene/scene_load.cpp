@@ -1,0 +1,93 @@
+#include <filesystem>
+
+#include "framework/scene/scene_parts.h"
+#include "framework/scene/schemas.h"
+
+namespace presa {
+namespace {
+
+constexpr int kVersion = 201;
+
+const xml::Schema& sceneSchema() {
+  static const xml::Schema schema(schemas::scene);
+  return schema;
+}
+
+Scene loadDocument(xml::Document& document, const std::string& directory, const std::vector<Override>& overrides,
+                   Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.errorCount();
+  Scene scene;
+  scene.file = document.name();
+  if (document.root().name() == sceneSchema().root().name) {
+    applyOverrides(document.root(), sceneSchema().root(), overrides, diagnostics);
+  }
+  document.validate(sceneSchema(), diagnostics);
+  if (document.root().name() != sceneSchema().root().name) return scene;
+  checkVersion(document.root(), "scene", kVersion, diagnostics);
+  checkScene(document.root(), diagnostics);
+  if (diagnostics.errorCount() > errors_before) return scene;  // all or nothing: no half-read scene
+  resolveScene(document, sceneSchema(), directory);
+  scene = readScene(document.root(), document.name(), directory);
+  scene.resolved_xml = document.text();
+  return scene;
+}
+
+}  // namespace
+
+void checkVersion(const xml::Element& root, const std::string& kind, int code, Diagnostics& diagnostics) {
+  if (!root.hasAttribute("version") || root.flawed("version")) return;
+  const std::string version = root.attribute("version");
+  const int major = std::stoi(version);
+  const int minor = std::stoi(version.substr(version.find('.') + 1));
+  const std::string ours = std::to_string(kFormatMajor) + "." + std::to_string(kFormatMinor);
+  if (major != kFormatMajor) {
+    diagnostics.error(code, root.where("version"),
+                      "this " + kind + " is written in format " + quote(version) + "; this release of Presa reads " +
+                          std::to_string(kFormatMajor) + ".x",
+                      major > kFormatMajor ? "use a newer release of Presa" : "write version=\"" + ours + "\"");
+  } else if (minor > kFormatMinor) {
+    diagnostics.warning(code, root.where("version"),
+                        "this " + kind + " is written in format " + quote(version) + ", newer than " + ours,
+                        "names that are new in it are refused as unknown");
+  }
+}
+
+std::string resolvePath(const std::string& path, const std::string& directory) {
+  if (path.empty()) return path;
+  return std::filesystem::absolute(std::filesystem::path(directory) / path).lexically_normal().string();
+}
+
+std::vector<xml::Element> materialElements(const xml::Element& root) {
+  std::vector<xml::Element> materials;
+  for (const xml::Element& list : root.children("materials")) {
+    for (const xml::Element& material : list.children("material")) materials.push_back(material);
+  }
+  return materials;
+}
+
+std::vector<xml::Element> deviceElements(const xml::Element& root) {
+  std::vector<xml::Element> devices;
+  for (const xml::Element& list : root.children("devices")) {
+    for (const xml::Element& device : list.children("device")) devices.push_back(device);
+  }
+  return devices;
+}
+
+Scene loadScene(const std::string& file, const std::vector<Override>& overrides, Diagnostics& diagnostics) {
+  const auto document = xml::Document::load(file, diagnostics);
+  Scene nothing;
+  nothing.file = file;
+  if (!document) return nothing;
+  return loadDocument(*document, std::filesystem::path(file).parent_path().string(), overrides, diagnostics);
+}
+
+Scene parseScene(const std::string& xml, const std::string& name, const std::string& directory,
+                 const std::vector<Override>& overrides, Diagnostics& diagnostics) {
+  const auto document = xml::Document::parse(xml, name, diagnostics);
+  Scene nothing;
+  nothing.file = name;
+  if (!document) return nothing;
+  return loadDocument(*document, directory, overrides, diagnostics);
+}
+
+}  // namespace presa

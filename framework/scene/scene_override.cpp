@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <optional>
+
+#include "framework/scene/scene_parts.h"
+
+namespace presa {
+namespace {
+
+using xml::Element;
+using xml::ElementRule;
+
+constexpr int kBadPath = 202;
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts{""};
+  for (const char c : path) {
+    if (c == '/') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// The attribute that tells elements of one kind apart: a path names it after the element. "" for single elements.
+std::string identityAttribute(const ElementRule& rule) {
+  for (const char* name : {"name", "role"}) {
+    if (rule.attribute(name)) return name;
+  }
+  return {};
+}
+
+/// A list such as <materials>: no values of its own, one kind of element. A path may leave it out.
+const ElementRule* listedElement(const ElementRule& rule) {
+  const bool is_list = rule.attributes.empty() && rule.content.size() == 1 && rule.content[0].options.size() == 1;
+  return is_list ? rule.content[0].options[0] : nullptr;
+}
+
+/// Setting one of these replaces the other: they say the same thing in two ways.
+std::string rivalOf(const std::string& attribute) {
+  static const std::pair<const char*, const char*> kRivals[] = {{"mass", "density"}, {"euler_deg", "quat"}};
+  for (const auto& [a, b] : kRivals) {
+    if (attribute == a) return b;
+    if (attribute == b) return a;
+  }
+  return {};
+}
+
+/// Follows one path through the document and the schema at the same time.
+class PathWalk {
+ public:
+  PathWalk(const Element& root, const ElementRule& rule, const Override& change, Diagnostics& diagnostics)
+      : element_(root),
+        rule_(&rule),
+        change_(change),
+        origin_{"--set " + change.path + "=" + change.value, 0, 0},
+        parts_(split(change.path)),
+        diagnostics_(diagnostics) {}
+
+  void run() {
+    if (std::find(parts_.begin(), parts_.end(), "") != parts_.end()) {
+      fail("a part of the path is empty", "write --set PATH=VALUE, such as --set body/cube/physics/mass=0.5");
+      return;
+    }
+    while (index_ + 1 < parts_.size()) {
+      if (!descend()) return;
+    }
+    setAttribute();
+  }
+
+ private:
+  bool fail(const std::string& message, const std::string& help) {
+    diagnostics_.error(kBadPath, origin_, quote(change_.path) + ": " + message, help);
+    return false;
+  }
+
+  std::string here() const {
+    std::string path;
+    for (std::size_t i = 0; i < index_; ++i) path += parts_[i] + "/";
+    return path;
+  }
+
+  /// All that may stand at this place of the path.
+  std::vector<std::string> choices() const {
+    std::vector<std::string> names = rule_->attributeNames();
+    for (const xml::ContentRule& content : rule_->content) {
+      for (const ElementRule* option : content.options) {
+        const bool may_follow = content.options.size() == 1 || !element_.children(option->name).empty();
+        if (!may_follow) continue;
+        names.push_back(option->name);
+        if (const ElementRule* inner = listedElement(*option)) names.push_back(inner->name);
+      }
+    }
+    return names;
+  }
+
+  bool unknownPart() {
+    const std::vector<std::string> names = choices();
+    return fail("there is no " + quote(parts_[index_]) + didYouMean(parts_[index_], names),
+                "possible" + (index_ > 0 ? " after " + here() : std::string(" at the start")) + ": " + listed(names));
+  }
+
+  bool descend() {
+    const std::string& part = parts_[index_];
+    const ElementRule* next = rule_->child(part);
+    if (next) return enter(*next);
+    for (const xml::ContentRule& content : rule_->content) {
+      const ElementRule& container = *content.options.front();
+      const ElementRule* inner = content.options.size() == 1 ? listedElement(container) : nullptr;
+      if (!inner || inner->name != part) continue;
+      std::vector<Element> candidates;
+      for (const Element& list : element_.children(container.name)) {
+        for (const Element& one : list.children(part)) candidates.push_back(one);
+      }
+      return enterNamed(*inner, candidates);
+    }
+    if (rule_->attribute(part)) {
+      return fail(quote(part) + " is a value, nothing can follow it", "end the path after " + here() + part);
+    }
+    return unknownPart();
+  }
+
+  bool enter(const ElementRule& next) {
+    const std::vector<Element> found = element_.children(next.name);
+    if (!identityAttribute(next).empty()) return enterNamed(next, found);
+    if (!found.empty()) {
+      step(found.front(), next, 1);
+      return true;
+    }
+    const xml::ContentRule& content = *rule_->contentOf(next.name);
+    if (content.options.size() > 1) {
+      const std::vector<Element> others = element_.children();
+      return fail(element_.label() + " holds no <" + next.name + ">",
+                  others.empty() ? "" : "it holds <" + others.front().name() + ">; a path cannot change the kind of a shape");
+    }
+    const bool needs_children = std::any_of(next.content.begin(), next.content.end(),
+                                            [](const xml::ContentRule& inner) { return inner.min > 0; });
+    if (needs_children || listedElement(next)) {
+      return fail(element_.label() + " has no <" + next.name + ">", "a path can set values, not add a whole element");
+    }
+    step(element_.addChild(next.name, origin_), next, 1);
+    return true;
+  }
+
+  bool enterNamed(const ElementRule& next, const std::vector<Element>& candidates) {
+    const std::string identity = identityAttribute(next);
+    std::vector<std::string> names;
+    for (const Element& candidate : candidates) names.push_back(candidate.attribute(identity));
+    const std::string kind = next.name;
+    ++index_;  // from the element's name to its identity; the path holds at least one more part
+    const std::string& wanted = parts_[index_];
+    const auto found = std::find(names.begin(), names.end(), wanted);
+    if (found == names.end()) {
+      return fail("there is no " + kind + " " + quote(wanted) + didYouMean(wanted, names),
+                  names.empty() ? "the scene has no " + kind : kind + " is one of: " + listed(names));
+    }
+    if (index_ + 1 == parts_.size()) {
+      index_ = parts_.size();
+      step(candidates[static_cast<std::size_t>(found - names.begin())], next, 0);
+      return fail("the path ends at an element, a value must follow", "possible after " + here() + ": " + listed(choices()));
+    }
+    step(candidates[static_cast<std::size_t>(found - names.begin())], next, 1);
+    return true;
+  }
+
+  void step(const Element& element, const ElementRule& rule, std::size_t parts) {
+    element_ = element;
+    rule_ = &rule;
+    index_ += parts;
+  }
+
+  void setAttribute() {
+    const std::string& name = parts_[index_];
+    if (!rule_->attribute(name)) {
+      const ElementRule* child = rule_->child(name);
+      if (!child) {
+        unknownPart();
+        return;
+      }
+      const std::vector<std::string> inside = identityAttribute(*child).empty() ? child->attributeNames()
+                                                                              : std::vector<std::string>{"its name"};
+      fail("the path ends at an element, a value must follow", "possible after " + here() + name + "/: " + listed(inside));
+      return;
+    }
+    const std::string rival = rivalOf(name);
+    if (!rival.empty()) element_.removeAttribute(rival);
+    element_.setAttribute(name, change_.value, origin_);
+  }
+
+  Element element_;
+  const ElementRule* rule_;
+  const Override& change_;
+  SourceLocation origin_;
+  std::vector<std::string> parts_;
+  Diagnostics& diagnostics_;
+  std::size_t index_ = 0;
+};
+
+}  // namespace
+
+void applyOverrides(const Element& root, const ElementRule& rule, const std::vector<Override>& overrides,
+                    Diagnostics& diagnostics) {
+  for (const Override& change : overrides) PathWalk(root, rule, change, diagnostics).run();
+}
+
+}  // namespace presa

@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/scene/load.h"
+#include "framework/xml/schema.h"
+#include "framework/xml/xml.h"
+
+/// The steps of loading a scene or a rig, in the order in which loadScene takes them.
+namespace presa {
+
+/// The document format this release reads.
+inline constexpr int kFormatMajor = 1;
+inline constexpr int kFormatMinor = 0;
+/// Major must be ours; a newer minor is read with a warning. `kind` is "scene" or "rig", `code` the number to report.
+void checkVersion(const xml::Element& root, const std::string& kind, int code, Diagnostics& diagnostics);
+
+/// `path` as it stands in a file in `directory`, absolute and without . and ..; "" stays "".
+std::string resolvePath(const std::string& path, const std::string& directory);
+
+/// Writes each override into the document; a path that leads nowhere is an error E202.
+void applyOverrides(const xml::Element& root, const xml::ElementRule& rule, const std::vector<Override>& overrides,
+                    Diagnostics& diagnostics);
+/// Resolved document without errors to plain data.
+Scene readScene(const xml::Element& root, const std::string& file, const std::string& directory);
+/// What no schema can say: references, and values that depend on each other (E2xx).
+void checkScene(const xml::Element& root, Diagnostics& diagnostics);
+/// Writes defaults, chosen materials and absolute paths into a document without errors.
+void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory);
+
+/// All materials of the document, in order.
+std::vector<xml::Element> materialElements(const xml::Element& root);
+/// All device roles of the document, in order.
+std::vector<xml::Element> deviceElements(const xml::Element& root);
+
+}  // namespace presa

@@ -1,0 +1,144 @@
+#include <cmath>
+#include <limits>
+
+#include "framework/scene/scene_parts.h"
+
+namespace presa {
+namespace {
+
+using xml::Element;
+
+Vec3 readVec3(const Element& element, const std::string& attribute, const Vec3& fallback) {
+  const std::vector<double> v = element.numbers(attribute);
+  return v.size() == 3 ? Vec3(v[0], v[1], v[2]) : fallback;
+}
+
+/// Half-turn angles are reduced in degrees, where that is exact: 180 degrees give a cosine of exactly 0.
+Quat turnAbout(const Vec3& axis, double degrees) {
+  int quarter = 0;
+  const double rest = std::remquo(degrees / 2, 90.0, &quarter) * (EIGEN_PI / 180);
+  double c = std::cos(rest), s = std::sin(rest);
+  if (quarter & 1) {
+    const double old_c = c;
+    c = -s;
+    s = old_c;
+  }
+  if (quarter & 2) {
+    c = -c;
+    s = -s;
+  }
+  return {c, s * axis.x(), s * axis.y(), s * axis.z()};
+}
+
+/// Scaled by the largest entry first, so that neither huge nor tiny numbers overflow or vanish on being squared.
+Quat unitQuat(const std::vector<double>& wxyz) {
+  Eigen::Vector4d v(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  v /= v.cwiseAbs().maxCoeff();
+  v /= v.norm();
+  return {v[0], v[1], v[2], v[3]};
+}
+
+Pose readPose(const Element& element) {
+  Pose pose;
+  pose.p = readVec3(element, "pos", Vec3::Zero());
+  const std::vector<double> quat = element.numbers("quat");
+  if (quat.size() == 4) {
+    pose.q = unitQuat(quat);
+  } else if (element.hasAttribute("euler_deg")) {
+    const Vec3 turn = readVec3(element, "euler_deg", Vec3::Zero());
+    pose.q = turnAbout(Vec3::UnitX(), turn.x()) * turnAbout(Vec3::UnitY(), turn.y()) * turnAbout(Vec3::UnitZ(), turn.z());
+    pose.q.normalize();
+  }
+  return pose;
+}
+
+Shape readShape(const Element& shape, const std::string& directory) {
+  const std::string kind = shape.name();
+  const double radius = shape.number("radius", 0), length = shape.number("length", 0);
+  if (kind == "box") return Box{readVec3(shape, "size", Vec3::Zero())};
+  if (kind == "sphere") return Sphere{radius};
+  if (kind == "cylinder") return Cylinder{radius, length};
+  if (kind == "capsule") return Capsule{radius, length};
+  return MeshRef{resolvePath(shape.attribute("file"), directory), readVec3(shape, "scale", Vec3::Ones())};
+}
+
+std::optional<Geometry> readGeometry(const Element& body, const std::string& role, const std::string& directory) {
+  const std::vector<Element> geometries = body.children(role);
+  if (geometries.empty()) return std::nullopt;
+  return Geometry{readShape(geometries[0].children().at(0), directory), readPose(geometries[0]), geometries[0].where()};
+}
+
+Material readMaterial(const Element& element) {
+  Material material;
+  material.name = element.attribute("name");
+  material.stiffness = element.number("stiffness", 0);
+  material.damping = element.number("damping", 0);
+  material.color = readVec3(element, "color", material.color);
+  for (const Element& friction : element.children("friction")) {
+    material.friction_static = friction.number("static", 0);
+    material.friction_dynamic = friction.number("dynamic", 0);
+  }
+  material.where = element.where();
+  return material;
+}
+
+std::optional<double> optionalNumber(const Element& element, const std::string& attribute) {
+  if (!element.hasAttribute(attribute)) return std::nullopt;
+  return element.number(attribute, 0);
+}
+
+Body readBody(const Element& element, const std::vector<Material>& materials, const std::string& directory) {
+  Body body;
+  body.name = element.attribute("name");
+  body.fixed = element.boolean("fixed", false);
+  body.X_WB = readPose(element);
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i].name == element.attribute("material")) body.material = i;
+  }
+  body.visual = readGeometry(element, "visual", directory);
+  body.haptic = readGeometry(element, "haptic", directory);
+  body.physics = readGeometry(element, "physics", directory);
+  for (const Element& physics : element.children("physics")) {
+    if (body.fixed) continue;
+    body.mass = optionalNumber(physics, "mass");
+    body.density = optionalNumber(physics, "density");
+  }
+  body.where = element.where();
+  return body;
+}
+
+DeviceRole readDevice(const Element& element) {
+  DeviceRole device;
+  device.role = element.attribute("role");
+  device.fingertip_radius = element.number("fingertip_radius", device.fingertip_radius);
+  for (const Element& limits : element.children("limits")) {
+    device.limits.force = limits.number("force", device.limits.force);
+    device.limits.force_rate = limits.number("force_rate", device.limits.force_rate);
+    device.limits.watchdog_ms = limits.number("watchdog_ms", device.limits.watchdog_ms);
+  }
+  device.where = element.where();
+  return device;
+}
+
+}  // namespace
+
+Scene readScene(const Element& root, const std::string& file, const std::string& directory) {
+  Scene scene;
+  scene.name = root.attribute("name");
+  scene.description = root.attribute("description");
+  scene.file = file;
+  scene.default_rig = resolvePath(root.attribute("rig"), directory);
+  for (const Element& world : root.children("world")) scene.gravity = readVec3(world, "gravity", scene.gravity);
+  for (const Element& rates : root.children("rates")) {
+    scene.rates.haptic = rates.number("haptic", scene.rates.haptic);
+    scene.rates.collision = rates.number("collision", scene.rates.collision);
+    scene.rates.dynamics = rates.number("dynamics", scene.rates.dynamics);
+    scene.rates.view = rates.number("view", scene.rates.view);
+  }
+  for (const Element& material : materialElements(root)) scene.materials.push_back(readMaterial(material));
+  for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, scene.materials, directory));
+  for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));
+  return scene;
+}
+
+}  // namespace presa

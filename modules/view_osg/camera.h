@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "framework/math/spatial.h"
+
+namespace presa::view {
+
+/// What must be in the picture.
+struct Ball {
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+};
+
+struct CameraPose {
+  Vec3 eye = Vec3::Zero();
+  Vec3 target = Vec3::Zero();
+};
+
+inline constexpr double kFieldOfView = 28;  ///< vertical [degree]
+
+/// One ball around all (not the smallest: centred on their box). Radius at least 2 cm.
+Ball enclose(const std::vector<Ball>& balls);
+
+/// Three-quarter view from the front, right and above (front: -y, right: +x) that holds every ball, with room for the
+/// head-up display at the sides. Of the headings 25 and 65 degrees to the right it takes the one that shows the
+/// balls' centres further apart, so that opposed fingers do not hide behind the object.
+CameraPose frameSubject(const std::vector<Ball>& balls, double aspect);
+
+}  // namespace presa::view

@@ -1,0 +1,143 @@
+#include "modules/view_osg/contact_glyphs.h"
+
+#include <osg/BlendFunc>
+#include <osg/CullFace>
+#include <osg/Depth>
+#include <algorithm>
+
+#include "modules/view_osg/geometry_nodes.h"
+#include "modules/view_osg/osg_convert.h"
+#include "modules/view_osg/shaders.h"
+
+namespace presa::view {
+namespace {
+
+constexpr double kHipRadius = 0.0022;
+constexpr double kLinkRadius = 0.0007;
+constexpr double kShaftRadius = 0.0013;
+constexpr double kHeadRadius = 0.0034;
+constexpr double kHeadLength = 0.009;
+constexpr double kConeShortest = 0.004, kConeLongest = 0.12;  ///< heights [m]
+constexpr unsigned kShown = ~0U, kHidden = 0U;
+
+void setShown(osg::Node& node, bool shown) { node.setNodeMask(shown ? kShown : kHidden); }
+
+osg::ref_ptr<osg::MatrixTransform> placed(osg::Node* child, osg::Group& parent) {
+  osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
+  transform->setDataVariance(osg::Object::DYNAMIC);
+  transform->addChild(child);
+  parent.addChild(transform);
+  return transform;
+}
+
+/// Blended, not written to depth, drawn in bin `order` (after what is opaque).
+void makeTranslucent(osg::StateSet& state, int order) {
+  state.setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
+  state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
+  state.setRenderBinDetails(order, "DepthSortedBin");
+}
+
+}  // namespace
+
+Vec3 stateColor(ContactMode mode) {
+  switch (mode) {
+    case ContactMode::kStick: return {0.05, 0.62, 0.18};
+    case ContactMode::kSlip: return {1.0, 0.26, 0.02};
+    case ContactMode::kNone: break;
+  }
+  return {0.42, 0.45, 0.50};
+}
+
+ContactGlyphs::ContactGlyphs(std::size_t fingers) {
+  root_->setName("contacts");
+  osg::StateSet* solid = solid_->getOrCreateStateSet();
+  solid->setAttributeAndModes(shaders::glyph());
+  solid->addUniform(new osg::Uniform("opacity", 1.0F));
+  osg::StateSet* arrows = arrows_->getOrCreateStateSet();
+  arrows->setAttributeAndModes(shaders::glyph());
+  arrows->addUniform(new osg::Uniform("opacity", 1.0F));
+  osg::StateSet* cones = cones_->getOrCreateStateSet();
+  cones->setAttributeAndModes(shaders::cone());
+  makeTranslucent(*cones, 10);
+  osg::StateSet* tips = tips_->getOrCreateStateSet();
+  tips->setAttributeAndModes(shaders::skin());
+  makeTranslucent(*tips, 11);
+  tips->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+
+  // a HIP inside a body is what the picture is about: where something hides it, it shines through
+  osg::ref_ptr<osg::Group> through = new osg::Group;
+  osg::StateSet* ghost = through->getOrCreateStateSet();
+  ghost->addUniform(new osg::Uniform("opacity", 0.45F), osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+  makeTranslucent(*ghost, 9);
+  ghost->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0, 1, false));
+  through->addChild(solid_);
+
+  for (osg::Node* part : {static_cast<osg::Node*>(solid_), static_cast<osg::Node*>(arrows_),
+                          static_cast<osg::Node*>(through), static_cast<osg::Node*>(cones_),
+                          static_cast<osg::Node*>(tips_)})
+    root_->addChild(part);
+  for (std::size_t i = 0; i < fingers; ++i) fingers_.push_back(makeFinger());
+}
+
+ContactGlyphs::Finger ContactGlyphs::makeFinger() {
+  Finger finger;
+  finger.hip = placed(sphereGeometry(kHipRadius, kHipColor), *solid_);
+  finger.link = placed(unitShaft(kHipColor), *solid_);
+  finger.tip = placed(sphereGeometry(1, kSkinColor), *tips_);
+  finger.shaft = placed(unitShaft(kArrowColor), *arrows_);
+  finger.head = placed(unitConeUp(kArrowColor), *arrows_);
+  finger.tip_color = new osg::Uniform("state_color", osg::Vec3());
+  finger.tip->getOrCreateStateSet()->addUniform(finger.tip_color);
+
+  osg::ref_ptr<osg::Group> cone = new osg::Group;
+  osg::ref_ptr<osg::Geometry> side = unitFrictionCone(Vec3::Ones());
+  side->getOrCreateStateSet()->addUniform(new osg::Uniform("opacity", 0.26F));
+  osg::ref_ptr<osg::Geometry> rim = unitRim(Vec3::Ones());
+  rim->getOrCreateStateSet()->addUniform(new osg::Uniform("opacity", 0.9F));
+  cone->addChild(side);
+  cone->addChild(rim);
+  finger.cone = placed(cone, *cones_);
+  finger.cone_color = new osg::Uniform("state_color", osg::Vec3());
+  finger.cone->getOrCreateStateSet()->addUniform(finger.cone_color);
+  return finger;
+}
+
+void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
+  for (std::size_t i = 0; i < fingers_.size() && i < fingers.size(); ++i) {
+    const FingerView& view = fingers[i];
+    Finger& finger = fingers_[i];
+    finger.hip->setMatrix(osg::Matrixd::translate(toOsg(view.p_WH)));
+    const Vec3 link = view.p_WP - view.p_WH;
+    setShown(*finger.link, link.norm() > 1e-5);
+    if (link.norm() > 1e-5)
+      finger.link->setMatrix(alongZ(view.p_WH, link, {kLinkRadius, kLinkRadius, link.norm()}));
+    finger.tip->setMatrix(toOsg(Pose{view.p_WP, Quat::Identity()}));
+    finger.tip->preMult(osg::Matrixd::scale(view.radius, view.radius, view.radius));
+    finger.tip_color->set(osg::Vec3(toOsg(stateColor(view.mode))));
+    updateForce(view, finger);
+  }
+}
+
+void ContactGlyphs::updateForce(const FingerView& view, Finger& finger) {
+  const double length = kArrowLengthPerNewton * view.f_H_W.norm();
+  const bool pulled = view.touches() && length > 1e-4;
+  setShown(*finger.shaft, pulled);
+  setShown(*finger.head, pulled);
+  setShown(*finger.cone, view.touches());
+  if (!view.touches()) return;
+  if (pulled) {
+    const Vec3 direction = view.f_H_W.normalized();
+    const double head = std::min(kHeadLength, 0.6 * length);
+    const double thick = std::min(1.0, head / kHeadLength);
+    finger.shaft->setMatrix(alongZ(view.p_WC, direction, {kShaftRadius * thick, kShaftRadius * thick, length - head}));
+    finger.head->setMatrix(alongZ(view.p_WC + (length - head) * direction, direction,
+                                  {kHeadRadius * thick, kHeadRadius * thick, head}));
+  }
+  // as high as the normal force is long: the arrow's tip lies in the rim's disc, and leaves it where slip begins
+  const double height = std::clamp(kArrowLengthPerNewton * view.normal_force, kConeShortest, kConeLongest);
+  const double rim = height * std::max(view.friction_static, 1e-3);
+  finger.cone->setMatrix(alongZ(view.p_WC, view.nhat_W, {rim, rim, height}));
+  finger.cone_color->set(osg::Vec3(toOsg(stateColor(view.mode))));
+}
+
+}  // namespace presa::view

@@ -1,0 +1,42 @@
+#pragma once
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/Uniform>
+#include <vector>
+
+#include "modules/view_osg/finger_view.h"
+
+namespace presa::view {
+
+/// Linear RGB; the head-up display shows the same.
+Vec3 stateColor(ContactMode mode);
+inline const Vec3 kHipColor{0.10, 0.85, 1.0};
+inline const Vec3 kArrowColor{1.0, 0.72, 0.02};
+inline const Vec3 kSkinColor{0.80, 0.46, 0.34};
+
+/// Everything drawn about the fingers: HIP, fingertip at the proxy, the link between, force arrow, friction cone.
+class ContactGlyphs {
+ public:
+  explicit ContactGlyphs(std::size_t fingers);
+  osg::Group* root() { return root_; }
+  /// The fingertips alone, for the shadow.
+  osg::Node* casters() { return tips_; }
+  void update(const std::vector<FingerView>& fingers);
+
+ private:
+  struct Finger {
+    osg::ref_ptr<osg::MatrixTransform> hip, link, tip, shaft, head, cone;
+    osg::ref_ptr<osg::Uniform> tip_color, cone_color;
+  };
+  Finger makeFinger();
+  void updateForce(const FingerView& view, Finger& finger);
+
+  osg::ref_ptr<osg::Group> root_ = new osg::Group;
+  osg::ref_ptr<osg::Group> solid_ = new osg::Group;   ///< HIPs and links, seen through bodies too
+  osg::ref_ptr<osg::Group> arrows_ = new osg::Group;
+  osg::ref_ptr<osg::Group> cones_ = new osg::Group;
+  osg::ref_ptr<osg::Group> tips_ = new osg::Group;
+  std::vector<Finger> fingers_;
+};
+
+}  // namespace presa::view

@@ -1,0 +1,67 @@
+#include "modules/view_osg/finger_view.h"
+
+#include <algorithm>
+
+namespace presa::view {
+
+double FingerView::frictionUse() const noexcept {
+  const double bound = friction * normal_force;
+  return bound > 0 ? tangential_force / bound : 0.0;
+}
+
+namespace {
+
+void placeContact(const FingerContact& contact, const std::vector<Pose>& X_WB, FingerView& finger) {
+  finger.p_WH = contact.p_WH;
+  finger.p_WP = contact.p_WP;
+  const auto body = static_cast<std::size_t>(contact.body);
+  if (contact.mode == ContactMode::kNone || contact.body == kNoBody || body >= X_WB.size()) return;
+  finger.mode = contact.mode;
+  finger.body = contact.body;
+  finger.p_WP = X_WB[body] * contact.p_BP;
+  finger.p_WC = X_WB[body] * contact.p_BC;
+  finger.nhat_W = X_WB[body].q * contact.nhat_B;
+  finger.f_H_W = contact.f_H_W;
+  finger.normal_force = contact.normal_force;
+  finger.tangential_force = contact.tangential_force_W.norm();
+  finger.friction_static = contact.friction_static;
+  finger.friction = contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static;
+}
+
+}  // namespace
+
+std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame) {
+  const auto& roles = world.scene.devices;
+  std::vector<FingerView> fingers(std::min<std::size_t>(roles.size(), kMaxFingers));
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    FingerView& finger = fingers[i];
+    const auto index = static_cast<std::int32_t>(i);
+    finger.role = roles[i].role;
+    finger.radius = roles[i].fingertip_radius;
+    finger.force_limit = roles[i].limits.force;
+    if (index < frame.device.count) {
+      finger.valid = frame.device.fingers[i].valid;
+      finger.p_WH = finger.p_WP = frame.device.fingers[i].p_WH;
+    }
+    if (index < frame.contacts.count) placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
+  }
+  return fingers;
+}
+
+double gripForce(const std::vector<FingerView>& fingers) {
+  double grip = 0;
+  for (const FingerView& first : fingers) {
+    if (!first.touches()) continue;
+    double pressed = 0;
+    Vec3 net = Vec3::Zero();
+    for (const FingerView& finger : fingers) {
+      if (finger.body != first.body || !finger.touches()) continue;
+      pressed += finger.normal_force;
+      net += finger.normal_force * finger.nhat_W;
+    }
+    grip = std::max(grip, (pressed - net.norm()) / 2);
+  }
+  return grip;
+}
+
+}  // namespace presa::view

@@ -1,0 +1,66 @@
+#include "modules/view_osg/frame_image.h"
+
+#include <osg/GraphicsContext>
+#include <osgDB/WriteFile>
+#include <array>
+#include <cmath>
+
+namespace presa::view {
+namespace {
+
+constexpr int kLightSteps = 4096;
+
+double toLight(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
+double toCode(double light) {
+  return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
+
+struct SrgbTables {
+  std::array<float, 256> light;
+  std::array<unsigned char, kLightSteps + 1> code;
+  SrgbTables() {
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = static_cast<float>(toLight(static_cast<double>(i) / 255));
+    for (std::size_t i = 0; i < code.size(); ++i)
+      code[i] = static_cast<unsigned char>(std::lround(255 * toCode(static_cast<double>(i) / kLightSteps)));
+  }
+};
+
+}  // namespace
+
+void FrameGrabber::operator()(osg::RenderInfo& info) const {
+  if (!armed_) return;
+  armed_ = false;
+  const osg::GraphicsContext::Traits* traits = info.getState()->getGraphicsContext()->getTraits();
+  image_ = new osg::Image;
+  image_->readPixels(0, 0, traits->width, traits->height, GL_RGB, GL_UNSIGNED_BYTE);
+}
+
+osg::ref_ptr<osg::Image> shrink(const osg::Image& image, int factor) {
+  static const SrgbTables tables;
+  osg::ref_ptr<osg::Image> small = new osg::Image;
+  small->allocateImage(image.s() / factor, image.t() / factor, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+  const float scale = kLightSteps / static_cast<float>(factor * factor);
+  for (int y = 0; y < small->t(); ++y) {
+    for (int x = 0; x < small->s(); ++x) {
+      std::array<float, 3> sum{};
+      for (int dy = 0; dy < factor; ++dy)
+        for (int dx = 0; dx < factor; ++dx) {
+          const unsigned char* pixel = image.data(factor * x + dx, factor * y + dy);
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += tables.light[pixel[c]];
+        }
+      for (std::size_t c = 0; c < 3; ++c)
+        small->data(x, y)[c] = tables.code[static_cast<std::size_t>(std::lround(sum[c] * scale))];
+    }
+  }
+  return small;
+}
+
+std::string writePng(const osg::Image& image, const std::string& file) {
+  const osgDB::ReaderWriter::WriteResult result =
+      osgDB::Registry::instance()->writeImage(image, file, osgDB::Registry::instance()->getOptions());
+  if (result.success()) return {};
+  if (result.notHandled()) return "OpenSceneGraph has no writer for this file name (it should end in .png)";
+  return result.message().empty() ? "the file cannot be written" : result.message();
+}
+
+}  // namespace presa::view

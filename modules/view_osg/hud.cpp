@@ -1,0 +1,241 @@
+#include "modules/view_osg/hud.h"
+
+#include <osg/BlendFunc>
+#include <osg/Depth>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "framework/device/output_stage.h"
+#include "modules/view_osg/contact_glyphs.h"
+
+namespace presa::view {
+namespace {
+
+const osg::Vec4 kInk(0.95F, 0.97F, 1.0F, 1);
+const osg::Vec4 kSoftInk(0.95F, 0.97F, 1.0F, 0.66F);
+const osg::Vec4 kPanel(0.04F, 0.06F, 0.09F, 0.62F);
+const osg::Vec4 kAlarm(1.0F, 0.42F, 0.36F, 1);
+const osg::Vec4 kGripInk(0.36F, 0.72F, 1.0F, 1);
+constexpr float kMargin = 18, kCardWidth = 262, kCardHeight = 61, kCardPitch = 66, kCardsTop = 636;
+
+template <class... Values>
+std::string print(const char* format, Values... values) {
+  std::array<char, 96> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+osg::Vec4 displayColor(const Vec3& linear, float alpha = 1) {
+  const auto encode = [](double c) { return static_cast<float>(std::pow(std::clamp(c, 0.0, 1.0), 1 / 2.2)); };
+  return {encode(linear.x()), encode(linear.y()), encode(linear.z()), alpha};
+}
+
+const char* stateWord(const FingerView& finger) {
+  if (!finger.valid) return "no signal";
+  switch (finger.mode) {
+    case ContactMode::kStick: return "stick";
+    case ContactMode::kSlip: return "slip";
+    case ContactMode::kNone: break;
+  }
+  return "no contact";
+}
+
+/// What the output stage did, worst first; empty when the forces went out as rendered.
+std::string outputWords(std::uint32_t status) {
+  if (status & kOutputNotFinite) return "output: not a number, forces off";
+  if (status & kOutputWatchdog) return "output: contact data too old";
+  if (status & kOutputMagnitude) return "output: at force limit";
+  if (status & kOutputFading) return "output: fading";
+  if (status & kOutputSlew) return "output: at slew limit";
+  return {};
+}
+
+}  // namespace
+
+Hud::Hud(const World& world) {
+  camera_->setName("head-up display");
+  camera_->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+  camera_->setViewMatrix(osg::Matrixd::identity());
+  camera_->setRenderOrder(osg::Camera::POST_RENDER);
+  camera_->setClearMask(0);
+  camera_->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  camera_->setCullingActive(false);
+  camera_->setAllowEventFocus(false);
+  osg::StateSet* state = camera_->getOrCreateStateSet();
+  state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+  state->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+  state->setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
+  // in the order of the graph: panels first, their text after
+  state->setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+  camera_->addChild(left_);
+  camera_->addChild(right_);
+  camera_->addChild(center_);
+  center_->addChild(help_);
+
+  addTitle(world);
+  for (std::size_t i = 0; i < world.scene.devices.size() && i < kMaxFingers; ++i) addCard(i);
+  if (cards_.size() > 1) addGrip();
+  for (const DeviceRole& role : world.scene.devices) grip_scale_ = std::min(grip_scale_, role.limits.force);
+  addRates(world);
+  addLegend();
+  addHelp();
+  setAspect(16.0 / 9.0);
+}
+
+void Hud::setAspect(double aspect) {
+  const double width = kHeight * aspect;
+  camera_->setProjectionMatrixAsOrtho(0, width, 0, kHeight, -1, 1);
+  right_->setMatrix(osg::Matrixd::translate(width, 0, 0));
+  center_->setMatrix(osg::Matrixd::translate(width / 2, kHeight / 2, 0));
+}
+
+void Hud::toggleHelp() { help_->setNodeMask(help_->getNodeMask() == 0 ? ~0U : 0U); }
+
+void Hud::addTitle(const World& world) {
+  Label title(*left_, kMargin + 2, kHeight - 42, 25, kInk, Typeface::kBold);
+  title.set(world.scene.name.empty() ? "scene" : world.scene.name);
+  time_.emplace(*left_, kMargin + 2, kHeight - 67, 16, kSoftInk, Typeface::kMono);
+}
+
+void Hud::addCard(std::size_t index) {
+  const float top = kCardsTop - kCardPitch * static_cast<float>(index), bottom = top - kCardHeight;
+  const float right = kMargin + kCardWidth;
+  left_->addChild(roundedPanel({kMargin, bottom, kCardWidth, kCardHeight}, 8, kPanel));
+  osg::ref_ptr<osg::Geometry> lamp = dot(right - 16, top - 15, 5.5F, kSoftInk);
+  left_->addChild(lamp);
+  Card card{Label(*left_, kMargin + 12, top - 20, 15, kInk, Typeface::kBold),
+            Label(*left_, right - 28, top - 20, 13, kInk, Typeface::kRegular, Label::Align::kRight),
+            Label(*left_, kMargin + 12, top - 38, 13, kInk, Typeface::kMono),
+            Label(*left_, right - 12, top - 54, 11.5F, kSoftInk, Typeface::kRegular, Label::Align::kRight),
+            Bar(*left_, {kMargin + 12, top - 53, 132, 7}),
+            lamp};
+  cards_.push_back(std::move(card));
+}
+
+void Hud::addGrip() {
+  const float top = kCardsTop - kCardPitch * static_cast<float>(cards_.size()), bottom = top - 42;
+  left_->addChild(roundedPanel({kMargin, bottom, kCardWidth, 42}, 8, kPanel));
+  Label name(*left_, kMargin + 12, top - 18, 14, kInk, Typeface::kBold);
+  name.set("grip force");
+  grip_value_.emplace(*left_, kMargin + kCardWidth - 12, top - 18, 13, kInk, Typeface::kMono, Label::Align::kRight);
+  grip_bar_.emplace(*left_, Rect{kMargin + 12, top - 34, kCardWidth - 24, 7});
+}
+
+void Hud::addRates(const World& world) {
+  const Rates& rates = world.scene.rates;
+  constexpr float kWidth = 268, kTop = kHeight - 18;
+  right_->addChild(roundedPanel({-kMargin - kWidth, kTop - 104, kWidth, 104}, 8, kPanel));
+  const float left = -kMargin - kWidth + 12, right = -kMargin - 12;
+  Label head_rate(*right_, right - 82, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
+  head_rate.set("rate");
+  Label head_missed(*right_, right, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
+  head_missed.set("late ticks");
+  const std::array<std::pair<RateGroup, double>, kRateGroupCount> groups{{{RateGroup::kHaptic, rates.haptic},
+                                                                          {RateGroup::kCollision, rates.collision},
+                                                                          {RateGroup::kDynamics, rates.dynamics},
+                                                                          {RateGroup::kView, rates.view}}};
+  float y = kTop - 36;
+  for (const auto& [group, nominal] : groups) {
+    Label name(*right_, left, y, 13, kInk);
+    name.set(toString(group));
+    rates_.push_back({group, nominal,
+                      Label(*right_, right - 82, y, 13, kInk, Typeface::kMono, Label::Align::kRight),
+                      Label(*right_, right, y, 13, kInk, Typeface::kMono, Label::Align::kRight)});
+    y -= 19.5F;
+  }
+  output_.emplace(*right_, -kMargin - 4, kTop - 124, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
+}
+
+void Hud::addLegend() {
+  constexpr float kY = 27;
+  center_->addChild(roundedPanel({-452, -kHeight / 2 + 10, 904, 34}, 8, kPanel));
+  osg::ref_ptr<osg::MatrixTransform> strip = new osg::MatrixTransform(osg::Matrixd::translate(-440, -kHeight / 2, 0));
+  center_->addChild(strip);
+  const auto entry = [&](float x, const char* words) {
+    Label label(*strip, x, kY - 4.5F, 12.5F, kInk);
+    label.set(words);
+  };
+  strip->addChild(dot(8, kY, 5, displayColor(kHipColor)));
+  entry(20, "HIP");
+  strip->addChild(dot(66, kY, 9, displayColor(kSkinColor)));
+  entry(82, "fingertip (proxy)");
+  strip->addChild(polygon({{206, kY - 1.5F}, {224, kY - 1.5F}, {224, kY + 1.5F}, {206, kY + 1.5F}},
+                          displayColor(kArrowColor)));
+  strip->addChild(polygon({{223, kY - 6}, {235, kY}, {223, kY + 6}}, displayColor(kArrowColor)));
+  entry(242, print("force on finger, 1 N = %.0f mm", 1000 * kArrowLengthPerNewton).c_str());
+  const auto wedge = [&](float x, ContactMode mode) {
+    strip->addChild(polygon({{x + 7, kY - 8}, {x + 14, kY + 7}, {x, kY + 7}}, displayColor(stateColor(mode), 0.9F)));
+  };
+  wedge(446, ContactMode::kStick);
+  wedge(463, ContactMode::kSlip);
+  entry(484, "static friction cone: stick, slip");
+  strip->addChild(polygon({{701, kY - 6}, {702.2F, kY - 6}, {702.2F, kY + 6}, {701, kY + 6}}, kSoftInk));
+  strip->addChild(polygon({{719, kY - 6}, {720.2F, kY - 6}, {720.2F, kY + 6}, {719, kY + 6}}, kSoftInk));
+  strip->addChild(polygon({{701, kY - 0.6F}, {720, kY - 0.6F}, {720, kY + 0.6F}, {701, kY + 0.6F}}, kSoftInk));
+  entry(727, "grid 5 cm");
+  entry(813, "? help");
+}
+
+void Hud::addHelp() {
+  help_->setNodeMask(0);
+  help_->addChild(roundedPanel({-210, -110, 420, 220}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
+  const std::array<std::pair<const char*, const char*>, 7> lines{{{"left drag", "turn around the scene"},
+                                                                  {"middle drag", "shift"},
+                                                                  {"right drag, wheel", "nearer, farther"},
+                                                                  {"h", "frame bodies and fingers again"},
+                                                                  {"s", "save a picture"},
+                                                                  {"?", "this help"},
+                                                                  {"Esc", "stop the run"}}};
+  float y = 74;
+  for (const auto& [key, what] : lines) {
+    Label key_label(*help_, -186, y, 14, kInk, Typeface::kBold);
+    key_label.set(key);
+    Label what_label(*help_, -30, y, 14, kInk);
+    what_label.set(what);
+    y -= 26;
+  }
+}
+
+void Hud::updateCard(Card& card, const FingerView& finger) {
+  const osg::Vec4 color = displayColor(stateColor(finger.mode));
+  card.role.set(finger.role);
+  card.state.set(stateWord(finger));
+  recolor(*card.lamp, color);
+  card.forces.set(print("normal %5.2f N  tang. %5.2f N", finger.normal_force, finger.tangential_force));
+  card.bar.set(finger.frictionUse(), color);
+  if (finger.touches())
+    card.use.set(print("%3.0f %% of \xc2\xb5N, \xc2\xb5 %.2f", 100 * finger.frictionUse(), finger.friction));
+  else
+    card.use.set("friction used");
+}
+
+void Hud::updateRates(const GroupTimings& timings) {
+  for (RateLine& line : rates_) {
+    const GroupTiming* timing = timings[static_cast<std::size_t>(line.group)];
+    // no wall-clock period: a run in virtual time, whose rates are exact
+    const double mean_ns = timing ? timing->period.mean() : 0.0;
+    if (mean_ns > 0) {
+      line.rate.set(print("%.1f / %.0f Hz", 1e9 / mean_ns, line.nominal));
+      line.missed.set(print("%llu", static_cast<unsigned long long>(timing->missed + timing->skipped)));
+      line.missed.setColor(timing->missed + timing->skipped > 0 ? kAlarm : kInk);
+    } else {
+      line.rate.set(print("%.0f Hz", line.nominal));
+      line.missed.set("\xe2\x80\x93");
+    }
+  }
+}
+
+void Hud::update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings) {
+  time_->set(print("t = %7.3f s", frame.time));
+  for (std::size_t i = 0; i < cards_.size() && i < fingers.size(); ++i) updateCard(cards_[i], fingers[i]);
+  if (grip_value_) {
+    const double grip = gripForce(fingers);
+    grip_value_->set(print("%.2f of %.0f N", grip, grip_scale_));
+    grip_bar_->set(grip / grip_scale_, kGripInk);
+  }
+  updateRates(timings);
+  output_->set(outputWords(frame.forces.status));
+}
+
+}  // namespace presa::view

@@ -1,0 +1,61 @@
+#pragma once
+#include <osg/Camera>
+#include <osg/MatrixTransform>
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "framework/schedule/timing_stats.h"
+#include "modules/view_osg/finger_view.h"
+#include "modules/view_osg/hud_widgets.h"
+
+namespace presa::view {
+
+using GroupTimings = std::array<const GroupTiming*, kRateGroupCount>;
+
+/// Head-up display: scene and time, one card per finger, grip force, rates, legend, and help on demand.
+class Hud {
+ public:
+  static constexpr float kHeight = 720;  ///< lines of its coordinate system
+
+  explicit Hud(const World& world);
+  osg::Camera* camera() { return camera_; }
+  void update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings);
+  /// Width over height of the picture: what hangs on the right edge moves with it.
+  void setAspect(double aspect);
+  void toggleHelp();
+
+ private:
+  struct Card {
+    Label role, state, forces, use;
+    Bar bar;
+    osg::ref_ptr<osg::Geometry> lamp;
+  };
+  struct RateLine {
+    RateGroup group;
+    double nominal;
+    Label rate, missed;
+  };
+  void addTitle(const World& world);
+  void addCard(std::size_t index);
+  void addGrip();
+  void addRates(const World& world);
+  void addLegend();
+  void addHelp();
+  void updateCard(Card& card, const FingerView& finger);
+  void updateRates(const GroupTimings& timings);
+
+  osg::ref_ptr<osg::Camera> camera_ = new osg::Camera;
+  osg::ref_ptr<osg::Group> left_ = new osg::Group;
+  osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;   ///< x = 0 is the right edge
+  osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;  ///< origin in the middle
+  osg::ref_ptr<osg::Group> help_ = new osg::Group;
+  std::optional<Label> time_, output_, grip_value_;
+  std::optional<Bar> grip_bar_;
+  std::vector<Card> cards_;
+  std::vector<RateLine> rates_;
+  double grip_scale_ = 10;  ///< full bar [N]
+};
+
+}  // namespace presa::view

@@ -1,0 +1,49 @@
+#pragma once
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osgText/Text>
+#include <string>
+
+/// Flat parts of the head-up display, in pixels of a 720 lines high picture, y up. Colours are sRGB.
+namespace presa::view {
+
+struct Rect {
+  float x, y, width, height;
+};
+
+/// DejaVu from Debian's font folder; OSG's built-in font when it is not there.
+enum class Typeface { kRegular, kBold, kMono };
+osg::ref_ptr<osgText::Font> loadFont(Typeface typeface);
+
+/// A line of text. `align` says which end stays at (x, y); y is the base line.
+class Label {
+ public:
+  enum class Align { kLeft, kRight, kCenter };
+  Label(osg::Group& parent, float x, float y, float size, const osg::Vec4& color, Typeface typeface = Typeface::kRegular,
+        Align align = Align::kLeft);
+  void set(const std::string& utf8);
+  void setColor(const osg::Vec4& color) { text_->setColor(color); }
+
+ private:
+  osg::ref_ptr<osgText::Text> text_ = new osgText::Text;
+  std::string shown_;
+};
+
+/// Filled polygon with one colour (convex, in order).
+osg::ref_ptr<osg::Geometry> polygon(const std::vector<osg::Vec2>& corners, const osg::Vec4& color);
+osg::ref_ptr<osg::Geometry> roundedPanel(const Rect& rect, float corner, const osg::Vec4& color);
+osg::ref_ptr<osg::Geometry> dot(float x, float y, float radius, const osg::Vec4& color);
+void recolor(osg::Geometry& geometry, const osg::Vec4& color);
+
+/// A value between 0 and 1, filled from the left.
+class Bar {
+ public:
+  Bar(osg::Group& parent, const Rect& rect);
+  void set(double share, const osg::Vec4& color);
+
+ private:
+  Rect rect_;
+  osg::ref_ptr<osg::Geometry> fill_;
+};
+
+}  // namespace presa::view

@@ -1,0 +1,76 @@
+#include "modules/view_osg/lighting.h"
+
+#include <osg/PolygonOffset>
+#include <osg/Program>
+
+#include "modules/view_osg/osg_convert.h"
+
+namespace presa::view {
+namespace {
+
+constexpr int kMapSize = 2048;
+const Vec3 kKeyDirection = Vec3(0.38, -0.42, 0.95).normalized();  ///< towards the key light: over the right shoulder
+
+}  // namespace
+
+Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) {
+  addMap("key", 0, kKeyDirection, Vec3::UnitZ(), casters, receivers);
+  addMap("sky", 1, Vec3::UnitZ(), Vec3::UnitY(), casters, receivers);
+  receivers->addUniform(new osg::Uniform("key_direction", osg::Vec3(toOsg(kKeyDirection))));
+  radius_ = new osg::Uniform("focus_radius", 1.0F);
+  receivers->addUniform(radius_);
+  picture_size_ = new osg::Uniform("picture_size", osg::Vec2(1, 1));
+  receivers->addUniform(picture_size_);
+}
+
+void Lighting::addMap(const char* name, int unit, const Vec3& direction, const Vec3& up, osg::Node* casters,
+                      osg::StateSet* receivers) {
+  osg::ref_ptr<osg::Texture2D> depth = new osg::Texture2D;
+  depth->setTextureSize(kMapSize, kMapSize);
+  depth->setInternalFormat(GL_DEPTH_COMPONENT24);
+  depth->setSourceFormat(GL_DEPTH_COMPONENT);
+  depth->setShadowComparison(true);
+  depth->setShadowCompareFunc(osg::Texture::LEQUAL);
+  depth->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+  depth->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+  depth->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+  depth->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+
+  osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+  camera->setName(std::string(name) + " map");
+  camera->setRenderOrder(osg::Camera::PRE_RENDER);
+  camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+  camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+  camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  camera->setViewport(0, 0, kMapSize, kMapSize);
+  camera->setClearMask(GL_DEPTH_BUFFER_BIT);
+  camera->attach(osg::Camera::DEPTH_BUFFER, depth);
+  camera->addChild(casters);
+  // depth only: the bodies' own programs would be work for nothing
+  osg::StateSet* state = camera->getOrCreateStateSet();
+  state->setAttributeAndModes(new osg::Program, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+  state->setAttributeAndModes(new osg::PolygonOffset(1.5F, 4.0F), osg::StateAttribute::ON);
+  passes_->addChild(camera);
+
+  receivers->setTextureAttributeAndModes(static_cast<unsigned>(unit), depth, osg::StateAttribute::ON);
+  receivers->addUniform(new osg::Uniform((std::string(name) + "_map").c_str(), unit));
+  osg::ref_ptr<osg::Uniform> matrix = new osg::Uniform(osg::Uniform::FLOAT_MAT4, std::string(name) + "_matrix");
+  receivers->addUniform(matrix);
+  maps_.push_back({camera, matrix, direction, up});
+}
+
+void Lighting::setFocus(const Vec3& center, double radius) {
+  radius_->set(static_cast<float>(radius));
+  for (Map& map : maps_) {
+    map.camera->setViewMatrixAsLookAt(toOsg(Vec3(center + 2 * radius * map.direction)), toOsg(center), toOsg(map.up));
+    map.camera->setProjectionMatrixAsOrtho(-radius, radius, -radius, radius, 0, 4 * radius);
+    const osg::Matrixd to_texture = osg::Matrixd::translate(1, 1, 1) * osg::Matrixd::scale(0.5, 0.5, 0.5);
+    map.matrix->set(osg::Matrixf(map.camera->getViewMatrix() * map.camera->getProjectionMatrix() * to_texture));
+  }
+}
+
+void Lighting::setPictureSize(int width, int height) {
+  picture_size_->set(osg::Vec2(static_cast<float>(width), static_cast<float>(height)));
+}
+
+}  // namespace presa::view

@@ -1,0 +1,40 @@
+#pragma once
+#include <osg/Camera>
+#include <osg/Group>
+#include <osg/Texture2D>
+#include <osg/Uniform>
+
+#include "framework/math/spatial.h"
+
+namespace presa::view {
+
+/// Depth maps of what stands in the light: one from the key light (shadow), one from straight above (how much sky a
+/// point sees). Both cover a sphere around what the picture is about.
+class Lighting {
+ public:
+  /// `casters` are drawn into both maps; the uniforms and textures are set on `receivers`.
+  Lighting(osg::Node* casters, osg::StateSet* receivers);
+
+  /// Cameras that must be drawn before the picture.
+  osg::Group* passes() { return passes_; }
+  void setFocus(const Vec3& center, double radius);
+  /// Size of the picture [pixel].
+  void setPictureSize(int width, int height);
+
+ private:
+  struct Map {
+    osg::ref_ptr<osg::Camera> camera;
+    osg::ref_ptr<osg::Uniform> matrix;
+    Vec3 direction;  ///< towards the light
+    Vec3 up;
+  };
+  void addMap(const char* name, int unit, const Vec3& direction, const Vec3& up, osg::Node* casters,
+              osg::StateSet* receivers);
+
+  osg::ref_ptr<osg::Group> passes_ = new osg::Group;
+  std::vector<Map> maps_;
+  osg::ref_ptr<osg::Uniform> radius_;
+  osg::ref_ptr<osg::Uniform> picture_size_;
+};
+
+}  // namespace presa::view

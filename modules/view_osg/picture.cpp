@@ -1,0 +1,63 @@
+#include "modules/view_osg/picture.h"
+
+#include <algorithm>
+
+namespace presa::view {
+namespace {
+
+constexpr double kFloorRadius = 2.5;    ///< [m]
+constexpr double kLitAround = 2.2;      ///< shadows reach this many radii of the subject
+
+std::vector<Pose> startPoses(const World& world) {
+  std::vector<Pose> poses;
+  for (const Body& body : world.scene.bodies) poses.push_back(body.X_WB);
+  return poses;
+}
+
+}  // namespace
+
+Picture::Picture(std::shared_ptr<const World> world)
+    : world_(std::move(world)), bodies_(*world_), glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
+      lighting_(casters_, root_->getOrCreateStateSet()), hud_(*world_) {
+  casters_->addChild(bodies_.root());
+  casters_->addChild(glyphs_.casters());
+  ViewFrame start;
+  start.X_WB = startPoses(*world_);
+  updateSubject(start, {});
+  const double reach = std::max(kFloorRadius, 6 * enclose(subject_).radius);
+  for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
+                          static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(hud_.camera())})
+    root_->addChild(part);
+  root_->addChild(makeBackground());
+  root_->addChild(makeFloor(*world_, enclose(subject_).center, reach));
+}
+
+void Picture::setSize(int width, int height) {
+  lighting_.setPictureSize(width, height);
+  hud_.setAspect(static_cast<double>(width) / height);
+}
+
+void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers) {
+  subject_.clear();
+  const auto& bodies = world_->scene.bodies;
+  const bool any_free = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.fixed; });
+  for (std::size_t i = 0; i < bodies.size() && i < frame.X_WB.size(); ++i)
+    if (!bodies[i].fixed || !any_free) subject_.push_back({frame.X_WB[i].p, bodies_.radius(i)});
+  for (const FingerView& finger : fingers) {
+    if (!finger.valid) continue;
+    subject_.push_back({finger.p_WP, finger.radius});
+    if (finger.touches()) subject_.push_back({finger.p_WC + kArrowLengthPerNewton * finger.f_H_W, 0.0});
+  }
+}
+
+void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
+  const std::vector<FingerView> fingers = fingerViews(*world_, frame);
+  bodies_.setPoses(frame.X_WB);
+  glyphs_.update(fingers);
+  hud_.update(frame, fingers, timings);
+  updateSubject(frame, fingers);
+  const Ball focus = enclose(subject_);
+  lighting_.setFocus(focus.center, kLitAround * focus.radius);
+}
+
+}  // namespace presa::view

@@ -1,0 +1,38 @@
+#pragma once
+#include <osg/Group>
+#include <memory>
+
+#include "modules/view_osg/camera.h"
+#include "modules/view_osg/contact_glyphs.h"
+#include "modules/view_osg/hud.h"
+#include "modules/view_osg/lighting.h"
+#include "modules/view_osg/scene_nodes.h"
+
+namespace presa::view {
+
+/// The whole scene graph of a run: bodies, light, contact glyphs, head-up display. Independent of where it is shown.
+class Picture {
+ public:
+  explicit Picture(std::shared_ptr<const World> world);
+  osg::Group* root() { return root_; }
+  Hud& hud() { return hud_; }
+
+  void show(const ViewFrame& frame, const GroupTimings& timings);
+  /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.
+  const std::vector<Ball>& subject() const { return subject_; }
+  void setSize(int width, int height);
+
+ private:
+  void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
+
+  std::shared_ptr<const World> world_;
+  osg::ref_ptr<osg::Group> root_ = new osg::Group;
+  BodyNodes bodies_;
+  ContactGlyphs glyphs_;
+  osg::ref_ptr<osg::Group> casters_ = new osg::Group;
+  Lighting lighting_;
+  Hud hud_;
+  std::vector<Ball> subject_;
+};
+
+}  // namespace presa::view

@@ -1,0 +1,119 @@
+#include "modules/view_osg/scene_nodes.h"
+
+#include <osg/ComputeBoundsVisitor>
+#include <osg/Depth>
+#include <osg/Geode>
+#include <cmath>
+#include <numbers>
+
+#include "modules/view_osg/crease_normals.h"
+#include "modules/view_osg/geometry_nodes.h"
+#include "modules/view_osg/osg_convert.h"
+#include "modules/view_osg/shaders.h"
+
+namespace presa::view {
+namespace {
+
+constexpr double kCreaseAngle = 40 * std::numbers::pi / 180;
+const Vec3 kFloorColor(0.20, 0.225, 0.26);
+
+template <class... Ts>
+struct Overload : Ts... { using Ts::operator()...; };
+
+const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes) {
+  if (body.visual) return meshes.visual.get();
+  if (body.haptic) return meshes.haptic.get();
+  return meshes.physics.get();
+}
+
+osg::ref_ptr<osg::Geometry> geometryOf(const Shape& shape, const TriMesh* mesh, const Vec3& color) {
+  return std::visit(
+      Overload{[&](const MeshRef&) {
+                 return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color) : osg::ref_ptr<osg::Geometry>();
+               },
+               [&](const Box& box) { return boxGeometry(box.size, color); },
+               [&](const Sphere& sphere) { return sphereGeometry(sphere.radius, color); },
+               [&](const Cylinder& cylinder) { return cylinderGeometry(cylinder.radius, cylinder.length, color); },
+               [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color); }},
+      shape);
+}
+
+/// Lowest point of what is drawn at the start [m]; 0 for an empty scene.
+double lowestPoint(const World& world) {
+  BodyNodes bodies(world);
+  osg::ComputeBoundsVisitor bounds;
+  bodies.root()->accept(bounds);
+  return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
+}
+
+}  // namespace
+
+const Geometry* shownGeometry(const Body& body) {
+  for (const auto* geometry : {&body.visual, &body.haptic, &body.physics})
+    if (*geometry) return &**geometry;
+  return nullptr;
+}
+
+BodyNodes::BodyNodes(const World& world) {
+  root_->setName("bodies");
+  root_->getOrCreateStateSet()->setAttributeAndModes(shaders::body());
+  const auto& bodies = world.scene.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
+    osg::ref_ptr<osg::MatrixTransform> X_WB = new osg::MatrixTransform(toOsg(body.X_WB));
+    X_WB->setName(body.name);
+    // fixed bodies are what things stand on: the grid gives them a scale
+    X_WB->getOrCreateStateSet()->addUniform(new osg::Uniform("grid_strength", body.fixed ? 1.0F : 0.0F));
+    double radius = 0;
+    if (const Geometry* shown = shownGeometry(body)) {
+      const TriMesh* mesh = i < world.meshes.size() ? shownMesh(body, world.meshes[i]) : nullptr;
+      if (auto geometry = geometryOf(shown->shape, mesh, world.scene.materialOf(body).color)) {
+        osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shown->X_BG));
+        X_BG->addChild(geometry);
+        X_WB->addChild(X_BG);
+        const osg::BoundingSphere bound = X_BG->getBound();
+        radius = bound.center().length() + bound.radius();
+      }
+    }
+    radius_.push_back(radius);
+    transforms_.push_back(X_WB);
+    root_->addChild(X_WB);
+  }
+}
+
+void BodyNodes::setPoses(const std::vector<Pose>& X_WB) {
+  for (std::size_t i = 0; i < transforms_.size() && i < X_WB.size(); ++i) transforms_[i]->setMatrix(toOsg(X_WB[i]));
+}
+
+osg::ref_ptr<osg::Node> makeBackground() {
+  osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  // it lies in clip space: without a bound it neither is culled nor moves the near and far planes
+  struct NoBound : osg::Drawable::ComputeBoundingBoxCallback {
+    osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
+  };
+  quad->setComputeBoundingBoxCallback(new NoBound);
+  quad->setCullingActive(false);
+  osg::StateSet* state = quad->getOrCreateStateSet();
+  state->setAttributeAndModes(shaders::background());
+  state->setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
+  state->setRenderBinDetails(-10, "RenderBin");
+  return quad;
+}
+
+osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius) {
+  const double drop = 1e-4;  // a body that ends on the floor must not flicker with it
+  const Vec3 middle(center.x(), center.y(), lowestPoint(world) - drop);
+  osg::ref_ptr<osg::Geometry> disc =
+      revolve({{radius, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, kFloorColor);
+  osg::ref_ptr<osg::MatrixTransform> floor =
+      new osg::MatrixTransform(osg::Matrixd::translate(middle.x(), middle.y(), 0));
+  floor->setName("floor");
+  floor->addChild(disc);
+  osg::StateSet* state = floor->getOrCreateStateSet();
+  state->setAttributeAndModes(shaders::floor());
+  state->addUniform(new osg::Uniform("floor_center", osg::Vec3(toOsg(middle))));
+  state->addUniform(new osg::Uniform("floor_radius", static_cast<float>(radius)));
+  return floor;
+}
+
+}  // namespace presa::view

@@ -1,0 +1,35 @@
+#pragma once
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <vector>
+
+#include "framework/scene/world.h"
+
+namespace presa::view {
+
+/// The bodies of the scene, each under one transform, and the still things around them.
+class BodyNodes {
+ public:
+  explicit BodyNodes(const World& world);
+  osg::Group* root() { return root_; }
+  /// Poses as Scene::bodies.
+  void setPoses(const std::vector<Pose>& X_WB);
+  /// Smallest sphere about the body's origin that holds what is drawn of it [m].
+  double radius(std::size_t body) const { return radius_[body]; }
+
+ private:
+  osg::ref_ptr<osg::Group> root_ = new osg::Group;
+  std::vector<osg::ref_ptr<osg::MatrixTransform>> transforms_;
+  std::vector<double> radius_;
+};
+
+/// The geometry that shows a body: visual, else haptic, else physics; null when it has none.
+const Geometry* shownGeometry(const Body& body);
+
+/// Gradient behind everything.
+osg::ref_ptr<osg::Node> makeBackground();
+
+/// Ground with a grid, under the lowest body at its start pose, fading into the background.
+osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius);
+
+}  // namespace presa::view

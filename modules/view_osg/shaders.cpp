@@ -1,0 +1,185 @@
+#include "modules/view_osg/shaders.h"
+
+#include <string>
+
+namespace presa::view::shaders {
+namespace {
+
+constexpr const char* kVertex = R"(#version 130
+uniform mat4 osg_ViewMatrixInverse;
+out vec3 position_W;
+out vec3 normal_W;
+out vec3 to_eye_W;
+out vec4 base;
+void main() {
+  vec4 eye = gl_ModelViewMatrix * gl_Vertex;
+  position_W = (osg_ViewMatrixInverse * eye).xyz;
+  normal_W = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
+  to_eye_W = osg_ViewMatrixInverse[3].xyz - position_W;
+  base = gl_Color;
+  gl_Position = gl_ProjectionMatrix * eye;
+}
+)";
+
+constexpr const char* kBackgroundVertex = R"(#version 130
+out float height;
+void main() {
+  height = gl_Vertex.y * 0.5 + 0.5;
+  gl_Position = vec4(gl_Vertex.xy, 1.0, 1.0);
+}
+)";
+
+constexpr const char* kSky = R"(#version 130
+uniform vec2 picture_size;
+vec3 skyColor(float height) {
+  vec3 low = vec3(0.300, 0.345, 0.400), high = vec3(0.030, 0.043, 0.065);
+  return mix(low, high, smoothstep(0.05, 1.0, height));
+}
+vec3 skyBehindFragment() { return skyColor(gl_FragCoord.y / picture_size.y); }
+vec3 toDisplay(vec3 linear) {
+  vec3 c = linear * (1.0 + linear / 6.0) / (1.0 + linear);
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+)";
+
+constexpr const char* kLight = R"(#version 130
+uniform sampler2DShadow key_map;
+uniform sampler2DShadow sky_map;
+uniform mat4 key_matrix;
+uniform mat4 sky_matrix;
+uniform vec3 key_direction;
+uniform float focus_radius;
+const vec2 kTaps[16] = vec2[](
+  vec2(-0.942, -0.399), vec2(0.946, -0.769), vec2(-0.094, -0.929), vec2(0.345, 0.294),
+  vec2(-0.916, 0.458), vec2(-0.815, -0.879), vec2(-0.383, 0.277), vec2(0.975, 0.756),
+  vec2(0.443, -0.975), vec2(0.537, -0.474), vec2(-0.265, -0.419), vec2(0.792, 0.191),
+  vec2(-0.242, 0.997), vec2(-0.814, 0.914), vec2(0.200, 0.786), vec2(0.143, -0.141));
+
+// share of light that arrives; blur [m] is the half width of the penumbra
+float visibility(sampler2DShadow map, mat4 to_map, vec3 p, float blur) {
+  vec3 c = (to_map * vec4(p, 1.0)).xyz;
+  if (any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)))) return 1.0;
+  float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  mat2 spin = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * (blur * 0.5 / focus_radius);
+  float sum = 0.0;
+  for (int i = 0; i < 16; ++i) sum += texture(map, vec3(c.xy + spin * kTaps[i], c.z));
+  return sum / 16.0;
+}
+
+vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
+  float facing = dot(n, key_direction);
+  float margin = 0.0008 + 0.0015 * (1.0 - max(facing, 0.0));
+  float key = facing > 0.0 ? facing * visibility(key_map, key_matrix, p + n * margin, 0.0035) : 0.0;
+  float open = mix(1.0, visibility(sky_map, sky_matrix, p + n * 0.0015, 0.022), 0.72 * (0.5 + 0.5 * n.z));
+  vec3 sky = mix(vec3(0.23, 0.22, 0.22), vec3(0.52, 0.58, 0.68), 0.5 + 0.5 * n.z) * open;
+  vec3 fill = vec3(0.10, 0.13, 0.18) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
+  vec3 half_way = normalize(key_direction + to_eye);
+  float shine = gloss * pow(max(dot(n, half_way), 0.0), 48.0) * key;
+  return albedo * (vec3(2.35, 2.22, 2.02) * key + sky + fill) + vec3(shine);
+}
+
+float gridLine(vec2 p, float spacing, float strength) {
+  vec2 g = p / spacing;
+  vec2 width = fwidth(g);
+  vec2 away = abs(fract(g - 0.5) - 0.5) / max(width, vec2(1e-6));
+  vec2 line = (1.0 - smoothstep(0.35, 1.5, away)) * (1.0 - smoothstep(0.15, 0.45, width));
+  return strength * max(line.x, line.y);
+}
+float grid(vec2 p) { return max(gridLine(p, 0.05, 0.30), gridLine(p, 0.25, 0.50)); }
+)";
+
+constexpr const char* kSurfaceDeclarations = R"(#version 130
+in vec3 position_W;
+in vec3 normal_W;
+in vec3 to_eye_W;
+in vec4 base;
+vec3 skyBehindFragment();
+vec3 toDisplay(vec3 linear);
+vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss);
+float grid(vec2 p);
+)";
+
+constexpr const char* kBody = R"(
+uniform float grid_strength;
+void main() {
+  vec3 n = normalize(normal_W);
+  vec3 albedo = base.rgb;
+  if (n.z > 0.99) albedo *= 1.0 - grid_strength * grid(position_W.xy);
+  gl_FragColor = vec4(toDisplay(lit(albedo, n, position_W, normalize(to_eye_W), 0.35)), 1.0);
+}
+)";
+
+constexpr const char* kFloor = R"(
+uniform vec3 floor_center;
+uniform float floor_radius;
+void main() {
+  vec3 albedo = base.rgb * (1.0 - grid(position_W.xy));
+  vec3 color = lit(albedo, vec3(0, 0, 1), position_W, normalize(to_eye_W), 0.0);
+  float far = smoothstep(0.15, 1.0, length(position_W.xy - floor_center.xy) / floor_radius);
+  gl_FragColor = vec4(toDisplay(mix(color, skyBehindFragment(), far)), 1.0);
+}
+)";
+
+constexpr const char* kSkin = R"(
+uniform vec3 state_color;
+void main() {
+  vec3 n = normalize(normal_W), e = normalize(to_eye_W);
+  float rim = pow(1.0 - max(dot(n, e), 0.0), 2.2);
+  vec3 color = lit(mix(base.rgb, state_color, 0.18 + 0.72 * rim), n, position_W, e, 0.5);
+  gl_FragColor = vec4(toDisplay(color), mix(0.50, 0.95, rim));
+}
+)";
+
+constexpr const char* kGlyph = R"(
+uniform float opacity;
+void main() {
+  float facing = 0.5 + 0.5 * dot(normalize(normal_W), normalize(to_eye_W + vec3(0, 0, length(to_eye_W))));
+  gl_FragColor = vec4(toDisplay(base.rgb * mix(0.45, 1.25, facing)), opacity);
+}
+)";
+
+constexpr const char* kCone = R"(
+uniform vec3 state_color;
+uniform float opacity;
+void main() {
+  vec3 n = normalize(normal_W);
+  float grazing = 1.0 - abs(dot(n, normalize(to_eye_W)));
+  gl_FragColor = vec4(toDisplay(state_color * 1.5), opacity * mix(0.7, 1.8, grazing * grazing));
+}
+)";
+
+constexpr const char* kBackground = R"(#version 130
+in float height;
+vec3 skyColor(float height);
+vec3 toDisplay(vec3 linear);
+void main() { gl_FragColor = vec4(toDisplay(skyColor(height)), 1.0); }
+)";
+
+osg::ref_ptr<osg::Program> surface(const char* name, const char* main) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName(name);
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kSky));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kLight));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, std::string(kSurfaceDeclarations) + main));
+  return program;
+}
+
+}  // namespace
+
+osg::ref_ptr<osg::Program> body() { return surface("body", kBody); }
+osg::ref_ptr<osg::Program> floor() { return surface("floor", kFloor); }
+osg::ref_ptr<osg::Program> skin() { return surface("skin", kSkin); }
+osg::ref_ptr<osg::Program> glyph() { return surface("glyph", kGlyph); }
+osg::ref_ptr<osg::Program> cone() { return surface("cone", kCone); }
+
+osg::ref_ptr<osg::Program> background() {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName("background");
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, kBackgroundVertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kSky));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kBackground));
+  return program;
+}
+
+}  // namespace presa::view::shaders

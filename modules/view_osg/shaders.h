@@ -1,0 +1,21 @@
+#pragma once
+#include <osg/Program>
+
+/// GLSL 1.30 programs, compatibility profile. Everything is lit in linear RGB and in world coordinates, and encoded
+/// to sRGB at the end.
+namespace presa::view::shaders {
+
+/// Bodies: key light with soft shadow, sky light with soft occlusion. Uniform `grid`: > 0 draws lines on upward faces.
+osg::ref_ptr<osg::Program> body();
+/// Floor: as a body, fading into the background with distance.
+osg::ref_ptr<osg::Program> floor();
+/// Fingertip: translucent skin, rim in the colour of the contact state (uniform `state_color`).
+osg::ref_ptr<osg::Program> skin();
+/// HIP, arrow and links: their own colour, a little shaded; uniform `opacity`.
+osg::ref_ptr<osg::Program> glyph();
+/// Friction cone: translucent, denser towards grazing view; uniform `state_color`.
+osg::ref_ptr<osg::Program> cone();
+/// Vertical gradient behind everything.
+osg::ref_ptr<osg::Program> background();
+
+}  // namespace presa::view::shaders

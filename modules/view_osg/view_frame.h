@@ -1,0 +1,18 @@
+#pragma once
+#include <vector>
+
+#include "framework/state/contact_exchange.h"
+#include "framework/state/device_state.h"
+
+namespace presa::view {
+
+/// One moment of the run, copied from the ports: all that a picture is made of.
+struct ViewFrame {
+  double time = 0;          ///< [s]
+  std::vector<Pose> X_WB;   ///< as Scene::bodies
+  DeviceState device;
+  ContactExchange contacts;
+  ForceCommand forces;
+};
+
+}  // namespace presa::view

@@ -1,0 +1,132 @@
+#include "modules/view_osg/view_module.h"
+
+#include <osg/Notify>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "framework/plan/plugin.h"
+#include "modules/view_osg/frame_image.h"
+
+namespace presa::view {
+namespace {
+
+[[noreturn]] void refuse(int code, const std::string& what, const std::string& help) {
+  Diagnostics diagnostics;
+  diagnostics.error(code, {"command line", 0, 0}, what, help);
+  throw InputError(std::move(diagnostics));
+}
+
+std::string timeStamp(double time) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3f", time);
+  return text.data();
+}
+
+}  // namespace
+
+ViewModule::ViewModule(std::shared_ptr<const World> world) : View("view_osg", RateGroup::kView), world_(std::move(world)) {
+  // Mesa's software renderer would take every core, the haptic thread's too. Set here, before any thread runs.
+  setenv("LP_NUM_THREADS", "1", 0);
+  for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
+  if (!world_->options.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
+}
+
+ViewModule::~ViewModule() = default;
+
+std::vector<std::string> ViewModule::stages() const {
+  if (windowed()) return {"interpolate object poses to now", "draw a frame", "handle keys and mouse"};
+  return {"keep the latest state", "draw the picture once, when it is due"};
+}
+
+void ViewModule::start() {
+  osg::setNotifyLevel(osg::FATAL);
+  try {
+    picture_ = std::make_unique<Picture>(world_);
+    renderer_ = windowed() ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name)
+                           : makeOffscreenRenderer(*picture_);
+  } catch (const std::exception& error) {
+    if (windowed())
+      refuse(701, std::string("cannot show the run: ") + error.what(),
+             "set DISPLAY to a running X server, or use the off-screen view");
+    refuse(702, std::string("cannot draw off-screen: ") + error.what(),
+           "install Mesa's EGL and software renderer (Debian: libegl1 libegl-mesa0 libgl1-mesa-dri)");
+  }
+}
+
+void ViewModule::step(const Tick& tick) noexcept {
+  if (!renderer_ || broken_) return;
+  try {
+    copyPorts(tick);
+    if (windowed()) drawWindow();
+    if (screenshotDue()) saveScreenshot();
+  } catch (const std::exception& error) {
+    giveUp(error.what());
+  }
+}
+
+void ViewModule::stop() {
+  if (renderer_ && screenshot_.outcome == Screenshot::Outcome::kPending) saveScreenshot();
+  renderer_.reset();
+  picture_.reset();
+}
+
+void ViewModule::copyPorts(const Tick& tick) {
+  frame_.time = tick.time;
+  frame_.device = device_state_.value();
+  frame_.contacts = contact_exchange_.value();
+  frame_.forces = force_command_.value();
+  if (!object_state_.hasValue()) return;
+  const ObjectState& objects = object_state_.value();
+  const std::size_t count = std::min(frame_.X_WB.size(), static_cast<std::size_t>(objects.count));
+  for (std::size_t i = 0; i < count; ++i) frame_.X_WB[i] = objects.poseAt(static_cast<std::int32_t>(i), tick.time);
+}
+
+void ViewModule::drawWindow() {
+  picture_->show(frame_, timings_);
+  renderer_->render();
+  if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);
+  if (!renderer_->takePictureRequest()) return;
+  const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";
+  const std::string trouble = savePicture(file);
+  picture_->hud().tell(trouble.empty() ? "saved " + file : trouble);
+}
+
+bool ViewModule::screenshotDue() const {
+  return screenshot_.outcome == Screenshot::Outcome::kPending && world_->options.screenshot_time >= 0 &&
+         frame_.time >= world_->options.screenshot_time;
+}
+
+void ViewModule::saveScreenshot() {
+  const std::string& file = world_->options.screenshot;
+  const std::string trouble = savePicture(file);
+  if (trouble.empty())
+    screenshot_ = {Screenshot::Outcome::kWritten, "wrote " + file + ", t = " + timeStamp(frame_.time) + " s"};
+  else
+    screenshot_ = {Screenshot::Outcome::kFailed, "cannot write " + file + ": " + trouble};
+}
+
+std::string ViewModule::savePicture(const std::string& file) {
+  picture_->show(frame_, timings_);
+  const osg::ref_ptr<osg::Image> image = renderer_->capture();
+  return image ? writePng(*image, file) : "the window is closed";
+}
+
+void ViewModule::giveUp(const std::string& why) noexcept {
+  broken_ = true;
+  if (screenshot_.outcome == Screenshot::Outcome::kPending) screenshot_ = {Screenshot::Outcome::kFailed, why};
+}
+
+namespace {
+
+std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
+  return std::make_unique<ViewModule>(std::move(world));
+}
+
+const ModulePlugin kPlugin{.name = "view_osg", .summary = "draws bodies, fingers and forces in a window or a picture",
+                           .create = &create};
+
+}  // namespace
+}  // namespace presa::view
+
+PRESA_MODULE_PLUGIN(presa::view::kPlugin)

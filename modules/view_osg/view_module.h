@@ -1,0 +1,54 @@
+#pragma once
+#include <atomic>
+#include <memory>
+
+#include "framework/graph/port.h"
+#include "framework/plan/view.h"
+#include "framework/scene/world.h"
+#include "framework/state/object_state.h"
+#include "modules/view_osg/renderer.h"
+
+namespace presa::view {
+
+/// The view: reads its ports, draws. Off-screen it only copies the states until the one picture is due; in a window
+/// every step is a frame. Thread: view; free to allocate; nobody waits for it.
+class ViewModule final : public View {
+ public:
+  explicit ViewModule(std::shared_ptr<const World> world);
+  ~ViewModule() override;
+
+  /// Opens the window or the off-screen context. Throws InputError when it cannot.
+  void start() override;
+  void step(const Tick& tick) noexcept override;
+  void stop() override;
+  std::vector<std::string> stages() const override;
+
+  bool wantsStop() const noexcept override { return wants_stop_.load(std::memory_order_relaxed); }
+  Screenshot screenshot() const override { return screenshot_; }
+  void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
+
+ private:
+  bool windowed() const { return world_->options.view == RunOptions::View::kWindow; }
+  void copyPorts(const Tick& tick);
+  void drawWindow();
+  bool screenshotDue() const;
+  void saveScreenshot();
+  std::string savePicture(const std::string& file);
+  void giveUp(const std::string& why) noexcept;
+
+  std::shared_ptr<const World> world_;
+  In<DeviceState> device_state_{*this, "device_state"};
+  In<ContactExchange> contact_exchange_{*this, "contact_exchange"};
+  In<ForceCommand> force_command_{*this, "force_command"};
+  In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
+
+  ViewFrame frame_;
+  GroupTimings timings_{};
+  std::unique_ptr<Picture> picture_;
+  std::unique_ptr<Renderer> renderer_;
+  Screenshot screenshot_;
+  std::atomic<bool> wants_stop_{false};
+  bool broken_ = false;  ///< drawing failed once: the run goes on without a picture
+};
+
+}  // namespace presa::view

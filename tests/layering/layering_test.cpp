@@ -1,0 +1,113 @@
+// An architecture holds as long as something fails when it is broken. These tests read the sources and the binaries.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/layering/rules.h"
+#include "tests/layering/source_tree.h"
+
+namespace presa::layering {
+namespace {
+
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+
+/// "path: finding" of every file that breaks the rule.
+std::vector<std::string> offenders(const std::function<Finding(const SourceFile&)>& rule) {
+  std::vector<std::string> found;
+  for (const SourceFile& file : sourceTree()) {
+    if (const Finding finding = rule(file)) found.push_back(file.path + ": " + *finding);
+  }
+  return found;
+}
+
+// If the walk missed folders, every rule below would hold for nothing.
+TEST(Layering, TheWalkSeesTheWholeTree) {
+  std::set<std::string> paths;
+  for (const SourceFile& file : sourceTree()) paths.insert(file.path);
+  EXPECT_THAT(paths, IsSupersetOf({"CMakeLists.txt", "framework/graph/port.h", "apps/presa/main.cpp",
+                                   "modules/dynamics_ode/CMakeLists.txt", "tests/layering/layering_test.cpp"}));
+}
+
+// An engine that only one folder knows can be replaced; one that leaks cannot.
+TEST(Layering, EachOutsideLibraryIsIncludedInOneFolder) { EXPECT_THAT(offenders(includesForeignLibrary), IsEmpty()); }
+
+// Modules and devices meet in the graph alone, so that any of them can be left out of a run.
+TEST(Layering, IncludesFollowTheArrows) { EXPECT_THAT(offenders(includesAgainstTheArrows), IsEmpty()); }
+
+TEST(Layering, HeadersHavePragmaOnce) { EXPECT_THAT(offenders(lacksPragmaOnce), IsEmpty()); }
+
+TEST(Layering, FilesStayShortEnoughToRead) { EXPECT_THAT(offenders(isTooLong), IsEmpty()); }
+
+// What works in one checkout only breaks for the next person.
+TEST(Layering, NoFileNamesAPathOfOneMachine) { EXPECT_THAT(offenders(namesPathOfOneMachine), IsEmpty()); }
+
+TEST(Layering, EveryFolderSaysWhatItIsFor) {
+  std::vector<std::string> silent;
+  for (const std::string& folder : folders()) {
+    if (!std::filesystem::exists(std::filesystem::path(PRESA_SOURCE_DIR) / folder / "README.md"))
+      silent.push_back(folder);
+  }
+  EXPECT_THAT(silent, IsEmpty());
+}
+
+// The shape of the root is fixed; what tools demand there is listed by name.
+TEST(Layering, TheRootHoldsNothingElse) {
+  const std::set<std::string> allowed{"CMakeLists.txt",
+                                      "CMakePresets.json",
+                                      "README.md",
+                                      "LICENSE",
+                                      "CONTRIBUTING.md",
+                                      "dev",
+                                      ".ci",
+                                      ".gitignore",
+                                      ".clang-format",
+                                      ".clang-tidy",
+                                      ".editorconfig",
+                                      "framework",
+                                      "modules",
+                                      "devices",
+                                      "apps",
+                                      "config",
+                                      "experiments",
+                                      "tests"};
+  std::vector<std::string> others;
+  for (const std::string& entry : rootEntries()) {
+    if (!allowed.contains(entry)) others.push_back(entry);
+  }
+  EXPECT_THAT(others, IsEmpty());
+}
+
+// A run maps an engine only when its scene calls for it: so neither the program nor the framework, and no plug-in but
+// the engine's own, may ask the linker for one.
+TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
+  const std::map<std::string, std::string> home_of{
+      {"libode", "presa_dynamics_ode.so"},   {"libfcl", "presa_collision_fcl.so"}, {"libosg", "presa_view_osg.so"},
+      {"libEGL", "presa_view_osg.so"},       {"libX11", "presa_view_osg.so"},      {"libhdf5", "presa_record.so"},
+      {"libassimp", "presa_mesh_import.so"},
+  };
+  const std::filesystem::path build = PRESA_BINARY_DIR;
+  std::vector<std::filesystem::path> binaries{build / "bin/presa", build / "lib/presa/libpresa_framework.so"};
+  for (const auto& entry : std::filesystem::directory_iterator(build / "lib/presa")) binaries.push_back(entry.path());
+
+  std::vector<std::string> wrong;
+  for (const std::filesystem::path& binary : binaries) {
+    for (const std::string& library : neededLibraries(binary)) {
+      for (const auto& [engine, home] : home_of) {
+        if (library.starts_with(engine) && binary.filename() != home) {
+          wrong.push_back(binary.filename().string() + " needs " + library);
+        }
+      }
+    }
+  }
+  EXPECT_THAT(wrong, IsEmpty());
+}
+
+}  // namespace
+}  // namespace presa::layering

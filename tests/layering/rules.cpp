@@ -1,0 +1,92 @@
+#include "tests/layering/rules.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <regex>
+#include <set>
+
+namespace presa::layering {
+namespace {
+
+constexpr std::size_t kMaxLines = 800;
+constexpr std::size_t kMaxReadmeLines = 40;
+constexpr std::size_t kMaxLongReadmeLines = 140;  // the root's, and config's reference of the scene format
+
+struct Library {
+  const char* headers;  ///< regular expression over the included name
+  const char* home;     ///< the one folder that may include it
+};
+
+// tests may include a library beside its home: as an independent oracle
+constexpr std::array kLibraries{
+    Library{"ode/.*", "modules/dynamics_ode/"},
+    Library{"(fcl|ccd|octomap)/.*", "modules/collision_fcl/"},
+    Library{"(osg[A-Za-z]*|OpenThreads|EGL|X11|GL|GLES[23]?)/.*", "modules/view_osg/"},
+    Library{"(hdf5|H5).*", "framework/record/record_plugin/"},
+    Library{"libxml/.*", "framework/xml/"},
+    Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},
+    Library{"(CLI|nlohmann)/.*", "apps/"},
+    Library{"(gtest|gmock|benchmark|rapidcheck)[./].*", "tests/"},
+};
+
+}  // namespace
+
+Finding includesForeignLibrary(const SourceFile& file) {
+  if (!file.isCpp() || file.topFolder() == "tests") return {};
+  for (const std::string& name : file.includes()) {
+    for (const Library& library : kLibraries) {
+      if (std::regex_match(name, std::regex(library.headers)) && !file.path.starts_with(library.home)) {
+        return "includes <" + name + ">, which belongs to " + library.home;
+      }
+    }
+  }
+  return {};
+}
+
+Finding includesAgainstTheArrows(const SourceFile& file) {
+  // apps -> modules, devices, experiments -> framework; beside that only a part's own headers
+  static const std::map<std::string, std::set<std::string>> kMayInclude{
+      {"framework", {"framework"}},
+      {"modules", {"framework"}},
+      {"devices", {"framework"}},
+      {"experiments", {"framework"}},
+      {"apps", {"framework", "modules", "devices", "experiments", "apps"}},
+      {"tests", {"framework", "modules", "devices", "experiments", "apps", "tests"}},
+  };
+  const auto allowed = kMayInclude.find(file.topFolder());
+  if (!file.isCpp() || allowed == kMayInclude.end()) return {};
+  for (const std::string& name : file.includes()) {
+    const SourceFile included{name, ""};
+    if (!kMayInclude.contains(included.topFolder())) continue;  // not one of ours
+    if (!allowed->second.contains(included.topFolder()) && included.part() != file.part()) {
+      return "includes \"" + name + "\": " + file.topFolder() + " may not know " + included.part();
+    }
+  }
+  return {};
+}
+
+Finding lacksPragmaOnce(const SourceFile& file) {
+  if (!file.path.ends_with(".h") || file.text.find("#pragma once\n") != std::string::npos) return {};
+  return "has no #pragma once";
+}
+
+Finding isTooLong(const SourceFile& file) {
+  std::size_t limit = kMaxLines;
+  if (file.path.ends_with("README.md")) {
+    const bool is_long = file.path == "README.md" || file.path == "config/README.md";
+    limit = is_long ? kMaxLongReadmeLines : kMaxReadmeLines;
+  }
+  if (!file.isText() || file.lines() <= limit) return {};
+  return "has " + std::to_string(file.lines()) + " lines, the limit is " + std::to_string(limit);
+}
+
+Finding namesPathOfOneMachine(const SourceFile& file) {
+  // a path begins after a blank, quote or bracket: "network/" or a URL is none
+  static const std::regex kPath(R"((?:^|[\s"'(<=:])(/(?:work|home|root|Users)/[\w.]))");
+  std::smatch match;
+  if (!file.isText() || !std::regex_search(file.text, match, kPath)) return {};
+  return "names a path of one machine: " + match[1].str() + "…";
+}
+
+}  // namespace presa::layering

@@ -1,0 +1,18 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "tests/layering/source_tree.h"
+
+/// The rules of the architecture, each a function from a file to what is wrong with it (nothing: no value).
+namespace presa::layering {
+
+using Finding = std::optional<std::string>;
+
+Finding includesForeignLibrary(const SourceFile& file);
+Finding includesAgainstTheArrows(const SourceFile& file);
+Finding lacksPragmaOnce(const SourceFile& file);
+Finding isTooLong(const SourceFile& file);
+Finding namesPathOfOneMachine(const SourceFile& file);
+
+}  // namespace presa::layering

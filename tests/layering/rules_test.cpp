@@ -1,0 +1,66 @@
+// A rule that never fires proves nothing: each is shown one file that breaks it and one that does not.
+#include "tests/layering/rules.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace presa::layering {
+namespace {
+
+std::string include(const std::string& name) { return "#pragma once\n# include <" + name + ">\n"; }
+
+TEST(LayeringRules, ALibraryHasOneHome) {
+  EXPECT_TRUE(includesForeignLibrary({"apps/presa/main.cpp", include("ode/ode.h")}));
+  EXPECT_TRUE(includesForeignLibrary({"modules/dynamics_ode/x.cpp", include("fcl/fcl.h")}));
+  EXPECT_TRUE(includesForeignLibrary({"framework/record/recording.cpp", include("hdf5.h")}));
+  EXPECT_TRUE(includesForeignLibrary({"framework/scene/load.cpp", include("libxml/tree.h")}));
+  EXPECT_TRUE(includesForeignLibrary({"framework/plan/x.h", include("nlohmann/json.hpp")}));
+  EXPECT_TRUE(includesForeignLibrary({"devices/scripted/x.h", include("gtest/gtest.h")}));
+  EXPECT_TRUE(includesForeignLibrary({"modules/effects/x.h", include("osgViewer/Viewer")}));
+  EXPECT_FALSE(includesForeignLibrary({"modules/dynamics_ode/x.cpp", include("ode/ode.h")}));
+  EXPECT_FALSE(includesForeignLibrary({"framework/math/x.h", include("Eigen/Core")}));
+}
+
+TEST(LayeringRules, IncludesFollowTheArrows) {
+  EXPECT_TRUE(includesAgainstTheArrows({"modules/a/x.cpp", include("modules/b/y.h")}));
+  EXPECT_TRUE(includesAgainstTheArrows({"devices/a/x.cpp", include("modules/b/y.h")}));
+  EXPECT_TRUE(includesAgainstTheArrows({"devices/a/x.cpp", include("devices/b/y.h")}));
+  EXPECT_TRUE(includesAgainstTheArrows({"framework/a/x.h", include("modules/b/y.h")}));
+  EXPECT_TRUE(includesAgainstTheArrows({"framework/a/x.h", include("tests/support/y.h")}));
+  EXPECT_TRUE(includesAgainstTheArrows({"modules/a/x.cpp", include("apps/presa/y.h")}));
+  EXPECT_FALSE(includesAgainstTheArrows({"modules/a/x.cpp", include("modules/a/y.h")}));
+  EXPECT_FALSE(includesAgainstTheArrows({"modules/a/deep/x.cpp", include("modules/a/y.h")}));
+  EXPECT_FALSE(includesAgainstTheArrows({"apps/presa/x.cpp", include("modules/b/y.h")}));
+  EXPECT_FALSE(includesAgainstTheArrows({"framework/a/x.h", include("framework/b/y.h")}));
+}
+
+TEST(LayeringRules, HeadersWithoutGuardAreFound) {
+  EXPECT_TRUE(lacksPragmaOnce({"framework/a.h", "struct A {};\n"}));
+  EXPECT_FALSE(lacksPragmaOnce({"framework/a.cpp", "struct A {};\n"}));
+}
+
+TEST(LayeringRules, LengthIsCountedInLines) {
+  const auto lines = [](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "x\n";
+    return text;
+  };
+  EXPECT_FALSE(isTooLong({"framework/a.cpp", lines(800)}));
+  EXPECT_TRUE(isTooLong({"framework/a.cpp", lines(800) + "x"}));
+  EXPECT_FALSE(isTooLong({"modules/README.md", lines(40)}));
+  EXPECT_TRUE(isTooLong({"modules/README.md", lines(41)}));
+  EXPECT_FALSE(isTooLong({"config/README.md", lines(140)}));
+  EXPECT_FALSE(isTooLong({"config/meshes/bunny.obj", lines(5000)}));
+}
+
+TEST(LayeringRules, PathsOfOneMachineAreFound) {
+  // put together here, so that this file does not break the rule itself
+  const std::string home = std::string("/ho") + "me/ada/presa";
+  EXPECT_TRUE(namesPathOfOneMachine({"apps/a.cpp", "open(\"" + home + "\");"}));
+  EXPECT_TRUE(namesPathOfOneMachine({"apps/README.md", "see " + home}));
+  EXPECT_FALSE(namesPathOfOneMachine({"apps/README.md", "the frame" + std::string("/wo") + "rk/flow of devices"}));
+}
+
+}  // namespace
+}  // namespace presa::layering
