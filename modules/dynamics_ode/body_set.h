@@ -31,6 +31,8 @@ class BodySet {
 
   /// State at the start of the step: pose, mass, inverse inertia in W. Only for bodies that move.
   BodyInertiaState inertiaState(std::size_t i) const;
+  /// [1/kg]; zero when it does not move
+  double inverseMass(std::size_t i) const noexcept { return moves(i) ? 1 / bodies_[i].mass : 0; }
   Vec3 centreVelocity(std::size_t i) const;     ///< of the centre of mass [m/s]; zero when it does not move
   Vec3 angularVelocity(std::size_t i) const;    ///< [rad/s]
 

@@ -49,7 +49,7 @@ std::vector<std::string> DynamicsModule::stages() const {
       "collide the physics geometries (hash space, at most 8 contacts per pair)",
       "solve once without friction between bodies, to point friction along the coming slip",
       "fingers as implicit spring-dampers (soft contact joints) inside their friction cone",
-      "solve: islands up to " + std::to_string(options_.direct_limit) + " contacts directly, larger ones with " +
+      "solve: islands up to " + std::to_string(options_.direct_limit) + " contacts directly, larger ones with up to " +
           std::to_string(options_.quick_iterations) + " iterations",
       "rotate free bodies by one Runge-Kutta step of Euler's equations",
       "freeze a body whose state is not finite; publish poses at both ends of the step",

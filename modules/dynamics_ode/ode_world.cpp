@@ -76,6 +76,10 @@ struct OdeWorld::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
+  struct ContactSurface {
+    double cfm = 0, mu = 0;
+    Vec3 direction = Vec3::UnitX();
+  };
   struct ActiveFinger {
     std::size_t finger = 0, body = 0;
     FingerRow row;
@@ -88,7 +92,8 @@ struct OdeWorld::Impl {
   void chooseFriction(double h);
   void addFingerJoint(const ActiveFinger& active);
   void addFingerJoints();
-  void addContactJoint(const BodyContact& contact, double mu, const Vec3& direction);
+  void addContactJoint(const BodyContact& contact, const ContactSurface& surface);
+  int quickIterations() const;
   void applyExplicitForces();
   void integrate(double h, int iterations);
   void enableOnly(bool large);
@@ -106,11 +111,7 @@ struct OdeWorld::Impl {
   BodyContacts collider;
   Islands islands;
   std::vector<BodyContact> contacts;
-  struct Friction {
-    double mu = 0;
-    Vec3 direction = Vec3::Zero();
-  };
-  std::vector<Friction> friction;  // as contacts
+  std::vector<ContactSurface> surfaces;  // as contacts
   std::vector<Motion> motions;     // as bodies
   std::vector<ActiveFinger> fingers;
   std::array<dJointFeedback, kMaxFingers> feedback{};
@@ -167,17 +168,17 @@ void OdeWorld::Impl::addFingerJoint(const ActiveFinger& active) {
   dJointSetFeedback(joint, &feedback[active.finger]);
 }
 
-void OdeWorld::Impl::addContactJoint(const BodyContact& c, double mu, const Vec3& direction) {
+void OdeWorld::Impl::addContactJoint(const BodyContact& c, const ContactSurface& s) {
   dContact contact{};
   dSurfaceParameters& surface = contact.surface;
   surface.mode = dContactSoftERP | dContactSoftCFM | dContactFDir1 | dContactApprox1_1 | dContactApprox1_2;
-  surface.mu = mu;
+  surface.mu = s.mu;
   surface.soft_erp = options.contact_erp;
-  surface.soft_cfm = options.contact_cfm;
+  surface.soft_cfm = s.cfm;
   assign(contact.geom.pos, c.p_W);
   assign(contact.geom.normal, c.nhat_AB_W);
   contact.geom.depth = c.depth;
-  assign(contact.fdir1, direction);
+  assign(contact.fdir1, s.direction);
   const dJointID joint = dJointCreateContact(ode, joints, &contact);
   dJointAttach(joint, bodies->body(static_cast<std::size_t>(c.B)), bodies->body(static_cast<std::size_t>(c.A)));
 }
@@ -244,6 +245,11 @@ void OdeWorld::Impl::integrate(double h, int iterations) {
   }
 }
 
+int OdeWorld::Impl::quickIterations() const {
+  const int affordable = options.quick_budget / std::max(1, static_cast<int>(contacts.size()));
+  return std::min(options.quick_iterations, std::max(options.min_quick_iterations, affordable));
+}
+
 void OdeWorld::Impl::countIslands() {
   islands.reset(bodies->size());
   for (const BodyContact& contact : contacts) {
@@ -266,25 +272,27 @@ void OdeWorld::Impl::readMotions(bool start) {
 // on the bodies, their supports included. So the step is solved once without friction between bodies (a third of the
 // rows), the slip read, and everything put back.
 void OdeWorld::Impl::chooseFriction(double h) {
-  friction.resize(contacts.size());
+  surfaces.resize(contacts.size());
   readMotions(true);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const BodyContact& c = contacts[i];
     const auto A = static_cast<std::size_t>(c.A), B = static_cast<std::size_t>(c.B);
     const double slip_speed = slipVelocity(c.nhat_AB_W, c.p_W, motions[A], motions[B]).norm();
     const Scene& scene = world->scene;
-    friction[i].mu = pairFriction(scene.materialOf(scene.bodies[A]), scene.materialOf(scene.bodies[B]), slip_speed);
-    addContactJoint(c, 0, c.nhat_AB_W.unitOrthogonal());
+    const double cfm = h * options.contact_softness * (bodies->inverseMass(A) + bodies->inverseMass(B));
+    surfaces[i] = {std::min(cfm, options.max_contact_cfm), 0, c.nhat_AB_W.unitOrthogonal()};
+    addContactJoint(c, surfaces[i]);
+    surfaces[i].mu = pairFriction(scene.materialOf(scene.bodies[A]), scene.materialOf(scene.bodies[B]), slip_speed);
   }
   addFingerJoints();
-  integrate(h, std::min(options.quick_iterations, kPredictionIterations));
+  integrate(h, std::min(quickIterations(), kPredictionIterations));
   dJointGroupEmpty(joints);
   readMotions(false);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const BodyContact& c = contacts[i];
     const Vec3 slip = slipVelocity(c.nhat_AB_W, c.p_W, motions[static_cast<std::size_t>(c.A)],
                                    motions[static_cast<std::size_t>(c.B)]);
-    friction[i].direction = frictionDirection(c.nhat_AB_W, slip);
+    surfaces[i].direction = frictionDirection(c.nhat_AB_W, slip);
   }
   for (std::size_t i = 0; i < bodies->size(); ++i) {
     if (bodies->moves(i)) bodies->restore(i);
@@ -296,11 +304,11 @@ void OdeWorld::Impl::solveStep(const ContactExchange& exchange, double time, dou
   readFingers(exchange, time, h);
   collider.find(space, *bodies, contacts);
   countIslands();
-  solver_failed = false;
   if (!contacts.empty()) chooseFriction(h);
-  for (std::size_t i = 0; i < contacts.size(); ++i) addContactJoint(contacts[i], friction[i].mu, friction[i].direction);
+  solver_failed = false;  // a look ahead that failed costs a direction only
+  for (std::size_t i = 0; i < contacts.size(); ++i) addContactJoint(contacts[i], surfaces[i]);
   addFingerJoints();
-  integrate(h, options.quick_iterations);
+  integrate(h, quickIterations());
   if (solver_failed) ++fallback_steps;
   for (const ActiveFinger& active : fingers) {
     finger_force[active.finger] = options.coupling == OdeOptions::Coupling::kExplicitForce
