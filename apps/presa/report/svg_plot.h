@@ -34,12 +34,12 @@ struct Series {
 /// One plot of a stack that shares the time axis.
 struct Panel {
   std::string title;              ///< "Height"
-  std::string unit;               ///< "m"; may be empty
+  std::string unit{};             ///< "m"; may be empty
   double height = 160;            ///< of the plotting area [px]
   bool from_zero = false;         ///< the y axis includes 0
-  std::vector<std::string> names; ///< not empty: y counts these names from 0
-  std::vector<Series> series;
-  std::vector<Level> levels;
+  std::vector<std::string> names{};  ///< not empty: y counts these names from 0
+  std::vector<Series> series{};
+  std::vector<Level> levels{};
 };
 
 struct TimeFigure {
