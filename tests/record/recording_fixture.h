@@ -1,0 +1,69 @@
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "framework/graph/graph_builder.h"
+#include "framework/record/record_plugin/recorder.h"
+#include "framework/schedule/rates.h"
+
+namespace presa::record {
+
+/// A number whose every bit depends on tick and place: any pattern, NaN and infinity included.
+inline std::uint64_t bitsAt(std::uint64_t tick, std::uint64_t place) {
+  std::uint64_t z = (tick * 1000003 + place + 1) * 0x9E3779B97F4A7C15ull;   // splitmix64
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+  return z ^ (z >> 31);
+}
+inline double realAt(std::uint64_t tick, std::uint64_t place) { return std::bit_cast<double>(bitsAt(tick, place)); }
+inline Vec3 vectorAt(std::uint64_t tick, std::uint64_t place) {
+  return {realAt(tick, place), realAt(tick, place + 1), realAt(tick, place + 2)};
+}
+
+DeviceState deviceAt(std::uint64_t tick);
+ForceCommand commandAt(std::uint64_t tick);
+/// Ordinary numbers: the cube falls and turns, so that poses can be checked by formula.
+ObjectState objectsAt(std::uint64_t tick, double time);
+
+/// Plays the whole haptic and dynamics side.
+class Source final : public Module {
+ public:
+  Source() : Module("source", RateGroup::kHaptic) {}
+  void step(const Tick& tick) noexcept override;
+  Out<DeviceState> device{*this, "device_state"};
+  Out<ContactExchange> contact{*this, "contact_exchange"};
+  Out<ForceCommand> command{*this, "force_command"};
+  Out<ObjectState> objects{*this, "object_state"};
+};
+
+/// Two fingers, a fixed table and a free cube.
+std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime);
+
+/// A recorder at work: source and recorder in one graph.
+struct RecordedRun {
+  explicit RecordedRun(std::shared_ptr<const World> world, WriterSettings settings = {});
+  ~RecordedRun();
+  void step(std::uint64_t ticks);
+
+  RateTable rates;
+  ScheduleLog schedule;
+  FileRecorder* recorder;
+  Graph graph;
+  std::uint64_t next = 0;
+};
+
+/// A folder of its own, gone with the object.
+struct ScratchFolder {
+  ScratchFolder();
+  ~ScratchFolder();
+  std::string file(const std::string& name) const { return (path / name).string(); }
+  std::filesystem::path path;
+};
+
+/// "" when the recording is the first recording.time.size() ticks of a RecordedRun, bit by bit, else the difference.
+std::string differenceFromPrefix(const Recording& recording);
+
+}  // namespace presa::record
