@@ -40,10 +40,13 @@ Ball enclose(const std::vector<Ball>& balls) {
   return all;
 }
 
-CameraPose frameSubject(const std::vector<Ball>& balls, double aspect) {
+double chooseHeading(const std::vector<Ball>& balls) {
   const auto rightOf = [](double heading) { return Vec3(std::cos(heading), std::sin(heading), 0); };
   constexpr double kFront = 12 * kDegree, kSide = 78 * kDegree;
-  const double heading = spread(balls, rightOf(kSide)) > spread(balls, rightOf(kFront)) ? kSide : kFront;
+  return spread(balls, rightOf(kSide)) > spread(balls, rightOf(kFront)) ? kSide : kFront;
+}
+
+CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading) {
   const Ball all = enclose(balls);
   const double half_height = kUsedHeight * kFieldOfView / 2 * kDegree;
   const double half_width = std::atan(kUsedWidth * aspect * std::tan(kFieldOfView / 2 * kDegree));

@@ -21,9 +21,11 @@ inline constexpr double kFieldOfView = 28;  ///< vertical [degree]
 /// One ball around all (not the smallest: centred on their box). Radius at least 2 cm.
 Ball enclose(const std::vector<Ball>& balls);
 
-/// Three-quarter view from the front, right and above (front: -y, right: +x) that holds every ball, with room for the
-/// head-up display at the sides. Of the headings 12 and 78 degrees to the right it takes the one that shows the
+/// Where to look from, as an angle from the front (-y) to the right (+x) [rad]: of 12 and 78 degrees the one that shows the
 /// balls' centres further apart, so that opposed fingers do not hide behind the object.
-CameraPose frameSubject(const std::vector<Ball>& balls, double aspect);
+double chooseHeading(const std::vector<Ball>& balls);
+
+/// View from `heading` and above that holds every ball, with room for the head-up display at the sides.
+CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading);
 
 }  // namespace presa::view

@@ -1,9 +1,9 @@
 #include "modules/view_osg/contact_glyphs.h"
 
+#include <algorithm>
 #include <osg/BlendFunc>
 #include <osg/CullFace>
 #include <osg/Depth>
-#include <algorithm>
 
 #include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/osg_convert.h"
@@ -41,9 +41,12 @@ void makeTranslucent(osg::StateSet& state, int order) {
 
 Vec3 stateColor(ContactMode mode) {
   switch (mode) {
-    case ContactMode::kStick: return {0.05, 0.62, 0.18};
-    case ContactMode::kSlip: return {1.0, 0.26, 0.02};
-    case ContactMode::kNone: break;
+    case ContactMode::kStick:
+      return {0.05, 0.62, 0.18};
+    case ContactMode::kSlip:
+      return {1.0, 0.26, 0.02};
+    case ContactMode::kNone:
+      break;
   }
   return {0.42, 0.45, 0.50};
 }
@@ -73,9 +76,9 @@ ContactGlyphs::ContactGlyphs(std::size_t fingers) {
   through->addChild(solid_);
   through->addChild(arrows_);
 
-  for (osg::Node* part : {static_cast<osg::Node*>(solid_), static_cast<osg::Node*>(arrows_),
-                          static_cast<osg::Node*>(through), static_cast<osg::Node*>(cones_),
-                          static_cast<osg::Node*>(tips_)})
+  for (osg::Node* part :
+       {static_cast<osg::Node*>(solid_), static_cast<osg::Node*>(arrows_), static_cast<osg::Node*>(through),
+        static_cast<osg::Node*>(cones_), static_cast<osg::Node*>(tips_)})
     root_->addChild(part);
   for (std::size_t i = 0; i < fingers; ++i) fingers_.push_back(makeFinger());
 }
@@ -112,8 +115,7 @@ void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
     finger.hip->setMatrix(osg::Matrixd::translate(toOsg(view.p_WH)));
     const Vec3 link = view.p_WP - view.p_WH;
     setShown(*finger.link, view.valid && link.norm() > 1e-5);
-    if (link.norm() > 1e-5)
-      finger.link->setMatrix(alongZ(view.p_WH, link, {kLinkRadius, kLinkRadius, link.norm()}));
+    if (link.norm() > 1e-5) finger.link->setMatrix(alongZ(view.p_WH, link, {kLinkRadius, kLinkRadius, link.norm()}));
     finger.tip->setMatrix(toOsg(Pose{view.p_WP, Quat::Identity()}));
     finger.tip->preMult(osg::Matrixd::scale(view.radius, view.radius, view.radius));
     finger.tip_color->set(osg::Vec3(toOsg(stateColor(view.mode))));
@@ -133,8 +135,8 @@ void ContactGlyphs::updateForce(const FingerView& view, Finger& finger) {
     const double head = std::min(kHeadLength, 0.6 * length);
     const double thick = std::min(1.0, head / kHeadLength);
     finger.shaft->setMatrix(alongZ(view.p_WC, direction, {kShaftRadius * thick, kShaftRadius * thick, length - head}));
-    finger.head->setMatrix(alongZ(view.p_WC + (length - head) * direction, direction,
-                                  {kHeadRadius * thick, kHeadRadius * thick, head}));
+    finger.head->setMatrix(
+        alongZ(view.p_WC + (length - head) * direction, direction, {kHeadRadius * thick, kHeadRadius * thick, head}));
   }
   // as high as the normal force is long: the arrow's tip lies in the rim's disc, and leaves it where slip begins
   const double height = std::clamp(kArrowLengthPerNewton * view.normal_force, kConeShortest, kConeLongest);

@@ -32,7 +32,7 @@ class ContactGlyphs {
   void updateForce(const FingerView& view, Finger& finger);
 
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
-  osg::ref_ptr<osg::Group> solid_ = new osg::Group;   ///< HIPs and links
+  osg::ref_ptr<osg::Group> solid_ = new osg::Group;  ///< HIPs and links
   osg::ref_ptr<osg::Group> arrows_ = new osg::Group;
   osg::ref_ptr<osg::Group> cones_ = new osg::Group;
   osg::ref_ptr<osg::Group> tips_ = new osg::Group;

@@ -6,8 +6,8 @@ namespace presa::view {
 namespace {
 
 struct Face {
-  Vec3 normal = Vec3::Zero();               ///< unit; zero: no area
-  std::array<double, 3> angle{0, 0, 0};     ///< at each corner [rad]
+  Vec3 normal = Vec3::Zero();            ///< unit; zero: no area
+  std::array<double, 3> angle{0, 0, 0};  ///< at each corner [rad]
 };
 
 Face faceOf(const TriMesh& mesh, const TriMesh::Triangle& triangle) {

@@ -1,9 +1,9 @@
 #include "modules/view_osg/frame_image.h"
 
-#include <osg/GraphicsContext>
-#include <osgDB/WriteFile>
 #include <array>
 #include <cmath>
+#include <osg/GraphicsContext>
+#include <osgDB/WriteFile>
 
 namespace presa::view {
 namespace {
@@ -11,9 +11,7 @@ namespace {
 constexpr int kLightSteps = 4096;
 
 double toLight(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
-double toCode(double light) {
-  return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-}
+double toCode(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
 
 struct SrgbTables {
   std::array<float, 256> light;

@@ -8,8 +8,8 @@
 namespace presa::view {
 namespace {
 
-constexpr int kAround = 96;    ///< segments of a full turn
-constexpr int kArc = 32;       ///< segments of a quarter circle of the profile
+constexpr int kAround = 96;  ///< segments of a full turn
+constexpr int kArc = 32;     ///< segments of a quarter circle of the profile
 
 osg::ref_ptr<osg::Geometry> assemble(osg::Vec3Array* positions, osg::Vec3Array* normals,
                                      osg::DrawElementsUInt* triangles, const Vec3& color) {
@@ -84,8 +84,13 @@ osg::ref_ptr<osg::Geometry> sphereGeometry(double radius, const Vec3& color) {
 
 osg::ref_ptr<osg::Geometry> cylinderGeometry(double radius, double length, const Vec3& color) {
   const double half = length / 2;
-  return revolve({{0, -half, 0, -1}, {radius, -half, 0, -1}, {radius, -half, 1, 0},
-                  {radius, half, 1, 0}, {radius, half, 0, 1}, {0, half, 0, 1}}, color);
+  return revolve({{0, -half, 0, -1},
+                  {radius, -half, 0, -1},
+                  {radius, -half, 1, 0},
+                  {radius, half, 1, 0},
+                  {radius, half, 0, 1},
+                  {0, half, 0, 1}},
+                 color);
 }
 
 osg::ref_ptr<osg::Geometry> capsuleGeometry(double radius, double length, const Vec3& color) {

@@ -27,9 +27,21 @@ EGLDisplay openDisplay() {
 }
 
 EGLConfig chooseConfig(EGLDisplay display) {
-  constexpr std::array<EGLint, 15> kWanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                           EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8,
-                                           EGL_DEPTH_SIZE, 24, EGL_ALPHA_SIZE, 0, EGL_NONE};
+  constexpr std::array<EGLint, 15> kWanted{EGL_SURFACE_TYPE,
+                                           EGL_PBUFFER_BIT,
+                                           EGL_RENDERABLE_TYPE,
+                                           EGL_OPENGL_BIT,
+                                           EGL_RED_SIZE,
+                                           8,
+                                           EGL_GREEN_SIZE,
+                                           8,
+                                           EGL_BLUE_SIZE,
+                                           8,
+                                           EGL_DEPTH_SIZE,
+                                           24,
+                                           EGL_ALPHA_SIZE,
+                                           0,
+                                           EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, kWanted.data(), &config, 1, &count) || count == 0)

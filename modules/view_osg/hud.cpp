@@ -1,10 +1,10 @@
 #include "modules/view_osg/hud.h"
 
-#include <osg/BlendFunc>
-#include <osg/Depth>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <osg/BlendFunc>
+#include <osg/Depth>
 
 #include "framework/device/output_stage.h"
 #include "modules/view_osg/contact_glyphs.h"
@@ -34,9 +34,12 @@ osg::Vec4 displayColor(const Vec3& linear, float alpha = 1) {
 const char* stateWord(const FingerView& finger) {
   if (!finger.valid) return "no signal";
   switch (finger.mode) {
-    case ContactMode::kStick: return "stick";
-    case ContactMode::kSlip: return "slip";
-    case ContactMode::kNone: break;
+    case ContactMode::kStick:
+      return "stick";
+    case ContactMode::kSlip:
+      return "slip";
+    case ContactMode::kNone:
+      break;
   }
   return "no contact";
 }
@@ -79,7 +82,7 @@ Hud::Hud(const World& world) {
   if (cards_.size() > 1) addGrip();
   for (const DeviceRole& role : world.scene.devices) grip_scale_ = std::min(grip_scale_, role.limits.force);
   addRates(world);
-  addLegend();
+  addLegend(world.options.view == RunOptions::View::kWindow);
   addHelp();
   setAspect(16.0 / 9.0);
 }
@@ -142,18 +145,19 @@ void Hud::addRates(const World& world) {
   for (const auto& [group, nominal] : groups) {
     Label name(*right_, left, y, 13, kInk);
     name.set(toString(group));
-    rates_.push_back({group, nominal,
-                      Label(*right_, right - 82, y, 13, kInk, Typeface::kMono, Label::Align::kRight),
+    rates_.push_back({group, nominal, Label(*right_, right - 82, y, 13, kInk, Typeface::kMono, Label::Align::kRight),
                       Label(*right_, right, y, 13, kInk, Typeface::kMono, Label::Align::kRight)});
     y -= 19.5F;
   }
   output_.emplace(*right_, -kMargin - 4, kTop - 124, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
 }
 
-void Hud::addLegend() {
+void Hud::addLegend(bool interactive) {
   constexpr float kY = 27;
-  center_->addChild(roundedPanel({-452, -kHeight / 2 + 10, 904, 34}, 8, kPanel));
-  osg::ref_ptr<osg::MatrixTransform> strip = new osg::MatrixTransform(osg::Matrixd::translate(-440, -kHeight / 2, 0));
+  const float width = interactive ? 904 : 826, left = -width / 2;
+  center_->addChild(roundedPanel({left, -kHeight / 2 + 10, width, 34}, 8, kPanel));
+  osg::ref_ptr<osg::MatrixTransform> strip =
+      new osg::MatrixTransform(osg::Matrixd::translate(left + 12, -kHeight / 2, 0));
   center_->addChild(strip);
   const auto entry = [&](float x, const char* words) {
     Label label(*strip, x, kY - 4.5F, 12.5F, kInk);
@@ -163,8 +167,8 @@ void Hud::addLegend() {
   entry(20, "HIP");
   strip->addChild(dot(66, kY, 9, displayColor(kSkinColor)));
   entry(82, "fingertip (proxy)");
-  strip->addChild(polygon({{206, kY - 1.5F}, {224, kY - 1.5F}, {224, kY + 1.5F}, {206, kY + 1.5F}},
-                          displayColor(kArrowColor)));
+  strip->addChild(
+      polygon({{206, kY - 1.5F}, {224, kY - 1.5F}, {224, kY + 1.5F}, {206, kY + 1.5F}}, displayColor(kArrowColor)));
   strip->addChild(polygon({{223, kY - 6}, {235, kY}, {223, kY + 6}}, displayColor(kArrowColor)));
   entry(242, print("force on finger, 1 N = %.0f mm", 1000 * kArrowLengthPerNewton).c_str());
   const auto wedge = [&](float x, ContactMode mode) {
@@ -177,7 +181,7 @@ void Hud::addLegend() {
   strip->addChild(polygon({{719, kY - 6}, {720.2F, kY - 6}, {720.2F, kY + 6}, {719, kY + 6}}, kSoftInk));
   strip->addChild(polygon({{701, kY - 0.6F}, {720, kY - 0.6F}, {720, kY + 0.6F}, {701, kY + 0.6F}}, kSoftInk));
   entry(727, "grid 5 cm");
-  entry(813, "? help");
+  if (interactive) entry(813, "? help");
   message_.emplace(*center_, 0, -kHeight / 2 + 56, 13, kInk, Typeface::kRegular, Label::Align::kCenter);
 }
 
@@ -187,7 +191,7 @@ void Hud::addHelp() {
   const std::array<std::pair<const char*, const char*>, 7> lines{{{"left drag", "turn around the scene"},
                                                                   {"middle drag", "shift"},
                                                                   {"right drag, wheel", "nearer, farther"},
-                                                                  {"h", "frame bodies and fingers again"},
+                                                                  {"h", "follow bodies and fingers again"},
                                                                   {"s", "save a picture"},
                                                                   {"?", "this help"},
                                                                   {"Esc", "stop the run"}}};
@@ -215,16 +219,17 @@ void Hud::updateCard(Card& card, const FingerView& finger) {
 }
 
 void Hud::updateRates(const GroupTimings& timings) {
+  const bool known = std::any_of(timings.begin(), timings.end(), [](const GroupTiming* timing) { return timing; });
   for (RateLine& line : rates_) {
     const GroupTiming* timing = timings[static_cast<std::size_t>(line.group)];
     // no wall-clock period: a run in virtual time, whose rates are exact
     const double mean_ns = timing ? timing->period.mean() : 0.0;
     if (mean_ns > 0) {
-      line.rate.set(print("%.1f / %.0f Hz", 1e9 / mean_ns, line.nominal));
+      line.rate.set(print("%.0f / %.0f Hz", 1e9 / mean_ns, line.nominal));
       line.missed.set(print("%llu", static_cast<unsigned long long>(timing->missed + timing->skipped)));
       line.missed.setColor(timing->missed + timing->skipped > 0 ? kAlarm : kInk);
     } else {
-      line.rate.set(print("%.0f Hz", line.nominal));
+      line.rate.set(known && !timing ? "not needed" : print("%.0f Hz", line.nominal));
       line.missed.set("\xe2\x80\x93");
     }
   }

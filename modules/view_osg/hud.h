@@ -1,9 +1,9 @@
 #pragma once
-#include <osg/Camera>
-#include <osg/MatrixTransform>
 #include <array>
 #include <memory>
 #include <optional>
+#include <osg/Camera>
+#include <osg/MatrixTransform>
 #include <vector>
 
 #include "framework/schedule/tick.h"
@@ -44,7 +44,7 @@ class Hud {
   void addCard(std::size_t index);
   void addGrip();
   void addRates(const World& world);
-  void addLegend();
+  void addLegend(bool interactive);
   void addHelp();
   void updateCard(Card& card, const FingerView& finger);
   void updateRates(const GroupTimings& timings);

@@ -1,10 +1,10 @@
 #include "modules/view_osg/hud_widgets.h"
 
-#include <osgText/Font>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <osgText/Font>
 
 namespace presa::view {
 
@@ -55,12 +55,13 @@ osg::ref_ptr<osg::Geometry> polygon(const std::vector<osg::Vec2>& corners, const
 osg::ref_ptr<osg::Geometry> roundedPanel(const Rect& rect, float corner, const osg::Vec4& color) {
   constexpr int kSteps = 6;
   const float right = rect.x + rect.width - corner, top = rect.y + rect.height - corner;
-  const osg::Vec2 centers[4] = {{right, top}, {rect.x + corner, top}, {rect.x + corner, rect.y + corner},
-                                {right, rect.y + corner}};
+  const osg::Vec2 centers[4] = {
+      {right, top}, {rect.x + corner, top}, {rect.x + corner, rect.y + corner}, {right, rect.y + corner}};
   std::vector<osg::Vec2> corners;
   for (int quarter = 0; quarter < 4; ++quarter) {
     for (int i = 0; i <= kSteps; ++i) {
-      const float angle = std::numbers::pi_v<float> / 2 * (static_cast<float>(quarter) + static_cast<float>(i) / kSteps);
+      const float angle =
+          std::numbers::pi_v<float> / 2 * (static_cast<float>(quarter) + static_cast<float>(i) / kSteps);
       corners.push_back(centers[quarter] + osg::Vec2(std::cos(angle), std::sin(angle)) * corner);
     }
   }

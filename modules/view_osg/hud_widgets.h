@@ -19,8 +19,8 @@ osg::ref_ptr<osgText::Font> loadFont(Typeface typeface);
 class Label {
  public:
   enum class Align { kLeft, kRight, kCenter };
-  Label(osg::Group& parent, float x, float y, float size, const osg::Vec4& color, Typeface typeface = Typeface::kRegular,
-        Align align = Align::kLeft);
+  Label(osg::Group& parent, float x, float y, float size, const osg::Vec4& color,
+        Typeface typeface = Typeface::kRegular, Align align = Align::kLeft);
   void set(const std::string& utf8);
   void setColor(const osg::Vec4& color) { text_->setColor(color); }
 

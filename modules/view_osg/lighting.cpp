@@ -8,7 +8,6 @@
 namespace presa::view {
 namespace {
 
-constexpr int kMapSize = 2048;
 const Vec3 kKeyDirection = Vec3(0.38, -0.42, 0.95).normalized();  ///< towards the key light: over the right shoulder
 
 }  // namespace
@@ -19,12 +18,22 @@ Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) {
   receivers->addUniform(new osg::Uniform("key_direction", osg::Vec3(toOsg(kKeyDirection))));
   picture_size_ = new osg::Uniform("picture_size", osg::Vec2(1, 1));
   receivers->addUniform(picture_size_);
+  taps_ = new osg::Uniform("taps", 0);
+  receivers->addUniform(taps_);
+  setQuality(kFineLight);
+}
+
+void Lighting::setQuality(const LightQuality& quality) {
+  taps_->set(quality.taps);
+  for (Map& map : maps_) {
+    map.depth->setTextureSize(quality.map_size, quality.map_size);
+    map.camera->setViewport(0, 0, quality.map_size, quality.map_size);
+  }
 }
 
 void Lighting::addMap(const char* name, int unit, const Vec3& direction, const Vec3& up, osg::Node* casters,
                       osg::StateSet* receivers) {
   osg::ref_ptr<osg::Texture2D> depth = new osg::Texture2D;
-  depth->setTextureSize(kMapSize, kMapSize);
   depth->setInternalFormat(GL_DEPTH_COMPONENT24);
   depth->setSourceFormat(GL_DEPTH_COMPONENT);
   depth->setShadowComparison(true);
@@ -40,7 +49,6 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
   camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
   camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-  camera->setViewport(0, 0, kMapSize, kMapSize);
   camera->setClearMask(GL_DEPTH_BUFFER_BIT);
   camera->attach(osg::Camera::DEPTH_BUFFER, depth);
   camera->addChild(casters);
@@ -54,7 +62,7 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
   receivers->addUniform(new osg::Uniform((std::string(name) + "_map").c_str(), unit));
   osg::ref_ptr<osg::Uniform> matrix = new osg::Uniform(osg::Uniform::FLOAT_MAT4, std::string(name) + "_matrix");
   receivers->addUniform(matrix);
-  maps_.push_back({camera, matrix, direction, up});
+  maps_.push_back({camera, depth, matrix, direction, up});
 }
 
 void Lighting::setFocus(const Vec3& center, double radius) {

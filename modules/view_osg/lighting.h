@@ -9,6 +9,14 @@
 
 namespace presa::view {
 
+/// What the light may cost.
+struct LightQuality {
+  int taps;      ///< shadow samples per pixel and map, at most 16
+  int map_size;  ///< [pixel]
+};
+inline constexpr LightQuality kFineLight{16, 2048};
+inline constexpr LightQuality kQuickLight{4, 512};  ///< for a window drawn by the processor
+
 /// Depth maps of what stands in the light: one from the key light (shadow), one from straight above (how much sky a
 /// point sees). Both cover a sphere around what the picture is about.
 class Lighting {
@@ -19,12 +27,14 @@ class Lighting {
   /// Cameras that must be drawn before the picture.
   osg::Group* passes() { return passes_; }
   void setFocus(const Vec3& center, double radius);
+  void setQuality(const LightQuality& quality);
   /// Size of the picture [pixel].
   void setPictureSize(int width, int height);
 
  private:
   struct Map {
     osg::ref_ptr<osg::Camera> camera;
+    osg::ref_ptr<osg::Texture2D> depth;
     osg::ref_ptr<osg::Uniform> matrix;
     Vec3 direction;  ///< towards the light
     Vec3 up;
@@ -34,7 +44,7 @@ class Lighting {
 
   osg::ref_ptr<osg::Group> passes_ = new osg::Group;
   std::vector<Map> maps_;
-  osg::ref_ptr<osg::Uniform> picture_size_;
+  osg::ref_ptr<osg::Uniform> picture_size_, taps_;
 };
 
 }  // namespace presa::view

@@ -13,7 +13,8 @@ constexpr int kWidth = 1280, kHeight = 720, kSupersample = 2;
 
 class OffscreenRenderer final : public Renderer {
  public:
-  explicit OffscreenRenderer(Picture& picture) : picture_(picture), context_(kSupersample * kWidth, kSupersample * kHeight) {
+  explicit OffscreenRenderer(Picture& picture)
+      : picture_(picture), context_(kSupersample * kWidth, kSupersample * kHeight) {
     window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, kSupersample * kWidth, kSupersample * kHeight);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setKeyEventSetsDone(0);
@@ -35,7 +36,8 @@ class OffscreenRenderer final : public Renderer {
   }
 
   void render() override {
-    const CameraPose pose = frameSubject(picture_.subject(), static_cast<double>(kWidth) / kHeight);
+    const CameraPose pose =
+        frameSubject(picture_.subject(), static_cast<double>(kWidth) / kHeight, chooseHeading(picture_.subject()));
     viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
     viewer_.frame();
   }
@@ -57,6 +59,8 @@ class OffscreenRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture) { return std::make_unique<OffscreenRenderer>(picture); }
+std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture) {
+  return std::make_unique<OffscreenRenderer>(picture);
+}
 
 }  // namespace presa::view

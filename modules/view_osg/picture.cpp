@@ -5,8 +5,8 @@
 namespace presa::view {
 namespace {
 
-constexpr double kFloorRadius = 1.2;    ///< [m], at least
-constexpr double kLitAround = 2.2;      ///< shadows reach this many radii of the subject
+constexpr double kFloorRadius = 1.2;  ///< [m], at least
+constexpr double kLitAround = 2.2;    ///< shadows reach this many radii of the subject
 
 std::vector<Pose> startPoses(const World& world) {
   std::vector<Pose> poses;
@@ -17,8 +17,11 @@ std::vector<Pose> startPoses(const World& world) {
 }  // namespace
 
 Picture::Picture(std::shared_ptr<const World> world)
-    : world_(std::move(world)), bodies_(*world_), glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
-      lighting_(casters_, root_->getOrCreateStateSet()), hud_(*world_) {
+    : world_(std::move(world)),
+      bodies_(*world_),
+      glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
+      lighting_(casters_, root_->getOrCreateStateSet()),
+      hud_(*world_) {
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
   ViewFrame start;

@@ -1,6 +1,6 @@
 #pragma once
-#include <osg/Group>
 #include <memory>
+#include <osg/Group>
 
 #include "modules/view_osg/camera.h"
 #include "modules/view_osg/contact_glyphs.h"
@@ -16,6 +16,7 @@ class Picture {
   explicit Picture(std::shared_ptr<const World> world);
   osg::Group* root() { return root_; }
   Hud& hud() { return hud_; }
+  Lighting& lighting() { return lighting_; }
 
   void show(const ViewFrame& frame, const GroupTimings& timings);
   /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.

@@ -1,6 +1,6 @@
 #pragma once
-#include <osg/Image>
 #include <memory>
+#include <osg/Image>
 
 #include "modules/view_osg/picture.h"
 

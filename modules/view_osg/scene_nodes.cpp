@@ -1,10 +1,10 @@
 #include "modules/view_osg/scene_nodes.h"
 
+#include <cmath>
+#include <numbers>
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Depth>
 #include <osg/Geode>
-#include <cmath>
-#include <numbers>
 
 #include "modules/view_osg/crease_normals.h"
 #include "modules/view_osg/geometry_nodes.h"
@@ -18,7 +18,9 @@ constexpr double kCreaseAngle = 40 * std::numbers::pi / 180;
 const Vec3 kFloorColor(0.20, 0.225, 0.26);
 
 template <class... Ts>
-struct Overload : Ts... { using Ts::operator()...; };
+struct Overload : Ts... {
+  using Ts::operator()...;
+};
 
 const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes) {
   if (body.visual) return meshes.visual.get();
@@ -29,7 +31,8 @@ const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes) {
 osg::ref_ptr<osg::Geometry> geometryOf(const Shape& shape, const TriMesh* mesh, const Vec3& color) {
   return std::visit(
       Overload{[&](const MeshRef&) {
-                 return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color) : osg::ref_ptr<osg::Geometry>();
+                 return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color)
+                             : osg::ref_ptr<osg::Geometry>();
                },
                [&](const Box& box) { return boxGeometry(box.size, color); },
                [&](const Sphere& sphere) { return sphereGeometry(sphere.radius, color); },
@@ -103,8 +106,7 @@ osg::ref_ptr<osg::Node> makeBackground() {
 osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius) {
   const double drop = 1e-4;  // a body that ends on the floor must not flicker with it
   const Vec3 middle(center.x(), center.y(), lowestPoint(world) - drop);
-  osg::ref_ptr<osg::Geometry> disc =
-      revolve({{radius, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, kFloorColor);
+  osg::ref_ptr<osg::Geometry> disc = revolve({{radius, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, kFloorColor);
   osg::ref_ptr<osg::MatrixTransform> floor =
       new osg::MatrixTransform(osg::Matrixd::translate(middle.x(), middle.y(), 0));
   floor->setName("floor");

@@ -51,6 +51,7 @@ uniform sampler2DShadow sky_map;
 uniform mat4 key_matrix;
 uniform mat4 sky_matrix;
 uniform vec3 key_direction;
+uniform int taps;
 const vec2 kTaps[16] = vec2[](
   vec2(-0.942, -0.399), vec2(0.946, -0.769), vec2(-0.094, -0.929), vec2(0.345, 0.294),
   vec2(-0.916, 0.458), vec2(-0.815, -0.879), vec2(-0.383, 0.277), vec2(0.975, 0.756),
@@ -67,8 +68,8 @@ float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   vec3 a = mat3(to_map) * (side * blur), b = mat3(to_map) * (cross(n, side) * blur);
   vec3 u = cos(turn) * a + sin(turn) * b, v = cos(turn) * b - sin(turn) * a;
   float sum = 0.0;
-  for (int i = 0; i < 16; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
-  return sum / 16.0;
+  for (int i = 0; i < taps; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
+  return sum / float(taps);
 }
 
 vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {

@@ -8,8 +8,8 @@ namespace presa::view {
 
 /// One moment of the run, copied from the ports: all that a picture is made of.
 struct ViewFrame {
-  double time = 0;          ///< [s]
-  std::vector<Pose> X_WB;   ///< as Scene::bodies
+  double time = 0;         ///< [s]
+  std::vector<Pose> X_WB;  ///< as Scene::bodies
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;

@@ -1,9 +1,9 @@
 #include "modules/view_osg/view_module.h"
 
-#include <osg/Notify>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <osg/Notify>
 
 #include "framework/plan/plugin.h"
 #include "modules/view_osg/frame_image.h"
@@ -25,7 +25,8 @@ std::string timeStamp(double time) {
 
 }  // namespace
 
-ViewModule::ViewModule(std::shared_ptr<const World> world) : View("view_osg", RateGroup::kView), world_(std::move(world)) {
+ViewModule::ViewModule(std::shared_ptr<const World> world)
+    : View("view_osg", RateGroup::kView), world_(std::move(world)) {
   // Mesa's software renderer would take every core, the haptic thread's too. Set here, before any thread runs.
   setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
@@ -123,8 +124,8 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
   return std::make_unique<ViewModule>(std::move(world));
 }
 
-const ModulePlugin kPlugin{.name = "view_osg", .summary = "draws bodies, fingers and forces in a window or a picture",
-                           .create = &create};
+const ModulePlugin kPlugin{
+    .name = "view_osg", .summary = "draws bodies, fingers and forces in a window or a picture", .create = &create};
 
 }  // namespace
 }  // namespace presa::view

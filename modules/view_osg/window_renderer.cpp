@@ -1,7 +1,10 @@
+#include <cmath>
+#include <cstdlib>
 #include <osgGA/GUIEventHandler>
 #include <osgGA/OrbitManipulator>
 #include <osgViewer/Viewer>
 #include <stdexcept>
+#include <string_view>
 
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/osg_convert.h"
@@ -11,6 +14,7 @@ namespace presa::view {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
+constexpr double kFollowTime = 0.4;  ///< time constant of the camera [s]
 
 /// Keys of the window. First in line, so that the space bar does not reach the manipulator (which would jump home).
 class Keys : public osgGA::GUIEventHandler {
@@ -21,23 +25,34 @@ class Keys : public osgGA::GUIEventHandler {
       picture_.setSize(event.getWindowWidth(), event.getWindowHeight());
       return false;
     }
+    if (event.getEventType() == osgGA::GUIEventAdapter::PUSH || event.getEventType() == osgGA::GUIEventAdapter::SCROLL)
+      following = false;
     if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
     switch (event.getKey()) {
-      case 's': picture_requested = true; return true;
-      case 'h': frame_requested = true; return true;
-      case '?': picture_.hud().toggleHelp(); return true;
-      case osgGA::GUIEventAdapter::KEY_Space: return true;
-      default: return false;
+      case 's':
+        picture_requested = true;
+        return true;
+      case 'h':
+        frame_requested = following = true;
+        return true;
+      case '?':
+        picture_.hud().toggleHelp();
+        return true;
+      case osgGA::GUIEventAdapter::KEY_Space:
+        return true;
+      default:
+        return false;
     }
   }
   bool picture_requested = false;
   bool frame_requested = true;  ///< the first frame frames
+  bool following = true;        ///< until the user takes the camera in hand
 
  private:
   Picture& picture_;
 };
 
-osg::ref_ptr<osg::GraphicsContext> openWindow(const std::string& title) {
+osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, unsigned samples) {
   osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
   traits->readDISPLAY();
   traits->x = traits->y = 40;
@@ -46,20 +61,47 @@ osg::ref_ptr<osg::GraphicsContext> openWindow(const std::string& title) {
   traits->windowDecoration = true;
   traits->doubleBuffer = true;
   traits->depth = 24;
-  traits->samples = 4;
+  traits->samples = samples;
   traits->windowName = title;
-  osg::ref_ptr<osg::GraphicsContext> window = osg::GraphicsContext::createGraphicsContext(traits);
-  if (!window || !window->valid()) {
-    traits->samples = 0;  // not every X server has a multisampled visual
-    window = osg::GraphicsContext::createGraphicsContext(traits);
+  const osg::ref_ptr<osg::GraphicsContext> window = osg::GraphicsContext::createGraphicsContext(traits);
+  return window && window->valid() ? window : nullptr;
+}
+
+/// Mesa draws on the processor.
+bool isSoftware(osg::GraphicsContext& window) {
+  if (!window.realize() || !window.makeCurrent()) return false;
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view renderer = name ? name : "";
+  window.releaseContext();
+  return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
+}
+
+struct Window {
+  osg::ref_ptr<osg::GraphicsContext> context;
+  bool software = false;
+};
+
+/// Smooth edges where a graphics card pays for them and the X server has such a visual.
+Window openWindow(const std::string& title) {
+  Window window;
+  for (const unsigned samples : {4U, 0U}) {
+    window.context = createWindow(title, samples);
+    if (!window.context) continue;
+    window.software = isSoftware(*window.context);
+    if (samples == 0 || !window.software) return window;
+    window.context->close();
   }
-  if (!window || !window->valid()) throw std::runtime_error("no window can be opened on display '" + traits->displayName() + "'");
-  return window;
+  const char* display = std::getenv("DISPLAY");
+  throw std::runtime_error(display ? "no window can be opened on display " + std::string(display)
+                                   : "DISPLAY is not set");
 }
 
 class WindowRenderer final : public Renderer {
  public:
-  WindowRenderer(Picture& picture, const std::string& title) : picture_(picture), window_(openWindow(title)), keys_(new Keys(picture)) {
+  WindowRenderer(Picture& picture, const std::string& title) : picture_(picture), keys_(new Keys(picture)) {
+    const Window window = openWindow(title);
+    window_ = window.context;
+    if (window.software) picture.lighting().setQuality(kQuickLight);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
     viewer_.setKeyEventSetsDone(osgGA::GUIEventAdapter::KEY_Escape);
@@ -84,7 +126,7 @@ class WindowRenderer final : public Renderer {
 
   void render() override {
     if (closed()) return;
-    if (keys_->frame_requested) frameAgain();
+    if (keys_->following) follow();
     viewer_.frame();
   }
   osg::ref_ptr<osg::Image> capture() override {
@@ -97,16 +139,28 @@ class WindowRenderer final : public Renderer {
   bool takePictureRequest() override { return std::exchange(keys_->picture_requested, false); }
 
  private:
-  void frameAgain() {
-    keys_->frame_requested = false;
-    const osg::Viewport* port = viewer_.getCamera()->getViewport();
-    const CameraPose pose = frameSubject(picture_.subject(), port->aspectRatio());
-    orbit_->setTransformation(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
+  /// Keeps bodies and fingers in the picture, gently; at once when asked for.
+  void follow() {
+    const double now = viewer_.elapsedTime();
+    double share = 1 - std::exp(-(now - followed_at_) / kFollowTime);
+    followed_at_ = now;
+    if (std::exchange(keys_->frame_requested, false)) {
+      heading_ = chooseHeading(picture_.subject());
+      share = 1;
+    }
+    const CameraPose goal =
+        frameSubject(picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(), heading_);
+    camera_.eye += share * (goal.eye - camera_.eye);
+    camera_.target += share * (goal.target - camera_.target);
+    orbit_->setTransformation(toOsg(camera_.eye), toOsg(camera_.target), {0, 0, 1});
   }
 
   Picture& picture_;
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<Keys> keys_;
+  CameraPose camera_;
+  double heading_ = 0;
+  double followed_at_ = 0;
   osg::ref_ptr<osgGA::OrbitManipulator> orbit_ = new osgGA::OrbitManipulator;
   osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
   osgViewer::Viewer viewer_;

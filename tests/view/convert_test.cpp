@@ -23,10 +23,11 @@ TEST(Convert, PoseMovesBoxCornersAsWorkedOutByHand) {
       }
 }
 
-// The same without symmetry to hide a mistake: a third of a turn about (1, 1, 1) cycles the axes x to y to z.
-TEST(Convert, ThirdOfATurnAboutTheDiagonalCyclesAxes) {
-  const osg::Matrixd matrix = toOsg(Pose{Vec3::Zero(), Quat(0.5, 0.5, 0.5, 0.5)});
-  EXPECT_EQ(osg::Vec3d(1, 2, 3) * matrix, osg::Vec3d(3, 1, 2));
+// The same exactly, with every component non-zero and one negative: a third of a turn about (1, 1, -1) takes (x, y, z) to
+// (y, -z, -x).
+TEST(Convert, ThirdOfATurnAboutADiagonalCyclesAxes) {
+  const osg::Matrixd matrix = toOsg(Pose{Vec3::Zero(), Quat(0.5, 0.5, 0.5, -0.5)});
+  EXPECT_EQ(osg::Vec3d(1, 2, 3) * matrix, osg::Vec3d(2, -3, -1));
 }
 
 // Body in world, geometry in body: nested transforms multiply from the inside out.

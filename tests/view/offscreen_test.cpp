@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
-#include <osg/Image>
-#include <osgDB/ReadFile>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <osg/Image>
+#include <osgDB/ReadFile>
 
 #include "modules/view_osg/view_module.h"
 #include "tests/view/pinch_world.h"
@@ -21,7 +21,9 @@ std::string tempFile(const std::string& name) {
   return file;
 }
 
-struct Color { int r, g, b; };
+struct Color {
+  int r, g, b;
+};
 
 class PngPicture {
  public:
@@ -43,7 +45,10 @@ class PngPicture {
 /// The rubber: red is over 1.5 times green and blue in light or shadow (linear 0.75 : 0.25 : 0.2, sRGB 0.88 : 0.54 : 0.48).
 bool isCubeRed(const Color& c) { return c.r > 60 && 2 * c.r > 3 * c.g && 2 * c.r > 3 * c.b; }
 
-struct Blob { double x = 0, y = 0; int pixels = 0; };
+struct Blob {
+  double x = 0, y = 0;
+  int pixels = 0;
+};
 Blob redBlob(const PngPicture& picture) {
   Blob blob;
   for (int y = 0; y < picture.height(); ++y)
@@ -82,7 +87,9 @@ TEST_F(Offscreen, PictureHasTheSizeTheCubeAndTheDisplay) {
   // PNG: signature, then the IHDR chunk with big-endian width and height
   std::array<unsigned char, 24> head{};
   std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
-  const auto number = [&](std::size_t at) { return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3]; };
+  const auto number = [&](std::size_t at) {
+    return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
+  };
   EXPECT_EQ(std::string(head.begin() + 1, head.begin() + 4), "PNG");
   EXPECT_EQ(number(16), 1280);
   EXPECT_EQ(number(20), 720);

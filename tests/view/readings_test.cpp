@@ -73,7 +73,7 @@ TEST(Creases, SphereIsSmooth) {
 TEST(Framing, HoldsEveryBallAtAnyScale) {
   for (const double scale : {0.3, 1.0, 20.0}) {
     const std::vector<Ball> balls{{{0, 0, 0.1 * scale}, 0.06 * scale}, {{0.3 * scale, -0.1 * scale, 0}, 0.01 * scale}};
-    const CameraPose pose = frameSubject(balls, 16.0 / 9);
+    const CameraPose pose = frameSubject(balls, 16.0 / 9, chooseHeading(balls));
     const Vec3 forward = (pose.target - pose.eye).normalized();
     for (const Ball& ball : balls) {
       const Vec3 to_ball = ball.center - pose.eye;

@@ -31,9 +31,10 @@ TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
 // The window must work on any X server, also one with a software renderer: opens, draws five frames, saves, closes.
 TEST(Window, OpensDrawsAndClosesUnderXvfb) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const std::string command = std::string(PRESA_XVFB_RUN) + " -a -s '-screen 0 1400x900x24' '" + program +
-                              "' --gtest_filter=OnDisplay.DISABLED_DrawsFiveFrames --gtest_also_run_disabled_tests > '" +
-                              testing::TempDir() + "presa_window.log' 2>&1";
+  const std::string command =
+      std::string(PRESA_XVFB_RUN) + " -a -s '-screen 0 1400x900x24' '" + program +
+      "' --gtest_filter=OnDisplay.DISABLED_DrawsFiveFrames --gtest_also_run_disabled_tests > '" + testing::TempDir() +
+      "presa_window.log' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << "see " << testing::TempDir() << "presa_window.log";
 }
 
