@@ -21,7 +21,7 @@ target_compile_options(presa_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
 target_include_directories(presa_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(presa_options INTERFACE Eigen3::Eigen Boost::headers Threads::Threads)
 if(PRESA_SANITIZE)
-  target_compile_options(presa_options INTERFACE -fsanitize=${PRESA_SANITIZE} -fno-omit-frame-pointer -g)
+  target_compile_options(presa_options INTERFACE -fsanitize=${PRESA_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(presa_options INTERFACE -fsanitize=${PRESA_SANITIZE})
 endif()
 

@@ -1,5 +1,6 @@
 #include "devices/scripted/finger_plant.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -44,13 +45,56 @@ void FingerPlant::step(const Vec3& p_WT, const Vec3& v_WT, const Vec3& f) noexce
   x_ = x;
 }
 
-double dampingBound(double contact_stiffness, double period) noexcept { return contact_stiffness * period / 2; }
+double wallDampingBound(double contact_stiffness, double period) noexcept { return contact_stiffness * period / 2; }
 
-double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period) noexcept {
-  constexpr double kMargin = 2;     // on the bound: the object moves too, and the hand is not alone in the loop
-  constexpr double kRatio = 0.7;    // of critical: no overshoot that would strike the object
-  return std::max(kMargin * dampingBound(contact_stiffness, period),
-                  2 * kRatio * std::sqrt(impedance.stiffness * impedance.mass));
+namespace {
+
+// Largest eigenvalue of finger and massless object over one dynamics step, in one dimension.
+double spectralRadius(const FingerImpedance& impedance, double contact_stiffness, double period, double dynamics_period) {
+  // state at a dynamics tick: finger x, v; object; finger x, v one haptic tick ago (the newest sample it has)
+  using State = Eigen::Matrix<double, 5, 1>;
+  const int ticks = static_cast<int>(std::lround(dynamics_period / period));
+  Eigen::Matrix<double, 5, 5> map;
+  for (int column = 0; column < 5; ++column) {
+    State s = State::Unit(column);
+    FingerPlant plant(impedance, period);
+    plant.reset({s[0], 0, 0}, {s[1], 0, 0});
+    const double from = s[2], to = s[3] + (period + dynamics_period) * s[4];
+    for (int i = 0; i < ticks; ++i) {
+      s[3] = plant.position().x(), s[4] = plant.velocity().x();
+      const double object = from + (to - from) * i / ticks;
+      plant.step(Vec3::Zero(), Vec3::Zero(), {contact_stiffness * (object - plant.position().x()), 0, 0});
+    }
+    map.col(column) << plant.position().x(), plant.velocity().x(), to, s[3], s[4];
+  }
+  return map.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+double heldObjectDampingBound(const FingerImpedance& impedance, double contact_stiffness, double period,
+                              double dynamics_period) {
+  const auto settles = [&](double damping) {
+    FingerImpedance damped = impedance;
+    damped.damping = damping;
+    return spectralRadius(damped, contact_stiffness, period, dynamics_period) < 1;
+  };
+  double low = 0, high = 1;
+  while (!settles(high) && high < 1e6) {
+    low = high;
+    high *= 2;
+  }
+  while (high - low > 1e-3 * high) (settles((low + high) / 2) ? high : low) = (low + high) / 2;
+  return high;
+}
+
+double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period, double dynamics_period) {
+  constexpr double kWallMargin = 2;    // the hand is not alone in the loop: friction and output limits act too
+  constexpr double kHeldMargin = 1.5;  // decays visibly, instead of just so
+  constexpr double kRatio = 0.7;       // of critical: no overshoot that would strike the object
+  return std::max({kWallMargin * wallDampingBound(contact_stiffness, period),
+                   kHeldMargin * heldObjectDampingBound(impedance, contact_stiffness, period, dynamics_period),
+                   2 * kRatio * std::sqrt(impedance.stiffness * impedance.mass)});
 }
 
 }  // namespace presa

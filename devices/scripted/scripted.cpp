@@ -124,13 +124,16 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   for (const Body& body : world.scene.bodies) {
     if (body.haptic) stiffest = std::max(stiffest, world.scene.materialOf(body).stiffness);
   }
-  const double period = RateTable(world.scene.rates).period(RateGroup::kHaptic);
+  const RateTable rates(world.scene.rates);
+  const double period = rates.period(RateGroup::kHaptic), dynamics_period = rates.period(RateGroup::kDynamics);
   const bool automatic = !(impedance.damping > 0);
-  if (automatic) impedance.damping = automaticDamping(impedance, stiffest, period);
-  const double bound = dampingBound(stiffest, period);
-  std::array<char, 200> text;
-  std::snprintf(text.data(), text.size(), "%s: finger damping %.3g N s/m%s; the stiffest contact, %.3g N/mm at %.0f Hz, asks for %.3g",
-                binding.role.c_str(), impedance.damping, automatic ? " (auto)" : "", stiffest * 1e-3, 1 / period, bound);
+  if (automatic) impedance.damping = automaticDamping(impedance, stiffest, period, dynamics_period);
+  const double bound = std::max(wallDampingBound(stiffest, period),
+                                heldObjectDampingBound(impedance, stiffest, period, dynamics_period));
+  std::array<char, 240> text;
+  std::snprintf(text.data(), text.size(), "%s: finger damping %.3g N s/m%s; contacts of %.3g N/mm at %.0f and %.0f Hz ask for %.3g",
+                binding.role.c_str(), impedance.damping, automatic ? " (auto)" : "", stiffest * 1e-3, 1 / period,
+                1 / dynamics_period, bound);
   std::vector<std::string> notes{text.data()};
   if (impedance.damping < bound) notes.back() += ": UNSTABLE, raise damping or lower stiffness";
   return std::make_unique<ScriptedFinger>(std::move(motion), impedance, period, std::move(notes));

@@ -107,7 +107,9 @@ std::size_t CollisionModule::keepNearestBodies() noexcept {
                     [](const Candidate& a, const Candidate& b) {
                       return std::pair(a.nearest, a.mesh_body->body) < std::pair(b.nearest, b.mesh_body->body);
                     });
-  return candidate_count_ - std::exchange(candidate_count_, kept);
+  const std::size_t left_out = candidate_count_ - kept;
+  candidate_count_ = kept;
+  return left_out;
 }
 
 void CollisionModule::keepNearestTriangles() noexcept {

@@ -8,10 +8,10 @@ namespace presa::ode {
 /// One contact between two bodies. Convention of Presa: unit normal from A into B, depth >= 0 when overlapping,
 /// forces listed act on B. B always moves; A may be fixed.
 struct BodyContact {
-  std::int32_t A = -1, B = -1;       ///< indices into Scene::bodies
-  Vec3 p_W = Vec3::Zero();           ///< [m]
+  std::int32_t A = -1, B = -1;  ///< indices into Scene::bodies
+  Vec3 p_W = Vec3::Zero();      ///< [m]
   Vec3 nhat_AB_W = Vec3::UnitZ();
-  double depth = 0;                  ///< [m]
+  double depth = 0;  ///< [m]
 };
 
 }  // namespace presa::ode

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/body_contact.h"
+#include "modules/dynamics_ode/body_set.h"
 
 namespace presa::ode {
 

@@ -11,9 +11,9 @@ namespace presa::ode {
 namespace {
 
 // beyond these a state is a numerical accident: a free fall of 100 s, 1600 turns per second
-constexpr double kMaxSpeed = 1e3;   // [m/s]
-constexpr double kMaxSpin = 1e4;    // [rad/s]
-constexpr double kMaxReach = 1e6;   // [m]
+constexpr double kMaxSpeed = 1e3;  // [m/s]
+constexpr double kMaxSpin = 1e4;   // [rad/s]
+constexpr double kMaxReach = 1e6;  // [m]
 // a body this slow turns by less than rounding matters; ODE's own update is kept
 constexpr double kMinAngle = 1e-9;  // [rad] per step
 

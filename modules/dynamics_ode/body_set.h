@@ -33,8 +33,8 @@ class BodySet {
   BodyInertiaState inertiaState(std::size_t i) const;
   /// [1/kg]; zero when it does not move
   double inverseMass(std::size_t i) const noexcept { return moves(i) ? 1 / bodies_[i].mass : 0; }
-  Vec3 centreVelocity(std::size_t i) const;     ///< of the centre of mass [m/s]; zero when it does not move
-  Vec3 angularVelocity(std::size_t i) const;    ///< [rad/s]
+  Vec3 centreVelocity(std::size_t i) const;   ///< of the centre of mass [m/s]; zero when it does not move
+  Vec3 angularVelocity(std::size_t i) const;  ///< [rad/s]
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; nothing if it does not move
 
@@ -59,17 +59,17 @@ class BodySet {
     Quat q_WB = Quat::Identity();
   };
   struct Entry {
-    dBodyID body = nullptr;   ///< null: fixed from the start
-    dGeomID geom = nullptr;   ///< null: nothing collides with it
+    dBodyID body = nullptr;  ///< null: fixed from the start
+    dGeomID geom = nullptr;  ///< null: nothing collides with it
     dTriMeshDataID mesh_data = nullptr;
-    std::vector<double> vertices;          // ODE keeps pointers to these
+    std::vector<double> vertices;  // ODE keeps pointers to these
     std::vector<dTriIndex> indices;
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0;
     bool frozen = false;
     State begin;
-    Pose X_WB;                ///< as last written
+    Pose X_WB;  ///< as last written
   };
   void createGeom(Entry& entry, const Geometry& geometry, const TriMesh* mesh, dSpaceID space);
   static State read(const Entry& entry);

@@ -15,9 +15,9 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
   return std::make_unique<DynamicsModule>(std::move(world));
 }
 
-const ModulePlugin kPlugin{kPluginAbi, "dynamics_ode",
-                           "moves free bodies: gravity, collision, friction and the fingers' grip (Open Dynamics Engine)",
-                           create};
+const ModulePlugin kPlugin{
+    kPluginAbi, "dynamics_ode",
+    "moves free bodies: gravity, collision, friction and the fingers' grip (Open Dynamics Engine)", create};
 
 }  // namespace
 

@@ -26,7 +26,8 @@ bool isUsable(const FingerContact& c) {
 
 double fingerWeight(double age) { return std::clamp(1 - (age - kFingerOldAfter) / kFingerFade, 0.0, 1.0); }
 
-std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age, double h) {
+std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age,
+                                       double h) {
   if (contact.mode == ContactMode::kNone) return std::nullopt;
   const double weight = fingerWeight(age);
   const double k = weight * contact.stiffness;

@@ -30,16 +30,16 @@ struct BodyInertiaState {
 /// out: when the body turns, t grows faster than C moves. cfm of the tangential rows counts that ratio (>= 1), or
 /// light bodies thinner than the fingertip would be unstable; the force at rest is the same.
 struct FingerRow {
-  Vec3 p_WC = Vec3::Zero();      ///< where the force acts [m]
-  Vec3 n_in = Vec3::UnitZ();     ///< into the body
-  Vec3 t1 = Vec3::UnitX();       ///< first friction direction; t2 = n_in x t1
-  double depth = 0;              ///< >= 0 [m]
-  double erp = 0;                ///< normal row
-  double cfm = 0;                ///< normal row [m/(N s)]
-  double motion_n = 0;           ///< [m/s]
+  Vec3 p_WC = Vec3::Zero();   ///< where the force acts [m]
+  Vec3 n_in = Vec3::UnitZ();  ///< into the body
+  Vec3 t1 = Vec3::UnitX();    ///< first friction direction; t2 = n_in x t1
+  double depth = 0;           ///< >= 0 [m]
+  double erp = 0;             ///< normal row
+  double cfm = 0;             ///< normal row [m/(N s)]
+  double motion_n = 0;        ///< [m/s]
   double motion_1 = 0, motion_2 = 0;
-  double slip_1 = 0, slip_2 = 0;  ///< cfm of the tangential rows
-  double mu = 0;                  ///< static while the proxy sticks, dynamic while it slips
+  double slip_1 = 0, slip_2 = 0;         ///< cfm of the tangential rows
+  double mu = 0;                         ///< static while the proxy sticks, dynamic while it slips
   Vec3 expected_force_W = Vec3::Zero();  ///< on the body, at the start of the step, inside the cone [N]
 };
 
@@ -54,6 +54,7 @@ bool isUsable(const FingerContact& contact);
 
 /// The rows of a usable `contact`, sampled `age` seconds before the step (its HIP is extrapolated with its velocity, at most
 /// kFingerOldAfter), over a step of `h`. Nothing when there is no contact or it has faded.
-std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age, double h);
+std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age,
+                                       double h);
 
 }  // namespace presa::ode

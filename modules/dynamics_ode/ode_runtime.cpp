@@ -32,7 +32,8 @@ void startOnce() {
     dSetErrorHandler(raiseFailure);
   });
   if (dCheckConfiguration("ODE_double_precision") != 1) {
-    throw std::runtime_error("the installed Open Dynamics Engine is a single-precision build; Presa needs libode in double precision");
+    throw std::runtime_error(
+        "the installed Open Dynamics Engine is a single-precision build; Presa needs libode in double precision");
   }
 }
 

@@ -62,8 +62,13 @@ class RandomStream {
 
 struct OdeWorld::Impl {
   Impl(std::shared_ptr<const World> world_, const OdeOptions& options_)
-      : world(std::move(world_)), options(options_), ode(createWorld(world->scene)), space(createSpace()),
-        joints(dJointGroupCreate(0)), bodies(std::make_unique<BodySet>(*world, ode, space)), random(options.seed) {
+      : world(std::move(world_)),
+        options(options_),
+        ode(createWorld(world->scene)),
+        space(createSpace()),
+        joints(dJointGroupCreate(0)),
+        bodies(std::make_unique<BodySet>(*world, ode, space)),
+        random(options.seed) {
     motions.resize(bodies->size());
     contacts.reserve(4 * bodies->size());
   }
@@ -112,7 +117,7 @@ struct OdeWorld::Impl {
   Islands islands;
   std::vector<BodyContact> contacts;
   std::vector<ContactSurface> surfaces;  // as contacts
-  std::vector<Motion> motions;     // as bodies
+  std::vector<Motion> motions;           // as bodies
   std::vector<ActiveFinger> fingers;
   std::array<dJointFeedback, kMaxFingers> feedback{};
   std::array<Vec3, kMaxFingers> finger_force;

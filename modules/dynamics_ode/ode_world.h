@@ -30,7 +30,7 @@ struct OdeOptions {
   double contact_erp = 0.2;
   double contact_softness = 2e-3;
   double max_contact_cfm = 1e-4;
-  std::uint64_t seed = 1;            ///< order in which the iterative solver visits its rows
+  std::uint64_t seed = 1;  ///< order in which the iterative solver visits its rows
 };
 
 /// What went wrong so far, and what was done about it. Bodies keep their last good pose.

@@ -13,7 +13,8 @@ namespace {
 constexpr double kTouchGap = 3e-11;   // a sweep stops this far off
 constexpr double kInContact = 1e-10;  // a gap below this makes a constraint
 constexpr double kStill = 1e-9;       // a leg shorter than this ends the motion
-constexpr int kMaxLegs = 24;          // a leg per face or edge crossed in one tick; curved edges converge by d / r
+constexpr double kMargin = 0.06;      // how far the fingertip may go before it looks around again
+constexpr int kMaxLegs = 64;          // a leg per face, edge or look; curved edges converge by d / r
 
 // Fraction of `move` after which x leaves the sphere; 1 when it stays inside.
 double insideCover(const Surroundings::Cover& cover, const Vec3& x, const Vec3& move, double r) noexcept {
@@ -25,68 +26,114 @@ double insideCover(const Surroundings::Cover& cover, const Vec3& x, const Vec3& 
   return std::clamp((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a, 0.0, 1.0);
 }
 
+// What the legs of one motion share. A piece's distance changes by no more than the fingertip moves, so most pieces
+// need looking at once, not once a leg.
+struct Legs {
+  HalfSpaces half_spaces;
+  std::array<double, Surroundings::kCapacity> clearance;   // NOLINT: lower bounds of the distances from x, for pieces in use
+  std::array<bool, Surroundings::kCapacity> holds;         // NOLINT: the piece constrains the leg
+  Feasible target;
+
+  void look(const Vec3& x, double r, double margin, Surroundings& surroundings) noexcept {
+    surroundings.lookAround(x, r, margin);
+    for (int i = 0; i < surroundings.count(); ++i) clearance[static_cast<std::size_t>(i)] = surroundings.distanceBound(i, x);
+  }
+  void moved(double distance, int count) noexcept {
+    for (int i = 0; i < count; ++i) clearance[static_cast<std::size_t>(i)] -= distance;
+  }
+};
+
+// Constraints where the fingertip is now; they also push it out of a body that moved into it.
+void findConstraints(const Vec3& x, double r, const Surroundings& surroundings, Legs& legs) noexcept {
+  legs.half_spaces.count = 0;
+  for (int i = 0; i < surroundings.count(); ++i) {
+    double& clearance = legs.clearance[static_cast<std::size_t>(i)];
+    bool& holds = legs.holds[static_cast<std::size_t>(i)];
+    holds = false;
+    if (clearance > r * (1 + 2 * kInContact)) continue;
+    const Nearest at = nearest(surroundings.piece(i), x);
+    clearance = at.distance;
+    holds = at.distance <= r * (1 + kInContact);
+    if (holds) legs.half_spaces.add({at.nhat, at.nhat.dot(x) + r - at.distance, i}, x);
+  }
+}
+
+// The body whose constraint holds the proxy back most.
+std::int32_t holdingBody(const Legs& leg, const Vec3& g, const Surroundings& surroundings) noexcept {
+  std::int32_t body = kNoBody;
+  double most = 0;
+  for (int a = 0; a < leg.target.active_count; ++a) {
+    const HalfSpace& active = leg.half_spaces.item[static_cast<std::size_t>(leg.target.active[static_cast<std::size_t>(a)])];
+    if (const double lack = active.offset - active.nhat.dot(g); body == kNoBody || lack > most) {
+      most = lack;
+      body = surroundings.piece(active.tag).body;
+    }
+  }
+  return body;
+}
+
+// Fraction of `move` that the fingertip can go; `covered` turns false when the border of a patch ends it.
+double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, const Surroundings& surroundings, const Legs& leg,
+                    bool& covered) noexcept {
+  const double length = move.norm();
+  double reach = std::min(1.0, limit / length);
+  for (int c = 0; c < surroundings.coverCount(); ++c) {
+    if (const double inside = insideCover(surroundings.cover(c), x, move, r); inside < reach) {
+      reach = inside;
+      covered = false;
+    }
+  }
+  // a piece that already constrains the leg cannot be hit by it: its half-space keeps the sphere off
+  for (int i = 0; i < surroundings.count(); ++i) {
+    if (leg.holds[static_cast<std::size_t>(i)]) continue;
+    if (leg.clearance[static_cast<std::size_t>(i)] - r > reach * length) continue;
+    if (const double s = firstTouch(surroundings.piece(i), x, move, r, kTouchGap * r); s < reach) {
+      reach = s;
+      covered = true;
+    }
+  }
+  return reach;
+}
+
 }  // namespace
 
-bool isClear(const Vec3& x, double r, const Surroundings& surroundings) noexcept {
-  for (int i = 0; i < surroundings.count; ++i) {
-    if (nearest(surroundings.pieces[static_cast<std::size_t>(i)], x).distance < r * (1 - kInContact)) return false;
+bool isClear(const Vec3& x, double r, Surroundings& surroundings) noexcept {
+  surroundings.lookAround(x, r, 0);
+  for (int i = 0; i < surroundings.count(); ++i) {
+    if (nearest(surroundings.piece(i), x).distance < r * (1 - kInContact)) return false;
   }
   return true;
 }
 
-ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, const Surroundings& surroundings) noexcept {
+ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& surroundings) noexcept {
   ProxyMove result;
   result.x = start;
+  // a long way is looked at in larger parts: the number of legs is bounded
+  const double margin = std::max(kMargin * r, (g - start).norm() / 16);
+  Vec3 center = start;
+  Legs legs;
+  surroundings.lookAround(start, r, 1.5 * margin);   // a little more: the next motion of this tick starts close by
+  legs.look(center, r, margin, surroundings);
   bool met = false;
-  for (int leg = 0; leg < kMaxLegs; ++leg) {
-    // constraints where the fingertip is now; also pushes it out of a body that moved into it
-    HalfSpaces half_spaces;
-    std::array<bool, Surroundings::kCapacity> holds;   // NOLINT: filled below for the pieces in use
-    for (int i = 0; i < surroundings.count; ++i) {
-      const ConvexPiece& piece = surroundings.pieces[static_cast<std::size_t>(i)];
-      const Nearest at = nearest(piece, result.x);
-      const bool near = at.distance <= r * (1 + kInContact);
-      holds[static_cast<std::size_t>(i)] = near;
-      if (!near) continue;
-      half_spaces.add({at.nhat, at.nhat.dot(result.x) + r - at.distance, i}, result.x);
+  for (int i = 0; i < kMaxLegs; ++i) {
+    if ((result.x - center).norm() > 0.9 * margin) {
+      center = result.x;
+      legs.look(center, r, margin, surroundings);
     }
-    if (half_spaces.count > 0 && !met) {
+    findConstraints(result.x, r, surroundings, legs);
+    if (legs.half_spaces.count > 0 && !met) {
       met = true;
       result.first_touch = result.x;
     }
-
-    const Feasible target = nearestFeasible(half_spaces, g);
-    result.touching = target.active_count > 0;
-    result.body = kNoBody;
-    double most = 0;
-    for (int a = 0; a < target.active_count; ++a) {
-      const HalfSpace& active = half_spaces.item[static_cast<std::size_t>(target.active[static_cast<std::size_t>(a)])];
-      if (const double lack = active.offset - active.nhat.dot(g); result.body == kNoBody || lack > most) {
-        most = lack;
-        result.body = surroundings.pieces[static_cast<std::size_t>(active.tag)].body;
-      }
-    }
-
-    const Vec3 move = target.y - result.x;
+    legs.target = nearestFeasible(legs.half_spaces, g);
+    result.touching = legs.target.active_count > 0;
+    result.body = holdingBody(legs, g, surroundings);
+    const Vec3 move = legs.target.y - result.x;
     if (move.norm() <= kStill * r) break;
-    double reach = 1;
-    for (int c = 0; c < surroundings.cover_count; ++c) {
-      const double inside = insideCover(surroundings.covers[static_cast<std::size_t>(c)], result.x, move, r);
-      if (inside < reach) {
-        reach = inside;
-        result.covered = false;
-      }
-    }
-    // a piece that already constrains the leg cannot be hit by it: its half-space keeps the sphere off
-    for (int i = 0; i < surroundings.count; ++i) {
-      if (holds[static_cast<std::size_t>(i)]) continue;
-      const double s = firstTouch(surroundings.pieces[static_cast<std::size_t>(i)], result.x, move, r, kTouchGap * r);
-      if (s < reach) {
-        reach = s;
-        result.covered = true;
-      }
-    }
-    result.x += reach * move;
+    const double room = margin - (result.x - center).norm();
+    const Vec3 step = freeFraction(result.x, move, room, r, surroundings, legs, result.covered) * move;
+    result.x += step;
+    legs.moved(step.norm(), surroundings.count());
     if (!result.covered) break;
   }
   if (!met) result.first_touch = result.x;

@@ -5,7 +5,7 @@ namespace presa {
 
 template <class ConeOf>
 ProxyContact stepProxy(const Vec3& x, const Vec3& g, double r, bool was_touching, bool was_slipping,
-                       const Surroundings& surroundings, const ConeOf& coneOf) noexcept {
+                       Surroundings& surroundings, const ConeOf& coneOf) noexcept {
   ProxyContact contact;
   const ProxyMove bare = moveProxy(x, g, r, surroundings);
   contact.x = bare.x;

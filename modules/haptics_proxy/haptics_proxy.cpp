@@ -80,11 +80,10 @@ void HapticsProxy::moveToFrame(Proxy& proxy, std::int32_t body) const noexcept {
   proxy.frame = body;
 }
 
-// Collects every piece that the fingertip can meet on its way: its centre stays within |x - g| of g.
-void HapticsProxy::surround(std::size_t finger, const Proxy& proxy, const Vec3& g, const Vec3& p_WH, double r) noexcept {
+// Sets what the fingertip can meet on its way: its centre stays within `reach` of the HIP.
+void HapticsProxy::surround(std::size_t finger, const Proxy& proxy, const Vec3& p_WH, double reach) noexcept {
   Surroundings& near = *surroundings_;
   near.clear();
-  const double reach = (proxy.p_AP - g).norm() + 1.1 * r;   // 10 %: room to be pushed out of a moving body
   const Pose X_AW = frameOf(proxy.frame).inverse();
   for (const Primitive& primitive : primitives_) {
     const Pose& X_WB = X_WB_[static_cast<std::size_t>(primitive.piece.body)];
@@ -95,28 +94,15 @@ void HapticsProxy::surround(std::size_t finger, const Proxy& proxy, const Vec3& 
   }
   if (!patches_.hasValue() || finger >= static_cast<std::size_t>(patches_->count)) return;
   const FingerPatch& patch = patches_->fingers[finger];
-  for (std::int32_t i = 0; i < patch.body_count; ++i) {
-    addPatch(patch, patch.bodies[static_cast<std::size_t>(i)], proxy, g, reach);
-  }
-}
-
-void HapticsProxy::addPatch(const FingerPatch& patch, const BodyPatch& part, const Proxy& proxy, const Vec3& g,
-                            double reach) noexcept {
-  Surroundings& near = *surroundings_;
-  const bool own = part.body == proxy.frame;
-  const Pose X_AB = own ? Pose{} : frameOf(proxy.frame).inverse() * frameOf(part.body);
-  near.covers[static_cast<std::size_t>(near.cover_count++)] = {own ? part.center_B : X_AB * part.center_B, part.radius};
-  const Vec3 g_B = own ? g : X_AB.inverseTimes(g);
-  ConvexPiece piece;
-  piece.kind = ConvexPiece::Kind::kTriangle;
-  piece.body = part.body;
-  for (std::int32_t t = part.first; t < part.first + part.count; ++t) {
-    const auto& corners = patch.triangles[static_cast<std::size_t>(t)].v_B;
-    if ((nearestOnTriangle(corners[0], corners[1], corners[2], g_B) - g_B).squaredNorm() > reach * reach) continue;
-    piece.a = own ? corners[0] : X_AB * corners[0];
-    piece.b = own ? corners[1] : X_AB * corners[1];
-    piece.c = own ? corners[2] : X_AB * corners[2];
-    near.add(piece);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(patch.body_count); ++i) {
+    const BodyPatch& part = patch.bodies[i];
+    const PatchTriangle* triangles = &patch.triangles[static_cast<std::size_t>(part.first)];
+    if (part.body == proxy.frame) {
+      near.addTriangles(triangles, part.count, part.body, nullptr, {part.center_B, part.radius});
+    } else {
+      const Pose X_AB = X_AW * frameOf(part.body);
+      near.addTriangles(triangles, part.count, part.body, &X_AB, {X_AB * part.center_B, part.radius});
+    }
   }
 }
 
@@ -137,7 +123,7 @@ void HapticsProxy::stepFinger(std::size_t f) noexcept {
   const double r = fingertip_radius_[f];
   const Pose X_WA = frameOf(proxy.frame);
   const Vec3 g = X_WA.inverseTimes(input.p_WH);
-  surround(f, proxy, g, input.p_WH, r);
+  surround(f, proxy, input.p_WH, (proxy.p_AP - g).norm() + 1.1 * r);   // 10 %: room to be pushed out of a moving body
   const auto coneOf = [this](std::int32_t body) {
     const Material& material = world_->scene.materialOf(world_->scene.bodies[static_cast<std::size_t>(body)]);
     return FrictionCone{material.friction_static, material.friction_dynamic};
@@ -190,8 +176,8 @@ Vec3 HapticsProxy::surfaceVelocity(std::int32_t body, const Vec3& p_W) const noe
 std::int32_t HapticsProxy::nearestBody(const Vec3& p) const noexcept {
   std::int32_t body = kNoBody;
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < surroundings_->count; ++i) {
-    const ConvexPiece& piece = surroundings_->pieces[static_cast<std::size_t>(i)];
+  for (int i = 0; i < surroundings_->count(); ++i) {
+    const ConvexPiece& piece = surroundings_->piece(i);
     if (const double distance = nearest(piece, p).distance; distance < least) {
       least = distance;
       body = piece.body;
@@ -205,8 +191,8 @@ std::int32_t HapticsProxy::nearestBody(const Vec3& p) const noexcept {
 void HapticsProxy::countPopThrough(std::size_t f, const ProxyContact& contact, double r) noexcept {
   Proxy& proxy = proxies_[f];
   bool overlapping = false;
-  for (int i = 0; i < surroundings_->count && !overlapping; ++i) {
-    overlapping = nearest(surroundings_->pieces[static_cast<std::size_t>(i)], contact.x).distance < 0.5 * r;
+  for (int i = 0; i < surroundings_->count() && !overlapping; ++i) {
+    overlapping = nearest(surroundings_->piece(i), contact.x).distance < 0.5 * r;
   }
   if (overlapping && !proxy.overlapping) {
     ++contact_.value.pop_through;

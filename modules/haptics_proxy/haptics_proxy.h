@@ -40,8 +40,7 @@ class HapticsProxy final : public Module {
 
   void placeBodies(const Tick& tick) noexcept;
   Pose frameOf(std::int32_t body) const noexcept;
-  void surround(std::size_t finger, const Proxy& proxy, const Vec3& g, const Vec3& p_WH, double r) noexcept;
-  void addPatch(const FingerPatch& patch, const BodyPatch& part, const Proxy& proxy, const Vec3& g, double reach) noexcept;
+  void surround(std::size_t finger, const Proxy& proxy, const Vec3& p_WH, double reach) noexcept;
   void stepFinger(std::size_t finger) noexcept;
   void moveToFrame(Proxy& proxy, std::int32_t body) const noexcept;
   std::int32_t nearestBody(const Vec3& p) const noexcept;

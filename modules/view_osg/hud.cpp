@@ -92,6 +92,8 @@ void Hud::setAspect(double aspect) {
 
 void Hud::toggleHelp() { help_->setNodeMask(help_->getNodeMask() == 0 ? ~0U : 0U); }
 
+void Hud::tell(const std::string& message) { message_->set(message); }
+
 void Hud::addTitle(const World& world) {
   Label title(*left_, kMargin + 2, kHeight - 42, 25, kInk, Typeface::kBold);
   title.set(world.scene.name.empty() ? "scene" : world.scene.name);
@@ -175,6 +177,7 @@ void Hud::addLegend() {
   strip->addChild(polygon({{701, kY - 0.6F}, {720, kY - 0.6F}, {720, kY + 0.6F}, {701, kY + 0.6F}}, kSoftInk));
   entry(727, "grid 5 cm");
   entry(813, "? help");
+  message_.emplace(*center_, 0, -kHeight / 2 + 56, 13, kInk, Typeface::kRegular, Label::Align::kCenter);
 }
 
 void Hud::addHelp() {

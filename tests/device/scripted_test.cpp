@@ -53,11 +53,35 @@ TEST(FingerPlant, HasTheStabilityBoundOfALoopWithoutDelay) {
   EXPECT_TRUE(grows(1.02 * 2003.3));
 }
 
-// "auto" damping never lies below twice the bound, and never below 0.7 of critical.
-TEST(FingerPlant, AutomaticDampingRespectsTheBound) {
+// "auto" damping never lies below twice the wall bound, and never below 0.7 of critical.
+TEST(FingerPlant, AutomaticDampingRespectsTheBounds) {
   const FingerImpedance impedance{.mass = 0.1, .stiffness = 300};
-  EXPECT_DOUBLE_EQ(automaticDamping(impedance, 10'000, 1e-3), 10);
-  EXPECT_NEAR(automaticDamping(impedance, 500, 1e-3), 1.4 * std::sqrt(30), 1e-12);
+  EXPECT_GE(automaticDamping(impedance, 10'000, 1e-3, 5e-3), 10);
+  EXPECT_GE(automaticDamping(impedance, 10'000, 1e-3, 5e-3), 1.5 * heldObjectDampingBound(impedance, 10'000, 1e-3, 5e-3));
+  EXPECT_NEAR(automaticDamping(impedance, 500, 1e-3, 5e-3), 1.4 * std::sqrt(30), 1e-12);
+}
+
+// The bound for a held massless object, against a simulation of the same loop without its eigenvalues: below it
+// (0.95) a small push grows, above it (1.05) it dies.
+TEST(FingerPlant, HeldObjectBoundIsWhereAPushStopsGrowing) {
+  const double stiffness = 10'000;
+  const FingerImpedance impedance{.mass = 0.1, .stiffness = 300};
+  const double bound = heldObjectDampingBound(impedance, stiffness, 1e-3, 5e-3);
+  for (const double factor : {0.95, 1.05}) {
+    FingerPlant plant({.mass = 0.1, .stiffness = 300, .damping = factor * bound}, 1e-3);
+    plant.reset({1e-6, 0, 0});
+    double from = 0, to = 0, sample_x = 0, sample_v = 0, early = 0, late = 0;
+    for (int i = 0; i < 4000; ++i) {
+      if (i % 5 == 0) {
+        from = to;
+        to = sample_x + 6e-3 * sample_v;
+      }
+      sample_x = plant.position().x(), sample_v = plant.velocity().x();
+      plant.step(Vec3::Zero(), Vec3::Zero(), {stiffness * (from + (to - from) * (i % 5) / 5 - sample_x), 0, 0});
+      (i < 2000 ? early : late) = std::max(i < 2000 ? early : late, std::abs(plant.position().x()));
+    }
+    EXPECT_EQ(late > early, factor < 1) << bound;
+  }
 }
 
 constexpr const char* kPinch = R"(<motion version="1.0" name="pinch">

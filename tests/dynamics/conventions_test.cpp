@@ -46,7 +46,8 @@ TEST_P(Conventions, NormalPointsFromAIntoBAndDepthIsPositive) {
       WorldMaker maker;
       maker.gravity(Vec3::Zero());
       maker.add(first.shape, {}, (moving & 1) != 0 ? free : BodyInertia{}, {}, cubeMesh(0.05));
-      maker.add(second.shape, {gap * axis, Quat::Identity()}, (moving & 2) != 0 ? free : BodyInertia{}, {}, cubeMesh(0.05));
+      maker.add(second.shape, {gap * axis, Quat::Identity()}, (moving & 2) != 0 ? free : BodyInertia{}, {},
+                cubeMesh(0.05));
       Runner runner(maker.world());
       runner.step();
       ASSERT_FALSE(runner.bodies.contacts().empty()) << first.name << " " << second.name << " " << along_x << moving;
@@ -77,8 +78,8 @@ TEST(Placement, GeometryLiesWhereTheSceneSays) {
   for (const bool fixed : {true, false}) {
     WorldMaker maker;
     maker.gravity(Vec3::Zero());
-    maker.add(Box{{0.02, 0.04, 0.06}}, X_WB, fixed ? BodyInertia{} : BodyInertia{1, {0.01, 0.02, 0.03}, 1e-3 * Mat3::Identity()},
-              X_BG);
+    maker.add(Box{{0.02, 0.04, 0.06}}, X_WB,
+              fixed ? BodyInertia{} : BodyInertia{1, {0.01, 0.02, 0.03}, 1e-3 * Mat3::Identity()}, X_BG);
     // a probe that overlaps the far face of the box, 0.03 along G's z, by 1 mm
     maker.add(Sphere{0.01}, {X_WG * Vec3(0, 0, 0.039), Quat::Identity()}, {0.1, Vec3::Zero(), 1e-4 * Mat3::Identity()});
     Runner runner(maker.world());

@@ -43,7 +43,8 @@ TEST(ExplicitCoupling, IsUnstableBelowItsMassLimit) {
     OdeOptions options;
     options.coupling = OdeOptions::Coupling::kExplicitForce;
     WorldMaker maker;
-    maker.gravity(Vec3::Zero()).add(Box{kCube}, {{1e-6, 0, 0}, Quat::Identity()}, {mass, Vec3::Zero(), 1e3 * Mat3::Identity()});
+    maker.gravity(Vec3::Zero())
+        .add(Box{kCube}, {{1e-6, 0, 0}, Quat::Identity()}, {mass, Vec3::Zero(), 1e3 * Mat3::Identity()});
     Runner runner(maker.world(), options);
     std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, k, 0);
     double worst = 0;
@@ -158,7 +159,8 @@ TEST(Finger, MovingPairCarriesALightCubeLikeAFineIntegration) {
 // an implicit step must count or light bodies flutter.
 TEST(Finger, LightBodyThinnerThanTheFingertipStaysAtRest) {
   const double edge = 0.004, k = 10000;
-  Runner runner(WorldMaker().gravity(Vec3::Zero()).box({edge, edge, edge}, 0.001, {{0, 0, 1e-5}, turn(0.01, {0, 1, 1})}).world());
+  Runner runner(
+      WorldMaker().gravity(Vec3::Zero()).box({edge, edge, edge}, 0.001, {{0, 0, 1e-5}, turn(0.01, {0, 1, 1})}).world());
   std::vector<ReferenceFinger> fingers = pinch(0, edge, 0.0005, k, 1);
   for (int n = 0; n < 1000; ++n) runner.step(exchangeOf(fingers, runner));
   EXPECT_LT(runner[0].v_WB.norm(), 1e-6);

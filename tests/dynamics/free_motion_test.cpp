@@ -56,7 +56,8 @@ TEST(FreeMotion, TumblingKeepsEnergyAndMomentumAndFlipsNineTimes) {
       side = -side;
     }
     worst_energy = std::max(worst_energy, std::abs(0.5 * w_B.dot(inertia * w_B) / energy - 1));
-    worst_momentum = std::max(worst_momentum, (angularMomentum(inertia, runner[0]) - momentum).norm() / momentum.norm());
+    worst_momentum =
+        std::max(worst_momentum, (angularMomentum(inertia, runner[0]) - momentum).norm() / momentum.norm());
   }
   EXPECT_EQ(flips, 9);
   EXPECT_LT(worst_energy, 1e-6);
@@ -109,7 +110,8 @@ TEST(FreeMotion, CollisionKeepsMomentum) {
     Vec3 total = Vec3::Zero();
     const double mass[] = {0.2, 0.5};
     for (std::size_t i = 0; i < 2; ++i) {
-      total += mass[i] * runner[i].X_WB_end.p.cross(runner[i].v_WB) + angularMomentum(boxInertia(mass[i], size), runner[i]);
+      total +=
+          mass[i] * runner[i].X_WB_end.p.cross(runner[i].v_WB) + angularMomentum(boxInertia(mass[i], size), runner[i]);
     }
     return total;
   };

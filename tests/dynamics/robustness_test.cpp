@@ -59,7 +59,8 @@ TEST(Determinism, SameCallsGiveTheSameBits) {
 TEST(Islands, HeldCubeIsSolvedExactlyBesideALargeHeap) {
   WorldMaker maker;
   maker.table();
-  for (int i = 0; i < 27; ++i) maker.box(kCube, 0.1, {{0.05 * (i % 3), 0.05 * (i / 3 % 3), 0.025 + 0.05 * (i / 9)}, Quat::Identity()});
+  for (int i = 0; i < 27; ++i)
+    maker.box(kCube, 0.1, {{0.05 * (i % 3), 0.05 * (i / 3 % 3), 0.025 + 0.05 * (i / 9)}, Quat::Identity()});
   maker.box(kCube, 0.001, {{0, 0.8, 0.5}, Quat::Identity()});
   OdeOptions options;
   options.direct_limit = 20;

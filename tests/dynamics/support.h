@@ -26,7 +26,10 @@ class WorldMaker {
     world_.scene.gravity = Vec3(0, 0, -kGravity);
     friction(0.5);
   }
-  WorldMaker& gravity(const Vec3& g) { world_.scene.gravity = g; return *this; }
+  WorldMaker& gravity(const Vec3& g) {
+    world_.scene.gravity = g;
+    return *this;
+  }
   /// Bodies added from now on have this friction.
   WorldMaker& friction(double mu_static, double mu_dynamic) {
     Material material;
@@ -66,7 +69,8 @@ class WorldMaker {
 /// Steps an OdeWorld at kStep and keeps its last state.
 class Runner {
  public:
-  explicit Runner(std::shared_ptr<const World> world, const OdeOptions& options = {}) : bodies(std::move(world), options) {
+  explicit Runner(std::shared_ptr<const World> world, const OdeOptions& options = {})
+      : bodies(std::move(world), options) {
     bodies.write(0, state);
   }
   void step(const ContactExchange& fingers = {}, double h = kStep) {
@@ -94,7 +98,8 @@ struct ReferenceFinger {
   double stiffness = 1000, damping = 0, mu_static = 1, mu_dynamic = 1;
   bool slides = false;
 
-  ReferenceFinger(std::int32_t body_, const Vec3& p_BC_, const Vec3& nhat_B_) : body(body_), p_BC(p_BC_), nhat_B(nhat_B_) {}
+  ReferenceFinger(std::int32_t body_, const Vec3& p_BC_, const Vec3& nhat_B_)
+      : body(body_), p_BC(p_BC_), nhat_B(nhat_B_) {}
 
   FingerContact contact(const Pose& X_WB) {
     FingerContact c;

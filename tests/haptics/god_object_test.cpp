@@ -101,7 +101,7 @@ TEST(GodObject, NeverPassesAThinPlate) {
       for (int tick = 0; tick < 200 && g.norm() < 0.08; ++tick) {
         g += step;
         x = moveProxy(x, g, kR, *s).x;
-        ASSERT_GE(nearest(s->pieces[0], x).distance, kR * (1 - 1e-6)) << speed << ' ' << angle;
+        ASSERT_GE(nearest(s->piece(0), x).distance, kR * (1 - 1e-6)) << speed << ' ' << angle;
         ASSERT_GT(x.z(), 0);
       }
     }
@@ -116,7 +116,7 @@ TEST(GodObject, GoesRoundTheEdgeOfABox) {
     g += Vec3(0.001, 0, 0);   // sideways past the edge at x = 0.05
     if (g.x() > 0.056) g.z() -= 0.002;
     x = moveProxy(x, g, kR, *s).x;
-    ASSERT_GE(nearest(s->pieces[0], x).distance, kR * (1 - 1e-6));
+    ASSERT_GE(nearest(s->piece(0), x).distance, kR * (1 - 1e-6));
   }
   EXPECT_NEAR((x - g).norm(), 0, 1e-9);   // it came free
 }
@@ -124,8 +124,7 @@ TEST(GodObject, GoesRoundTheEdgeOfABox) {
 // A patch that ends is a wall of ignorance: the proxy waits at its border and says so.
 TEST(GodObject, WaitsWhereThePatchEnds) {
   const auto s = plate();
-  s->covers[0] = {{0, 0, 0}, 0.02};
-  s->cover_count = 1;
+  s->addTriangles(nullptr, 0, 0, nullptr, {{0, 0, 0}, 0.02});
   const ProxyMove move = moveProxy({0, 0, 0.01}, {0.05, 0, 0.01}, kR, *s);
   EXPECT_FALSE(move.covered);
   EXPECT_NEAR(move.x.norm() + kR, 0.02, 1e-9);

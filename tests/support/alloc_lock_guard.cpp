@@ -90,6 +90,7 @@ class Original {
 };
 
 mode_t modeOf(int flags, va_list arguments) {
+  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): both callers start the list
   return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(arguments, mode_t) : mode_t{0};
 }
 
@@ -97,12 +98,14 @@ mode_t modeOf(int flags, va_list arguments) {
 
 extern "C" {
 
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 // glibc's allocator under its own names, so that dlsym, which allocates, is not needed to allocate
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* memory);
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void* malloc(std::size_t size) noexcept {
   presa::note("malloc");

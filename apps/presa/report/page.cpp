@@ -12,7 +12,7 @@ const char* const kStyle = R"CSS(
 @media screen and (prefers-color-scheme: dark) { :root {
   --bg: #14171b; --card: #1d2127; --ink: #e6e9ed; --soft: #9aa5b1; --rule: #343b44; --grid: #2a3038;
   --band0: #1c232b; --band1: #14171b; --good: #4cc38a; --bad: #ff8a80; --neutral: #a9b8cc;
-  --finger: #3ddc97; --proxy: #2a7d62; --object: #ff8552; --force: #5aa9e6; --tangential: #4d6f8c; --state: #e6e9ed;
+  --finger: #3ddc97; --proxy: #2f9a78; --object: #ff8552; --force: #5aa9e6; --tangential: #7d9db8; --state: #e6e9ed;
   --limit: #d9a066; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--bg); color: var(--ink); font: 15px/1.5 system-ui, "Liberation Sans", sans-serif; }
@@ -33,7 +33,7 @@ p { margin: 6px 0; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; font-size: 14px; }
 th, td { padding: 5px 10px; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
-th { color: var(--soft); font-weight: 600; }
+th { color: var(--soft); font-weight: 600; white-space: normal; vertical-align: bottom; line-height: 1.25; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 table.facts td { text-align: left; white-space: normal; overflow-wrap: anywhere; }
 table.facts td:first-child { color: var(--soft); width: 170px; white-space: nowrap; vertical-align: top; }
@@ -49,6 +49,7 @@ img { max-width: 100%; border-radius: 4px; display: block; }
 svg text { font: 12px system-ui, "Liberation Sans", sans-serif; fill: var(--ink); }
 svg .tick { fill: var(--soft); font-variant-numeric: tabular-nums; } svg .ytick { text-anchor: end; } svg .xtick, svg .phase { text-anchor: middle; }
 svg .phase { fill: var(--soft); font-weight: 600; } svg .panel-title { font-weight: 600; font-size: 13px; }
+svg .legend { paint-order: stroke; stroke: var(--bg); stroke-width: 4px; }
 svg .level-label { text-anchor: end; fill: var(--limit); }
 svg .grid { stroke: var(--grid); } svg .axis { stroke: var(--soft); } svg .cursor { stroke: var(--soft); visibility: hidden; }
 svg .band0 { fill: var(--band0); } svg .band1 { fill: var(--band1); }

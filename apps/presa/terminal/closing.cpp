@@ -54,7 +54,7 @@ std::string rateTable(const RunResult& result) {
 std::string closingText(const RunResult& result, const std::string& summary_file, const std::string& report_file,
                         bool color) {
   const Verdict verdict = verdictOf(result);
-  std::string out = styled(result.world->scene.name + ": " + verdict.headline, styleOf(verdict.outcome), color) + "\n";
+  std::string out = styled(verdict.headline, styleOf(verdict.outcome), color) + "\n";
   for (const std::string& detail : verdict.details) out += "  " + detail + "\n";
   out += contactTable(result) + rateTable(result);
   const double speed = result.wall_seconds > 0 ? result.simulated_seconds / result.wall_seconds : 0;

@@ -10,10 +10,10 @@ namespace {
 
 /// What a reader may allocate: assimp keeps below 100 bytes for each byte of a file (ASCII formats less), small files
 /// need room for its own tables. A header that claims more than that is lying.
-constexpr std::size_t kBaseMemory = 256u << 20;
+constexpr std::size_t kBaseMemory = 64u << 20;
 constexpr std::size_t kMemoryPerByte = 100;
 /// Processor time: a good megabyte takes below a second even as text.
-constexpr unsigned kBaseSeconds = 2;
+constexpr unsigned kBaseSeconds = 1;
 constexpr unsigned kSecondsPerMegabyte = 1;
 
 /// The arrays live as long as the result.

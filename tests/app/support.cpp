@@ -1,0 +1,46 @@
+#include "tests/app/support.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace presa::test {
+namespace {
+
+std::string contents(const std::string& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+std::string scratch(const std::string& name) {
+  const auto folder = std::filesystem::temp_directory_path() / ("presa_app_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  return (folder / name).string();
+}
+
+std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets, RunOptions options, double trace_rate) {
+  Diagnostics diagnostics;
+  if (options.duration == RunOptions{}.duration) options.duration = 0;   // to the end of the script
+  const Loaded loaded = loadWorld({source(scene), "", sets}, options, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = trace_rate, .quiet = true, .command = ""});
+  run->execute();
+  return run;
+}
+
+Outcome presa(const std::string& arguments) {
+  const std::string out = scratch("stdout"), err = scratch("stderr");
+  const std::string command = std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments + " >" + out + " 2>" + err;
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+}
+
+}  // namespace presa::test

@@ -1,0 +1,26 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/presa/run_session.h"
+
+namespace presa::test {
+
+inline std::string source(const std::string& path) { return std::string(PRESA_SOURCE_DIR) + "/" + path; }
+
+/// A folder of this test's own, removed when the process ends well.
+std::string scratch(const std::string& name);
+
+/// A lockstep run of a shipped scene without a word on the terminal. Throws InputError.
+std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets = {}, RunOptions options = {},
+                              double trace_rate = 1000);
+
+/// The installed program in a process of its own.
+struct Outcome {
+  int status = -1;          ///< exit status
+  std::string out, err;
+};
+Outcome presa(const std::string& arguments);
+
+}  // namespace presa::test

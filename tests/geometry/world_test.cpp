@@ -1,0 +1,96 @@
+#include "framework/scene/world.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "framework/scene/inertia.h"
+
+namespace presa {
+namespace {
+
+using std::numbers::pi;
+
+constexpr const char* kAmphora = PRESA_SOURCE_DIR "/config/meshes/amphora.obj";
+
+Body freeBody(const Shape& shape, double mass, const Pose& X_BG = {}) {
+  Body body;
+  body.name = "thing";
+  body.mass = mass;
+  body.physics = Geometry{shape, X_BG, {"scene.xml", 3, 1}};
+  return body;
+}
+
+// A shape's closed form against the divergence theorem on its own triangulation, refined: the two must meet.
+TEST(Inertia, ClosedFormsAgreeWithTheirTriangulations) {
+  const auto compare = [](const Shape& shape, const TriMesh& mesh, double tolerance) {
+    const MassProperties exact = massPropertiesOf(shape, nullptr), meshed = massProperties(mesh);
+    EXPECT_NEAR(meshed.volume / exact.volume, 1, tolerance);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(meshed.inertia(i, i) / exact.inertia(i, i), 1, 2 * tolerance);
+  };
+  compare(Box{{0.1, 0.2, 0.3}}, makeBox({0.1, 0.2, 0.3}), 1e-14);
+  // an inscribed polygon of n sides lacks (2 pi / n)^2 / 6 of the circle's area; a sphere's facets about twice that
+  const double lack = std::pow(2 * pi / 2000, 2) / 6;
+  compare(Cylinder{0.03, 0.2}, makeCylinder(0.03, 0.2, 2000), 2 * lack);
+  const double coarse = std::pow(2 * pi / 400, 2) / 6;
+  compare(Capsule{0.03, 0.2}, makeCapsule(0.03, 0.2, 400), 4 * coarse);
+  compare(Sphere{0.03}, makeCapsule(0.03, 0.0, 400), 4 * coarse);
+}
+
+// Geometry placed in the body moves the centre of mass and turns the inertia; mass and density say the same thing.
+TEST(Inertia, FollowsTheGeometryInTheBody) {
+  const Pose X_BG{Vec3(0.1, 0, -0.2), Quat(Eigen::AngleAxisd(pi / 2, Vec3::UnitX()))};
+  Diagnostics diagnostics;
+  Body body = freeBody(Box{{0.1, 0.2, 0.4}}, 0.6, X_BG);
+  const BodyInertia by_mass = inertiaOf(body, nullptr, diagnostics);
+  EXPECT_LT((by_mass.p_BCm - X_BG.p).norm(), 1e-15);
+  EXPECT_LT((by_mass.inertia - Mat3(Vec3(0.05 * 0.20, 0.05 * 0.05, 0.05 * 0.17).asDiagonal())).norm(), 1e-15);
+  body.mass.reset();
+  body.density = 0.6 / (0.1 * 0.2 * 0.4);
+  EXPECT_LT((inertiaOf(body, nullptr, diagnostics).inertia - by_mass.inertia).norm(), 1e-15);
+  EXPECT_TRUE(diagnostics.all().empty());
+}
+
+TEST(Inertia, RefusesWhatCannotMove) {
+  for (const Body& body : {freeBody(Box{{0.1, 0, 0.1}}, 1), freeBody(Sphere{0.1}, -1), freeBody(Sphere{0.1}, 0)}) {
+    Diagnostics diagnostics;
+    inertiaOf(body, nullptr, diagnostics);
+    ASSERT_EQ(diagnostics.errorCount(), 1u);
+    EXPECT_EQ(diagnostics.all()[0].code, 321);
+  }
+  Diagnostics diagnostics;
+  Body ghost;
+  inertiaOf(ghost, nullptr, diagnostics);
+  EXPECT_EQ(diagnostics.all().at(0).code, 320);
+}
+
+// One file at one scale is one mesh in memory, whoever uses it; another scale is another mesh.
+TEST(BuildWorld, ReadsEachFileOncePerScale) {
+  Scene scene;
+  Body body = freeBody(Box{{0.05, 0.05, 0.14}}, 0.25);
+  body.visual = body.haptic = Geometry{MeshRef{kAmphora, Vec3::Ones()}, {}, {}};
+  scene.bodies = {body, body};
+  scene.bodies[1].haptic->shape = MeshRef{kAmphora, Vec3::Constant(2)};
+  Diagnostics diagnostics;
+  const World world = buildWorld(scene, {}, {}, diagnostics);
+  EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
+  EXPECT_EQ(world.meshes[0].visual, world.meshes[0].haptic);
+  EXPECT_EQ(world.meshes[0].visual, world.meshes[1].visual);
+  ASSERT_TRUE(world.meshes[1].haptic);
+  EXPECT_NEAR(radiusOf(*world.meshes[1].haptic), 2 * radiusOf(*world.meshes[0].haptic), 1e-15);
+  EXPECT_FALSE(world.meshes[0].physics);
+  EXPECT_EQ(world.inertias[1].mass, 0.25);
+}
+
+TEST(BuildWorld, ReportsAMissingMeshOnce) {
+  Scene scene;
+  Body body = freeBody(MeshRef{"none.obj", Vec3::Ones()}, 1);
+  body.haptic = body.physics;
+  scene.bodies = {body};
+  Diagnostics diagnostics;
+  buildWorld(scene, {}, {}, diagnostics);
+  EXPECT_EQ(diagnostics.errorCount(), 1u) << diagnostics.text();
+}
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "apps/presa/report/base64.h"
+#include "apps/presa/report/svg_plot.h"
+#include "apps/presa/terminal/status_line.h"
+
+namespace presa {
+namespace {
+
+// RFC 4648, section 10.
+TEST(Base64, MatchesTheRfc) {
+  const std::vector<std::pair<std::string, std::string>> vectors{
+      {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : vectors) EXPECT_EQ(base64(bytes), text);
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+// A single spike among ten thousand samples is what a reader looks for: thinning must not lose it.
+TEST(Plot, DecimationKeepsEveryExtremeAndMovesNoPoint) {
+  std::vector<svg::Point> line;
+  for (int i = 0; i < 10'000; ++i) line.push_back({i * 1e-3, std::sin(i * 0.01)});
+  line[4321].y = 9;
+  line[7007].y = -9;
+  const auto kept = svg::decimate(line, 0, 10, 100);
+  EXPECT_LE(kept.size(), 4 * 101u);
+  const auto has = [&](const svg::Point& p) {
+    return std::any_of(kept.begin(), kept.end(), [&](const svg::Point& k) { return k.x == p.x && k.y == p.y; });
+  };
+  EXPECT_TRUE(has(line[4321]));
+  EXPECT_TRUE(has(line[7007]));
+  EXPECT_TRUE(has(line.front()) && has(line.back()));
+  for (const svg::Point& k : kept) EXPECT_EQ(k.y, line[static_cast<std::size_t>(std::lround(k.x * 1000))].y);
+}
+
+// Ticks are round numbers inside the axis, printed with just the decimals they need.
+TEST(Plot, TicksAreRoundAndInside) {
+  const auto ticks = svg::niceTicks(0.031, 0.148, 6);
+  ASSERT_EQ(ticks.size(), 6u);
+  EXPECT_EQ(svg::tickText(ticks.front(), 0.02), "0.04");
+  EXPECT_EQ(svg::tickText(ticks.back(), 0.02), "0.14");
+  EXPECT_EQ(svg::tickText(-1e-18, 0.5), "0.0");
+  EXPECT_EQ(svg::niceTicks(2, 2, 5), std::vector<double>{2});
+}
+
+// The line is redrawn in place: were it wider than the terminal, every refresh would leave a line behind.
+TEST(StatusText, FitsTheTerminalAndUsesColourOnlyWhenAsked) {
+  LiveStatus status;
+  status.time = 2.5;
+  status.duration = 10;
+  status.phase = "squeeze";
+  status.fingers = {{"thumb", ContactMode::kStick, 3.2}, {"index", ContactMode::kSlip, 3.1}};
+  for (std::size_t columns = 20; columns < 140; ++columns) EXPECT_LE(statusText(status, 12, columns, false).size(), columns);
+  const std::string wide = statusText(status, 5, 200, false);
+  EXPECT_NE(wide.find("2.5/10.0 s"), std::string::npos);
+  EXPECT_NE(wide.find("thumb  3.20 N stick"), std::string::npos);
+  EXPECT_NE(wide.find("2 s left"), std::string::npos) << "7.5 s left at five times real time";
+  EXPECT_EQ(wide.find('\033'), std::string::npos);
+  EXPECT_NE(statusText(status, 5, 200, true).find('\033'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace presa

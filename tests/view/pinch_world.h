@@ -1,0 +1,40 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "framework/plan/view.h"
+#include "framework/scene/world.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/device_state.h"
+#include "framework/state/object_state.h"
+
+/// A cube held by two fingers above a table, made by hand: the view needs no scene file and no other module.
+namespace presa::view_test {
+
+inline constexpr double kCubeEdge = 0.07;  ///< [m]
+
+std::shared_ptr<World> makePinchWorld(RunOptions::View view, const std::string& screenshot);
+
+/// What the other modules would publish.
+struct PinchStates {
+  DeviceState device;
+  ContactExchange contacts;
+  ForceCommand forces;
+  ObjectState objects;
+};
+/// Thumb sticks, index slips; the cube's centre at `p_WO`, turned by `yaw` about z.
+PinchStates makePinchStates(const World& world, const Vec3& p_WO, double yaw = 0);
+
+/// Feeds a view's ports as the graph would.
+class Feed {
+ public:
+  explicit Feed(Module& view);
+  ~Feed();
+  void publish(const PinchStates& states, double time);
+
+ private:
+  struct Bridges;
+  std::unique_ptr<Bridges> bridges_;
+};
+
+}  // namespace presa::view_test
