@@ -8,14 +8,6 @@ namespace {
 
 constexpr double kNoStretch = 1e-12;  // [m] below this the stretch has no direction
 
-// how much faster P than C moves along t when a force along t acts at C, never less than 1
-double proxyGain(const BodyInertiaState& body, const Vec3& p_WC, const Vec3& p_WP, const Vec3& t) {
-  const Vec3 turn = body.inverse_inertia_W * (p_WC - body.p_WCm).cross(t);
-  const double at_C = body.inverse_mass + turn.dot((p_WC - body.p_WCm).cross(t));
-  const double at_P = body.inverse_mass + turn.dot((p_WP - body.p_WCm).cross(t));
-  return std::max(1.0, at_P / at_C);
-}
-
 }  // namespace
 
 bool isUsable(const FingerContact& c) {
@@ -35,14 +27,13 @@ std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyI
   if (!(k > 0)) return std::nullopt;
 
   FingerRow row;
+  row.p_WP = body.X_WB * contact.p_BP;
   const Vec3 nhat = (body.X_WB.q * contact.nhat_B).normalized();
-  const Vec3 p_WP = body.X_WB * contact.p_BP;
   const Vec3 p_WH = contact.p_WH + std::clamp(age, 0.0, kFingerOldAfter) * contact.v_WH;
-  const Vec3 stretch = p_WP - p_WH;
+  const Vec3 stretch = row.p_WP - p_WH;
   const double depth = stretch.dot(nhat);
   const Vec3 tangential = stretch - depth * nhat;
   const double length = tangential.norm();
-  row.p_WC = body.X_WB * contact.p_BC;
   row.n_in = -nhat;
   row.t1 = length > kNoStretch ? Vec3(-tangential / length) : nhat.unitOrthogonal();
   const Vec3 t2 = row.n_in.cross(row.t1);
@@ -52,9 +43,8 @@ std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyI
   row.cfm = 1 / hk_d;
   row.depth = std::max(0.0, depth);
   row.motion_n = row.n_in.dot(contact.v_WH) + row.erp / h * std::min(0.0, depth);
-  row.slip_1 = 1 / (h * k * proxyGain(body, row.p_WC, p_WP, row.t1) + d);
-  row.slip_2 = 1 / (h * k * proxyGain(body, row.p_WC, p_WP, t2) + d);
-  row.motion_1 = row.slip_1 * k * length + row.t1.dot(contact.v_WH);
+  row.slip = 1 / (h * k);
+  row.motion_1 = length / h + row.t1.dot(contact.v_WH);
   row.motion_2 = t2.dot(contact.v_WH);
   row.mu = std::max(0.0, contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static);
   row.expected_force_W = k * (row.depth * row.n_in + std::min(length, row.mu * row.depth) * row.t1);

@@ -20,17 +20,18 @@ struct BodyInertiaState {
 /// body must get the negative. With the stretch s = X_WB p_BP - p_WH taken at the *start* of the step, split into
 /// depth = s . nhat and t = s - depth nhat, and n_in = -nhat (into the body), t1 = -t/|t|, the rows are
 ///   n_in . v+ + cfm f_n = erp/h depth + n_in . v_H     erp = hk/(hk+d), cfm = 1/(hk+d)
-///   t1   . v+ + cfm f_1 = erp/h |t|   + t1   . v_H     |f_1| <= mu f_n
-///   t2   . v+ + cfm f_2 =               t2   . v_H     |f_2| <= mu f_n,  t2 = n_in x t1
-/// where v+ is the velocity of the touched surface point at the end of the step. Solved: f_n = k (depth at the end of
-/// the step) + d (closing velocity), the implicit spring-damper; at rest f_n = k depth and f_1 = k |t| exactly. A finger
-/// that left the surface since its sample (depth < 0) closes the gap within the step or gets no force.
+///   t1   . v+ + slip f_1 = |t|/h      + t1   . v_H     |f_1| <= mu f_n,  slip = 1/(hk)
+///   t2   . v+ + slip f_2 =              t2   . v_H     |f_2| <= mu f_n,  t2 = n_in x t1
+/// where v+ is the velocity of P at the end of the step. Solved: f_n = k (depth at the end of the step) + d (closing
+/// velocity), the implicit spring-damper; along the surface the spring alone, as on the haptic side. At rest
+/// f_n = k depth and f_1 = k |t| exactly. A finger that left the surface since its sample (depth < 0) closes the gap
+/// within the step or gets no force.
 ///
-/// The force acts at the surface point C, but the stretch changes with the proxy P one fingertip radius further
-/// out: when the body turns, t grows faster than C moves. cfm of the tangential rows counts that ratio (>= 1), or
-/// light bodies thinner than the fingertip would be unstable; the force at rest is the same.
+/// The force acts at P, not at the touched point one fingertip radius below it: the spring of energy k |P - H|^2 / 2 is
+/// tied to the body there, so force and torque are its gradient and no motion of the body creates energy. A fingertip that
+/// does not roll transmits just that moment.
 struct FingerRow {
-  Vec3 p_WC = Vec3::Zero();   ///< where the force acts [m]
+  Vec3 p_WP = Vec3::Zero();   ///< proxy, where the force acts [m]
   Vec3 n_in = Vec3::UnitZ();  ///< into the body
   Vec3 t1 = Vec3::UnitX();    ///< first friction direction; t2 = n_in x t1
   double depth = 0;           ///< >= 0 [m]
@@ -38,7 +39,7 @@ struct FingerRow {
   double cfm = 0;             ///< normal row [m/(N s)]
   double motion_n = 0;        ///< [m/s]
   double motion_1 = 0, motion_2 = 0;
-  double slip_1 = 0, slip_2 = 0;         ///< cfm of the tangential rows
+  double slip = 0;  ///< cfm of the tangential rows [m/(N s)]
   double mu = 0;                         ///< static while the proxy sticks, dynamic while it slips
   Vec3 expected_force_W = Vec3::Zero();  ///< on the body, at the start of the step, inside the cone [N]
 };

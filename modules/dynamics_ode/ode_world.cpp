@@ -162,9 +162,9 @@ void OdeWorld::Impl::addFingerJoint(const ActiveFinger& active) {
   surface.motionN = row.motion_n;
   surface.motion1 = row.motion_1;
   surface.motion2 = row.motion_2;
-  surface.slip1 = row.slip_1;
-  surface.slip2 = row.slip_2;
-  assign(contact.geom.pos, row.p_WC);
+  surface.slip1 = row.slip;
+  surface.slip2 = row.slip;
+  assign(contact.geom.pos, row.p_WP);
   assign(contact.geom.normal, row.n_in);  // ODE: into the first body attached
   contact.geom.depth = row.depth;
   assign(contact.fdir1, row.t1);
@@ -198,7 +198,7 @@ void OdeWorld::Impl::applyExplicitForces() {
   if (options.coupling == OdeOptions::Coupling::kSoftContact) return;
   for (const ActiveFinger& active : fingers) {
     const Vec3& f = active.row.expected_force_W;
-    const Vec3& p = active.row.p_WC;
+    const Vec3& p = active.row.p_WP;
     if (dBodyIsEnabled(bodies->body(active.body)) == 0) continue;
     dBodyAddForceAtPos(bodies->body(active.body), f.x(), f.y(), f.z(), p.x(), p.y(), p.z());
   }

@@ -5,6 +5,11 @@
 namespace presa::record::h5 {
 namespace {
 
+std::mutex& libraryMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 Handle stringType(std::size_t length) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "string type");
   check(H5Tset_size(type, std::max<std::size_t>(length, 1)), "string length");
@@ -74,12 +79,7 @@ hid_t cellType(Cell cell, Side side) {
 
 }  // namespace
 
-std::mutex& libraryMutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-void prepareLibrary() {
+Library::Library() : lock_(libraryMutex()) {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

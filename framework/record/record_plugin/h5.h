@@ -17,11 +17,16 @@ class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Debian's HDF5 is not thread-safe: whoever calls it holds this.
-std::mutex& libraryMutex();
-/// Before any other call (any number of times): no error text on stderr, no clean-up at exit. The clean-up would try
-/// again, and print, what failed when a disk was full.
-void prepareLibrary();
+/// Whoever calls HDF5 holds one of these: the library promises nothing about threads. It also keeps error text (a
+/// setting of each thread) off stderr, and switches off the clean-up at exit, which would try again, and print, what
+/// failed when a disk was full.
+class Library {
+ public:
+  Library();
+
+ private:
+  std::scoped_lock<std::mutex> lock_;
+};
 
 class Handle {
  public:

@@ -175,8 +175,7 @@ void readTicks(hid_t file, const std::string& name, Recording& recording) {
 }  // namespace
 
 Recording readRecording(const std::string& file) {
-  const std::scoped_lock lock(h5::libraryMutex());
-  h5::prepareLibrary();
+  const h5::Library library;
   try {
     const h5::Handle handle = openRecording(file);
     Recording recording;

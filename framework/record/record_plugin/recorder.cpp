@@ -28,8 +28,7 @@ std::vector<std::int32_t> freeBodies(const Scene& scene) {
 }
 
 std::unique_ptr<RecordingFile> createFile(const World& world) {
-  const std::scoped_lock lock(h5::libraryMutex());
-  h5::prepareLibrary();
+  const h5::Library library;
   return std::make_unique<RecordingFile>(world);
 }
 
@@ -234,7 +233,7 @@ void FileRecorder::closeFile() {
     file_->flush();
     if (complete_) file_->finish();
   });
-  const std::scoped_lock lock(h5::libraryMutex());
+  const h5::Library library;
   file_.reset();
 }
 
@@ -242,7 +241,7 @@ void FileRecorder::closeFile() {
 template <class Work>
 void FileRecorder::onFile(const Work& work) {
   if (failed_.load(std::memory_order_relaxed)) return;
-  const std::scoped_lock lock(h5::libraryMutex());
+  const h5::Library library;
   try {
     work();
   } catch (const h5::Failure&) {

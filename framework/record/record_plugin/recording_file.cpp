@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -87,7 +88,7 @@ RecordingFile::RecordingFile(const World& world) {
     file_.reset();
     std::error_code ignored;
     std::filesystem::remove(name, ignored);   // it holds nothing yet
-    refuse(602, "'" + name + "' cannot be written: " + failure.what(), "is the disk full?");
+    refuse(602, "'" + name + "' cannot be written: " + failure.what(), "make room, or choose another folder");
   }
 }
 
@@ -147,6 +148,8 @@ RecordingFile::TableFile RecordingFile::createTable(hid_t group, const std::stri
   const h5::Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "table space");
   const h5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "table properties");
   h5::check(H5Pset_chunk(properties, 1, &chunk), "table properties");
+  // space when a table grows, not when it is flushed: see reserve()
+  h5::check(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), "table properties");
   h5::check(H5Pset_obj_track_times(properties, false), "table properties");
   const h5::Handle file_type = h5::compoundType(table, h5::Side::kFile);
   TableFile result;
@@ -196,7 +199,25 @@ void RecordingFile::appendSchedule(RateGroup group, const ScheduleRow* rows, std
 
 void RecordingFile::writeDropped(std::uint64_t dropped) { h5::writeAttribute(file_, "dropped", dropped); }
 
+void RecordingFile::reserve() {
+  hsize_t size = 0;
+  void* handle = nullptr;
+  h5::check(H5Fget_filesize(file_, &size), "file size");
+  if (size <= reserved_) return;
+  h5::check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle), "file descriptor");
+  rlimit limit{};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && size > limit.rlim_cur) throw h5::Failure(std::strerror(EFBIG));
+  // only space, not length: that one is HDF5's business
+  const int fd = *static_cast<const int*>(handle);
+  while (fallocate(fd, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(reserved_), static_cast<off_t>(size - reserved_)) != 0) {
+    if (errno == EOPNOTSUPP) break;   // this file system cannot promise space
+    if (errno != EINTR) throw h5::Failure(std::strerror(errno));
+  }
+  reserved_ = size;
+}
+
 void RecordingFile::flush() {
+  reserve();
   h5::check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush");
   for (TableFile& table : tables_) table.flushed = table.rows;
   for (TableFile& table : schedule_) table.flushed = table.rows;

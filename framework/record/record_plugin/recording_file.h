@@ -20,7 +20,7 @@ Table scheduleTable();
 /// A recording being written: tables of named columns that only grow, and are flushed as a whole. Killed at any
 /// moment, the file reads up to its last flush, which is why nothing is compressed (a compressed chunk moves when it
 /// grows) and why library bounds are the default ones (newer ones mark the file as open). See README.md.
-/// Thread: one at a time, holding h5::libraryMutex(). Throws h5::Failure.
+/// Thread: one at a time, holding an h5::Library. Throws h5::Failure.
 class RecordingFile {
  public:
   /// Throws InputError E601, E602.
@@ -50,6 +50,9 @@ class RecordingFile {
   void describe(const World& world);
   TableFile createTable(hid_t group, const std::string& name, const Table& table);
   static void appendTo(TableFile& table, const void* rows, std::size_t count);
+  /// Takes the space that the next flush will fill from the file system, so that a full disk shows before it, not
+  /// half-way through it.
+  void reserve();
   void close();
 
   RowLayout layout_;
@@ -57,6 +60,7 @@ class RecordingFile {
   std::vector<TableFile> tables_;     ///< as RowLayout: the ticks, each finger, each free body
   std::vector<TableFile> schedule_;   ///< by RateGroup
   std::vector<std::byte> gathered_;
+  hsize_t reserved_ = 0;              ///< bytes of the file that surely have their space
 };
 
 }  // namespace presa::record
