@@ -89,7 +89,7 @@ FingerGrasp fingerGrasp(Samples hold, std::size_t finger, const RunResult::Objec
     high = high.cwiseMax(p_BP);
     normal_sum += contact.normal_force;
     // listed force acts on the finger, its negative carries the object
-    upward_sum -= contact.tangential_force_W.z();
+    upward_sum -= contact.f_H_W.z();
     if (sticks(contact, object.body)) ++stick;
   }
   const auto samples = static_cast<double>(hold.size());

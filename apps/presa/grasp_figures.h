@@ -13,7 +13,7 @@ struct FingerGrasp {
   double stick_fraction = 0;          ///< part of the hold phase in stick on the object, 0 … 1
   double offset_range = 0;            ///< diagonal of the box that the proxy kept to in object coordinates [m]
   double mean_normal_force = 0;       ///< over the hold phase [N]
-  double weight_share = 0;            ///< mean upward tangential force on the object over m g / n; 1 for a fair share
+  double weight_share = 0;            ///< mean upward force on the object over m g / n; 1 for a fair share
   std::optional<double> grip_ripple;  ///< peak to peak over mean of the normal force, last 2 s of hold
   std::optional<SlipOnset> slip;      ///< first slip from the object after loosening began
 };

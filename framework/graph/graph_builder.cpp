@@ -90,7 +90,7 @@ std::vector<Module*> GraphBuilder::order(RateGroup group) {
     if (module->group() == group) open.push_back(module.get());
   }
   std::vector<Module*> done;
-  const auto waitsFor = [&](const Module* module) -> const Link* {
+  const auto waits_for = [&](const Module* module) -> const Link* {
     for (const Link& link : links_) {
       if (&link.to->owner() != module || link.from->owner().group() != group) continue;
       if (std::find(done.begin(), done.end(), &link.from->owner()) == done.end()) return &link;
@@ -98,7 +98,7 @@ std::vector<Module*> GraphBuilder::order(RateGroup group) {
     return nullptr;
   };
   while (!open.empty()) {
-    const auto ready = std::find_if(open.begin(), open.end(), [&](const Module* m) { return waitsFor(m) == nullptr; });
+    const auto ready = std::find_if(open.begin(), open.end(), [&](const Module* m) { return waits_for(m) == nullptr; });
     if (ready == open.end()) {
       // every open module waits for another: walk back until one repeats
       std::vector<const Link*> walk;
@@ -106,7 +106,7 @@ std::vector<Module*> GraphBuilder::order(RateGroup group) {
       std::vector<const Module*> seen;
       while (std::find(seen.begin(), seen.end(), at) == seen.end()) {
         seen.push_back(at);
-        walk.push_back(waitsFor(at));
+        walk.push_back(waits_for(at));
         at = &walk.back()->from->owner();
       }
       std::string loop;

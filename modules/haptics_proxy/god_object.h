@@ -95,10 +95,10 @@ struct ProxyContact {
   std::int32_t body = kNoBody;
 };
 
-/// `coneOf(body)` gives the friction of the touched body. `was_touching`, `was_slipping`: the last tick's state.
+/// `cone_of(body)` gives the friction of the touched body. `was_touching`, `was_slipping`: the last tick's state.
 template <class ConeOf>
 ProxyContact stepProxy(const Vec3& x, const Vec3& g, double r, bool was_touching, bool was_slipping,
-                       Surroundings& surroundings, const ConeOf& coneOf) noexcept;
+                       Surroundings& surroundings, const ConeOf& cone_of) noexcept;
 
 }  // namespace presa
 

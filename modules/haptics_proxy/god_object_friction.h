@@ -5,7 +5,7 @@ namespace presa {
 
 template <class ConeOf>
 ProxyContact stepProxy(const Vec3& x, const Vec3& g, double r, bool was_touching, bool was_slipping,
-                       Surroundings& surroundings, const ConeOf& coneOf) noexcept {
+                       Surroundings& surroundings, const ConeOf& cone_of) noexcept {
   ProxyContact contact;
   const ProxyMove bare = moveProxy(x, g, r, surroundings);
   contact.x = bare.x;
@@ -19,7 +19,7 @@ ProxyContact stepProxy(const Vec3& x, const Vec3& g, double r, bool was_touching
 
   // the base of the cone is the frictionless proxy, its apex the HIP, its radius mu * depth;
   // what friction holds on to is the old proxy, or the point of first touch
-  const FrictionCone cone = coneOf(bare.body);
+  const FrictionCone cone = cone_of(bare.body);
   const Vec3 held = was_touching ? x : bare.first_touch;
   Vec3 stretch = held - bare.x;
   stretch -= stretch.dot(contact.nhat) * contact.nhat;

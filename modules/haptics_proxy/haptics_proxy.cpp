@@ -124,12 +124,12 @@ void HapticsProxy::stepFinger(std::size_t f) noexcept {
   const Pose X_WA = frameOf(proxy.frame);
   const Vec3 g = X_WA.inverseTimes(input.p_WH);
   surround(f, proxy, input.p_WH, (proxy.p_AP - g).norm() + 1.1 * r);   // 10 %: room to be pushed out of a moving body
-  const auto coneOf = [this](std::int32_t body) {
+  const auto cone_of = [this](std::int32_t body) {
     const Material& material = world_->scene.materialOf(world_->scene.bodies[static_cast<std::size_t>(body)]);
     return FrictionCone{material.friction_static, material.friction_dynamic};
   };
   const ProxyContact contact = stepProxy(proxy.p_AP, g, r, proxy.mode != ContactMode::kNone,
-                                         proxy.mode == ContactMode::kSlip, *surroundings_, coneOf);
+                                         proxy.mode == ContactMode::kSlip, *surroundings_, cone_of);
   countPopThrough(f, contact, r);
   if (!contact.covered) ++contact_.value.coverage_lost;
   proxy.p_AP = contact.x;

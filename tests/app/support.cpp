@@ -36,11 +36,12 @@ std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::s
   return run;
 }
 
-Outcome presa(const std::string& arguments) {
+Outcome shell(const std::string& command) {
   const std::string out = scratch("stdout"), err = scratch("stderr");
-  const std::string command = std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments + " >" + out + " 2>" + err;
-  const int status = std::system(command.c_str());
+  const int status = std::system((command + " >" + out + " 2>" + err).c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
 }
+
+Outcome presa(const std::string& arguments) { return shell(std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments); }
 
 }  // namespace presa::test

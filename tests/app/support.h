@@ -21,6 +21,7 @@ struct Outcome {
   int status = -1;          ///< exit status
   std::string out, err;
 };
+Outcome shell(const std::string& command);
 Outcome presa(const std::string& arguments);
 
 }  // namespace presa::test

@@ -60,6 +60,7 @@ struct Feed {
     c.body = mode == ContactMode::kNone ? kNoBody : kCube;
     c.normal_force = mode == ContactMode::kNone ? 0 : normal_force;
     c.tangential_force_W = Vec3(0, 0, mode == ContactMode::kNone ? 0 : -tangential_force);
+    c.f_H_W = Vec3(c.normal_force, 0, 0) + c.tangential_force_W;
   }
   void tick(bool with_objects = true) {
     const double period = 1 / world->scene.rates.haptic;

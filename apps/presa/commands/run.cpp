@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -48,7 +49,12 @@ std::string commandLine(const Arguments& a) {
   std::string line = "presa run " + a.inputs.scene;
   if (!a.inputs.rig.empty()) line += " --rig " + a.inputs.rig;
   line += a.options.realtime ? " --realtime" : " --lockstep";
-  for (const std::string& set : a.inputs.sets) line += " --set " + set;
+  if (a.options.duration > 0) {
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), " --for %g", a.options.duration);
+    line += text.data();
+  }
+  for (const std::string& set : a.inputs.sets) line += " --set '" + set + "'";
   if (a.options.seed != 1) line += " --seed " + std::to_string(a.options.seed);
   return line;
 }
@@ -63,7 +69,7 @@ int run(Arguments arguments) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  Run session(loaded, {.trace_rate = arguments.report.empty() && arguments.summary.empty() ? 0.0 : 250.0,
+  Run session(loaded, {.trace_rate = 250,
                        .quiet = arguments.quiet,
                        .command = commandLine(arguments)});
   session.execute();

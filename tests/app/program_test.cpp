@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "framework/record/record_plugin.h"
+#include "tests/app/support.h"
+
+namespace presa {
+namespace {
+
+using test::presa;
+using test::scratch;
+using test::source;
+
+const std::string kCube = source("config/scenes/cube.xml");
+
+nlohmann::json readJson(const std::string& file) {
+  std::ifstream in(file);
+  return nlohmann::json::parse(in);
+}
+
+// The summary has what other work relies on, with the names that the manual gives.
+TEST(Run, WritesTheSummaryThatIsPromised) {
+  const std::string file = scratch("summary.json");
+  const auto outcome = presa("run " + kCube + " --lockstep --for 10 --quiet --summary " + file);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto summary = readJson(file);
+  EXPECT_DOUBLE_EQ(summary.at("duration_s"), 10);
+  EXPECT_EQ(summary.at("rates").at("haptic").at("ticks"), 10'000);
+  EXPECT_EQ(summary.at("rates").at("dynamics").at("ticks"), 2000);
+  EXPECT_EQ(summary.at("contact_points").size(), 2u);
+  EXPECT_EQ(summary.at("contact_points")[0].at("name"), "thumb");
+  EXPECT_EQ(summary.at("contact_points")[0].at("pop_through"), 0);
+  EXPECT_EQ(summary.at("objects")[0].at("name"), "cube");
+  EXPECT_NEAR(summary.at("objects")[0].at("highest_position_m")[2].get<double>(), 0.135, 0.001);
+  EXPECT_EQ(summary.at("objects")[0].at("dropped"), false);
+  EXPECT_TRUE(summary.at("faults").empty());
+  EXPECT_EQ(summary.at("state_hash").get<std::string>().size(), 18u);
+}
+
+// A recording of a lockstep run, and one of real threads with their random timing: both give every force again.
+TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
+  for (const std::string mode : {"--lockstep", "--realtime --view none"}) {
+    const std::string file = scratch("replay.h5");
+    ASSERT_EQ(presa("run " + source("config/scenes/pinch_and_lift.xml") + " " + mode + " --for 2.5 --quiet --overwrite --record " + file).status, 0);
+    const auto outcome = presa("replay " + file + " --verify");
+    EXPECT_EQ(outcome.status, 0) << mode << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("same to the bit"), std::string::npos) << outcome.out;
+  }
+}
+
+// ... and verification is not blind: with another object mass in the recorded scene the forces differ.
+TEST(Replay, NoticesADifference) {
+  const std::string file = scratch("different.h5");
+  ASSERT_EQ(presa("run " + kCube + " --lockstep --for 2 --quiet --overwrite --record " + file).status, 0);
+  const Recording recording = recordPlugin().read(file);
+  std::string changed = recording.scene_xml;
+  const std::size_t mass = changed.find("mass=\"0.2\"");
+  ASSERT_NE(mass, std::string::npos);
+  // same length, so that the bytes can be exchanged in place
+  std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+  std::string all((std::istreambuf_iterator<char>(bytes)), {});
+  const std::size_t at = all.find("mass=\"0.2\"");
+  ASSERT_NE(at, std::string::npos);
+  bytes.clear();
+  bytes.seekp(static_cast<std::streamoff>(at));
+  bytes << "mass=\"0.3\"";
+  bytes.close();
+  const auto outcome = presa("replay " + file + " --verify");
+  EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
+}
+
+// What a scene does not call for is not in the process: read from the process itself.
+TEST(Explain, MapsOnlyWhatTheSceneCallsFor) {
+  const std::string fixed = scratch("fixed.xml");
+  std::ofstream(fixed) << R"(<scene version="1.0" name="fixed" rig=")" << source("config/rigs/hover.xml") << R"(">
+    <world gravity="0 0 -9.81"/>
+    <materials><material name="wood" stiffness="2000"/></materials>
+    <body name="table" fixed="true"><haptic><box size="1 1 0.1"/></haptic></body>
+    <devices><device role="thumb"/><device role="index"/></devices></scene>)";
+  const auto libraries = [](const std::string& scene) {
+    const auto outcome = presa("explain " + scene + " --format json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out).at("libraries").dump();
+  };
+  const std::string bare = libraries(fixed), cube = libraries(kCube), mesh = libraries(source("config/scenes/pinch_and_lift.xml"));
+  for (const char* absent : {"libode", "libfcl", "libosg", "libhdf5", "libassimp"}) {
+    EXPECT_EQ(bare.find(absent), std::string::npos) << absent;
+  }
+  EXPECT_NE(cube.find("libode"), std::string::npos);
+  EXPECT_EQ(cube.find("libfcl"), std::string::npos);
+  EXPECT_NE(mesh.find("libfcl"), std::string::npos);
+}
+
+// Every kind of bad input: exit status 2, a place and a code, and nothing written.
+TEST(BadInput, IsRefusedWithAPlaceAndNothingIsWritten) {
+  const std::string zeros = scratch("zeros.obj"), bad_mesh = scratch("bad_mesh.xml"), summary = scratch("never.json");
+  std::ofstream(zeros) << std::string(4096, '\0');
+  std::ofstream(bad_mesh) << R"(<scene version="1.0" name="m"><world gravity="0 0 0"/>
+    <materials><material name="wood" stiffness="2000"/></materials>
+    <body name="b" fixed="true"><haptic><mesh file="zeros.obj"/></haptic></body></scene>)";
+  const std::string garbage = scratch("garbage.xml");
+  std::ofstream(garbage) << "<scene version=\"1.0\"><world gravity=\"0 0 -9.81\">";
+  struct Case {
+    std::string arguments, expected;
+  };
+  const Case cases[] = {
+      {"/nowhere/scene.xml", "error[E"},
+      {garbage, garbage + ":1:"},
+      {bad_mesh, bad_mesh + ":3:"},
+      {kCube + " --set body/cub/physics/mass=1", "did you mean"},
+      {kCube + " --set body/cube/physics/mass=0", "error[E"},
+      {kCube + " --set body/cube/physics/mass=-1 --set rates/dynamics=300", "error[E"},
+      {kCube + " --set nonsense", "PATH=VALUE"},
+      {kCube + " --rig /nowhere/rig.xml", "error[E"},
+      {kCube + " --view none --screenshot " + scratch("x.png"), "error[E121]"},
+  };
+  for (const Case& bad : cases) {
+    const auto outcome = presa("run " + bad.arguments + " --lockstep --summary " + summary);
+    EXPECT_EQ(outcome.status, 2) << bad.arguments << outcome.err;
+    EXPECT_NE(outcome.err.find(bad.expected), std::string::npos) << bad.arguments << '\n' << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(summary)) << bad.arguments;
+  }
+  EXPECT_EQ(presa("run").status, 2);
+  EXPECT_EQ(presa("fly").status, 2);
+  EXPECT_EQ(presa("--help").status, 0);
+  EXPECT_EQ(presa("--version").status, 0);
+}
+
+TEST(Check, SaysThatEveryShippedSceneIsGood) {
+  std::string scenes;
+  for (const auto& entry : std::filesystem::directory_iterator(source("config/scenes"))) {
+    if (entry.path().extension() == ".xml") scenes += ' ' + entry.path().string();
+  }
+  const auto outcome = presa("check" + scenes);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+// Ctrl-C in the middle of a real-time grasp: status 130, forces faded to nothing in the recording, file whole.
+TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
+  const std::string file = scratch("interrupted.h5");
+  const auto outcome = test::shell("timeout --preserve-status -s INT 2.6 " + std::string(PRESA_BINARY_DIR) + "/bin/presa run " + kCube +
+                                   " --realtime --view none --quiet --overwrite --record " + file);
+  ASSERT_EQ(outcome.status, 130) << outcome.err;
+  const Recording recording = recordPlugin().read(file);
+  ASSERT_GT(recording.command.size(), 100u);
+  EXPECT_TRUE(recording.complete);
+  EXPECT_TRUE(recording.device.back().stop_requested);
+  for (int f = 0; f < 2; ++f) EXPECT_EQ(recording.command.back().f_H_W[static_cast<std::size_t>(f)].norm(), 0);
+}
+
+}  // namespace
+}  // namespace presa
