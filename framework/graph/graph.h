@@ -46,7 +46,7 @@ class Graph {
   struct Group {
     std::vector<Module*> modules;
     std::vector<Output> outputs;        ///< parallel to modules
-    std::vector<BridgeBase*> inputs;    ///< in connection order: the order of ScheduleRow::versions
+    std::vector<BridgeBase*> inputs;    ///< by name of the value: the order of ScheduleRow::versions
   };
   Group& groupOf(RateGroup group) noexcept { return groups_[static_cast<std::size_t>(group)]; }
   const Group& groupOf(RateGroup group) const noexcept { return groups_[static_cast<std::size_t>(group)]; }

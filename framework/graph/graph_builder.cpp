@@ -1,7 +1,9 @@
 #include "framework/graph/graph_builder.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace presa {
 namespace {
@@ -63,20 +65,14 @@ void GraphBuilder::checkInputs() {
   for (const auto& module : modules_) {
     for (const OutPortBase* output : module->outputs()) outputs.push_back(output->name());
   }
-  std::array<int, kRateGroupCount> bridges{};
-  for (const auto& module : modules_) {
-    for (const InPortBase* input : module->inputs()) {
-      if (input->connected() || input->optional()) continue;
-      diagnostics_.error(501, kGraph, "nothing is connected to " + path(*input),
-                         "add the module that writes '" + input->name() + "'" + didYouMean(input->name(), outputs));
-    }
-  }
+  std::set<std::pair<const OutPortBase*, RateGroup>> bridges;
+  std::array<int, kRateGroupCount> count{};
   for (const Link& link : links_) {
-    if (link.from->owner().group() == link.to->owner().group()) continue;
-    const auto group = static_cast<std::size_t>(link.to->owner().group());
-    if (++bridges[group] == ScheduleRow::kMaxBridges + 1) {
+    const RateGroup to = link.to->owner().group();
+    if (link.from->owner().group() == to || !bridges.insert({link.from, to}).second) continue;
+    if (++count[static_cast<std::size_t>(to)] == ScheduleRow::kMaxBridges + 1) {
       diagnostics_.error(507, kGraph,
-                         std::string("the ") + toString(link.to->owner().group()) + " group reads more than " +
+                         std::string("the ") + toString(to) + " group reads more than " +
                              std::to_string(ScheduleRow::kMaxBridges) + " values across rates");
     }
   }
@@ -135,19 +131,27 @@ Graph GraphBuilder::build() {
   }
   if (diagnostics_.hasErrors()) throw InputError(diagnostics_);
 
+  // by name, so that a recording fits the graph that replays it, whatever else was connected then
+  std::stable_sort(links_.begin(), links_.end(), [](const Link& a, const Link& b) { return a.to->name() < b.to->name(); });
+  std::map<std::pair<const OutPortBase*, RateGroup>, BridgeBase*> bridges;
   for (const Link& link : links_) {
-    Connection connection{link.from, link.to, nullptr};
-    if (link.from->owner().group() == link.to->owner().group()) {
+    const RateGroup from = link.from->owner().group(), to = link.to->owner().group();
+    if (from == to) {
       link.from->connectDirect(*link.to);
-    } else {
-      graph.bridges_.push_back(link.from->makeBridge(*link.to));
-      connection.bridge = graph.bridges_.back().get();
-      graph.groupOf(link.to->owner().group()).inputs.push_back(connection.bridge);
-      for (auto& output : graph.groupOf(link.from->owner().group()).outputs) {
-        if (output.module == &link.from->owner()) output.bridges.push_back(connection.bridge);
+      graph.connections_.push_back({link.from, link.to, nullptr});
+      continue;
+    }
+    BridgeBase*& bridge = bridges[{link.from, to}];
+    if (bridge == nullptr) {
+      graph.bridges_.push_back(link.from->makeBridge());
+      bridge = graph.bridges_.back().get();
+      graph.groupOf(to).inputs.push_back(bridge);
+      for (auto& output : graph.groupOf(from).outputs) {
+        if (output.module == &link.from->owner()) output.bridges.push_back(bridge);
       }
     }
-    graph.connections_.push_back(connection);
+    bridge->addReader(*link.to);
+    graph.connections_.push_back({link.from, link.to, bridge});
   }
   graph.modules_ = std::move(modules_);
   return graph;

@@ -14,10 +14,12 @@ namespace presa {
 /// What a reader does with a value that has grown old.
 enum class WhenOld { kHold, kExtrapolate, kFadeToZero };
 
-/// Connection across rates, as the executors and the replay see it.
+/// One value's way into one rate group, as the executors and the replay see it. All readers of the group share it, so
+/// that within a tick they see the same version.
 class BridgeBase {
  public:
   virtual ~BridgeBase() = default;
+  virtual void addReader(InPortBase& reader) = 0;
   /// Reader's side, before its group's step: takes the latest value; returns its version (0: none yet).
   virtual std::uint64_t pull() noexcept = 0;
   /// Writer's side, after its module's step.
@@ -37,7 +39,7 @@ class OutPortBase {
 
  protected:
   friend class GraphBuilder;
-  virtual std::unique_ptr<BridgeBase> makeBridge(InPortBase& reader) = 0;
+  virtual std::unique_ptr<BridgeBase> makeBridge() = 0;
   virtual void connectDirect(InPortBase& reader) = 0;
 
  private:
@@ -110,11 +112,12 @@ class In final : public InPortBase {
 template <PlainData T>
 class Bridge final : public BridgeBase {
  public:
-  Bridge(const T& source, In<T>& reader) : source_(source), reader_(reader) {}
+  explicit Bridge(const T& source) : source_(source) {}
 
+  void addReader(InPortBase& reader) override { readers_.push_back(static_cast<In<T>*>(&reader)); }
   std::uint64_t pull() noexcept override {
-    if (latest_.update()) take(latest_.value(), latest_.version(), latest_.time());
-    return reader_.version_;
+    if (latest_.update()) show(latest_.value(), latest_.version(), latest_.time());
+    return latest_.version();
   }
   void push(double time) noexcept override {
     if (history_.empty()) return latest_.publish(source_, time);
@@ -126,7 +129,7 @@ class Bridge final : public BridgeBase {
     if (version == 0) return true;
     const Kept& kept = history_[version % history_.size()];
     if (kept.version != version) return false;
-    take(kept.value, kept.version, kept.time);
+    show(kept.value, kept.version, kept.time);
     return true;
   }
 
@@ -136,13 +139,15 @@ class Bridge final : public BridgeBase {
     std::uint64_t version = 0;
     double time = 0;
   };
-  void take(const T& value, std::uint64_t version, double time) noexcept {
-    reader_.value_ = &value;
-    reader_.version_ = version;
-    reader_.time_ = time;
+  void show(const T& value, std::uint64_t version, double time) noexcept {
+    for (In<T>* reader : readers_) {
+      reader->value_ = &value;
+      reader->version_ = version;
+      reader->time_ = time;
+    }
   }
   const T& source_;
-  In<T>& reader_;
+  std::vector<In<T>*> readers_;
   LatestValue<T> latest_;
   std::vector<Kept> history_;
   std::uint64_t pushed_ = 0;
@@ -156,9 +161,7 @@ class Out final : public OutPortBase {
   T value{};
 
  private:
-  std::unique_ptr<BridgeBase> makeBridge(InPortBase& reader) override {
-    return std::make_unique<Bridge<T>>(value, static_cast<In<T>&>(reader));
-  }
+  std::unique_ptr<BridgeBase> makeBridge() override { return std::make_unique<Bridge<T>>(value); }
   void connectDirect(InPortBase& reader) override {
     auto& in = static_cast<In<T>&>(reader);
     in.value_ = &value;

@@ -43,7 +43,10 @@ class CollisionModuleTest : public testing::Test {
     Out<DeviceState> device_state{*this, "device_state"};
   };
   void feed() {
-    if (!bridge_) bridge_ = std::make_unique<Bridge<DeviceState>>(device_.device_state.value, module_->device_state);
+    if (!bridge_) {
+      bridge_ = std::make_unique<Bridge<DeviceState>>(device_.device_state.value);
+      bridge_->addReader(module_->device_state);
+    }
     bridge_->push(tick_.time);
     bridge_->pull();
   }

@@ -83,10 +83,12 @@ struct Feed::Bridges {
   Bridge<ForceCommand> forces;
   Bridge<ObjectState> objects;
   explicit Bridges(Module& view)
-      : device(source.device, port<DeviceState>(view, "device_state")),
-        contacts(source.contacts, port<ContactExchange>(view, "contact_exchange")),
-        forces(source.forces, port<ForceCommand>(view, "force_command")),
-        objects(source.objects, port<ObjectState>(view, "object_state")) {}
+      : device(source.device), contacts(source.contacts), forces(source.forces), objects(source.objects) {
+    device.addReader(port<DeviceState>(view, "device_state"));
+    contacts.addReader(port<ContactExchange>(view, "contact_exchange"));
+    forces.addReader(port<ForceCommand>(view, "force_command"));
+    objects.addReader(port<ObjectState>(view, "object_state"));
+  }
 };
 
 Feed::Feed(Module& view) : bridges_(std::make_unique<Bridges>(view)) {}
