@@ -65,6 +65,13 @@ void GraphBuilder::checkInputs() {
   for (const auto& module : modules_) {
     for (const OutPortBase* output : module->outputs()) outputs.push_back(output->name());
   }
+  for (const auto& module : modules_) {
+    for (const InPortBase* input : module->inputs()) {
+      if (input->connected() || input->optional()) continue;
+      diagnostics_.error(501, kGraph, "nothing is connected to " + path(*input),
+                         "add the module that writes '" + input->name() + "'" + didYouMean(input->name(), outputs));
+    }
+  }
   std::set<std::pair<const OutPortBase*, RateGroup>> bridges;
   std::array<int, kRateGroupCount> count{};
   for (const Link& link : links_) {

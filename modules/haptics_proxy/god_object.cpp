@@ -12,7 +12,7 @@ namespace {
 // edge tilts the normal by sqrt(2 e): at 1e-10 that is 1.4e-5, no force one could feel; below, rounding would show.
 constexpr double kTouchGap = 3e-11;   // a sweep stops this far off
 constexpr double kInContact = 1e-10;  // a gap below this makes a constraint
-constexpr double kStill = 1e-9;       // a leg shorter than this ends the motion
+constexpr double kStill = 1e-6;       // a leg shorter than this ends the motion: 8 nm, some 10 uN
 constexpr double kMargin = 0.06;      // how far the fingertip may go before it looks around again
 constexpr int kMaxLegs = 64;          // a leg per face, edge or look; curved edges converge by d / r
 

@@ -83,22 +83,28 @@ struct FrictionCone {
   double mu_dynamic = 0;
 };
 
+/// What a fingertip carries from tick to tick, in the working frame A.
+struct FingertipState {
+  Vec3 x = Vec3::Zero();     ///< proxy: where friction holds the fingertip
+  Vec3 god = Vec3::Zero();   ///< where it would be without friction; x itself in free space
+  bool touching = false;
+  bool slipping = false;
+};
+
 /// One fingertip at the surface, in the working frame A.
 struct ProxyContact {
-  Vec3 x = Vec3::Zero();             ///< proxy
+  FingertipState state;
   Vec3 nhat = Vec3::UnitZ();         ///< direction of the frictionless force, body into finger
   double depth = 0;                  ///< (x - g) . nhat
   Vec3 stretch = Vec3::Zero();       ///< x - g without its normal part
-  bool touching = false;
-  bool slipping = false;
   bool covered = true;
   std::int32_t body = kNoBody;
 };
 
-/// `cone_of(body)` gives the friction of the touched body. `was_touching`, `was_slipping`: the last tick's state.
+/// One tick towards the HIP g. `cone_of(body)` gives the friction of the touched body.
 template <class ConeOf>
-ProxyContact stepProxy(const Vec3& x, const Vec3& g, double r, bool was_touching, bool was_slipping,
-                       Surroundings& surroundings, const ConeOf& cone_of) noexcept;
+ProxyContact stepProxy(const FingertipState& last, const Vec3& g, double r, Surroundings& surroundings,
+                       const ConeOf& cone_of) noexcept;
 
 }  // namespace presa
 

@@ -76,7 +76,9 @@ Pose HapticsProxy::frameOf(std::int32_t body) const noexcept {
 
 void HapticsProxy::moveToFrame(Proxy& proxy, std::int32_t body) const noexcept {
   if (proxy.frame == body) return;
-  proxy.p_AP = frameOf(body).inverseTimes(frameOf(proxy.frame) * proxy.p_AP);
+  const Pose X_BA = frameOf(body).inverse() * frameOf(proxy.frame);
+  proxy.tip.x = X_BA * proxy.tip.x;
+  proxy.tip.god = X_BA * proxy.tip.god;
   proxy.frame = body;
 }
 
@@ -117,41 +119,39 @@ void HapticsProxy::stepFinger(std::size_t f) noexcept {
   if (!proxy.alive) {
     proxy = {};
     proxy.alive = true;
-    proxy.p_AP = input.p_WH;
+    proxy.tip.x = proxy.tip.god = input.p_WH;
   }
 
   const double r = fingertip_radius_[f];
   const Pose X_WA = frameOf(proxy.frame);
   const Vec3 g = X_WA.inverseTimes(input.p_WH);
-  surround(f, proxy, input.p_WH, (proxy.p_AP - g).norm() + 1.1 * r);   // 10 %: room to be pushed out of a moving body
+  surround(f, proxy, input.p_WH, std::max((proxy.tip.x - g).norm(), (proxy.tip.god - g).norm()) + 1.1 * r);   // 10 %: room to be pushed out of a moving body
   const auto cone_of = [this](std::int32_t body) {
     const Material& material = world_->scene.materialOf(world_->scene.bodies[static_cast<std::size_t>(body)]);
     return FrictionCone{material.friction_static, material.friction_dynamic};
   };
-  const ProxyContact contact = stepProxy(proxy.p_AP, g, r, proxy.mode != ContactMode::kNone,
-                                         proxy.mode == ContactMode::kSlip, *surroundings_, cone_of);
+  const ProxyContact contact = stepProxy(proxy.tip, g, r, *surroundings_, cone_of);
   countPopThrough(f, contact, r);
   if (!contact.covered) ++contact_.value.coverage_lost;
-  proxy.p_AP = contact.x;
-  proxy.mode = !contact.touching ? ContactMode::kNone : contact.slipping ? ContactMode::kSlip : ContactMode::kStick;
-  const std::int32_t next_frame = contact.touching ? contact.body : nearestBody(contact.x);
+  proxy.tip = contact.state;
+  const std::int32_t next_frame = contact.state.touching ? contact.body : nearestBody(contact.state.x);
   moveToFrame(proxy, next_frame);
   writeContact(out, proxy, contact, X_WA, r);
 }
 
 void HapticsProxy::writeContact(FingerContact& out, const Proxy& proxy, const ProxyContact& contact, const Pose& X_WA,
                                 double r) const noexcept {
-  out.p_WP = X_WA * contact.x;
-  out.mode = proxy.mode;
-  if (!contact.touching) {
+  out.p_WP = X_WA * contact.state.x;
+  if (!contact.state.touching) {
     out.p_BP = out.p_WP;
     return;
   }
   const Material& material = world_->scene.materialOf(world_->scene.bodies[static_cast<std::size_t>(contact.body)]);
+  out.mode = contact.state.slipping ? ContactMode::kSlip : ContactMode::kStick;
   out.body = contact.body;
   out.nhat_W = X_WA.q * contact.nhat;
   out.nhat_B = frameOf(contact.body).q.conjugate() * out.nhat_W;
-  out.p_BP = proxy.p_AP;
+  out.p_BP = proxy.tip.x;
   out.p_BC = out.p_BP - r * out.nhat_B;
   out.depth = contact.depth;
   out.stiffness = material.stiffness;
@@ -192,7 +192,7 @@ void HapticsProxy::countPopThrough(std::size_t f, const ProxyContact& contact, d
   Proxy& proxy = proxies_[f];
   bool overlapping = false;
   for (int i = 0; i < surroundings_->count() && !overlapping; ++i) {
-    overlapping = nearest(surroundings_->piece(i), contact.x).distance < 0.5 * r;
+    overlapping = nearest(surroundings_->piece(i), contact.state.x).distance < 0.5 * r;
   }
   if (overlapping && !proxy.overlapping) {
     ++contact_.value.pop_through;

@@ -27,9 +27,8 @@ class HapticsProxy final : public Module {
  private:
   struct Proxy {
     bool alive = false;
-    std::int32_t frame = kNoBody;        ///< body whose coordinates hold p_AP; kNoBody: world
-    Vec3 p_AP = Vec3::Zero();
-    ContactMode mode = ContactMode::kNone;
+    std::int32_t frame = kNoBody;        ///< body whose coordinates hold `tip`; kNoBody: world
+    FingertipState tip;
     bool overlapping = false;
   };
   /// A body with a primitive as haptic geometry.

@@ -34,19 +34,15 @@ void BM_HapticTickTwoFingers(benchmark::State& state) {
   auto s = std::make_unique<Surroundings>();
   s->addTriangles(patch.data(), static_cast<int>(patch.size()), 0, nullptr, {Vec3::Zero(), 1});
   const auto cone = [](std::int32_t) { return FrictionCone{0.8, 0.6}; };
-  struct Finger {
-    Vec3 x{0, 0, 0.01};
-    bool touching = false, slipping = false;
-  } fingers[2];
+  FingertipState fingers[2] = {{{0, 0, 0.01}, {0, 0, 0.01}}, {{0, 0, 0.01}, {0, 0, 0.01}}};
   std::vector<std::int64_t> ticks;
   ticks.reserve(1 << 20);
   double t = 0;
   for (auto _ : state) {
     const std::int64_t begin = monotonicNs();
-    for (Finger& finger : fingers) {
+    for (FingertipState& finger : fingers) {
       const Vec3 g(3e-3 * std::sin(2 * t), 3e-3 * std::cos(3 * t), 0.0065);
-      const ProxyContact c = stepProxy(finger.x, g, 0.008, finger.touching, finger.slipping, *s, cone);
-      finger = {c.x, c.touching, c.slipping};
+      finger = stepProxy(finger, g, 0.008, *s, cone).state;
     }
     t += 1e-3;
     if (ticks.size() < ticks.capacity()) ticks.push_back(monotonicNs() - begin);

@@ -1,0 +1,48 @@
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/presa/load_world.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+// The whole haptic tick of two fingers (devices, rendering, output stages, monitor) through a shipped scene's ten
+// seconds of reach, lift, hold and drop. Percentiles over the ticks of one run.
+void BM_HapticTickOfScene(benchmark::State& state, const char* scene) {
+  Diagnostics diagnostics;
+  const Loaded loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene, "", {}}, {}, diagnostics);
+  if (diagnostics.hasErrors()) throw std::runtime_error(diagnostics.text());
+  const RateTable rates(loaded.world->scene.rates);
+  constexpr std::uint64_t kTicks = 10'000;
+  std::vector<std::int64_t> ticks;
+  for (auto _ : state) {
+    RunControl control;
+    Session session(loaded.world, loaded.plan, control, {});
+    constexpr RateGroup kGroups[] = {RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
+    for (const RateGroup group : kGroups) session.graph().start(group);
+    ticks.clear();
+    for (std::uint64_t i = 0; i < kTicks; ++i) {
+      if (i % 5 == 0) session.graph().step(RateGroup::kDynamics, rates.tick(RateGroup::kDynamics, i / 5));
+      if (i % 10 == 0) session.graph().step(RateGroup::kCollision, rates.tick(RateGroup::kCollision, i / 10));
+      const std::int64_t begin = monotonicNs();
+      session.graph().step(RateGroup::kHaptic, rates.tick(RateGroup::kHaptic, i));
+      ticks.push_back(monotonicNs() - begin);
+    }
+    for (const RateGroup group : kGroups) session.graph().stop(group);
+  }
+  std::sort(ticks.begin(), ticks.end());
+  state.counters["tick_p50_us"] = static_cast<double>(ticks[kTicks / 2]) * 1e-3;
+  state.counters["tick_p99_us"] = static_cast<double>(ticks[kTicks * 99 / 100]) * 1e-3;
+  state.counters["tick_p999_us"] = static_cast<double>(ticks[kTicks * 999 / 1000]) * 1e-3;
+}
+BENCHMARK_CAPTURE(BM_HapticTickOfScene, cube, "cube.xml")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_HapticTickOfScene, pinch_and_lift, "pinch_and_lift.xml")->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace presa
