@@ -1,6 +1,7 @@
 #include "apps/presa/run_session.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <future>
@@ -47,6 +48,7 @@ class SignalGuard {
   struct sigaction old_int_ {}, old_term_ {};
 };
 
+constexpr int kTripsTold = 6;             // each is a note of its own; the rest is counted
 constexpr double kDefaultDuration = 10;   // [s], for scenes without a script
 
 }  // namespace
@@ -117,7 +119,7 @@ void Run::execute() {
     executeLockstep();
   }
   live_->line.finish();
-  finish(static_cast<double>(monotonicNs() - live_->start_ns) * 1e-9);
+  finish();
 }
 
 void Run::executeLockstep() {
@@ -141,10 +143,11 @@ void Run::poll() {
       result_.faults.push_back({event.time, role + ": the commanded force was not a number; forces faded to zero"});
     }
     if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
-      char text[160];
-      std::snprintf(text, sizeof text, "%.3f s: %s: contact information was too old, force faded until it came back",
+      if (++watchdog_trips_ > kTripsTold) continue;
+      std::array<char, 160> text;
+      std::snprintf(text.data(), text.size(), "%.3f s: %s: contact information was too old, force faded until it came back",
                     event.time, role.c_str());
-      result_.notes.emplace_back(text);
+      result_.notes.emplace_back(text.data());
     }
   }
   if (session_->view() != nullptr && session_->view()->wantsStop()) control_.stop_requested = true;
@@ -172,15 +175,18 @@ void Run::showStatus() {
   live_->line.show(status);
 }
 
-void Run::finish(double wall_seconds) {
+void Run::finish() {
   poll();
   const RunOptions& options = loaded_.world->options;
+  if (watchdog_trips_ > kTripsTold) {
+    result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kTripsTold) + " more of these");
+  }
   result_.world = loaded_.world;
   result_.version = kVersion;
   result_.command = settings_.command;
   result_.realtime = options.realtime;
   result_.interrupted = interrupted;
-  result_.wall_seconds = wall_seconds;
+  result_.wall_seconds = executor_->wallSeconds();
   result_.realtime_missing = executor_->notes();
   for (int g = 0; g < kRateGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);

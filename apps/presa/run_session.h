@@ -31,7 +31,7 @@ class Run {
   void executeRealtime();
   void poll();
   void showStatus();
-  void finish(double wall_seconds);
+  void finish();
 
   Loaded loaded_;
   Settings settings_;
@@ -41,6 +41,7 @@ class Run {
   std::unique_ptr<Session> session_;
   std::unique_ptr<Executor> executor_;
   RunResult result_;
+  int watchdog_trips_ = 0;
 };
 
 }  // namespace presa

@@ -112,7 +112,14 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ObjectState* state, bool 
     object.final = poseOf(body, state, tick.time).p;
     if (object.final.z() > object.highest.z()) object.highest = object.final;
     if (fresh && body < state->count) object.peak_speed = std::max(object.peak_speed, state->bodies[i].v_WB.norm());
-    if (fingers_on[i] >= 2) object.grasped = true;
+    if (fingers_on[i] >= 2) {
+      object.grasped = true;
+      // a stiff contact may bounce once before it holds: that is no loss
+      if (object.lost_at >= 0 && tick.time - object.lost_at < kBounceTime) {
+        object.lost_at = -1;
+        object.dropped = false;
+      }
+    }
     if (object.grasped && object.lost_at < 0 && fingers_on[i] == 0) {
       object.lost_at = tick.time;
       object.dropped = tick.time < loosen_time;

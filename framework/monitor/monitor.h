@@ -36,10 +36,13 @@ struct FingerSummary {
   SlipOnset loosening_slip;          ///< the first one at or after loosen_time
 };
 
+/// A grasp regained this soon was not lost [s].
+inline constexpr double kBounceTime = 0.05;
+
 struct ObjectSummary {
   Vec3 start = Vec3::Zero(), highest = Vec3::Zero(), final = Vec3::Zero();  ///< body origins [m]
   bool grasped = false;              ///< was held by at least two fingers at once
-  double lost_at = -1;               ///< first time after a grasp with no finger in contact [s]; -1 never
+  double lost_at = -1;               ///< first loss after a grasp: no finger in contact, nor again within kBounceTime [s]; -1 never
   bool dropped = false;              ///< lost before the scripted loosening began (any loss when nothing is scripted)
   double peak_speed = 0;             ///< [m/s]
 };

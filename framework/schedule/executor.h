@@ -31,6 +31,8 @@ class Executor {
 
   void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }
   const GroupTiming& timing(RateGroup group) const noexcept { return timings_[static_cast<std::size_t>(group)]; }
+  /// Wall time from the first tick's deadline to the end of the last haptic tick [s], without start-up.
+  double wallSeconds() const noexcept { return wall_seconds_; }
   const RateTable& rates() const noexcept { return rates_; }
   /// What could not be had (scheduling class, locked memory), in words for the user.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
@@ -48,6 +50,7 @@ class Executor {
   ScheduleLog* schedule_ = nullptr;
   std::array<GroupTiming, kRateGroupCount> timings_;
   std::vector<std::string> notes_;
+  double wall_seconds_ = 0;
 };
 
 /// All groups on the calling thread in virtual time: deterministic to the bit, as fast as the machine goes.

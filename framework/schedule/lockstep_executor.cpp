@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "framework/schedule/clock.h"
 #include "framework/schedule/executor.h"
 
 namespace presa {
@@ -17,6 +18,7 @@ void LockstepExecutor::run(double duration) {
   std::uint64_t end = rates_.ticksWithin(RateGroup::kHaptic, duration);
   const std::uint64_t fade = rates_.ticksWithin(RateGroup::kHaptic, kFadeTime);
   bool stopping = false;
+  const std::int64_t begin = monotonicNs();
   for (std::uint64_t i = 0; i < end && !control_.abort.load(std::memory_order_relaxed); ++i) {
     for (RateGroup group : kOrder) {
       const auto divisor = static_cast<std::uint64_t>(rates_.divisor(group));
@@ -29,6 +31,7 @@ void LockstepExecutor::run(double duration) {
     }
     if (progress_every_ > 0 && i % progress_every_ == 0) progress_();
   }
+  wall_seconds_ = static_cast<double>(monotonicNs() - begin) * 1e-9;
   for (auto group = kOrder.rbegin(); group != kOrder.rend(); ++group) graph_.stop(*group);
 }
 

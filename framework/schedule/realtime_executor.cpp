@@ -130,6 +130,10 @@ void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {
       end = std::min(end, i + 1 + fade);
     }
   }
+  if (group != RateGroup::kHaptic) return;
+  // the last tick stands for the time up to the next deadline
+  sleepUntilNs(start + static_cast<std::int64_t>(end) * period);
+  wall_seconds_ = static_cast<double>(monotonicNs() - start) * 1e-9;
 }
 
 }  // namespace presa

@@ -106,6 +106,24 @@ TEST(Monitor, LossCountsAsADropOnlyBeforeTheLoosening) {
   }
 }
 
+// A contact that bounces as it closes has not lost the object; one that stays away has, from its first moment.
+TEST(Monitor, ABounceIsNoLoss) {
+  for (const int away : {20, 80}) {
+    Feed feed(pinchWorld(1), 10);
+    const auto both = [&](ContactMode mode, int ticks) {
+      feed.touch(0, mode);
+      feed.touch(1, mode);
+      feed.ticks(ticks);
+    };
+    both(ContactMode::kStick, 10);
+    both(ContactMode::kNone, away);
+    both(ContactMode::kStick, 10);
+    const ObjectSummary& cube = feed.monitor.objects()[kCube];
+    EXPECT_EQ(cube.dropped, away == 80);
+    EXPECT_DOUBLE_EQ(cube.lost_at, away == 80 ? 0.010 : -1.0);
+  }
+}
+
 // Between two dynamics steps the object is where the interpolation puts it, not at either end.
 TEST(Monitor, ObjectIsTakenAtTheTimeOfTheTick) {
   Feed feed(pinchWorld(1), 1, 1000);

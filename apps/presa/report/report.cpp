@@ -41,7 +41,7 @@ std::string graspSection(const RunResult& result, const std::optional<GraspFigur
   if (!grasp) return {};
   return html::graspTiles(*grasp) + "<h2>Grasp</h2>\n" + html::graspTable(result, *grasp) +
          "<p class=\"caption\">Offset range: diagonal of the box the proxy kept to in the object's own coordinates while it was held. "
-         "Share of weight: mean upward friction over m g / n. Ripple: peak to peak over mean of the normal force in the last 2 s of "
+         "Share of weight: mean upward force over m g / n. Ripple: peak to peak over mean of the normal force in the last 2 s of "
          "the hold. The slip limit holds for n equal fingers on upright faces.</p>\n";
 }
 
