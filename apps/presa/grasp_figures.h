@@ -20,15 +20,15 @@ struct FingerGrasp {
 
 /// The figures of a grasp–hold–release run, from its trace.
 struct GraspFigures {
-  std::size_t object = 0;             ///< index into RunResult::objects
+  std::size_t object = 0;               ///< index into RunResult::objects
   double hold_begin = 0, hold_end = 0;  ///< part of the hold phase that was run [s]
-  double loosen_begin = 0;            ///< [s]
-  double lift_height = 0;             ///< mean height of the object's origin during hold above its start [m]
-  double held_in_stick = 0;           ///< longest unbroken time in hold with every holding finger in stick [s]
+  double loosen_begin = 0;              ///< [s]
+  double lift_height = 0;               ///< mean height of the object's origin during hold above its start [m]
+  double held_in_stick = 0;             ///< longest unbroken time in hold with every holding finger in stick [s]
   /// Normal force per finger at which friction stops carrying the weight, m g / (n mu_s), for n equal fingers on
   /// upright faces [N].
   double slip_limit = 0;
-  std::vector<FingerGrasp> fingers;   ///< those that held the object
+  std::vector<FingerGrasp> fingers;  ///< those that held the object
 };
 
 /// Nothing unless the run has a trace, phases named "hold" and "loosen", and a traced object that at least two

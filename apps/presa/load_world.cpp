@@ -24,7 +24,8 @@ Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics
   Loaded loaded;
   loaded.plan = makePlan(scene, rig, options, diagnostics);
   // meshes are read even when the scene has findings of its own: the user sees all at once
-  loaded.world = std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
+  loaded.world =
+      std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
   if (!diagnostics.hasErrors()) createDevices(*loaded.world, loaded.plan, diagnostics);
   return loaded;
 }
@@ -48,7 +49,8 @@ Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_
   if (diagnostics.hasErrors()) return {};
   Loaded loaded;
   loaded.plan = makePlan(scene, rig, options, diagnostics);
-  loaded.world = std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
+  loaded.world =
+      std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
   return loaded;
 }
 

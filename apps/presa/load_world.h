@@ -11,8 +11,8 @@ namespace presa {
 /// What the command line names.
 struct Inputs {
   std::string scene;
-  std::string rig;                        ///< empty: the scene's own
-  std::vector<std::string> sets;          ///< PATH=VALUE
+  std::string rig;                ///< empty: the scene's own
+  std::vector<std::string> sets;  ///< PATH=VALUE
 };
 
 struct Loaded {

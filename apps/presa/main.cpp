@@ -10,11 +10,12 @@ int main(int argc, char** argv) {
   app.name("presa");
   app.set_version_flag("--version", std::string("presa ") + presa::kVersion);
   app.require_subcommand(1);
-  app.footer("First steps:\n"
-             "  presa run config/scenes/cube.xml                      two fingers lift a cube, live\n"
-             "  presa run config/scenes/cube.xml --lockstep --report cube.html\n"
-             "  presa explain config/scenes/cube.xml                  which parts run, and why\n"
-             "  presa COMMAND --help                                  all options of a command");
+  app.footer(
+      "First steps:\n"
+      "  presa run config/scenes/cube.xml                      two fingers lift a cube, live\n"
+      "  presa run config/scenes/cube.xml --lockstep --report cube.html\n"
+      "  presa explain config/scenes/cube.xml                  which parts run, and why\n"
+      "  presa COMMAND --help                                  all options of a command");
   int status = presa::kExitOk;
   presa::addRun(app, status);
   presa::addCheck(app, status);

@@ -28,8 +28,8 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
 }
 
 const RunResult::Phase* findPhase(const RunResult& result, const std::string& name) {
-  const auto phase =
-      std::find_if(result.phases.begin(), result.phases.end(), [&](const RunResult::Phase& p) { return p.name == name; });
+  const auto phase = std::find_if(result.phases.begin(), result.phases.end(),
+                                  [&](const RunResult::Phase& p) { return p.name == name; });
   return phase == result.phases.end() ? nullptr : &*phase;
 }
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "framework/monitor/monitor.h"
+#include "framework/scene/world.h"
 #include "framework/schedule/tick.h"
 #include "framework/schedule/timing_stats.h"
-#include "framework/scene/world.h"
 
 namespace presa {
 
@@ -17,54 +17,54 @@ struct RunResult {
   struct Rate {
     RateGroup group = RateGroup::kHaptic;
     double rate_hz = 0;
-    const GroupTiming* timing = nullptr;   ///< never null
+    const GroupTiming* timing = nullptr;  ///< never null
   };
   struct ContactPoint {
-    std::string name;                      ///< device role
+    std::string name;  ///< device role
     FingerSummary summary;
-    std::vector<SlipOnset> slips;          ///< first kMaxSlipOnsets
+    std::vector<SlipOnset> slips;  ///< first kMaxSlipOnsets
   };
   /// A free body of the scene.
   struct Object {
     std::string name;
-    std::int32_t body = kNoBody;           ///< index into Scene::bodies
-    std::int32_t trace_slot = -1;          ///< index into TraceSample::bodies; -1: not traced
-    double mass = 0;                       ///< [kg]
-    double friction_static = 0;            ///< of its material
+    std::int32_t body = kNoBody;   ///< index into Scene::bodies
+    std::int32_t trace_slot = -1;  ///< index into TraceSample::bodies; -1: not traced
+    double mass = 0;               ///< [kg]
+    double friction_static = 0;    ///< of its material
     double friction_dynamic = 0;
     ObjectSummary summary;
   };
   /// A stretch of a scripted motion.
   struct Phase {
     std::string name;
-    double begin = 0, end = 0;             ///< [s]
+    double begin = 0, end = 0;  ///< [s]
   };
   struct Fault {
-    double time = 0;                       ///< simulated [s]
+    double time = 0;  ///< simulated [s]
     std::string text;
   };
   struct Recording {
-    std::string file;                      ///< empty: not recorded
+    std::string file;  ///< empty: not recorded
     std::uint64_t rows = 0;
     std::uint64_t dropped = 0;
   };
 
-  std::shared_ptr<const World> world;      ///< scene, rig, seed; never null
-  std::string version;                     ///< of the program
-  std::string command;                     ///< command line that repeats the run
+  std::shared_ptr<const World> world;  ///< scene, rig, seed; never null
+  std::string version;                 ///< of the program
+  std::string command;                 ///< command line that repeats the run
   bool realtime = false;
-  bool interrupted = false;                ///< stopped by the user before its end
+  bool interrupted = false;  ///< stopped by the user before its end
   double simulated_seconds = 0;
   double wall_seconds = 0;
   std::vector<std::string> realtime_missing;  ///< settings that could not be had ("SCHED_FIFO 80: not permitted")
-  std::vector<Rate> rates;                 ///< groups that ran, in the order of RateGroup
-  std::vector<ContactPoint> contact_points;  ///< as Scene::devices
+  std::vector<Rate> rates;                    ///< groups that ran, in the order of RateGroup
+  std::vector<ContactPoint> contact_points;   ///< as Scene::devices
   std::vector<Object> objects;
-  std::vector<Phase> phases;               ///< empty for a real hand
+  std::vector<Phase> phases;                        ///< empty for a real hand
   const std::vector<TraceSample>* trace = nullptr;  ///< null: none
   std::vector<Fault> faults;
-  std::vector<std::string> notes;          ///< stiffness bounds, raised damping, skipped parts, …
-  std::string screenshot;                  ///< PNG path, may be empty
+  std::vector<std::string> notes;  ///< stiffness bounds, raised damping, skipped parts, …
+  std::string screenshot;          ///< PNG path, may be empty
   Recording recording;
   std::uint64_t state_hash = 0;
 };

@@ -45,11 +45,12 @@ class SignalGuard {
   SignalGuard& operator=(const SignalGuard&) = delete;
 
  private:
-  struct sigaction old_int_ {}, old_term_ {};
+  struct sigaction old_int_ {
+  }, old_term_{};
 };
 
-constexpr int kTripsTold = 6;             // each is a note of its own; the rest is counted
-constexpr double kDefaultDuration = 10;   // [s], for scenes without a script
+constexpr int kTripsTold = 6;            // each is a note of its own; the rest is counted
+constexpr double kDefaultDuration = 10;  // [s], for scenes without a script
 
 }  // namespace
 
@@ -145,8 +146,9 @@ void Run::poll() {
     if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
       if (++watchdog_trips_ > kTripsTold) continue;
       std::array<char, 160> text;
-      std::snprintf(text.data(), text.size(), "%.3f s: %s: contact information was too old, force faded until it came back",
-                    event.time, role.c_str());
+      std::snprintf(text.data(), text.size(),
+                    "%.3f s: %s: contact information was too old, force faded until it came back", event.time,
+                    role.c_str());
       result_.notes.emplace_back(text.data());
     }
   }
@@ -175,6 +177,17 @@ void Run::showStatus() {
   live_->line.show(status);
 }
 
+void Run::noteObjectFaults() {
+  const std::uint32_t faults = session_->monitor().objectFaults();
+  const double time = session_->monitor().objectFaultTime();
+  if ((faults & kFaultBodyFrozen) != 0)
+    result_.faults.push_back({time, "a body's motion went beyond reason: it was frozen, forces faded to zero"});
+  if ((faults & kFaultEngineFailed) != 0)
+    result_.faults.push_back({time, "the dynamics engine failed: all bodies were frozen, forces faded to zero"});
+  if ((faults & kFaultBadFinger) != 0)
+    result_.faults.push_back({time, "a finger contact made no sense to the dynamics, forces faded to zero"});
+}
+
 void Run::finish() {
   poll();
   const RunOptions& options = loaded_.world->options;
@@ -190,20 +203,26 @@ void Run::finish() {
   result_.realtime_missing = executor_->notes();
   for (int g = 0; g < kRateGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);
-    if (session_->graph().runs(group)) result_.rates.push_back({group, executor_->rates().rate(group), &executor_->timing(group)});
+    if (session_->graph().runs(group))
+      result_.rates.push_back({group, executor_->rates().rate(group), &executor_->timing(group)});
   }
   takeMonitor(session_->monitor(), result_);
+  noteObjectFaults();
   if (Recorder* recorder = session_->recorder()) {
     recorder->finish();
     const RecorderStatus status = recorder->status();
     result_.recording = {options.record, status.rows, status.dropped};
-    if (status.failed) result_.faults.push_back({result_.simulated_seconds, "the recording could not be written: " + options.record});
-    if (status.dropped > 0) result_.notes.push_back(std::to_string(status.dropped) + " rows of the recording were dropped: the disk was too slow");
+    if (status.failed)
+      result_.faults.push_back({result_.simulated_seconds, "the recording could not be written: " + options.record});
+    if (status.dropped > 0)
+      result_.notes.push_back(std::to_string(status.dropped) +
+                              " rows of the recording were dropped: the disk was too slow");
   }
   if (View* view = session_->view()) {
     const View::Screenshot shot = view->screenshot();
     if (shot.outcome == View::Screenshot::Outcome::kWritten) result_.screenshot = options.screenshot;
-    if (shot.outcome == View::Screenshot::Outcome::kFailed) result_.faults.push_back({result_.simulated_seconds, shot.message});
+    if (shot.outcome == View::Screenshot::Outcome::kFailed)
+      result_.faults.push_back({result_.simulated_seconds, shot.message});
   }
 }
 

@@ -13,9 +13,9 @@ namespace presa {
 class Run {
  public:
   struct Settings {
-    double trace_rate = 0;       ///< samples per second kept for plots
-    bool quiet = false;          ///< no status line
-    std::string command;         ///< command line, for the report
+    double trace_rate = 0;  ///< samples per second kept for plots
+    bool quiet = false;     ///< no status line
+    std::string command;    ///< command line, for the report
   };
   /// Builds the session. Throws InputError; nothing has been written then.
   Run(const Loaded& loaded, Settings settings);
@@ -32,6 +32,7 @@ class Run {
   void poll();
   void showStatus();
   void finish();
+  void noteObjectFaults();
 
   Loaded loaded_;
   Settings settings_;

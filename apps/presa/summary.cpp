@@ -128,13 +128,13 @@ std::string summaryJson(const RunResult& result) {
   json["objects"] = objects(result);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
   json["faults"] = Json::array();
-  for (const RunResult::Fault& fault : result.faults) json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});
+  for (const RunResult::Fault& fault : result.faults)
+    json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});
   json["notes"] = result.notes;
   json["realtime_missing"] = result.realtime_missing;
   if (!result.recording.file.empty()) {
-    json["recording"] = {{"file", result.recording.file},
-                         {"rows", result.recording.rows},
-                         {"dropped", result.recording.dropped}};
+    json["recording"] = {
+        {"file", result.recording.file}, {"rows", result.recording.rows}, {"dropped", result.recording.dropped}};
   }
   json["state_hash"] = hashText(result.state_hash);
   // names may come from files in any encoding: replace what is not UTF-8 instead of failing at the end of a run

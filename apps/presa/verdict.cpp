@@ -29,8 +29,8 @@ std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
     slips += result.contact_points[finger.contact_point].name + " at " + fixed(finger.slip->normal_force, 3) + " N";
   }
   if (slips.empty()) return "No slip after the loosening began.";
-  return "Slipped: " + slips + "; friction stops carrying the weight at m g / (" + std::to_string(figures.fingers.size()) +
-         " mu_s) = " + fixed(figures.slip_limit, 3) + " N.";
+  return "Slipped: " + slips + "; friction stops carrying the weight at m g / (" +
+         std::to_string(figures.fingers.size()) + " mu_s) = " + fixed(figures.slip_limit, 3) + " N.";
 }
 
 std::string lossSentence(const RunResult::Object& object) {
@@ -71,7 +71,8 @@ Verdict plainVerdict(const RunResult& result) {
 Verdict verdictOf(const RunResult& result) {
   const std::optional<GraspFigures> figures = graspFigures(result);
   Verdict verdict = figures ? graspVerdict(result, *figures) : plainVerdict(result);
-  if (result.interrupted) verdict.details.push_back("Stopped by the user at " + fixed(result.simulated_seconds, 3) + " s.");
+  if (result.interrupted)
+    verdict.details.push_back("Stopped by the user at " + fixed(result.simulated_seconds, 3) + " s.");
   if (!result.faults.empty()) {
     verdict.outcome = Verdict::Outcome::kBad;
     verdict.details.push_back(std::to_string(result.faults.size()) +

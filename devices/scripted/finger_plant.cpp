@@ -50,7 +50,8 @@ double wallDampingBound(double contact_stiffness, double period) noexcept { retu
 namespace {
 
 // Largest eigenvalue of finger and massless object over one dynamics step, in one dimension.
-double spectralRadius(const FingerImpedance& impedance, double contact_stiffness, double period, double dynamics_period) {
+double spectralRadius(const FingerImpedance& impedance, double contact_stiffness, double period,
+                      double dynamics_period) {
   // state at a dynamics tick: finger x, v; object; finger x, v one haptic tick ago (the newest sample it has)
   using State = Eigen::Matrix<double, 5, 1>;
   const int ticks = static_cast<int>(std::lround(dynamics_period / period));
@@ -88,7 +89,8 @@ double heldObjectDampingBound(const FingerImpedance& impedance, double contact_s
   return high;
 }
 
-double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period, double dynamics_period) {
+double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period,
+                        double dynamics_period) {
   constexpr double kWallMargin = 2;    // the hand is not alone in the loop: friction and output limits act too
   constexpr double kHeldMargin = 1.5;  // decays visibly, instead of just so
   constexpr double kRatio = 0.7;       // of critical: no overshoot that would strike the object

@@ -19,8 +19,8 @@ class FingerPlant {
 
  private:
   double stiffness_, damping_;
-  double xx_, xv_, vx_, vv_;   // transition matrix over one period
-  double xu_, vu_;             // response to a constant force of 1 N
+  double xx_, xv_, vx_, vv_;  // transition matrix over one period
+  double xu_, vu_;            // response to a constant force of 1 N
   Vec3 x_ = Vec3::Zero(), v_ = Vec3::Zero();
 };
 
@@ -35,6 +35,7 @@ double heldObjectDampingBound(const FingerImpedance& impedance, double contact_s
                               double dynamics_period);
 
 /// "auto": both bounds with margin, and the finger itself at 0.7 of critical damping.
-double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period, double dynamics_period);
+double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period,
+                        double dynamics_period);
 
 }  // namespace presa

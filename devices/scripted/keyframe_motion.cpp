@@ -55,7 +55,7 @@ class KeyframeMotion final : public Motion {
 
 struct Cell {
   std::string text;
-  int column = 1;   ///< of its first character
+  int column = 1;  ///< of its first character
 };
 
 std::vector<Cell> split(const std::string& line) {
@@ -80,7 +80,8 @@ class KeyframeReader {
   std::vector<Keyframe> read() {
     std::ifstream input(file_);
     if (!input) {
-      diagnostics_.error(420, {file_, 0, 0}, "cannot open the motion file", "check the path; it is relative to the rig file");
+      diagnostics_.error(420, {file_, 0, 0}, "cannot open the motion file",
+                         "check the path; it is relative to the rig file");
       return {};
     }
     std::vector<Keyframe> frames;
@@ -104,12 +105,13 @@ class KeyframeReader {
 
  private:
   void readHeader(const std::vector<Cell>& cells) {
-    static const std::vector<std::string> kKnown{"time_s", "role", "x_m", "y_m", "z_m", "fx_N", "fy_N", "fz_N", "phase"};
+    static const std::vector<std::string> kKnown{"time_s", "role", "x_m",  "y_m",  "z_m",
+                                                 "fx_N",   "fy_N", "fz_N", "phase"};
     std::map<std::string, std::size_t> columns;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (std::find(kKnown.begin(), kKnown.end(), cells[i].text) == kKnown.end()) {
-        diagnostics_.error(421, {file_, line_, cells[i].column}, "unknown column '" + cells[i].text + "'" +
-                                                                     didYouMean(cells[i].text, kKnown),
+        diagnostics_.error(421, {file_, line_, cells[i].column},
+                           "unknown column '" + cells[i].text + "'" + didYouMean(cells[i].text, kKnown),
                            "columns: time_s, role, x_m, y_m, z_m, and optionally fx_N, fy_N, fz_N, phase");
       }
       columns[cells[i].text] = i;
@@ -125,8 +127,9 @@ class KeyframeReader {
 
   void readRow(const std::vector<Cell>& cells, std::vector<Keyframe>& frames) {
     if (cells.size() != columns_.size()) {
-      diagnostics_.error(423, {file_, line_, 1}, "found " + std::to_string(cells.size()) + " values, expected " +
-                                                     std::to_string(columns_.size()));
+      diagnostics_.error(
+          423, {file_, line_, 1},
+          "found " + std::to_string(cells.size()) + " values, expected " + std::to_string(columns_.size()));
       return;
     }
     if (cells[columns_.at("role")].text != context_.role) return;
@@ -152,7 +155,8 @@ class KeyframeReader {
     const char* end = cell.text.data() + cell.text.size();
     const auto [rest, status] = std::from_chars(cell.text.data(), end, value);
     if (status != std::errc{} || rest != end || !std::isfinite(value)) {
-      diagnostics_.error(426, {file_, line_, cell.column}, column + " must be a finite number, found '" + cell.text + "'");
+      diagnostics_.error(426, {file_, line_, cell.column},
+                         column + " must be a finite number, found '" + cell.text + "'");
       return 0;
     }
     return value;
@@ -167,7 +171,8 @@ class KeyframeReader {
 
 }  // namespace
 
-std::unique_ptr<Motion> readKeyframeMotion(const std::string& file, const MotionContext& context, Diagnostics& diagnostics) {
+std::unique_ptr<Motion> readKeyframeMotion(const std::string& file, const MotionContext& context,
+                                           Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   std::vector<Keyframe> frames = KeyframeReader(file, context, diagnostics).read();
   if (diagnostics.errorCount() > before) return nullptr;

@@ -12,9 +12,9 @@ namespace presa {
 namespace {
 
 // A hand corrects slowly: these are rates of its integrators, far below the contact's dynamics.
-constexpr double kGripTime = 0.1;        // [s] to correct a grip force that is not as wanted
-constexpr double kPositionRate = 3;      // [1/s] to carry a load without sagging
-constexpr double kMaxCorrection = 20;    // [N] either may reach
+constexpr double kGripTime = 0.1;      // [s] to correct a grip force that is not as wanted
+constexpr double kPositionRate = 3;    // [1/s] to carry a load without sagging
+constexpr double kMaxCorrection = 20;  // [N] either may reach
 
 /// A simulated fingertip that follows a motion through its own mass, damping and stiffness: what it touches
 /// pushes it back. Across the grip it keeps its place; along the grip it keeps its force.
@@ -63,8 +63,8 @@ class ScriptedFinger final : public Device {
   FingerImpedance impedance_;
   FingerPlant plant_;
   std::vector<std::string> notes_;
-  double grip_ = 0;             // [N] beyond the wanted grip
-  Vec3 carry_ = Vec3::Zero();   // [N] that carries the load
+  double grip_ = 0;            // [N] beyond the wanted grip
+  Vec3 carry_ = Vec3::Zero();  // [N] that carries the load
 };
 
 using Settings = std::map<std::string, DeviceBinding::Setting>;
@@ -131,7 +131,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   const double bound = std::max(wallDampingBound(stiffest, period),
                                 heldObjectDampingBound(impedance, stiffest, period, dynamics_period));
   std::array<char, 240> text;
-  std::snprintf(text.data(), text.size(), "%s: finger damping %.3g N s/m%s; contacts of %.3g N/mm at %.0f and %.0f Hz ask for %.3g",
+  std::snprintf(text.data(), text.size(),
+                "%s: finger damping %.3g N s/m%s; contacts of %.3g N/mm at %.0f and %.0f Hz ask for %.3g",
                 binding.role.c_str(), impedance.damping, automatic ? " (auto)" : "", stiffest * 1e-3, 1 / period,
                 1 / dynamics_period, bound);
   std::vector<std::string> notes{text.data()};

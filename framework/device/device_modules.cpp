@@ -18,10 +18,7 @@ void DeviceInput::step(const Tick& tick) noexcept {
 std::vector<std::string> DeviceInput::stages() const { return {"read every device into the Device State"}; }
 
 DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles, bool realtime)
-    : Module("device_output", RateGroup::kHaptic),
-      devices_(devices),
-      reported_(roles.size(), 0),
-      realtime_(realtime) {
+    : Module("device_output", RateGroup::kHaptic), devices_(devices), reported_(roles.size(), 0), realtime_(realtime) {
   for (const DeviceRole& role : roles) {
     stages_.emplace_back(OutputLimits{.force = role.limits.force, .force_rate = role.limits.force_rate});
     watchdog_.push_back(role.limits.watchdog_ms * 1e-3);
@@ -32,6 +29,7 @@ bool DeviceOutput::informationOld(std::size_t finger, const Tick& tick) const no
   const FingerInput& input = device_->fingers[finger];
   if (!input.valid) return true;
   if (contact_->time < tick.time) return true;
+  if (objects_.hasValue() && objects_->faults != 0) return true;
   if (objects_.connected() && objects_.age(tick) > watchdog_[finger]) return true;
   return patches_.connected() && patches_.age(tick) > kPatchAge;
 }

@@ -19,9 +19,9 @@ using DeviceList = std::vector<std::unique_ptr<Device>>;
 
 /// Something went wrong while running. Carried to the main thread by a ring.
 struct FaultEvent {
-  double time = 0;              ///< [s]
+  double time = 0;  ///< [s]
   std::int32_t finger = -1;
-  std::uint32_t status = 0;     ///< the OutputStatus bit that came up
+  std::uint32_t status = 0;  ///< the OutputStatus bit that came up
 };
 
 /// First module of the haptic group: reads every device into one Device State.
@@ -59,14 +59,15 @@ class DeviceOutput final : public Module {
 
   DeviceList& devices_;
   std::vector<OutputStage> stages_;
-  std::vector<double> watchdog_;         ///< [s] per finger
+  std::vector<double> watchdog_;  ///< [s] per finger
   std::vector<std::uint32_t> reported_;
   bool realtime_;
   Tick last_tick_;
   EventRing<FaultEvent> events_{256};
   In<DeviceState> device_{*this, "device_state"};
   In<ContactExchange> contact_{*this, "contact_exchange"};
-  In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}, WhenOld::kFadeToZero, kPatchAge};
+  In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}, WhenOld::kFadeToZero,
+                              kPatchAge};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kFadeToZero, kPatchAge};
   Out<ForceCommand> command_{*this, "force_command"};
 };

@@ -15,7 +15,7 @@ Vec3 OutputStage::step(const Input& input, double period) noexcept {
     latched_ = true;
   }
   if (latched_) status_ |= kOutputNotFinite;
-  Vec3 force = good_;   // after a fault: fade from the last command that made sense
+  Vec3 force = good_;  // after a fault: fade from the last command that made sense
 
   // scaled by the largest component first: the square of 1e308 would overflow
   if (const double largest = force.cwiseAbs().maxCoeff(); largest > limits_.force) {
@@ -29,7 +29,8 @@ Vec3 OutputStage::step(const Input& input, double period) noexcept {
 
   if (input.information_old) status_ |= kOutputWatchdog;
   const bool falling = latched_ || input.stop || input.information_old;
-  gain_ = falling ? std::max(0.0, gain_ - period / limits_.fade_out) : std::min(1.0, gain_ + period / limits_.soft_start);
+  gain_ =
+      falling ? std::max(0.0, gain_ - period / limits_.fade_out) : std::min(1.0, gain_ + period / limits_.soft_start);
   if (gain_ < 1) status_ |= kOutputFading;
   force *= gain_;
 

@@ -39,9 +39,8 @@ void Diagnostics::add(Diagnostic diagnostic) {
   ++dropped_;
   if (!is_error) return;
   // an error is worth more than a warning that got here first
-  const auto last_warning = std::find_if(all_.rbegin(), all_.rend(), [](const Diagnostic& d) {
-    return d.severity == Diagnostic::Severity::kWarning;
-  });
+  const auto last_warning = std::find_if(
+      all_.rbegin(), all_.rend(), [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::kWarning; });
   if (last_warning != all_.rend()) *last_warning = std::move(diagnostic);
 }
 

@@ -9,8 +9,8 @@ namespace presa {
 /// Data that may cross threads: no owner, no pointer to free. (Eigen's fixed-size types are plain
 /// bytes but declare a copy constructor, so std::is_trivially_copyable is not the question here.)
 template <class T>
-concept PlainData = std::is_trivially_destructible_v<T> && std::is_default_constructible_v<T> &&
-                    std::is_copy_assignable_v<T>;
+concept PlainData =
+    std::is_trivially_destructible_v<T> && std::is_default_constructible_v<T> && std::is_copy_assignable_v<T>;
 
 /// Wait-free hand-over of the latest value from one writer thread to one reader thread (triple
 /// buffer). The writer never waits and never fails; the reader sees whole values in order and may

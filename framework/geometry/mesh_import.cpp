@@ -71,7 +71,8 @@ class Import {
 
 bool Import::checkScale() {
   const bool usable = options_.scale.allFinite() && (options_.scale.array() != 0).all();
-  return usable || fail(312, "scale " + text(options_.scale) + " leaves nothing of it", "each factor must be finite and not zero");
+  return usable || fail(312, "scale " + text(options_.scale) + " leaves nothing of it",
+                        "each factor must be finite and not zero");
 }
 
 bool Import::checkFile() {
@@ -83,7 +84,8 @@ bool Import::checkFile() {
   }
   extension_ = path.extension().string();
   std::erase(extension_, '.');
-  std::ranges::transform(extension_, extension_.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(extension_, extension_.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   static constexpr std::array kFormats{"obj", "stl", "ply", "gltf", "glb", "dae"};
   if (std::ranges::find(kFormats, extension_) == kFormats.end()) {
     return fail(302, "unknown mesh format '" + extension_ + "'", "use obj, stl, ply, gltf, glb or dae");
@@ -95,7 +97,8 @@ bool Import::read() {
   try {
     const auto import = reinterpret_cast<ImportMeshFunction>(pluginSymbol("mesh_import", kMeshImportSymbol));
     const auto release = reinterpret_cast<ReleaseMeshFunction>(pluginSymbol("mesh_import", kMeshReleaseSymbol));
-    const std::unique_ptr<const ImportedMesh, ReleaseMeshFunction> imported(import(file_.c_str(), extension_.c_str()), release);
+    const std::unique_ptr<const ImportedMesh, ReleaseMeshFunction> imported(import(file_.c_str(), extension_.c_str()),
+                                                                            release);
     return take(*imported);
   } catch (const InputError& error) {
     for (const Diagnostic& found : error.diagnostics().all()) fail(300, found.message, found.help);
@@ -106,7 +109,8 @@ bool Import::read() {
 }
 
 bool Import::take(const ImportedMesh& imported) {
-  if (imported.abi != kMeshImportAbi) return fail(300, "the mesh reader is of another version", "build presa_mesh_import again");
+  if (imported.abi != kMeshImportAbi)
+    return fail(300, "the mesh reader is of another version", "build presa_mesh_import again");
   if (imported.problem != nullptr) {
     return fail(303, std::string("it is not a mesh that can be read: ") + imported.problem,
                 "open it in a mesh editor and export it again");
@@ -156,7 +160,8 @@ bool Import::repair() {
   const std::size_t vanished = before - mesh_.triangles.size();
   const std::size_t degenerate = vanished + checkMesh(mesh_).degenerate;
   if (mesh_.triangles.empty()) {
-    return fail(307, "all its " + std::to_string(before) + " triangles are degenerate (no area)", "check the scale and the export");
+    return fail(307, "all its " + std::to_string(before) + " triangles are degenerate (no area)",
+                "check the scale and the export");
   }
   if (options_.display_only || degenerate == 0) return true;
   if (degenerate >= kTooManyDegenerate || degenerate > vanished) {
@@ -175,7 +180,9 @@ bool Import::checkSurface() {
                 "remove inner faces and doubled triangles: a surface has two triangles at each edge");
   }
   if (report.flipped_edges > 0) {
-    return fail(310, "at " + counted(report.flipped_edges, "edge", "edges") + " the two triangles disagree about which side is outside",
+    return fail(310,
+                "at " + counted(report.flipped_edges, "edge", "edges") +
+                    " the two triangles disagree about which side is outside",
                 "recalculate the normals (make them consistent) in a mesh editor");
   }
   return checkClosed(report);
@@ -183,8 +190,10 @@ bool Import::checkSurface() {
 
 bool Import::checkClosed(const MeshReport& report) {
   if (!report.closed()) {
-    const std::string what = "it is open: " + counted(report.open_edges, "edge has", "edges have") + " only one triangle";
-    if (options_.must_be_closed) return fail(309, what, "fill the holes: the body of a free object must enclose its volume");
+    const std::string what =
+        "it is open: " + counted(report.open_edges, "edge has", "edges have") + " only one triangle";
+    if (options_.must_be_closed)
+      return fail(309, what, "fill the holes: the body of a free object must enclose its volume");
     warn(309, what, "fingers can get in through the holes");
     return true;
   }

@@ -10,12 +10,12 @@ inline constexpr std::uint32_t kMeshImportAbi = 1;
 /// Triangles as the file has them: not welded, not scaled, not checked. Frame: the file's, turned to z up; unit: m.
 struct ImportedMesh {
   std::uint32_t abi = kMeshImportAbi;
-  const char* problem = nullptr;            ///< why there is no mesh, in words; null: read
-  const double* coordinates = nullptr;      ///< x y z of each vertex
+  const char* problem = nullptr;        ///< why there is no mesh, in words; null: read
+  const double* coordinates = nullptr;  ///< x y z of each vertex
   std::uint64_t vertex_count = 0;
-  const std::int32_t* indices = nullptr;    ///< three of each triangle; may name vertices that do not exist
+  const std::int32_t* indices = nullptr;  ///< three of each triangle; may name vertices that do not exist
   std::uint64_t triangle_count = 0;
-  std::uint64_t ignored_faces = 0;          ///< points and lines
+  std::uint64_t ignored_faces = 0;  ///< points and lines
 };
 
 /// Symbol kMeshImportSymbol: reads `file`, whose format is `extension` (lower case, no dot). Never null; throws only std::bad_alloc.

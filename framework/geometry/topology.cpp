@@ -14,10 +14,10 @@ constexpr double kFlat = 1e-7;
 
 /// One side of one triangle; sorting brings the sides of an edge together.
 struct HalfEdge {
-  std::int32_t low, high;      // vertices, low < high
+  std::int32_t low, high;  // vertices, low < high
   std::int32_t triangle;
-  std::int8_t side;            // 0, 1, 2
-  bool forward;                // runs from low to high
+  std::int8_t side;  // 0, 1, 2
+  bool forward;      // runs from low to high
 };
 
 bool validIndices(const TriMesh& mesh, const TriMesh::Triangle& triangle) {

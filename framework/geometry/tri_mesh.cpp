@@ -33,9 +33,9 @@ MassProperties massProperties(const TriMesh& mesh) {
   // mesh lies far from the origin.
   const AxisBox box = boundsOf(mesh);
   const Vec3 apex = 0.5 * (box.low + box.high);
-  double volume6 = 0;              // 6 V
-  Vec3 moment24 = Vec3::Zero();    // 24 * integral of x
-  Mat3 second120 = Mat3::Zero();   // 120 * integral of x x^T
+  double volume6 = 0;             // 6 V
+  Vec3 moment24 = Vec3::Zero();   // 24 * integral of x
+  Mat3 second120 = Mat3::Zero();  // 120 * integral of x x^T
   for (const TriMesh::Triangle& triangle : mesh.triangles) {
     const Vec3 a = corner(mesh, triangle, 0) - apex;
     const Vec3 b = corner(mesh, triangle, 1) - apex;

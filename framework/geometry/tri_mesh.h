@@ -46,13 +46,13 @@ void turnInsideOut(TriMesh& mesh);
 /// What a mesh is fit for. Counts of what is wrong; all zero: a closed, consistently oriented surface.
 struct MeshReport {
   std::size_t vertices = 0, triangles = 0;
-  std::size_t non_finite = 0;    ///< vertices with NaN or infinity
-  std::size_t bad_index = 0;     ///< triangles naming a vertex that does not exist
-  std::size_t degenerate = 0;    ///< triangles without area (relative to their longest edge)
-  std::size_t non_manifold = 0;  ///< edges of more than two triangles
-  std::size_t open_edges = 0;    ///< edges of one triangle
-  std::size_t flipped_edges = 0; ///< edges whose two triangles disagree about outside
-  bool inverted = false;         ///< closed, but inside out
+  std::size_t non_finite = 0;     ///< vertices with NaN or infinity
+  std::size_t bad_index = 0;      ///< triangles naming a vertex that does not exist
+  std::size_t degenerate = 0;     ///< triangles without area (relative to their longest edge)
+  std::size_t non_manifold = 0;   ///< edges of more than two triangles
+  std::size_t open_edges = 0;     ///< edges of one triangle
+  std::size_t flipped_edges = 0;  ///< edges whose two triangles disagree about outside
+  bool inverted = false;          ///< closed, but inside out
   bool closed() const { return open_edges == 0 && non_manifold == 0; }
 };
 MeshReport checkMesh(const TriMesh& mesh);
@@ -71,9 +71,9 @@ TriMesh makeCapsule(double radius, double length, int segments = 104);
 /// COLLADA states both: they are turned and scaled to metres, z up. Coordinates pass through single precision (assimp).
 /// Thread: any, not the haptic group. Never throws for bad input: the result is empty when an error was reported.
 struct ImportOptions {
-  bool must_be_closed = true;   ///< false: an open mesh is a warning
-  bool display_only = false;    ///< topology does not matter: open, non-manifold or degenerate is no finding
-  Vec3 scale = Vec3::Ones();    ///< a negative factor mirrors (the triangles are turned with it)
+  bool must_be_closed = true;  ///< false: an open mesh is a warning
+  bool display_only = false;   ///< topology does not matter: open, non-manifold or degenerate is no finding
+  Vec3 scale = Vec3::Ones();   ///< a negative factor mirrors (the triangles are turned with it)
 };
 TriMesh importMesh(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                    Diagnostics& diagnostics);

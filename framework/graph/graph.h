@@ -13,7 +13,7 @@ namespace presa {
 struct Connection {
   const OutPortBase* from = nullptr;
   const InPortBase* to = nullptr;
-  BridgeBase* bridge = nullptr;   ///< null within a rate group
+  BridgeBase* bridge = nullptr;  ///< null within a rate group
 };
 
 /// The frozen graph: modules in step order and their connections. Made by GraphBuilder only.
@@ -45,8 +45,8 @@ class Graph {
   };
   struct Group {
     std::vector<Module*> modules;
-    std::vector<Output> outputs;        ///< parallel to modules
-    std::vector<BridgeBase*> inputs;    ///< by name of the value: the order of ScheduleRow::versions
+    std::vector<Output> outputs;      ///< parallel to modules
+    std::vector<BridgeBase*> inputs;  ///< by name of the value: the order of ScheduleRow::versions
   };
   Group& groupOf(RateGroup group) noexcept { return groups_[static_cast<std::size_t>(group)]; }
   const Group& groupOf(RateGroup group) const noexcept { return groups_[static_cast<std::size_t>(group)]; }

@@ -139,7 +139,8 @@ Graph GraphBuilder::build() {
   if (diagnostics_.hasErrors()) throw InputError(diagnostics_);
 
   // by name, so that a recording fits the graph that replays it, whatever else was connected then
-  std::stable_sort(links_.begin(), links_.end(), [](const Link& a, const Link& b) { return a.to->name() < b.to->name(); });
+  std::stable_sort(links_.begin(), links_.end(),
+                   [](const Link& a, const Link& b) { return a.to->name() < b.to->name(); });
   std::map<std::pair<const OutPortBase*, RateGroup>, BridgeBase*> bridges;
   for (const Link& link : links_) {
     const RateGroup from = link.from->owner().group(), to = link.to->owner().group();

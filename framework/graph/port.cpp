@@ -20,10 +20,14 @@ InPortBase::InPortBase(Module& owner, std::string name, std::type_index type, bo
 
 const char* toString(RateGroup group) noexcept {
   switch (group) {
-    case RateGroup::kHaptic: return "haptic";
-    case RateGroup::kCollision: return "collision";
-    case RateGroup::kDynamics: return "dynamics";
-    case RateGroup::kView: return "view";
+    case RateGroup::kHaptic:
+      return "haptic";
+    case RateGroup::kCollision:
+      return "collision";
+    case RateGroup::kDynamics:
+      return "dynamics";
+    case RateGroup::kView:
+      return "view";
   }
   return "?";
 }

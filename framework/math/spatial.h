@@ -27,8 +27,6 @@ struct Pose {
 };
 
 /// Pose at fraction s in [0, 1] between two poses: straight line, shortest great arc.
-inline Pose interpolate(const Pose& a, const Pose& b, double s) {
-  return {a.p + s * (b.p - a.p), a.q.slerp(s, b.q)};
-}
+inline Pose interpolate(const Pose& a, const Pose& b, double s) { return {a.p + s * (b.p - a.p), a.q.slerp(s, b.q)}; }
 
 }  // namespace presa

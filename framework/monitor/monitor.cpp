@@ -38,7 +38,8 @@ struct Monitor::Impl {
     fingers_on.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       objects[i].start = objects[i].highest = objects[i].final = bodies[i].X_WB.p;
-      if (!bodies[i].fixed && traced.size() < TraceSample{}.bodies.size()) traced.push_back(static_cast<std::int32_t>(i));
+      if (!bodies[i].fixed && traced.size() < TraceSample{}.bodies.size())
+        traced.push_back(static_cast<std::int32_t>(i));
     }
     for (auto& list : slip_onsets) list.reserve(kMaxSlipOnsets);
     if (!(trace_rate > 0)) return;
@@ -55,14 +56,17 @@ struct Monitor::Impl {
   void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
               const ObjectState* state) noexcept;
   Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
-    return state && body < state->count ? state->poseAt(body, time) : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
+    return state && body < state->count ? state->poseAt(body, time)
+                                        : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
   }
 
   std::shared_ptr<const World> world;
   double loosen_time;
-  std::uint64_t stride = 0;             ///< haptic ticks per trace sample; 0: no trace
+  std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
   std::uint64_t objects_version = 0;
   double simulated_time = 0;
+  std::uint32_t object_faults = 0;
+  double object_fault_time = -1;
   std::uint32_t pop_through = 0;
   StateHash hash;
   std::array<FingerSummary, kMaxFingers> fingers;
@@ -96,7 +100,11 @@ void Monitor::Impl::sumFinger(std::size_t f, const FingerContact& now, const Tic
 
 void Monitor::Impl::noteSlip(std::size_t f, const FingerContact& now, double time) noexcept {
   const FingerContact& before = previous[f];
-  const SlipOnset onset{time, now.body, now.normal_force, now.tangential_force_W.norm(), before.normal_force,
+  const SlipOnset onset{time,
+                        now.body,
+                        now.normal_force,
+                        now.tangential_force_W.norm(),
+                        before.normal_force,
                         before.tangential_force_W.norm()};
   FingerSummary& sum = fingers[f];
   ++sum.slip_onsets;
@@ -158,6 +166,10 @@ void Monitor::observe(const Tick& tick, const DeviceState& device, const Contact
   m.hash.add(device);
   m.hash.add(contact);
   if (fresh) m.hash.add(*objects);
+  if (fresh && objects->faults != 0) {
+    if (m.object_faults == 0) m.object_fault_time = tick.time;
+    m.object_faults |= objects->faults;
+  }
 
   std::fill(m.fingers_on.begin(), m.fingers_on.end(), 0);
   for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
@@ -180,11 +192,15 @@ std::vector<std::string> Monitor::stages() const {
 
 const std::array<FingerSummary, kMaxFingers>& Monitor::fingers() const noexcept { return impl_->fingers; }
 const std::vector<ObjectSummary>& Monitor::objects() const noexcept { return impl_->objects; }
-const std::vector<SlipOnset>& Monitor::slipOnsets(std::size_t finger) const noexcept { return impl_->slip_onsets[finger]; }
+const std::vector<SlipOnset>& Monitor::slipOnsets(std::size_t finger) const noexcept {
+  return impl_->slip_onsets[finger];
+}
 std::uint64_t Monitor::hash() const noexcept { return impl_->hash.value(); }
 const std::vector<TraceSample>& Monitor::trace() const noexcept { return impl_->trace; }
 const std::vector<std::int32_t>& Monitor::tracedBodies() const noexcept { return impl_->traced; }
 std::uint32_t Monitor::popThrough() const noexcept { return impl_->pop_through; }
+std::uint32_t Monitor::objectFaults() const noexcept { return impl_->object_faults; }
+double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_time; }
 double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
 
 }  // namespace presa

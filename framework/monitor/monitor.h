@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "framework/graph/port.h"
-#include "framework/schedule/timing_stats.h"
 #include "framework/scene/world.h"
+#include "framework/schedule/timing_stats.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/device_state.h"
 #include "framework/state/object_state.h"
@@ -17,23 +17,23 @@ namespace presa {
 
 /// A change from stick to slip on the same body, as seen in the first slipping tick and in the tick before it.
 struct SlipOnset {
-  double time = -1;                      ///< first slipping tick [s]; -1: there was none
+  double time = -1;  ///< first slipping tick [s]; -1: there was none
   std::int32_t body = kNoBody;
-  double normal_force = 0;               ///< first slipping tick [N]
-  double tangential_force = 0;           ///< magnitude, first slipping tick [N]
-  double last_stick_normal_force = 0;    ///< tick before [N]
+  double normal_force = 0;                 ///< first slipping tick [N]
+  double tangential_force = 0;             ///< magnitude, first slipping tick [N]
+  double last_stick_normal_force = 0;      ///< tick before [N]
   double last_stick_tangential_force = 0;  ///< magnitude, tick before: the friction that gave way [N]
 };
 inline constexpr std::size_t kMaxSlipOnsets = 64;  ///< kept per finger; later ones are only counted
 
 /// What one contact point felt over a run.
 struct FingerSummary {
-  std::array<double, 3> seconds{};   ///< by ContactMode: none, stick, slip
-  double max_normal_force = 0;       ///< [N]
-  double mean_normal_force = 0;      ///< over the ticks in contact [N]
-  std::uint32_t pop_through = 0;     ///< times the fingertip got past a surface
-  std::uint64_t slip_onsets = 0;     ///< changes from stick to slip
-  SlipOnset loosening_slip;          ///< the first one at or after loosen_time
+  std::array<double, 3> seconds{};  ///< by ContactMode: none, stick, slip
+  double max_normal_force = 0;      ///< [N]
+  double mean_normal_force = 0;     ///< over the ticks in contact [N]
+  std::uint32_t pop_through = 0;    ///< times the fingertip got past a surface
+  std::uint64_t slip_onsets = 0;    ///< changes from stick to slip
+  SlipOnset loosening_slip;         ///< the first one at or after loosen_time
 };
 
 /// A grasp regained this soon was not lost [s].
@@ -41,19 +41,19 @@ inline constexpr double kBounceTime = 0.05;
 
 struct ObjectSummary {
   Vec3 start = Vec3::Zero(), highest = Vec3::Zero(), final = Vec3::Zero();  ///< body origins [m]
-  bool grasped = false;              ///< was held by at least two fingers at once
-  double lost_at = -1;               ///< first loss after a grasp: no finger in contact, nor again within kBounceTime [s]; -1 never
-  bool dropped = false;              ///< lost before the scripted loosening began (any loss when nothing is scripted)
-  double peak_speed = 0;             ///< [m/s]
+  bool grasped = false;  ///< was held by at least two fingers at once
+  double lost_at = -1;   ///< first loss after a grasp: no finger in contact, nor again within kBounceTime [s]; -1 never
+  bool dropped = false;  ///< lost before the scripted loosening began (any loss when nothing is scripted)
+  double peak_speed = 0;  ///< [m/s]
 };
 
 /// One sample of the plots: everything figure 12 of the PERCRO paper shows.
 struct TraceSample {
   double time = 0;
   std::int32_t phase = -1;
-  std::array<FingerContact, kMaxFingers> fingers;   ///< HIP, proxy, mode, forces
-  std::array<Vec3, kMaxFingers> f_command;          ///< after the output stage [N]
-  std::array<Pose, 4> bodies;                       ///< the first four free bodies at this time
+  std::array<FingerContact, kMaxFingers> fingers;  ///< HIP, proxy, mode, forces
+  std::array<Vec3, kMaxFingers> f_command;         ///< after the output stage [N]
+  std::array<Pose, 4> bodies;                      ///< the first four free bodies at this time
 };
 
 /// Haptic-rate observer: sums, hash and a decimated trace. Allocates everything at construction.
@@ -82,6 +82,9 @@ class Monitor final : public Module {
   const std::vector<std::int32_t>& tracedBodies() const noexcept;
   std::uint32_t popThrough() const noexcept;
   double simulatedTime() const noexcept;
+  /// ObjectFault bits seen, and when the first came [s]; -1: none.
+  std::uint32_t objectFaults() const noexcept;
+  double objectFaultTime() const noexcept;
 
  private:
   struct Impl;

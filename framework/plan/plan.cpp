@@ -18,8 +18,9 @@ void bindDevices(Plan& plan, const Scene& scene, const Rig& rig, Diagnostics& di
     const auto binding = std::find_if(rig.devices.begin(), rig.devices.end(),
                                       [&](const DeviceBinding& b) { return b.role == role.role; });
     if (binding == rig.devices.end()) {
-      diagnostics.error(405, role.where, "role '" + role.role + "' is played by no device of the rig '" + rig.name + "'" +
-                                             didYouMean(role.role, bound),
+      diagnostics.error(405, role.where,
+                        "role '" + role.role + "' is played by no device of the rig '" + rig.name + "'" +
+                            didYouMean(role.role, bound),
                         rig.file.empty() ? "name a rig: --rig FILE, or the scene's attribute rig"
                                          : "add <device role=\"" + role.role + "\" driver=\"…\"/> to " + rig.file);
       continue;
@@ -46,15 +47,18 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
   };
 
   const std::string free = firstBody(scene, [](const Body& b) { return !b.fixed; });
-  const std::string mesh = firstBody(
-      scene, [](const Body& b) { return b.haptic && std::holds_alternative<MeshRef>(b.haptic->shape); });
+  const std::string mesh =
+      firstBody(scene, [](const Body& b) { return b.haptic && std::holds_alternative<MeshRef>(b.haptic->shape); });
   const std::string touchable = firstBody(scene, [](const Body& b) { return b.haptic.has_value(); });
   const bool fingers = !scene.devices.empty();
 
   call(fingers, "haptics_proxy", RateGroup::kHaptic,
-       touchable.empty() ? "the scene has devices" : "fingers can touch body '" + touchable + "'", "the scene has no device");
-  call(fingers && !mesh.empty(), "collision_fcl", RateGroup::kCollision, "body '" + mesh + "' has a mesh as haptic geometry",
-       fingers ? "every haptic geometry is a primitive, which the haptic tick handles exactly" : "the scene has no device");
+       touchable.empty() ? "the scene has devices" : "fingers can touch body '" + touchable + "'",
+       "the scene has no device");
+  call(fingers && !mesh.empty(), "collision_fcl", RateGroup::kCollision,
+       "body '" + mesh + "' has a mesh as haptic geometry",
+       fingers ? "every haptic geometry is a primitive, which the haptic tick handles exactly"
+               : "the scene has no device");
   call(!free.empty(), "dynamics_ode", RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty(), "record", RateGroup::kHaptic, "--record " + options.record, "nothing is recorded");
   call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,

@@ -9,9 +9,9 @@ namespace presa {
 
 /// One plug-in that a run loads, and why.
 struct PlannedModule {
-  std::string plugin;      ///< folder name
+  std::string plugin;  ///< folder name
   RateGroup group = RateGroup::kHaptic;
-  std::string reason;      ///< "body 'cube' is free"
+  std::string reason;  ///< "body 'cube' is free"
 };
 
 struct PlannedDevice {
@@ -26,7 +26,7 @@ struct LeftOut {
 /// What a scene calls for, and nothing else. Pure decision: loads and starts nothing.
 struct Plan {
   std::vector<PlannedModule> modules;
-  std::vector<PlannedDevice> devices;   ///< in the order of the scene's roles
+  std::vector<PlannedDevice> devices;  ///< in the order of the scene's roles
   std::vector<LeftOut> left_out;
 
   bool has(const std::string& plugin) const;

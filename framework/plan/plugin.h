@@ -14,8 +14,8 @@ inline constexpr int kPluginAbi = 1;
 
 struct ModulePlugin {
   int abi = kPluginAbi;
-  const char* name;      ///< folder name
-  const char* summary;   ///< one line for --help and explain
+  const char* name;     ///< folder name
+  const char* summary;  ///< one line for --help and explain
   std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world);
 };
 

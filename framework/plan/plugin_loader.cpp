@@ -48,7 +48,8 @@ bool isPluginName(const std::string& name) {
 
 void* openPlugin(const std::string& name) {
   if (!isPluginName(name)) {
-    fail(590, "'" + name + "' is not the name of a plug-in", "a name consists of lower-case letters, digits and underscores");
+    fail(590, "'" + name + "' is not the name of a plug-in",
+         "a name consists of lower-case letters, digits and underscores");
   }
   const std::string file = "presa_" + name + ".so";
   std::string tried;

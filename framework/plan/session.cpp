@@ -16,10 +16,10 @@ const Table& tableOf(const std::string& plugin, const char* symbol) {
   const Table& table = *reinterpret_cast<Entry>(pluginSymbol(plugin, symbol))();
   if (table.abi != kPluginAbi) {
     Diagnostics diagnostics;
-    diagnostics.error(510, {"presa_" + plugin + ".so", 0, 0},
-                      "built for plug-in interface " + std::to_string(table.abi) + ", this program has " +
-                          std::to_string(kPluginAbi),
-                      "build it again: ./dev build");
+    diagnostics.error(
+        510, {"presa_" + plugin + ".so", 0, 0},
+        "built for plug-in interface " + std::to_string(table.abi) + ", this program has " + std::to_string(kPluginAbi),
+        "build it again: ./dev build");
     throw InputError(diagnostics);
   }
   return table;
@@ -36,8 +36,8 @@ DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diag
       const auto& driver = tableOf<DevicePlugin>(planned.driver, "presaDevicePlugin");
       if (auto device = driver.create(*binding, world, diagnostics)) devices.push_back(std::move(device));
     } catch (const InputError& error) {
-      diagnostics.error(406, binding->where, "role '" + planned.role + "': driver '" + planned.driver + "' cannot be loaded",
-                        error.what());
+      diagnostics.error(406, binding->where,
+                        "role '" + planned.role + "': driver '" + planned.driver + "' cannot be loaded", error.what());
     }
   }
   return devices;

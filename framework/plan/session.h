@@ -16,10 +16,10 @@ namespace presa {
 class Session {
  public:
   struct Options {
-    double trace_rate = 0;             ///< samples per second for plots; 0: none
-    DeviceList devices;                ///< replay: used instead of the rig's drivers
-    bool open_devices = true;          ///< explain: looks at the drivers without touching hardware
-    std::vector<std::unique_ptr<Module>> more;   ///< the program's own taps
+    double trace_rate = 0;                      ///< samples per second for plots; 0: none
+    DeviceList devices;                         ///< replay: used instead of the rig's drivers
+    bool open_devices = true;                   ///< explain: looks at the drivers without touching hardware
+    std::vector<std::unique_ptr<Module>> more;  ///< the program's own taps
   };
   /// Throws InputError with every finding.
   Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options);
@@ -29,11 +29,11 @@ class Session {
 
   Graph& graph() noexcept { return graph_; }
   const DeviceList& devices() const noexcept { return devices_; }
-  DeviceOutput* output() noexcept { return output_; }         ///< null without devices
+  DeviceOutput* output() noexcept { return output_; }  ///< null without devices
   const Monitor& monitor() const noexcept { return *monitor_; }
-  Recorder* recorder() noexcept { return recorder_; }         ///< null when nothing is recorded
+  Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
-  View* view() noexcept { return view_; }                     ///< null without a view
+  View* view() noexcept { return view_; }  ///< null without a view
 
   /// Start of the scripted phase of that name [s]; infinity when no device has one.
   double phaseStart(const std::string& phase) const;

@@ -30,9 +30,9 @@ struct ScheduleLog {
 };
 
 struct RecorderStatus {
-  std::uint64_t rows = 0;       ///< haptic ticks on disk or on their way
-  std::uint64_t dropped = 0;    ///< haptic ticks or schedule rows lost because the disk was too slow
-  bool failed = false;          ///< the file could not be written (disk full)
+  std::uint64_t rows = 0;     ///< haptic ticks on disk or on their way
+  std::uint64_t dropped = 0;  ///< haptic ticks or schedule rows lost because the disk was too slow
+  bool failed = false;        ///< the file could not be written (disk full)
 };
 
 /// Haptic-rate tap with its own writer thread. In ports: "device_state", "contact_exchange", "force_command",
@@ -50,16 +50,16 @@ class Recorder : public Module {
 
 /// A recording read back whole.
 struct Recording {
-  std::string scene_xml;        ///< resolved scene, as it ran
-  std::string scene_file;       ///< name it had
+  std::string scene_xml;   ///< resolved scene, as it ran
+  std::string scene_file;  ///< name it had
   std::string rig_xml;
   std::string program_version;
   std::uint64_t seed = 0;
   bool realtime = false;
-  bool complete = false;        ///< false: the run was killed; everything up to its last flush is here
+  bool complete = false;  ///< false: the run was killed; everything up to its last flush is here
   std::uint64_t dropped = 0;
-  double haptic_period = 0;                     ///< [s]
-  std::vector<double> time;                     ///< one entry per haptic tick
+  double haptic_period = 0;  ///< [s]
+  std::vector<double> time;  ///< one entry per haptic tick
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
   std::array<std::vector<ScheduleRow>, kRateGroupCount> schedule;

@@ -24,7 +24,11 @@ const ForceCommand* commandOf(const Graph& graph) {
 class Replayer {
  public:
   Replayer(const Recording& recording, Session& session, const RateTable& rates, RunControl& control)
-      : recording_(recording), session_(session), rates_(rates), control_(control), command_(commandOf(session.graph())) {}
+      : recording_(recording),
+        session_(session),
+        rates_(rates),
+        control_(control),
+        command_(commandOf(session.graph())) {}
 
   ReplayResult run() {
     Graph& graph = session_.graph();
@@ -92,7 +96,8 @@ class Replayer {
 DeviceList recordedDevices(const Recording& recording) {
   DeviceList devices;
   const int count = recording.device.empty() ? 0 : recording.device.front().count;
-  for (int f = 0; f < count; ++f) devices.push_back(std::make_unique<RecordedFinger>(recording, static_cast<std::size_t>(f)));
+  for (int f = 0; f < count; ++f)
+    devices.push_back(std::make_unique<RecordedFinger>(recording, static_cast<std::size_t>(f)));
   return devices;
 }
 

@@ -28,11 +28,11 @@ DeviceList recordedDevices(const Recording& recording);
 
 /// Result of running a recording again.
 struct ReplayResult {
-  std::uint64_t ticks = 0;            ///< haptic ticks replayed
-  std::uint64_t differing = 0;        ///< of these, with a commanded force that is not the same to the bit
-  double first_difference = -1;       ///< time of the first [s]
-  double largest_difference = 0;      ///< [N]
-  std::string problem;                ///< why the replay could not go to the end; empty when it did
+  std::uint64_t ticks = 0;        ///< haptic ticks replayed
+  std::uint64_t differing = 0;    ///< of these, with a commanded force that is not the same to the bit
+  double first_difference = -1;   ///< time of the first [s]
+  double largest_difference = 0;  ///< [N]
+  std::string problem;            ///< why the replay could not go to the end; empty when it did
 };
 
 /// Runs every recorded tick of every rate group again on this thread, each reading exactly the versions that it

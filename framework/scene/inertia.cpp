@@ -16,7 +16,8 @@ MassProperties centred(double volume, const Vec3& moments) { return {volume, Vec
 MassProperties of(const Box& box) {
   const Vec3 squares = box.size.cwiseAbs2();
   const double volume = box.size.prod();
-  return centred(volume, volume / 12 * Vec3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y()));
+  return centred(volume,
+                 volume / 12 * Vec3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y()));
 }
 
 MassProperties of(const Sphere& sphere) {

@@ -37,7 +37,8 @@ DeviceBinding readBinding(const Element& device, Diagnostics& diagnostics) {
   }
   for (const Element& set : device.children("set")) {
     if (!set.hasAttribute("key") || set.flawed("key")) continue;
-    addSetting(binding, set.attribute("key"), {set.attribute("value"), set.where("value")}, set.where("key"), diagnostics);
+    addSetting(binding, set.attribute("key"), {set.attribute("value"), set.where("value")}, set.where("key"),
+               diagnostics);
   }
   return binding;
 }

@@ -13,13 +13,23 @@
 namespace presa {
 
 struct MeshRef {
-  std::string file;                 ///< absolute or relative to the working directory, already resolved
+  std::string file;  ///< absolute or relative to the working directory, already resolved
   Vec3 scale = Vec3::Ones();
 };
-struct Box { Vec3 size = Vec3::Zero(); };                      ///< full edge lengths [m], centred
-struct Sphere { double radius = 0; };                          ///< [m]
-struct Cylinder { double radius = 0; double length = 0; };     ///< axis z, centred [m]
-struct Capsule { double radius = 0; double length = 0; };      ///< axis z, centred; length without the caps [m]
+struct Box {
+  Vec3 size = Vec3::Zero();
+};  ///< full edge lengths [m], centred
+struct Sphere {
+  double radius = 0;
+};  ///< [m]
+struct Cylinder {
+  double radius = 0;
+  double length = 0;
+};  ///< axis z, centred [m]
+struct Capsule {
+  double radius = 0;
+  double length = 0;
+};  ///< axis z, centred; length without the caps [m]
 using Shape = std::variant<MeshRef, Box, Sphere, Cylinder, Capsule>;
 
 /// One geometry of a body (visual, haptic or physics), placed in the body frame B.
@@ -42,20 +52,20 @@ struct Material {
 struct Body {
   std::string name;
   bool fixed = false;
-  Pose X_WB;                          ///< start pose; B's origin is the centre of mass for primitives
-  std::size_t material = 0;           ///< index into Scene::materials
-  std::optional<double> mass;         ///< [kg]; exactly one of mass and density for a free body
-  std::optional<double> density;      ///< [kg/m^3]
-  std::optional<Geometry> visual;     ///< absent: drawn as haptic, else as physics
-  std::optional<Geometry> haptic;     ///< absent: fingers pass through
-  std::optional<Geometry> physics;    ///< absent (fixed bodies only): other bodies pass through
+  Pose X_WB;                        ///< start pose; B's origin is the centre of mass for primitives
+  std::size_t material = 0;         ///< index into Scene::materials
+  std::optional<double> mass;       ///< [kg]; exactly one of mass and density for a free body
+  std::optional<double> density;    ///< [kg/m^3]
+  std::optional<Geometry> visual;   ///< absent: drawn as haptic, else as physics
+  std::optional<Geometry> haptic;   ///< absent: fingers pass through
+  std::optional<Geometry> physics;  ///< absent (fixed bodies only): other bodies pass through
   SourceLocation where;
 };
 
 struct DeviceLimits {
-  double force = 8;             ///< magnitude [N]
-  double force_rate = 1000;     ///< slew [N/s]
-  double watchdog_ms = 20;      ///< age of the contact information at which the force fades [ms]
+  double force = 8;          ///< magnitude [N]
+  double force_rate = 1000;  ///< slew [N/s]
+  double watchdog_ms = 20;   ///< age of the contact information at which the force fades [ms]
 };
 
 /// A device role: what the scene asks for. The rig says which hardware plays it.
@@ -67,33 +77,36 @@ struct DeviceRole {
 };
 
 struct Rates {
-  double haptic = 1000;     ///< [Hz]
-  double collision = 100;   ///< [Hz], haptic / collision is a whole number
-  double dynamics = 200;    ///< [Hz], haptic / dynamics is a whole number
-  double view = 60;         ///< [Hz]
+  double haptic = 1000;    ///< [Hz]
+  double collision = 100;  ///< [Hz], haptic / collision is a whole number
+  double dynamics = 200;   ///< [Hz], haptic / dynamics is a whole number
+  double view = 60;        ///< [Hz]
 };
 
 struct Scene {
   std::string name;
   std::string description;
-  std::string file;               ///< as given
-  std::string default_rig;        ///< resolved path, may be empty
-  Vec3 gravity{0, 0, -9.81};      ///< [m/s^2]
+  std::string file;           ///< as given
+  std::string default_rig;    ///< resolved path, may be empty
+  Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Rates rates;
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<DeviceRole> devices;
-  std::string resolved_xml;       ///< the document after --set and defaults, as saved with recordings
+  std::string resolved_xml;  ///< the document after --set and defaults, as saved with recordings
 
   const Material& materialOf(const Body& body) const { return materials[body.material]; }
 };
 
 /// One role bound to a driver, with the driver's own settings.
 struct DeviceBinding {
-  struct Setting { std::string value; SourceLocation where; };
+  struct Setting {
+    std::string value;
+    SourceLocation where;
+  };
   std::string role;
-  std::string driver;                        ///< folder name under devices/
-  std::map<std::string, Setting> settings;   ///< <set key= value=/>; the driver checks keys and values
+  std::string driver;                       ///< folder name under devices/
+  std::map<std::string, Setting> settings;  ///< <set key= value=/>; the driver checks keys and values
   SourceLocation where;
 };
 

@@ -64,7 +64,8 @@ class SceneCheck {
     capacity(devices, kMaxFingers, "devices");
     for (const Element& rates : root_.children("rates")) checkRates(rates);
     for (const Element& material : materials_) checkFriction(material);
-    if (bodies.empty()) diagnostics_.error(kNoBody, root_.where(), "the scene has no <body>", "a scene needs at least one body");
+    if (bodies.empty())
+      diagnostics_.error(kNoBody, root_.where(), "the scene has no <body>", "a scene needs at least one body");
     if (materials_.empty() && !bodies.empty()) {
       diagnostics_.error(kNoMaterial, root_.where(), "the scene has no <material>, and bodies need one",
                          "add <materials><material name=\"rubber\" stiffness=\"1000\"/></materials>");
@@ -184,10 +185,10 @@ class SceneCheck {
     for (const std::string& name : names) {
       if (name == material) return;
     }
-    diagnostics_.error(kUnknownMaterial, body.where("material"),
-                       body.label() + " has material " + quote(material) + ", which does not exist" +
-                           didYouMean(material, names),
-                       "materials: " + listed(names));
+    diagnostics_.error(
+        kUnknownMaterial, body.where("material"),
+        body.label() + " has material " + quote(material) + ", which does not exist" + didYouMean(material, names),
+        "materials: " + listed(names));
   }
 
   void checkFixedPhysics(const Element& physics) {
@@ -207,9 +208,10 @@ class SceneCheck {
     const bool has_mass = physics[0].hasAttribute("mass"), has_density = physics[0].hasAttribute("density");
     if (has_mass != has_density) return;
     if (!has_mass && isMisplaced(body, physics[0])) return;
-    diagnostics_.error(kMassOrDensity, has_mass ? physics[0].where("density") : physics[0].where(),
-                       physics[0].label() + " needs one of 'mass' and 'density', found " + (has_mass ? "both" : "neither"),
-                       "mass [kg] or density [kg/m^3]; a body that never moves has fixed=\"true\"");
+    diagnostics_.error(
+        kMassOrDensity, has_mass ? physics[0].where("density") : physics[0].where(),
+        physics[0].label() + " needs one of 'mass' and 'density', found " + (has_mass ? "both" : "neither"),
+        "mass [kg] or density [kg/m^3]; a body that never moves has fixed=\"true\"");
   }
 
   /// The mass stands where it does not belong: the schema has complained about that already.

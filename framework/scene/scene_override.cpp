@@ -137,8 +137,9 @@ class PathWalk {
     const xml::ContentRule& content = *rule_->contentOf(next.name);
     if (content.options.size() > 1) {
       const std::vector<Element> others = element_.children();
-      return fail(element_.label() + " holds no <" + next.name + ">",
-                  others.empty() ? "" : "it holds <" + others.front().name() + ">; a path cannot change the kind of a shape");
+      return fail(
+          element_.label() + " holds no <" + next.name + ">",
+          others.empty() ? "" : "it holds <" + others.front().name() + ">; a path cannot change the kind of a shape");
     }
     const bool needs_children = std::any_of(next.content.begin(), next.content.end(),
                                             [](const xml::ContentRule& inner) { return inner.min > 0; });
@@ -164,7 +165,8 @@ class PathWalk {
     if (index_ + 1 == parts_.size()) {
       index_ = parts_.size();
       step(candidates[static_cast<std::size_t>(found - names.begin())], next, 0);
-      return fail("the path ends at an element, a value must follow", "possible after " + here() + ": " + listed(choices()));
+      return fail("the path ends at an element, a value must follow",
+                  "possible after " + here() + ": " + listed(choices()));
     }
     step(candidates[static_cast<std::size_t>(found - names.begin())], next, 1);
     return true;
@@ -184,9 +186,10 @@ class PathWalk {
         unknownPart();
         return;
       }
-      const std::vector<std::string> inside = identityAttribute(*child).empty() ? child->attributeNames()
-                                                                              : std::vector<std::string>{"its name"};
-      fail("the path ends at an element, a value must follow", "possible after " + here() + name + "/: " + listed(inside));
+      const std::vector<std::string> inside =
+          identityAttribute(*child).empty() ? child->attributeNames() : std::vector<std::string>{"its name"};
+      fail("the path ends at an element, a value must follow",
+           "possible after " + here() + name + "/: " + listed(inside));
       return;
     }
     const std::string rival = rivalOf(name);

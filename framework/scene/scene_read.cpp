@@ -46,7 +46,8 @@ Pose readPose(const Element& element) {
     pose.q = unitQuat(quat);
   } else if (element.hasAttribute("euler_deg")) {
     const Vec3 turn = readVec3(element, "euler_deg", Vec3::Zero());
-    pose.q = turnAbout(Vec3::UnitX(), turn.x()) * turnAbout(Vec3::UnitY(), turn.y()) * turnAbout(Vec3::UnitZ(), turn.z());
+    pose.q =
+        turnAbout(Vec3::UnitX(), turn.x()) * turnAbout(Vec3::UnitY(), turn.y()) * turnAbout(Vec3::UnitZ(), turn.z());
     pose.q.normalize();
   }
   return pose;

@@ -48,7 +48,9 @@ class MeshLibrary {
   }
 
   /// Null where there is no mesh, or it could not be read.
-  MeshPointer get(int request) const { return request < 0 ? nullptr : requests_[static_cast<std::size_t>(request)].mesh; }
+  MeshPointer get(int request) const {
+    return request < 0 ? nullptr : requests_[static_cast<std::size_t>(request)].mesh;
+  }
 
  private:
   std::vector<MeshRequest> requests_;
@@ -63,7 +65,8 @@ World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnost
   for (const Body& body : world.scene.bodies) {
     const ImportOptions drawn{.must_be_closed = false, .display_only = true};
     const ImportOptions solid{.must_be_closed = !body.fixed};
-    requests.push_back({library.request(body.visual, drawn), library.request(body.haptic, solid), library.request(body.physics, solid)});
+    requests.push_back({library.request(body.visual, drawn), library.request(body.haptic, solid),
+                        library.request(body.physics, solid)});
   }
   library.importAll(diagnostics);
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {

@@ -13,13 +13,13 @@ namespace presa {
 struct RunOptions {
   enum class View { kNone, kOffscreen, kWindow };
   bool realtime = false;
-  double duration = 10;           ///< simulated seconds
+  double duration = 10;  ///< simulated seconds
   std::uint64_t seed = 1;
   View view = View::kNone;
-  std::string screenshot;         ///< PNG path, may be empty
-  double screenshot_time = -1;    ///< [s]; -1: at the end
-  std::string record;             ///< HDF5 path, may be empty
-  bool overwrite = false;         ///< `record` may replace an existing file
+  std::string screenshot;       ///< PNG path, may be empty
+  double screenshot_time = -1;  ///< [s]; -1: at the end
+  std::string record;           ///< HDF5 path, may be empty
+  bool overwrite = false;       ///< `record` may replace an existing file
 };
 
 /// Meshes of one body; null where the geometry is a primitive or absent.
@@ -39,8 +39,8 @@ struct World {
   Scene scene;
   Rig rig;
   RunOptions options;
-  std::vector<BodyMeshes> meshes;      ///< as Scene::bodies
-  std::vector<BodyInertia> inertias;   ///< as Scene::bodies
+  std::vector<BodyMeshes> meshes;     ///< as Scene::bodies
+  std::vector<BodyInertia> inertias;  ///< as Scene::bodies
 };
 
 /// Reads every mesh the scene names (each file once) and computes mass properties from the physics geometry.

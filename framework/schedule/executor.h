@@ -13,9 +13,9 @@ namespace presa {
 
 /// How a run ends early, and where it is. Shared by the program's main thread and an executor.
 struct RunControl {
-  std::atomic<bool> stop_requested{false};   ///< device input sees it at its next tick: forces fade
-  std::atomic<bool> abort{false};            ///< leave now
-  std::atomic<double> time{0};               ///< simulated time reached [s]
+  std::atomic<bool> stop_requested{false};  ///< device input sees it at its next tick: forces fade
+  std::atomic<bool> abort{false};           ///< leave now
+  std::atomic<double> time{0};              ///< simulated time reached [s]
 };
 
 /// Runs a graph for a while. Both executors run the same graph with the same ticks; they differ only in

@@ -20,10 +20,14 @@ namespace {
 // Above ordinary work and interrupts' soft part, below the kernel's watchdog threads (99).
 int priorityOf(RateGroup group) noexcept {
   switch (group) {
-    case RateGroup::kHaptic: return 80;
-    case RateGroup::kDynamics: return 60;
-    case RateGroup::kCollision: return 50;
-    case RateGroup::kView: return 0;
+    case RateGroup::kHaptic:
+      return 80;
+    case RateGroup::kDynamics:
+      return 60;
+    case RateGroup::kCollision:
+      return 50;
+    case RateGroup::kView:
+      return 0;
   }
   return 0;
 }
@@ -68,7 +72,7 @@ void RealtimeExecutor::run(double duration) {
 
 void RealtimeExecutor::runGroup(RateGroup group, double duration, Shared& shared) {
   pthread_setname_np(pthread_self(), (std::string("presa-") + toString(group)).c_str());
-  prctl(PR_SET_TIMERSLACK, 1);   // wake at the deadline, not up to 50 us later
+  prctl(PR_SET_TIMERSLACK, 1);  // wake at the deadline, not up to 50 us later
   try {
     graph_.start(group);
   } catch (...) {

@@ -12,8 +12,8 @@ const char* toString(RateGroup group) noexcept;
 /// reads a wall clock, so a recording can be replayed to the bit.
 struct Tick {
   std::uint64_t index = 0;
-  double time = 0;     ///< [s]
-  double period = 0;   ///< [s]
+  double time = 0;    ///< [s]
+  double period = 0;  ///< [s]
 };
 
 }  // namespace presa

@@ -32,8 +32,8 @@ class DurationHistogram {
 struct GroupTiming {
   // counters are atomic for the live display; the histograms are read after the run
   std::atomic<std::uint64_t> ticks{0};
-  std::atomic<std::uint64_t> missed{0};    ///< ticks that began more than one period late
-  std::atomic<std::uint64_t> skipped{0};   ///< ticks given up after a stall too long to catch up
+  std::atomic<std::uint64_t> missed{0};   ///< ticks that began more than one period late
+  std::atomic<std::uint64_t> skipped{0};  ///< ticks given up after a stall too long to catch up
   DurationHistogram execution;
   DurationHistogram period;
   DurationHistogram lateness;

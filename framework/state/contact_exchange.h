@@ -15,30 +15,30 @@ enum class ContactMode : std::int32_t { kNone = 0, kStick = 1, kSlip = 2 };
 struct FingerContact {
   ContactMode mode = ContactMode::kNone;
   std::int32_t body = kNoBody;
-  Vec3 p_WH = Vec3::Zero();          ///< HIP [m]
-  Vec3 v_WH = Vec3::Zero();          ///< [m/s]
-  Vec3 p_WP = Vec3::Zero();          ///< proxy: centre of the fingertip sphere held at the surface [m]
-  Vec3 p_BP = Vec3::Zero();          ///< the same in coordinates of `body` (W when none)
-  Vec3 p_BC = Vec3::Zero();          ///< touched surface point, coordinates of `body`
-  Vec3 nhat_B = Vec3::UnitZ();       ///< surface normal, body into finger, coordinates of `body`
-  Vec3 nhat_W = Vec3::UnitZ();       ///< the same in W
-  double depth = 0;                  ///< (p_WP - p_WH) . nhat_W [m]
-  double stiffness = 0;              ///< [N/m]
-  double damping = 0;                ///< [N s/m]
+  Vec3 p_WH = Vec3::Zero();     ///< HIP [m]
+  Vec3 v_WH = Vec3::Zero();     ///< [m/s]
+  Vec3 p_WP = Vec3::Zero();     ///< proxy: centre of the fingertip sphere held at the surface [m]
+  Vec3 p_BP = Vec3::Zero();     ///< the same in coordinates of `body` (W when none)
+  Vec3 p_BC = Vec3::Zero();     ///< touched surface point, coordinates of `body`
+  Vec3 nhat_B = Vec3::UnitZ();  ///< surface normal, body into finger, coordinates of `body`
+  Vec3 nhat_W = Vec3::UnitZ();  ///< the same in W
+  double depth = 0;             ///< (p_WP - p_WH) . nhat_W [m]
+  double stiffness = 0;         ///< [N/m]
+  double damping = 0;           ///< [N s/m]
   double friction_static = 0;
   double friction_dynamic = 0;
-  double normal_force = 0;           ///< f_H_W . nhat_W [N], >= 0
+  double normal_force = 0;                 ///< f_H_W . nhat_W [N], >= 0
   Vec3 tangential_force_W = Vec3::Zero();  ///< f_H_W without its normal part [N]
-  Vec3 f_H_W = Vec3::Zero();         ///< rendered force on the finger, before the output stage [N]
+  Vec3 f_H_W = Vec3::Zero();               ///< rendered force on the finger, before the output stage [N]
 };
 
 /// Contact exchange: what the haptic thread found in one tick, for the dynamics, the collision
 /// query, the output stage, the view and the recorder. Written by: haptic thread.
 struct ContactExchange {
-  double time = 0;                   ///< [s]
+  double time = 0;  ///< [s]
   std::int32_t count = 0;
-  std::uint32_t coverage_lost = 0;   ///< ticks in which a proxy waited at the border of its patch, since start
-  std::uint32_t pop_through = 0;     ///< times a HIP got past a surface without contact, since start
+  std::uint32_t coverage_lost = 0;  ///< ticks in which a proxy waited at the border of its patch, since start
+  std::uint32_t pop_through = 0;    ///< times a HIP got past a surface without contact, since start
   std::array<std::uint32_t, kMaxFingers> pop_through_by_finger{};  ///< the same, finger by finger
   std::array<FingerContact, kMaxFingers> fingers;
 };

@@ -10,19 +10,19 @@ namespace presa {
 
 /// One triangle of a patch, in coordinates of its body.
 struct PatchTriangle {
-  std::array<Vec3, 3> v_B;                   ///< corners, counter-clockwise seen from outside [m]
-  std::int32_t id = -1;                      ///< index in the body's haptic mesh
-  std::array<std::int32_t, 3> neighbour;     ///< mesh index of the triangle across edge (v[i], v[i+1]); -1: none
+  std::array<Vec3, 3> v_B;                ///< corners, counter-clockwise seen from outside [m]
+  std::int32_t id = -1;                   ///< index in the body's haptic mesh
+  std::array<std::int32_t, 3> neighbour;  ///< mesh index of the triangle across edge (v[i], v[i+1]); -1: none
 };
 
 /// The part of one body's haptic mesh that lies within `radius` of `center_B`. It holds *every*
 /// triangle that close unless `capped`; then `radius` has been shrunk to what is complete.
 struct BodyPatch {
   std::int32_t body = kNoBody;
-  std::int32_t first = 0;                    ///< range in FingerPatch::triangles
+  std::int32_t first = 0;  ///< range in FingerPatch::triangles
   std::int32_t count = 0;
-  Vec3 center_B = Vec3::Zero();              ///< [m]
-  double radius = 0;                         ///< [m]
+  Vec3 center_B = Vec3::Zero();  ///< [m]
+  double radius = 0;             ///< [m]
   bool capped = false;
 };
 
@@ -36,9 +36,9 @@ struct FingerPatch {
 /// Local geometry around every finger. A mesh body that is not listed for a finger has nothing in reach.
 /// Written by: collision thread.
 struct ContactPatches {
-  double time = 0;                           ///< simulated time of the query [s]
-  std::int32_t count = 0;                    ///< fingers
-  std::uint64_t capped_total = 0;            ///< patches cut short since the start
+  double time = 0;                 ///< simulated time of the query [s]
+  std::int32_t count = 0;          ///< fingers
+  std::uint64_t capped_total = 0;  ///< patches cut short since the start
   std::array<FingerPatch, kMaxFingers> fingers;
 
   ContactPatches() = default;
@@ -53,8 +53,7 @@ struct ContactPatches {
       fingers[f].body_count = other.fingers[f].body_count;
       fingers[f].triangle_count = other.fingers[f].triangle_count;
       std::copy_n(other.fingers[f].bodies.begin(), other.fingers[f].body_count, fingers[f].bodies.begin());
-      std::copy_n(other.fingers[f].triangles.begin(), other.fingers[f].triangle_count,
-                  fingers[f].triangles.begin());
+      std::copy_n(other.fingers[f].triangles.begin(), other.fingers[f].triangle_count, fingers[f].triangles.begin());
     }
     return *this;
   }

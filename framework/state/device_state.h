@@ -9,17 +9,17 @@ namespace presa {
 
 /// One haptic interface point (HIP) as its device reports it.
 struct FingerInput {
-  Vec3 p_WH = Vec3::Zero();   ///< position of the fingertip centre [m]
-  Vec3 v_WH = Vec3::Zero();   ///< velocity [m/s]
-  std::int32_t phase = -1;    ///< phase of a scripted motion, index into Device::phases(); -1: none
-  bool valid = false;         ///< the device delivered a usable sample this tick
+  Vec3 p_WH = Vec3::Zero();  ///< position of the fingertip centre [m]
+  Vec3 v_WH = Vec3::Zero();  ///< velocity [m/s]
+  std::int32_t phase = -1;   ///< phase of a scripted motion, index into Device::phases(); -1: none
+  bool valid = false;        ///< the device delivered a usable sample this tick
 };
 
 /// Device State: everything that comes in from the devices in one haptic tick.
 /// Written by: haptic thread (device input). Order: as the roles stand in the scene.
 struct DeviceState {
-  double time = 0;            ///< simulated time of the sample [s]
-  std::int32_t count = 0;     ///< fingers in use
+  double time = 0;              ///< simulated time of the sample [s]
+  std::int32_t count = 0;       ///< fingers in use
   bool stop_requested = false;  ///< the run is being stopped: forces fade
   std::array<FingerInput, kMaxFingers> fingers;
 };
@@ -28,8 +28,8 @@ struct DeviceState {
 struct ForceCommand {
   double time = 0;
   std::int32_t count = 0;
-  std::uint32_t status = 0;                   ///< OutputStatus bits of any finger
-  std::array<Vec3, kMaxFingers> f_H_W;        ///< force on each finger [N]
+  std::uint32_t status = 0;             ///< OutputStatus bits of any finger
+  std::array<Vec3, kMaxFingers> f_H_W;  ///< force on each finger [N]
 };
 
 }  // namespace presa

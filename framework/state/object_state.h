@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "framework/math/spatial.h"
 #include "framework/state/limits.h"
@@ -9,11 +10,18 @@ namespace presa {
 
 /// Motion of one body over one dynamics step.
 struct BodyMotion {
-  Pose X_WB_begin;             ///< pose at ObjectState::time_begin
-  Pose X_WB_end;               ///< pose at ObjectState::time_end
-  Vec3 v_WB = Vec3::Zero();    ///< velocity of the body frame's origin at time_end [m/s]
-  Vec3 w_WB = Vec3::Zero();    ///< angular velocity at time_end [rad/s]
+  Pose X_WB_begin;           ///< pose at ObjectState::time_begin
+  Pose X_WB_end;             ///< pose at ObjectState::time_end
+  Vec3 v_WB = Vec3::Zero();  ///< velocity of the body frame's origin at time_end [m/s]
+  Vec3 w_WB = Vec3::Zero();  ///< angular velocity at time_end [rad/s]
   bool asleep = false;
+};
+
+/// What can go wrong in the dynamics (ObjectState::faults).
+enum ObjectFault : std::uint32_t {
+  kFaultBodyFrozen = 1,    ///< a body's state was not finite or beyond reason: it stands still now
+  kFaultEngineFailed = 2,  ///< the engine gave up: every body stands still
+  kFaultBadFinger = 4,     ///< a finger contact made no sense: ignored
 };
 
 /// Object State: every body of the scene (fixed ones too, in scene order), over the step just solved.
@@ -21,9 +29,10 @@ struct BodyMotion {
 /// ahead when it is published (a jump of one 5 ms step costs a factor five in stable stiffness).
 /// Written by: dynamics thread.
 struct ObjectState {
-  double time_begin = 0;       ///< [s]
-  double time_end = 0;         ///< [s], time_begin + dynamics period
+  double time_begin = 0;  ///< [s]
+  double time_end = 0;    ///< [s], time_begin + dynamics period
   std::int32_t count = 0;
+  std::uint32_t faults = 0;  ///< ObjectFault bits since the start; forces fade for good when any is set
   std::array<BodyMotion, kMaxBodies> bodies;
 
   ObjectState() = default;
@@ -34,6 +43,7 @@ struct ObjectState {
     time_begin = other.time_begin;
     time_end = other.time_end;
     count = other.count;
+    faults = other.faults;
     std::copy_n(other.bodies.begin(), other.count, bodies.begin());
     return *this;
   }

@@ -114,11 +114,11 @@ class Checker {
       return nullptr;
     }
     const std::string nearest = attribute->ns ? "" : nearestName(name, free_names);
-    diagnostics_.error(kUnknownAttribute, where,
-                       "unknown attribute " + quote(name) + " on " + labelOf(node) +
-                           (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
-                       rule.attributes.empty() ? tag(rule.name) + " has no attributes"
-                                               : "allowed: " + joined(rule.attributeNames()));
+    diagnostics_.error(
+        kUnknownAttribute, where,
+        "unknown attribute " + quote(name) + " on " + labelOf(node) +
+            (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
+        rule.attributes.empty() ? tag(rule.name) + " has no attributes" : "allowed: " + joined(rule.attributeNames()));
     if (nearest.empty()) return nullptr;
     corrections_.emplace_back(reinterpret_cast<xmlNode*>(attribute), nearest);
     return rule.attribute(nearest);
@@ -185,11 +185,11 @@ class Checker {
       diagnostics_.error(kUnknownElement, where, tag(name) + " does not belong in " + in,
                          "it belongs in " + joined(owners));
     } else {
-      diagnostics_.error(kUnknownElement, where,
-                         "unknown element " + tag(name) + " in " + in +
-                             (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
-                         parent.content.empty() ? in + " has no elements in it"
-                                                : "allowed: " + joined(parent.childNames()));
+      diagnostics_.error(
+          kUnknownElement, where,
+          "unknown element " + tag(name) + " in " + in +
+              (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
+          parent.content.empty() ? in + " has no elements in it" : "allowed: " + joined(parent.childNames()));
     }
     if (!nearest.empty()) corrections_.emplace_back(node, nearest);
     return nearest;
@@ -237,7 +237,7 @@ void collectFinding(void* context, xmlErrorPtr error) {
 Diagnostics validateWithLibrary(xmlSchema* schema, DocumentData& data) {
   Verdict verdict{&data, {}};
   const std::unique_ptr<xmlSchemaValidCtxt, decltype(&xmlSchemaFreeValidCtxt)> context(xmlSchemaNewValidCtxt(schema),
-                                                                                     &xmlSchemaFreeValidCtxt);
+                                                                                       &xmlSchemaFreeValidCtxt);
   if (!context) throw std::bad_alloc();
   xmlSchemaSetValidStructuredErrors(context.get(), &collectFinding, &verdict);
   const int result = xmlSchemaValidateDoc(context.get(), data.doc.get());

@@ -152,8 +152,8 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
   context->sax->serror = &collectError;
   context->_private = &list;
   constexpr int kOptions = XML_PARSE_NONET | XML_PARSE_BIG_LINES | XML_PARSE_NOBLANKS;
-  data->doc.reset(xmlCtxtReadMemory(context.get(), text.data(), static_cast<int>(text.size()), name.c_str(), nullptr,
-                                    kOptions));
+  data->doc.reset(
+      xmlCtxtReadMemory(context.get(), text.data(), static_cast<int>(text.size()), name.c_str(), nullptr, kOptions));
   if (!list.errors.empty() || !data->doc || !data->root()) {
     reportParseErrors(name, scan, list.errors, diagnostics);
     return nullptr;

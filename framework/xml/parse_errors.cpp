@@ -20,7 +20,8 @@ const std::map<int, Words>& wordsByCode() {
   static const std::map<int, Words> words{
       {XML_ERR_DOCUMENT_EMPTY, {"this is no XML: it does not start with '<'", ""}},
       {XML_ERR_DOCUMENT_END,
-       {"something follows after the end of the root element", "a file holds one root element; is one closed too early?"}},
+       {"something follows after the end of the root element",
+        "a file holds one root element; is one closed too early?"}},
       {XML_ERR_SPACE_REQUIRED,
        {"a start tag is broken here", "between two attributes stands a space; the tag ends with '>' or '/>'"}},
       {XML_ERR_NAME_REQUIRED,
@@ -67,7 +68,8 @@ bool reportFromScan(const std::string& name, const SourceScan& scan, int code, D
                         "a real '<' in a value is written &lt;");
       return true;
     case XML_ERR_ATTRIBUTE_NOT_STARTED:
-      diagnostics.error(kNotWellFormed, where, "the value of " + attribute + " is not in quotes", "write name=\"value\"");
+      diagnostics.error(kNotWellFormed, where, "the value of " + attribute + " is not in quotes",
+                        "write name=\"value\"");
       return true;
     case XML_ERR_ATTRIBUTE_WITHOUT_VALUE:
       diagnostics.error(kNotWellFormed, where, "attribute " + attribute + " has no value", "write name=\"value\"");
@@ -120,7 +122,8 @@ void reportParseErrors(const std::string& name, const SourceScan& scan, const st
   if (words != wordsByCode().end()) {
     diagnostics.error(kNotWellFormed, where, words->second.message, words->second.help);
   } else {
-    diagnostics.error(kNotWellFormed, where, "this is not well-formed XML (parser error " + std::to_string(first.code) + ")");
+    diagnostics.error(kNotWellFormed, where,
+                      "this is not well-formed XML (parser error " + std::to_string(first.code) + ")");
   }
 }
 

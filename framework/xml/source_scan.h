@@ -37,7 +37,7 @@ struct SourceScan {
   std::vector<std::size_t> open;  ///< tags still open at the end, innermost last
   std::optional<MismatchedEnd> mismatch;
   std::optional<ScannedAttribute> broken_attribute;  ///< without value or quotes, or running on to the next '<'
-  std::optional<Position> doctype;  ///< of "<!DOCTYPE"; the scan stops there
+  std::optional<Position> doctype;                   ///< of "<!DOCTYPE"; the scan stops there
 };
 SourceScan scanSource(std::string_view text);
 

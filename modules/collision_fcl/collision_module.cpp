@@ -17,12 +17,15 @@ constexpr std::size_t kPatchCapacity = kMaxPatchTriangles;
 }  // namespace
 
 CollisionModule::CollisionModule(std::shared_ptr<const World> world)
-    : Module("collision_fcl", RateGroup::kCollision), world_(std::move(world)), dynamics_period_(1 / world_->scene.rates.dynamics) {
+    : Module("collision_fcl", RateGroup::kCollision),
+      world_(std::move(world)),
+      dynamics_period_(1 / world_->scene.rates.dynamics) {
   std::map<const TriMesh*, std::shared_ptr<const TriangleIndex>> indices;  // bodies of one mesh share its index
   for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
     const std::shared_ptr<const TriMesh>& mesh = world_->meshes[b].haptic;
     if (!mesh) continue;
-    if (mesh->adjacency.size() != mesh->triangles.size()) throw std::invalid_argument("a haptic mesh needs its adjacency");
+    if (mesh->adjacency.size() != mesh->triangles.size())
+      throw std::invalid_argument("a haptic mesh needs its adjacency");
     std::shared_ptr<const TriangleIndex>& index = indices[mesh.get()];
     if (!index) index = std::make_shared<TriangleIndex>(mesh);
     mesh_bodies_.push_back({static_cast<std::int32_t>(b), world_->scene.bodies[b].haptic->X_BG, index});
@@ -119,7 +122,8 @@ void CollisionModule::keepNearestTriangles() noexcept {
   }
   if (contenders_.size() <= kPatchCapacity) return;
   std::ranges::sort(contenders_, [](const Contender& a, const Contender& b) {
-    return std::tuple(a.triangle.distance, a.candidate, a.triangle.id) < std::tuple(b.triangle.distance, b.candidate, b.triangle.id);
+    return std::tuple(a.triangle.distance, a.candidate, a.triangle.id) <
+           std::tuple(b.triangle.distance, b.candidate, b.triangle.id);
   });
   for (std::size_t c = 0; c < candidate_count_; ++c) candidates_[c].triangles.clear();
   for (std::size_t i = 0; i < kPatchCapacity; ++i) {
@@ -137,8 +141,8 @@ void CollisionModule::write(Candidate& candidate, FingerPatch& patch) noexcept {
   const Pose& X_BG = candidate.mesh_body->X_BG;
   std::ranges::sort(candidate.triangles, {}, &NearTriangle::id);
   BodyPatch& body = patch.bodies[static_cast<std::size_t>(patch.body_count++)];
-  body = {candidate.mesh_body->body, patch.triangle_count, static_cast<std::int32_t>(candidate.triangles.size()),
-          candidate.center_B, candidate.gathered.radius, candidate.gathered.capped};
+  body = {candidate.mesh_body->body, patch.triangle_count,      static_cast<std::int32_t>(candidate.triangles.size()),
+          candidate.center_B,        candidate.gathered.radius, candidate.gathered.capped};
   for (const NearTriangle& near : candidate.triangles) {
     PatchTriangle& out = patch.triangles[static_cast<std::size_t>(patch.triangle_count++)];
     const auto id = static_cast<std::size_t>(near.id);
@@ -151,9 +155,10 @@ void CollisionModule::write(Candidate& candidate, FingerPatch& patch) noexcept {
 }
 
 std::vector<std::string> CollisionModule::stages() const {
-  return {"pose of each mesh body at this tick, reject bodies whose bounding sphere is out of reach",
-          "triangles within fingertip radius, stretch and motion bound of each proxy (own traversal of an FCL box tree)",
-          "share the patch capacity among the nearest bodies, deliver in body coordinates"};
+  return {
+      "pose of each mesh body at this tick, reject bodies whose bounding sphere is out of reach",
+      "triangles within fingertip radius, stretch and motion bound of each proxy (own traversal of an FCL box tree)",
+      "share the patch capacity among the nearest bodies, deliver in body coordinates"};
 }
 
 }  // namespace presa

@@ -40,14 +40,15 @@ class CollisionModule final : public Module {
     const MeshBody* mesh_body = nullptr;
     Vec3 center_B = Vec3::Zero();
     Gathered gathered;
-    double nearest = 0;            ///< distance of its nearest triangle [m]
+    double nearest = 0;  ///< distance of its nearest triangle [m]
     std::vector<NearTriangle> triangles;
   };
 
   Pose poseOf(std::int32_t body, double time) const noexcept;
   /// Centre of the query: the proxy in body coordinates, the HIP when there is none.
   Vec3 centerOf(std::size_t finger, std::int32_t body, const Pose& X_WB) const noexcept;
-  double reachOf(std::size_t finger, std::int32_t body, const Pose& X_WB, const Vec3& center_B, const Tick& tick) const noexcept;
+  double reachOf(std::size_t finger, std::int32_t body, const Pose& X_WB, const Vec3& center_B,
+                 const Tick& tick) const noexcept;
   void gatherAround(std::size_t finger, const Tick& tick) noexcept;
   /// Keeps the nearest bodies; returns how many were left out.
   std::size_t keepNearestBodies() noexcept;

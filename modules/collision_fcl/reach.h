@@ -23,10 +23,10 @@ inline constexpr double kDynamicsPeriods = 1;
 
 /// Motion of the finger as seen from the body, at one instant.
 struct RelativeMotion {
-  Vec3 p_BoH_W = Vec3::Zero();   ///< finger from the body's origin [m]
-  Vec3 v_WH = Vec3::Zero();      ///< [m/s]
-  Vec3 v_WB = Vec3::Zero();      ///< [m/s]
-  Vec3 w_WB = Vec3::Zero();      ///< [rad/s]
+  Vec3 p_BoH_W = Vec3::Zero();  ///< finger from the body's origin [m]
+  Vec3 v_WH = Vec3::Zero();     ///< [m/s]
+  Vec3 v_WB = Vec3::Zero();     ///< [m/s]
+  Vec3 w_WB = Vec3::Zero();     ///< [rad/s]
 };
 
 /// Largest way the finger can go in body coordinates within `horizon` seconds [m]: its speed against the point of the

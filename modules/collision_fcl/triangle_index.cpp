@@ -33,7 +33,8 @@ void build(Model& model, const TriMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
   for (const TriMesh::Triangle& t : mesh.triangles) {
-    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2]));
+    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                           static_cast<std::size_t>(t[2]));
   }
   model.addSubModel(mesh.vertices, triangles);
   const int result = model.endModel();
@@ -50,18 +51,21 @@ struct TriangleIndex::Tree {
 TriangleIndex::TriangleIndex(std::shared_ptr<const TriMesh> mesh) : mesh_(std::move(mesh)), tree_(new Tree) {
   if (!mesh_ || mesh_->triangles.empty()) throw std::invalid_argument("an empty mesh cannot be indexed");
   const auto finite = [](const Vec3& vertex) { return vertex.allFinite(); };
-  if (!std::ranges::all_of(mesh_->vertices, finite)) throw std::invalid_argument("the mesh has a vertex that is not finite");
+  if (!std::ranges::all_of(mesh_->vertices, finite))
+    throw std::invalid_argument("the mesh has a vertex that is not finite");
   build(tree_->model, *mesh_);
   const AxisBox box = boundsOf(*mesh_);
   sphere_center_ = 0.5 * (box.low + box.high);
-  for (const Vec3& vertex : mesh_->vertices) sphere_radius_ = std::max(sphere_radius_, (vertex - sphere_center_).norm());
+  for (const Vec3& vertex : mesh_->vertices)
+    sphere_radius_ = std::max(sphere_radius_, (vertex - sphere_center_).norm());
 }
 
 TriangleIndex::~TriangleIndex() = default;
 TriangleIndex::TriangleIndex(TriangleIndex&&) noexcept = default;
 TriangleIndex& TriangleIndex::operator=(TriangleIndex&&) noexcept = default;
 
-Gathered TriangleIndex::gather(const Vec3& center, double radius, std::size_t capacity, std::vector<NearTriangle>& out) const {
+Gathered TriangleIndex::gather(const Vec3& center, double radius, std::size_t capacity,
+                               std::vector<NearTriangle>& out) const {
   out.clear();
   Gathered result{radius, false};
   if (capacity == 0 || !(radius >= 0) || !center.allFinite()) return {0, true};

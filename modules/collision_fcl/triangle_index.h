@@ -10,13 +10,14 @@ namespace presa {
 
 /// A triangle in reach of a query point.
 struct NearTriangle {
-  double distance = 0;     ///< from the query centre to the nearest point of the triangle [m]
-  std::int32_t id = -1;    ///< index in the mesh
+  double distance = 0;   ///< from the query centre to the nearest point of the triangle [m]
+  std::int32_t id = -1;  ///< index in the mesh
 };
 
 /// What one gather found.
 struct Gathered {
-  double radius = 0;       ///< every triangle not farther than this is in the list [m]; below the radius asked for when capped
+  double radius =
+      0;  ///< every triangle not farther than this is in the list [m]; below the radius asked for when capped
   bool capped = false;
 };
 

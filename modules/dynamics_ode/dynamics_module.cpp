@@ -6,6 +6,10 @@
 namespace presa::ode {
 namespace {
 
+static_assert(std::uint32_t{Faults::kBodyFrozen} == kFaultBodyFrozen &&
+              std::uint32_t{Faults::kEngineFailed} == kFaultEngineFailed &&
+              std::uint32_t{Faults::kBadFinger} == kFaultBadFinger);
+
 OdeOptions seeded(OdeOptions options, const World& world) {
   options.seed = world.options.seed;
   return options;
@@ -22,7 +26,7 @@ const ModulePlugin kPlugin{
 }  // namespace
 
 DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, const OdeOptions& options)
-    : Module("dynamics", RateGroup::kDynamics),
+    : Module("dynamics_ode", RateGroup::kDynamics),
       fingers_(*this, "contact_exchange", In<ContactExchange>::Optional{}, WhenOld::kFadeToZero, kFingerOldAfter),
       objects_(*this, "object_state"),
       world_(std::move(world)),
@@ -36,6 +40,7 @@ void DynamicsModule::start() {
 
 void DynamicsModule::step(const Tick& tick) noexcept {
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value);
+  objects_.value.faults = bodies_->faults().bits;
 }
 
 void DynamicsModule::stop() {

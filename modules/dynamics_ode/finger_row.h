@@ -39,7 +39,7 @@ struct FingerRow {
   double cfm = 0;             ///< normal row [m/(N s)]
   double motion_n = 0;        ///< [m/s]
   double motion_1 = 0, motion_2 = 0;
-  double slip = 0;  ///< cfm of the tangential rows [m/(N s)]
+  double slip = 0;                       ///< cfm of the tangential rows [m/(N s)]
   double mu = 0;                         ///< static while the proxy sticks, dynamic while it slips
   Vec3 expected_force_W = Vec3::Zero();  ///< on the body, at the start of the step, inside the cone [N]
 };

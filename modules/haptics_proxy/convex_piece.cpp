@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/geometry/closest_point.h"
+
 namespace presa {
 namespace {
 
@@ -14,7 +16,7 @@ Vec3 unitOr(const Vec3& v, const Vec3& fallback) noexcept {
 }
 
 Nearest nearestTriangle(const ConvexPiece& t, const Vec3& p) noexcept {
-  const Vec3 away = p - nearestOnTriangle(t.a, t.b, t.c, p);
+  const Vec3 away = p - closestOnTriangle(p, t.a, t.b, t.c);
   const double distance = away.norm();
   if (distance > 0) return {away / distance, distance};
   return {unitOr((t.b - t.a).cross(t.c - t.a), Vec3::UnitZ()), 0};
@@ -58,48 +60,36 @@ Nearest nearestCapsule(double radius, double half_length, const Vec3& p) noexcep
 
 }  // namespace
 
-Vec3 nearestOnTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const Vec3 bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
-  const Vec3 cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-  const double denominator = va + vb + vc;
-  return a + ab * (vb / denominator) + ac * (vc / denominator);
-}
-
 Nearest nearest(const ConvexPiece& piece, const Vec3& p) noexcept {
   if (piece.kind == ConvexPiece::Kind::kTriangle) return nearestTriangle(piece, p);
   const Vec3 p_G = piece.X_AG.inverseTimes(p);
   Nearest result;
   switch (piece.kind) {
-    case ConvexPiece::Kind::kBox: result = nearestBox(piece.half, p_G); break;
-    case ConvexPiece::Kind::kCylinder: result = nearestCylinder(piece.radius, piece.half_length, p_G); break;
-    case ConvexPiece::Kind::kSphere: result = nearestCapsule(piece.radius, 0, p_G); break;
-    default: result = nearestCapsule(piece.radius, piece.half_length, p_G); break;
+    case ConvexPiece::Kind::kBox:
+      result = nearestBox(piece.half, p_G);
+      break;
+    case ConvexPiece::Kind::kCylinder:
+      result = nearestCylinder(piece.radius, piece.half_length, p_G);
+      break;
+    case ConvexPiece::Kind::kSphere:
+      result = nearestCapsule(piece.radius, 0, p_G);
+      break;
+    default:
+      result = nearestCapsule(piece.radius, piece.half_length, p_G);
+      break;
   }
   result.nhat = piece.X_AG.q * result.nhat;
   return result;
 }
 
 double firstTouch(const ConvexPiece& piece, const Vec3& x, const Vec3& move, double r, double tolerance) noexcept {
-  constexpr int kMaxSteps = 64;   // quadratic convergence; a grazing touch halves the gap each time
+  constexpr int kMaxSteps = 64;  // quadratic convergence; a grazing touch halves the gap each time
   double s = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
     const Nearest at = nearest(piece, x + s * move);
     const double gap = at.distance - r;
     const double slope = at.nhat.dot(move);
-    if (slope >= 0) return kNoTouch;   // convex: from here on it only grows
+    if (slope >= 0) return kNoTouch;  // convex: from here on it only grows
     if (gap <= tolerance) return s;
     s += gap / -slope;
     if (s > 1) return kNoTouch;

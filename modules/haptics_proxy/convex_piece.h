@@ -13,24 +13,21 @@ struct ConvexPiece {
   Kind kind = Kind::kTriangle;
   std::int32_t body = -1;
   Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();  ///< triangle corners in the working frame
-  Pose X_AG;                        ///< primitives: geometry frame in the working frame
-  Vec3 half = Vec3::Zero();         ///< box: half edge lengths
-  double radius = 0;                ///< sphere, cylinder, capsule
-  double half_length = 0;           ///< cylinder, capsule: half of the axis along z
+  Pose X_AG;                                                  ///< primitives: geometry frame in the working frame
+  Vec3 half = Vec3::Zero();                                   ///< box: half edge lengths
+  double radius = 0;                                          ///< sphere, cylinder, capsule
+  double half_length = 0;                                     ///< cylinder, capsule: half of the axis along z
 };
 
 /// Where a piece is nearest to a point.
 struct Nearest {
-  Vec3 nhat = Vec3::UnitZ();   ///< unit, from the piece towards the point (outward when inside a primitive)
-  double distance = 0;         ///< >= 0 outside; negative inside a primitive
+  Vec3 nhat = Vec3::UnitZ();  ///< unit, from the piece towards the point (outward when inside a primitive)
+  double distance = 0;        ///< >= 0 outside; negative inside a primitive
 };
 
 /// Distance of p from the piece. Triangles are two-sided; for a point on a triangle the normal is
 /// the triangle's own. Thread: any; nonblocking.
 Nearest nearest(const ConvexPiece& piece, const Vec3& p) noexcept;
-
-/// Nearest point of triangle (a, b, c) to p, by Voronoi regions [Ericson2005 5.1.5].
-Vec3 nearestOnTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept;
 
 /// First s in [0, 1] at which a sphere of radius r, moving its centre from x along `move`, touches the piece;
 /// 2 when it does not. The distance is convex along the line, so Newton's method from s = 0 comes up to the

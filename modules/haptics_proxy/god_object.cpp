@@ -22,7 +22,7 @@ double insideCover(const Surroundings::Cover& cover, const Vec3& x, const Vec3& 
   const Vec3 from = x - cover.center;
   if ((from + move).squaredNorm() <= limit * limit && limit > 0) return 1;
   const double a = move.squaredNorm(), b = from.dot(move), c = from.squaredNorm() - limit * limit;
-  if (limit <= 0 || c >= 0) return b < 0 ? 1 : 0;   // outside already: only inwards
+  if (limit <= 0 || c >= 0) return b < 0 ? 1 : 0;  // outside already: only inwards
   return std::clamp((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a, 0.0, 1.0);
 }
 
@@ -30,13 +30,15 @@ double insideCover(const Surroundings::Cover& cover, const Vec3& x, const Vec3& 
 // need looking at once, not once a leg.
 struct Legs {
   HalfSpaces half_spaces;
-  std::array<double, Surroundings::kCapacity> clearance;   // NOLINT: lower bounds of the distances from x, for pieces in use
-  std::array<bool, Surroundings::kCapacity> holds;         // NOLINT: the piece constrains the leg
+  std::array<double, Surroundings::kCapacity>
+      clearance;                                    // NOLINT: lower bounds of the distances from x, for pieces in use
+  std::array<bool, Surroundings::kCapacity> holds;  // NOLINT: the piece constrains the leg
   Feasible target;
 
   void look(const Vec3& x, double r, double margin, Surroundings& surroundings) noexcept {
     surroundings.lookAround(x, r, margin);
-    for (int i = 0; i < surroundings.count(); ++i) clearance[static_cast<std::size_t>(i)] = surroundings.distanceBound(i, x);
+    for (int i = 0; i < surroundings.count(); ++i)
+      clearance[static_cast<std::size_t>(i)] = surroundings.distanceBound(i, x);
   }
   void moved(double distance, int count) noexcept {
     for (int i = 0; i < count; ++i) clearance[static_cast<std::size_t>(i)] -= distance;
@@ -63,7 +65,8 @@ std::int32_t holdingBody(const Legs& leg, const Vec3& g, const Surroundings& sur
   std::int32_t body = kNoBody;
   double most = 0;
   for (int a = 0; a < leg.target.active_count; ++a) {
-    const HalfSpace& active = leg.half_spaces.item[static_cast<std::size_t>(leg.target.active[static_cast<std::size_t>(a)])];
+    const HalfSpace& active =
+        leg.half_spaces.item[static_cast<std::size_t>(leg.target.active[static_cast<std::size_t>(a)])];
     if (const double lack = active.offset - active.nhat.dot(g); body == kNoBody || lack > most) {
       most = lack;
       body = surroundings.piece(active.tag).body;
@@ -73,8 +76,8 @@ std::int32_t holdingBody(const Legs& leg, const Vec3& g, const Surroundings& sur
 }
 
 // Fraction of `move` that the fingertip can go; `covered` turns false when the border of a patch ends it.
-double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, const Surroundings& surroundings, const Legs& leg,
-                    bool& covered) noexcept {
+double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, const Surroundings& surroundings,
+                    const Legs& leg, bool& covered) noexcept {
   const double length = move.norm();
   double reach = std::min(1.0, limit / length);
   for (int c = 0; c < surroundings.coverCount(); ++c) {
@@ -112,7 +115,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   const double margin = std::max(kMargin * r, (g - start).norm() / 16);
   Vec3 center = start;
   Legs legs;
-  surroundings.lookAround(start, r, 1.5 * margin);   // a little more: the next motion of this tick starts close by
+  surroundings.lookAround(start, r, 1.5 * margin);  // a little more: the next motion of this tick starts close by
   legs.look(center, r, margin, surroundings);
   bool met = false;
   for (int i = 0; i < kMaxLegs; ++i) {

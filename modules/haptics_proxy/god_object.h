@@ -27,14 +27,17 @@ class Surroundings {
   /// A piece that is always looked at.
   void add(const ConvexPiece& piece) noexcept;
   /// Triangles of one body's patch, in the body's coordinates; X_AB null when A is the body itself. They must outlive the tick.
-  void addTriangles(const PatchTriangle* triangles, int count, std::int32_t body, const Pose* X_AB, const Cover& cover) noexcept;
+  void addTriangles(const PatchTriangle* triangles, int count, std::int32_t body, const Pose* X_AB,
+                    const Cover& cover) noexcept;
   /// Picks every piece within r + margin of x, or keeps an earlier pick that has them all.
   void lookAround(const Vec3& x, double r, double margin) noexcept;
 
   int count() const noexcept { return count_; }
   const ConvexPiece& piece(int i) const noexcept { return pieces_[static_cast<std::size_t>(i)]; }
   /// Lower bound of the distance from piece i to x; negative: not known.
-  double distanceBound(int i, const Vec3& x) const noexcept { return distance_[static_cast<std::size_t>(i)] - (x - center_).norm(); }
+  double distanceBound(int i, const Vec3& x) const noexcept {
+    return distance_[static_cast<std::size_t>(i)] - (x - center_).norm();
+  }
   int coverCount() const noexcept { return source_count_; }
   const Cover& cover(int i) const noexcept { return sources_[static_cast<std::size_t>(i)].cover; }
   /// Pieces that found no room, since start.
@@ -54,18 +57,18 @@ class Surroundings {
   std::array<ConvexPiece, kCapacity> pieces_;
   std::array<double, kCapacity> distance_;
   int primitive_count_ = 0, source_count_ = 0, count_ = 0;
-  Vec3 center_ = Vec3::Zero();   // of the last pick
-  double reach_ = -1;            // of the last pick; negative: none
+  Vec3 center_ = Vec3::Zero();  // of the last pick
+  double reach_ = -1;           // of the last pick; negative: none
   std::uint32_t overflow_ = 0;
 };
 
 /// Result of moving a proxy towards its goal.
 struct ProxyMove {
-  Vec3 x = Vec3::Zero();             ///< where the fingertip's centre ends
-  Vec3 first_touch = Vec3::Zero();   ///< where it first met a surface (x itself when it never did)
-  bool touching = false;             ///< a surface keeps it from the goal
-  bool covered = true;               ///< false: it waits at the border of what the patches cover
-  std::int32_t body = kNoBody;       ///< the body that holds it back most
+  Vec3 x = Vec3::Zero();            ///< where the fingertip's centre ends
+  Vec3 first_touch = Vec3::Zero();  ///< where it first met a surface (x itself when it never did)
+  bool touching = false;            ///< a surface keeps it from the goal
+  bool covered = true;              ///< false: it waits at the border of what the patches cover
+  std::int32_t body = kNoBody;      ///< the body that holds it back most
 };
 
 /// Moves a sphere of radius r from x towards g without passing through any piece, and returns the local
@@ -85,8 +88,8 @@ struct FrictionCone {
 
 /// What a fingertip carries from tick to tick, in the working frame A.
 struct FingertipState {
-  Vec3 x = Vec3::Zero();     ///< proxy: where friction holds the fingertip
-  Vec3 god = Vec3::Zero();   ///< where it would be without friction; x itself in free space
+  Vec3 x = Vec3::Zero();    ///< proxy: where friction holds the fingertip
+  Vec3 god = Vec3::Zero();  ///< where it would be without friction; x itself in free space
   bool touching = false;
   bool slipping = false;
 };
@@ -94,9 +97,9 @@ struct FingertipState {
 /// One fingertip at the surface, in the working frame A.
 struct ProxyContact {
   FingertipState state;
-  Vec3 nhat = Vec3::UnitZ();         ///< direction of the frictionless force, body into finger
-  double depth = 0;                  ///< (x - g) . nhat
-  Vec3 stretch = Vec3::Zero();       ///< x - g without its normal part
+  Vec3 nhat = Vec3::UnitZ();    ///< direction of the frictionless force, body into finger
+  double depth = 0;             ///< (x - g) . nhat
+  Vec3 stretch = Vec3::Zero();  ///< x - g without its normal part
   bool covered = true;
   std::int32_t body = kNoBody;
 };

@@ -125,7 +125,9 @@ void HapticsProxy::stepFinger(std::size_t f) noexcept {
   const double r = fingertip_radius_[f];
   const Pose X_WA = frameOf(proxy.frame);
   const Vec3 g = X_WA.inverseTimes(input.p_WH);
-  surround(f, proxy, input.p_WH, std::max((proxy.tip.x - g).norm(), (proxy.tip.god - g).norm()) + 1.1 * r);   // 10 %: room to be pushed out of a moving body
+  surround(f, proxy, input.p_WH,
+           std::max((proxy.tip.x - g).norm(), (proxy.tip.god - g).norm()) +
+               1.1 * r);  // 10 %: room to be pushed out of a moving body
   const auto cone_of = [this](std::int32_t body) {
     const Material& material = world_->scene.materialOf(world_->scene.bodies[static_cast<std::size_t>(body)]);
     return FrictionCone{material.friction_static, material.friction_dynamic};
@@ -203,17 +205,16 @@ void HapticsProxy::countPopThrough(std::size_t f, const ProxyContact& contact, d
 
 std::vector<std::string> HapticsProxy::stages() const {
   return {"interpolate the Object State to now", "gather the pieces within reach of each fingertip",
-          "move the proxy to the nearest reachable point (active set of at most three)",
-          "friction: two-state cone", "force from the distance between proxy and HIP"};
+          "move the proxy to the nearest reachable point (active set of at most three)", "friction: two-state cone",
+          "force from the distance between proxy and HIP"};
 }
 
 namespace {
-const ModulePlugin kPlugin{
-    .name = "haptics_proxy",
-    .summary = "god-object with fingertip radius and two-state friction cone, 1 kHz",
-    .create = [](std::shared_ptr<const World> world) -> std::unique_ptr<Module> {
-      return std::make_unique<HapticsProxy>(std::move(world));
-    }};
+const ModulePlugin kPlugin{.name = "haptics_proxy",
+                           .summary = "god-object with fingertip radius and two-state friction cone, 1 kHz",
+                           .create = [](std::shared_ptr<const World> world) -> std::unique_ptr<Module> {
+                             return std::make_unique<HapticsProxy>(std::move(world));
+                           }};
 }  // namespace
 
 }  // namespace presa

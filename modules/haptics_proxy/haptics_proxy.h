@@ -27,14 +27,14 @@ class HapticsProxy final : public Module {
  private:
   struct Proxy {
     bool alive = false;
-    std::int32_t frame = kNoBody;        ///< body whose coordinates hold `tip`; kNoBody: world
+    std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
     FingertipState tip;
     bool overlapping = false;
   };
   /// A body with a primitive as haptic geometry.
   struct Primitive {
-    ConvexPiece piece;                   ///< X_AG holds X_BG
-    double radius = 0;                   ///< of its bounding sphere about X_BG.p
+    ConvexPiece piece;  ///< X_AG holds X_BG
+    double radius = 0;  ///< of its bounding sphere about X_BG.p
   };
 
   void placeBodies(const Tick& tick) noexcept;
@@ -43,14 +43,15 @@ class HapticsProxy final : public Module {
   void stepFinger(std::size_t finger) noexcept;
   void moveToFrame(Proxy& proxy, std::int32_t body) const noexcept;
   std::int32_t nearestBody(const Vec3& p) const noexcept;
-  void writeContact(FingerContact& out, const Proxy& proxy, const ProxyContact& contact, const Pose& X_WA, double r) const noexcept;
+  void writeContact(FingerContact& out, const Proxy& proxy, const ProxyContact& contact, const Pose& X_WA,
+                    double r) const noexcept;
   Vec3 surfaceVelocity(std::int32_t body, const Vec3& p_W) const noexcept;
   void countPopThrough(std::size_t f, const ProxyContact& contact, double r) noexcept;
 
   std::shared_ptr<const World> world_;
   std::vector<Primitive> primitives_;
   std::vector<double> fingertip_radius_;
-  std::vector<Pose> X_WB_;               ///< every body, now
+  std::vector<Pose> X_WB_;  ///< every body, now
   std::array<Proxy, kMaxFingers> proxies_;
   std::unique_ptr<Surroundings> surroundings_;
 

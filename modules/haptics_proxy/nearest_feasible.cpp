@@ -16,7 +16,7 @@ class Search {
   Search(const HalfSpaces& all, const Vec3& g) : all_(all), g_(g) {
     double scale = 0;
     for (int i = 0; i < all_.count; ++i) scale = std::max(scale, std::abs(lack(i, g_)));
-    tolerance_ = 1e-9 * scale;   // relative to the depth: the same answer in metres and millimetres
+    tolerance_ = 1e-9 * scale;  // relative to the depth: the same answer in metres and millimetres
   }
 
   // Active sets of one, two, three; the programme is strictly convex, so the first set whose point is
@@ -116,6 +116,8 @@ void HalfSpaces::add(const HalfSpace& half_space, const Vec3& x) noexcept {
   if (slack(half_space) < slack(*loosest)) *loosest = half_space;
 }
 
-Feasible nearestFeasible(const HalfSpaces& half_spaces, const Vec3& g) noexcept { return Search(half_spaces, g).solve(); }
+Feasible nearestFeasible(const HalfSpaces& half_spaces, const Vec3& g) noexcept {
+  return Search(half_spaces, g).solve();
+}
 
 }  // namespace presa

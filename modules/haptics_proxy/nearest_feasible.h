@@ -10,7 +10,7 @@ namespace presa {
 struct HalfSpace {
   Vec3 nhat = Vec3::UnitZ();
   double offset = 0;
-  std::int32_t tag = -1;   ///< whose it is
+  std::int32_t tag = -1;  ///< whose it is
 };
 
 /// Few half-spaces, fixed memory.
@@ -25,7 +25,7 @@ struct HalfSpaces {
 
 struct Feasible {
   Vec3 y = Vec3::Zero();
-  std::array<int, 3> active{-1, -1, -1};   ///< half-spaces that hold y back, at most three
+  std::array<int, 3> active{-1, -1, -1};  ///< half-spaces that hold y back, at most three
   int active_count = 0;
 };
 

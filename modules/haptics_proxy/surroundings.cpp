@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/geometry/closest_point.h"
 #include "modules/haptics_proxy/god_object.h"
 
 namespace presa {
@@ -49,7 +50,7 @@ void Surroundings::lookAround(const Vec3& x, double r, double margin) noexcept {
       const double edge = std::max((v[1] - v[0]).squaredNorm(), (v[2] - v[0]).squaredNorm());
       const double corner = (v[0] - x_B).squaredNorm();
       if (corner > reach * reach + edge + 2 * reach * std::sqrt(edge)) continue;
-      const double squared = (nearestOnTriangle(v[0], v[1], v[2], x_B) - x_B).squaredNorm();
+      const double squared = (closestOnTriangle(x_B, v[0], v[1], v[2]) - x_B).squaredNorm();
       if (squared > reach * reach) continue;
       if (count_ == kCapacity) {
         ++overflow_;

@@ -18,7 +18,7 @@ TEST(CubeGrasp, IsLiftedHeldLoosenedAndDroppedAsFrictionSays) {
   const auto grasp = graspFigures(result);
   ASSERT_TRUE(grasp);
   EXPECT_NEAR(grasp->lift_height, 0.10, 0.0005);
-  EXPECT_NEAR(grasp->held_in_stick, 4.0, 0.002);   // the whole hold phase
+  EXPECT_NEAR(grasp->held_in_stick, 4.0, 0.002);  // the whole hold phase
   ASSERT_EQ(grasp->fingers.size(), 2u);
   const double limit = 0.2 * 9.81 / (2 * 0.8);
   EXPECT_NEAR(grasp->slip_limit, limit, 1e-12);
@@ -31,9 +31,9 @@ TEST(CubeGrasp, IsLiftedHeldLoosenedAndDroppedAsFrictionSays) {
   }
   const ObjectSummary& cube = result.objects.at(0).summary;
   EXPECT_TRUE(cube.grasped);
-  EXPECT_FALSE(cube.dropped);          // not before it was let go
-  EXPECT_GT(cube.lost_at, 7.0);        // it was, then
-  EXPECT_NEAR(cube.final.z(), 0.035, 0.001);   // and lies on the table again
+  EXPECT_FALSE(cube.dropped);                 // not before it was let go
+  EXPECT_GT(cube.lost_at, 7.0);               // it was, then
+  EXPECT_NEAR(cube.final.z(), 0.035, 0.001);  // and lies on the table again
   EXPECT_TRUE(result.faults.empty());
   for (const auto& point : result.contact_points) EXPECT_EQ(point.summary.pop_through, 0u);
 }
@@ -70,7 +70,7 @@ TEST_P(HardGrasp, HoldsWithoutLimitCycle) {
     ASSERT_TRUE(finger.grip_ripple);
     EXPECT_LT(*finger.grip_ripple, 0.01);
     EXPECT_DOUBLE_EQ(finger.stick_fraction, 1);
-    EXPECT_NEAR(finger.mean_normal_force, 6, 0.06);   // the script's grip
+    EXPECT_NEAR(finger.mean_normal_force, 6, 0.06);  // the script's grip
   }
   EXPECT_FALSE(run->result().objects.at(0).summary.dropped);
 }
@@ -82,7 +82,8 @@ std::vector<Hard> hardCases() {
   return cases;
 }
 INSTANTIATE_TEST_SUITE_P(MassTimesStiffness, HardGrasp, testing::ValuesIn(hardCases()), [](const auto& hard) {
-  return std::to_string(static_cast<int>(hard.param.mass * 1e4)) + "e_4kg_" + std::to_string(static_cast<int>(hard.param.stiffness)) + "N_m";
+  return std::to_string(static_cast<int>(hard.param.mass * 1e4)) + "e_4kg_" +
+         std::to_string(static_cast<int>(hard.param.stiffness)) + "N_m";
 });
 
 // Same scene, same seed: same states, to the bit. And the hash is not blind: another mass gives another.
@@ -91,7 +92,9 @@ TEST(Lockstep, TwoRunsGiveTheSameStateHash) {
   options.duration = 2;
   const auto a = runScene("config/scenes/pinch_and_lift.xml", {}, options)->result().state_hash;
   EXPECT_EQ(a, runScene("config/scenes/pinch_and_lift.xml", {}, options)->result().state_hash);
-  EXPECT_NE(a, runScene("config/scenes/pinch_and_lift.xml", {"body/amphora/physics/mass=0.2500001"}, options)->result().state_hash);
+  EXPECT_NE(a, runScene("config/scenes/pinch_and_lift.xml", {"body/amphora/physics/mass=0.2500001"}, options)
+                   ->result()
+                   .state_hash);
 }
 
 // The haptic rate is a parameter: at 2 and 4 kHz the grasp is the same within 1 % of force and 0.5 mm.

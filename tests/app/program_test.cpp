@@ -44,7 +44,10 @@ TEST(Run, WritesTheSummaryThatIsPromised) {
 TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
   for (const std::string mode : {"--lockstep", "--realtime --view none"}) {
     const std::string file = scratch("replay.h5");
-    ASSERT_EQ(presa("run " + source("config/scenes/pinch_and_lift.xml") + " " + mode + " --for 2.5 --quiet --overwrite --record " + file).status, 0);
+    ASSERT_EQ(presa("run " + source("config/scenes/pinch_and_lift.xml") + " " + mode +
+                    " --for 2.5 --quiet --overwrite --record " + file)
+                  .status,
+              0);
     const auto outcome = presa("replay " + file + " --verify");
     EXPECT_EQ(outcome.status, 0) << mode << outcome.out << outcome.err;
     EXPECT_NE(outcome.out.find("same to the bit"), std::string::npos) << outcome.out;
@@ -85,7 +88,8 @@ TEST(Explain, MapsOnlyWhatTheSceneCallsFor) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out).at("libraries").dump();
   };
-  const std::string bare = libraries(fixed), cube = libraries(kCube), mesh = libraries(source("config/scenes/pinch_and_lift.xml"));
+  const std::string bare = libraries(fixed), cube = libraries(kCube),
+                    mesh = libraries(source("config/scenes/pinch_and_lift.xml"));
   for (const char* absent : {"libode", "libfcl", "libosg", "libhdf5", "libassimp"}) {
     EXPECT_EQ(bare.find(absent), std::string::npos) << absent;
   }
@@ -142,8 +146,9 @@ TEST(Check, SaysThatEveryShippedSceneIsGood) {
 // Ctrl-C in the middle of a real-time grasp: status 130, forces faded to nothing in the recording, file whole.
 TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   const std::string file = scratch("interrupted.h5");
-  const auto outcome = test::shell("timeout --preserve-status -s INT 2.6 " + std::string(PRESA_BINARY_DIR) + "/bin/presa run " + kCube +
-                                   " --realtime --view none --quiet --overwrite --record " + file);
+  const auto outcome =
+      test::shell("timeout --preserve-status -s INT 2.6 " + std::string(PRESA_BINARY_DIR) + "/bin/presa run " + kCube +
+                  " --realtime --view none --quiet --overwrite --record " + file);
   ASSERT_EQ(outcome.status, 130) << outcome.err;
   const Recording recording = recordPlugin().read(file);
   ASSERT_GT(recording.command.size(), 100u);

@@ -15,15 +15,19 @@ struct Stepped {
     Diagnostics diagnostics;
     RunOptions options;
     options.record = record;
-    options.realtime = true;   // the recorder must not wait
+    options.realtime = true;  // the recorder must not wait
     const Loaded loaded = loadWorld({test::source(scene), "", {}}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     rates = std::make_unique<RateTable>(loaded.world->scene.rates);
-    session = std::make_unique<Session>(loaded.world, loaded.plan, control, Session::Options{.trace_rate = 250, .devices = {}, .open_devices = true, .more = {}});
-    for (const RateGroup group : {RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic}) session->graph().start(group);
+    session =
+        std::make_unique<Session>(loaded.world, loaded.plan, control,
+                                  Session::Options{.trace_rate = 250, .devices = {}, .open_devices = true, .more = {}});
+    for (const RateGroup group : {RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic})
+      session->graph().start(group);
   }
   ~Stepped() {
-    for (const RateGroup group : {RateGroup::kHaptic, RateGroup::kCollision, RateGroup::kDynamics}) session->graph().stop(group);
+    for (const RateGroup group : {RateGroup::kHaptic, RateGroup::kCollision, RateGroup::kDynamics})
+      session->graph().stop(group);
     if (Recorder* recorder = session->recorder()) recorder->finish();
   }
   void slow(std::uint64_t i) {

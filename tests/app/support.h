@@ -13,12 +13,12 @@ inline std::string source(const std::string& path) { return std::string(PRESA_SO
 std::string scratch(const std::string& name);
 
 /// A lockstep run of a shipped scene without a word on the terminal. Throws InputError.
-std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets = {}, RunOptions options = {},
-                              double trace_rate = 1000);
+std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets = {},
+                              RunOptions options = {}, double trace_rate = 1000);
 
 /// The installed program in a process of its own.
 struct Outcome {
-  int status = -1;          ///< exit status
+  int status = -1;  ///< exit status
   std::string out, err;
 };
 Outcome shell(const std::string& command);

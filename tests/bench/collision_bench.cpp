@@ -52,7 +52,8 @@ void GatherFclCollide(benchmark::State& state) {
   fcl::BVHModel<fcl::OBB<double>> model;  // with AABB fcl::collide copies the whole mesh at every call
   std::vector<fcl::Triangle> triangles;
   for (const auto& t : mesh->triangles) {
-    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2]));
+    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                           static_cast<std::size_t>(t[2]));
   }
   model.beginModel();
   model.addSubModel(mesh->vertices, triangles);

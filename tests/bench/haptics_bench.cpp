@@ -18,7 +18,7 @@ std::vector<PatchTriangle> bumpyPatch(double edge, double reach) {
   const auto corner = [&](double x, double y) { return Vec3(x, y, height(x, y)); };
   for (double x = -reach; x < reach; x += edge) {
     for (double y = -reach; y < reach; y += edge) {
-      PatchTriangle triangle;
+      PatchTriangle triangle{};
       triangle.v_B = {corner(x, y), corner(x + edge, y), corner(x + edge, y + edge)};
       patch.push_back(triangle);
       triangle.v_B = {corner(x, y), corner(x + edge, y + edge), corner(x, y + edge)};

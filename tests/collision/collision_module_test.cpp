@@ -70,7 +70,9 @@ class CollisionModuleTest : public testing::Test {
       }
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto at = [&](std::size_t k) -> Vec3 { return X_BG * mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])]; };
+      const auto at = [&](std::size_t k) -> Vec3 {
+        return X_BG * mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])];
+      };
       const double distance = (part.center_B - closestOnTriangle(part.center_B, at(0), at(1), at(2))).norm();
       // rounding of the two orders of transforming: a few ulp of a decimetre
       if (distance < part.radius - 1e-15) {

@@ -33,8 +33,9 @@ MeshPointer makeSlivers(int count) {
 std::vector<MeshPointer> meshes() {
   TriMesh far = makeCapsule(0.02, 0.06);
   for (Vec3& vertex : far.vertices) vertex += Vec3(3, -5, 2);
-  return {std::make_shared<const TriMesh>(makeSphere(0.05, 4)), std::make_shared<const TriMesh>(makeBox({0.1, 0.02, 0.3})),
-          std::make_shared<const TriMesh>(far), makeSlivers(3000)};
+  return {std::make_shared<const TriMesh>(makeSphere(0.05, 4)),
+          std::make_shared<const TriMesh>(makeBox({0.1, 0.02, 0.3})), std::make_shared<const TriMesh>(far),
+          makeSlivers(3000)};
 }
 
 std::vector<NearTriangle> bruteForce(const TriMesh& mesh, const Vec3& center) {

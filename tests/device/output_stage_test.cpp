@@ -24,8 +24,13 @@ Vec3 settle(OutputStage& stage, const Vec3& command) {
 TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  const double hostile[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                            -std::numeric_limits<double>::infinity(), 1e308, -1e308, 5e-324, 0.0};
+  const double hostile[] = {std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(),
+                            -std::numeric_limits<double>::infinity(),
+                            1e308,
+                            -1e308,
+                            5e-324,
+                            0.0};
   for (int run = 0; run < 200; ++run) {
     OutputStage stage(kLimits);
     Vec3 before = Vec3::Zero();
@@ -49,7 +54,7 @@ TEST(OutputStage, NotANumberLatchesZero) {
   EXPECT_NEAR(settle(stage, {3, 0, 0}).x(), 3, 1e-12);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Vec3 f = stage.step({{nan, 0, 0}, false, false}, kPeriod);
-  EXPECT_GT(f.x(), 2);   // no step
+  EXPECT_GT(f.x(), 2);  // no step
   for (int i = 0; i < 25; ++i) f = stage.step({{5, 0, 0}, false, false}, kPeriod);
   EXPECT_EQ(f.norm(), 0);
   EXPECT_TRUE(stage.latched());

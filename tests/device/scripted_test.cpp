@@ -28,7 +28,8 @@ TEST(FingerPlant, FollowsTheClosedFormOfADampedOscillator) {
     while (t < 0.5) {
       plant.step(Vec3::Zero(), Vec3::Zero(), {force, 0, 0});
       t += period;
-      const double x = force / impedance.stiffness * (1 - std::exp(-a * t) * (std::cos(w * t) + a / w * std::sin(w * t)));
+      const double x =
+          force / impedance.stiffness * (1 - std::exp(-a * t) * (std::cos(w * t) + a / w * std::sin(w * t)));
       ASSERT_NEAR(plant.position().x(), x, 1e-12);
     }
   }
@@ -57,7 +58,8 @@ TEST(FingerPlant, HasTheStabilityBoundOfALoopWithoutDelay) {
 TEST(FingerPlant, AutomaticDampingRespectsTheBounds) {
   const FingerImpedance impedance{.mass = 0.1, .stiffness = 300};
   EXPECT_GE(automaticDamping(impedance, 10'000, 1e-3, 5e-3), 10);
-  EXPECT_GE(automaticDamping(impedance, 10'000, 1e-3, 5e-3), 1.5 * heldObjectDampingBound(impedance, 10'000, 1e-3, 5e-3));
+  EXPECT_GE(automaticDamping(impedance, 10'000, 1e-3, 5e-3),
+            1.5 * heldObjectDampingBound(impedance, 10'000, 1e-3, 5e-3));
   EXPECT_NEAR(automaticDamping(impedance, 500, 1e-3, 5e-3), 1.4 * std::sqrt(30), 1e-12);
 }
 
@@ -109,7 +111,7 @@ TEST(PhasedMotion, ReachesTheFacesFromBothSides) {
     EXPECT_NEAR(a.p_WT.x(), -b.p_WT.x(), 1e-12);
     EXPECT_NEAR(a.p_WT.z(), b.p_WT.z(), 1e-12);
   }
-  EXPECT_NEAR(index->at(1.25).grip, 3, 1e-12);           // straight ramp
+  EXPECT_NEAR(index->at(1.25).grip, 3, 1e-12);  // straight ramp
   EXPECT_EQ(index->at(1.25).inward_W, Vec3(-1, 0, 0));
   EXPECT_NEAR(index->at(2.5).p_WT.z(), 0.14, 1e-12);
   EXPECT_EQ(index->phase_names, (std::vector<std::string>{"reach", "squeeze", "lift", "release"}));
@@ -145,9 +147,10 @@ TEST(KeyframeMotion, PassesThroughItsKeyframes) {
 
 // Every mistake is named with its line and column, all of them at once.
 TEST(KeyframeMotion, NamesEveryMistakeWithItsPlace) {
-  const std::string file = writeFile("bad.csv",
-                                     "time_s,role,x_m,y_m,z_m\n0,thumb,0,0,0\n1,thumb,zero,0,nan\n0.5,thumb,0,0\n1,thumb,0,0,0\n"
-                                     "1,thumb,0,0,0\n");
+  const std::string file =
+      writeFile("bad.csv",
+                "time_s,role,x_m,y_m,z_m\n0,thumb,0,0,0\n1,thumb,zero,0,nan\n0.5,thumb,0,0\n1,thumb,0,0,0\n"
+                "1,thumb,0,0,0\n");
   Diagnostics diagnostics;
   EXPECT_EQ(readKeyframeMotion(file, {"thumb", -1, 0.008}, diagnostics), nullptr);
   ASSERT_EQ(diagnostics.errorCount(), 5u) << diagnostics.text();
@@ -156,7 +159,8 @@ TEST(KeyframeMotion, NamesEveryMistakeWithItsPlace) {
   EXPECT_EQ(diagnostics.all()[0].where.column, 9);
   EXPECT_EQ(diagnostics.all()[2].code, 423);
   Diagnostics header;
-  EXPECT_EQ(readKeyframeMotion(writeFile("head.csv", "time,role,x_m,y_m,z_m\n"), {"thumb", -1, 0.008}, header), nullptr);
+  EXPECT_EQ(readKeyframeMotion(writeFile("head.csv", "time,role,x_m,y_m,z_m\n"), {"thumb", -1, 0.008}, header),
+            nullptr);
   EXPECT_NE(header.text().find("did you mean 'time_s'"), std::string::npos) << header.text();
 }
 

@@ -9,7 +9,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   // the last line of the input doubles as an override, so that paths are explored too
-  const std::string last_line = text.substr(text.find_last_of('\n') == std::string::npos ? 0 : text.find_last_of('\n') + 1);
+  const std::string last_line =
+      text.substr(text.find_last_of('\n') == std::string::npos ? 0 : text.find_last_of('\n') + 1);
   const auto equals = last_line.find('=');
   std::vector<presa::Override> overrides;
   if (last_line.rfind("set ", 0) == 0 && equals != std::string::npos) {

@@ -34,7 +34,8 @@ std::string number(double value) {
 /// glTF and COLLADA (without up_axis) are y up: the point that must come out as (x, y, z) is written as (x, z, -y).
 Vec3 yUp(const Vec3& p) { return {p.x(), p.z(), 0.0 - p.y()}; }
 
-std::string floats(const std::vector<Vec3>& points, const std::function<Vec3(const Vec3&)>& map = [](const Vec3& p) { return p; }) {
+std::string floats(
+    const std::vector<Vec3>& points, const std::function<Vec3(const Vec3&)>& map = [](const Vec3& p) { return p; }) {
   std::string out;
   for (const Vec3& p : points) {
     for (int i = 0; i < 3; ++i) out += bytes(static_cast<float>(map(p)[i]));
@@ -93,7 +94,8 @@ std::string plyBinary(const TriMesh& m) {
 std::string plyText(const TriMesh& m) {
   std::string out = plyHeader("ascii", m.vertices.size(), m.triangles.size());
   for (const Vec3& v : m.vertices) out += number(v.x()) + " " + number(v.y()) + " " + number(v.z()) + "\n";
-  for (const auto& t : m.triangles) out += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
+  for (const auto& t : m.triangles)
+    out += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
   return out;
 }
 
@@ -106,11 +108,13 @@ std::string gltfData(const TriMesh& m) {
 }
 
 std::string gltfText(const TriMesh& m, const std::string& uri) {
-  const std::string positions = std::to_string(12 * m.vertices.size()), indices = std::to_string(12 * m.triangles.size());
+  const std::string positions = std::to_string(12 * m.vertices.size()),
+                    indices = std::to_string(12 * m.triangles.size());
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
-         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"buffers":[{)" + uri +
-         R"("byteLength":)" + std::to_string(gltfData(m).size()) + R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" +
-         positions + R"(},{"buffer":0,"byteOffset":)" + positions + R"(,"byteLength":)" + indices +
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"buffers":[{)" +
+         uri + R"("byteLength":)" + std::to_string(gltfData(m).size()) +
+         R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + positions +
+         R"(},{"buffer":0,"byteOffset":)" + positions + R"(,"byteLength":)" + indices +
          R"(}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" + std::to_string(m.vertices.size()) +
          R"(,"type":"VEC3"},{"bufferView":1,"componentType":5125,"count":)" + std::to_string(3 * m.triangles.size()) +
          R"(,"type":"SCALAR"}]})";
@@ -121,8 +125,8 @@ std::string glb(const TriMesh& m) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::string data = gltfData(m);
   const auto size = [](const std::string& s) { return bytes(static_cast<std::uint32_t>(s.size())); };
-  return "glTF" + bytes(std::uint32_t{2}) + bytes(static_cast<std::uint32_t>(28 + json.size() + data.size())) + size(json) +
-         "JSON" + json + size(data) + std::string("BIN\0", 4) + data;
+  return "glTF" + bytes(std::uint32_t{2}) + bytes(static_cast<std::uint32_t>(28 + json.size() + data.size())) +
+         size(json) + "JSON" + json + size(data) + std::string("BIN\0", 4) + data;
 }
 
 std::string collada(const TriMesh& m, const std::string& asset, const std::string& node = "") {
@@ -132,13 +136,15 @@ std::string collada(const TriMesh& m, const std::string& asset, const std::strin
     for (const std::int32_t i : t) indices += std::to_string(i) + " ";
   }
   const std::string n = std::to_string(m.vertices.size());
-  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)" + asset +
-         R"(</asset><library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count=")" +
-         std::to_string(3 * m.vertices.size()) + "\">" + points + R"(</float_array><technique_common><accessor source="#a" count=")" + n +
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>)" +
+         asset + R"(</asset><library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count=")" +
+         std::to_string(3 * m.vertices.size()) + "\">" + points +
+         R"(</float_array><technique_common><accessor source="#a" count=")" + n +
          R"(" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>)"
          R"(</technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count=")" +
          std::to_string(m.triangles.size()) + R"("><input semantic="VERTEX" source="#v" offset="0"/><p>)" + indices +
-         R"(</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">)" + node +
+         R"(</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">)" +
+         node +
          R"(<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
 }
 
@@ -175,8 +181,13 @@ class MeshImport : public testing::Test {
 TEST_F(MeshImport, EveryFormatGivesTheSameWeldedMesh) {
   const MassProperties expected = massProperties(box_);
   const std::vector<std::pair<std::string, std::string>> files{
-      {"a.obj", obj(box_)}, {"a.stl", stlText(box_)}, {"b.stl", stlBinary(box_)}, {"a.ply", plyText(box_)}, {"b.ply", plyBinary(box_)},
-      {"a.glb", glb(box_)}, {"a.dae", collada(box_, R"(<unit meter="1"/><up_axis>Z_UP</up_axis>)")}};
+      {"a.obj", obj(box_)},
+      {"a.stl", stlText(box_)},
+      {"b.stl", stlBinary(box_)},
+      {"a.ply", plyText(box_)},
+      {"b.ply", plyBinary(box_)},
+      {"a.glb", glb(box_)},
+      {"a.dae", collada(box_, R"(<unit meter="1"/><up_axis>Z_UP</up_axis>)")}};
   for (const auto& [name, contents] : files) {
     const TriMesh mesh = import(name, contents);
     EXPECT_TRUE(diagnostics_.all().empty()) << diagnostics_.text();
@@ -280,8 +291,11 @@ TEST_F(MeshImport, FewDegenerateTrianglesAreDroppedManyAreRefused) {
 
 // Damaged files end in a finding or in a mesh that passes every check; never in a crash or an exception.
 TEST_F(MeshImport, TwoHundredDamagedFilesAreSurvived) {
-  const std::vector<std::pair<std::string, std::string>> seeds{
-      {"f.obj", obj(box_)}, {"f.stl", stlBinary(box_)}, {"f.ply", plyBinary(box_)}, {"f.glb", glb(box_)}, {"f.dae", collada(box_, "")}};
+  const std::vector<std::pair<std::string, std::string>> seeds{{"f.obj", obj(box_)},
+                                                               {"f.stl", stlBinary(box_)},
+                                                               {"f.ply", plyBinary(box_)},
+                                                               {"f.glb", glb(box_)},
+                                                               {"f.dae", collada(box_, "")}};
   std::mt19937_64 random(42);
   int refused = 0;
   for (int i = 0; i < 200; ++i) {
@@ -290,10 +304,18 @@ TEST_F(MeshImport, TwoHundredDamagedFilesAreSurvived) {
     for (std::uint64_t k = 1 + random() % 4; k > 0; --k) {
       const std::size_t at = random() % damaged.size();
       switch (random() % 4) {
-        case 0: damaged[at] = static_cast<char>(random()); break;
-        case 1: damaged.resize(at + 1); break;
-        case 2: damaged.replace(at, std::min<std::size_t>(4, damaged.size() - at), "\xff\xff\xff\x7f"); break;
-        default: damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 40)); break;
+        case 0:
+          damaged[at] = static_cast<char>(random());
+          break;
+        case 1:
+          damaged.resize(at + 1);
+          break;
+        case 2:
+          damaged.replace(at, std::min<std::size_t>(4, damaged.size() - at), "\xff\xff\xff\x7f");
+          break;
+        default:
+          damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 40));
+          break;
       }
     }
     const TriMesh mesh = import(name, damaged);

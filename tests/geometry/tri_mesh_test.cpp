@@ -29,13 +29,13 @@ TriMesh moved(TriMesh mesh, const Pose& X) {
   return mesh;
 }
 
-Pose somePose() {
-  return {Vec3(0.3, -2.0, 0.7), Quat(Eigen::AngleAxisd(1.1, Vec3(1, -2, 3).normalized()))};
-}
+Pose somePose() { return {Vec3(0.3, -2.0, 0.7), Quat(Eigen::AngleAxisd(1.1, Vec3(1, -2, 3).normalized()))}; }
 
 void expectSound(const TriMesh& mesh) {
   const MeshReport report = checkMesh(mesh);
-  EXPECT_EQ(report.non_finite + report.bad_index + report.degenerate + report.non_manifold + report.open_edges + report.flipped_edges, 0u);
+  EXPECT_EQ(report.non_finite + report.bad_index + report.degenerate + report.non_manifold + report.open_edges +
+                report.flipped_edges,
+            0u);
   EXPECT_FALSE(report.inverted);
   EXPECT_GT(massProperties(mesh).volume, 0);
 }
@@ -60,8 +60,9 @@ TEST(Primitives, AreClosedConsistentAndRound) {
     return worst;
   };
   EXPECT_LT(worstChord(makeSphere(1), [](const Vec3& p) { return p.norm(); }), 1.2e-3);
-  EXPECT_LT(worstChord(makeCapsule(1, 2), [](const Vec3& p) {
-              return (p - Vec3(0, 0, std::clamp(p.z(), -1.0, 1.0))).norm(); }), 1.2e-3);
+  EXPECT_LT(worstChord(makeCapsule(1, 2),
+                       [](const Vec3& p) { return (p - Vec3(0, 0, std::clamp(p.z(), -1.0, 1.0))).norm(); }),
+            1.2e-3);
 }
 
 // A box is bounded by planes, so the divergence theorem must reproduce the closed form to rounding, wherever it lies.
@@ -86,7 +87,7 @@ TEST(MassProperties, OfASphereConvergeWithSecondOrder) {
     const MassProperties result = massProperties(makeSphere(r, level));
     const double volume_error = 1 - result.volume / volume, inertia_error = 1 - result.inertia(0, 0) / inertia;
     if (level > 2) {
-      EXPECT_NEAR(previous_volume / volume_error, 4, 0.2);   // 5 %: the next term of the series at level 2
+      EXPECT_NEAR(previous_volume / volume_error, 4, 0.2);  // 5 %: the next term of the series at level 2
       EXPECT_NEAR(previous_inertia / inertia_error, 4, 0.2);
     }
     previous_volume = volume_error;
@@ -122,7 +123,8 @@ TEST(Weld, RestoresAMeshFromSoupInSpiteOfNoise) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> noise(-1, 1);
   const double tolerance = 1e-7;
-  for (Vec3& vertex : soup.vertices) vertex += 0.49 * tolerance * Vec3(noise(random), noise(random), noise(random)) / std::sqrt(3.0);
+  for (Vec3& vertex : soup.vertices)
+    vertex += 0.49 * tolerance * Vec3(noise(random), noise(random), noise(random)) / std::sqrt(3.0);
   EXPECT_EQ(weld(soup, tolerance), 3 * sphere.triangles.size() - sphere.vertices.size());
   EXPECT_EQ(soup.vertices.size(), sphere.vertices.size());
   EXPECT_EQ(soup.triangles.size(), sphere.triangles.size());
@@ -197,8 +199,9 @@ TEST(CheckMesh, NamesEachDefectOnce) {
   open.triangles.pop_back();
   EXPECT_EQ(checkMesh(open).open_edges, 3u);
   buildAdjacency(open);
-  EXPECT_EQ(std::count_if(open.adjacency.begin(), open.adjacency.end(), [](const auto& a) {
-              return std::count(a.begin(), a.end(), -1) > 0; }), 3);
+  EXPECT_EQ(std::count_if(open.adjacency.begin(), open.adjacency.end(),
+                          [](const auto& a) { return std::count(a.begin(), a.end(), -1) > 0; }),
+            3);
 
   TriMesh flipped = good;
   std::swap(flipped.triangles[0][0], flipped.triangles[0][1]);

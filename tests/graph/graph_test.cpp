@@ -16,7 +16,8 @@ struct Number {
 /// Writes the number of its ticks.
 class Counter final : public Module {
  public:
-  Counter(std::string name, RateGroup group, std::string port) : Module(std::move(name), group), out(*this, std::move(port)) {}
+  Counter(std::string name, RateGroup group, std::string port)
+      : Module(std::move(name), group), out(*this, std::move(port)) {}
   void step(const Tick&) noexcept override { out.value.value += 1; }
   Out<Number> out;
 };
@@ -157,7 +158,7 @@ TEST(Realtime, RunsEveryGroupAndStopsOnRequest) {
   builder.connectByName();
   Graph graph = builder.build();
   RunControl control;
-  control.stop_requested = true;   // from the start: the run is exactly one tick and the fade long
+  control.stop_requested = true;  // from the start: the run is exactly one tick and the fade long
   RealtimeExecutor executor(graph, RateTable(Rates{}), control);
   executor.run(10);
   const auto expected = 1 + static_cast<std::uint64_t>(Executor::kFadeTime * 1000);

@@ -61,7 +61,7 @@ TEST(ConvexPiece, NormalIsGradientOfDistance) {
     for (int i = 0; i < 200; ++i) {
       const Vec3 p = randomVec(random, 1.5);
       const Nearest at = nearest(piece, p);
-      if (at.distance < 1e-2) continue;   // the gradient jumps on the surface of a two-sided triangle
+      if (at.distance < 1e-2) continue;  // the gradient jumps on the surface of a two-sided triangle
       EXPECT_NEAR(at.nhat.norm(), 1, 1e-12);
       for (int axis = 0; axis < 3; ++axis) {
         const Vec3 step = 1e-5 * Vec3::Unit(axis);

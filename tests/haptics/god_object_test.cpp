@@ -113,12 +113,12 @@ TEST(GodObject, GoesRoundTheEdgeOfABox) {
   const auto s = box({0.05, 0.05, 0.05});
   Vec3 x(0, 0, 0.05 + kR), g(0, 0, 0.055);
   for (int tick = 0; tick < 80; ++tick) {
-    g += Vec3(0.001, 0, 0);   // sideways past the edge at x = 0.05
+    g += Vec3(0.001, 0, 0);  // sideways past the edge at x = 0.05
     if (g.x() > 0.056) g.z() -= 0.002;
     x = moveProxy(x, g, kR, *s).x;
     ASSERT_GE(nearest(s->piece(0), x).distance, kR * (1 - 1e-6));
   }
-  EXPECT_NEAR((x - g).norm(), 0, 1e-9);   // it came free
+  EXPECT_NEAR((x - g).norm(), 0, 1e-9);  // it came free
 }
 
 // A patch that ends is a wall of ignorance: the proxy waits at its border and says so.
@@ -161,7 +161,7 @@ TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
       if (!tip.slipping) most = std::max(most, ratio);
       if (tip.slipping) sliding = ratio;
     }
-    EXPECT_NEAR(most, 0.8, 1.001e-5 / depth) << heading;   // within one step of the motion, and rounding
+    EXPECT_NEAR(most, 0.8, 1.001e-5 / depth) << heading;  // within one step of the motion, and rounding
     EXPECT_NEAR(sliding, 0.6, 1e-6) << heading;
   }
 }

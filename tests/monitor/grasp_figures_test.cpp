@@ -36,7 +36,9 @@ struct Grasp {
     // ripple of exactly 2 % peak to peak over the mean, seen at every trace sample of 4 ms
     const double grip = t < 4 ? 4 * (1 + 0.01 * ((i / 4) % 2 == 0 ? 1 : -1)) : std::max(0.0, 4 - 2 * (t - 4));
     for (std::size_t f = 0; f < 2; ++f) {
-      const ContactMode mode = grip <= 0 ? ContactMode::kNone : t > 4 && grip < 1.197 ? ContactMode::kSlip : ContactMode::kStick;
+      const ContactMode mode = grip <= 0               ? ContactMode::kNone
+                               : t > 4 && grip < 1.197 ? ContactMode::kSlip
+                                                       : ContactMode::kStick;
       feed.touch(f, mode, grip, f == 0 ? 0.75 * 0.981 : 1.25 * 0.981);
       const Vec3 p_BP(f == 0 ? -0.043 : 0.043, 0, 0.01 + (i % 8 == 0 ? wobble : 0));
       feed.contact.fingers[f].p_WP = X_WB * p_BP;

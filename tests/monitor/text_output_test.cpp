@@ -13,8 +13,13 @@ namespace {
 
 // RFC 4648, section 10.
 TEST(Base64, MatchesTheRfc) {
-  const std::vector<std::pair<std::string, std::string>> vectors{
-      {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  const std::vector<std::pair<std::string, std::string>> vectors{{"", ""},
+                                                                 {"f", "Zg=="},
+                                                                 {"fo", "Zm8="},
+                                                                 {"foo", "Zm9v"},
+                                                                 {"foob", "Zm9vYg=="},
+                                                                 {"fooba", "Zm9vYmE="},
+                                                                 {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : vectors) EXPECT_EQ(base64(bytes), text);
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
@@ -53,7 +58,8 @@ TEST(StatusText, FitsTheTerminalAndUsesColourOnlyWhenAsked) {
   status.duration = 10;
   status.phase = "squeeze";
   status.fingers = {{"thumb", ContactMode::kStick, 3.2}, {"index", ContactMode::kSlip, 3.1}};
-  for (std::size_t columns = 20; columns < 140; ++columns) EXPECT_LE(statusText(status, 12, columns, false).size(), columns);
+  for (std::size_t columns = 20; columns < 140; ++columns)
+    EXPECT_LE(statusText(status, 12, columns, false).size(), columns);
   const std::string wide = statusText(status, 5, 200, false);
   EXPECT_NE(wide.find("2.5/10.0 s"), std::string::npos);
   EXPECT_NE(wide.find("thumb  3.20 N stick"), std::string::npos);

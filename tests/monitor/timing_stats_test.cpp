@@ -15,7 +15,8 @@ const double kBucketWidth = std::exp2(1.0 / 32) - 1;
 
 std::int64_t exactPercentile(std::vector<std::int64_t> values, double q) {
   std::sort(values.begin(), values.end());
-  const auto rank = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size()))));
+  const auto rank =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size()))));
   return values[rank - 1];
 }
 

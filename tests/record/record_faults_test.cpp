@@ -78,9 +78,7 @@ std::string bytesOf(const std::string& file) {
   return text.str();
 }
 
-void writeBytes(const std::string& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
+void writeBytes(const std::string& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
 
 void recordTicks(const std::string& file, std::uint64_t ticks) {
   RecordedRun run(recordedWorld(file, false));
@@ -111,7 +109,7 @@ TEST(KilledRun, IsReadableUpToItsLastFlush) {
     child.killNow();
 
     const Recording recording = readRecording(file);
-    EXPECT_GE(recording.time.size() + 1, flushed);   // a tick's schedule row follows its step: the newest may lack it
+    EXPECT_GE(recording.time.size() + 1, flushed);  // a tick's schedule row follows its step: the newest may lack it
     EXPECT_FALSE(recording.complete);
     EXPECT_EQ(differenceFromPrefix(recording), "");
   }
@@ -122,10 +120,11 @@ void recordUntilFull(const std::string& file, int to_parent) {
   WriterSettings settings;
   settings.flush_every = std::chrono::milliseconds(0);
   RecordedRun run(recordedWorld(file, false), settings);
-  run.step(30'000);   // about 25 MB
+  run.step(30'000);  // about 25 MB
   run.recorder->finish();
   const RecorderStatus status = run.recorder->status();
-  for (const std::uint64_t number : {status.rows, status.dropped, std::uint64_t{status.failed}}) send(to_parent, number);
+  for (const std::uint64_t number : {status.rows, status.dropped, std::uint64_t{status.failed}})
+    send(to_parent, number);
 }
 
 void expectFailedButReadable(const Child& child, const std::string& file) {
@@ -133,10 +132,10 @@ void expectFailedButReadable(const Child& child, const std::string& file) {
   ASSERT_TRUE(child.next(rows) && child.next(dropped) && child.next(failed));
   EXPECT_EQ(failed, 1u);
   EXPECT_GT(rows, 0u);
-  EXPECT_GE(rows + dropped, 30'000u);   // schedule rows that were thrown away count too
+  EXPECT_GE(rows + dropped, 30'000u);  // schedule rows that were thrown away count too
   const Recording recording = readRecording(file);
   EXPECT_LE(recording.time.size(), rows);
-  EXPECT_GE(recording.time.size() + 1, rows);   // a tick's schedule row follows its step: the newest may lack it
+  EXPECT_GE(recording.time.size() + 1, rows);  // a tick's schedule row follows its step: the newest may lack it
   EXPECT_FALSE(recording.complete);
   EXPECT_EQ(differenceFromPrefix(recording), "");
 }
@@ -257,7 +256,8 @@ TEST(Reader, RefusesEveryWrongFileWithItsReason) {
   writeBytes(bad, bytes.substr(0, bytes.size() / 2));
   EXPECT_EQ(readCode(bad), 608);
   std::string renamed = bytes;
-  for (std::size_t at = renamed.find("command_count"); at != std::string::npos; at = renamed.find("command_count", at)) {
+  for (std::size_t at = renamed.find("command_count"); at != std::string::npos;
+       at = renamed.find("command_count", at)) {
     renamed.replace(at, 7, "COMMAND");
   }
   writeBytes(bad, renamed);

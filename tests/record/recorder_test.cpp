@@ -17,7 +17,7 @@ TEST(Recording, RestoresEveryBitOfInputsForcesAndSchedule) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
   RecordedRun run(recordedWorld(file, false));
-  run.step(5000);   // several blocks, the last one not full
+  run.step(5000);  // several blocks, the last one not full
   run.recorder->finish();
 
   const Recording recording = readRecording(file);
@@ -44,7 +44,7 @@ TEST(Recording, CarriesSceneRigSeedAndMode) {
   EXPECT_TRUE(recording.realtime);
   EXPECT_TRUE(recording.complete);
   EXPECT_EQ(recording.dropped, 0u);
-  EXPECT_EQ(recording.haptic_period, 0.001);   // 1e6 ns * 1e-9: exact as the nearest double
+  EXPECT_EQ(recording.haptic_period, 0.001);  // 1e6 ns * 1e-9: exact as the nearest double
   EXPECT_FALSE(recording.program_version.empty());
 }
 
@@ -85,7 +85,7 @@ TEST(Recorder, DropsAndCountsInRealTimeWhenTheRingIsFull) {
   };
   RecordedRun run(recordedWorld(file, true), settings);
   const std::size_t capacity = run.recorder->capacity();
-  EXPECT_EQ(capacity, 4000u);   // 4 s at 1 kHz
+  EXPECT_EQ(capacity, 4000u);  // 4 s at 1 kHz
   run.step(capacity + 37);
   EXPECT_EQ(run.recorder->status().rows, capacity);
   EXPECT_EQ(run.recorder->status().dropped, 37u);
@@ -114,7 +114,7 @@ TEST(Recorder, StepNeitherAllocatesNorLocksNorCallsTheSystem) {
   }
   {
     RealTimeGuard guard;
-    run.step(run.recorder->capacity() + 10);   // with room, and without
+    run.step(run.recorder->capacity() + 10);  // with room, and without
     EXPECT_EQ(guard.violations(), 0) << guard.first();
   }
   if (syscallTrapWorks()) {

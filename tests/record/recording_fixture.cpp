@@ -85,7 +85,7 @@ std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime) {
   scene.bodies[0].fixed = true;
   scene.bodies[1].name = "cube";
   scene.devices.resize(2);
-  scene.devices[0].role = "thumb";   // not in alphabetical order
+  scene.devices[0].role = "thumb";  // not in alphabetical order
   scene.devices[1].role = "index";
   world->rig.resolved_xml = "<rig/>";
   world->options.realtime = realtime;
@@ -133,7 +133,8 @@ std::string differenceFromPrefix(const Recording& recording) {
   const std::size_t ticks = recording.time.size();
   if (recording.device.size() != ticks || recording.command.size() != ticks) return "lists of different length";
   for (std::size_t i = 0; i < ticks; ++i) {
-    if (!sameBits(recording.time[i], RateTable(Rates{}).tick(RateGroup::kHaptic, i).time)) return "time of tick " + std::to_string(i);
+    if (!sameBits(recording.time[i], RateTable(Rates{}).tick(RateGroup::kHaptic, i).time))
+      return "time of tick " + std::to_string(i);
     if (!same(recording.device[i], deviceAt(i))) return "device state of tick " + std::to_string(i);
     if (!same(recording.command[i], commandAt(i))) return "force command of tick " + std::to_string(i);
   }

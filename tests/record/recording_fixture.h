@@ -13,7 +13,7 @@ namespace presa::record {
 
 /// A number whose every bit depends on tick and place: any pattern, NaN and infinity included.
 inline std::uint64_t bitsAt(std::uint64_t tick, std::uint64_t place) {
-  std::uint64_t z = (tick * 1000003 + place + 1) * 0x9E3779B97F4A7C15ull;   // splitmix64
+  std::uint64_t z = (tick * 1000003 + place + 1) * 0x9E3779B97F4A7C15ull;  // splitmix64
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
   return z ^ (z >> 31);

@@ -45,7 +45,9 @@ class RecordingTables : public testing::Test {
     run.step(20);
     run.recorder->finish();
   }
-  std::string dump(const std::string& options) const { return outputOf("h5dump " + options + " " + folder_.file("run.h5")); }
+  std::string dump(const std::string& options) const {
+    return outputOf("h5dump " + options + " " + folder_.file("run.h5"));
+  }
   const ScratchFolder folder_;
 };
 
@@ -58,7 +60,8 @@ TEST_F(RecordingTables, NameTheirColumnsAndUnits) {
   const std::string units = dump("-a /haptic/bodies/cube/units");
   for (const char* unit : {"\"s", "\"m", "\"m/s", "\"rad/s"}) EXPECT_NE(units.find(unit), std::string::npos) << unit;
   const std::string finger = dump("-H -d /haptic/fingers/index");
-  for (const char* column : {"H5T_IEEE_F64LE \"depth\"", "H5T_IEEE_F64LE \"f_command_W_z\"", "H5T_STD_I32LE \"mode\""}) {
+  for (const char* column :
+       {"H5T_IEEE_F64LE \"depth\"", "H5T_IEEE_F64LE \"f_command_W_z\"", "H5T_STD_I32LE \"mode\""}) {
     EXPECT_NE(finger.find(column), std::string::npos) << column;
   }
 }
@@ -71,7 +74,7 @@ TEST_F(RecordingTables, HoldThePoseAtTheTick) {
   const double* row = &numbers[7 * kColumns];
   // times of about 0.01 s subtract with 2e-18 of error, 5e-16 of the 4 ms span; 4 m of way and the slerp: 1e-14
   constexpr double kTolerance = 1e-14;
-  const double eighth = std::acos(-1.0) / 8;   // a quarter of 180 degrees, halved by the quaternion
+  const double eighth = std::acos(-1.0) / 8;  // a quarter of 180 degrees, halved by the quaternion
   EXPECT_EQ(row[0], 7);
   EXPECT_EQ(row[1], 0.007);
   EXPECT_NEAR(row[4], 8, kTolerance);

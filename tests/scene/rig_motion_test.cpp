@@ -115,10 +115,14 @@ TEST(MotionSchema, MistakesGiveOneMessage) {
     const char* to;
   };
   const Slip kSlips[] = {
-      {116, "damping=\"auto\"", "@damping=\"automatic\""}, {117, "damping=\"auto\"", "@damping=\"-1\""},
-      {117, "duration=\"0.8\"", "@duration=\"0\""},        {117, "grip=\"6\"", "@grip=\"-6\""},
-      {117, "width=\"0.07\"", "@width=\"0\""},             {117, "open=\"0.002\"", "@open=\"-1\""},
-      {118, "axis=\"1 0 0\"", "@axis=\"1 0\""},            {115, "<phase name=\"reach\" duration=\"0.8\"", "@<phase name=\"reach\""},
+      {116, "damping=\"auto\"", "@damping=\"automatic\""},
+      {117, "damping=\"auto\"", "@damping=\"-1\""},
+      {117, "duration=\"0.8\"", "@duration=\"0\""},
+      {117, "grip=\"6\"", "@grip=\"-6\""},
+      {117, "width=\"0.07\"", "@width=\"0\""},
+      {117, "open=\"0.002\"", "@open=\"-1\""},
+      {118, "axis=\"1 0 0\"", "@axis=\"1 0\""},
+      {115, "<phase name=\"reach\" duration=\"0.8\"", "@<phase name=\"reach\""},
       {111, "<grasp point", "@<grap point"},
   };
   for (const Slip& slip : kSlips) {

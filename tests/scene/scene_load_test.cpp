@@ -20,8 +20,10 @@ std::string shapeText(const Shape& shape) {
   if (const auto* mesh = std::get_if<MeshRef>(&shape)) text << "mesh " << mesh->file << " " << mesh->scale.transpose();
   if (const auto* box = std::get_if<Box>(&shape)) text << "box " << box->size.transpose();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) text << "sphere " << sphere->radius;
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) text << "cylinder " << cylinder->radius << " " << cylinder->length;
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) text << "capsule " << capsule->radius << " " << capsule->length;
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    text << "cylinder " << cylinder->radius << " " << cylinder->length;
+  if (const auto* capsule = std::get_if<Capsule>(&shape))
+    text << "capsule " << capsule->radius << " " << capsule->length;
   return text.str();
 }
 
@@ -36,8 +38,12 @@ std::string poseText(const Pose& pose) {
 std::string contentOf(const Scene& scene) {
   std::ostringstream text;
   text.precision(17);
-  text << scene.name << "\n" << scene.description << "\n" << scene.default_rig << "\n" << scene.gravity.transpose() << "\n";
-  text << scene.rates.haptic << " " << scene.rates.collision << " " << scene.rates.dynamics << " " << scene.rates.view << "\n";
+  text << scene.name << "\n"
+       << scene.description << "\n"
+       << scene.default_rig << "\n"
+       << scene.gravity.transpose() << "\n";
+  text << scene.rates.haptic << " " << scene.rates.collision << " " << scene.rates.dynamics << " " << scene.rates.view
+       << "\n";
   for (const Material& m : scene.materials) {
     text << m.name << " " << m.stiffness << " " << m.damping << " " << m.friction_static << " " << m.friction_dynamic
          << " " << m.color.transpose() << "\n";
@@ -164,7 +170,8 @@ TEST(SceneLoad, QuaternionIsNormalised) {
 }
 
 TEST(SceneLoad, ElementsStandInAnyOrder) {
-  const auto start = kScene.find("  <world"), middle = kScene.find("  <body name=\"table\""), end = kScene.find("</scene>");
+  const auto start = kScene.find("  <world"), middle = kScene.find("  <body name=\"table\""),
+             end = kScene.find("</scene>");
   const std::string turned = kScene.substr(0, start) + kScene.substr(middle, end - middle) +
                              kScene.substr(start, middle - start) + kScene.substr(end);
   EXPECT_EQ(contentOf(load(turned)), contentOf(load(kScene)));
@@ -199,7 +206,9 @@ TEST(ResolvedScene, OfTheExampleReadsBackAsTheSameScene) {
 }
 
 TEST(ResolvedScene, StatesEveryDefault) {
-  const std::string text = load(edited(kScene, "  <rates haptic=\"1000\" collision=\"100\" dynamics=\"200\" view=\"60\"/>\n", "")).resolved_xml;
+  const std::string text =
+      load(edited(kScene, "  <rates haptic=\"1000\" collision=\"100\" dynamics=\"200\" view=\"60\"/>\n", ""))
+          .resolved_xml;
   for (const char* part : {"<rates haptic=\"1000\" collision=\"100\" dynamics=\"200\" view=\"60\"/>", "fixed=\"false\"",
                            "fingertip_radius=\"0.008\"", "watchdog_ms=\"20\"", "color=\"0.7 0.7 0.7\"", "damping=\"0\"",
                            "/lab/meshes/cube.obj"}) {
@@ -214,11 +223,21 @@ std::string mutated(std::string text, std::mt19937_64& random) {
   for (std::size_t edits = 1 + below(3); edits > 0; --edits) {
     const std::size_t at = below(text.size()), length = 1 + below(30);
     switch (below(5)) {
-      case 0: text.erase(at, length); break;
-      case 1: text.insert(at, text.substr(below(text.size()), length)); break;
-      case 2: text[at] = kAlphabet[below(kAlphabet.size())]; break;
-      case 3: text.insert(at, 1, kAlphabet[below(kAlphabet.size())]); break;
-      default: text.resize(at); break;
+      case 0:
+        text.erase(at, length);
+        break;
+      case 1:
+        text.insert(at, text.substr(below(text.size()), length));
+        break;
+      case 2:
+        text[at] = kAlphabet[below(kAlphabet.size())];
+        break;
+      case 3:
+        text.insert(at, 1, kAlphabet[below(kAlphabet.size())]);
+        break;
+      default:
+        text.resize(at);
+        break;
     }
     if (text.empty()) break;
   }

@@ -39,11 +39,13 @@ int check(const Arguments& arguments) {
     }
     std::fputs(diagnostics.text().c_str(), stderr);
     if (diagnostics.hasErrors()) {
-      std::printf("%s: %zu error%s\n", scene.c_str(), diagnostics.errorCount(), diagnostics.errorCount() == 1 ? "" : "s");
+      std::printf("%s: %zu error%s\n", scene.c_str(), diagnostics.errorCount(),
+                  diagnostics.errorCount() == 1 ? "" : "s");
       continue;
     }
     std::size_t triangles = 0;
-    for (const BodyMeshes& meshes : loaded.world->meshes) triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
+    for (const BodyMeshes& meshes : loaded.world->meshes)
+      triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
     std::printf("%s: good (%zu bodies, %zu materials, %zu devices, %zu haptic triangles)\n", scene.c_str(),
                 loaded.world->scene.bodies.size(), loaded.world->scene.materials.size(),
                 loaded.world->scene.devices.size(), triangles);
@@ -56,7 +58,8 @@ int check(const Arguments& arguments) {
 
 void addCheck(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("check", "Read scenes with their rigs and meshes, and report everything that is wrong");
+  CLI::App* command =
+      app.add_subcommand("check", "Read scenes with their rigs and meshes, and report everything that is wrong");
   command->add_option("SCENE", arguments->scenes, "scene files")->required();
   command->add_option("--rig", arguments->rig, "rig file instead of the scene's own");
   command->add_option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");

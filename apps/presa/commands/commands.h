@@ -6,9 +6,9 @@ namespace presa {
 /// Exit statuses of the program.
 enum ExitStatus : int {
   kExitOk = 0,
-  kExitFault = 1,         ///< the run ended with a fault, or a verification failed
-  kExitBadInput = 2,      ///< nothing was run and nothing written
-  kExitInterrupted = 130, ///< Ctrl-C
+  kExitFault = 1,          ///< the run ended with a fault, or a verification failed
+  kExitBadInput = 2,       ///< nothing was run and nothing written
+  kExitInterrupted = 130,  ///< Ctrl-C
 };
 
 /// Each adds one subcommand, which leaves its exit status in `status`.

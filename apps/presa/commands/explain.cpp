@@ -18,9 +18,12 @@ struct Arguments {
 
 const char* describe(WhenOld when_old) {
   switch (when_old) {
-    case WhenOld::kHold: return "hold";
-    case WhenOld::kExtrapolate: return "extrapolate";
-    case WhenOld::kFadeToZero: return "fade to zero";
+    case WhenOld::kHold:
+      return "hold";
+    case WhenOld::kExtrapolate:
+      return "extrapolate";
+    case WhenOld::kFadeToZero:
+      return "fade to zero";
   }
   return "?";
 }
@@ -31,7 +34,8 @@ std::set<std::string> mappedLibraries() {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     const std::size_t slash = line.rfind('/');
-    if (slash != std::string::npos && line.find(".so", slash) != std::string::npos) libraries.insert(line.substr(slash + 1));
+    if (slash != std::string::npos && line.find(".so", slash) != std::string::npos)
+      libraries.insert(line.substr(slash + 1));
   }
   return libraries;
 }
@@ -48,16 +52,20 @@ nlohmann::json describeRun(const Loaded& loaded, Session& session) {
   const RateTable rates(loaded.world->scene.rates);
   nlohmann::json out;
   out["scene"] = loaded.world->scene.name;
-  for (const char* key : {"modules", "threads", "connections", "stages", "devices", "left_out"}) out[key] = nlohmann::json::array();
+  for (const char* key : {"modules", "threads", "connections", "stages", "devices", "left_out"})
+    out[key] = nlohmann::json::array();
   for (int g = 0; g < kRateGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);
     if (!session.graph().runs(group)) {
-      out["left_out"].push_back({{"what", std::string(toString(group)) + " thread"}, {"why", "no module runs at its rate"}});
+      out["left_out"].push_back(
+          {{"what", std::string(toString(group)) + " thread"}, {"why", "no module runs at its rate"}});
       continue;
     }
-    out["threads"].push_back({{"name", toString(group)}, {"rate_hz", rates.rate(group)}, {"period_s", rates.period(group)}});
+    out["threads"].push_back(
+        {{"name", toString(group)}, {"rate_hz", rates.rate(group)}, {"period_s", rates.period(group)}});
     for (const Module* module : session.graph().modules(group)) {
-      out["modules"].push_back({{"name", module->name()}, {"group", toString(group)}, {"reason", reasonOf(loaded.plan, module->name())}});
+      out["modules"].push_back(
+          {{"name", module->name()}, {"group", toString(group)}, {"reason", reasonOf(loaded.plan, module->name())}});
       for (const std::string& stage : module->stages()) {
         out["stages"].push_back({{"group", toString(group)}, {"module", module->name()}, {"stage", stage}});
       }
@@ -74,8 +82,10 @@ nlohmann::json describeRun(const Loaded& loaded, Session& session) {
     }
     out["connections"].push_back(c);
   }
-  for (const PlannedDevice& device : loaded.plan.devices) out["devices"].push_back({{"role", device.role}, {"driver", device.driver}});
-  for (const LeftOut& left_out : loaded.plan.left_out) out["left_out"].push_back({{"what", left_out.what}, {"why", left_out.why}});
+  for (const PlannedDevice& device : loaded.plan.devices)
+    out["devices"].push_back({{"role", device.role}, {"driver", device.driver}});
+  for (const LeftOut& left_out : loaded.plan.left_out)
+    out["left_out"].push_back({{"what", left_out.what}, {"why", left_out.why}});
   out["libraries"] = mappedLibraries();
   return out;
 }
@@ -101,11 +111,13 @@ void printText(const nlohmann::json& run) {
   for (const auto& c : run["connections"]) {
     if (!c["across_rates"].get<bool>()) continue;
     std::printf("  %-16s %s -> %s", text(c["value"]).c_str(), text(c["from"]).c_str(), text(c["to"]).c_str());
-    if (c.contains("when_old")) std::printf("  (older than %.0f ms: %s)", c["old_after_s"].get<double>() * 1e3, text(c["when_old"]).c_str());
+    if (c.contains("when_old"))
+      std::printf("  (older than %.0f ms: %s)", c["old_after_s"].get<double>() * 1e3, text(c["when_old"]).c_str());
     std::printf("\n");
   }
   std::printf("\nleft out\n");
-  for (const auto& left_out : run["left_out"]) std::printf("  %-16s %s\n", text(left_out["what"]).c_str(), text(left_out["why"]).c_str());
+  for (const auto& left_out : run["left_out"])
+    std::printf("  %-16s %s\n", text(left_out["what"]).c_str(), text(left_out["why"]).c_str());
   std::printf("\nlibraries mapped (%zu)\n ", run["libraries"].size());
   std::size_t column = 1;
   for (const auto& library : run["libraries"]) {
@@ -132,8 +144,9 @@ void printDot(const nlohmann::json& run) {
     std::printf(" }\n");
   }
   for (const auto& c : run["connections"]) {
-    std::printf("  %s -> %s [label=\"%s\"%s];\n", c["from"].get<std::string>().c_str(), c["to"].get<std::string>().c_str(),
-                c["value"].get<std::string>().c_str(), c["across_rates"].get<bool>() ? ", style=dashed" : "");
+    std::printf("  %s -> %s [label=\"%s\"%s];\n", c["from"].get<std::string>().c_str(),
+                c["to"].get<std::string>().c_str(), c["value"].get<std::string>().c_str(),
+                c["across_rates"].get<bool>() ? ", style=dashed" : "");
   }
   std::printf("}\n");
 }
@@ -166,7 +179,8 @@ void addExplain(CLI::App& app, int& status) {
   command->add_option("SCENE", arguments->inputs.scene, "scene file")->required();
   command->add_option("--rig", arguments->inputs.rig, "rig file instead of the scene's own");
   command->add_option("--set", arguments->inputs.sets, "PATH=VALUE; may be repeated");
-  command->add_option("--format", arguments->format, "text, json or dot (for graphviz)")->check(CLI::IsMember({"text", "json", "dot"}));
+  command->add_option("--format", arguments->format, "text, json or dot (for graphviz)")
+      ->check(CLI::IsMember({"text", "json", "dot"}));
   command->footer("Example:  presa explain config/scenes/cube.xml --format dot | dot -Tsvg > cube.svg");
   command->callback([arguments, &status] { status = explain(*arguments); });
 }

@@ -22,14 +22,16 @@ int runReplay(const Arguments& arguments) {
               static_cast<unsigned long long>(recording.seed), recording.realtime ? "real time" : "lockstep",
               recording.dropped > 0 ? ", INCOMPLETE" : "");
   if (recording.dropped > 0) {
-    std::fprintf(stderr, "%s: error[E610]: %llu rows were dropped while recording, so the run cannot be repeated exactly\n",
+    std::fprintf(stderr,
+                 "%s: error[E610]: %llu rows were dropped while recording, so the run cannot be repeated exactly\n",
                  arguments.file.c_str(), static_cast<unsigned long long>(recording.dropped));
     return kExitFault;
   }
   Diagnostics diagnostics;
   RunOptions options;
   options.seed = recording.seed;
-  const Loaded loaded = loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+  const Loaded loaded =
+      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 

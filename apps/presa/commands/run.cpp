@@ -18,7 +18,7 @@ struct Arguments {
   Inputs inputs;
   RunOptions options;
   bool lockstep = false, realtime = false, quiet = false;
-  std::string view;             ///< empty: choose
+  std::string view;  ///< empty: choose
   std::string summary, report;
 };
 
@@ -33,15 +33,18 @@ RunOptions::View chooseView(const Arguments& arguments) {
 }
 
 void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
-  for (const std::string& file : {arguments.options.record, arguments.options.screenshot, arguments.summary, arguments.report}) {
+  for (const std::string& file :
+       {arguments.options.record, arguments.options.screenshot, arguments.summary, arguments.report}) {
     if (file.empty()) continue;
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder, error);
-    if (error) diagnostics.error(120, {file, 0, 0}, "cannot make the folder " + folder.string() + ": " + error.message());
+    if (error)
+      diagnostics.error(120, {file, 0, 0}, "cannot make the folder " + folder.string() + ": " + error.message());
   }
   if (arguments.view == "none" && !arguments.options.screenshot.empty()) {
-    diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none", "use --view offscreen");
+    diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none",
+                      "use --view offscreen");
   }
 }
 
@@ -69,9 +72,7 @@ int run(Arguments arguments) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  Run session(loaded, {.trace_rate = 250,
-                       .quiet = arguments.quiet,
-                       .command = commandLine(arguments)});
+  Run session(loaded, {.trace_rate = 250, .quiet = arguments.quiet, .command = commandLine(arguments)});
   session.execute();
   const RunResult& result = session.result();
   if (!arguments.summary.empty()) writeSummary(result, arguments.summary);
@@ -88,26 +89,33 @@ void addRun(CLI::App& app, int& status) {
   a->options.duration = 0;
   CLI::App* command = app.add_subcommand("run", "Run a scene, live or as fast as the machine goes");
   command->add_option("SCENE", a->inputs.scene, "scene file, e.g. config/scenes/cube.xml")->required();
-  command->add_option("--rig", a->inputs.rig, "which devices play the scene's roles (default: the rig the scene names)");
+  command->add_option("--rig", a->inputs.rig,
+                      "which devices play the scene's roles (default: the rig the scene names)");
   auto* lockstep = command->add_flag("--lockstep", a->lockstep, "virtual time on one thread: deterministic to the bit");
   command->add_flag("--realtime", a->realtime, "one thread per rate, against the clock (default)")->excludes(lockstep);
-  command->add_option("--for", a->options.duration, "simulated seconds (default: to the end of the scripted motion, else 10)")
+  command
+      ->add_option("--for", a->options.duration,
+                   "simulated seconds (default: to the end of the scripted motion, else 10)")
       ->check(CLI::PositiveNumber);
   command->add_option("--seed", a->options.seed, "seed of every random stream");
-  command->add_option("--set", a->inputs.sets, "PATH=VALUE: change any value of the scene, e.g. body/cube/physics/mass=0.1,\n"
-                                               "material/rubber/stiffness=2000, rates/dynamics=400; may be repeated")
+  command
+      ->add_option("--set", a->inputs.sets,
+                   "PATH=VALUE: change any value of the scene, e.g. body/cube/physics/mass=0.1,\n"
+                   "material/rubber/stiffness=2000, rates/dynamics=400; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--record", a->options.record, "record the run at haptic rate (HDF5)");
   command->add_flag("--overwrite", a->options.overwrite, "let --record replace an existing file");
   command->add_option("--view", a->view, "window, offscreen or none (default: window when there is a display)")
       ->check(CLI::IsMember({"window", "offscreen", "none"}));
-  command->add_option("--screenshot", a->options.screenshot, "PNG of the scene, at the middle of the hold when there is one");
+  command->add_option("--screenshot", a->options.screenshot,
+                      "PNG of the scene, at the middle of the hold when there is one");
   command->add_option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]");
   command->add_option("--summary", a->summary, "results as JSON");
   command->add_option("--report", a->report, "results as one HTML page with plots");
   command->add_flag("--quiet", a->quiet, "no status line and no closing text");
-  command->footer("Exit status: 0 no fault, 1 fault while running, 2 bad input (nothing written), 130 Ctrl-C.\n"
-                  "Example:  presa run config/scenes/cube.xml --lockstep --set body/cube/physics/mass=0.5 --report out.html");
+  command->footer(
+      "Exit status: 0 no fault, 1 fault while running, 2 bad input (nothing written), 130 Ctrl-C.\n"
+      "Example:  presa run config/scenes/cube.xml --lockstep --set body/cube/physics/mass=0.5 --report out.html");
   command->callback([a, &status] { status = run(*a); });
 }
 

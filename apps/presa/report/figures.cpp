@@ -10,7 +10,9 @@ namespace {
 /// The object whose height is drawn: the one that was grasped, else the first that the trace follows.
 const RunResult::Object* drawnObject(const RunResult& result, const std::optional<GraspFigures>& grasp) {
   if (grasp) return &result.objects[grasp->object];
-  const auto rank = [](const RunResult::Object& object) { return object.trace_slot < 0 ? 2 : object.summary.grasped ? 0 : 1; };
+  const auto rank = [](const RunResult::Object& object) {
+    return object.trace_slot < 0 ? 2 : object.summary.grasped ? 0 : 1;
+  };
   const auto best = std::min_element(result.objects.begin(), result.objects.end(),
                                      [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   return best == result.objects.end() || best->trace_slot < 0 ? nullptr : &*best;
@@ -39,7 +41,8 @@ std::string shortNumber(double value, const char* pattern = "%.3f") {
 
 }  // namespace
 
-svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFigures>& grasp, std::size_t contact_point) {
+svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFigures>& grasp,
+                           std::size_t contact_point) {
   const std::vector<TraceSample>& trace = *result.trace;
   const auto finger = [&](const TraceSample& sample) -> const FingerContact& { return sample.fingers[contact_point]; };
   svg::TimeFigure figure;
@@ -52,7 +55,8 @@ svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFig
   height.series.push_back({"proxy", "proxy", column(trace, [&](const auto& s) { return finger(s).p_WP.z(); })});
   if (const RunResult::Object* object = drawnObject(result, grasp)) {
     const auto slot = static_cast<std::size_t>(object->trace_slot);
-    height.series.push_back({object->name, "object", column(trace, [&](const auto& s) { return s.bodies[slot].p.z(); })});
+    height.series.push_back(
+        {object->name, "object", column(trace, [&](const auto& s) { return s.bodies[slot].p.z(); })});
   }
 
   svg::Panel force{.title = "Grip force", .unit = "N", .height = 150, .from_zero = true};
@@ -89,11 +93,12 @@ svg::ScatterFigure frictionFigure(const RunResult& result, const std::optional<G
   if (object) {
     figure.rays.push_back({"slip line, static friction " + shortNumber(object->friction_static, "%.3g"), "static",
                            object->friction_static});
-    figure.rays.push_back({"dynamic friction " + shortNumber(object->friction_dynamic, "%.3g"), "dynamic",
-                           object->friction_dynamic});
+    figure.rays.push_back(
+        {"dynamic friction " + shortNumber(object->friction_dynamic, "%.3g"), "dynamic", object->friction_dynamic});
   }
   if (const FingerGrasp* finger = graspOf(grasp, contact_point); finger && finger->slip) {
-    figure.marks.push_back({"last stick before the slip at " + shortNumber(finger->slip->time) + " s", "onset",
+    figure.marks.push_back({"last stick before the slip at " + shortNumber(finger->slip->time) + " s",
+                            "onset",
                             {finger->slip->last_stick_normal_force, finger->slip->last_stick_tangential_force}});
   }
   return figure;

@@ -10,7 +10,8 @@ namespace presa {
 
 /// Height of finger and object, grip force and contact state of one contact point over time, as figure 12 of the
 /// PERCRO paper shows them. Needs a trace.
-svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFigures>& grasp, std::size_t contact_point);
+svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFigures>& grasp,
+                           std::size_t contact_point);
 
 /// Tangential over normal force of one contact point, with the lines at which friction gives way. Needs a trace.
 svg::ScatterFigure frictionFigure(const RunResult& result, const std::optional<GraspFigures>& grasp,

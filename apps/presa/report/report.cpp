@@ -40,8 +40,10 @@ std::string verdictBlock(const RunResult& result) {
 std::string graspSection(const RunResult& result, const std::optional<GraspFigures>& grasp) {
   if (!grasp) return {};
   return html::graspTiles(*grasp) + "<h2>Grasp</h2>\n" + html::graspTable(result, *grasp) +
-         "<p class=\"caption\">Offset range: diagonal of the box the proxy kept to in the object's own coordinates while it was held. "
-         "Share of weight: mean upward force over m g / n. Ripple: peak to peak over mean of the normal force in the last 2 s of "
+         "<p class=\"caption\">Offset range: diagonal of the box the proxy kept to in the object's own coordinates "
+         "while it was held. "
+         "Share of weight: mean upward force over m g / n. Ripple: peak to peak over mean of the normal force in the "
+         "last 2 s of "
          "the hold. The slip limit holds for n equal fingers on upright faces.</p>\n";
 }
 
@@ -51,25 +53,31 @@ std::string pathSection(const RunResult& result, const std::optional<GraspFigure
   for (std::size_t f = 0; f < result.contact_points.size(); ++f) {
     out += "<h3>" + escape(result.contact_points[f].name) + "</h3>\n" + svg::render(pathFigure(result, grasp, f));
   }
-  return out + "<p class=\"caption\">Height is along z. While the object is held, finger and object keep a constant difference; once it "
-               "slips they part. States: 0 no contact, 1 stick, 2 slip.</p>\n";
+  return out +
+         "<p class=\"caption\">Height is along z. While the object is held, finger and object keep a constant "
+         "difference; once it "
+         "slips they part. States: 0 no contact, 1 stick, 2 slip.</p>\n";
 }
 
 std::string frictionSection(const RunResult& result, const std::optional<GraspFigures>& grasp) {
   if (!result.trace) return {};
   std::string out = "<h2>Friction</h2>\n<div class=\"pair\">\n";
   for (std::size_t f = 0; f < result.contact_points.size(); ++f) {
-    out += "<div><h3>" + escape(result.contact_points[f].name) + "</h3>\n" + svg::render(frictionFigure(result, grasp, f)) + "</div>\n";
+    out += "<div><h3>" + escape(result.contact_points[f].name) + "</h3>\n" +
+           svg::render(frictionFigure(result, grasp, f)) + "</div>\n";
   }
-  return out + "</div>\n<p class=\"caption\">A contact sticks below the slip line and slides along the dynamic one.</p>\n";
+  return out +
+         "</div>\n<p class=\"caption\">A contact sticks below the slip line and slides along the dynamic one.</p>\n";
 }
 
 std::string screenshotSection(const RunResult& result) {
   if (result.screenshot.empty()) return {};
   std::ifstream file(result.screenshot, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (bytes.empty()) return "<p class=\"fault\">The screenshot " + escape(result.screenshot) + " could not be read.</p>\n";
-  return "<h2>Picture</h2>\n<img alt=\"The scene during the run\" src=\"data:image/png;base64," + base64(bytes) + "\">\n";
+  if (bytes.empty())
+    return "<p class=\"fault\">The screenshot " + escape(result.screenshot) + " could not be read.</p>\n";
+  return "<h2>Picture</h2>\n<img alt=\"The scene during the run\" src=\"data:image/png;base64," + base64(bytes) +
+         "\">\n";
 }
 
 }  // namespace
@@ -79,7 +87,8 @@ std::string reportHtml(const RunResult& result) {
   const std::optional<GraspFigures> grasp = graspFigures(result);
   std::string out = head(scene.name + " – Presa");
   out += "<h1>" + escape(scene.name) + "</h1>\n<p class=\"lead\">" + escape(scene.description) + "</p>\n";
-  out += verdictBlock(result) + graspSection(result, grasp) + pathSection(result, grasp) + frictionSection(result, grasp);
+  out +=
+      verdictBlock(result) + graspSection(result, grasp) + pathSection(result, grasp) + frictionSection(result, grasp);
   out += "<h2>Contact points</h2>\n" + html::contactTable(result);
   out += "<h2>Objects</h2>\n" + html::objectTable(result);
   out += "<h2>Rates</h2>\n" + html::rateTable(result);

@@ -28,9 +28,7 @@ std::string tickText(double value, double step) {
 
 std::vector<Point> decimate(const std::vector<Point>& line, double x_low, double x_high, int columns) {
   if (columns < 1 || !(x_high > x_low) || line.size() <= 4 * static_cast<std::size_t>(columns)) return line;
-  const auto columnOf = [&](const Point& point) {
-    return std::floor((point.x - x_low) / (x_high - x_low) * columns);
-  };
+  const auto columnOf = [&](const Point& point) { return std::floor((point.x - x_low) / (x_high - x_low) * columns); };
   std::vector<Point> kept;
   for (std::size_t begin = 0, end = 0; begin < line.size(); begin = end) {
     const double column = columnOf(line[begin]);
@@ -54,12 +52,23 @@ std::string escape(const std::string& text) {
   escaped.reserve(text.size());
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '"': escaped += "&quot;"; break;
-      case '\'': escaped += "&#39;"; break;
-      default: escaped += c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;

@@ -27,24 +27,24 @@ struct Level {
 struct Series {
   std::string label;
   std::string css_class;
-  std::vector<double> y;          ///< as TimeFigure::time; NaN interrupts the line
-  bool step = false;              ///< keeps its value until the next sample
+  std::vector<double> y;  ///< as TimeFigure::time; NaN interrupts the line
+  bool step = false;      ///< keeps its value until the next sample
 };
 
 /// One plot of a stack that shares the time axis.
 struct Panel {
-  std::string title;              ///< "Height"
-  std::string unit{};             ///< "m"; may be empty
-  double height = 160;            ///< of the plotting area [px]
-  bool from_zero = false;         ///< the y axis includes 0
+  std::string title;                 ///< "Height"
+  std::string unit{};                ///< "m"; may be empty
+  double height = 160;               ///< of the plotting area [px]
+  bool from_zero = false;            ///< the y axis includes 0
   std::vector<std::string> names{};  ///< not empty: y counts these names from 0
   std::vector<Series> series{};
   std::vector<Level> levels{};
 };
 
 struct TimeFigure {
-  std::string title;              ///< for those who cannot see it
-  std::vector<double> time;       ///< ascending [s]
+  std::string title;         ///< for those who cannot see it
+  std::vector<double> time;  ///< ascending [s]
   std::vector<Band> bands;
   std::vector<Panel> panels;
 };
@@ -67,7 +67,7 @@ struct Mark {
 };
 struct ScatterFigure {
   std::string title;
-  std::string x_label, y_label;   ///< with unit
+  std::string x_label, y_label;  ///< with unit
   std::vector<Cloud> clouds;
   std::vector<Ray> rays;
   std::vector<Mark> marks;

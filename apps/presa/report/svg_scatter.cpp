@@ -8,8 +8,8 @@
 namespace presa::svg {
 namespace {
 
-constexpr double kWidth = 520, kHeight = 400;                              // [px]
-constexpr double kLeft = 56, kRight = 506, kTop = 14, kBottom = 350;       // plotting area
+constexpr double kWidth = 520, kHeight = 400;                         // [px]
+constexpr double kLeft = 56, kRight = 506, kTop = 14, kBottom = 350;  // plotting area
 
 /// Dots as zero-length strokes, each pixel position once: thousands of samples stay a small file.
 std::string dots(const Cloud& cloud, const Scale& x, const Scale& y) {
@@ -61,12 +61,14 @@ std::string legend(const ScatterFigure& figure) {
     y += 18;
   };
   const double at = kLeft + 20;
-  for (const Ray& line : figure.rays) entry(lineFromTo(at - 9, y - 4, at + 9, y - 4, "ray " + line.css_class), line.label);
+  for (const Ray& line : figure.rays)
+    entry(lineFromTo(at - 9, y - 4, at + 9, y - 4, "ray " + line.css_class), line.label);
   for (const Cloud& cloud : figure.clouds) {
     entry("<path class=\"dots big " + cloud.css_class + "\" d=\"M" + px(at) + " " + px(y - 4) + "h0\"/>", cloud.label);
   }
   for (const Mark& m : figure.marks) {
-    entry("<circle class=\"mark " + m.css_class + "\" cx=\"" + px(at) + "\" cy=\"" + px(y - 4) + "\" r=\"5\"/>", m.label);
+    entry("<circle class=\"mark " + m.css_class + "\" cx=\"" + px(at) + "\" cy=\"" + px(y - 4) + "\" r=\"5\"/>",
+          m.label);
   }
   return out;
 }

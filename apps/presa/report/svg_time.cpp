@@ -8,10 +8,10 @@
 namespace presa::svg {
 namespace {
 
-constexpr double kWidth = 1080, kLeft = 70, kRight = 1064;   // [px]
-constexpr double kTop = 26, kBottom = 40, kGap = 44;         // above the first panel, below the last, between two
-constexpr double kCharacter = 6.6;                           // mean width of the labels' font
-constexpr std::size_t kReadouts = 1200;                      // points that the hover read-out knows
+constexpr double kWidth = 1080, kLeft = 70, kRight = 1064;  // [px]
+constexpr double kTop = 26, kBottom = 40, kGap = 44;        // above the first panel, below the last, between two
+constexpr double kCharacter = 6.6;                          // mean width of the labels' font
+constexpr std::size_t kReadouts = 1200;                     // points that the hover read-out knows
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -26,7 +26,8 @@ struct Range {
 Range yRange(const Panel& panel) {
   if (!panel.names.empty()) return {-0.25, static_cast<double>(panel.names.size()) - 0.75};
   Range range;
-  for (const Series& series : panel.series) std::for_each(series.y.begin(), series.y.end(), [&](double y) { range.add(y); });
+  for (const Series& series : panel.series)
+    std::for_each(series.y.begin(), series.y.end(), [&](double y) { range.add(y); });
   for (const Level& level : panel.levels) range.add(level.value);
   if (panel.from_zero) range.add(0);
   if (!(range.low <= range.high)) return {0, 1};
@@ -75,7 +76,8 @@ std::string yAxis(const Panel& panel, const Range& range, const Scale& y) {
 }
 
 std::string legend(const Panel& panel, double y) {
-  std::string out = textAt(kLeft, y, "panel-title", escape(panel.title + (panel.unit.empty() ? "" : " [" + panel.unit + "]")));
+  std::string out =
+      textAt(kLeft, y, "panel-title", escape(panel.title + (panel.unit.empty() ? "" : " [" + panel.unit + "]")));
   double right = kRight;
   for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series) {
     right -= static_cast<double>(series->label.size()) * kCharacter;
@@ -153,7 +155,9 @@ std::string jsonText(const std::string& text) {
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
     // "</script>" must not appear inside the data block
-    out += c == '<' ? std::string("\\u003c") : static_cast<unsigned char>(c) < 0x20 ? std::string(" ") : std::string(1, c);
+    out += c == '<'                               ? std::string("\\u003c")
+           : static_cast<unsigned char>(c) < 0x20 ? std::string(" ")
+                                                  : std::string(1, c);
   }
   return out + "\"";
 }
@@ -181,8 +185,8 @@ std::string readoutData(const TimeFigure& figure, const Scale& x) {
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
       out += first ? "{\"label\":" : ",{\"label\":";
-      out += jsonText(series.label) + ",\"unit\":" + jsonText(panel.unit) +
-             ",\"cls\":" + jsonText(series.css_class) + ",\"y\":" + values(series.y) + ",\"names\":[";
+      out += jsonText(series.label) + ",\"unit\":" + jsonText(panel.unit) + ",\"cls\":" + jsonText(series.css_class) +
+             ",\"y\":" + values(series.y) + ",\"names\":[";
       for (std::size_t i = 0; i < panel.names.size(); ++i) {
         if (i > 0) out += ',';
         out += jsonText(panel.names[i]);
@@ -212,8 +216,8 @@ std::string render(const TimeFigure& figure) {
   double bottom = first_top - kGap;
   for (const Panel& panel : figure.panels) bottom += kGap + panel.height;
   const std::string height = px(bottom + kBottom);
-  std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + height + "\" role=\"img\" aria-label=\"" +
-                    escape(figure.title) + "\">\n";
+  std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + height +
+                    "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n";
   double top = first_top;
   std::string panels;
   for (const Panel& panel : figure.panels) {

@@ -29,22 +29,22 @@ std::string row(const std::vector<std::string>& cells, const std::string& tag = 
 }
 
 std::string table(const std::vector<std::string>& head, const std::string& rows) {
-  return "<div class=\"scroll\"><table><thead>" + row(head, "th") + "</thead><tbody>\n" + rows + "</tbody></table></div>\n";
+  return "<div class=\"scroll\"><table><thead>" + row(head, "th") + "</thead><tbody>\n" + rows +
+         "</tbody></table></div>\n";
 }
 
 std::string tile(const std::string& label, const std::string& value) {
   return "<div class=\"tile\"><span>" + label + "</span><strong>" + value + "</strong></div>\n";
 }
 
-std::string position(const Vec3& p) {
-  return fixed(p.x(), 4) + ", " + fixed(p.y(), 4) + ", " + fixed(p.z(), 4);
-}
+std::string position(const Vec3& p) { return fixed(p.x(), 4) + ", " + fixed(p.y(), 4) + ", " + fixed(p.z(), 4); }
 
 /// p50, p99, p99.9 and largest, in microseconds.
 std::vector<std::string> percentiles(const DurationHistogram& histogram) {
   if (histogram.count() == 0) return std::vector<std::string>(4, "–");
   const auto us = [](std::int64_t ns) { return fixed(static_cast<double>(ns) / 1000, 1); };
-  return {us(histogram.percentile(0.5)), us(histogram.percentile(0.99)), us(histogram.percentile(0.999)), us(histogram.max())};
+  return {us(histogram.percentile(0.5)), us(histogram.percentile(0.99)), us(histogram.percentile(0.999)),
+          us(histogram.max())};
 }
 
 }  // namespace
@@ -69,13 +69,13 @@ std::string graspTable(const RunResult& result, const GraspFigures& grasp) {
   for (const FingerGrasp& finger : grasp.fingers) {
     const auto& slip = finger.slip;
     rows += row({escape(result.contact_points[finger.contact_point].name), fixed(finger.stick_fraction * 100, 1),
-                 fixed(finger.offset_range * 1000, 4), fixed(finger.mean_normal_force, 3), fixed(finger.weight_share * 100, 1),
-                 finger.grip_ripple ? fixed(*finger.grip_ripple * 100, 3) : "–", slip ? fixed(slip->time, 3) : "–",
-                 slip ? fixed(slip->normal_force, 4) : "–",
+                 fixed(finger.offset_range * 1000, 4), fixed(finger.mean_normal_force, 3),
+                 fixed(finger.weight_share * 100, 1), finger.grip_ripple ? fixed(*finger.grip_ripple * 100, 3) : "–",
+                 slip ? fixed(slip->time, 3) : "–", slip ? fixed(slip->normal_force, 4) : "–",
                  slip && grasp.slip_limit > 0 ? fixed((slip->normal_force / grasp.slip_limit - 1) * 100, 1) : "–"});
   }
-  return table({"contact point", "in stick [%]", "offset range [mm]", "mean grip [N]", "share of weight [%]", "ripple [%]",
-                "slip at [s]", "grip at slip [N]", "against limit [%]"},
+  return table({"contact point", "in stick [%]", "offset range [mm]", "mean grip [N]", "share of weight [%]",
+                "ripple [%]", "slip at [s]", "grip at slip [N]", "against limit [%]"},
                rows);
 }
 
@@ -84,9 +84,11 @@ std::string contactTable(const RunResult& result) {
   for (const RunResult::ContactPoint& point : result.contact_points) {
     const FingerSummary& sum = point.summary;
     rows += row({escape(point.name), fixed(sum.seconds[0], 3), fixed(sum.seconds[1], 3), fixed(sum.seconds[2], 3),
-                 fixed(sum.mean_normal_force, 3), fixed(sum.max_normal_force, 3), count(sum.slip_onsets), count(sum.pop_through)});
+                 fixed(sum.mean_normal_force, 3), fixed(sum.max_normal_force, 3), count(sum.slip_onsets),
+                 count(sum.pop_through)});
   }
-  return table({"contact point", "none [s]", "stick [s]", "slip [s]", "mean normal [N]", "max normal [N]", "slip onsets", "pop-through"},
+  return table({"contact point", "none [s]", "stick [s]", "slip [s]", "mean normal [N]", "max normal [N]",
+                "slip onsets", "pop-through"},
                rows);
 }
 
@@ -96,10 +98,12 @@ std::string objectTable(const RunResult& result) {
   for (const RunResult::Object& object : result.objects) {
     const ObjectSummary& sum = object.summary;
     const std::string lost = sum.lost_at < 0 ? "–" : fixed(sum.lost_at, 3);
-    rows += row({escape(object.name), fixed(object.mass, 4), position(sum.start), position(sum.highest), position(sum.final),
-                 fixed(sum.peak_speed, 3), sum.grasped ? "yes" : "no", lost, sum.dropped ? "yes" : "no"});
+    rows += row({escape(object.name), fixed(object.mass, 4), position(sum.start), position(sum.highest),
+                 position(sum.final), fixed(sum.peak_speed, 3), sum.grasped ? "yes" : "no", lost,
+                 sum.dropped ? "yes" : "no"});
   }
-  return table({"object", "mass [kg]", "start [m]", "highest [m]", "final [m]", "peak speed [m/s]", "grasped", "lost at [s]", "dropped"},
+  return table({"object", "mass [kg]", "start [m]", "highest [m]", "final [m]", "peak speed [m/s]", "grasped",
+                "lost at [s]", "dropped"},
                rows);
 }
 
@@ -108,9 +112,10 @@ std::string rateTable(const RunResult& result) {
   for (const RunResult::Rate& rate : result.rates) {
     const GroupTiming& timing = *rate.timing;
     const auto add = [&](const std::string& what, const DurationHistogram& histogram, bool first) {
-      std::vector<std::string> cells = first ? std::vector<std::string>{toString(rate.group), fixed(rate.rate_hz, 0), count(timing.ticks),
-                                                                        count(timing.missed), count(timing.skipped)}
-                                             : std::vector<std::string>(5);
+      std::vector<std::string> cells =
+          first ? std::vector<std::string>{toString(rate.group), fixed(rate.rate_hz, 0), count(timing.ticks),
+                                           count(timing.missed), count(timing.skipped)}
+                : std::vector<std::string>(5);
       cells.push_back(what);
       for (const std::string& cell : percentiles(histogram)) cells.push_back(cell);
       rows += row(cells);
@@ -120,11 +125,13 @@ std::string rateTable(const RunResult& result) {
     add("period", timing.period, false);
     add("lateness", timing.lateness, false);
   }
-  std::string out = table({"group", "rate [Hz]", "ticks", "late", "given up", "[µs]", "p50", "p99", "p99.9", "max"}, rows);
-  out += result.realtime
-             ? "<p class=\"caption\">Late: ticks that began more than one period after their deadline. Given up: ticks skipped after a "
-               "stall too long to catch up.</p>\n"
-             : "<p class=\"caption\">Lockstep runs in virtual time: there is no deadline, so period and lateness do not exist.</p>\n";
+  std::string out =
+      table({"group", "rate [Hz]", "ticks", "late", "given up", "[µs]", "p50", "p99", "p99.9", "max"}, rows);
+  out += result.realtime ? "<p class=\"caption\">Late: ticks that began more than one period after their deadline. "
+                           "Given up: ticks skipped after a "
+                           "stall too long to catch up.</p>\n"
+                         : "<p class=\"caption\">Lockstep runs in virtual time: there is no deadline, so period and "
+                           "lateness do not exist.</p>\n";
   for (const std::string& missing : result.realtime_missing) out += "<p class=\"fault\">" + escape(missing) + "</p>\n";
   return out;
 }
@@ -151,17 +158,20 @@ std::string provenance(const RunResult& result) {
   const auto named = [](const std::string& name, const std::string& file) {
     return escape(name) + (file.empty() ? "" : " <code>" + escape(file) + "</code>");
   };
-  std::string rows = row({"scene", named(world.scene.name, world.scene.file)}) + row({"rig", named(world.rig.name, world.rig.file)}) +
-                     row({"mode", result.realtime ? "real time" : "lockstep"}) + row({"seed", std::to_string(world.options.seed)}) +
-                     row({"simulated", fixed(result.simulated_seconds, 3) + " s in " + fixed(result.wall_seconds, 3) + " s of wall time"}) +
-                     row({"state hash", "<code>" + hashText(result.state_hash) + "</code>"}) +
-                     row({"Presa version", escape(result.version)});
+  std::string rows =
+      row({"scene", named(world.scene.name, world.scene.file)}) + row({"rig", named(world.rig.name, world.rig.file)}) +
+      row({"mode", result.realtime ? "real time" : "lockstep"}) + row({"seed", std::to_string(world.options.seed)}) +
+      row({"simulated",
+           fixed(result.simulated_seconds, 3) + " s in " + fixed(result.wall_seconds, 3) + " s of wall time"}) +
+      row({"state hash", "<code>" + hashText(result.state_hash) + "</code>"}) +
+      row({"Presa version", escape(result.version)});
   if (!result.recording.file.empty()) {
-    rows += row({"recording", "<code>" + escape(result.recording.file) + "</code>, " + count(result.recording.rows) + " rows, " +
-                                  count(result.recording.dropped) + " dropped"});
+    rows += row({"recording", "<code>" + escape(result.recording.file) + "</code>, " + count(result.recording.rows) +
+                                  " rows, " + count(result.recording.dropped) + " dropped"});
   }
   std::string out = "<div class=\"scroll\"><table class=\"facts\"><tbody>\n" + rows + "</tbody></table></div>\n";
-  if (!result.command.empty()) out += "<h3>Repeat this run</h3>\n<pre><code>" + escape(result.command) + "</code></pre>\n";
+  if (!result.command.empty())
+    out += "<h3>Repeat this run</h3>\n<pre><code>" + escape(result.command) + "</code></pre>\n";
   return out;
 }
 

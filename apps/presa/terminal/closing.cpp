@@ -16,15 +16,19 @@ using terminal::styled;
 
 Style styleOf(Verdict::Outcome outcome) {
   switch (outcome) {
-    case Verdict::Outcome::kGood: return Style::kGood;
-    case Verdict::Outcome::kBad: return Style::kBad;
-    case Verdict::Outcome::kNeutral: break;
+    case Verdict::Outcome::kGood:
+      return Style::kGood;
+    case Verdict::Outcome::kBad:
+      return Style::kBad;
+    case Verdict::Outcome::kNeutral:
+      break;
   }
   return Style::kStrong;
 }
 
 std::string contactTable(const RunResult& result) {
-  std::string out = format("  %-14s %9s %9s %9s %11s %11s\n", "contact point", "free s", "stick s", "slip s", "mean N", "max N");
+  std::string out =
+      format("  %-14s %9s %9s %9s %11s %11s\n", "contact point", "free s", "stick s", "slip s", "mean N", "max N");
   for (const RunResult::ContactPoint& point : result.contact_points) {
     const FingerSummary& sum = point.summary;
     out += format("  %-14s %9.3f %9.3f %9.3f %11.3f %11.3f\n", point.name.c_str(), sum.seconds[0], sum.seconds[1],
@@ -58,9 +62,10 @@ std::string closingText(const RunResult& result, const std::string& summary_file
   for (const std::string& detail : verdict.details) out += "  " + detail + "\n";
   out += contactTable(result) + rateTable(result);
   const double speed = result.wall_seconds > 0 ? result.simulated_seconds / result.wall_seconds : 0;
-  out += format("  %.3f s simulated in %.3f s (%.1fx), state hash %s\n", result.simulated_seconds, result.wall_seconds, speed,
-                hashText(result.state_hash).c_str());
-  for (const std::string& missing : result.realtime_missing) out += "  " + styled(missing, Style::kWarning, color) + "\n";
+  out += format("  %.3f s simulated in %.3f s (%.1fx), state hash %s\n", result.simulated_seconds, result.wall_seconds,
+                speed, hashText(result.state_hash).c_str());
+  for (const std::string& missing : result.realtime_missing)
+    out += "  " + styled(missing, Style::kWarning, color) + "\n";
   for (const RunResult::Fault& fault : result.faults) {
     out += "  " + styled(format("%.3f s: ", fault.time) + fault.text, Style::kBad, color) + "\n";
   }

@@ -13,8 +13,8 @@
 namespace presa {
 namespace {
 
-constexpr std::int64_t kRefresh = 100'000'000;        // [ns] on a terminal
-constexpr std::int64_t kPlainLine = 2'000'000'000;    // [ns] in a log
+constexpr std::int64_t kRefresh = 100'000'000;      // [ns] on a terminal
+constexpr std::int64_t kPlainLine = 2'000'000'000;  // [ns] in a log
 constexpr std::size_t kBarWidth = 20;
 
 using terminal::Line;
@@ -22,18 +22,24 @@ using terminal::Style;
 
 Style styleOf(ContactMode mode) {
   switch (mode) {
-    case ContactMode::kStick: return Style::kGood;
-    case ContactMode::kSlip: return Style::kWarning;
-    case ContactMode::kNone: break;
+    case ContactMode::kStick:
+      return Style::kGood;
+    case ContactMode::kSlip:
+      return Style::kWarning;
+    case ContactMode::kNone:
+      break;
   }
   return Style::kDim;
 }
 
 const char* nameOf(ContactMode mode) {
   switch (mode) {
-    case ContactMode::kStick: return "stick";
-    case ContactMode::kSlip: return "slip ";
-    case ContactMode::kNone: break;
+    case ContactMode::kStick:
+      return "stick";
+    case ContactMode::kSlip:
+      return "slip ";
+    case ContactMode::kNone:
+      break;
   }
   return "free ";
 }
@@ -57,7 +63,8 @@ void addTimeLeft(Line& line, const LiveStatus& status, double rate) {
   if (!hasEnd(status)) return;
   const double speed = status.realtime ? 1.0 : rate;
   if (!(speed > 0)) return;
-  line.add(terminal::format("%.0f s left", std::ceil(std::max(0.0, status.duration - status.time) / speed)), Style::kDim);
+  line.add(terminal::format("%.0f s left", std::ceil(std::max(0.0, status.duration - status.time) / speed)),
+           Style::kDim);
 }
 
 int terminalColumns() {
@@ -89,7 +96,8 @@ bool wantsColor(std::FILE* stream) {
   return ::isatty(::fileno(stream)) == 1 && (no_color == nullptr || *no_color == '\0');
 }
 
-StatusLine::StatusLine(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), color_(wantsColor(stderr)) {
+StatusLine::StatusLine(bool quiet)
+    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), color_(wantsColor(stderr)) {
   // a log line says how far a run has come; at its very start there is nothing to say
   next_ns_ = monotonicNs() + (terminal_ ? kRefresh : kPlainLine);
 }
@@ -116,7 +124,8 @@ void StatusLine::show(const LiveStatus& status) {
 
 double StatusLine::recentRate(const LiveStatus& status) {
   const double wall = status.wall_seconds - last_wall_;
-  const double done = status.realtime ? static_cast<double>(status.haptic_ticks - last_ticks_) : status.time - last_time_;
+  const double done =
+      status.realtime ? static_cast<double>(status.haptic_ticks - last_ticks_) : status.time - last_time_;
   last_wall_ = status.wall_seconds;
   last_time_ = status.time;
   last_ticks_ = status.haptic_ticks;

@@ -13,15 +13,15 @@ struct LiveStatus {
   struct Finger {
     std::string name;
     ContactMode mode = ContactMode::kNone;
-    double normal_force = 0;             ///< [N]
+    double normal_force = 0;  ///< [N]
   };
-  double time = 0;                       ///< simulated [s]
-  double duration = 0;                   ///< simulated [s]; not finite or 0: open end
+  double time = 0;      ///< simulated [s]
+  double duration = 0;  ///< simulated [s]; not finite or 0: open end
   bool realtime = false;
-  double wall_seconds = 0;               ///< since the start
-  std::uint64_t haptic_ticks = 0;        ///< since the start
+  double wall_seconds = 0;         ///< since the start
+  std::uint64_t haptic_ticks = 0;  ///< since the start
   std::uint64_t haptic_missed = 0;
-  std::string phase;                     ///< of a scripted motion, may be empty
+  std::string phase;  ///< of a scripted motion, may be empty
   std::vector<Finger> fingers;
 };
 

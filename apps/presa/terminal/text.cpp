@@ -9,12 +9,18 @@ namespace {
 
 const char* escapeOf(Style style) {
   switch (style) {
-    case Style::kPlain: return "";
-    case Style::kStrong: return "\033[1m";
-    case Style::kDim: return "\033[2m";
-    case Style::kGood: return "\033[32m";
-    case Style::kWarning: return "\033[33m";
-    case Style::kBad: return "\033[31m";
+    case Style::kPlain:
+      return "";
+    case Style::kStrong:
+      return "\033[1m";
+    case Style::kDim:
+      return "\033[2m";
+    case Style::kGood:
+      return "\033[32m";
+    case Style::kWarning:
+      return "\033[33m";
+    case Style::kBad:
+      return "\033[31m";
   }
   return "";
 }

@@ -79,7 +79,8 @@ void limit(int resource, std::size_t value) {
 [[noreturn]] void child(int descriptor, const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
   // what a crashing reader prints would only hide the finding that names the file
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
-  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
+  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM})
+    std::signal(number, SIG_DFL);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.seconds);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of shadow memory
@@ -127,7 +128,8 @@ RawMesh runIsolated(const IsolationLimits& limits, const std::function<void(RawM
   }
   if (!whole) {
     mesh = {};
-    mesh.problem = process > 0 ? causeOfDeath(status) : std::string("no process for the reader: ") + std::strerror(errno);
+    mesh.problem =
+        process > 0 ? causeOfDeath(status) : std::string("no process for the reader: ") + std::strerror(errno);
   }
   return mesh;
 }

@@ -7,8 +7,8 @@
 namespace presa {
 
 struct IsolationLimits {
-  std::size_t memory = 0;   ///< what the work may allocate [bytes]
-  unsigned seconds = 0;     ///< processor time [s]
+  std::size_t memory = 0;  ///< what the work may allocate [bytes]
+  unsigned seconds = 0;    ///< processor time [s]
 };
 
 /// Does `work` in a child process and brings its mesh back. Whatever happens to the child (exception, crash, memory or

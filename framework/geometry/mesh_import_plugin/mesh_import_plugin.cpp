@@ -37,9 +37,11 @@ extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* pre
   std::error_code unknown;
   const std::uintmax_t found = std::filesystem::file_size(file, unknown);
   const std::uintmax_t size = unknown ? 0 : found;
-  const presa::IsolationLimits limits{presa::kBaseMemory + presa::kMemoryPerByte * size,
-                                      presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
-  return new presa::OwnedMesh(presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, out); }));
+  const presa::IsolationLimits limits{
+      presa::kBaseMemory + presa::kMemoryPerByte * size,
+      presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
+  return new presa::OwnedMesh(
+      presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, out); }));
 }
 
 extern "C" __attribute__((visibility("default"))) void presaReleaseMesh(const presa::ImportedMesh* mesh) {

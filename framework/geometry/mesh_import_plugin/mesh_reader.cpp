@@ -57,7 +57,8 @@ bool sound(const aiScene& scene) {
 std::array<double, 3> place(const aiMatrix4x4& m, const aiVector3D& v) {
   const double x = v.x, y = v.y, z = v.z;
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return {x, y, z};
-  return {m.a1 * x + m.a2 * y + m.a3 * z + m.a4, m.b1 * x + m.b2 * y + m.b3 * z + m.b4, m.c1 * x + m.c2 * y + m.c3 * z + m.c4};
+  return {m.a1 * x + m.a2 * y + m.a3 * z + m.a4, m.b1 * x + m.b2 * y + m.b3 * z + m.b4,
+          m.c1 * x + m.c2 * y + m.c3 * z + m.c4};
 }
 
 /// Appends one instance of a mesh, placed by the accumulated transforms of its node.

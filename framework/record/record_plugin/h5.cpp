@@ -69,10 +69,14 @@ std::string trimmed(std::string text) {
 hid_t cellType(Cell cell, Side side) {
   const bool file = side == Side::kFile;
   switch (cell) {
-    case Cell::kU64: return file ? H5T_STD_U64LE : H5T_NATIVE_UINT64;
-    case Cell::kF64: return file ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE;
-    case Cell::kI32: return file ? H5T_STD_I32LE : H5T_NATIVE_INT32;
-    case Cell::kU32: return file ? H5T_STD_U32LE : H5T_NATIVE_UINT32;
+    case Cell::kU64:
+      return file ? H5T_STD_U64LE : H5T_NATIVE_UINT64;
+    case Cell::kF64:
+      return file ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE;
+    case Cell::kI32:
+      return file ? H5T_STD_I32LE : H5T_NATIVE_INT32;
+    case Cell::kU32:
+      return file ? H5T_STD_U32LE : H5T_NATIVE_UINT32;
   }
   return -1;
 }

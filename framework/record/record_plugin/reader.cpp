@@ -41,7 +41,8 @@ h5::Handle openRecording(const std::string& file) {
   const std::uint64_t version = h5::readCountAttribute(handle, "format_version");
   if (version > kFormatVersion) {
     refuse(606, file,
-           "has format version " + std::to_string(version) + "; this program reads up to " + std::to_string(kFormatVersion),
+           "has format version " + std::to_string(version) + "; this program reads up to " +
+               std::to_string(kFormatVersion),
            "read it with the version of Presa that recorded it: " + h5::readStringAttribute(handle, "program_version"));
   }
   return handle;

@@ -37,7 +37,7 @@ void copy(const Vec3& from, double (&to)[3]) noexcept { std::copy_n(from.data(),
 }  // namespace
 
 FileRecorder::FileRecorder(std::shared_ptr<const World> world, WriterSettings settings)
-    : Recorder("recorder", RateGroup::kHaptic),
+    : Recorder("record", RateGroup::kHaptic),
       world_(std::move(world)),
       settings_(std::move(settings)),
       realtime_(world_->options.realtime),
@@ -127,7 +127,8 @@ void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {
   const std::int32_t index = free_bodies_[slot];
   const bool known = objects_.hasValue() && index < objects_->count;
-  const Pose X_WB = known ? objects_->poseAt(index, tick.time) : world_->scene.bodies[static_cast<std::size_t>(index)].X_WB;
+  const Pose X_WB =
+      known ? objects_->poseAt(index, tick.time) : world_->scene.bodies[static_cast<std::size_t>(index)].X_WB;
   BodyRow row;
   row.index = tick.index;
   row.time = tick.time;
@@ -176,7 +177,7 @@ void FileRecorder::write() {
       std::unique_lock lock(mutex_);
       wake_.wait_for(lock, settings_.look_every, [this] { return stop_ || hurry_.load(std::memory_order_relaxed); });
       hurry_.store(false, std::memory_order_relaxed);
-      last = stop_;   // read before the last round, so that it takes everything
+      last = stop_;  // read before the last round, so that it takes everything
     }
     if (settings_.before_round) settings_.before_round();
     drain();
@@ -196,7 +197,7 @@ void FileRecorder::drain() {
 std::size_t FileRecorder::drainBlock() {
   const std::size_t rows = ring_.pop(block_.data(), kBlockRows);
   if (!realtime_) {
-    { const std::scoped_lock lock(mutex_); }   // step() is either before its test for space or in its wait
+    { const std::scoped_lock lock(mutex_); }  // step() is either before its test for space or in its wait
     space_.notify_one();
   }
   if (rows > 0) onFile([&] { file_->append(block_.data(), rows); });

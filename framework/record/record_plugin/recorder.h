@@ -72,23 +72,23 @@ class FileRecorder final : public Recorder {
   const bool realtime_;
   std::unique_ptr<RecordingFile> file_;
   RowLayout layout_;
-  std::vector<std::int32_t> free_bodies_;   ///< scene indices, as the body tables
+  std::vector<std::int32_t> free_bodies_;  ///< scene indices, as the body tables
   std::size_t capacity_;
   RowRing ring_;
-  std::vector<std::uint64_t> row_;          ///< haptic thread: the row being filled
-  std::vector<std::uint64_t> block_;        ///< writer: rows taken from the ring
+  std::vector<std::uint64_t> row_;    ///< haptic thread: the row being filled
+  std::vector<std::uint64_t> block_;  ///< writer: rows taken from the ring
   std::vector<ScheduleRow> schedule_block_;
   std::chrono::steady_clock::time_point flushed_at_;
   std::atomic<ScheduleLog*> schedule_{nullptr};
 
   std::atomic<std::uint64_t> accepted_{0};
   std::atomic<std::uint64_t> dropped_{0};
-  std::atomic<std::uint64_t> kept_{0};      ///< ticks in the file when it failed
+  std::atomic<std::uint64_t> kept_{0};  ///< ticks in the file when it failed
   std::atomic<bool> failed_{false};
 
   std::mutex mutex_;
-  std::condition_variable wake_;            ///< the writer waits
-  std::condition_variable space_;           ///< step() waits, in lockstep only
+  std::condition_variable wake_;   ///< the writer waits
+  std::condition_variable space_;  ///< step() waits, in lockstep only
   std::atomic<bool> hurry_{false};
   bool stop_ = false;
   bool complete_ = false;

@@ -72,8 +72,9 @@ Table scheduleTable() {
   Table table{sizeof(ScheduleRow), {}};
   table.columns.push_back({"index", offsetof(ScheduleRow, index), Cell::kU64, "1", "number of the group's tick"});
   for (std::size_t i = 0; i < ScheduleRow::kMaxBridges; ++i) {
-    table.columns.push_back({"version_" + std::to_string(i), offsetof(ScheduleRow, versions) + i * sizeof(std::uint64_t),
-                             Cell::kU64, "1", "version read from the group's bridge " + std::to_string(i) + "; 0: none"});
+    table.columns.push_back({"version_" + std::to_string(i),
+                             offsetof(ScheduleRow, versions) + i * sizeof(std::uint64_t), Cell::kU64, "1",
+                             "version read from the group's bridge " + std::to_string(i) + "; 0: none"});
   }
   return table;
 }
@@ -87,7 +88,7 @@ RecordingFile::RecordingFile(const World& world) {
   } catch (const h5::Failure& failure) {
     file_.reset();
     std::error_code ignored;
-    std::filesystem::remove(name, ignored);   // it holds nothing yet
+    std::filesystem::remove(name, ignored);  // it holds nothing yet
     refuse(602, "'" + name + "' cannot be written: " + failure.what(), "make room, or choose another folder");
   }
 }
@@ -153,8 +154,8 @@ RecordingFile::TableFile RecordingFile::createTable(hid_t group, const std::stri
   h5::check(H5Pset_obj_track_times(properties, false), "table properties");
   const h5::Handle file_type = h5::compoundType(table, h5::Side::kFile);
   TableFile result;
-  result.dataset = h5::Handle(
-      H5Dcreate2(group, name.c_str(), file_type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "table " + name);
+  result.dataset = h5::Handle(H5Dcreate2(group, name.c_str(), file_type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+                              H5Dclose, "table " + name);
   result.memory_type = h5::compoundType(table, h5::Side::kMemory);
   result.row_bytes = table.row_bytes;
 
@@ -210,7 +211,7 @@ void RecordingFile::reserve() {
   // only space, not length: that one is HDF5's business
   const int fd = *static_cast<const int*>(handle);
   while (fallocate(fd, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(reserved_), static_cast<off_t>(size - reserved_)) != 0) {
-    if (errno == EOPNOTSUPP) break;   // this file system cannot promise space
+    if (errno == EOPNOTSUPP) break;  // this file system cannot promise space
     if (errno != EINTR) throw h5::Failure(std::strerror(errno));
   }
   reserved_ = size;
@@ -224,7 +225,7 @@ void RecordingFile::flush() {
 }
 
 void RecordingFile::close() {
-  tables_.erase(tables_.begin() + 1, tables_.end());   // the first one keeps its row counts for flushedTicks()
+  tables_.erase(tables_.begin() + 1, tables_.end());  // the first one keeps its row counts for flushedTicks()
   schedule_.clear();
   tables_.front().dataset.reset();
   tables_.front().memory_type.reset();
@@ -233,7 +234,7 @@ void RecordingFile::close() {
 
 void RecordingFile::finish() {
   flush();
-  h5::writeAttribute(file_, "complete", std::uint64_t{1});   // only when everything else is there
+  h5::writeAttribute(file_, "complete", std::uint64_t{1});  // only when everything else is there
   close();
 }
 

@@ -57,10 +57,10 @@ class RecordingFile {
 
   RowLayout layout_;
   h5::Handle file_;
-  std::vector<TableFile> tables_;     ///< as RowLayout: the ticks, each finger, each free body
-  std::vector<TableFile> schedule_;   ///< by RateGroup
+  std::vector<TableFile> tables_;    ///< as RowLayout: the ticks, each finger, each free body
+  std::vector<TableFile> schedule_;  ///< by RateGroup
   std::vector<std::byte> gathered_;
-  hsize_t reserved_ = 0;              ///< bytes of the file that surely have their space
+  hsize_t reserved_ = 0;  ///< bytes of the file that surely have their space
 };
 
 }  // namespace presa::record

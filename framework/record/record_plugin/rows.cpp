@@ -44,8 +44,10 @@ Table tickTable() {
       .add("device_count", offsetof(R, device_count), Cell::kI32, "1", "fingers in the device state")
       .add("command_count", offsetof(R, command_count), Cell::kI32, "1", "fingers in the force command")
       .add("stop_requested", offsetof(R, stop_requested), Cell::kI32, "1", "1: the run is being stopped, forces fade")
-      .add("output_status", offsetof(R, output_status), Cell::kU32, "1", "bits of the output stage, all fingers together")
-      .add("coverage_lost", offsetof(R, coverage_lost), Cell::kU32, "1", "ticks a proxy waited for geometry, since start")
+      .add("output_status", offsetof(R, output_status), Cell::kU32, "1",
+           "bits of the output stage, all fingers together")
+      .add("coverage_lost", offsetof(R, coverage_lost), Cell::kU32, "1",
+           "ticks a proxy waited for geometry, since start")
       .add("pop_through", offsetof(R, pop_through), Cell::kU32, "1", "surfaces passed without contact, since start");
   return {sizeof(R), c.take()};
 }
@@ -87,7 +89,8 @@ Table subset(const Table& table, const std::vector<std::string>& columns) {
   Table part{table.row_bytes, {}};
   for (const Column& column : table.columns) {
     const auto wanted = [&](const std::string& prefix) {
-      return column.name == prefix || (column.name.size() == prefix.size() + 2 && column.name.starts_with(prefix + '_'));
+      return column.name == prefix ||
+             (column.name.size() == prefix.size() + 2 && column.name.starts_with(prefix + '_'));
     };
     if (std::any_of(columns.begin(), columns.end(), wanted)) part.columns.push_back(column);
   }

@@ -61,7 +61,7 @@ struct Column {
   std::string name;
   std::size_t offset;
   Cell cell;
-  std::string unit;   ///< "1" for a number without unit
+  std::string unit;  ///< "1" for a number without unit
   std::string description;
 };
 

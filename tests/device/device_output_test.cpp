@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include "framework/device/device_modules.h"
+#include "framework/graph/graph_builder.h"
+
+namespace presa {
+namespace {
+
+/// A finger that stands still and remembers what was sent to it.
+class StillFinger final : public Device {
+ public:
+  FingerInput read(const Tick&) noexcept override { return {Vec3::Zero(), Vec3::Zero(), -1, true}; }
+  void write(const Vec3& f_H_W, const Tick&) noexcept override {
+    steepest = std::max(steepest, (f_H_W - force).norm());
+    force = f_H_W;
+  }
+  Vec3 force = Vec3::Zero();
+  double steepest = 0;
+};
+
+/// Stands for the rendering: a constant wish of 4 N.
+class ConstantForce final : public Module {
+ public:
+  ConstantForce() : Module("rendering", RateGroup::kHaptic) {}
+  void step(const Tick& tick) noexcept override {
+    out.value.time = tick.time;
+    out.value.count = 1;
+    out.value.fingers[0].f_H_W = {4, 0, 0};
+  }
+  Out<ContactExchange> out{*this, "contact_exchange"};
+};
+
+/// Stands for the dynamics: goes wrong, or stops, when told.
+class Objects final : public Module {
+ public:
+  Objects() : Module("objects", RateGroup::kDynamics) {}
+  void step(const Tick& tick) noexcept override {
+    out.value.time_begin = tick.time;
+    out.value.faults = fault ? kFaultBodyFrozen : 0;
+  }
+  bool fault = false;
+  Out<ObjectState> out{*this, "object_state"};
+};
+
+struct Rig {
+  Rig() {
+    devices.push_back(std::make_unique<StillFinger>());
+    finger = static_cast<StillFinger*>(devices[0].get());
+    GraphBuilder builder;
+    builder.add(std::make_unique<DeviceInput>(devices, control));
+    builder.add(std::make_unique<ConstantForce>());
+    objects = &builder.add(std::make_unique<Objects>());
+    output = &builder.add(std::make_unique<DeviceOutput>(devices, std::vector<DeviceRole>{{}}, false));
+    builder.connectByName();
+    graph = builder.build();
+  }
+  void run(int ticks, bool dynamics = true) {
+    for (; ticks > 0; --ticks, ++i) {
+      if (dynamics && i % 5 == 0) graph.step(RateGroup::kDynamics, rates.tick(RateGroup::kDynamics, i / 5));
+      graph.step(RateGroup::kHaptic, rates.tick(RateGroup::kHaptic, i));
+    }
+  }
+  DeviceList devices;
+  RunControl control;
+  StillFinger* finger = nullptr;
+  Objects* objects = nullptr;
+  DeviceOutput* output = nullptr;
+  Graph graph;
+  RateTable rates{Rates{}};
+  std::uint64_t i = 0;
+};
+
+constexpr double kSlew = 1000 * 1e-3 * (1 + 1e-9);  // [N] a tick, the default force rate
+
+// A fault in the dynamics takes the force down to zero within the fade, without a step, and for good.
+TEST(DeviceOutput, ADynamicsFaultFadesTheForceForGood) {
+  Rig rig;
+  rig.run(1000);
+  EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9);
+  rig.objects->fault = true;
+  rig.run(30);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  rig.run(1000);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+// Object State older than the role's watchdog (20 ms): the force fades, an event says so, and it comes back softly.
+TEST(DeviceOutput, AStalledDynamicsFadesTheForceUntilItIsBack) {
+  Rig rig;
+  rig.run(1000);
+  rig.run(24, false);
+  EXPECT_GT(rig.finger->force.x(), 0);  // fading, not cut
+  rig.run(40, false);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  FaultEvent event;
+  bool told = false;
+  while (rig.output->nextEvent(event)) told = told || (event.time > 0.9 && (event.status & kOutputWatchdog) != 0);
+  EXPECT_TRUE(told);
+  rig.run(1000);
+  EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9);
+  EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+// The end of a run leaves no force on the finger, however it was a moment before.
+TEST(DeviceOutput, StopTakesTheForceDown) {
+  Rig rig;
+  rig.run(1000);
+  rig.graph.stop(RateGroup::kHaptic);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+}  // namespace
+}  // namespace presa
