@@ -17,11 +17,16 @@ namespace {
 // the run that a signal stops; a second signal leaves at once
 std::atomic<RunControl*> signalled{nullptr};
 std::atomic<bool> interrupted{false};
+std::atomic<std::int64_t> first_signal_ns{0};
 
 extern "C" void onSignal(int) {
   RunControl* control = signalled.load();
   if (control == nullptr) return;
-  if (control->stop_requested.exchange(true)) control->abort = true;
+  // one key press may arrive twice, at the process and at its group: only a later signal means "at once"
+  const std::int64_t now = monotonicNs();
+  std::int64_t first = 0;
+  if (!first_signal_ns.compare_exchange_strong(first, now) && now - first > 500'000'000) control->abort = true;
+  control->stop_requested = true;
   interrupted = true;
 }
 
@@ -31,6 +36,7 @@ class SignalGuard {
   explicit SignalGuard(RunControl& control) {
     signalled = &control;
     interrupted = false;
+    first_signal_ns = 0;
     struct sigaction action {};
     action.sa_handler = onSignal;
     sigaction(SIGINT, &action, &old_int_);

@@ -147,8 +147,8 @@ TEST(Check, SaysThatEveryShippedSceneIsGood) {
 TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   const std::string file = scratch("interrupted.h5");
   const auto outcome =
-      test::shell("timeout --preserve-status -s INT 2.6 " + std::string(PRESA_BINARY_DIR) + "/bin/presa run " + kCube +
-                  " --realtime --view none --quiet --overwrite --record " + file);
+      test::shell("timeout --foreground --preserve-status -s INT 2.6 " + std::string(PRESA_BINARY_DIR) +
+                  "/bin/presa run " + kCube + " --realtime --view none --quiet --overwrite --record " + file);
   ASSERT_EQ(outcome.status, 130) << outcome.err;
   const Recording recording = recordPlugin().read(file);
   ASSERT_GT(recording.command.size(), 100u);
