@@ -37,6 +37,7 @@ struct Geometry {
   Shape shape;
   Pose X_BG;
   SourceLocation where;
+  bool smooth = false;  ///< haptic mesh: felt with normals interpolated over its facets
 };
 
 struct Material {
@@ -53,6 +54,9 @@ struct Body {
   std::string name;
   bool fixed = false;
   Pose X_WB;                        ///< start pose; B's origin is the centre of mass for primitives
+  Vec3 v_WCm = Vec3::Zero();        ///< of the centre of mass at the start [m/s]
+  Vec3 w_WB = Vec3::Zero();         ///< at the start [rad/s]
+  Vec3 force_W = Vec3::Zero();      ///< constant, at the centre of mass [N]
   std::size_t material = 0;         ///< index into Scene::materials
   std::optional<double> mass;       ///< [kg]; exactly one of mass and density for a free body
   std::optional<double> density;    ///< [kg/m^3]
@@ -83,6 +87,35 @@ struct Rates {
   double view = 60;        ///< [Hz]
 };
 
+/// How fingers are rendered. The defaults are Presa's methods, the others what they replace.
+struct HapticSettings {
+  enum class Renderer { kGodObject, kPenalty };
+  enum class PoseUse { kInterpolate, kHold };
+  Renderer renderer = Renderer::kGodObject;
+  PoseUse pose = PoseUse::kInterpolate;
+};
+
+struct CollisionSettings {
+  double margin = 0;              ///< of the patch beyond the fingertip [m]; 0: from the finger's motion
+  std::size_t max_triangles = 0;  ///< of one patch; 0: all there is room for
+};
+
+/// How moving bodies are stepped. The defaults are Presa's methods, the others what they replace.
+struct DynamicsSettings {
+  enum class Coupling { kSoft, kExplicit };
+  enum class Solver { kAuto, kDirect, kIterative };
+  enum class Friction { kIsotropic, kPyramid };
+  /// kMatrix: R (I + S(w) dt), re-orthonormalised; kEuler: one Euler step of Euler's equations.
+  enum class Rotation { kExact, kEngine, kNone, kEuler, kMatrix };
+  Coupling coupling = Coupling::kSoft;
+  Solver solver = Solver::kAuto;
+  std::size_t iterations = 0;  ///< of the iterative solver; 0: as many as the period allows
+  std::size_t substeps = 0;    ///< within one period; 0: chosen for each island
+  Friction friction = Friction::kIsotropic;
+  Rotation rotation = Rotation::kExact;
+  bool sleeping = true;
+};
+
 struct Scene {
   std::string name;
   std::string description;
@@ -90,6 +123,9 @@ struct Scene {
   std::string default_rig;    ///< resolved path, may be empty
   Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Rates rates;
+  HapticSettings haptics;
+  CollisionSettings collision;
+  DynamicsSettings dynamics;
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<DeviceRole> devices;

@@ -1,5 +1,7 @@
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "framework/scene/scene_parts.h"
 
@@ -66,7 +68,9 @@ Shape readShape(const Element& shape, const std::string& directory) {
 std::optional<Geometry> readGeometry(const Element& body, const std::string& role, const std::string& directory) {
   const std::vector<Element> geometries = body.children(role);
   if (geometries.empty()) return std::nullopt;
-  return Geometry{readShape(geometries[0].children().at(0), directory), readPose(geometries[0]), geometries[0].where()};
+  const Element& geometry = geometries[0];
+  return Geometry{readShape(geometry.children().at(0), directory), readPose(geometry), geometry.where(),
+                  geometry.attribute("shading") == "smooth"};
 }
 
 Material readMaterial(const Element& element) {
@@ -103,6 +107,11 @@ Body readBody(const Element& element, const std::vector<Material>& materials, co
     if (body.fixed) continue;
     body.mass = optionalNumber(physics, "mass");
     body.density = optionalNumber(physics, "density");
+    body.force_W = readVec3(physics, "force", body.force_W);
+  }
+  if (!body.fixed) {
+    body.v_WCm = readVec3(element, "velocity", body.v_WCm);
+    body.w_WB = readVec3(element, "angular_velocity", body.w_WB);
   }
   body.where = element.where();
   return body;
@@ -121,6 +130,46 @@ DeviceRole readDevice(const Element& element) {
   return device;
 }
 
+/// The value of the word that stands in an attribute; the schema has seen to it that it is one of them.
+template <class Value>
+Value choose(const Element& element, const std::string& attribute, Value fallback,
+             std::initializer_list<std::pair<const char*, Value>> words) {
+  for (const auto& [word, value] : words) {
+    if (element.attribute(attribute) == word) return value;
+  }
+  return fallback;
+}
+
+HapticSettings readHaptics(const Element& element) {
+  using H = HapticSettings;
+  H settings;
+  settings.renderer = choose(element, "renderer", settings.renderer, {{"penalty", H::Renderer::kPenalty}});
+  settings.pose = choose(element, "pose", settings.pose, {{"hold", H::PoseUse::kHold}});
+  return settings;
+}
+
+CollisionSettings readCollision(const Element& element) {
+  return {element.number("margin", 0), static_cast<std::size_t>(element.number("max_triangles", 0))};
+}
+
+DynamicsSettings readDynamics(const Element& element) {
+  using D = DynamicsSettings;
+  D settings;
+  settings.coupling = choose(element, "coupling", settings.coupling, {{"explicit", D::Coupling::kExplicit}});
+  settings.solver = choose(element, "solver", settings.solver,
+                           {{"direct", D::Solver::kDirect}, {"iterative", D::Solver::kIterative}});
+  settings.iterations = static_cast<std::size_t>(element.number("iterations", 0));
+  settings.substeps = static_cast<std::size_t>(element.number("substeps", 0));
+  settings.friction = choose(element, "friction", settings.friction, {{"pyramid", D::Friction::kPyramid}});
+  settings.rotation = choose(element, "rotation", settings.rotation,
+                             {{"engine", D::Rotation::kEngine},
+                              {"none", D::Rotation::kNone},
+                              {"euler", D::Rotation::kEuler},
+                              {"matrix", D::Rotation::kMatrix}});
+  settings.sleeping = element.boolean("sleeping", settings.sleeping);
+  return settings;
+}
+
 }  // namespace
 
 Scene readScene(const Element& root, const std::string& file, const std::string& directory) {
@@ -136,6 +185,9 @@ Scene readScene(const Element& root, const std::string& file, const std::string&
     scene.rates.dynamics = rates.number("dynamics", scene.rates.dynamics);
     scene.rates.view = rates.number("view", scene.rates.view);
   }
+  for (const Element& haptics : root.children("haptics")) scene.haptics = readHaptics(haptics);
+  for (const Element& collision : root.children("collision")) scene.collision = readCollision(collision);
+  for (const Element& dynamics : root.children("dynamics")) scene.dynamics = readDynamics(dynamics);
   for (const Element& material : materialElements(root)) scene.materials.push_back(readMaterial(material));
   for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, scene.materials, directory));
   for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));

@@ -44,15 +44,22 @@ std::string contentOf(const Scene& scene) {
        << scene.gravity.transpose() << "\n";
   text << scene.rates.haptic << " " << scene.rates.collision << " " << scene.rates.dynamics << " " << scene.rates.view
        << "\n";
+  const DynamicsSettings& d = scene.dynamics;
+  text << static_cast<int>(d.coupling) << static_cast<int>(d.solver) << static_cast<int>(d.friction)
+       << static_cast<int>(d.rotation) << d.sleeping << " " << d.iterations << " " << d.substeps << "\n";
+  text << static_cast<int>(scene.haptics.renderer) << static_cast<int>(scene.haptics.pose) << " "
+       << scene.collision.margin << " " << scene.collision.max_triangles << "\n";
   for (const Material& m : scene.materials) {
     text << m.name << " " << m.stiffness << " " << m.damping << " " << m.friction_static << " " << m.friction_dynamic
          << " " << m.color.transpose() << "\n";
   }
   for (const Body& b : scene.bodies) {
     text << b.name << " " << b.fixed << " " << b.material << " " << b.mass.value_or(-1) << " " << b.density.value_or(-1)
-         << " " << poseText(b.X_WB) << "\n";
+         << " " << poseText(b.X_WB) << " " << b.v_WCm.transpose() << " " << b.w_WB.transpose() << " "
+         << b.force_W.transpose() << "\n";
     for (const auto* geometry : {&b.visual, &b.haptic, &b.physics}) {
-      text << (*geometry ? shapeText((*geometry)->shape) + " " + poseText((*geometry)->X_BG) : "none") << "\n";
+      text << (*geometry && (*geometry)->smooth ? "smooth " : "")
+           << (*geometry ? shapeText((*geometry)->shape) + " " + poseText((*geometry)->X_BG) : "none") << "\n";
     }
   }
   for (const DeviceRole& d : scene.devices) {
@@ -122,6 +129,30 @@ TEST(SceneLoad, DefaultsOfTheSchemaAreThoseOfTheHeader) {
   role.role = "r";
   expected.devices.push_back(role);
   EXPECT_EQ(contentOf(scene), contentOf(expected));
+}
+
+TEST(SceneLoad, EveryMethodCanBeNamed) {
+  const Scene scene = load(edited(
+      edited(
+          kScene, "<body name=\"cube\"",
+          "<haptics renderer=\"penalty\" pose=\"hold\"/><collision margin=\"0.002\" max_triangles=\"64\"/>"
+          "<dynamics coupling=\"explicit\" solver=\"direct\" iterations=\"30\" substeps=\"4\" friction=\"pyramid\" "
+          "rotation=\"matrix\" sleeping=\"false\"/><body name=\"cube\" velocity=\"1 2 3\" angular_velocity=\"4 5 6\""),
+      "mass=\"0.2\"", "mass=\"0.2\" force=\"7 8 9\""));
+  EXPECT_EQ(scene.haptics.renderer, HapticSettings::Renderer::kPenalty);
+  EXPECT_EQ(scene.haptics.pose, HapticSettings::PoseUse::kHold);
+  EXPECT_EQ(scene.collision.margin, 0.002);
+  EXPECT_EQ(scene.collision.max_triangles, 64u);
+  EXPECT_EQ(scene.dynamics.coupling, DynamicsSettings::Coupling::kExplicit);
+  EXPECT_EQ(scene.dynamics.solver, DynamicsSettings::Solver::kDirect);
+  EXPECT_EQ(scene.dynamics.iterations, 30u);
+  EXPECT_EQ(scene.dynamics.substeps, 4u);
+  EXPECT_EQ(scene.dynamics.friction, DynamicsSettings::Friction::kPyramid);
+  EXPECT_EQ(scene.dynamics.rotation, DynamicsSettings::Rotation::kMatrix);
+  EXPECT_FALSE(scene.dynamics.sleeping);
+  EXPECT_EQ(scene.bodies[1].v_WCm, Vec3(1, 2, 3));
+  EXPECT_EQ(scene.bodies[1].w_WB, Vec3(4, 5, 6));
+  EXPECT_EQ(scene.bodies[1].force_W, Vec3(7, 8, 9));
 }
 
 TEST(SceneLoad, OneFrictionCoefficientIsBoth) {
