@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "apps/presa/load_world.h"
+#include "framework/plan/load_world.h"
 #include "apps/presa/run_result.h"
 #include "framework/plan/session.h"
 #include "framework/schedule/executor.h"

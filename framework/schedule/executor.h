@@ -39,6 +39,9 @@ class Executor {
 
   /// Simulated time from a stop request to the end: the output stage fades within it.
   static constexpr double kFadeTime = 0.15;
+  /// A group that is late runs its missed ticks at once, so that simulated time follows the clock; after
+  /// a stall longer than this it gives them up and counts them [s].
+  static constexpr double kCatchUpLimit = 0.1;
 
  protected:
   /// One tick of one group with its timing and its row in the schedule.
@@ -61,8 +64,15 @@ class LockstepExecutor final : public Executor {
   void run(double duration) override;
   /// Called on the running thread every `every` haptic ticks.
   void onProgress(std::uint64_t every, std::function<void()> callback);
+  /// Stalls, for studies: asked at every instant at which a group is due, with the simulated time. While it says true the
+  /// group's ticks wait; then they run at once, as in real time, those older than kCatchUpLimit are given up and counted.
+  void delay(std::function<bool(RateGroup, double)> held_up) { held_up_ = std::move(held_up); }
 
  private:
+  void stepDelayed(RateGroup group, std::uint64_t index, double now) noexcept;
+
+  std::function<bool(RateGroup, double)> held_up_;
+  std::array<std::uint64_t, kRateGroupCount> done_{};  // ticks run or given up, by group
   std::uint64_t progress_every_ = 0;
   std::function<void()> progress_;
 };
@@ -72,10 +82,6 @@ class RealtimeExecutor final : public Executor {
  public:
   using Executor::Executor;
   void run(double duration) override;
-
-  /// A group that is late runs its missed ticks at once, so that simulated time follows the clock; after
-  /// a stall longer than this it gives them up and counts them.
-  static constexpr double kCatchUpLimit = 0.1;
 
  private:
   struct Shared;

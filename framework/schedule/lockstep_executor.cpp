@@ -11,6 +11,18 @@ void LockstepExecutor::onProgress(std::uint64_t every, std::function<void()> cal
   progress_ = std::move(callback);
 }
 
+void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double now) noexcept {
+  if (held_up_(group, now)) return;
+  GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
+  std::uint64_t& done = done_[static_cast<std::size_t>(group)];
+  if (const std::uint64_t late = index - done; late > rates_.ticksWithin(group, kCatchUpLimit)) {
+    timing.skipped.fetch_add(late, std::memory_order_relaxed);
+    done = index;
+  }
+  timing.missed.fetch_add(index - done, std::memory_order_relaxed);
+  while (done <= index) stepTimed(group, done++);
+}
+
 void LockstepExecutor::run(double duration) {
   static constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView};
   for (RateGroup group : kOrder) graph_.start(group);
@@ -22,7 +34,12 @@ void LockstepExecutor::run(double duration) {
   for (std::uint64_t i = 0; i < end && !control_.abort.load(std::memory_order_relaxed); ++i) {
     for (RateGroup group : kOrder) {
       const auto divisor = static_cast<std::uint64_t>(rates_.divisor(group));
-      if (graph_.runs(group) && i % divisor == 0) stepTimed(group, i / divisor);
+      if (!graph_.runs(group) || i % divisor != 0) continue;
+      if (held_up_) {
+        stepDelayed(group, i / divisor, rates_.tick(RateGroup::kHaptic, i).time);
+      } else {
+        stepTimed(group, i / divisor);
+      }
     }
     control_.time.store(rates_.tick(RateGroup::kHaptic, i + 1).time, std::memory_order_relaxed);
     if (!stopping && control_.stop_requested.load(std::memory_order_relaxed)) {

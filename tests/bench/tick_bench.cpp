@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/presa/load_world.h"
+#include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
 #include "framework/schedule/clock.h"
 

@@ -44,9 +44,9 @@ std::string contentOf(const Scene& scene) {
        << scene.gravity.transpose() << "\n";
   text << scene.rates.haptic << " " << scene.rates.collision << " " << scene.rates.dynamics << " " << scene.rates.view
        << "\n";
-  const DynamicsSettings& d = scene.dynamics;
-  text << static_cast<int>(d.coupling) << static_cast<int>(d.solver) << static_cast<int>(d.friction)
-       << static_cast<int>(d.rotation) << d.sleeping << " " << d.iterations << " " << d.substeps << "\n";
+  const DynamicsSettings& settings = scene.dynamics;
+  text << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver) << static_cast<int>(settings.friction)
+       << static_cast<int>(settings.rotation) << settings.sleeping << " " << settings.iterations << " " << settings.substeps << "\n";
   text << static_cast<int>(scene.haptics.renderer) << static_cast<int>(scene.haptics.pose) << " "
        << scene.collision.margin << " " << scene.collision.max_triangles << "\n";
   for (const Material& m : scene.materials) {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/presa/commands/commands.h"
-#include "apps/presa/load_world.h"
+#include "framework/plan/load_world.h"
 
 namespace presa {
 namespace {

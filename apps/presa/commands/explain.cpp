@@ -5,7 +5,7 @@
 #include <set>
 
 #include "apps/presa/commands/commands.h"
-#include "apps/presa/load_world.h"
+#include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
 
 namespace presa {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "apps/presa/commands/commands.h"
-#include "apps/presa/load_world.h"
+#include "framework/plan/load_world.h"
 #include "framework/record/record_plugin.h"
 #include "framework/record/replay.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "apps/presa/commands/commands.h"
-#include "apps/presa/load_world.h"
+#include "framework/plan/load_world.h"
 #include "apps/presa/report/report.h"
 #include "apps/presa/run_session.h"
 #include "apps/presa/summary.h"

@@ -1,4 +1,4 @@
-#include "apps/presa/load_world.h"
+#include "framework/plan/load_world.h"
 
 #include "framework/plan/session.h"
 #include "framework/scene/load.h"
