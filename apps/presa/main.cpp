@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   presa::addCheck(app, status);
   presa::addExplain(app, status);
   presa::addReplay(app, status);
+  presa::addStability(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -16,5 +16,6 @@ void addRun(CLI::App& app, int& status);
 void addCheck(CLI::App& app, int& status);
 void addExplain(CLI::App& app, int& status);
 void addReplay(CLI::App& app, int& status);
+void addStability(CLI::App& app, int& status);
 
 }  // namespace presa

@@ -1,6 +1,9 @@
 #include "apps/presa/report/page.h"
 
+#include "apps/presa/report/svg_plot.h"
+
 namespace presa::page {
+namespace {
 
 // Colours keep their order of lightness for readers who do not tell hues apart; paper is always light.
 const char* const kStyle = R"CSS(
@@ -110,5 +113,18 @@ for (const plot of document.querySelectorAll('.plot')) {
   svg.addEventListener('pointerleave', hide);
 }
 )JS";
+
+}  // namespace
+
+std::string head(const std::string& title) {
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         // the browser itself then guarantees that the page asks nobody for anything
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+         "script-src 'unsafe-inline'; img-src data:\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         svg::escape(title) + "</title>\n<style>" + kStyle + "</style></head>\n<body><main>\n";
+}
+
+std::string tail() { return std::string("</main>\n<script>") + kScript + "</script>\n</body></html>\n"; }
 
 }  // namespace presa::page

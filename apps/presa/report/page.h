@@ -1,9 +1,10 @@
 #pragma once
+#include <string>
 
 namespace presa::page {
 
-/// Style sheet and script of the report, as they stand in the page.
-extern const char* const kStyle;
-extern const char* const kScript;
+/// A self-contained page: what stands before and after its content.
+std::string head(const std::string& title);
+std::string tail();
 
 }  // namespace presa::page

@@ -18,15 +18,6 @@ namespace {
 
 using svg::escape;
 
-std::string head(const std::string& title) {
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         // the browser itself then guarantees that the page asks nobody for anything
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-         "script-src 'unsafe-inline'; img-src data:\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escape(title) + "</title>\n<style>" + page::kStyle + "</style></head>\n<body><main>\n";
-}
-
 std::string verdictBlock(const RunResult& result) {
   const Verdict verdict = verdictOf(result);
   const char* css_class = verdict.outcome == Verdict::Outcome::kGood  ? "good"
@@ -85,7 +76,7 @@ std::string screenshotSection(const RunResult& result) {
 std::string reportHtml(const RunResult& result) {
   const Scene& scene = result.world->scene;
   const std::optional<GraspFigures> grasp = graspFigures(result);
-  std::string out = head(scene.name + " – Presa");
+  std::string out = page::head(scene.name + " – Presa");
   out += "<h1>" + escape(scene.name) + "</h1>\n<p class=\"lead\">" + escape(scene.description) + "</p>\n";
   out +=
       verdictBlock(result) + graspSection(result, grasp) + pathSection(result, grasp) + frictionSection(result, grasp);
@@ -95,7 +86,7 @@ std::string reportHtml(const RunResult& result) {
   out += "<h2>Faults and notes</h2>\n" + html::faultsAndNotes(result);
   out += screenshotSection(result);
   out += "<h2>Provenance</h2>\n" + html::provenance(result);
-  return out + "</main>\n<script>" + page::kScript + "</script>\n</body></html>\n";
+  return out + page::tail();
 }
 
 void writeReport(const RunResult& result, const std::string& path) { writeFileAtomically(path, reportHtml(result)); }

@@ -1,0 +1,74 @@
+#include "apps/presa/terminal/job_progress.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "apps/presa/terminal/text.h"
+#include "framework/schedule/clock.h"
+
+namespace presa::terminal {
+namespace {
+
+volatile std::sig_atomic_t signal_came = 0;
+extern "C" void noteSignal(int) { signal_came = 1; }
+
+std::string clockText(double seconds) {
+  const int whole = static_cast<int>(seconds + 0.5);
+  return whole < 60 ? format("%d s", whole) : format("%d min %02d s", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+struct JobProgress::Signals {
+  struct sigaction old_int {
+  }, old_term{};
+};
+
+JobProgress::JobProgress(std::size_t jobs)
+    : jobs_(jobs), terminal_(::isatty(STDERR_FILENO) != 0), start_ns_(monotonicNs()), signals_(new Signals) {
+  signal_came = 0;
+  next_ns_ = start_ns_ + 2'000'000'000;
+  struct sigaction action {};
+  action.sa_handler = noteSignal;
+  sigaction(SIGINT, &action, &signals_->old_int);
+  sigaction(SIGTERM, &action, &signals_->old_term);
+}
+
+JobProgress::~JobProgress() {
+  finish();
+  sigaction(SIGINT, &signals_->old_int, nullptr);
+  sigaction(SIGTERM, &signals_->old_term, nullptr);
+  delete signals_;
+}
+
+void JobProgress::done(const std::string& what) {
+  ++done_;
+  last_ = what;
+  show();
+}
+
+void JobProgress::show() {
+  const std::int64_t now = monotonicNs();
+  if (now < next_ns_) return;
+  next_ns_ = now + (terminal_ ? 100'000'000 : 2'000'000'000);
+  const double elapsed = static_cast<double>(now - start_ns_) * 1e-9;
+  std::string line = format("%zu of %zu", done_, jobs_);
+  if (done_ > 0) {
+    line += ", about " + clockText(elapsed * static_cast<double>(jobs_ - done_) / static_cast<double>(done_)) +
+            " left  " + last_;
+  }
+  std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void JobProgress::finish() {
+  if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+bool JobProgress::interrupted() noexcept { return signal_came != 0; }
+
+}  // namespace presa::terminal

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace presa::terminal {
+
+/// Progress of many jobs on stderr: one refreshed line on a terminal, a plain line every two seconds elsewhere; says how much
+/// time is left. While it lives Ctrl-C and SIGTERM are noted instead of ending the process. Thread: main; one at a time.
+class JobProgress {
+ public:
+  explicit JobProgress(std::size_t jobs);
+  ~JobProgress();
+  JobProgress(const JobProgress&) = delete;
+  JobProgress& operator=(const JobProgress&) = delete;
+
+  void done(const std::string& what);
+  void show();
+  void finish();
+  static bool interrupted() noexcept;
+
+ private:
+  struct Signals;
+  std::size_t jobs_, done_ = 0;
+  std::string last_;
+  bool terminal_, shown_ = false;
+  std::int64_t start_ns_, next_ns_ = 0;
+  Signals* signals_;
+};
+
+}  // namespace presa::terminal

@@ -1,0 +1,71 @@
+#include "experiments/stability/case.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+namespace presa::stability {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> candidates() {
+  std::vector<fs::path> folders;
+  if (const char* named = std::getenv("PRESA_EXPERIMENTS")) folders.emplace_back(named);
+  std::error_code ignored;
+  fs::path up = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (int level = 0; level < 5 && !up.empty(); ++level, up = up.parent_path()) folders.push_back(up / "experiments");
+  folders.push_back(fs::current_path(ignored) / "experiments");
+  return folders;
+}
+
+}  // namespace
+
+const char* toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kStable:
+      return "stable";
+    case Verdict::kDrift:
+      return "drift";
+    case Verdict::kUnstable:
+      return "unstable";
+    case Verdict::kFailed:
+      return "failed";
+  }
+  return "failed";
+}
+
+Verdict judge(double value, double bound) {
+  const double size = std::abs(value);
+  if (!std::isfinite(size)) return Verdict::kUnstable;
+  if (size <= bound) return Verdict::kStable;
+  return size <= 10 * bound ? Verdict::kDrift : Verdict::kUnstable;
+}
+
+Finding finding(std::string metric, double value, std::string unit, double bound, std::string oracle) {
+  return {std::move(metric), value, std::move(unit), bound, std::move(oracle), judge(value, bound), {}, {}, {}};
+}
+
+std::string sceneFile(const std::string& name) {
+  std::string tried;
+  for (const fs::path& folder : candidates()) {
+    const fs::path file = folder / "stability" / "scenes" / name;
+    if (fs::exists(file)) return file.string();
+    tried += (tried.empty() ? "" : ", ") + folder.string();
+  }
+  Diagnostics diagnostics;
+  diagnostics.error(610, {name, 0, 0}, "this scene of the stability cases is not to be found",
+                    "looked in: " + tried + "; PRESA_EXPERIMENTS may name the folder experiments");
+  throw InputError(diagnostics);
+}
+
+StudySpec specOf(const std::string& scene, std::vector<std::string> sets, double duration, double trace_rate) {
+  StudySpec spec;
+  spec.scene = sceneFile(scene);
+  spec.sets = std::move(sets);
+  spec.duration = duration;
+  spec.trace_rate = trace_rate;
+  return spec;
+}
+
+}  // namespace presa::stability

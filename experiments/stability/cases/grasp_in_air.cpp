@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "experiments/stability/cases.h"
+#include "experiments/stability/fingers.h"
+
+namespace presa::stability {
+namespace {
+
+constexpr double kDuration = 5;
+constexpr double kGravity = 9.81;
+
+struct Grasp {
+  double mass = 0, stiffness = 0;
+  bool explicit_coupling = false;
+  /// At least 2 mm, and as much as friction 1 needs to carry the weight with half as much to spare.
+  double depth() const { return std::max(0.002, 1.5 * mass * kGravity / (2 * stiffness)); }
+};
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::vector<Finding> hold(const Grasp& grasp) {
+  std::vector<std::string> sets{"body/cube/physics/mass=" + number(grasp.mass),
+                                "material/skin/stiffness=" + number(grasp.stiffness)};
+  if (grasp.explicit_coupling) sets.emplace_back("dynamics/coupling=explicit");
+  Pinch pinch;
+  pinch.center = {0.0001, 0, 0.040};  // off centre and above it
+  pinch.width = 0.07;
+  pinch.depth = grasp.depth();
+  pinch.lift = 0.03;
+  StudyRun run(specOf("grasp_in_air.xml", sets, kDuration), pinchFingers(pinch));
+
+  const double wanted = grasp.stiffness * pinch.depth;
+  double worst = 0, low = wanted * 1e3, high = 0;
+  Curve grip{"grip force", {}, {}};
+  run.observe([&](const StudySample& sample) {
+    double force = 0;
+    for (std::size_t f = 0; f < 2; ++f) {
+      force += sample.contact.fingers[f].normal_force / 2;
+      if (sample.tick.time < kDuration - 1) continue;
+      const double normal = sample.contact.fingers[f].normal_force;
+      worst = std::max(worst, std::abs(normal - wanted));
+      low = std::min(low, normal);
+      high = std::max(high, normal);
+    }
+    grip.x.push_back(sample.tick.time);
+    grip.y.push_back(force);
+  });
+  run.run();
+
+  const std::string oracle = "k depth = " + number(wanted) + " N from each finger";
+  Finding error = finding("grip force error", 100 * worst / wanted, "%", 0.1, oracle);
+  error.plot_x = "time [s]";
+  error.plot_y = "mean normal force [N]";
+  error.curves.push_back(std::move(grip));
+  return {error, finding("grip ripple in the last second", 100 * (high - low) / wanted, "%", 0.1,
+                         "ringing decays to nothing")};
+}
+
+/// What explicit coupling needs: h^2 K / 2 per axis, times 1.5 for the rotation of the body.
+double leastMassOfExplicit(double stiffness) { return 1.5 * 0.005 * 0.005 * 2 * stiffness / 4; }
+
+}  // namespace
+
+Case graspInAir() {
+  Case result;
+  result.name = "grasp_in_air";
+  result.title = "Two fingers hold a cube in the air";
+  result.source =
+      "Force that two springs of stiffness k give a free body between them; the bound h^2 K / 2 of explicit "
+      "coupling is that of symplectic Euler.";
+  result.oracle = "At rest each finger presses with k times its depth, whatever the mass.";
+  result.scene = "grasp_in_air.xml";
+  for (const double stiffness : {500.0, 2000.0, 10'000.0}) {
+    for (const double mass : {0.001, 0.01, 0.1, 1.0}) {
+      for (const bool explicit_coupling : {false, true}) {
+        const Grasp grasp{mass, stiffness, explicit_coupling};
+        Trial trial;
+        trial.parameters = {{"stiffness", number(stiffness / 1000) + " N/mm"}, {"mass", number(mass * 1000) + " g"}};
+        trial.method = explicit_coupling ? "explicit coupling" : kPresa;
+        if (explicit_coupling && mass < 4 * leastMassOfExplicit(stiffness)) trial.expected = Verdict::kUnstable;
+        trial.run = [grasp] { return hold(grasp); };
+        trial.quick = stiffness > 5000 && mass < 0.02;
+        result.trials.push_back(std::move(trial));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace presa::stability
