@@ -44,7 +44,8 @@ struct Panel {
 
 struct TimeFigure {
   std::string title;         ///< for those who cannot see it
-  std::vector<double> time;  ///< ascending [s]
+  std::vector<double> time;  ///< of all panels, or what else runs along the x axis; ascending
+  std::string x_label = "time [s]";
   std::vector<Band> bands;
   std::vector<Panel> panels;
 };

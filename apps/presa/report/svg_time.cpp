@@ -139,7 +139,7 @@ std::string panelBody(const TimeFigure& figure, const Panel& panel, const Scale&
   return out + lineFromTo(kLeft, bottom, kRight, bottom, "axis");
 }
 
-std::string timeAxis(const Scale& x, double top, double bottom) {
+std::string xAxis(const std::string& label, const Scale& x, double top, double bottom) {
   std::string out;
   const std::vector<double> ticks = niceTicks(x.data_low, x.data_high, 12);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 0;
@@ -147,7 +147,7 @@ std::string timeAxis(const Scale& x, double top, double bottom) {
     out += lineFromTo(x(t), top, x(t), bottom, "grid");
     out += textAt(x(t), bottom + 16, "tick xtick", tickText(t, step));
   }
-  return out + textAt(0.5 * (kLeft + kRight), bottom + 34, "tick xtick", "time [s]");
+  return out + textAt(0.5 * (kLeft + kRight), bottom + 34, "tick xtick", escape(label));
 }
 
 std::string jsonText(const std::string& text) {
@@ -224,7 +224,7 @@ std::string render(const TimeFigure& figure) {
     panels += panelBody(shown, panel, x, top);
     top += panel.height + kGap;
   }
-  out += bandLabels(bands, x, 12) + panels + timeAxis(x, first_top, bottom);
+  out += bandLabels(bands, x, 12) + panels + xAxis(figure.x_label, x, first_top, bottom);
   out += lineFromTo(kLeft, first_top, kLeft, bottom, "cursor");
   out += "</svg><div class=\"readout\" hidden></div><script type=\"application/json\">" + readoutData(shown, x) +
          "</script></div>\n";

@@ -1,36 +1,121 @@
 #include "apps/presa/stability/report.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "apps/presa/report/page.h"
 #include "apps/presa/report/svg_plot.h"
+#include "apps/presa/stability/curves.h"
 #include "apps/presa/stability/table.h"
+#include "apps/presa/terminal/text.h"
+#include "apps/presa/version.h"
 
 namespace presa::stability {
 namespace {
 
 using svg::escape;
+using terminal::format;
 
-std::string caseSection(const Case& c, const std::vector<Row>& rows) {
+struct Tally {
+  std::size_t stable = 0, all = 0;
+  std::string text() const { return all == 0 ? "–" : format("%zu of %zu", stable, all); }
+};
+
+template <class Wanted>
+Tally tally(const std::vector<Row>& rows, const Wanted& wanted) {
+  Tally result;
+  for (const Row& row : rows) {
+    if (!wanted(row)) continue;
+    ++result.all;
+    result.stable += row.finding.verdict == Verdict::kStable ? 1 : 0;
+  }
+  return result;
+}
+
+const char* cssOf(Verdict verdict) {
+  return verdict == Verdict::kStable ? "good" : verdict == Verdict::kDrift ? "warn" : "bad";
+}
+
+std::string cell(const std::string& text, const std::string& css = {}) {
+  return css.empty() ? "<td>" + escape(text) + "</td>" : "<td class=\"" + css + "\">" + escape(text) + "</td>";
+}
+
+std::string tallyCell(const Tally& t) { return cell(t.text(), t.all == 0 ? "" : t.stable == t.all ? "good" : "bad"); }
+
+/// How near Presa comes to a bound: 1 is at it.
+double worstShare(const Case& c, const std::vector<Row>& rows) {
+  double worst = 0;
+  for (const Row& row : rows) {
+    if (row.case_name != c.name || row.method != kPresa || !(row.finding.bound > 0)) continue;
+    worst = std::max(worst, std::abs(row.finding.value) / row.finding.bound);
+  }
+  return worst;
+}
+
+std::string overview(const std::vector<Case>& cases, const std::vector<Row>& rows) {
   std::string out =
-      "<h2 id=\"" + escape(c.name) + "\">" + escape(c.title) + "</h2>\n<p>" + escape(c.oracle) +
-      "</p>\n<p class=\"caption\">" + escape(c.source) +
-      "</p>\n<div class=\"scroll\"><table><tr><th>parameters</th><th>method</th><th>metric</th><th>value</th>"
-      "<th>bound</th><th>verdict</th><th>expected</th></tr>\n";
+      "<div class=\"scroll\"><table><thead><tr><th>case</th><th>Presa: stable</th><th>what it replaces: stable</th>"
+      "<th>largest share of a bound</th></tr></thead><tbody>\n";
+  for (const Case& c : cases) {
+    const auto of = [&](bool own) {
+      return tally(rows, [&, own](const Row& row) { return row.case_name == c.name && (row.method == kPresa) == own; });
+    };
+    if (of(true).all + of(false).all == 0) continue;
+    out += "<tr><td><a href=\"#" + escape(c.name) + "\">" + escape(c.title) + "</a></td>" + tallyCell(of(true)) +
+           tallyCell(of(false)) + cell(format("%.3g", worstShare(c, rows))) + "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string caseTable(const Case& c, const std::vector<Row>& rows) {
+  std::string out =
+      "<div class=\"scroll\"><table><thead><tr><th>parameters</th><th>metric</th><th>method</th><th>value</th>"
+      "<th>bound</th><th>verdict</th></tr></thead><tbody>\n";
   for (const Row& row : rows) {
     if (row.case_name != c.name) continue;
-    out += "<tr><td>" + escape(parameterText(row.parameters)) + "</td><td>" + escape(row.method) + "</td><td>" +
-           escape(row.finding.metric) + "</td><td>" + escape(valueText(row.finding.value, row.finding.unit)) +
-           "</td><td>" + escape(valueText(row.finding.bound, row.finding.unit)) + "</td><td>" +
-           toString(row.finding.verdict) + "</td><td>" + toString(row.expected) + "</td></tr>\n";
+    const Finding& f = row.finding;
+    out += "<tr>" + cell(parameterText(row.parameters)) + "<td title=\"" + escape(f.oracle) + "\">" + escape(f.metric) +
+           "</td>" + cell(row.method) + cell(valueText(f.value, f.unit)) + cell(valueText(f.bound, f.unit)) +
+           cell(std::string(toString(f.verdict)) +
+                    (row.worse() ? std::string(", expected ") + toString(row.expected) : ""),
+                cssOf(f.verdict)) +
+           "</tr>\n";
+    if (!row.reason.empty()) out += "<tr><td colspan=\"6\" class=\"bad\">" + escape(row.reason) + "</td></tr>\n";
   }
-  return out + "</table></div>\n";
+  return out + "</tbody></table></div>\n";
+}
+
+std::string caseSection(const Case& c, const std::vector<Row>& rows) {
+  if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) { return row.case_name == c.name; })) return {};
+  return "<h2 id=\"" + escape(c.name) + "\">" + escape(c.title) + "</h2>\n<p>" + escape(c.oracle) +
+         "</p>\n<p class=\"caption\">" + escape(c.source) + " See it: <code>presa run experiments/stability/scenes/" +
+         escape(c.scene) + "</code></p>\n" + curvesHtml(c, rows) + caseTable(c, rows);
+}
+
+std::string verdictBlock(const std::vector<Row>& rows) {
+  const Tally own = tally(rows, [](const Row& row) { return row.method == kPresa; });
+  const Tally replaced = tally(rows, [](const Row& row) { return row.method != kPresa; });
+  const auto worse =
+      static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.worse(); }));
+  return "<div class=\"verdict " + std::string(worse == 0 ? "good" : "bad") + "\"><b>" +
+         (worse == 0 ? "No verdict is worse than expected" : format("%zu verdicts are worse than expected", worse)) +
+         "</b>\n<p>Presa's methods: " + own.text() + " findings stable. What they replace: " + replaced.text() +
+         ".</p>\n</div>\n";
 }
 
 }  // namespace
 
 std::string reportHtml(const std::vector<Case>& cases, const std::vector<Row>& rows) {
-  std::string out = page::head("Hard cases – Presa") + "<h1>Hard cases</h1>\n";
+  std::string out =
+      page::head("Hard cases – Presa") +
+      "<h1>Hard cases</h1>\n<p class=\"lead\">Each case in lockstep virtual time, with Presa's method and with "
+      "what that replaces, held against an answer that comes from elsewhere.</p>\n";
+  out += verdictBlock(rows) + "<h2>Overview</h2>\n" + overview(cases, rows) +
+         "<p class=\"caption\">Stable: within the bound. Drift: up to ten times the bound. Unstable: beyond, or no "
+         "number. "
+         "Failed: the trial did not end.</p>\n";
   for (const Case& c : cases) out += caseSection(c, rows);
-  return out + page::tail();
+  return out + "<p class=\"caption\">Presa " + std::string(kVersion) + "</p>\n" + page::tail();
 }
 
 }  // namespace presa::stability
