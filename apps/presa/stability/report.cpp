@@ -67,20 +67,50 @@ std::string overview(const std::vector<Case>& cases, const std::vector<Row>& row
   return out + "</tbody></table></div>\n";
 }
 
+/// The methods of a case in the order in which they come, Presa's first.
+std::vector<std::string> methodsOf(const Case& c, const std::vector<Row>& rows) {
+  std::vector<std::string> methods{kPresa};
+  for (const Row& row : rows) {
+    const bool known = std::find(methods.begin(), methods.end(), row.method) != methods.end();
+    if (row.case_name == c.name && !known) methods.push_back(row.method);
+  }
+  return methods;
+}
+
+std::string resultCell(const Row& row) {
+  std::string text = row.finding.verdict == Verdict::kFailed && !row.reason.empty()
+                         ? "failed: " + row.reason
+                         : valueText(row.finding.value, row.finding.unit) + ", " + toString(row.finding.verdict);
+  if (row.worse()) text += std::string(", expected ") + toString(row.expected);
+  return cell(text, cssOf(row.finding.verdict));
+}
+
+/// A line per parameter set and metric, a column per method.
 std::string caseTable(const Case& c, const std::vector<Row>& rows) {
+  const std::vector<std::string> methods = methodsOf(c, rows);
   std::string out =
-      "<div class=\"scroll\"><table><thead><tr><th>parameters</th><th>metric</th><th>method</th><th>value</th>"
-      "<th>bound</th><th>verdict</th></tr></thead><tbody>\n";
+      "<div class=\"scroll\"><table><thead><tr><th>parameters</th><th>metric</th><th>held against</th><th>bound</th>";
+  for (const std::string& method : methods) out += "<th>" + escape(method) + "</th>";
+  out += "</tr></thead><tbody>\n";
+  std::vector<const Row*> heads;  // of each line: its first row
+  const auto same_line = [](const Row& a, const Row& b) {
+    return a.parameters == b.parameters && a.finding.metric == b.finding.metric;
+  };
   for (const Row& row : rows) {
     if (row.case_name != c.name) continue;
-    const Finding& f = row.finding;
-    out += "<tr>" + cell(parameterText(row.parameters)) + "<td title=\"" + escape(f.oracle) + "\">" + escape(f.metric) +
-           "</td>" + cell(row.method) + cell(valueText(f.value, f.unit)) + cell(valueText(f.bound, f.unit)) +
-           cell(std::string(toString(f.verdict)) +
-                    (row.worse() ? std::string(", expected ") + toString(row.expected) : ""),
-                cssOf(f.verdict)) +
-           "</tr>\n";
-    if (!row.reason.empty()) out += "<tr><td colspan=\"6\" class=\"bad\">" + escape(row.reason) + "</td></tr>\n";
+    if (std::any_of(heads.begin(), heads.end(), [&](const Row* head) { return same_line(*head, row); })) continue;
+    heads.push_back(&row);
+  }
+  for (const Row* head : heads) {
+    out += "<tr>" + cell(parameterText(head->parameters)) + cell(head->finding.metric, "words") +
+           cell(head->finding.oracle, "words") + cell(valueText(head->finding.bound, head->finding.unit));
+    for (const std::string& method : methods) {
+      const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+        return row.case_name == c.name && row.method == method && same_line(row, *head);
+      });
+      out += found == rows.end() ? cell("–") : resultCell(*found);
+    }
+    out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }
