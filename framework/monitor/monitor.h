@@ -57,7 +57,7 @@ struct TraceSample {
 };
 
 /// Haptic-rate observer: sums, hash and a decimated trace. Allocates everything at construction.
-/// In ports: device_state, contact_exchange, force_command, object_state (optional).
+/// In ports, all optional (a scene without fingers has none): device_state, contact_exchange, force_command, object_state.
 class Monitor final : public Module {
  public:
   /// `loosen_time`: scripted start of letting go [s], or infinity. trace_rate 0: no trace.
@@ -88,9 +88,9 @@ class Monitor final : public Module {
 
  private:
   struct Impl;
-  In<DeviceState> device_{*this, "device_state"};
-  In<ContactExchange> contact_{*this, "contact_exchange"};
-  In<ForceCommand> command_{*this, "force_command"};
+  In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
+  In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
+  In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
   std::unique_ptr<Impl> impl_;
 };

@@ -45,7 +45,8 @@ Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnost
 Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_name, const std::string& rig_xml,
                          RunOptions options, Diagnostics& diagnostics) {
   Scene scene = parseScene(scene_xml, scene_name, ".", {}, diagnostics);
-  Rig rig = parseRig(rig_xml, "rig of " + scene_name, ".", diagnostics);
+  Rig rig;  // a scene without fingers needs none
+  if (!rig_xml.empty()) rig = parseRig(rig_xml, "rig of " + scene_name, ".", diagnostics);
   if (diagnostics.hasErrors()) return {};
   Loaded loaded;
   loaded.plan = makePlan(scene, rig, options, diagnostics);

@@ -29,6 +29,17 @@ void bindDevices(Plan& plan, const Scene& scene, const Rig& rig, Diagnostics& di
   }
 }
 
+const char* dynamicsPlugin(const Scene& scene) {
+  switch (scene.dynamics.engine) {
+    case DynamicsSettings::Engine::kMujoco:
+      return "dynamics_mujoco";
+    case DynamicsSettings::Engine::kBullet:
+      return "dynamics_bullet";
+    default:
+      return "dynamics_ode";
+  }
+}
+
 }  // namespace
 
 bool Plan::has(const std::string& plugin) const {
@@ -59,7 +70,13 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
        "body '" + mesh + "' has a mesh as haptic geometry",
        fingers ? "every haptic geometry is a primitive, which the haptic tick handles exactly"
                : "the scene has no device");
-  call(!free.empty(), "dynamics_ode", RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
+  const char* dynamics = dynamicsPlugin(scene);
+  if (fingers && !free.empty() && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
+    diagnostics.error(
+        407, {scene.file, 0, 0}, std::string("the scene has devices, and ") + dynamics + " knows no fingers",
+        "engine=\"ode\" moves bodies that are held; the others are there to compare with, without fingers");
+  }
+  call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty(), "record", RateGroup::kHaptic, "--record " + options.record, "nothing is recorded");
   call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,
        options.view == RunOptions::View::kWindow ? "--view window" : "a picture is wanted", "no view is wanted");

@@ -102,11 +102,13 @@ struct CollisionSettings {
 
 /// How moving bodies are stepped. The defaults are Presa's methods, the others what they replace.
 struct DynamicsSettings {
+  enum class Engine { kOde, kMujoco, kBullet };  ///< all but the first: to compare with, without fingers
   enum class Coupling { kSoft, kExplicit };
   enum class Solver { kAuto, kDirect, kIterative };
   enum class Friction { kIsotropic, kPyramid };
   /// kMatrix: R (I + S(w) dt), re-orthonormalised; kEuler: one Euler step of Euler's equations.
   enum class Rotation { kExact, kEngine, kNone, kEuler, kMatrix };
+  Engine engine = Engine::kOde;
   Coupling coupling = Coupling::kSoft;
   Solver solver = Solver::kAuto;
   std::size_t iterations = 0;  ///< of the iterative solver; 0: as many as the period allows

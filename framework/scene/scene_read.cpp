@@ -155,6 +155,8 @@ CollisionSettings readCollision(const Element& element) {
 DynamicsSettings readDynamics(const Element& element) {
   using D = DynamicsSettings;
   D settings;
+  settings.engine =
+      choose(element, "engine", settings.engine, {{"mujoco", D::Engine::kMujoco}, {"bullet", D::Engine::kBullet}});
   settings.coupling = choose(element, "coupling", settings.coupling, {{"explicit", D::Coupling::kExplicit}});
   settings.solver = choose(element, "solver", settings.solver,
                            {{"direct", D::Solver::kDirect}, {"iterative", D::Solver::kIterative}});

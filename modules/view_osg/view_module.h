@@ -37,9 +37,9 @@ class ViewModule final : public View {
   void giveUp(const std::string& why) noexcept;
 
   std::shared_ptr<const World> world_;
-  In<DeviceState> device_state_{*this, "device_state"};
-  In<ContactExchange> contact_exchange_{*this, "contact_exchange"};
-  In<ForceCommand> force_command_{*this, "force_command"};
+  In<DeviceState> device_state_{*this, "device_state", In<DeviceState>::Optional{}};
+  In<ContactExchange> contact_exchange_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
+  In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
   ViewFrame frame_;

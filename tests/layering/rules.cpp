@@ -21,6 +21,8 @@ struct Library {
 // tests may include a library beside its home: as an independent oracle
 constexpr std::array kLibraries{
     Library{"ode/.*", "modules/dynamics_ode/"},
+    Library{"mujoco/.*", "modules/dynamics_mujoco/"},
+    Library{"bt[A-Z].*|Bullet.*|LinearMath/.*", "modules/dynamics_bullet/"},
     Library{"(fcl|ccd|octomap)/.*", "modules/collision_fcl/"},
     Library{"(osg[A-Za-z]*|OpenThreads|EGL|X11|GL|GLES[23]?)/.*", "modules/view_osg/"},
     Library{"(hdf5|H5).*", "framework/record/record_plugin/"},

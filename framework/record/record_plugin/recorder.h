@@ -62,9 +62,9 @@ class FileRecorder final : public Recorder {
   void onFile(const Work& work);
   std::uint64_t lostInRings() const noexcept;
 
-  In<DeviceState> device_{*this, "device_state"};
-  In<ContactExchange> contact_{*this, "contact_exchange"};
-  In<ForceCommand> command_{*this, "force_command"};
+  In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
+  In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
+  In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
 
   std::shared_ptr<const World> world_;

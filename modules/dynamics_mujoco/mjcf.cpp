@@ -1,0 +1,74 @@
+#include "modules/dynamics_mujoco/mjcf.h"
+
+#include <cstdio>
+
+namespace presa::mujoco {
+namespace {
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, " %.17g", value);
+  return text;
+}
+
+std::string numbers(const Vec3& v) { return number(v.x()) + number(v.y()) + number(v.z()); }
+
+std::string pose(const Pose& X) {
+  return " pos=\"" + numbers(X.p) + "\" quat=\"" + number(X.q.w()) + number(X.q.x()) + number(X.q.y()) +
+         number(X.q.z()) + "\"";
+}
+
+std::string shape(const Geometry& geometry, const Body& body) {
+  if (const auto* box = std::get_if<Box>(&geometry.shape))
+    return "type=\"box\" size=\"" + numbers(box->size / 2) + "\"";
+  if (const auto* sphere = std::get_if<Sphere>(&geometry.shape))
+    return "type=\"sphere\" size=\"" + number(sphere->radius) + "\"";
+  if (const auto* rod = std::get_if<Cylinder>(&geometry.shape))
+    return "type=\"cylinder\" size=\"" + number(rod->radius) + number(rod->length / 2) + "\"";
+  if (const auto* rod = std::get_if<Capsule>(&geometry.shape))
+    return "type=\"capsule\" size=\"" + number(rod->radius) + number(rod->length / 2) + "\"";
+  Diagnostics diagnostics;
+  diagnostics.error(580, geometry.where, "body '" + body.name + "': dynamics_mujoco has no mesh as physics geometry",
+                    "a box, sphere, cylinder or capsule, or engine=\"ode\"");
+  throw InputError(diagnostics);
+}
+
+std::string geom(const World& world, const Body& body) {
+  if (!body.physics) return {};
+  return "<geom " + shape(*body.physics, body) + pose(body.physics->X_BG) + " friction=\"" +
+         number(world.scene.materialOf(body).friction_dynamic) + " 0 0\"/>\n";
+}
+
+std::string inertial(const BodyInertia& inertia) {
+  const Mat3& I = inertia.inertia;
+  return "<inertial pos=\"" + numbers(inertia.p_BCm) + "\" mass=\"" + number(inertia.mass) + "\" fullinertia=\"" +
+         number(I(0, 0)) + number(I(1, 1)) + number(I(2, 2)) + number(I(0, 1)) + number(I(0, 2)) + number(I(1, 2)) +
+         "\"/>\n";
+}
+
+}  // namespace
+
+std::string mjcfOf(const World& world, double step) {
+  const Scene& scene = world.scene;
+  std::string bodies;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    bodies += "<body name=\"" + body.name + "\"" + pose(body.X_WB) + ">\n";
+    if (!body.fixed) bodies += "<freejoint/>" + inertial(world.inertias[i]);
+    bodies += geom(world, body) + "</body>\n";
+  }
+  const std::string iterations =
+      scene.dynamics.iterations > 0 ? " iterations=\"" + std::to_string(scene.dynamics.iterations) + "\"" : "";
+  // room for eight contacts of four rows each and pair of neighbours
+  const std::size_t contacts = 100 + 40 * scene.bodies.size();
+  return "<mujoco model=\"" + scene.name +
+         "\"><compiler balanceinertia=\"false\" boundmass=\"0\" boundinertia=\"0\"/>\n"
+         "<size njmax=\"" +
+         std::to_string(4 * contacts) + "\" nconmax=\"" + std::to_string(contacts) +
+         "\"/>\n"
+         "<option timestep=\"" +
+         number(step) + "\" gravity=\"" + numbers(scene.gravity) + "\" cone=\"elliptic\" solver=\"Newton\"" +
+         iterations + "/>\n<worldbody>\n" + bodies + "</worldbody></mujoco>\n";
+}
+
+}  // namespace presa::mujoco
