@@ -19,8 +19,10 @@ def numbers(*values):
 
 
 def wall(name, size, position):
+    # drawn as a low rim, so that the cubes are seen
+    rim = f'<visual pos="0 0 {numbers(0.005 - size[2] / 2)}"><box size="{numbers(size[0], size[1], 0.01)}"/></visual>'
     return (f'  <body name="{name}" fixed="true" pos="{numbers(*position)}">'
-            f'<physics><box size="{numbers(*size)}"/></physics></body>\n')
+            f'{rim}<physics><box size="{numbers(*size)}"/></physics></body>\n')
 
 
 def pile(side):
