@@ -33,9 +33,13 @@ struct ObjectState {
   double time_end = 0;    ///< [s], time_begin + dynamics period
   std::int32_t count = 0;
   std::uint32_t faults = 0;  ///< ObjectFault bits since the start; forces fade for good when any is set
+  /// Steps since the start in which an island had to change from the direct to the iterative solver.
+  std::uint64_t fallback_steps = 0;
+  /// By finger: what it gave to the bodies since the start, in W [N s]. Its difference over a time is the mean force.
+  std::array<Vec3, kMaxFingers> finger_impulse_W;
   std::array<BodyMotion, kMaxBodies> bodies;
 
-  ObjectState() = default;
+  ObjectState() { finger_impulse_W.fill(Vec3::Zero()); }
   ObjectState(const ObjectState& other) { *this = other; }
   /// Copies only the bodies in use: this runs at every publication.
   ObjectState& operator=(const ObjectState& other) {
@@ -44,6 +48,8 @@ struct ObjectState {
     time_end = other.time_end;
     count = other.count;
     faults = other.faults;
+    fallback_steps = other.fallback_steps;
+    finger_impulse_W = other.finger_impulse_W;
     std::copy_n(other.bodies.begin(), other.count, bodies.begin());
     return *this;
   }

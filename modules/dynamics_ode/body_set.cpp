@@ -26,7 +26,8 @@ dMass massOf(const BodyInertia& inertia) {
 
 }  // namespace
 
-BodySet::BodySet(const World& world, dWorldID ode_world, dSpaceID space) : bodies_(world.scene.bodies.size()) {
+BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorldID ode_world, dSpaceID space)
+    : rotation_(rotation), bodies_(world.scene.bodies.size()) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = world.scene.bodies[i];
     const BodyInertia& inertia = world.inertias[i];
@@ -40,10 +41,14 @@ BodySet::BodySet(const World& world, dWorldID ode_world, dSpaceID space) : bodie
       entry.body = dBodyCreate(ode_world);
       const dMass mass = massOf(inertia);
       dBodySetMass(entry.body, &mass);
-      dBodySetGyroscopicMode(entry.body, 0);  // wrong in ODE; driftRotations does it
+      // ODE's gyroscopic term is wrong; driftRotations does it
+      dBodySetGyroscopicMode(entry.body, rotation_ == DynamicsSettings::Rotation::kEngine ? 1 : 0);
       const Vec3 p_WCm = body.X_WB * entry.p_BCm;
       dBodySetPosition(entry.body, p_WCm.x(), p_WCm.y(), p_WCm.z());
       dBodySetQuaternion(entry.body, toOde(body.X_WB.q).data());
+      dBodySetLinearVel(entry.body, body.v_WCm.x(), body.v_WCm.y(), body.v_WCm.z());
+      dBodySetAngularVel(entry.body, body.w_WB.x(), body.w_WB.y(), body.w_WB.z());
+      entry.constant_force_W = body.force_W;
     }
     if (body.physics) createGeom(entry, *body.physics, world.meshes[i].physics.get(), space);
     if (entry.geom != nullptr) dGeomSetData(entry.geom, reinterpret_cast<void*>(i));
@@ -56,45 +61,6 @@ BodySet::~BodySet() {
     if (entry.mesh_data != nullptr) dGeomTriMeshDataDestroy(entry.mesh_data);
     if (entry.body != nullptr) dBodyDestroy(entry.body);
   }
-}
-
-void BodySet::createGeom(Entry& entry, const Geometry& geometry, const TriMesh* mesh, dSpaceID space) {
-  struct Create {
-    Entry& entry;
-    const TriMesh* mesh;
-    dSpaceID space;
-    dGeomID operator()(const Box& box) { return dCreateBox(space, box.size.x(), box.size.y(), box.size.z()); }
-    dGeomID operator()(const Sphere& sphere) { return dCreateSphere(space, sphere.radius); }
-    dGeomID operator()(const Cylinder& cylinder) { return dCreateCylinder(space, cylinder.radius, cylinder.length); }
-    dGeomID operator()(const Capsule& capsule) { return dCreateCapsule(space, capsule.radius, capsule.length); }
-    dGeomID operator()(const MeshRef&) {
-      if (mesh == nullptr || mesh->triangles.empty()) return nullptr;
-      for (const Vec3& v : mesh->vertices) entry.vertices.insert(entry.vertices.end(), {v.x(), v.y(), v.z()});
-      for (const TriMesh::Triangle& t : mesh->triangles) {
-        for (const std::int32_t index : t) entry.indices.push_back(static_cast<dTriIndex>(index));
-      }
-      entry.mesh_data = dGeomTriMeshDataCreate();
-      dGeomTriMeshDataBuildDouble(entry.mesh_data, entry.vertices.data(), 3 * sizeof(double),
-                                  static_cast<int>(mesh->vertices.size()), entry.indices.data(),
-                                  static_cast<int>(entry.indices.size()), 3 * sizeof(dTriIndex));
-      return dCreateTriMesh(space, entry.mesh_data, nullptr, nullptr, nullptr);
-    }
-  };
-  entry.geom = std::visit(Create{entry, mesh, space}, geometry.shape);
-  if (entry.geom == nullptr) return;
-  if (entry.body != nullptr) {
-    dGeomSetBody(entry.geom, entry.body);
-    const Vec3 p_CmG = geometry.X_BG.p - entry.p_BCm;
-    dGeomSetOffsetPosition(entry.geom, p_CmG.x(), p_CmG.y(), p_CmG.z());
-    dGeomSetOffsetQuaternion(entry.geom, toOde(geometry.X_BG.q).data());
-  } else {
-    const Pose X_WG = entry.X_WB * geometry.X_BG;
-    dGeomSetPosition(entry.geom, X_WG.p.x(), X_WG.p.y(), X_WG.p.z());
-    dGeomSetQuaternion(entry.geom, toOde(X_WG.q).data());
-  }
-  dReal bounds[6];
-  dGeomGetAABB(entry.geom, bounds);
-  entry.extent = 0.5 * Vec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]).norm();
 }
 
 BodySet::State BodySet::read(const Entry& entry) {
@@ -119,12 +85,11 @@ BodyInertiaState BodySet::inertiaState(std::size_t i) const {
   return {poseOf(entry, state), state.p_WCm, 1 / entry.mass, R_WB * entry.inverse_inertia * R_WB.transpose()};
 }
 
-Vec3 BodySet::centreVelocity(std::size_t i) const {
-  return moves(i) ? toVec3(dBodyGetLinearVel(bodies_[i].body)) : Vec3(Vec3::Zero());
-}
-
-Vec3 BodySet::angularVelocity(std::size_t i) const {
-  return moves(i) ? toVec3(dBodyGetAngularVel(bodies_[i].body)) : Vec3(Vec3::Zero());
+Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
+  if (!moves(i)) return Vec3::Zero();
+  const Entry& entry = bodies_[i];
+  const Vec3 w_WB = toVec3(dBodyGetAngularVel(entry.body));
+  return toVec3(dBodyGetLinearVel(entry.body)) + w_WB.cross(p_W - entry.begin.p_WCm);
 }
 
 void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
@@ -133,6 +98,35 @@ void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
   const Vec3 v_WCm = v_WB + w_WB.cross(toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm);
   dBodySetLinearVel(entry.body, v_WCm.x(), v_WCm.y(), v_WCm.z());
   dBodySetAngularVel(entry.body, w_WB.x(), w_WB.y(), w_WB.z());
+}
+
+void BodySet::enable(std::size_t i, bool on) {
+  Entry& entry = bodies_[i];
+  if (entry.enabled == on) return;
+  entry.enabled = on;
+  on ? dBodyEnable(entry.body) : dBodyDisable(entry.body);
+}
+
+void BodySet::resetForces() {
+  for (Entry& entry : bodies_) {
+    entry.force_W = entry.constant_force_W;
+    entry.torque_W.setZero();
+  }
+}
+
+void BodySet::addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP) {
+  Entry& entry = bodies_[i];
+  entry.force_W += f_W;
+  entry.torque_W += (p_WP - toVec3(dBodyGetPosition(entry.body))).cross(f_W);
+}
+
+void BodySet::applyForces() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Entry& entry = bodies_[i];
+    if (!moves(i) || !entry.enabled) continue;
+    dBodySetForce(entry.body, entry.force_W.x(), entry.force_W.y(), entry.force_W.z());
+    dBodySetTorque(entry.body, entry.torque_W.x(), entry.torque_W.y(), entry.torque_W.z());
+  }
 }
 
 void BodySet::beginStep() {
@@ -150,7 +144,19 @@ void BodySet::restore(std::size_t i) {
   dBodySetAngularVel(entry.body, state.w_WB.x(), state.w_WB.y(), state.w_WB.z());
 }
 
+void BodySet::rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const {
+  switch (rotation_) {
+    case DynamicsSettings::Rotation::kEuler:
+      return eulerRotation(q_WB, w_WB, entry.inertia, entry.inverse_inertia, h);
+    case DynamicsSettings::Rotation::kMatrix:
+      return matrixRotation(q_WB, w_WB, h);
+    default:
+      return driftRotation(q_WB, w_WB, entry.inertia, entry.inverse_inertia, h);
+  }
+}
+
 void BodySet::driftRotations(double h) {
+  if (rotation_ == DynamicsSettings::Rotation::kEngine || rotation_ == DynamicsSettings::Rotation::kNone) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves(i)) continue;
     const Entry& entry = bodies_[i];
@@ -158,7 +164,7 @@ void BodySet::driftRotations(double h) {
     const double angle = w_WB.norm() * h;
     if (!(angle > kMinAngle && angle < kMaxSpin)) continue;
     Quat q_WB = entry.begin.q_WB;
-    driftRotation(q_WB, w_WB, entry.inertia, entry.inverse_inertia, h);
+    rotate(entry, q_WB, w_WB, h);
     dBodySetQuaternion(entry.body, toOde(q_WB).data());
     dBodySetAngularVel(entry.body, w_WB.x(), w_WB.y(), w_WB.z());
   }
@@ -183,6 +189,7 @@ void BodySet::freeze(Entry& entry) {
   dBodySetLinearVel(entry.body, 0, 0, 0);
   dBodySetAngularVel(entry.body, 0, 0, 0);
   dBodyDisable(entry.body);
+  entry.enabled = false;
   entry.frozen = true;
 }
 

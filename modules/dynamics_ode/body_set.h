@@ -14,8 +14,8 @@ namespace presa::ode {
 /// nowhere else poses and velocities are carried between it and the body frame B.
 class BodySet {
  public:
-  /// Takes bodies and geometries from `world`, which must outlive this.
-  BodySet(const World& world, dWorldID ode_world, dSpaceID space);
+  /// Takes bodies, their velocities at the start and geometries from `world`.
+  BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorldID ode_world, dSpaceID space);
   ~BodySet();
   BodySet(const BodySet&) = delete;
   BodySet& operator=(const BodySet&) = delete;
@@ -33,16 +33,27 @@ class BodySet {
   BodyInertiaState inertiaState(std::size_t i) const;
   /// [1/kg]; zero when it does not move
   double inverseMass(std::size_t i) const noexcept { return moves(i) ? 1 / bodies_[i].mass : 0; }
-  Vec3 centreVelocity(std::size_t i) const;   ///< of the centre of mass [m/s]; zero when it does not move
-  Vec3 angularVelocity(std::size_t i) const;  ///< [rad/s]
+  /// Centre of mass at the last beginStep [m]; W's origin when it does not move.
+  Vec3 centreAtBegin(std::size_t i) const { return moves(i) ? bodies_[i].begin.p_WCm : Vec3(Vec3::Zero()); }
+  /// Velocity now, of the point of body `i` that was at p_W at the last beginStep [m/s]; zero when it does not move.
+  Vec3 velocityAt(std::size_t i, const Vec3& p_W) const;
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; nothing if it does not move
+
+  /// Lets the solvers see body `i` (it moves) or not: it then keeps its state, and its contacts are left out.
+  void enable(std::size_t i, bool on);
+  /// Starts the external forces of a step with each body's constant one.
+  void resetForces();
+  /// Adds to body `i` (it moves) a force f_W [N] at p_WP for this step.
+  void addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP);
+  /// Hands the external forces of all enabled bodies to ODE, which forgets them with every solve.
+  void applyForces();
 
   /// Remembers every state, so that the step can be undone or a body kept at its last good pose.
   void beginStep();
   /// Puts body `i` back where beginStep found it.
   void restore(std::size_t i);
-  /// Replaces ODE's rotation over the step by the exact free one (see rotation.h).
+  /// Replaces ODE's rotation over the step by the chosen one (see rotation.h).
   void driftRotations(double h);
   /// Freezes each body whose state is not finite or beyond reason; returns how many. It stays a fixed obstacle
   /// at its pose of beginStep.
@@ -67,7 +78,9 @@ class BodySet {
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0;
-    bool frozen = false;
+    bool frozen = false, enabled = true;
+    Vec3 constant_force_W = Vec3::Zero();
+    Vec3 force_W = Vec3::Zero(), torque_W = Vec3::Zero();  // external, of this step, at the centre of mass
     State begin;
     Pose X_WB;  ///< as last written
   };
@@ -75,8 +88,10 @@ class BodySet {
   static State read(const Entry& entry);
   static Pose poseOf(const Entry& entry, const State& state);
   static bool sane(const State& state);
+  void rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const;
   void freeze(Entry& entry);
 
+  DynamicsSettings::Rotation rotation_;
   std::vector<Entry> bodies_;
 };
 

@@ -10,7 +10,9 @@ static_assert(std::uint32_t{Faults::kBodyFrozen} == kFaultBodyFrozen &&
               std::uint32_t{Faults::kEngineFailed} == kFaultEngineFailed &&
               std::uint32_t{Faults::kBadFinger} == kFaultBadFinger);
 
-OdeOptions seeded(OdeOptions options, const World& world) {
+OdeOptions optionsOf(const World& world) {
+  OdeOptions options;
+  options.method = world.scene.dynamics;
   options.seed = world.options.seed;
   return options;
 }
@@ -25,12 +27,12 @@ const ModulePlugin kPlugin{
 
 }  // namespace
 
-DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, const OdeOptions& options)
+DynamicsModule::DynamicsModule(std::shared_ptr<const World> world)
     : Module("dynamics_ode", RateGroup::kDynamics),
       fingers_(*this, "contact_exchange", In<ContactExchange>::Optional{}, WhenOld::kFadeToZero, kFingerOldAfter),
       objects_(*this, "object_state"),
       world_(std::move(world)),
-      options_(seeded(options, *world_)) {}
+      options_(optionsOf(*world_)) {}
 
 void DynamicsModule::start() {
   attachThread();
@@ -40,7 +42,6 @@ void DynamicsModule::start() {
 
 void DynamicsModule::step(const Tick& tick) noexcept {
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value);
-  objects_.value.faults = bodies_->faults().bits;
 }
 
 void DynamicsModule::stop() {
@@ -55,7 +56,7 @@ std::vector<std::string> DynamicsModule::stages() const {
       "solve once without friction between bodies, to point friction along the coming slip",
       "fingers as implicit spring-dampers (soft contact joints) inside their friction cone",
       "solve: islands up to " + std::to_string(options_.direct_limit) + " contacts directly, larger ones with up to " +
-          std::to_string(options_.quick_iterations) + " iterations",
+          std::to_string(options_.most_iterations) + " iterations",
       "rotate free bodies by one Runge-Kutta step of Euler's equations",
       "freeze a body whose state is not finite; publish poses at both ends of the step",
   };

@@ -13,7 +13,7 @@ namespace presa::ode {
 /// The moving bodies of a scene: fingers in, Object State out. Thread: dynamics.
 class DynamicsModule final : public Module {
  public:
-  explicit DynamicsModule(std::shared_ptr<const World> world, const OdeOptions& options = {});
+  explicit DynamicsModule(std::shared_ptr<const World> world);
 
   void start() override;
   void step(const Tick& tick) noexcept override;
@@ -26,7 +26,7 @@ class DynamicsModule final : public Module {
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
   std::shared_ptr<const World> world_;
-  OdeOptions options_;
+  const OdeOptions options_;
   std::unique_ptr<OdeWorld> bodies_;
 };
 

@@ -9,11 +9,6 @@ double pairFriction(const Material& a, const Material& b, double slip_speed) {
                                  : std::sqrt(a.friction_dynamic * b.friction_dynamic);
 }
 
-Vec3 slipVelocity(const Vec3& nhat_AB, const Vec3& p_W, const Motion& A, const Motion& B) {
-  const Vec3 relative = B.at(p_W) - A.at(p_W);
-  return relative - relative.dot(nhat_AB) * nhat_AB;
-}
-
 Vec3 frictionDirection(const Vec3& nhat_AB, const Vec3& slip) {
   constexpr double kNoSlip = 1e-9;  // [m/s]
   if (!(slip.norm() > kNoSlip)) return nhat_AB.unitOrthogonal();

@@ -8,7 +8,7 @@ namespace presa::ode {
 void Islands::reset(std::size_t bodies) {
   parent_.resize(bodies);
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  contacts_.assign(bodies, 0);
+  islands_.assign(bodies, {});
 }
 
 std::size_t Islands::root(std::size_t a) {
@@ -18,14 +18,17 @@ std::size_t Islands::root(std::size_t a) {
 
 void Islands::join(std::size_t a, std::size_t b) {
   const auto [low, high] = std::minmax({root(a), root(b)});
-  ++contacts_[low];
+  ++islands_[low].contacts;
   if (low == high) return;
   parent_[high] = low;
-  contacts_[low] += contacts_[high];
+  islands_[low].contacts += islands_[high].contacts;
+  islands_[low].touched = islands_[low].touched || islands_[high].touched;
 }
 
-void Islands::touch(std::size_t a) { ++contacts_[root(a)]; }
-
-std::uint32_t Islands::contacts(std::size_t a) { return contacts_[root(a)]; }
+void Islands::touchByFinger(std::size_t a) {
+  Island& island = islands_[root(a)];
+  ++island.contacts;
+  island.touched = true;
+}
 
 }  // namespace presa::ode

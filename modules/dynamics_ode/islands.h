@@ -4,23 +4,30 @@
 
 namespace presa::ode {
 
-/// Groups of free bodies that touch each other (union-find), each with its number of contacts. A fixed body or a
-/// finger joins nothing: what lies on one table are separate islands, as ODE sees them too.
+/// Groups of free bodies that touch each other (union-find). A fixed body or a finger joins nothing: what lies on one
+/// table are separate islands, as ODE sees them too.
 class Islands {
  public:
+  struct Island {
+    std::uint32_t contacts = 0;  ///< with fingers
+    bool touched = false;        ///< by a finger
+  };
   /// Starts over with `bodies` separate bodies.
   void reset(std::size_t bodies);
   /// A contact between two free bodies.
   void join(std::size_t a, std::size_t b);
-  /// A contact of one free body with something fixed, or a finger.
-  void touch(std::size_t a);
-  /// Contacts in the island of body `a`.
-  std::uint32_t contacts(std::size_t a);
+  /// A contact of one free body with something fixed.
+  void touch(std::size_t a) { ++islands_[root(a)].contacts; }
+  void touchByFinger(std::size_t a);
+
+  /// Name of body `a`'s island, below the number of bodies.
+  std::size_t of(std::size_t a) { return root(a); }
+  const Island& operator[](std::size_t island) const { return islands_[island]; }
 
  private:
   std::size_t root(std::size_t a);
   std::vector<std::size_t> parent_;
-  std::vector<std::uint32_t> contacts_;
+  std::vector<Island> islands_;
 };
 
 }  // namespace presa::ode

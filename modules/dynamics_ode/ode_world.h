@@ -1,37 +1,15 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "framework/scene/world.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/object_state.h"
 #include "modules/dynamics_ode/body_contact.h"
+#include "modules/dynamics_ode/ode_options.h"
 
 namespace presa::ode {
-
-struct OdeOptions {
-  /// How a finger's force reaches a body. kExplicitForce adds the rendered penalty force for one step: the
-  /// baseline, unstable below about h^2 K / 2 per axis; never the default.
-  enum class Coupling { kSoftContact, kExplicitForce };
-  Coupling coupling = Coupling::kSoftContact;
-  /// Contacts of an island up to which it is solved directly. Cubic: 80 contacts take 2 to 3 ms, 150 take 20.
-  std::uint32_t direct_limit = 80;
-  /// Iterations for larger islands: `quick_iterations`, fewer when contacts * iterations would exceed the budget
-  /// (2 ms), never below `min_quick_iterations`.
-  int quick_iterations = 200;
-  int quick_budget = 40000;
-  int min_quick_iterations = 50;
-  /// Contact between bodies: part of the penetration removed per step, and compliance cfm = h * softness / reduced
-  /// mass, at most max_contact_cfm [m/(N s)]. A body on a table sinks g h^2 softness / (contacts * erp), below 1 um,
-  /// whatever its mass; less softness and the iterative solver does not come to rest.
-  double contact_erp = 0.2;
-  double contact_softness = 2e-3;
-  double max_contact_cfm = 1e-4;
-  std::uint64_t seed = 1;  ///< order in which the iterative solver visits its rows
-};
 
 /// What went wrong so far, and what was done about it. Bodies keep their last good pose.
 struct Faults {
@@ -46,10 +24,9 @@ struct Faults {
 
 /// The rigid bodies of a scene, stepped by ODE. One thread creates, steps and destroys it.
 ///
-/// Body-body contacts are all but rigid (erp, softness above); fingers are implicit spring-dampers (finger_row.h). Semi-implicit
-/// Euler for translation, kick-drift for rotation (rotation.h). Islands of bodies up to `direct_limit` contacts are
-/// solved by ODE's direct solver, larger ones iteratively. When the direct solver reports trouble the step of its
-/// islands is undone and repeated iteratively. The same calls give the same bits.
+/// Body-body contacts are all but rigid (ode_options.h); fingers are implicit spring-dampers (finger_row.h). Semi-implicit
+/// Euler for translation, kick-drift for rotation (rotation.h), each island with the solver that suits it
+/// (island_solver.h), friction as Coulomb's (step_solver.h). The same calls give the same bits.
 class OdeWorld {
  public:
   explicit OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options = {});
@@ -69,7 +46,7 @@ class OdeWorld {
   /// Contacts between bodies found in the last step.
   const std::vector<BodyContact>& contacts() const noexcept;
   const Faults& faults() const noexcept;
-  /// Steps in which the direct solver reported trouble and the iterative one took over.
+  /// Steps in which the direct solver reported trouble in an island and the iterative one took it over.
   std::uint64_t fallbackSteps() const noexcept;
 
  private:

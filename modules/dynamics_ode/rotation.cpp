@@ -39,4 +39,22 @@ void driftRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inve
   w_WB = spin(q_WB, inverse_inertia, momentum_W);
 }
 
+void eulerRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h) {
+  const Vec3 w_B = q_WB.conjugate() * w_WB;
+  q_WB.coeffs() += 0.5 * h * (Quat(0, w_WB.x(), w_WB.y(), w_WB.z()) * q_WB).coeffs();
+  q_WB.normalize();
+  w_WB = q_WB * Vec3(w_B - h * (inverse_inertia * w_B.cross(inertia * w_B)));
+}
+
+void matrixRotation(Quat& q_WB, const Vec3& w_WB, double h) {
+  const Vec3 turn = h * (q_WB.conjugate() * w_WB);
+  Mat3 skew;
+  skew << 0, -turn.z(), turn.y(), turn.z(), 0, -turn.x(), -turn.y(), turn.x(), 0;
+  Mat3 R = q_WB.toRotationMatrix() * (Mat3::Identity() + skew);
+  R.col(0).normalize();
+  R.col(1) = (R.col(1) - R.col(1).dot(R.col(0)) * R.col(0)).normalized();
+  R.col(2) = R.col(0).cross(R.col(1));
+  q_WB = Quat(R).normalized();
+}
+
 }  // namespace presa::ode

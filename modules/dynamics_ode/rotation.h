@@ -9,4 +9,11 @@ namespace presa::ode {
 /// momentum is exact to rounding, energy to fifth order in h per step.
 void driftRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h);
 
+/// One explicit Euler step of Euler's equations and of the quaternion, then normalised: gains energy, the textbook baseline.
+void eulerRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h);
+
+/// R <- R (I + S(w_B) h), re-orthonormalised; the angular velocity stays, so a body whose moments differ never tumbles.
+/// (I + S dt multiplies from the right for body rates.)
+void matrixRotation(Quat& q_WB, const Vec3& w_WB, double h);
+
 }  // namespace presa::ode

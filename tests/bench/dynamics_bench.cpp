@@ -1,67 +1,98 @@
 #include <benchmark/benchmark.h>
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "framework/schedule/clock.h"
 #include "modules/dynamics_ode/ode_world.h"
 
-// What a dynamics step costs over ODE alone: the same cubes, collided and solved by hand with ODE's plain friction.
+// What a dynamics step costs over ODE alone: the same settled cubes, collided and solved by hand with ODE's plain friction, the same
+// solver and as many iterations.
 namespace presa::ode {
 namespace {
 
 constexpr double kStep = 0.005;
 constexpr double kEdge = 0.05;
 constexpr double kMass = 0.1;
+constexpr int kIterations = 50;
+constexpr double kSettle = 3;  // [s]
 
-// n^3 cubes: apart on the table (n^3 islands) or as touching blocks of n layers (one island)
-std::vector<Vec3> places(int n, bool apart) {
-  std::vector<Vec3> all;
-  for (int i = 0; i < n * n * n; ++i) {
-    const Vec3 cell(i % n, i / n % n, i / (n * n));
-    all.push_back(apart ? Vec3(0.1 * (cell.x() + n * cell.z()), 0.1 * cell.y(), kEdge / 2)
-                        : Vec3(kEdge * cell + Vec3(0, 0, kEdge / 2)));
+// n^3 cubes: apart on the table (n^3 islands), as touching blocks of n layers (one island), or poured in any
+// orientation into a bin (one island)
+enum Layout { kApart, kBlock, kHeap };
+
+Pose placeOf(int i, int n, Layout layout) {
+  const Vec3 cell(i % n, i / n % n, i / (n * n));
+  switch (layout) {
+    case kApart:
+      return {Vec3(0.1 * (cell.x() + n * cell.z()), 0.1 * cell.y(), kEdge / 2), Quat::Identity()};
+    case kBlock:
+      return {Vec3(kEdge * cell + Vec3(0, 0, kEdge / 2)), Quat::Identity()};
+    default:
+      return {Vec3(1.3 * kEdge * (cell + Vec3(-0.5 * n + 0.5, -0.5 * n + 0.5, 1))),
+              Quat(Eigen::AngleAxisd(0.7 * i, Vec3(1, i % 3, i % 5).normalized()))};
   }
-  return all;
 }
 
-std::shared_ptr<const World> sceneOf(const std::vector<Vec3>& cubes) {
+std::shared_ptr<const World> sceneOf(int n, Layout layout) {
   auto world = std::make_shared<World>();
   Material material;
   material.friction_static = material.friction_dynamic = 0.5;
   world->scene.materials.push_back(material);
-  const auto add = [&](const Vec3& size, const Vec3& p, double mass) {
+  world->scene.dynamics.iterations = kIterations;
+  const auto add = [&](const Vec3& size, const Pose& X_WB, double mass) {
     Body body;
     body.fixed = mass == 0;
-    body.X_WB.p = p;
+    body.X_WB = X_WB;
     body.physics = Geometry{Box{size}, {}, {}};
     world->scene.bodies.push_back(body);
     world->meshes.emplace_back();
     world->inertias.push_back({mass, Vec3::Zero(), mass * size.x() * size.x() / 6 * Mat3::Identity()});
   };
-  add({10, 10, 0.1}, {0, 0, -0.05}, 0);
-  for (const Vec3& p : cubes) add(Vec3::Constant(kEdge), p, kMass);
+  add({10, 10, 0.1}, {{0, 0, -0.05}, Quat::Identity()}, 0);
+  for (int side = 0; side < 4 && layout == kHeap; ++side) {
+    const double middle = (0.7 * n + 0.5) * kEdge, out = side % 2 == 0 ? middle : -middle;
+    add(side < 2 ? Vec3(kEdge, 10, 10) : Vec3(10, kEdge, 10),
+        {side < 2 ? Vec3(out, 0, 0) : Vec3(0, out, 0), Quat::Identity()}, 0);
+  }
+  for (int i = 0; i < n * n * n; ++i) add(Vec3::Constant(kEdge), placeOf(i, n, layout), kMass);
   return world;
+}
+
+OdeOptions optionsOf(const World& world, bool direct) {
+  OdeOptions options;
+  options.method = world.scene.dynamics;
+  options.method.solver = direct ? DynamicsSettings::Solver::kDirect : DynamicsSettings::Solver::kIterative;
+  options.method.sleeping = false;
+  return options;
 }
 
 class BareOde {
  public:
-  explicit BareOde(const std::vector<Vec3>& cubes)
+  BareOde(const World& world, const ObjectState& state)
       : world_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)), joints_(dJointGroupCreate(0)) {
     dHashSpaceSetLevels(space_, -10, 6);
     dWorldSetGravity(world_, 0, 0, -9.81);
     dWorldSetCFM(world_, 1e-10);
-    dWorldSetQuickStepNumIterations(world_, 50);
-    dGeomSetPosition(dCreateBox(space_, 10, 10, 0.1), 0, 0, -0.05);
-    for (const Vec3& p : cubes) {
-      const dBodyID body = dBodyCreate(world_);
-      dMass mass;
-      dMassSetBoxTotal(&mass, kMass, kEdge, kEdge, kEdge);
-      dBodySetMass(body, &mass);
-      dBodySetPosition(body, p.x(), p.y(), p.z());
-      dGeomSetBody(dCreateBox(space_, kEdge, kEdge, kEdge), body);
+    dWorldSetQuickStepNumIterations(world_, kIterations);
+    for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
+      const Vec3& size = std::get<Box>(world.scene.bodies[i].physics->shape).size;
+      const Pose& X_WB = state.bodies[i].X_WB_end;
+      const dQuaternion q{X_WB.q.w(), X_WB.q.x(), X_WB.q.y(), X_WB.q.z()};
+      const dGeomID geom = dCreateBox(space_, size.x(), size.y(), size.z());
+      if (!world.scene.bodies[i].fixed) {
+        const dBodyID body = dBodyCreate(world_);
+        dMass mass;
+        dMassSetBoxTotal(&mass, kMass, kEdge, kEdge, kEdge);
+        dBodySetMass(body, &mass);
+        dGeomSetBody(geom, body);
+      }
+      dGeomSetPosition(geom, X_WB.p.x(), X_WB.p.y(), X_WB.p.z());
+      dGeomSetQuaternion(geom, q);
     }
   }
   ~BareOde() {
@@ -73,6 +104,7 @@ class BareOde {
   BareOde& operator=(const BareOde&) = delete;
 
   void step(bool quick) {
+    contacts_ = 0;
     dSpaceCollide(space_, this, [](void* self, dGeomID a, dGeomID b) { static_cast<BareOde*>(self)->touch(a, b); });
     if (quick) {
       dWorldQuickStep(world_, kStep);
@@ -81,17 +113,20 @@ class BareOde {
     }
     dJointGroupEmpty(joints_);
   }
+  int contacts() const { return contacts_; }
 
  private:
   void touch(dGeomID a, dGeomID b) {
+    if (dGeomGetBody(a) == nullptr && dGeomGetBody(b) == nullptr) return;
     std::array<dContactGeom, 8> found;
     const int count = dCollide(a, b, static_cast<int>(found.size()), found.data(), sizeof(dContactGeom));
+    contacts_ += count;
     for (int i = 0; i < count; ++i) {
       dContact contact{};
       contact.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM;
       contact.surface.mu = 0.5;
       contact.surface.soft_erp = 0.2;
-      contact.surface.soft_cfm = 1e-6;
+      contact.surface.soft_cfm = 1e-4;  // as ours for these masses
       contact.geom = found[static_cast<std::size_t>(i)];
       dJointAttach(dJointCreateContact(world_, joints_, &contact), dGeomGetBody(a), dGeomGetBody(b));
     }
@@ -99,32 +134,48 @@ class BareOde {
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID joints_;
+  int contacts_ = 0;
 };
 
+// Presa and bare ODE take turns, so that a noisy machine slows both.
 void BM_DynamicsStep(benchmark::State& state) {
-  OdeWorld bodies(sceneOf(places(static_cast<int>(state.range(0)), state.range(1) != 0)));
+  const auto n = static_cast<int>(state.range(0));
+  const auto layout = static_cast<Layout>(state.range(1));
+  const auto world = sceneOf(n, layout);
+  OdeWorld bodies(world, optionsOf(*world, layout == kApart));
   ObjectState out;
   double time = 0;
   const auto step = [&] {
     bodies.step({}, time, kStep, out);
     time += kStep;
   };
-  for (int i = 0; i < 100; ++i) step();
-  for (auto _ : state) step();
+  while (time < kSettle) step();
+  BareOde bare(*world, out);
+  std::vector<std::int64_t> ours, theirs;
+  for (auto _ : state) {
+    const std::int64_t begin = monotonicNs();
+    step();
+    const std::int64_t middle = monotonicNs();
+    bare.step(layout != kApart);
+    ours.push_back(middle - begin);
+    theirs.push_back(monotonicNs() - middle);
+  }
+  const auto median = [](std::vector<std::int64_t>& all) {
+    std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+    return static_cast<double>(all[all.size() / 2]) * 1e-3;
+  };
+  state.counters["presa_us"] = median(ours);
+  state.counters["bare_us"] = median(theirs);
+  state.counters["ratio"] = median(ours) / median(theirs);
   state.counters["contacts"] = static_cast<double>(bodies.contacts().size());
+  state.counters["bare_contacts"] = bare.contacts();
   state.counters["fallbacks"] = static_cast<double>(bodies.fallbackSteps());
 }
 
-void BM_BareOdeStep(benchmark::State& state) {
-  const bool apart = state.range(1) != 0;
-  const OdeWorld ode_is_started(sceneOf({}));
-  BareOde bodies(places(static_cast<int>(state.range(0)), apart));
-  for (int i = 0; i < 100; ++i) bodies.step(!apart);
-  for (auto _ : state) bodies.step(!apart);
-}
-
-BENCHMARK(BM_DynamicsStep)->ArgNames({"n", "apart"})->ArgsProduct({{3, 5}, {1, 0}})->Unit(benchmark::kMicrosecond);
-BENCHMARK(BM_BareOdeStep)->ArgNames({"n", "apart"})->ArgsProduct({{3, 5}, {1, 0}})->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_DynamicsStep)
+    ->ArgNames({"n", "layout"})
+    ->ArgsProduct({{3, 5}, {kApart, kBlock, kHeap}})
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace presa::ode

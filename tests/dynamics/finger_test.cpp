@@ -41,7 +41,7 @@ TEST(ExplicitCoupling, IsUnstableBelowItsMassLimit) {
   const double k = 2000, limit = kStep * kStep * 2 * k / 4;
   const auto amplitude = [&](double mass) {
     OdeOptions options;
-    options.coupling = OdeOptions::Coupling::kExplicitForce;
+    options.method.coupling = DynamicsSettings::Coupling::kExplicit;
     WorldMaker maker;
     maker.gravity(Vec3::Zero())
         .add(Box{kCube}, {{1e-6, 0, 0}, Quat::Identity()}, {mass, Vec3::Zero(), 1e3 * Mat3::Identity()});

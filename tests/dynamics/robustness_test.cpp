@@ -64,7 +64,7 @@ TEST(Islands, HeldCubeIsSolvedExactlyBesideALargeHeap) {
   maker.box(kCube, 0.001, {{0, 0.8, 0.5}, Quat::Identity()});
   OdeOptions options;
   options.direct_limit = 20;
-  options.quick_iterations = 2;
+  options.method.iterations = 2;
   Runner runner(maker.world(), options);
   std::vector<ReferenceFinger> fingers = pinch(28, 0.05, 0.002, 10000, 1);
   for (ReferenceFinger& finger : fingers) {

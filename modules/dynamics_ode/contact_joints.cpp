@@ -1,0 +1,109 @@
+#include "modules/dynamics_ode/contact_joints.h"
+
+#include <algorithm>
+
+#include "modules/dynamics_ode/ode_types.h"
+
+namespace presa::ode {
+namespace {
+
+std::size_t index(std::int32_t body) { return static_cast<std::size_t>(body); }
+
+}  // namespace
+
+ContactJoints::ContactJoints(const Scene& scene, const OdeOptions& options) : scene_(scene), options_(options) {
+  for (const Material& a : scene.materials) {
+    for (const Material& b : scene.materials) {
+      coefficients_.push_back({pairFriction(a, b, 0), pairFriction(a, b, 2 * kRestSpeed)});
+    }
+  }
+}
+
+double ContactJoints::coefficient(std::size_t i, const BodySet& bodies) const {
+  const std::size_t a = scene_.bodies[index(contact(i).A)].material, b = scene_.bodies[index(contact(i).B)].material;
+  const Coefficients& mu = coefficients_[a * scene_.materials.size() + b];
+  if (mu.at_rest == mu.sliding) return mu.at_rest;
+  return slip(i, bodies).norm() < kRestSpeed ? mu.at_rest : mu.sliding;
+}
+
+Vec3 ContactJoints::slip(std::size_t i, const BodySet& bodies) const {
+  const BodyContact& c = contact(i);
+  const Vec3 relative = bodies.velocityAt(index(c.B), c.p_W) - bodies.velocityAt(index(c.A), c.p_W);
+  return relative - relative.dot(c.nhat_AB_W) * c.nhat_AB_W;
+}
+
+void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySet& bodies, double h) {
+  contacts_ = &contacts;
+  joints_.assign(contacts.size(), {});
+  feedback_.resize(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const BodyContact& c = contacts[i];
+    Joint& joint = joints_[i];
+    const double inverse_mass = bodies.inverseMass(index(c.A)) + bodies.inverseMass(index(c.B));
+    joint.cfm = std::min(h * options_.contact_softness * inverse_mass, options_.max_contact_cfm);
+    joint.mu = coefficient(i, bodies);
+  }
+  recall(bodies);
+}
+
+// Both lists are sorted by pair. Within a pair the nearest past contact is the same one, seen from the centre of B.
+void ContactJoints::recall(const BodySet& bodies) {
+  auto run = past_.cbegin();
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const BodyContact& c = contact(i);
+    const auto pairOf = [](const auto& x) { return std::minmax(x.A, x.B); };
+    while (run != past_.cend() && pairOf(*run) < pairOf(c)) ++run;
+    const Vec3 p_CmC = c.p_W - bodies.centreAtBegin(index(c.B));
+    double nearest = 0.1 * bodies.extent(index(c.B));
+    nearest *= nearest;
+    for (auto past = run; past != past_.cend() && pairOf(*past) == pairOf(c); ++past) {
+      const double distance = (past->p_CmC_W - p_CmC).squaredNorm();
+      if (distance > nearest) continue;
+      nearest = distance;
+      joints_[i].f_B_W = past->f_B_W;
+    }
+  }
+}
+
+dContact ContactJoints::make(const BodyContact& c, const Joint& joint, bool friction) const {
+  dContact contact{};
+  dSurfaceParameters& surface = contact.surface;
+  surface.mode = dContactSoftERP | dContactSoftCFM;
+  if (!joint.direction.isZero()) surface.mode |= dContactFDir1;
+  if (joint.limit < 0) surface.mode |= dContactApprox1_1 | dContactApprox1_2;
+  surface.mu = !friction ? 0 : joint.limit < 0 ? joint.mu : joint.limit;
+  surface.soft_erp = options_.contact_erp;
+  surface.soft_cfm = joint.cfm;
+  assign(contact.geom.pos, c.p_W);
+  assign(contact.geom.normal, c.nhat_AB_W);
+  contact.geom.depth = c.depth;
+  assign(contact.fdir1, joint.direction);
+  return contact;
+}
+
+void ContactJoints::addTo(Engine& engine, const BodySet& bodies, Islands& islands, const std::vector<char>& wanted,
+                          bool friction) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const BodyContact& c = contact(i);
+    if (wanted[islands.of(index(c.B))] == 0) continue;
+    engine.addContact(make(c, joints_[i], friction), bodies.body(index(c.B)), bodies.body(index(c.A)),
+                      friction ? &feedback_[i] : nullptr);
+  }
+}
+
+void ContactJoints::readForces(Islands& islands, const std::vector<char>& solved) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (solved[islands.of(index(contact(i).B))] == 0) continue;
+    joints_[i].f_B_W = toVec3(feedback_[i].f1);
+  }
+}
+
+void ContactJoints::end(const BodySet& bodies) {
+  past_.clear();
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const BodyContact& c = contact(i);
+    past_.push_back({c.A, c.B, c.p_W - bodies.centreAtBegin(index(c.B)), joints_[i].f_B_W});
+  }
+}
+
+}  // namespace presa::ode

@@ -1,0 +1,57 @@
+#include "modules/dynamics_ode/finger_joints.h"
+
+#include "modules/dynamics_ode/ode_types.h"
+
+namespace presa::ode {
+namespace {
+
+dContact jointOf(const FingerRow& row) {
+  dContact contact{};
+  dSurfaceParameters& surface = contact.surface;
+  surface.mode = dContactSoftERP | dContactSoftCFM | dContactMotionN | dContactFDir1 | dContactMotion1 |
+                 dContactMotion2 | dContactSlip1 | dContactSlip2 | dContactApprox1_1 | dContactApprox1_2;
+  surface.mu = row.mu;
+  surface.soft_erp = row.erp;
+  surface.soft_cfm = row.cfm;
+  surface.motionN = row.motion_n;
+  surface.motion1 = row.motion_1;
+  surface.motion2 = row.motion_2;
+  surface.slip1 = row.slip;
+  surface.slip2 = row.slip;
+  assign(contact.geom.pos, row.p_WP);
+  assign(contact.geom.normal, row.n_in);  // ODE: into the first body attached
+  contact.geom.depth = row.depth;
+  assign(contact.fdir1, row.t1);
+  return contact;
+}
+
+}  // namespace
+
+std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
+  active_.clear();
+  return forEachTouch(exchange, bodies, [&](std::size_t f, std::size_t body) {
+    const auto row = makeFingerRow(exchange.fingers[f], bodies.inertiaState(body), time - exchange.time, h);
+    if (!row) return;
+    active_.push_back({f, body, *row});
+    feedback_[f] = {};
+    if (coupling_ == DynamicsSettings::Coupling::kExplicit) bodies.addForce(body, row->expected_force_W, row->p_WP);
+  });
+}
+
+void FingerJoints::addTo(Engine& engine, BodySet& bodies, Islands& islands, const std::vector<char>& wanted) {
+  if (coupling_ == DynamicsSettings::Coupling::kExplicit) return;
+  for (const Active& active : active_) {
+    if (wanted[islands.of(active.body)] == 0) continue;
+    engine.addContact(jointOf(active.row), bodies.body(active.body), nullptr, &feedback_[active.finger]);
+  }
+}
+
+Vec3 FingerJoints::force(std::size_t f) const {
+  for (const Active& active : active_) {
+    if (active.finger != f) continue;
+    return coupling_ == DynamicsSettings::Coupling::kExplicit ? active.row.expected_force_W : toVec3(feedback_[f].f1);
+  }
+  return Vec3::Zero();
+}
+
+}  // namespace presa::ode

@@ -1,0 +1,54 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "framework/state/contact_exchange.h"
+#include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/engine.h"
+#include "modules/dynamics_ode/finger_row.h"
+#include "modules/dynamics_ode/islands.h"
+
+namespace presa::ode {
+
+/// The fingers of one step: as contact joints (soft coupling) or as forces (explicit coupling).
+class FingerJoints {
+ public:
+  explicit FingerJoints(DynamicsSettings::Coupling coupling) : coupling_(coupling) {}
+
+  /// Takes the rows of every finger that touches a moving body, for a step of `h` from `time` on; forces of the explicit
+  /// coupling go to `bodies` at once. Returns how many fingers made no sense and were left out.
+  std::size_t read(const ContactExchange& exchange, double time, double h, BodySet& bodies);
+  /// Joints for the fingers on `wanted` islands.
+  void addTo(Engine& engine, BodySet& bodies, Islands& islands, const std::vector<char>& wanted);
+  /// After the solve: the mean force of finger `f` on its body [N]; zero without contact.
+  Vec3 force(std::size_t f) const;
+
+ private:
+  struct Active {
+    std::size_t finger = 0, body = 0;
+    FingerRow row;
+  };
+  const DynamicsSettings::Coupling coupling_;
+  std::vector<Active> active_;
+  std::array<dJointFeedback, kMaxFingers> feedback_{};
+};
+
+/// Calls use(finger, body) for each finger that touches a body that moves; returns how many made no sense.
+template <class Use>
+std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies, Use use) {
+  std::size_t nonsense = 0;
+  const auto count = static_cast<std::size_t>(std::clamp(exchange.count, 0, kMaxFingers));
+  for (std::size_t f = 0; f < count; ++f) {
+    const FingerContact& contact = exchange.fingers[f];
+    if (contact.mode == ContactMode::kNone) continue;
+    const auto body = static_cast<std::size_t>(contact.body);
+    if (contact.body < 0 || body >= bodies.size() || !isUsable(contact)) {
+      ++nonsense;
+    } else if (bodies.moves(body)) {
+      use(f, body);
+    }
+  }
+  return nonsense;
+}
+
+}  // namespace presa::ode

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/engine.h"
+#include "modules/dynamics_ode/islands.h"
+#include "modules/dynamics_ode/ode_options.h"
+
+namespace presa::ode {
+
+/// Steps islands of bodies, each with the solver that suits it: up to `direct_limit` contacts directly, larger ones iteratively (or
+/// all alike, as the scene says). An island in which the direct solver reports trouble is put back to the start of the
+/// step and solved iteratively; the others are as if it had not been there.
+class IslandSolver {
+ public:
+  IslandSolver(Engine& engine, BodySet& bodies, const OdeOptions& options);
+
+  bool isDirect(const Islands::Island& island) const noexcept;
+  /// Iterations for a step that `contacts` contacts share, when it is one of `substeps`.
+  int iterations(std::size_t contacts, int substeps) const noexcept;
+  /// Steps the islands for which `wanted[island]` is set over `h`; the contacts are in the engine. True when one fell back.
+  bool solve(Islands& islands, const std::vector<char>& wanted, double h, int iterations);
+
+ private:
+  template <class Choose>
+  bool enableWhere(Choose choose);
+  bool solveEachDirectly(Islands& islands, const std::vector<char>& wanted, double h, int iterations);
+
+  Engine& engine_;
+  BodySet& bodies_;
+  const OdeOptions options_;
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+
+#include "framework/scene/scene.h"
+
+namespace presa::ode {
+
+/// What the scene chose (`method`), and the numbers behind its automatic choices.
+struct OdeOptions {
+  DynamicsSettings method;
+  std::uint64_t seed = 1;  ///< order in which the iterative solver visits its rows
+  /// Contacts of an island up to which it is solved directly. Cubic: 80 contacts take 2 to 3 ms, 150 take 20.
+  std::uint32_t direct_limit = 80;
+  /// Iterations for larger islands when the scene leaves them open: `most_iterations`, fewer when contacts * iterations
+  /// would exceed the budget (2 ms), never below `least_iterations`.
+  int most_iterations = 200;
+  int iteration_budget = 40000;
+  int least_iterations = 50;
+  /// Contact between bodies: part of the penetration removed per step, and compliance cfm = h * softness / reduced
+  /// mass, at most max_contact_cfm [m/(N s)]. A body on a table sinks g h^2 softness / (contacts * erp), below 1 um,
+  /// whatever its mass; less softness and the iterative solver does not come to rest.
+  double contact_erp = 0.2;
+  double contact_softness = 2e-3;
+  double max_contact_cfm = 1e-4;
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,156 @@
+#include "modules/dynamics_ode/step_solver.h"
+
+#include <algorithm>
+
+namespace presa::ode {
+namespace {
+
+// enough for a direction
+constexpr int kPredictionIterations = 20;
+constexpr int kMostRepeats = 1;
+constexpr double kSlides = 1e-5;       // [m/s], where the direct solver says so; the iterative one: kRestSpeed
+constexpr double kSlidingShare = 0.2;  // of an island's friction limits, of what slides in it
+constexpr double kAtLimit = 0.98;      // friction over its limit, of what may slide
+constexpr double kClose = 0.7;         // the same, of what friction was aligned with
+constexpr double kTolerance = 0.01;    // friction above its cone
+constexpr double kLag = 0.05;          // friction below its cone because of an old normal force
+
+std::size_t index(std::int32_t body) { return static_cast<std::size_t>(body); }
+bool any(const std::vector<char>& flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); }
+
+}  // namespace
+
+StepSolver::StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, const OdeOptions& options)
+    : engine_(engine), bodies_(bodies), options_(options), solver_(engine, bodies, options), joints_(scene, options) {}
+
+bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h,
+                       int substeps) {
+  all_.assign(bodies_.size(), 1);
+  iterations_ = solver_.iterations(contacts.size(), substeps);
+  joints_.begin(contacts, bodies_, h);
+  const bool isotropic = options_.method.friction == DynamicsSettings::Friction::kIsotropic && !contacts.empty();
+  if (isotropic) startFromLastStep(islands);
+  if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h);
+  bool fell_back = pass(fingers, islands, all_, h, true);
+  if (!isotropic) return fell_back;
+  joints_.readForces(islands, all_);
+  for (int repeat = 0; repeat < kMostRepeats && judge(islands); ++repeat) {
+    putBack(islands, wrong_);
+    predict(fingers, islands, wrong_, h);
+    boundByNormalForce(islands);
+    fell_back = pass(fingers, islands, wrong_, h, true) || fell_back;
+    joints_.readForces(islands, wrong_);
+  }
+  joints_.end(bodies_);
+  return fell_back;
+}
+
+void StepSolver::boundByNormalForce(Islands& islands) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const double f_n = joints_[i].f_B_W.dot(joints_.contact(i).nhat_AB_W);
+    if (wrong_[islandOf(i, islands)] != 0) joints_[i].limit = f_n > 0 ? joints_[i].mu * f_n : -1;
+  }
+}
+
+bool StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h,
+                      bool friction) {
+  joints_.addTo(engine_, bodies_, islands, wanted, friction);
+  fingers.addTo(engine_, bodies_, islands, wanted);
+  const bool fell_back =
+      solver_.solve(islands, wanted, h, friction ? iterations_ : std::min(iterations_, kPredictionIterations));
+  engine_.clearContacts();
+  return fell_back;
+}
+
+// Last step's load: friction is aligned with it, so that a contact about to give way gives way in the right direction.
+void StepSolver::startFromLastStep(Islands& islands) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    ContactJoints::Joint& joint = joints_[i];
+    const Vec3& nhat = joints_.contact(i).nhat_AB_W;
+    const double f_n = joint.f_B_W.dot(nhat);
+    joint.direction = frictionDirection(nhat, joint.f_B_W - f_n * nhat);
+    if (f_n > 0 && solver_.isDirect(islands[islandOf(i, islands)])) joint.limit = joint.mu * f_n;
+  }
+  was_close_.clear();
+  forEachPatch([&](const Patch& patch) { was_close_.push_back(patch.friction > kClose * patch.cone ? 1 : 0); });
+}
+
+// The contacts of one pair share the load as they like as long as they stick, a single one may be at its limit: what counts
+// is whether they slide together.
+template <class Use>
+void StepSolver::forEachPatch(Use use) {
+  for (std::size_t i = 0; i < joints_.size();) {
+    const std::int32_t A = joints_.contact(i).A, B = joints_.contact(i).B;
+    Patch patch{index(B), i};
+    for (; i < joints_.size() && joints_.contact(i).A == A && joints_.contact(i).B == B; ++i) {
+      const ContactJoints::Joint& joint = joints_[i];
+      const Vec3& nhat = joints_.contact(i).nhat_AB_W;
+      const double f_n = joint.f_B_W.dot(nhat);
+      patch.friction += (joint.f_B_W - f_n * nhat).norm();
+      patch.cone += joint.mu * f_n;
+      patch.limit += joint.limit < 0 ? 1e300 : joint.limit;
+    }
+    patch.end = i;
+    use(patch);
+  }
+}
+
+// In a heap that the iterative solver keeps trembling some contact always slides: it is worth a look ahead when a good part of
+// the load does.
+bool StepSolver::findSliding(Islands& islands) {
+  sliding_.assign(bodies_.size(), 0);
+  load_.assign(bodies_.size(), {});
+  forEachPatch([&](const Patch& patch) {
+    const std::size_t island = islands.of(patch.body);
+    const bool direct = solver_.isDirect(islands[island]);
+    load_[island].all += patch.cone;
+    if (patch.friction <= kAtLimit * patch.cone || slipOf(patch) < (direct ? kSlides : kRestSpeed)) return;
+    load_[island].sliding += patch.cone;
+  });
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Islands::Island& island = islands[i];
+    sliding_[i] = load_[i].sliding > (solver_.isDirect(island) ? 0 : kSlidingShare) * load_[i].all ? 1 : 0;
+  }
+  return any(sliding_);
+}
+
+double StepSolver::slipOf(const Patch& patch) const {
+  double slip = 0;
+  for (std::size_t i = patch.first; i < patch.end; ++i) slip = std::max(slip, joints_.slip(i, bodies_).norm());
+  return slip;
+}
+
+void StepSolver::putBack(Islands& islands, const std::vector<char>& wanted) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_.moves(i) && wanted[islands.of(i)] != 0) bodies_.restore(i);
+  }
+}
+
+void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h) {
+  counts.predictions += static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1));
+  pass(fingers, islands, wanted, h, false);
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const BodyContact& c = joints_.contact(i);
+    if (wanted[islandOf(i, islands)] == 0) continue;
+    joints_[i].direction = frictionDirection(c.nhat_AB_W, joints_.slip(i, bodies_));
+  }
+  putBack(islands, wanted);
+}
+
+// A patch that comes to its limit only now had nothing to be aligned with. One that slides without reaching its limit was bounded
+// by an old normal force.
+bool StepSolver::judge(Islands& islands) {
+  wrong_.assign(bodies_.size(), 0);
+  auto was_close = was_close_.cbegin();
+  forEachPatch([&](const Patch& patch) {
+    const std::size_t island = islands.of(patch.body);
+    const bool exceeds = patch.friction > (1 + kTolerance) * patch.cone && *was_close == 0;
+    const bool lags = patch.friction > kAtLimit * patch.limit && patch.friction < (1 - kLag) * patch.cone;
+    ++was_close;
+    if (solver_.isDirect(islands[island]) && (exceeds || lags)) wrong_[island] = 1;
+  });
+  counts.repeats += static_cast<std::uint64_t>(std::count(wrong_.begin(), wrong_.end(), 1));
+  return any(wrong_);
+}
+
+}  // namespace presa::ode

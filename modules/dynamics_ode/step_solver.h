@@ -1,0 +1,62 @@
+#pragma once
+#include <vector>
+
+#include "modules/dynamics_ode/contact_joints.h"
+#include "modules/dynamics_ode/finger_joints.h"
+#include "modules/dynamics_ode/island_solver.h"
+
+namespace presa::ode {
+
+/// Solves one step so that friction between bodies is Coulomb's: a round cone over the normal force of the same step, against the
+/// slip. ODE alone bounds friction by a box, and in its direct solver over the normal force of a step without friction.
+///
+/// A contact starts from the direction and normal force of the last step. Where something slid then, the island is first
+/// solved without friction, and friction set against the slip that shows. After the solve each island is judged; one in
+/// which a contact exceeds its cone, or slides well inside it, is put back and solved once more with what was found.
+class StepSolver {
+ public:
+  StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, const OdeOptions& options);
+
+  /// Steps all bodies, which are at the start of the step. True when an island fell back to the iterative solver.
+  bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h, int substeps);
+
+  struct Counts {
+    std::uint64_t predictions = 0, repeats = 0;  // of islands
+  } counts;
+
+ private:
+  bool pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction);
+  /// The contacts of one pair.
+  struct Patch {
+    std::size_t body = 0;  // B
+    std::size_t first = 0, end = 0;
+    double friction = 0, cone = 0, limit = 0;  // sums over them [N]; limit: what was imposed
+  };
+  struct Load {
+    double all = 0, sliding = 0;
+  };
+  template <class Use>
+  void forEachPatch(Use use);
+  double slipOf(const Patch& patch) const;
+  void startFromLastStep(Islands& islands);
+  void boundByNormalForce(Islands& islands);
+  std::size_t islandOf(std::size_t i, Islands& islands) const {
+    return islands.of(static_cast<std::size_t>(joints_.contact(i).B));
+  }
+  bool findSliding(Islands& islands);
+  void predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h);
+  bool judge(Islands& islands);
+  void putBack(Islands& islands, const std::vector<char>& wanted);
+
+  Engine& engine_;
+  BodySet& bodies_;
+  const OdeOptions options_;
+  IslandSolver solver_;
+  ContactJoints joints_;
+  std::vector<char> all_, sliding_, wrong_;  // by island
+  std::vector<Load> load_;                   // by island
+  std::vector<char> was_close_;              // by patch: to its limit in the last step
+  int iterations_ = 0;
+};
+
+}  // namespace presa::ode
