@@ -1,6 +1,7 @@
 #include "experiments/stability/case.h"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -44,6 +45,24 @@ Verdict judge(double value, double bound) {
 
 Finding finding(std::string metric, double value, std::string unit, double bound, std::string oracle) {
   return {std::move(metric), value, std::move(unit), bound, std::move(oracle), judge(value, bound), {}, {}, {}};
+}
+
+Curve decimated(Curve curve, std::size_t most) {
+  const std::size_t count = curve.x.size();
+  if (count <= most) return curve;
+  Curve kept{std::move(curve.label), {}, {}};
+  for (std::size_t i = 0; i < most; ++i) {
+    const std::size_t from = i * (count - 1) / (most - 1);
+    kept.x.push_back(curve.x[from]);
+    kept.y.push_back(curve.y[from]);
+  }
+  return kept;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 std::string sceneFile(const std::string& name) {

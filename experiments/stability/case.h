@@ -18,6 +18,9 @@ struct Curve {
   std::vector<double> x, y;
 };
 
+/// At most `most` of the curve's points, evenly taken, the last one among them.
+Curve decimated(Curve curve, std::size_t most = 2000);
+
 /// What was measured in a trial, against what.
 struct Finding {
   std::string metric;  ///< "grip force error"
@@ -58,6 +61,9 @@ struct Case {
   std::string scene;   ///< file in scenes/, shown by `presa run`
   std::vector<Trial> trials;
 };
+
+/// As short as it can be: "0.05", "1e-06".
+std::string number(double value);
 
 /// All cases, in the order of the table.
 std::vector<Case> allCases();

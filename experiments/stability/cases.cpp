@@ -2,6 +2,6 @@
 
 namespace presa::stability {
 
-std::vector<Case> allCases() { return {graspInAir()}; }
+std::vector<Case> allCases() { return {graspInAir(), massRatio(), blockTower(), freeRotation()}; }
 
 }  // namespace presa::stability

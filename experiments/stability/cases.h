@@ -5,5 +5,8 @@
 namespace presa::stability {
 
 Case graspInAir();
+Case massRatio();
+Case blockTower();
+Case freeRotation();
 
 }  // namespace presa::stability

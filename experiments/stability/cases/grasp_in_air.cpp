@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/stability/cases.h"
 #include "experiments/stability/fingers.h"
@@ -17,12 +16,6 @@ struct Grasp {
   /// At least 2 mm, and as much as friction 1 needs to carry the weight with half as much to spare.
   double depth() const { return std::max(0.002, 1.5 * mass * kGravity / (2 * stiffness)); }
 };
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 std::vector<Finding> hold(const Grasp& grasp) {
   std::vector<std::string> sets{"body/cube/physics/mass=" + number(grasp.mass),

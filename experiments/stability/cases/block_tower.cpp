@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <iterator>
+
+#include "experiments/stability/bodies.h"
+#include "experiments/stability/cases.h"
+#include "experiments/stability/fingers.h"
+
+namespace presa::stability {
+namespace {
+
+constexpr int kBlocks = 10;
+constexpr double kHandDistance = 0.06;  // between the two pairs of fingers [m]
+
+/// Two pairs on the lowest block: one pair alone would leave the tower free to swing about the line between its tips.
+/// `lift` 0: they stay away.
+DeviceList handsOn(double lift) {
+  Pinch pinch;
+  pinch.width = 0.06;
+  pinch.depth = lift > 0 ? 0.003 : 0;
+  pinch.open = lift > 0 ? 0.003 : 0.05;
+  pinch.close_begin = lift > 0 ? 0.05 : 1e9;
+  pinch.lift = lift;
+  DeviceList all;
+  for (const double side : {-0.5, 0.5}) {
+    pinch.center = {0, side * kHandDistance, 0.015};
+    DeviceList pair = pinchFingers(pinch);
+    std::move(pair.begin(), pair.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::vector<std::string> blocksFrom(std::vector<std::string> below) {
+  for (int i = 0; i < kBlocks; ++i) below.push_back("block" + std::to_string(i));
+  return below;
+}
+
+std::vector<Finding> hold(bool lifted, bool iterative) {
+  std::vector<std::string> sets;
+  if (iterative) sets = {"dynamics/solver=iterative", "dynamics/iterations=20"};
+  const double lift = lifted ? 0.05 : 0;
+  StudyRun run(specOf("block_tower.xml", sets, lifted ? 10 : 30), handsOn(lift));
+  const BoxStack stack(run.world(), lifted ? blocksFrom({}) : blocksFrom({"table"}));
+  const std::size_t top = bodyNamed(run.world(), "block" + std::to_string(kBlocks - 1));
+  double deepest = 0, shift = 0;
+  Curve height{"highest block", {}, {}};
+  run.observe(atEachStep([&](const ObjectState& state) {
+    deepest = std::max(deepest, stack.penetration(state));
+    shift = std::max(shift, stack.shift(state));
+    height.x.push_back(state.time_end);
+    height.y.push_back(1000 * state.bodies[top].X_WB_end.p.z());
+  }));
+  run.run();
+
+  Finding fallen = finding("displacement within the tower", 1000 * shift, "mm", 1, "nothing falls");
+  fallen.plot_x = "time [s]";
+  fallen.plot_y = "height of the highest block [mm]";
+  fallen.curves.push_back(decimated(std::move(height)));
+  return {finding("penetration", 1000 * deepest, "mm", 0.5, "rigid blocks do not overlap"), fallen};
+}
+
+}  // namespace
+
+Case blockTower() {
+  Case result;
+  result.name = "block_tower";
+  result.title = "Ten blocks stand, and are lifted by the lowest";
+  result.source = "The tall stack that rigid-body engines are tried with, here also carried by fingers at its foot.";
+  result.oracle = "A tower of equal blocks that is moved gently stays a tower.";
+  result.scene = "block_tower.xml";
+  for (const bool lifted : {false, true}) {
+    for (const bool iterative : {false, true}) {
+      Trial trial;
+      trial.parameters = {{"tower", lifted ? "lifted 50 mm, 10 s" : "standing 30 s"}};
+      trial.method = iterative ? "20 iterations" : kPresa;
+      trial.run = [=] { return hold(lifted, iterative); };
+      result.trials.push_back(std::move(trial));
+    }
+  }
+  return result;
+}
+
+}  // namespace presa::stability
