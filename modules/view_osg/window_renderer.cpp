@@ -81,19 +81,29 @@ struct Window {
   bool software = false;
 };
 
-/// Smooth edges where a graphics card pays for them and the X server has such a visual.
-Window openWindow(const std::string& title) {
-  Window window;
-  for (const unsigned samples : {4U, 0U}) {
-    window.context = createWindow(title, samples);
-    if (!window.context) continue;
-    window.software = isSoftware(*window.context);
-    if (samples == 0 || !window.software) return window;
-    window.context->close();
-  }
+std::string whyNoWindow() {
   const char* display = std::getenv("DISPLAY");
-  throw std::runtime_error(display ? "no window can be opened on display " + std::string(display)
-                                   : "DISPLAY is not set");
+  if (!display) return "DISPLAY is not set";
+  osg::GraphicsContext::ScreenIdentifier screen;
+  screen.readDISPLAY();
+  auto* system = osg::GraphicsContext::getWindowingSystemInterface();
+  return (system && system->getNumScreens(screen) > 0 ? "no OpenGL window can be opened on display "
+                                                      : "no X server answers on display ") +
+         std::string(display);
+}
+
+/// Smooth edges where a graphics card pays for them and the X server has such a visual.
+/// The plain window stays open until the smooth one is: an X server resets when its last client leaves and drops
+/// whoever connects meanwhile.
+Window openWindow(const std::string& title) {
+  Window plain{createWindow(title, 0)};
+  if (!plain.context) throw std::runtime_error(whyNoWindow());
+  plain.software = isSoftware(*plain.context);
+  if (plain.software) return plain;
+  const osg::ref_ptr<osg::GraphicsContext> smooth = createWindow(title, 4);
+  if (!smooth || !smooth->realize()) return plain;
+  plain.context->close();
+  return {smooth, false};
 }
 
 class WindowRenderer final : public Renderer {
