@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "framework/study/study_run.h"
+
+namespace presa {
+namespace {
+
+const char* const kScene = R"(<scene version="1.0" name="fall"><world gravity="0 0 -9.81"/>
+  <materials><material name="wood" stiffness="2000"><friction static="0.5"/></material></materials>
+  <body name="floor" fixed="true" pos="0 0 -0.5"><physics><box size="4 4 1"/></physics></body>
+  <body name="ball" pos="0 0 1"><physics mass="1"><sphere radius="0.1"/></physics></body>
+  <body name="box" pos="1 1 0.1" velocity="1 0 0"><physics mass="1"><box size="0.4 0.4 0.2"/></physics></body>
+</scene>)";
+
+class Engines : public testing::TestWithParam<const char*> {};
+
+// The same scene under every engine, against what a textbook says: free fall (symplectic Euler at h: v = g t exactly), rest
+// on the floor, and a box that slides v^2 / (2 mu g) = 102 mm.
+TEST_P(Engines, FallRestAndSlideAsTheTextbookSays) {
+  const auto file = std::filesystem::temp_directory_path() / ("presa_engines_" + std::to_string(::getpid()) + ".xml");
+  std::ofstream(file) << kScene;
+  StudyRun run({.scene = file.string(), .sets = {std::string("dynamics/engine=") + GetParam()}, .duration = 2});
+  double fall_speed = 0, height = 0, slide = 0;
+  run.observe([&](const StudySample& sample) {
+    if (sample.objects == nullptr) return;
+    if (sample.objects->time_end < 0.4 + 1e-9) fall_speed = -sample.objects->bodies[1].v_WB.z();
+    height = sample.objects->bodies[1].X_WB_end.p.z();
+    slide = sample.objects->bodies[2].X_WB_end.p.x() - 1;
+  });
+  run.run();
+  std::filesystem::remove(file);
+  EXPECT_NEAR(fall_speed, 9.81 * 0.4, 1e-9);
+  EXPECT_NEAR(height, 0.1, 0.0005) << "soft contacts sink by less than half a millimetre";
+  // half a step of travel at the start speed, and MuJoCo's soft friction (2 % off, performance figures of its cones)
+  EXPECT_NEAR(slide, 1 / (2 * 0.5 * 9.81), 0.0025 + 0.02 * 0.102);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Engines, testing::Values("ode", "mujoco", "bullet"),
+                         [](const auto& param) { return std::string(param.param); });
+
+TEST(EnginesToCompareWith, KnowNoFingers) {
+  EXPECT_THROW(StudyRun({.scene = PRESA_SOURCE_DIR "/config/scenes/cube.xml", .sets = {"dynamics/engine=bullet"}}),
+               InputError);
+}
+
+}  // namespace
+}  // namespace presa
