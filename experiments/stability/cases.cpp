@@ -2,6 +2,9 @@
 
 namespace presa::stability {
 
-std::vector<Case> allCases() { return {graspInAir(), massRatio(), blockTower(), freeRotation()}; }
+std::vector<Case> allCases() {
+  return {graspInAir(),   massRatio(), blockTower(), freeRotation(), coulombSlide(),
+          coulombStick(), rolling(),   hapticWall(), thinPlate(),    grooves()};
+}
 
 }  // namespace presa::stability

@@ -8,5 +8,11 @@ Case graspInAir();
 Case massRatio();
 Case blockTower();
 Case freeRotation();
+Case coulombSlide();
+Case coulombStick();
+Case rolling();
+Case hapticWall();
+Case thinPlate();
+Case grooves();
 
 }  // namespace presa::stability
