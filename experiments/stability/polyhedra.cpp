@@ -140,6 +140,7 @@ Solid needle(double length, double radius) {
 Solid striped(const std::vector<double>& widths, double edge) {
   Solid solid;
   solid.feature = {edge / 2, edge / 2, 0};
+  solid.outward = Vec3::Ones().normalized();
   for (int axis = 0; axis < 3; ++axis) {
     solid.planes.push_back({Vec3::Unit(axis), axis == 2 ? -edge : -edge / 2});
     solid.planes.push_back({-Vec3::Unit(axis), axis == 2 ? 0 : -edge / 2});

@@ -23,7 +23,8 @@ struct Solid {
   /// Of a hollow: its walls, normals into the free space, which is convex. Of a convex body: its faces, normals inward.
   std::vector<Plane> planes;
   bool hollow = false;
-  Vec3 feature = Vec3::Zero();  ///< the bottom of the hollow, or the tip or corner in question [m]
+  Vec3 feature = Vec3::Zero();   ///< the bottom of the hollow, or the tip or corner in question [m]
+  Vec3 outward = Vec3::UnitZ();  ///< unit, from the feature into free space
 };
 
 /// A block with a groove along y whose walls meet at `angle_deg`; upper face at z = 0.

@@ -10,14 +10,14 @@ namespace presa::stability {
 namespace {
 
 constexpr double kDuration = 1;
-constexpr double kCompareFrom = 0.1;  // [s]: a heading means little before there is speed
-constexpr double kSlope = 40;         // [degrees]
+constexpr double kSlope = 40;  // [degrees]
 constexpr double kRadian = std::numbers::pi / 180;
 
 struct Start {
   std::string name;
-  double across = 0;  ///< speed across the slope [m/s]
-  double spin = 0;    ///< [rad/s]
+  double down = 0, across = 0;  ///< speed [m/s]
+  double spin = 0;              ///< [rad/s]
+  double height = 0;            ///< above the slope [m]
 };
 
 struct Errors {
@@ -36,23 +36,22 @@ Errors slideTowards(double heading_deg, const Start& start, bool pyramid) {
   const Vec3 downhill(cos, sin, 0);
   SlidingTile::Model model;
   model.gravity = 9.81 * (std::sin(kSlope * kRadian) * downhill - std::cos(kSlope * kRadian) * Vec3::UnitZ());
-  const Vec3 v0 = start.across * Vec3(-sin, cos, 0);
+  const Vec3 v0 = start.down * downhill + start.across * Vec3(-sin, cos, 0);
   SlidingTile reference(model, {v0.head<2>(), 0, start.spin});
   std::vector<std::string> sets{"world/gravity=" + text(model.gravity), "body/tile/velocity=" + text(v0),
                                 "body/tile/angular_velocity=" + text(start.spin * Vec3::UnitZ())};
+  if (start.height > 0) sets.push_back("body/tile/pos=" + text({0, 0, model.thickness / 2 + start.height}));
   if (pyramid) sets.emplace_back("dynamics/friction=pyramid");
   StudyRun run(specOf("coulomb_slope.xml", sets, kDuration));
   const std::size_t tile = bodyNamed(run.world(), "tile");
-  Errors worst;
+  Eigen::Vector2d got = v0.head<2>(), wanted = got;
   run.observe(atEachStep([&](const ObjectState& state) {
-    const Eigen::Vector2d wanted = reference.at(state.time_end).v, got = state.bodies[tile].v_WB.head<2>();
-    if (state.time_end < kCompareFrom) return;
-    worst.speed = std::max(worst.speed, std::abs(got.norm() / wanted.norm() - 1));
-    const double cross = wanted.x() * got.y() - wanted.y() * got.x();
-    worst.heading = std::max(worst.heading, std::abs(std::atan2(cross, wanted.dot(got))) / kRadian);
+    got = state.bodies[tile].v_WB.head<2>();
+    wanted = reference.at(state.time_end).v;
   }));
   run.run();
-  return worst;
+  const double cross = wanted.x() * got.y() - wanted.y() * got.x();
+  return {std::abs(got.norm() / wanted.norm() - 1), std::abs(std::atan2(cross, wanted.dot(got))) / kRadian};
 }
 
 std::vector<Finding> slide(const Start& start, bool pyramid) {
@@ -88,17 +87,21 @@ Case coulombSlide() {
       "Coulomb's law on an incline of 40 degrees with friction 0.5; a pyramid in place of the cone is up to 41 % "
       "too strong between its axes.";
   result.oracle =
-      "A fine integration of the same tile, on every heading from 0 to 90 degrees in steps of 7.5, over one second.";
+      "A fine integration of the same tile, on every heading from 0 to 90 degrees in steps of 7.5, after one second.";
   result.scene = "coulomb_slope.xml";
-  for (const Start& start :
-       {Start{"at rest", 0, 0}, Start{"1.5 m/s across", 1.5, 0}, Start{"spinning 20 rad/s", 0, 20}}) {
+  // a fall ends in a blow whose friction makes up for that of the flight: afterwards the speed is what it would have been
+  const std::vector<Start> starts{{"at rest", 0, 0, 0, 0},
+                                  {"1.5 m/s across", 0, 1.5, 0, 0},
+                                  {"spinning 20 rad/s", 0, 0, 20, 0},
+                                  {"1 m/s downhill, dropped by 1 mm", 1, 0, 0, 1e-3}};
+  for (const Start& start : starts) {
     for (const bool pyramid : {false, true}) {
       Trial trial;
       trial.parameters = {{"start", start.name}};
       trial.method = pyramid ? "pyramid friction" : kPresa;
       if (pyramid) trial.expected = Verdict::kUnstable;
       trial.run = [=] { return slide(start, pyramid); };
-      trial.quick = start.across > 0;
+      trial.quick = start.across > 0 || start.name == "at rest";
       result.trials.push_back(std::move(trial));
     }
   }

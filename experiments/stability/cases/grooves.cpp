@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 
 #include "experiments/stability/cases.h"
@@ -64,8 +65,15 @@ Vec3 wayOver(const Solid& solid, const std::vector<Plane>& free, double time) {
   }
   const double polar = 0.1 + sway * (0.9 - 0.9 * std::cos(0.8 * moved)), around = 0.3 + 0.55 * moved;
   const Vec3 direction(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar));
-  const Vec3 far = solid.feature + 0.01 * direction, on = nearestInAll(solid.planes, far);
+  const Vec3 far =
+                 solid.feature + 0.01 * (Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), solid.outward) * direction),
+             on = nearestInAll(solid.planes, far);
   return on + (2 - (2 - kNear) * in) * kRadius * (far - on).normalized();
+}
+
+/// The larger one; what is no number counts as infinite.
+double larger(double a, double b) {
+  return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
 }
 
 std::vector<Finding> drag(const Solid& solid, bool penalty) {
@@ -90,9 +98,8 @@ std::vector<Finding> drag(const Solid& solid, bool penalty) {
   run.observe([&](const StudySample& sample) {
     const FingerContact& contact = sample.contact.fingers[0];
     const Vec3 &force = contact.f_H_W, wanted = exactForce(solid, free, contact.p_WH);
-    // a comparison with NaN is false: it must not pass
-    worst = force.allFinite() ? std::max(worst, (force - wanted).norm()) : force.norm();
-    jump = std::max(jump, (force - last_force).norm() - kStiffness * (contact.p_WH - last_p).norm());
+    worst = larger(worst, (force - wanted).norm());
+    jump = larger(jump, (force - last_force).norm() - kStiffness * (contact.p_WH - last_p).norm());
     last_force = force;
     last_p = contact.p_WH;
     popped = sample.contact.pop_through;

@@ -59,9 +59,10 @@ std::vector<Finding> lean(const Wall& wall) {
   const double last = amplitude(depth, 1000 * kDepth, time - window, time);
   const double rate = std::log(last / first) / (time - window), wanted = std::log(radius) / wall.plant.period;
   const bool decays = wall.share < 1;
+  const double grown = last / (1000 * kDisturbance);
   Finding verdict =
-      finding(decays ? "amplitude, end over start" : "amplitude, start over end", decays ? last / first : first / last,
-              "", 1, "limit " + number(limit) + " N/m: it " + (decays ? "settles" : "grows"));
+      finding(decays ? "amplitude, end over start" : "amplitude, start over end", decays ? grown : 1 / grown, "", 1,
+              "limit " + number(limit) + " N/m: it " + (decays ? "settles" : "grows"));
   verdict.plot_x = "time [s]";
   verdict.plot_y = "depth of the fingertip [mm]";
   verdict.curves.push_back(decimated(std::move(depth)));
