@@ -1,13 +1,11 @@
 #include "framework/schedule/executor.h"
 
-#include "framework/schedule/clock.h"
-
 namespace presa {
 
 void Executor::stepTimed(RateGroup group, std::uint64_t index) noexcept {
   GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
   const Tick tick = rates_.tick(group, index);
-  const std::int64_t begin = monotonicNs();
+  const std::int64_t begin = clock_();
   if (schedule_ == nullptr) {
     graph_.step(group, tick);
   } else {
@@ -15,7 +13,7 @@ void Executor::stepTimed(RateGroup group, std::uint64_t index) noexcept {
     graph_.step(group, tick, &row);
     schedule_->rings[static_cast<std::size_t>(group)]->push(row);
   }
-  timing.execution.add(monotonicNs() - begin);
+  timing.execution.add(clock_() - begin);
   timing.ticks.fetch_add(1, std::memory_order_relaxed);
 }
 

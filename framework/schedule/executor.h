@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/graph/graph.h"
+#include "framework/schedule/clock.h"
 #include "framework/schedule/rates.h"
 #include "framework/schedule/timing_stats.h"
 
@@ -30,6 +31,8 @@ class Executor {
   virtual void run(double duration) = 0;
 
   void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }
+  /// Reads execution times from another clock [ns], such as threadCpuNs for studies of cost. Before run().
+  void timeBy(std::int64_t (*clock)() noexcept) noexcept { clock_ = clock; }
   const GroupTiming& timing(RateGroup group) const noexcept { return timings_[static_cast<std::size_t>(group)]; }
   /// Wall time from the first tick's deadline to the end of the last haptic tick [s], without start-up.
   double wallSeconds() const noexcept { return wall_seconds_; }
@@ -51,6 +54,7 @@ class Executor {
   RateTable rates_;
   RunControl& control_;
   ScheduleLog* schedule_ = nullptr;
+  std::int64_t (*clock_)() noexcept = monotonicNs;
   std::array<GroupTiming, kRateGroupCount> timings_;
   std::vector<std::string> notes_;
   double wall_seconds_ = 0;

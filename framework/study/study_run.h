@@ -44,6 +44,8 @@ class StudyRun {
   void observe(Observer observer);
   /// Asked before every tick of a group whether it is held up (see LockstepExecutor::delay). Before run().
   void delay(std::function<bool(RateGroup, double)> held_up);
+  /// Execution times in timing() become processor time of this thread. Before run().
+  void timeProcessor() { executor_->timeBy(threadCpuNs); }
   void run();
 
   const Monitor& monitor() const noexcept { return session_->monitor(); }
