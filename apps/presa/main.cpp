@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
       "  presa run config/scenes/cube.xml                      two fingers lift a cube, live\n"
       "  presa run config/scenes/cube.xml --lockstep --report cube.html\n"
       "  presa explain config/scenes/cube.xml                  which parts run, and why\n"
+      "  presa cost config/scenes/cube.xml --quick             what accuracy costs in time\n"
       "  presa COMMAND --help                                  all options of a command");
   int status = presa::kExitOk;
   presa::addRun(app, status);
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   presa::addExplain(app, status);
   presa::addReplay(app, status);
   presa::addStability(app, status);
+  presa::addCost(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -17,5 +17,6 @@ void addCheck(CLI::App& app, int& status);
 void addExplain(CLI::App& app, int& status);
 void addReplay(CLI::App& app, int& status);
 void addStability(CLI::App& app, int& status);
+void addCost(CLI::App& app, int& status);
 
 }  // namespace presa

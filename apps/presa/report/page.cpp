@@ -46,6 +46,7 @@ a { color: inherit; text-decoration-color: var(--soft); }
 ul { margin: 6px 0; padding-left: 20px; }
 .fault { color: var(--bad); }
 code { font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
+code.wrap { white-space: normal; overflow-wrap: anywhere; display: inline-block; min-width: 240px; text-align: left; }
 pre { background: var(--card); border-radius: 4px; padding: 10px 14px; white-space: pre-wrap; overflow-wrap: anywhere; margin: 8px 0; }
 img { max-width: 100%; border-radius: 4px; display: block; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 16px; }
@@ -66,6 +67,11 @@ svg .dots { fill: none; stroke-width: 3; stroke-linecap: round; stroke-opacity: 
 svg .stick { stroke: var(--force); } svg .slip { stroke: var(--object); }
 svg .ray { stroke-width: 1.5; } svg .static { stroke: var(--ink); } svg .dynamic { stroke: var(--soft); stroke-dasharray: 5 4; }
 svg .mark { fill: none; stroke: var(--bad); stroke-width: 2; }
+svg .point { fill: var(--tangential); stroke: var(--bg); stroke-width: 1; cursor: default; } svg .point.front { fill: var(--force); }
+svg .point.usual { fill: var(--object); stroke: var(--ink); stroke-width: 1.5; } svg .point.empty { fill: var(--bg); stroke: var(--tangential); stroke-width: 1.5; }
+svg .cross { stroke: var(--bad); stroke-width: 2; fill: none; } svg .whisker { stroke: var(--tangential); }
+svg .pareto { fill: none; stroke: var(--force); stroke-width: 1.5; } svg .floor { fill: var(--band0); } svg .known { fill: var(--limit); }
+svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }
 .readout { position: absolute; top: 50px; pointer-events: none; background: var(--bg); border: 1px solid var(--rule); border-radius: 4px;
   padding: 6px 10px; font-size: 13px; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .readout div { display: flex; justify-content: space-between; gap: 18px; }
@@ -113,6 +119,19 @@ for (const plot of document.querySelectorAll('.plot')) {
     box.style.left = (left + box.offsetWidth + 24 > area.width ? left - box.offsetWidth - 12 : left + 12) + 'px';
   });
   svg.addEventListener('pointerleave', hide);
+}
+for (const point of document.querySelectorAll('.plot [data-name]')) {
+  const plot = point.closest('.plot'), box = plot.querySelector('.readout');
+  point.addEventListener('pointerenter', () => {
+    box.replaceChildren(...point.dataset.name.split('\n').map(line => {
+      const div = document.createElement('div'); div.textContent = line; return div;
+    }));
+    box.hidden = false;
+    const area = plot.getBoundingClientRect(), at = point.getBoundingClientRect(), x = at.right - area.left, y = at.top - area.top;
+    box.style.left = (x + box.offsetWidth + 20 > area.width ? Math.max(0, at.left - area.left - box.offsetWidth - 8) : x + 8) + 'px';
+    box.style.top = Math.max(0, y - box.offsetHeight / 2) + 'px';
+  });
+  point.addEventListener('pointerleave', () => { box.hidden = true; });
 }
 )JS";
 

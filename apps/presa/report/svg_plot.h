@@ -74,10 +74,31 @@ struct ScatterFigure {
   std::vector<Mark> marks;
 };
 
+/// One setting of a work–precision diagram.
+struct WorkPoint {
+  Point at;                      ///< cost, error; an error of 0 lies on the bottom edge
+  double x_low = 0, x_high = 0;  ///< spread of the cost
+  std::string label;             ///< shown under the pointer
+  std::string css_class;         ///< "usual", "front", "other"
+  bool failed = false;           ///< a cross on the top edge
+};
+/// Error over cost, both logarithmic.
+struct WorkFigure {
+  std::string title;
+  std::string x_label, y_label;  ///< with unit
+  std::vector<WorkPoint> points;
+  std::vector<Point> front;       ///< what no other point beats, by rising cost
+  std::vector<Level> x_levels{};  ///< the period
+  std::vector<Level> y_levels{};  ///< just-noticeable differences
+  double floor = 0;               ///< the reference knows no better; 0: none
+};
+
 /// The panels over one time axis, with legend, bands and the data for the page's hover read-out.
 std::string render(const TimeFigure& figure);
 /// Both axes from 0.
 std::string render(const ScatterFigure& figure);
+/// Every point carries its label for the page's hover read-out and for readers without one (title).
+std::string render(const WorkFigure& figure);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) inside [low, high], about `target` of them.
 std::vector<double> niceTicks(double low, double high, int target);

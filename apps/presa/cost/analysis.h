@@ -1,0 +1,38 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/presa/cost/result.h"
+
+/// What the numbers of a study say.
+namespace presa::cost {
+
+/// Indices of the outcomes that no other beats in both error and cost, by rising cost.
+using CostOf = Spread (Outcome::*)() const;
+std::vector<std::size_t> paretoFront(const Result& result, const std::string& metric,
+                                     CostOf cost = &Outcome::perSecond);
+
+/// What going from the default to one other value of one knob does.
+struct KnobGain {
+  std::string knob, from, to;
+  double cost_ratio = 1;   ///< of processor time
+  double error_ratio = 1;  ///< below 1: better
+  /// Error for twice the cost over error now, along this knob; nothing where the cost does not measurably change.
+  std::optional<double> per_double_cost;
+};
+std::vector<KnobGain> knobGains(const Result& result, const std::string& metric);
+
+/// Index of the cheapest setting whose error is below `limit`.
+std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit);
+
+/// Least-squares slope of log(error) over log(value) of a numeric knob, all else as in the default, times -1.
+std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& knob);
+
+/// The report's last words, one text per rule that has something to say.
+std::vector<std::string> sentences(const Result& result);
+
+/// "0.0123 N"
+std::string withUnit(double value, const std::string& unit);
+
+}  // namespace presa::cost

@@ -1,0 +1,310 @@
+#include "apps/presa/cost/driver.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "apps/presa/atomic_file.h"
+#include "apps/presa/cost/fixed_rig.h"
+#include "apps/presa/cost/hash.h"
+#include "apps/presa/cost/knobs.h"
+#include "apps/presa/cost/measure.h"
+#include "apps/presa/cost/metrics.h"
+#include "apps/presa/cost/run_store.h"
+#include "apps/presa/terminal/job_progress.h"
+#include "apps/presa/terminal/text.h"
+#include "apps/presa/version.h"
+#include "framework/geometry/decimate.h"
+#include "framework/study/jobs.h"
+
+namespace presa::cost {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Errors that never exceed this, in whatever unit, are rounding: such a metric has nothing to show in this scene.
+constexpr double kRounding = 1e-9;
+
+std::string contents(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string objText(const TriMesh& mesh) {
+  std::string text;
+  for (const Vec3& v : mesh.vertices) text += terminal::format("v %.9g %.9g %.9g\n", v.x(), v.y(), v.z());
+  for (const TriMesh::Triangle& t : mesh.triangles)
+    text += terminal::format("f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return text;
+}
+
+constexpr const char* kTooLong = "it took too long";
+constexpr int kWatched = -1;
+constexpr int kCounted = 1000;  ///< instructions are kept beside the repeats
+
+/// One run to make: of a setting, or of a level of the reference.
+struct Task {
+  std::vector<std::string> sets;
+  std::uint64_t hash = 0;
+  int repeat = kWatched;  ///< of timed runs: which
+};
+
+class Driver {
+ public:
+  Driver(const Study& study, const DriverOptions& options) : study_(study), options_(options) {}
+
+  Result run() {
+    prepare();
+    result_.study = study_;
+    watchAll();
+    for (std::size_t repeat = 0; repeat < static_cast<std::size_t>(study_.repeats); ++repeat)
+      timeAll(static_cast<int>(repeat));
+    if (options_.instructions) timeAll(kCounted);
+    progress_->finish();
+    collect();
+    result_.interrupted = stopped_;
+    if (!stopped_) store_->dropTraces();
+    return std::move(result_);
+  }
+
+ private:
+  void prepare();
+  void makeMeshes();
+  StudySpec spec(const Task& task) const;
+  void work(const std::vector<Task>& tasks, int workers, const std::string& what);
+  void watchAll();
+  void timeAll(int repeat);
+  Timing timing(const Task& task) const;
+  void compare(std::size_t levels);
+  double demanded() const;
+  void collect();
+
+  const Study& study_;
+  const DriverOptions& options_;
+  std::string rig_;
+  std::unique_ptr<RunStore> store_;
+  std::vector<std::uint64_t> level_hash_;
+  Result result_;
+  bool stopped_ = false;
+  std::unique_ptr<terminal::JobProgress> progress_;
+};
+
+void Driver::prepare() {
+  Diagnostics diagnostics;
+  const Loaded base = loadWorld(study_.inputs, {}, diagnostics);
+  if (!diagnostics.hasErrors()) {
+    for (const auto& sets : study_.reference) level_hash_.push_back(checkedScene(study_.inputs, sets, diagnostics));
+  }
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  const std::string rig = rigWithFixedDamping(base);
+  if (!rig.empty()) {
+    rig_ = study_.folder + "/rig.xml";
+    writeFileAtomically(rig_, rig);
+  }
+  makeMeshes();
+  Hash common;
+  common.add(rig);
+  for (const DeviceBinding& binding : base.world->rig.devices) {
+    for (const auto& [key, setting] : binding.settings) {
+      if (key == "motion" || key == "file") common.add(contents(setting.value));
+    }
+  }
+  for (const std::string& text : {std::to_string(study_.duration), std::to_string(study_.seed), study_.compared.from,
+                                  study_.compared.to, study_.steady.from, study_.steady.to, std::string(kVersion)})
+    common.add(text);
+  const std::string runs = study_.folder + "/runs";
+  if (!options_.resume) fs::remove_all(runs);
+  fs::create_directories(runs);
+  store_ = std::make_unique<RunStore>(runs, common.value());
+  std::size_t possible = 0;
+  for (const Setting& setting : study_.settings) possible += setting.impossible.empty() ? 1 : 0;
+  progress_ = std::make_unique<terminal::JobProgress>(
+      possible * static_cast<std::size_t>(1 + study_.repeats + (options_.instructions ? 1 : 0)) + 2);
+}
+
+void Driver::makeMeshes() {
+  std::map<std::string, TriMesh> sources;
+  for (const Knob& knob : study_.knobs) {
+    for (const KnobValue& value : knob.values) {
+      for (const Decimation& wanted : value.meshes) {
+        Diagnostics diagnostics;
+        if (!sources.contains(wanted.source))
+          sources[wanted.source] =
+              importMesh(wanted.source, {.must_be_closed = false}, {wanted.source, 0, 0}, diagnostics);
+        if (diagnostics.hasErrors()) throw InputError(diagnostics);
+        const TriMesh& source = sources[wanted.source];
+        const auto count = static_cast<std::size_t>(wanted.part * static_cast<double>(source.triangles.size()));
+        const TriMesh coarse = decimateMesh(source, count);
+        fs::create_directories(fs::path(wanted.file).parent_path());
+        writeFileAtomically(wanted.file, objText(coarse));
+        result_.meshes.push_back({wanted.body, value.name, source.triangles.size(), coarse.triangles.size(),
+                                  hausdorffDistance(source, coarse)});
+      }
+    }
+  }
+}
+
+StudySpec Driver::spec(const Task& task) const {
+  StudySpec spec;
+  spec.scene = study_.inputs.scene;
+  spec.rig = rig_;
+  spec.sets = study_.inputs.sets;
+  spec.sets.insert(spec.sets.end(), task.sets.begin(), task.sets.end());
+  spec.duration = study_.duration;
+  spec.seed = study_.seed;
+  return spec;
+}
+
+// a job leaves its result on disk: what it returns is only why it could not
+void Driver::work(const std::vector<Task>& tasks, int workers, const std::string& what) {
+  std::vector<Task> missing;
+  std::set<std::pair<std::uint64_t, int>> planned;
+  for (const Task& task : tasks) {
+    const bool there = task.repeat < 0 ? store_->hasEvidence(task.hash) : store_->hasTiming(task.hash, task.repeat);
+    if (!there && planned.insert({task.hash, task.repeat}).second)
+      missing.push_back(task);
+    else
+      progress_->done(what);
+  }
+  JobOptions jobs;
+  jobs.workers = workers;
+  jobs.stop = [] { return terminal::JobProgress::interrupted(); };
+  jobs.on_wait = [&] { progress_->show(); };
+  jobs.on_done = [&](std::size_t i, const JobResult& job) {
+    progress_->done(what);
+    if (job.outcome == JobResult::Outcome::kDone || job.outcome == JobResult::Outcome::kNotRun ||
+        missing[i].repeat >= 0)
+      return;
+    Evidence evidence;
+    evidence.failure = job.outcome == JobResult::Outcome::kTimedOut ? kTooLong : job.text;
+    store_->save(missing[i].hash, evidence);
+  };
+  const auto results = runJobs(
+      missing.size(),
+      [&](std::size_t i) {
+        const Task& task = missing[i];
+        if (task.repeat < 0)
+          store_->save(task.hash, watch(spec(task), study_));
+        else
+          store_->save(task.hash, task.repeat, timing(task));
+        return std::string{};
+      },
+      jobs);
+  for (const JobResult& job : results) stopped_ = stopped_ || job.outcome == JobResult::Outcome::kNotRun;
+}
+
+// The reference is refined until its own uncertainty is small beside the smallest error that the report shows.
+void Driver::watchAll() {
+  std::vector<Task> tasks;
+  for (std::size_t level = 0; level < std::min<std::size_t>(2, study_.reference.size()); ++level)
+    tasks.push_back({study_.reference[level], level_hash_[level]});
+  for (const Setting& setting : study_.settings) {
+    if (setting.impossible.empty()) tasks.push_back({setting.sets, setting.scene_hash});
+  }
+  work(tasks, options_.workers, "accuracy");
+  for (std::size_t levels = 2; !stopped_; ++levels) {
+    compare(levels);
+    if (study_.analytic || result_.reference.fine_enough || levels >= study_.reference.size()) return;
+    work({{study_.reference[levels], level_hash_[levels]}}, 1, "a finer reference");
+  }
+}
+
+Timing Driver::timing(const Task& task) const {
+  if (task.repeat != kCounted) return timeRun(spec(task));
+  Timing counted;
+  counted.instructions = countInstructions(spec(task));
+  return counted;
+}
+
+void Driver::timeAll(int repeat) {
+  if (stopped_) return;
+  std::vector<Task> tasks;
+  for (const Setting& setting : study_.settings) {
+    if (!setting.impossible.empty() || store_->evidence(setting.scene_hash, false).failure == kTooLong) continue;
+    tasks.push_back({setting.sets, setting.scene_hash, repeat});
+  }
+  if (repeat == kCounted) return work(tasks, options_.workers, "instructions");
+  work(tasks, 1, "time");  // one at a time: two runs would share the cache that they are measured by
+}
+
+void Driver::compare(std::size_t levels) {
+  Result::Reference& reference = result_.reference;
+  const Evidence fine = study_.analytic ? analyticAnswer(spec({})) : store_->evidence(level_hash_[levels - 1], true);
+  const Evidence coarser = study_.analytic ? fine : store_->evidence(level_hash_[levels - 2], true);
+  for (const Evidence* level : {&fine, &coarser}) {
+    if (!level->failure.empty()) throw std::runtime_error("the reference cannot be run: " + level->failure);
+  }
+  reference.analytic = study_.analytic;
+  if (!study_.analytic) reference.sets = study_.reference[levels - 1];
+  result_.outcomes.clear();
+  result_.metrics = study_.metrics;
+  for (const Setting& setting : study_.settings) result_.outcomes.push_back({setting, setting.impossible, {}, {}});
+  for (const std::string& name : study_.metrics) {
+    const Metric& metric = *findMetric(name);
+    if (const auto residual = metric.error(coarser, fine)) reference.residual[name] = *residual;
+    if (const auto noticeable = metric.noticeable(fine)) reference.noticeable[name] = *noticeable;
+  }
+  for (Outcome& outcome : result_.outcomes) {
+    if (!outcome.failure.empty()) continue;
+    const Evidence evidence = store_->evidence(outcome.setting.scene_hash, true);
+    outcome.failure = evidence.failure;
+    if (!outcome.failure.empty()) continue;
+    for (const std::string& name : result_.metrics) {
+      if (const auto error = findMetric(name)->error(evidence, fine)) outcome.error[name] = *error;
+    }
+  }
+  std::erase_if(result_.metrics, [&](const std::string& name) {
+    return std::none_of(result_.outcomes.begin(), result_.outcomes.end(), [&](const Outcome& outcome) {
+      return outcome.error.contains(name) && outcome.error.at(name) > kRounding;
+    });
+  });
+  reference.fine_enough = demanded() >= 1;
+}
+
+/// Smallest error shown over ten times the reference's residual, of the worst metric.
+double Driver::demanded() const {
+  double worst = INFINITY;
+  for (const std::string& name : result_.metrics) {
+    if (findMetric(name)->absolute) continue;
+    for (const Outcome& outcome : result_.outcomes) {
+      const auto error = outcome.error.find(name);
+      if (error == outcome.error.end() || !outcome.failure.empty()) continue;
+      const auto residual = result_.reference.residual.find(name);
+      if (residual != result_.reference.residual.end() && residual->second > 0)
+        worst = std::min(worst, error->second / (10 * residual->second));
+    }
+  }
+  return worst;
+}
+
+void Driver::collect() {
+  for (Outcome& outcome : result_.outcomes) {
+    if (!outcome.setting.impossible.empty()) continue;
+    if (options_.instructions && store_->hasTiming(outcome.setting.scene_hash, kCounted))
+      outcome.instructions = store_->timing(outcome.setting.scene_hash, kCounted).instructions;
+    for (int repeat = 0; repeat < study_.repeats; ++repeat) {
+      if (store_->hasTiming(outcome.setting.scene_hash, repeat))
+        outcome.timings.push_back(store_->timing(outcome.setting.scene_hash, repeat));
+    }
+  }
+}
+
+}  // namespace
+
+void checkFolder(const std::string& folder, Diagnostics& diagnostics) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder) && ::access(folder.c_str(), W_OK | X_OK) == 0) return;
+  diagnostics.error(803, {"--out " + folder, 0, 0},
+                    "cannot write into the folder '" + folder + "'" + (error ? ": " + error.message() : ""),
+                    "choose another with --out");
+}
+
+Result runStudy(const Study& study, const DriverOptions& options) { return Driver(study, options).run(); }
+
+}  // namespace presa::cost

@@ -1,0 +1,242 @@
+#include "apps/presa/cost/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/presa/cost/analysis.h"
+#include "apps/presa/cost/metrics.h"
+#include "apps/presa/report/page.h"
+#include "apps/presa/report/svg_plot.h"
+#include "apps/presa/terminal/text.h"
+
+namespace presa::cost {
+namespace {
+
+using svg::escape;
+using terminal::format;
+
+std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
+  std::string out = "<tr>";
+  for (const std::string& cell : cells) out += std::string("<") + tag + ">" + cell + "</" + tag + ">";
+  return out + "</tr>\n";
+}
+std::string table(const std::vector<std::string>& head, const std::string& rows) {
+  return "<div class=\"scroll\"><table><thead>" + row(head, "th") + "</thead><tbody>\n" + rows +
+         "</tbody></table></div>\n";
+}
+
+std::string setOptions(const std::vector<std::string>& sets) {
+  std::string out;
+  for (const std::string& set : sets) {
+    const bool plain = set.find_first_of(" '\"$") == std::string::npos;
+    out += (out.empty() ? "--set " : " --set ") + (plain ? set : "'" + set + "'");
+  }
+  return out;
+}
+
+double residualOf(const Result& result, const std::string& metric) {
+  const auto found = result.reference.residual.find(metric);
+  return findMetric(metric)->absolute || found == result.reference.residual.end() ? 0 : found->second;
+}
+
+struct CostAxis {
+  std::string label;
+  double scale = 1;
+  CostOf cost = nullptr;
+  svg::Level period;
+};
+
+svg::WorkFigure figureOf(const Result& result, const std::string& name, const CostAxis& axis) {
+  const Metric& metric = *findMetric(name);
+  svg::WorkFigure figure;
+  figure.title = metric.title + " over cost";
+  figure.x_label = axis.label;
+  figure.y_label = metric.title + (metric.unit == "steps" ? "" : " [" + metric.unit + "]");
+  figure.x_levels.push_back(axis.period);
+  figure.floor = residualOf(result, name);
+  const auto noticeable = result.reference.noticeable.find(name);
+  if (noticeable != result.reference.noticeable.end())
+    figure.y_levels.push_back({noticeable->second, "just noticeable", ""});
+  const std::vector<std::size_t> front = paretoFront(result, name, axis.cost);
+  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
+    const Outcome& outcome = result.outcomes[i];
+    const auto error = outcome.error.find(name);
+    const bool failed = !outcome.failure.empty();
+    if (!outcome.timed() || (!failed && error == outcome.error.end())) continue;
+    const Spread cost = (outcome.*axis.cost)();
+    svg::WorkPoint point;
+    point.at = {axis.scale * cost.median, failed ? 0 : error->second};
+    point.x_low = axis.scale * cost.low;
+    point.x_high = axis.scale * cost.high;
+    point.failed = failed;
+    const bool best = std::find(front.begin(), front.end(), i) != front.end();
+    point.css_class = i == 0 ? "usual" : best ? "front" : "other";
+    point.label = outcome.setting.name + "\n" +
+                  (failed ? "failed: " + outcome.failure : withUnit(error->second, metric.unit)) +
+                  format("\n%.3g ms per simulated second", 1e3 * outcome.perSecond().median) +
+                  format("\nbusiest tick %.3g of its period", outcome.busiestTick().median);
+    figure.points.push_back(point);
+  }
+  for (const std::size_t i : front) {
+    const Outcome& outcome = result.outcomes[i];
+    figure.front.push_back({axis.scale * (outcome.*axis.cost)().median, outcome.error.at(name)});
+  }
+  return figure;
+}
+
+std::string plots(const Result& result) {
+  const CostAxis total{
+      "processor time [ms per simulated second]", 1e3, &Outcome::perSecond, {1e3, "one second per second", ""}};
+  const CostAxis tick{"busiest rate group: 99.9 % of ticks below [parts of its period]",
+                      1,
+                      &Outcome::busiestTick,
+                      {1, "one tick = its period", ""}};
+  std::string out =
+      "<h2>Error over cost</h2>\n<p class=\"caption\">◆ the scene as it stands. ● on the line: no setting is both "
+      "cheaper and "
+      "better. ○ in the shaded ground: nearer to the reference than the reference knows itself. ✕ failed. Whiskers: "
+      "spread of the repeats. Point at a symbol for its setting.</p>\n";
+  for (const std::string& name : result.metrics) {
+    const Metric& metric = *findMetric(name);
+    out += "<h3>" + escape(metric.title) + "</h3>\n<p class=\"caption\"><code>" + name +
+           "</code>: " + escape(metric.meaning) + ".";
+    if (!metric.absolute)
+      out += " Residual of the reference: " + escape(withUnit(residualOf(result, name), metric.unit)) + ".";
+    out += "</p>\n<div class=\"pair\"><div>" + svg::render(figureOf(result, name, total)) + "</div><div>" +
+           svg::render(figureOf(result, name, tick)) + "</div></div>\n";
+  }
+  return out;
+}
+
+std::string gainTable(const Result& result, const std::string& metric) {
+  std::string rows;
+  for (const KnobGain& gain : knobGains(result, metric)) {
+    const std::string per =
+        gain.per_double_cost ? format("%.3g", *gain.per_double_cost) : std::string("no measurable cost");
+    rows += row({escape(gain.knob), escape(gain.from + " → " + gain.to), format("%.3g", gain.cost_ratio),
+                 format("%.3g", gain.error_ratio), per});
+  }
+  if (rows.empty()) return {};
+  const Metric& m = *findMetric(metric);
+  return "<h3>" + escape(m.title) + "</h3>\n" +
+         table({"knob", "from the default to", "processor time ×", "error ×", "error × for twice the cost"}, rows);
+}
+
+std::string gains(const Result& result) {
+  std::string out;
+  for (const std::string& name : result.metrics) out += gainTable(result, name);
+  if (out.empty()) return {};
+  return "<h2>What one knob buys</h2>\n<p class=\"caption\">One knob turned, all others as in the scene. Below 1: "
+         "better. The last column "
+         "compares knobs: the error that remains if this knob alone were turned until the cost is doubled.</p>\n" +
+         out;
+}
+
+std::string choice(const Result& result) {
+  std::string rows;
+  for (const std::string& name : result.metrics) {
+    const auto limit = result.reference.noticeable.find(name);
+    if (limit == result.reference.noticeable.end()) continue;
+    const Metric& metric = *findMetric(name);
+    const auto found = cheapestBelow(result, name, limit->second);
+    if (!found) {
+      rows += row({escape(metric.title), withUnit(limit->second, metric.unit), "none", "", "", ""});
+      continue;
+    }
+    const Outcome& best = result.outcomes[*found];
+    const std::string line = best.setting.sets.empty() ? "(as it stands)" : setOptions(best.setting.sets);
+    rows += row({escape(metric.title), escape(withUnit(limit->second, metric.unit)),
+                 escape(withUnit(best.error.at(name), metric.unit)), format("%.3g", 1e3 * best.perSecond().median),
+                 format("%.3g", best.busiestTick().median), "<code class=\"wrap\">" + escape(line) + "</code>"});
+  }
+  if (rows.empty()) return {};
+  return "<h2>The cheapest setting that nobody feels</h2>\n" +
+         table(
+             {"error", "just noticeable", "its error", "ms per simulated second", "busiest tick / period", "to paste"},
+             rows);
+}
+
+std::string settings(const Result& result) {
+  std::vector<std::string> head{"setting"};
+  for (const std::string& name : result.metrics) head.push_back(name + " [" + findMetric(name)->unit + "]");
+  for (const char* cost : {"CPU [ms/s]", "spread", "haptic tick p50 / p99.9 [µs]", "collision", "dynamics",
+                           "memory [MB]", "load [ms]", "million instructions / s"})
+    head.emplace_back(cost);
+  std::string rows;
+  for (const Outcome& outcome : result.outcomes) {
+    std::vector<std::string> cells{escape(outcome.setting.name)};
+    if (!outcome.failure.empty()) cells[0] += "<br><span class=\"fault\">✕ " + escape(outcome.failure) + "</span>";
+    for (const std::string& name : result.metrics) {
+      const auto error = outcome.error.find(name);
+      cells.push_back(error == outcome.error.end() ? "" : format("%.3g", error->second));
+    }
+    if (outcome.timed()) {
+      const Spread cpu = outcome.perSecond();
+      cells.push_back(format("%.3g", 1e3 * cpu.median));
+      cells.push_back(format("%.3g … %.3g", 1e3 * cpu.low, 1e3 * cpu.high));
+      for (const char* group : {"haptic", "collision", "dynamics"}) {
+        std::string text;
+        for (const Timing::Group& g : outcome.timings.front().groups) {
+          if (g.name == group) text = format("%.3g / %.3g", 1e6 * g.median, 1e6 * g.p999);
+        }
+        cells.push_back(text);
+      }
+      cells.push_back(format("%.3g", 1e-6 * outcome.memory().median));
+      cells.push_back(format("%.3g", 1e3 * outcome.load().median));
+      cells.push_back(outcome.instructions > 0 ? format("%.4g", 1e-6 * outcome.instructions) : "");
+    }
+    cells.resize(head.size());
+    rows += row(cells);
+  }
+  return "<h2>All settings</h2>\n" + table(head, rows) +
+         "<p class=\"caption\">Tick times: the first repeat. The same in cost.csv and, with every repeat, in "
+         "cost.json.</p>\n";
+}
+
+std::string meshes(const Result& result) {
+  std::string rows;
+  for (const Result::Mesh& mesh : result.meshes)
+    rows += row({escape(mesh.body + " " + mesh.value), format("%zu", mesh.source_triangles),
+                 format("%zu", mesh.triangles), format("%.3g", 1e3 * mesh.hausdorff)});
+  if (rows.empty()) return {};
+  return "<h2>Decimated meshes</h2>\n" +
+         table({"mesh", "triangles before", "after", "Hausdorff distance [thousandths of a file unit: mm]"}, rows);
+}
+
+std::string finePrint(const Result& result) {
+  const Study& study = result.study;
+  const auto fact = [](const std::string& name, const std::string& html) { return row({escape(name), html}); };
+  std::string rows = fact("scene", "<code>" + escape(study.inputs.scene) + "</code>");
+  std::string reference = result.reference.analytic ? "the analytic answer"
+                                                    : "<code>" + escape(setOptions(result.reference.sets)) + "</code>";
+  if (!result.reference.analytic) {
+    reference += result.reference.fine_enough
+                     ? ". It differs from the next coarser one by less than a tenth of the smallest error shown."
+                     : ". It differs from the next coarser one by more than a tenth of some errors shown: errors near "
+                       "the shaded ground are uncertain.";
+  }
+  rows += fact("reference", reference);
+  rows += fact(
+      "repeats",
+      format("%d timed runs of each setting, one at a time, without a recording; errors come from a run of their own",
+             study.repeats));
+  rows += fact("clock", "processor time of the thread, its own cost taken off");
+  rows += fact("seed", std::to_string(study.seed));
+  for (const auto& [name, value] : result.machine) rows += fact(name, escape(value));
+  return "<h2>Fine print</h2>\n<div class=\"scroll\"><table class=\"facts\"><tbody>\n" + rows +
+         "</tbody></table></div>\n<h3>Repeat this study</h3>\n<pre><code>" + escape(result.command) + "</code></pre>\n";
+}
+
+}  // namespace
+
+std::string reportHtml(const Result& result) {
+  std::string out = page::head(result.study.title + " – Presa") + "<h1>" + escape(result.study.title) + "</h1>\n";
+  if (!result.study.description.empty()) out += "<p class=\"lead\">" + escape(result.study.description) + "</p>\n";
+  out += choice(result) + plots(result) + gains(result) + settings(result) + meshes(result) + finePrint(result);
+  const std::vector<std::string> texts = sentences(result);
+  if (!texts.empty()) out += "<h2>In words</h2>\n<div class=\"verdict neutral\">\n";
+  for (const std::string& text : texts) out += "<p>" + escape(text) + "</p>\n";
+  return out + (texts.empty() ? "" : "</div>\n") + page::tail();
+}
+
+}  // namespace presa::cost

@@ -1,0 +1,58 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/presa/cost/evidence.h"
+#include "apps/presa/cost/study.h"
+
+namespace presa::cost {
+
+/// A figure from repeated runs.
+struct Spread {
+  double median = 0, low = 0, high = 0;
+};
+
+/// What became of one setting.
+struct Outcome {
+  Setting setting;
+  std::string failure;                  ///< why there is no error to show; empty: there is
+  std::map<std::string, double> error;  ///< by metric
+  std::vector<Timing> timings;          ///< one per repeat; empty when it could not be run
+
+  double instructions = 0;  ///< per simulated second; 0: not counted
+
+  bool timed() const { return !timings.empty(); }
+  Spread perSecond() const;  ///< processor time per simulated second [-]
+  Spread busiestTick()
+      const;              ///< 99.9 % of the ticks of the busiest rate group cost less than this part of its period [-]
+  Spread load() const;    ///< [s]
+  Spread memory() const;  ///< [B]
+};
+
+/// Everything a report says. `outcomes` are as Study::settings.
+struct Result {
+  Study study;
+  std::vector<Outcome> outcomes;
+  struct Reference {
+    bool analytic = false;
+    bool fine_enough = false;                ///< residual below a tenth of the smallest error shown, in every metric
+    std::vector<std::string> sets;           ///< of the finest level used
+    std::map<std::string, double> residual;  ///< by metric: difference of the two finest levels
+    std::map<std::string, double> noticeable;
+  } reference;
+  /// A decimated mesh and how far its surface is from the original's.
+  struct Mesh {
+    std::string body, value;
+    std::size_t source_triangles = 0, triangles = 0;
+    double hausdorff = 0;  ///< [file units]
+  };
+  std::vector<Mesh> meshes;
+  std::vector<std::string> metrics;                          ///< those that the scene has, in the study's order
+  std::vector<std::pair<std::string, std::string>> machine;  ///< for the fine print
+  std::string command;
+  bool interrupted = false;
+};
+
+}  // namespace presa::cost
