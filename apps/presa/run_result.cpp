@@ -24,6 +24,7 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
   }
   result.trace = monitor.trace().empty() ? nullptr : &monitor.trace();
   result.state_hash = monitor.hash();
+  result.solver_fallbacks = monitor.solverFallbacks();
   result.simulated_seconds = monitor.simulatedTime();
 }
 

@@ -55,6 +55,11 @@ Json slipOnset(const SlipOnset& slip) {
           {"last_stick_tangential_force_N", slip.last_stick_tangential_force}};
 }
 
+Json reaction(const ActionReaction::Result& result) {
+  if (result.windows == 0) return nullptr;  // it never held a free body for a tenth of a second
+  return {{"worst", result.worst}, {"time_s", result.time}, {"windows", result.windows}};
+}
+
 Json contactPoints(const RunResult& result) {
   Json all = Json::array();
   for (const RunResult::ContactPoint& point : result.contact_points) {
@@ -64,7 +69,8 @@ Json contactPoints(const RunResult& result) {
                    {"max_normal_force_N", sum.max_normal_force},
                    {"mean_normal_force_N", sum.mean_normal_force},
                    {"pop_through", sum.pop_through},
-                   {"slip_onsets", sum.slip_onsets}});
+                   {"slip_onsets", sum.slip_onsets},
+                   {"impulse_mismatch", reaction(sum.reaction)}});
   }
   return all;
 }
@@ -127,6 +133,7 @@ std::string summaryJson(const RunResult& result) {
   json["contact_points"] = contactPoints(result);
   json["objects"] = objects(result);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
+  json["solver_fallbacks"] = result.solver_fallbacks;
   json["faults"] = Json::array();
   for (const RunResult::Fault& fault : result.faults)
     json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});

@@ -32,7 +32,7 @@ std::int32_t scriptedPhase(const DeviceState& device) noexcept {
 
 struct Monitor::Impl {
   Impl(std::shared_ptr<const World> shared_world, double loosen, double trace_rate)
-      : world(std::move(shared_world)), loosen_time(loosen) {
+      : world(std::move(shared_world)), loosen_time(loosen), reaction(world->scene) {
     const std::vector<Body>& bodies = world->scene.bodies;
     objects.resize(bodies.size());
     fingers_on.resize(bodies.size());
@@ -62,6 +62,8 @@ struct Monitor::Impl {
 
   std::shared_ptr<const World> world;
   double loosen_time;
+  ActionReaction reaction;
+  std::uint64_t solver_fallbacks = 0;
   std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
   std::uint64_t objects_version = 0;
   double simulated_time = 0;
@@ -170,11 +172,14 @@ void Monitor::observe(const Tick& tick, const DeviceState& device, const Contact
     if (m.object_faults == 0) m.object_fault_time = tick.time;
     m.object_faults |= objects->faults;
   }
+  if (fresh) m.solver_fallbacks = objects->fallback_steps;
+  if (objects != nullptr) m.reaction.add(tick, contact, *objects, fresh);
 
   std::fill(m.fingers_on.begin(), m.fingers_on.end(), 0);
   for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
     m.sumFinger(f, contact.fingers[f], tick);
     m.fingers[f].pop_through = contact.pop_through_by_finger[f];
+    m.fingers[f].reaction = m.reaction.of(f);
   }
   m.sumObjects(tick, objects, fresh);
   m.pop_through = contact.pop_through;
@@ -201,6 +206,7 @@ const std::vector<std::int32_t>& Monitor::tracedBodies() const noexcept { return
 std::uint32_t Monitor::popThrough() const noexcept { return impl_->pop_through; }
 std::uint32_t Monitor::objectFaults() const noexcept { return impl_->object_faults; }
 double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_time; }
+std::uint64_t Monitor::solverFallbacks() const noexcept { return impl_->solver_fallbacks; }
 double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
 
 }  // namespace presa

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/graph/port.h"
+#include "framework/monitor/action_reaction.h"
 #include "framework/scene/world.h"
 #include "framework/schedule/timing_stats.h"
 #include "framework/state/contact_exchange.h"
@@ -34,6 +35,7 @@ struct FingerSummary {
   std::uint32_t pop_through = 0;    ///< times the fingertip got past a surface
   std::uint64_t slip_onsets = 0;    ///< changes from stick to slip
   SlipOnset loosening_slip;         ///< the first one at or after loosen_time
+  ActionReaction::Result reaction;  ///< impulse given to free bodies against impulse rendered, over any 0.1 s of touch
 };
 
 /// A grasp regained this soon was not lost [s].
@@ -85,6 +87,8 @@ class Monitor final : public Module {
   /// ObjectFault bits seen, and when the first came [s]; -1: none.
   std::uint32_t objectFaults() const noexcept;
   double objectFaultTime() const noexcept;
+  /// Dynamics steps in which the direct solver gave up on an island and the iterative one took over.
+  std::uint64_t solverFallbacks() const noexcept;
 
  private:
   struct Impl;
