@@ -44,14 +44,24 @@ int thin(dContactGeom* contacts, int count, int limit, double same_distance) {
 
 }  // namespace
 
-void BodyContacts::find(dSpaceID space, const BodySet& bodies, std::vector<BodyContact>& contacts) {
-  contacts.clear();
+void BodyContacts::findPairs(dSpaceID space) {
   pairs_.clear();
   dSpaceCollide(space, &pairs_, rememberPair);
   std::sort(pairs_.begin(), pairs_.end());
+}
+
+std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, std::vector<BodyContact>& contacts) {
+  contacts.clear();
   for (const Pair& pair : pairs_) {
-    if (bodies.moves(pair.first) || bodies.moves(pair.second)) collidePair(bodies, pair, contacts);
+    if (!bodies.awake(pair.first) && !bodies.awake(pair.second)) continue;
+    const std::size_t before = contacts.size();
+    collidePair(bodies, pair, contacts);
+    if (contacts.size() == before) continue;
+    for (const std::size_t i : {pair.first, pair.second}) {
+      if (bodies.asleep(i)) return i;
+    }
   }
+  return std::nullopt;
 }
 
 void BodyContacts::collidePair(const BodySet& bodies, const Pair& pair, std::vector<BodyContact>& contacts) {

@@ -85,6 +85,18 @@ BodyInertiaState BodySet::inertiaState(std::size_t i) const {
   return {poseOf(entry, state), state.p_WCm, 1 / entry.mass, R_WB * entry.inverse_inertia * R_WB.transpose()};
 }
 
+bool BodySet::anyAwake() const noexcept {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (awake(i)) return true;
+  }
+  return false;
+}
+
+Pose BodySet::centrePose(std::size_t i) const {
+  const State state = read(bodies_[i]);
+  return {state.p_WCm, state.q_WB};
+}
+
 Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
   if (!moves(i)) return Vec3::Zero();
   const Entry& entry = bodies_[i];
@@ -98,6 +110,20 @@ void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
   const Vec3 v_WCm = v_WB + w_WB.cross(toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm);
   dBodySetLinearVel(entry.body, v_WCm.x(), v_WCm.y(), v_WCm.z());
   dBodySetAngularVel(entry.body, w_WB.x(), w_WB.y(), w_WB.z());
+}
+
+void BodySet::sleep(std::size_t i) {
+  Entry& entry = bodies_[i];
+  enable(i, false);
+  entry.asleep = true;
+  dBodySetLinearVel(entry.body, 0, 0, 0);
+  dBodySetAngularVel(entry.body, 0, 0, 0);
+}
+
+void BodySet::wake(std::size_t i) {
+  bodies_[i].asleep = false;
+  bodies_[i].begin = read(bodies_[i]);
+  enable(i, true);
 }
 
 void BodySet::enable(std::size_t i, bool on) {
@@ -123,7 +149,7 @@ void BodySet::addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP) {
 void BodySet::applyForces() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Entry& entry = bodies_[i];
-    if (!moves(i) || !entry.enabled) continue;
+    if (!awake(i) || !entry.enabled) continue;
     dBodySetForce(entry.body, entry.force_W.x(), entry.force_W.y(), entry.force_W.z());
     dBodySetTorque(entry.body, entry.torque_W.x(), entry.torque_W.y(), entry.torque_W.z());
   }
@@ -131,7 +157,7 @@ void BodySet::applyForces() {
 
 void BodySet::beginStep() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (moves(i)) bodies_[i].begin = read(bodies_[i]);
+    if (awake(i)) bodies_[i].begin = read(bodies_[i]);
   }
 }
 
@@ -158,7 +184,7 @@ void BodySet::rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const
 void BodySet::driftRotations(double h) {
   if (rotation_ == DynamicsSettings::Rotation::kEngine || rotation_ == DynamicsSettings::Rotation::kNone) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!moves(i)) continue;
+    if (!awake(i)) continue;
     const Entry& entry = bodies_[i];
     Vec3 w_WB = toVec3(dBodyGetAngularVel(entry.body));
     const double angle = w_WB.norm() * h;
@@ -196,7 +222,7 @@ void BodySet::freeze(Entry& entry) {
 std::size_t BodySet::freezeBroken() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!moves(i) || sane(read(bodies_[i]))) continue;
+    if (!awake(i) || sane(read(bodies_[i]))) continue;
     freeze(bodies_[i]);
     ++count;
   }
@@ -217,8 +243,8 @@ void BodySet::write(ObjectState& out) {
     motion.X_WB_begin = entry.X_WB;
     motion.v_WB.setZero();
     motion.w_WB.setZero();
-    motion.asleep = false;
-    if (moves(i)) {
+    motion.asleep = entry.asleep;
+    if (awake(i)) {
       const State state = read(entry);
       entry.X_WB = poseOf(entry, state);
       motion.v_WB = state.v_WCm - state.w_WB.cross(state.q_WB * entry.p_BCm);

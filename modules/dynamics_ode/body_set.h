@@ -23,6 +23,10 @@ class BodySet {
   std::size_t size() const noexcept { return bodies_.size(); }
   /// Takes part in the dynamics: neither fixed nor frozen.
   bool moves(std::size_t i) const noexcept { return bodies_[i].body != nullptr && !bodies_[i].frozen; }
+  bool asleep(std::size_t i) const noexcept { return bodies_[i].asleep; }
+  /// Moves and does not sleep: takes part in this step.
+  bool awake(std::size_t i) const noexcept { return moves(i) && !bodies_[i].asleep; }
+  bool anyAwake() const noexcept;
   dBodyID body(std::size_t i) const noexcept { return moves(i) ? bodies_[i].body : nullptr; }
   dGeomID geom(std::size_t i) const noexcept { return bodies_[i].geom; }
   static std::size_t indexOf(dGeomID geom) noexcept { return reinterpret_cast<std::uintptr_t>(dGeomGetData(geom)); }
@@ -35,12 +39,17 @@ class BodySet {
   double inverseMass(std::size_t i) const noexcept { return moves(i) ? 1 / bodies_[i].mass : 0; }
   /// Centre of mass at the last beginStep [m]; W's origin when it does not move.
   Vec3 centreAtBegin(std::size_t i) const { return moves(i) ? bodies_[i].begin.p_WCm : Vec3(Vec3::Zero()); }
+  /// Pose of the centre of mass, with the body's axes. Only for bodies that move.
+  Pose centrePose(std::size_t i) const;
   /// Velocity now, of the point of body `i` that was at p_W at the last beginStep [m/s]; zero when it does not move.
   Vec3 velocityAt(std::size_t i, const Vec3& p_W) const;
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; nothing if it does not move
 
-  /// Lets the solvers see body `i` (it moves) or not: it then keeps its state, and its contacts are left out.
+  void sleep(std::size_t i);  ///< stops it where it is
+  void wake(std::size_t i);
+
+  /// Lets the solvers see body `i` (it is awake) or not: it then keeps its state, and its contacts are left out.
   void enable(std::size_t i, bool on);
   /// Starts the external forces of a step with each body's constant one.
   void resetForces();
@@ -78,7 +87,7 @@ class BodySet {
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0;
-    bool frozen = false, enabled = true;
+    bool frozen = false, asleep = false, enabled = true;
     Vec3 constant_force_W = Vec3::Zero();
     Vec3 force_W = Vec3::Zero(), torque_W = Vec3::Zero();  // external, of this step, at the centre of mass
     State begin;

@@ -32,16 +32,12 @@ Vec3 ContactJoints::slip(std::size_t i, const BodySet& bodies) const {
   return relative - relative.dot(c.nhat_AB_W) * c.nhat_AB_W;
 }
 
-void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySet& bodies, double h) {
+void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySet& bodies) {
   contacts_ = &contacts;
   joints_.assign(contacts.size(), {});
   feedback_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const BodyContact& c = contacts[i];
-    Joint& joint = joints_[i];
-    const double inverse_mass = bodies.inverseMass(index(c.A)) + bodies.inverseMass(index(c.B));
-    joint.cfm = std::min(h * options_.contact_softness * inverse_mass, options_.max_contact_cfm);
-    joint.mu = coefficient(i, bodies);
+    joints_[i].mu = coefficient(i, bodies);
   }
   recall(bodies);
 }
@@ -72,6 +68,7 @@ dContact ContactJoints::make(const BodyContact& c, const Joint& joint, bool fric
   if (!joint.direction.isZero()) surface.mode |= dContactFDir1;
   if (joint.limit < 0) surface.mode |= dContactApprox1_1 | dContactApprox1_2;
   surface.mu = !friction ? 0 : joint.limit < 0 ? joint.mu : joint.limit;
+  if (joint.slides) surface.mode |= dContactMu2;  // of zero
   surface.soft_erp = options_.contact_erp;
   surface.soft_cfm = joint.cfm;
   assign(contact.geom.pos, c.p_W);

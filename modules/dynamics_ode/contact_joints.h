@@ -17,14 +17,15 @@ class ContactJoints {
   struct Joint {
     double cfm = 0, mu = 0;
     Vec3 direction = Vec3::Zero();  ///< first of the two that ODE bounds separately; zero: ODE's choice
+    bool slides = false;            ///< along `direction`, and so fast that friction acts along it alone
     double limit = -1;              ///< of friction [N]; < 0: mu times the normal force of the same solve
     Vec3 f_B_W = Vec3::Zero();      ///< on B [N]: before the solve that of the last step, after it the new one
   };
 
   ContactJoints(const Scene& scene, const OdeOptions& options);
 
-  /// Starts a step of `h` with these contacts (sorted by pair), which stay the caller's.
-  void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies, double h);
+  /// Starts a step with these contacts (sorted by pair), which stay the caller's.
+  void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies);
   /// Joints for the contacts of `wanted` islands.
   void addTo(Engine& engine, const BodySet& bodies, Islands& islands, const std::vector<char>& wanted, bool friction);
   /// Ends the step: what was found is what the next one remembers.
@@ -43,7 +44,6 @@ class ContactJoints {
     std::int32_t A, B;
     Vec3 p_CmC_W, f_B_W;
   };
-  Joint start(const BodyContact& contact, const BodySet& bodies, double h) const;
   void recall(const BodySet& bodies);
   dContact make(const BodyContact& contact, const Joint& joint, bool friction) const;
 

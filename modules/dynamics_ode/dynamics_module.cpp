@@ -50,16 +50,30 @@ void DynamicsModule::stop() {
 }
 
 std::vector<std::string> DynamicsModule::stages() const {
-  return {
-      "extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades",
-      "collide the physics geometries (hash space, at most 8 contacts per pair)",
-      "solve once without friction between bodies, to point friction along the coming slip",
-      "fingers as implicit spring-dampers (soft contact joints) inside their friction cone",
-      "solve: islands up to " + std::to_string(options_.direct_limit) + " contacts directly, larger ones with up to " +
-          std::to_string(options_.most_iterations) + " iterations",
-      "rotate free bodies by one Runge-Kutta step of Euler's equations",
-      "freeze a body whose state is not finite; publish poses at both ends of the step",
-  };
+  using D = DynamicsSettings;
+  const D& method = options_.method;
+  std::vector<std::string> all{
+      "extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades"};
+  if (method.sleeping) all.emplace_back("wake what a finger or a moving body touches; what lies still sleeps");
+  all.emplace_back("collide the physics geometries (hash space, at most 8 contacts per pair)");
+  all.emplace_back(method.coupling == D::Coupling::kSoft
+                       ? "fingers as implicit spring-dampers (soft contact joints) inside their friction cone"
+                       : "fingers as forces that act for one step");
+  if (method.friction == D::Friction::kIsotropic) {
+    all.emplace_back("where something slides, solve once without friction, to point friction along the coming slip");
+  }
+  const std::string iterations =
+      method.iterations > 0 ? std::to_string(method.iterations) : "up to " + std::to_string(options_.most_iterations);
+  all.push_back(method.solver == D::Solver::kDirect ? "solve all islands directly"
+                : method.solver == D::Solver::kIterative
+                    ? "solve all islands with " + iterations + " iterations"
+                    : "solve: islands up to " + std::to_string(options_.direct_limit) +
+                          " contacts directly, larger ones with " + iterations + " iterations");
+  if (method.rotation == D::Rotation::kExact) {
+    all.emplace_back("rotate free bodies by one Runge-Kutta step of Euler's equations");
+  }
+  all.emplace_back("freeze a body whose state is not finite; publish poses at both ends of the step");
+  return all;
 }
 
 }  // namespace presa::ode

@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace presa::ode {
+namespace {
+
+// of a small island that is in trouble: time is no question
+constexpr int kFallbackIterations = 1000;
+
+}  // namespace
 
 IslandSolver::IslandSolver(Engine& engine, BodySet& bodies, const OdeOptions& options)
     : engine_(engine), bodies_(bodies), options_(options) {}
@@ -21,7 +27,8 @@ bool IslandSolver::isDirect(const Islands::Island& island) const noexcept {
 int IslandSolver::iterations(std::size_t contacts, int substeps) const noexcept {
   if (options_.method.iterations > 0) return static_cast<int>(options_.method.iterations);
   const int affordable = options_.iteration_budget / std::max(1, static_cast<int>(contacts));
-  return std::min(options_.most_iterations, std::max(options_.least_iterations, affordable / substeps));
+  const int least = substeps > 1 ? options_.least_iterations_of_substep : options_.least_iterations;
+  return std::min(options_.most_iterations, std::max(least, affordable / substeps));
 }
 
 // True when there is such a body.
@@ -29,7 +36,7 @@ template <class Choose>
 bool IslandSolver::enableWhere(Choose choose) {
   bool any = false;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_.moves(i)) continue;
+    if (!bodies_.awake(i)) continue;
     const bool on = choose(i);
     bodies_.enable(i, on);
     any = any || on;
@@ -55,12 +62,12 @@ bool IslandSolver::solve(Islands& islands, const std::vector<char>& wanted, doub
 bool IslandSolver::solveEachDirectly(Islands& islands, const std::vector<char>& wanted, double h, int iterations) {
   bool fell_back = false;
   for (std::size_t island = 0; island < bodies_.size(); ++island) {
-    if (!bodies_.moves(island) || islands.of(island) != island) continue;
+    if (!bodies_.awake(island) || islands.of(island) != island) continue;
     if (wanted[island] == 0 || !isDirect(islands[island])) continue;
     const auto belongs = [&](std::size_t i) { return islands.of(i) == island; };
     const auto putBack = [&] {
       for (std::size_t i = island; i < bodies_.size(); ++i) {
-        if (bodies_.moves(i) && belongs(i)) bodies_.restore(i);
+        if (bodies_.awake(i) && belongs(i)) bodies_.restore(i);
       }
     };
     putBack();
@@ -69,7 +76,7 @@ bool IslandSolver::solveEachDirectly(Islands& islands, const std::vector<char>& 
     fell_back = true;
     putBack();
     bodies_.applyForces();
-    engine_.solveIteratively(h, iterations);
+    engine_.solveIteratively(h, std::max(iterations, kFallbackIterations));
   }
   return fell_back;
 }

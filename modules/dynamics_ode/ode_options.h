@@ -16,11 +16,16 @@ struct OdeOptions {
   int most_iterations = 200;
   int iteration_budget = 40000;
   int least_iterations = 50;
+  /// A finger on an island too large for the direct solver: its spring converges with h^2 / iterations, so the period is cut
+  /// into so many sub-steps, with fewer iterations each.
+  int touched_substeps = 5;
+  int least_iterations_of_substep = 20;
   /// Contact between bodies: part of the penetration removed per step, and compliance cfm = h * softness / reduced
   /// mass, at most max_contact_cfm [m/(N s)]. A body on a table sinks g h^2 softness / (contacts * erp), below 1 um,
   /// whatever its mass; less softness and the iterative solver does not come to rest.
   double contact_erp = 0.2;
   double contact_softness = 2e-3;
+  double direct_softness = 2e-4;  ///< the same where the direct solver is at work, which needs less of it
   double max_contact_cfm = 1e-4;
 };
 

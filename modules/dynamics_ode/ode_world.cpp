@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <optional>
 
 #include "modules/dynamics_ode/body_contacts.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/islands.h"
+#include "modules/dynamics_ode/sleep.h"
 #include "modules/dynamics_ode/step_solver.h"
 
 namespace presa::ode {
@@ -24,12 +26,14 @@ struct OdeWorld::Impl {
     contacts.reserve(4 * bodies.size());
     finger_force.fill(Vec3::Zero());
     finger_impulse.fill(Vec3::Zero());
+    if (options.method.sleeping) sleep.emplace(bodies);
   }
 
   void step(const ContactExchange& exchange, double time, double period);
   void substep(const ContactExchange& exchange, double time, double h, int substeps);
   void findIslands(const ContactExchange& exchange);
-  int substepsOf(double period) const;
+  void wakeTouched(const ContactExchange& exchange);
+  int substepsNow();
   void fault(Faults::Bit bit, std::uint64_t count = 1);
   void giveUp();
 
@@ -40,6 +44,7 @@ struct OdeWorld::Impl {
   FingerJoints fingers;
   BodyContacts collider;
   StepSolver solver;
+  std::optional<Sleep> sleep;  // absent when the scene does without
   Islands islands;
   std::vector<BodyContact> contacts;
   std::array<Vec3, kMaxFingers> finger_force, finger_impulse;
@@ -68,12 +73,17 @@ void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
     const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
     bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
   }
-  const std::size_t nonsense =
-      forEachTouch(exchange, bodies, [&](std::size_t, std::size_t body) { islands.touchByFinger(body); });
-  if (nonsense > 0) fault(Faults::kBadFinger, nonsense);
+  forEachTouch(exchange, bodies, [&](std::size_t, std::size_t body) { islands.touchByFinger(body); });
 }
 
-int OdeWorld::Impl::substepsOf(double) const { return std::max(1, static_cast<int>(options.method.substeps)); }
+int OdeWorld::Impl::substepsNow() {
+  if (options.method.substeps > 0) return static_cast<int>(options.method.substeps);
+  if (options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (islands[i].touched && !solver.isDirect(islands[i])) return options.touched_substeps;
+  }
+  return 1;
+}
 
 void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps) {
   bodies.resetForces();
@@ -88,16 +98,29 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
 }
 
+void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
+  const std::size_t nonsense = forEachTouch(exchange, bodies, [&](std::size_t, std::size_t body) {
+    if (bodies.asleep(body)) sleep->wake(bodies, body);
+  });
+  if (nonsense > 0) fault(Faults::kBadFinger, nonsense);
+}
+
 void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period) {
   finger_force.fill(Vec3::Zero());
+  wakeTouched(exchange);
+  if (!bodies.anyAwake()) {
+    contacts.clear();
+    return;
+  }
   int substeps = 1;
   for (int s = 0; s < substeps; ++s) {
     bodies.beginStep();
-    collider.find(engine.space(), bodies, contacts);
+    collider.find(engine.space(), bodies, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
-    if (s == 0) substeps = substepsOf(period);
+    if (s == 0) substeps = substepsNow();
     substep(exchange, time + s * period / substeps, period / substeps, substeps);
   }
+  if (sleep) sleep->afterStep(bodies, islands, period);
 }
 
 OdeWorld::OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options)
@@ -127,6 +150,7 @@ void OdeWorld::write(double time, ObjectState& out) noexcept {
 }
 
 void OdeWorld::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) noexcept {
+  if (impl_->bodies.asleep(i)) impl_->sleep->wake(impl_->bodies, i);
   impl_->bodies.setVelocity(i, v_WB, w_WB);
 }
 

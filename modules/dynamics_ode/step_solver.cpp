@@ -9,6 +9,7 @@ namespace {
 constexpr int kPredictionIterations = 20;
 constexpr int kMostRepeats = 1;
 constexpr double kSlides = 1e-5;       // [m/s], where the direct solver says so; the iterative one: kRestSpeed
+constexpr double kSlidesFast = 0.01;   // [m/s], will not stop within a step
 constexpr double kSlidingShare = 0.2;  // of an island's friction limits, of what slides in it
 constexpr double kAtLimit = 0.98;      // friction over its limit, of what may slide
 constexpr double kClose = 0.7;         // the same, of what friction was aligned with
@@ -27,7 +28,8 @@ bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& f
                        int substeps) {
   all_.assign(bodies_.size(), 1);
   iterations_ = solver_.iterations(contacts.size(), substeps);
-  joints_.begin(contacts, bodies_, h);
+  joints_.begin(contacts, bodies_);
+  soften(islands, h);
   const bool isotropic = options_.method.friction == DynamicsSettings::Friction::kIsotropic && !contacts.empty();
   if (isotropic) startFromLastStep(islands);
   if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h);
@@ -60,6 +62,16 @@ bool StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector
       solver_.solve(islands, wanted, h, friction ? iterations_ : std::min(iterations_, kPredictionIterations));
   engine_.clearContacts();
   return fell_back;
+}
+
+void StepSolver::soften(Islands& islands, double h) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const BodyContact& c = joints_.contact(i);
+    const bool direct = solver_.isDirect(islands[islandOf(i, islands)]);
+    const double softness = direct ? options_.direct_softness : options_.contact_softness;
+    const double inverse_mass = bodies_.inverseMass(index(c.A)) + bodies_.inverseMass(index(c.B));
+    joints_[i].cfm = std::min(h * softness * inverse_mass, options_.max_contact_cfm);
+  }
 }
 
 // Last step's load: friction is aligned with it, so that a contact about to give way gives way in the right direction.
@@ -122,7 +134,7 @@ double StepSolver::slipOf(const Patch& patch) const {
 
 void StepSolver::putBack(Islands& islands, const std::vector<char>& wanted) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (bodies_.moves(i) && wanted[islands.of(i)] != 0) bodies_.restore(i);
+    if (bodies_.awake(i) && wanted[islands.of(i)] != 0) bodies_.restore(i);
   }
 }
 
@@ -132,9 +144,15 @@ void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vec
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const BodyContact& c = joints_.contact(i);
     if (wanted[islandOf(i, islands)] == 0) continue;
-    joints_[i].direction = frictionDirection(c.nhat_AB_W, joints_.slip(i, bodies_));
+    const Vec3 slip = joints_.slip(i, bodies_);
+    joints_[i].direction = frictionDirection(c.nhat_AB_W, slip);
+    joints_[i].slides = slip.norm() > kSlidesFast && solver_.isDirect(islands[islandOf(i, islands)]);
   }
   putBack(islands, wanted);
+  // a second direction would hold a contact on the line that was looked ahead, where what other contacts do turns it aside
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    joints_[i].slides = joints_[i].slides && joints_.slip(i, bodies_).norm() > kSlidesFast;
+  }
 }
 
 // A patch that comes to its limit only now had nothing to be aligned with. One that slides without reaching its limit was bounded

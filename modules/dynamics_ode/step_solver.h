@@ -20,6 +20,8 @@ class StepSolver {
   /// Steps all bodies, which are at the start of the step. True when an island fell back to the iterative solver.
   bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h, int substeps);
 
+  bool isDirect(const Islands::Island& island) const noexcept { return solver_.isDirect(island); }
+
   struct Counts {
     std::uint64_t predictions = 0, repeats = 0;  // of islands
   } counts;
@@ -38,6 +40,7 @@ class StepSolver {
   template <class Use>
   void forEachPatch(Use use);
   double slipOf(const Patch& patch) const;
+  void soften(Islands& islands, double h);
   void startFromLastStep(Islands& islands);
   void boundByNormalForce(Islands& islands);
   std::size_t islandOf(std::size_t i, Islands& islands) const {

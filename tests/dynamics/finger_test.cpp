@@ -209,6 +209,44 @@ TEST(Finger, FadesWhenNoLongerReported) {
   EXPECT_EQ(force(10), 0);
 }
 
+// Action equals reaction: over any 0.1 s of a grasp the impulse that the object state reports is the integral of what was rendered on
+// the finger. A cube is gripped, lifted with acceleration and held; rendered at 1 kHz against the interpolated pose, as the
+// haptic thread does. 1 % of the window's impulse.
+TEST(Finger, ImpulseOnTheBodyIsWhatTheFingerFelt) {
+  const double k = 2000;
+  Runner runner(WorldMaker().box(kCube, 0.2, {}).world());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.003, k, 1);
+  const std::vector<ReferenceFinger> rest = fingers;
+  constexpr int kTicks = 5, kWindow = 20;
+  std::vector<std::array<Vec3, 2>> given, felt;
+  std::array<Vec3, 2> sum{Vec3::Zero(), Vec3::Zero()};
+  for (int n = 0; n < 400; ++n) {
+    const auto lift = [](double t) { return 0.02 * (1 - std::cos(4 * t)); };
+    for (std::size_t f = 0; f < 2; ++f) {
+      fingers[f].damping = 5;
+      fingers[f].p_WH = rest[f].p_WH + lift(runner.time) * Vec3::UnitZ();
+      fingers[f].v_WH = 0.02 * 4 * std::sin(4 * runner.time) * Vec3::UnitZ();
+    }
+    const double begin = runner.time;
+    runner.step(exchangeOf(fingers, runner));
+    for (int tick = 0; tick < kTicks; ++tick) {
+      const double t = begin + (tick + 0.5) * kStep / kTicks;
+      for (std::size_t f = 0; f < 2; ++f) {
+        const Vec3 p_WH = rest[f].p_WH + lift(t) * Vec3::UnitZ();
+        sum[f] += kStep / kTicks * k * (runner.state.poseAt(0, t) * fingers[f].p_BP - p_WH);
+      }
+    }
+    given.push_back({runner.state.finger_impulse_W[0], runner.state.finger_impulse_W[1]});
+    felt.push_back(sum);
+  }
+  for (std::size_t n = 60; n + kWindow < given.size(); ++n) {
+    for (std::size_t f = 0; f < 2; ++f) {
+      const Vec3 on_body = given[n + kWindow][f] - given[n][f], on_finger = felt[n + kWindow][f] - felt[n][f];
+      ASSERT_LT((on_body + on_finger).norm(), 0.01 * on_finger.norm()) << n << " finger " << f;
+    }
+  }
+}
+
 // A finger that has left the surface since its sample must not pull, nor push before it is back.
 TEST(Finger, GivesNoForceAcrossAGap) {
   for (const double speed : {0.0, -0.1, 0.1}) {

@@ -66,6 +66,13 @@ class WorldMaker {
   World world_;
 };
 
+/// Presa's methods, but nothing sleeps: for what must be watched while it rests.
+inline OdeOptions awake() {
+  OdeOptions options;
+  options.method.sleeping = false;
+  return options;
+}
+
 /// Steps an OdeWorld at kStep and keeps its last state.
 class Runner {
  public:
