@@ -36,8 +36,8 @@ std::string whyLeftOut(const json& run, const std::string& what) {
 TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
   const std::string cube = source("config/scenes/cube.xml");
   const json full = explain(cube);
-  EXPECT_TRUE(hasStage(full, "friction"));
-  EXPECT_TRUE(hasStage(full, "damping"));
+  EXPECT_TRUE(hasStage(full, "friction: two-state cone"));
+  EXPECT_TRUE(hasStage(full, "surface damping"));
   EXPECT_TRUE(hasStage(full, "interpolate the Object State"));
   EXPECT_FALSE(hasStage(full, "shading"));
   EXPECT_NE(whyLeftOut(full, "force shading").find("smooth"), std::string::npos);
@@ -47,8 +47,8 @@ TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
                             " --set material/rubber/friction/static=0 --set material/rubber/friction/dynamic=0"
                             " --set material/wood/friction/static=0 --set material/wood/friction/dynamic=0"
                             " --set material/rubber/damping=0 --set material/wood/damping=0 --set haptics/pose=hold");
-  EXPECT_FALSE(hasStage(bare, "friction"));
-  EXPECT_FALSE(hasStage(bare, "damping"));
+  EXPECT_FALSE(hasStage(bare, "friction: two-state cone"));
+  EXPECT_FALSE(hasStage(bare, "surface damping"));
   EXPECT_FALSE(hasStage(bare, "interpolate the Object State"));
   EXPECT_NE(whyLeftOut(bare, "friction").find("no touchable material"), std::string::npos);
 
