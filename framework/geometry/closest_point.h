@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "framework/math/spatial.h"
 
 namespace presa {
@@ -6,9 +8,47 @@ namespace presa {
 /// Point of segment (a, b) nearest to p. Exact up to rounding; a == b is a point. Any unit, any scale.
 Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b);
 
-/// Point of triangle (a, b, c) nearest to p. The result is a convex combination of the corners even when the triangle is
-/// a sliver or has no area, so its distance is never too small. No tolerance, hence any unit and any scale.
+/// A triangle with all that a closest-point query needs of it alone: for many queries of one triangle.
+struct PreparedTriangle {
+  PreparedTriangle() = default;
+  PreparedTriangle(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c);
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
+  Vec3 ab = Vec3::Zero(), ac = Vec3::Zero();
+  double ab_ab = 0, ac_ac = 0, ab_ac = 0;
+  bool sliver = true;  ///< rounding may put a point into the wrong region
+};
+
+namespace detail {
+// The minimum over all features: right for every shape, at the price of looking at each.
+Vec3 closestOnSliver(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+}  // namespace detail
+
+/// Point of the triangle nearest to p. The result is a convex combination of the corners even when the triangle is a
+/// sliver or has no area, so its distance is never too small. No tolerance, hence any unit and any scale.
 /// Thread: any; no allocation. Source: [Ericson2004 5.1] by regions, with the minimum over all features for slivers.
-Vec3 closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+inline Vec3 closestOnTriangle(const Vec3& p, const PreparedTriangle& t) {
+  if (t.sliver) return detail::closestOnSliver(p, t.a, t.b, t.c);
+  // corner, edge or inside: the region in which p lies
+  const Vec3 ap = p - t.a;
+  const double d1 = t.ab.dot(ap), d2 = t.ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return t.a;
+  const double d3 = d1 - t.ab_ab, d4 = d2 - t.ab_ac;
+  if (d3 >= 0 && d4 <= d3) return t.b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return t.a + t.ab * (d1 / (d1 - d3));
+  const double d5 = d1 - t.ab_ac, d6 = d2 - t.ac_ac;
+  if (d6 >= 0 && d5 <= d6) return t.c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return t.a + t.ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return t.b + (t.c - t.b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double sum = va + vb + vc;
+  return t.a + t.ab * (vb / sum) + t.ac * (vc / sum);
+}
+
+/// The same of triangle (a, b, c), for one query.
+inline Vec3 closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return closestOnTriangle(p, PreparedTriangle(a, b, c));
+}
 
 }  // namespace presa

@@ -20,14 +20,16 @@ void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
     if (row != nullptr) row->versions[i] = version;
   }
   if (row != nullptr) row->index = tick.index;
-  stepModules(g, tick);
+  for (std::size_t i = 0; i < g.modules.size(); ++i) stepModule(g, i, tick);
 }
 
-void Graph::stepModules(Group& group, const Tick& tick) noexcept {
-  for (std::size_t i = 0; i < group.modules.size(); ++i) {
-    group.modules[i]->step(tick);
-    for (BridgeBase* bridge : group.outputs[i].bridges) bridge->push(tick.time);
-  }
+void Graph::stepModule(Group& group, std::size_t i, const Tick& tick) noexcept {
+  group.modules[i]->step(tick);
+  for (BridgeBase* bridge : group.outputs[i].bridges) bridge->push(tick.time);
+}
+
+void Graph::pull(RateGroup group) noexcept {
+  for (BridgeBase* bridge : groupOf(group).inputs) bridge->pull();
 }
 
 void Graph::stop(RateGroup group) {
@@ -45,7 +47,7 @@ bool Graph::replayStep(RateGroup group, const Tick& tick, const ScheduleRow& row
   for (std::size_t i = 0; i < g.inputs.size(); ++i) {
     if (!g.inputs[i]->pullVersion(row.versions[i])) return false;
   }
-  stepModules(g, tick);
+  for (std::size_t i = 0; i < g.modules.size(); ++i) stepModule(g, i, tick);
   return true;
 }
 

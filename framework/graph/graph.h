@@ -31,6 +31,9 @@ class Graph {
   /// `row`, when given, receives the versions that were read.
   void step(RateGroup group, const Tick& tick, ScheduleRow* row = nullptr) noexcept;
   void stop(RateGroup group);
+  /// The parts of a step, for measuring: pull the group's inputs, then step the i-th of modules(group) and publish it.
+  void pull(RateGroup group) noexcept;
+  void stepModule(RateGroup group, std::size_t i, const Tick& tick) noexcept { stepModule(groupOf(group), i, tick); }
 
   /// Replay: keep published values, then step with exactly the recorded ones.
   void keepHistory(std::size_t bytes);
@@ -50,7 +53,7 @@ class Graph {
   };
   Group& groupOf(RateGroup group) noexcept { return groups_[static_cast<std::size_t>(group)]; }
   const Group& groupOf(RateGroup group) const noexcept { return groups_[static_cast<std::size_t>(group)]; }
-  void stepModules(Group& group, const Tick& tick) noexcept;
+  static void stepModule(Group& group, std::size_t i, const Tick& tick) noexcept;
 
   std::vector<std::unique_ptr<Module>> modules_;
   std::vector<std::unique_ptr<BridgeBase>> bridges_;

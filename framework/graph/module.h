@@ -9,6 +9,11 @@ namespace presa {
 class InPortBase;
 class OutPortBase;
 
+/// Something that a run does without.
+struct LeftOut {
+  std::string what, why;
+};
+
 /// A node of the graph: constant parameters, plain state, ports as members. Ports declare themselves in the
 /// constructor, the builder connects them, and after build() nothing changes any more.
 class Module {
@@ -31,6 +36,10 @@ class Module {
   virtual void stop() {}
   /// What one step does, in order, for `presa explain`.
   virtual std::vector<std::string> stages() const { return {}; }
+  /// For each of stages(): the function that does it, as a profiler names it. Empty: stages are not functions of their own.
+  virtual std::vector<std::string> stageFunctions() const { return {}; }
+  /// Effects this module could have and the scene does not call for.
+  virtual std::vector<LeftOut> leftOut() const { return {}; }
 
  private:
   friend class InPortBase;

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/graph/module.h"
 #include "framework/scene/world.h"
 #include "framework/schedule/tick.h"
 
@@ -16,11 +17,6 @@ struct PlannedModule {
 
 struct PlannedDevice {
   std::string role, driver;
-};
-
-/// Something that this run does without.
-struct LeftOut {
-  std::string what, why;
 };
 
 /// What a scene calls for, and nothing else. Pure decision: loads and starts nothing.

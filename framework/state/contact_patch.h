@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "framework/math/spatial.h"
@@ -14,6 +15,18 @@ struct PatchTriangle {
   std::int32_t id = -1;                   ///< index in the body's haptic mesh
   std::array<std::int32_t, 3> neighbour;  ///< mesh index of the triangle across edge (v[i], v[i+1]); -1: none
 };
+
+/// Sphere around a triangle [m].
+struct BoundingSphere {
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+};
+inline BoundingSphere boundOf(const std::array<Vec3, 3>& v) {
+  const Vec3 center = (v[0] + v[1] + v[2]) / 3;
+  const double squared =
+      std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
+  return {center, std::sqrt(squared) * (1 + 1e-12)};  // no corner outside by rounding
+}
 
 /// The part of one body's haptic mesh that lies within `radius` of `center_B`. It holds *every*
 /// triangle that close unless `capped`; then `radius` has been shrunk to what is complete.
@@ -31,6 +44,7 @@ struct FingerPatch {
   std::int32_t triangle_count = 0;
   std::array<BodyPatch, kMaxNearBodies> bodies;
   std::array<PatchTriangle, kMaxPatchTriangles> triangles;
+  std::array<BoundingSphere, kMaxPatchTriangles> bounds;  ///< of each triangle, body coordinates
 };
 
 /// Local geometry around every finger. A mesh body that is not listed for a finger has nothing in reach.
@@ -54,6 +68,7 @@ struct ContactPatches {
       fingers[f].triangle_count = other.fingers[f].triangle_count;
       std::copy_n(other.fingers[f].bodies.begin(), other.fingers[f].body_count, fingers[f].bodies.begin());
       std::copy_n(other.fingers[f].triangles.begin(), other.fingers[f].triangle_count, fingers[f].triangles.begin());
+      std::copy_n(other.fingers[f].bounds.begin(), other.fingers[f].triangle_count, fingers[f].bounds.begin());
     }
     return *this;
   }

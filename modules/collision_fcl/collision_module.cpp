@@ -12,13 +12,17 @@
 namespace presa {
 namespace {
 
-constexpr std::size_t kPatchCapacity = kMaxPatchTriangles;
+std::size_t capacityOf(const CollisionSettings& settings) {
+  constexpr std::size_t kRoom = kMaxPatchTriangles;
+  return settings.max_triangles == 0 ? kRoom : std::min(settings.max_triangles, kRoom);
+}
 
 }  // namespace
 
 CollisionModule::CollisionModule(std::shared_ptr<const World> world)
     : Module("collision_fcl", RateGroup::kCollision),
       world_(std::move(world)),
+      capacity_(capacityOf(world_->scene.collision)),
       dynamics_period_(1 / world_->scene.rates.dynamics) {
   std::map<const TriMesh*, std::shared_ptr<const TriangleIndex>> indices;  // bodies of one mesh share its index
   for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
@@ -31,8 +35,8 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
     mesh_bodies_.push_back({static_cast<std::int32_t>(b), world_->scene.bodies[b].haptic->X_BG, index});
   }
   candidates_.resize(mesh_bodies_.size());
-  for (Candidate& candidate : candidates_) candidate.triangles.reserve(kPatchCapacity);
-  contenders_.reserve(kMaxNearBodies * kPatchCapacity);
+  for (Candidate& candidate : candidates_) candidate.triangles.reserve(capacity_);
+  contenders_.reserve(kMaxNearBodies * capacity_);
 }
 
 void CollisionModule::step(const Tick& tick) noexcept {
@@ -71,6 +75,9 @@ Vec3 CollisionModule::centerOf(std::size_t finger, std::int32_t body, const Pose
 double CollisionModule::reachOf(std::size_t finger, std::int32_t body, const Pose& X_WB, const Vec3& center_B,
                                 const Tick& tick) const noexcept {
   const FingerInput& input = device_state->fingers[finger];
+  const double stretch = (input.p_WH - X_WB * center_B).norm();
+  const double least = stretch + world_->scene.devices[finger].fingertip_radius;
+  if (world_->scene.collision.margin > 0) return least + world_->scene.collision.margin;
   RelativeMotion motion{input.p_WH - X_WB.p, input.v_WH, Vec3::Zero(), Vec3::Zero()};
   if (object_state.hasValue() && body < object_state->count) {
     const BodyMotion& moving = object_state->bodies[static_cast<std::size_t>(body)];
@@ -79,8 +86,7 @@ double CollisionModule::reachOf(std::size_t finger, std::int32_t body, const Pos
   }
   const double horizon = reach::kCollisionPeriods * tick.period + reach::kDynamicsPeriods * dynamics_period_ +
                          std::max(device_state.age(tick), 0.0);
-  const double stretch = (input.p_WH - X_WB * center_B).norm();
-  return stretch + world_->scene.devices[finger].fingertip_radius + motionBound(motion, horizon) + reach::kMargin;
+  return least + motionBound(motion, horizon) + reach::kMargin;
 }
 
 void CollisionModule::gatherAround(std::size_t finger, const Tick& tick) noexcept {
@@ -94,7 +100,7 @@ void CollisionModule::gatherAround(std::size_t finger, const Tick& tick) noexcep
     // written so that a position that is not a number is out of reach
     if (!((center_G - index.sphereCenter()).norm() <= index.sphereRadius() + radius)) continue;
     Candidate& candidate = candidates_[candidate_count_];
-    candidate.gathered = index.gather(center_G, radius, kPatchCapacity, candidate.triangles);
+    candidate.gathered = index.gather(center_G, radius, capacity_, candidate.triangles);
     if (candidate.triangles.empty()) continue;
     candidate.mesh_body = &mesh_body;
     candidate.center_B = center_B;
@@ -120,16 +126,16 @@ void CollisionModule::keepNearestTriangles() noexcept {
   for (std::size_t c = 0; c < candidate_count_; ++c) {
     for (const NearTriangle& triangle : candidates_[c].triangles) contenders_.push_back({triangle, c});
   }
-  if (contenders_.size() <= kPatchCapacity) return;
+  if (contenders_.size() <= capacity_) return;
   std::ranges::sort(contenders_, [](const Contender& a, const Contender& b) {
     return std::tuple(a.triangle.distance, a.candidate, a.triangle.id) <
            std::tuple(b.triangle.distance, b.candidate, b.triangle.id);
   });
   for (std::size_t c = 0; c < candidate_count_; ++c) candidates_[c].triangles.clear();
-  for (std::size_t i = 0; i < kPatchCapacity; ++i) {
+  for (std::size_t i = 0; i < capacity_; ++i) {
     candidates_[contenders_[i].candidate].triangles.push_back(contenders_[i].triangle);
   }
-  for (std::size_t i = kPatchCapacity; i < contenders_.size(); ++i) {
+  for (std::size_t i = capacity_; i < contenders_.size(); ++i) {
     Gathered& gathered = candidates_[contenders_[i].candidate].gathered;
     gathered.capped = true;
     gathered.radius = std::min(gathered.radius, std::nextafter(contenders_[i].triangle.distance, 0.0));
@@ -144,20 +150,24 @@ void CollisionModule::write(Candidate& candidate, FingerPatch& patch) noexcept {
   body = {candidate.mesh_body->body, patch.triangle_count,      static_cast<std::int32_t>(candidate.triangles.size()),
           candidate.center_B,        candidate.gathered.radius, candidate.gathered.capped};
   for (const NearTriangle& near : candidate.triangles) {
-    PatchTriangle& out = patch.triangles[static_cast<std::size_t>(patch.triangle_count++)];
+    const auto slot = static_cast<std::size_t>(patch.triangle_count++);
+    PatchTriangle& out = patch.triangles[slot];
     const auto id = static_cast<std::size_t>(near.id);
     for (std::size_t i = 0; i < 3; ++i) {
       out.v_B[i] = X_BG * mesh.vertices[static_cast<std::size_t>(mesh.triangles[id][i])];
     }
+    patch.bounds[slot] = boundOf(out.v_B);
     out.id = near.id;
     out.neighbour = mesh.adjacency[id];
   }
 }
 
 std::vector<std::string> CollisionModule::stages() const {
+  const char* reach =
+      world_->scene.collision.margin > 0 ? "stretch and the scene's margin" : "stretch and motion bound";
   return {
       "pose of each mesh body at this tick, reject bodies whose bounding sphere is out of reach",
-      "triangles within fingertip radius, stretch and motion bound of each proxy (own traversal of an FCL box tree)",
+      std::string("triangles within fingertip radius, ") + reach + " of each proxy (own traversal of an FCL box tree)",
       "share the patch capacity among the nearest bodies, deliver in body coordinates"};
 }
 

@@ -57,6 +57,7 @@ class CollisionModule final : public Module {
   static void write(Candidate& candidate, FingerPatch& patch) noexcept;
 
   std::shared_ptr<const World> world_;
+  std::size_t capacity_;  ///< triangles of one finger's patch
   std::vector<MeshBody> mesh_bodies_;
   double dynamics_period_;
   // Reused every step so that a step allocates nothing once they have grown.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/geometry/closest_point.h"
-
 namespace presa {
 namespace {
 
@@ -15,11 +13,11 @@ Vec3 unitOr(const Vec3& v, const Vec3& fallback) noexcept {
   return norm > 0 ? Vec3(v / norm) : fallback;
 }
 
-Nearest nearestTriangle(const ConvexPiece& t, const Vec3& p) noexcept {
-  const Vec3 away = p - closestOnTriangle(p, t.a, t.b, t.c);
+Nearest nearestTriangle(const PreparedTriangle& t, const Vec3& p) noexcept {
+  const Vec3 away = p - closestOnTriangle(p, t);
   const double distance = away.norm();
   if (distance > 0) return {away / distance, distance};
-  return {unitOr((t.b - t.a).cross(t.c - t.a), Vec3::UnitZ()), 0};
+  return {unitOr(t.ab.cross(t.ac), Vec3::UnitZ()), 0};
 }
 
 // p in the geometry frame; so are the following two
@@ -58,41 +56,47 @@ Nearest nearestCapsule(double radius, double half_length, const Vec3& p) noexcep
   return {unitOr(away, Vec3::UnitX()), away.norm() - radius};
 }
 
-}  // namespace
-
-Nearest nearest(const ConvexPiece& piece, const Vec3& p) noexcept {
-  if (piece.kind == ConvexPiece::Kind::kTriangle) return nearestTriangle(piece, p);
-  const Vec3 p_G = piece.X_AG.inverseTimes(p);
+Nearest nearestPrimitive(const Primitive& primitive, const Vec3& p) noexcept {
+  const Vec3 p_G = primitive.X_AG.inverseTimes(p);
   Nearest result;
-  switch (piece.kind) {
-    case ConvexPiece::Kind::kBox:
-      result = nearestBox(piece.half, p_G);
+  switch (primitive.kind) {
+    case Primitive::Kind::kBox:
+      result = nearestBox(primitive.half, p_G);
       break;
-    case ConvexPiece::Kind::kCylinder:
-      result = nearestCylinder(piece.radius, piece.half_length, p_G);
+    case Primitive::Kind::kCylinder:
+      result = nearestCylinder(primitive.radius, primitive.half_length, p_G);
       break;
-    case ConvexPiece::Kind::kSphere:
-      result = nearestCapsule(piece.radius, 0, p_G);
+    case Primitive::Kind::kSphere:
+      result = nearestCapsule(primitive.radius, 0, p_G);
       break;
-    default:
-      result = nearestCapsule(piece.radius, piece.half_length, p_G);
+    case Primitive::Kind::kCapsule:
+      result = nearestCapsule(primitive.radius, primitive.half_length, p_G);
       break;
   }
-  result.nhat = piece.X_AG.q * result.nhat;
+  result.nhat = primitive.X_AG.q * result.nhat;
   return result;
 }
 
-double firstTouch(const ConvexPiece& piece, const Vec3& x, const Vec3& move, double r, double tolerance) noexcept {
+}  // namespace
+
+Nearest nearest(const ConvexPiece& piece, const Vec3& p) noexcept {
+  if (const auto* triangle = std::get_if<PreparedTriangle>(&piece.shape)) return nearestTriangle(*triangle, p);
+  return nearestPrimitive(*std::get_if<Primitive>(&piece.shape), p);
+}
+
+double firstTouch(const ConvexPiece& piece, const Nearest& start, const Vec3& x, const Vec3& move, double limit,
+                  double r, double tolerance) noexcept {
   constexpr int kMaxSteps = 64;  // quadratic convergence; a grazing touch halves the gap each time
   double s = 0;
+  Nearest at = start;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Nearest at = nearest(piece, x + s * move);
     const double gap = at.distance - r;
     const double slope = at.nhat.dot(move);
     if (slope >= 0) return kNoTouch;  // convex: from here on it only grows
     if (gap <= tolerance) return s;
     s += gap / -slope;
-    if (s > 1) return kNoTouch;
+    if (s > limit) return kNoTouch;
+    at = nearest(piece, x + s * move);
   }
   return s;
 }

@@ -13,7 +13,8 @@ namespace {
 constexpr double kTouchGap = 3e-11;   // a sweep stops this far off
 constexpr double kInContact = 1e-10;  // a gap below this makes a constraint
 constexpr double kStill = 1e-6;       // a leg shorter than this ends the motion: 8 nm, some 10 uN
-constexpr double kMargin = 0.06;      // how far the fingertip may go before it looks around again
+constexpr double kMargin = 0.01;      // how far the fingertip may go before it looks around again
+constexpr double kSpare = 0.12;       // how much farther a new look reaches: it serves until the fingertip left it
 constexpr int kMaxLegs = 64;          // a leg per face, edge or look; curved edges converge by d / r
 
 // Fraction of `move` after which x leaves the sphere; 1 when it stays inside.
@@ -26,37 +27,36 @@ double insideCover(const Surroundings::Cover& cover, const Vec3& x, const Vec3& 
   return std::clamp((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a, 0.0, 1.0);
 }
 
-// What the legs of one motion share. A piece's distance changes by no more than the fingertip moves, so most pieces
-// need looking at once, not once a leg.
+// What the legs of one motion share.
 struct Legs {
+  Vec3 center;        // of the last look
+  double margin = 0;  // how far from there the fingertip may go
+  int near_count = 0;
+  std::array<int, Surroundings::kCapacity> near;    // NOLINT: pieces that can be met on the way
+  std::array<bool, Surroundings::kCapacity> holds;  // NOLINT: as `near`: the piece constrains the leg
   HalfSpaces half_spaces;
-  std::array<double, Surroundings::kCapacity>
-      clearance;                                    // NOLINT: lower bounds of the distances from x, for pieces in use
-  std::array<bool, Surroundings::kCapacity> holds;  // NOLINT: the piece constrains the leg
   Feasible target;
 
-  void look(const Vec3& x, double r, double margin, Surroundings& surroundings) noexcept {
-    surroundings.lookAround(x, r, margin);
-    for (int i = 0; i < surroundings.count(); ++i)
-      clearance[static_cast<std::size_t>(i)] = surroundings.distanceBound(i, x);
-  }
-  void moved(double distance, int count) noexcept {
-    for (int i = 0; i < count; ++i) clearance[static_cast<std::size_t>(i)] -= distance;
+  void look(const Vec3& x, double r, Surroundings& surroundings) noexcept {
+    center = x;
+    surroundings.lookAround(x, r + margin, kSpare * r);
+    near_count = 0;
+    for (int i = 0; i < surroundings.count(); ++i) {
+      if (surroundings.atLeast(i, x) <= r + margin) near[static_cast<std::size_t>(near_count++)] = i;
+    }
   }
 };
 
 // Constraints where the fingertip is now; they also push it out of a body that moved into it.
-void findConstraints(const Vec3& x, double r, const Surroundings& surroundings, Legs& legs) noexcept {
+void findConstraints(const Vec3& x, double r, Surroundings& surroundings, Legs& legs) noexcept {
   legs.half_spaces.count = 0;
-  for (int i = 0; i < surroundings.count(); ++i) {
-    double& clearance = legs.clearance[static_cast<std::size_t>(i)];
-    bool& holds = legs.holds[static_cast<std::size_t>(i)];
-    holds = false;
-    if (clearance > r * (1 + 2 * kInContact)) continue;
-    const Nearest at = nearest(surroundings.piece(i), x);
-    clearance = at.distance;
-    holds = at.distance <= r * (1 + kInContact);
-    if (holds) legs.half_spaces.add({at.nhat, at.nhat.dot(x) + r - at.distance, i}, x);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(legs.near_count); ++n) {
+    const int i = legs.near[n];
+    legs.holds[n] = false;
+    if (surroundings.atLeast(i, x) > r * (1 + 2 * kInContact)) continue;
+    const Nearest at = surroundings.nearestTo(i, x);
+    legs.holds[n] = at.distance <= r * (1 + kInContact);
+    if (legs.holds[n]) legs.half_spaces.add({at.nhat, at.nhat.dot(x) + r - at.distance, i}, x);
   }
 }
 
@@ -76,7 +76,7 @@ std::int32_t holdingBody(const Legs& leg, const Vec3& g, const Surroundings& sur
 }
 
 // Fraction of `move` that the fingertip can go; `covered` turns false when the border of a patch ends it.
-double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, const Surroundings& surroundings,
+double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, Surroundings& surroundings,
                     const Legs& leg, bool& covered) noexcept {
   const double length = move.norm();
   double reach = std::min(1.0, limit / length);
@@ -86,11 +86,14 @@ double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, con
       covered = false;
     }
   }
-  // a piece that already constrains the leg cannot be hit by it: its half-space keeps the sphere off
-  for (int i = 0; i < surroundings.count(); ++i) {
-    if (leg.holds[static_cast<std::size_t>(i)]) continue;
-    if (leg.clearance[static_cast<std::size_t>(i)] - r > reach * length) continue;
-    if (const double s = firstTouch(surroundings.piece(i), x, move, r, kTouchGap * r); s < reach) {
+  for (std::size_t n = 0; n < static_cast<std::size_t>(leg.near_count); ++n) {
+    const int i = leg.near[n];
+    // the bound is linear: it reaches r within this leg, or nothing does
+    if (surroundings.atLeast(i, x) + std::min(0.0, reach * surroundings.growth(i, move)) > r) continue;
+    // a piece that already constrains the leg cannot be hit by it: its half-space keeps the sphere off
+    if (leg.holds[n]) continue;
+    const Nearest at = surroundings.nearestTo(i, x);
+    if (const double s = firstTouch(surroundings.piece(i), at, x, move, reach, r, kTouchGap * r); s < reach) {
       reach = s;
       covered = true;
     }
@@ -101,9 +104,10 @@ double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, con
 }  // namespace
 
 bool isClear(const Vec3& x, double r, Surroundings& surroundings) noexcept {
-  surroundings.lookAround(x, r, 0);
+  surroundings.lookAround(x, r, kSpare * r);
   for (int i = 0; i < surroundings.count(); ++i) {
-    if (nearest(surroundings.piece(i), x).distance < r * (1 - kInContact)) return false;
+    if (surroundings.atLeast(i, x) >= r * (1 - 0.5 * kInContact)) continue;
+    if (surroundings.nearestTo(i, x).distance < r * (1 - kInContact)) return false;
   }
   return true;
 }
@@ -111,17 +115,14 @@ bool isClear(const Vec3& x, double r, Surroundings& surroundings) noexcept {
 ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& surroundings) noexcept {
   ProxyMove result;
   result.x = start;
-  // a long way is looked at in larger parts: the number of legs is bounded
-  const double margin = std::max(kMargin * r, (g - start).norm() / 16);
-  Vec3 center = start;
   Legs legs;
-  surroundings.lookAround(start, r, 1.5 * margin);  // a little more: the next motion of this tick starts close by
-  legs.look(center, r, margin, surroundings);
+  legs.margin = kMargin * r;
+  legs.look(start, r, surroundings);
   bool met = false;
   for (int i = 0; i < kMaxLegs; ++i) {
-    if ((result.x - center).norm() > 0.9 * margin) {
-      center = result.x;
-      legs.look(center, r, margin, surroundings);
+    if ((result.x - legs.center).norm() > 0.9 * legs.margin) {
+      legs.margin *= 2;  // a long way is looked at in ever larger parts: the number of legs is bounded
+      legs.look(result.x, r, surroundings);
     }
     findConstraints(result.x, r, surroundings, legs);
     if (legs.half_spaces.count > 0 && !met) {
@@ -133,14 +134,46 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     result.body = holdingBody(legs, g, surroundings);
     const Vec3 move = legs.target.y - result.x;
     if (move.norm() <= kStill * r) break;
-    const double room = margin - (result.x - center).norm();
-    const Vec3 step = freeFraction(result.x, move, room, r, surroundings, legs, result.covered) * move;
-    result.x += step;
-    legs.moved(step.norm(), surroundings.count());
+    const double room = legs.margin - (result.x - legs.center).norm();
+    result.x += freeFraction(result.x, move, room, r, surroundings, legs, result.covered) * move;
     if (!result.covered) break;
   }
   if (!met) result.first_touch = result.x;
   return result;
+}
+
+ProxyHolds proxyHolds(const Vec3& x, const Vec3& g, double r, Surroundings& surroundings) noexcept {
+  Legs legs;
+  legs.margin = kMargin * r;
+  legs.look(x, r, surroundings);
+  findConstraints(x, r, surroundings, legs);
+  const Feasible target = nearestFeasible(legs.half_spaces, g);
+  ProxyHolds holds;
+  for (int a = 0; a < target.active_count; ++a) {
+    const auto n = static_cast<std::size_t>(a);
+    const HalfSpace& active = legs.half_spaces.item[static_cast<std::size_t>(target.active[n])];
+    holds.item[n] = {active.tag, active.nhat, target.weight[n]};
+  }
+  holds.count = target.active_count;
+  return holds;
+}
+
+ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept {
+  ProxyContact contact;
+  // the frictionless point goes on from where it was: it has little way to go, whatever friction holds back
+  const ProxyMove bare = moveProxy(last.god, g, r, surroundings);
+  contact.x = contact.state.x = contact.state.god = bare.x;
+  contact.covered = bare.covered;
+  contact.depth = (bare.x - g).norm();
+  if (!bare.touching || !(contact.depth > 0)) {
+    contact.depth = 0;
+    return contact;
+  }
+  contact.state.touching = contact.state.slipping = true;
+  contact.first_touch = bare.first_touch;
+  contact.body = bare.body;
+  contact.nhat = (bare.x - g) / contact.depth;
+  return contact;
 }
 
 }  // namespace presa

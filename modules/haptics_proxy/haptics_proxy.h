@@ -1,59 +1,41 @@
 #pragma once
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "framework/graph/port.h"
-#include "framework/scene/world.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/contact_patch.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
-#include "modules/haptics_proxy/god_object.h"
+#include "modules/haptics_proxy/effects.h"
+#include "modules/haptics_proxy/touchables.h"
 
 namespace presa {
 
-/// Constraint-based haptic rendering for every finger: HIP in, proxy, contact state and force out. A proxy lives
-/// in the coordinates of the body next to it, so it moves with the body for free. Force on the finger:
-///   f = k (p_WP - p_WH) + damping along the normal, k and mu of the touched body's material.
+/// Haptic rendering for every finger: HIP in, proxy, contact state and force out. A proxy lives in the coordinates of the
+/// body next to it, so it moves with the body for free. Force on the finger, for the touched body's material:
+///   f = k (p_WP - p_WH), and what the effects that the scene names make of it.
 /// Meshes come as patches from the collision thread; primitives are exact and need none.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
 class HapticsProxy final : public Module {
  public:
-  explicit HapticsProxy(std::shared_ptr<const World> world);
+  explicit HapticsProxy(const std::shared_ptr<const World>& world) : HapticsProxy(world, effectsOf(*world)) {}
+  HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects);
   void step(const Tick& tick) noexcept override;
   std::vector<std::string> stages() const override;
+  std::vector<std::string> stageFunctions() const override;
+  std::vector<LeftOut> leftOut() const override { return effectsLeftOut(effects_); }
 
  private:
-  struct Proxy {
-    bool alive = false;
-    std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
-    FingertipState tip;
-    bool overlapping = false;
+  /// Where the bodies are now: the first stage of a tick, when anything touchable moves.
+  struct PlaceBodies {
+    const char* what;
+    void (*apply)(Touchables& touchables, const ObjectState& objects, double time) noexcept;
   };
-  /// A body with a primitive as haptic geometry.
-  struct Primitive {
-    ConvexPiece piece;  ///< X_AG holds X_BG
-    double radius = 0;  ///< of its bounding sphere about X_BG.p
-  };
-
-  void placeBodies(const Tick& tick) noexcept;
-  Pose frameOf(std::int32_t body) const noexcept;
-  void surround(std::size_t finger, const Proxy& proxy, const Vec3& p_WH, double reach) noexcept;
   void stepFinger(std::size_t finger) noexcept;
-  void moveToFrame(Proxy& proxy, std::int32_t body) const noexcept;
-  std::int32_t nearestBody(const Vec3& p) const noexcept;
-  void writeContact(FingerContact& out, const Proxy& proxy, const ProxyContact& contact, const Pose& X_WA,
-                    double r) const noexcept;
-  Vec3 surfaceVelocity(std::int32_t body, const Vec3& p_W) const noexcept;
-  void countPopThrough(std::size_t f, const ProxyContact& contact, double r) noexcept;
 
   std::shared_ptr<const World> world_;
-  std::vector<Primitive> primitives_;
-  std::vector<double> fingertip_radius_;
-  std::vector<Pose> X_WB_;  ///< every body, now
-  std::array<Proxy, kMaxFingers> proxies_;
-  std::unique_ptr<Surroundings> surroundings_;
+  HapticEffects effects_;
+  Touchables touchables_;
+  std::vector<Finger> fingers_;
+  std::vector<PlaceBodies> place_bodies_;  ///< none or one
+  std::vector<std::unique_ptr<FingerStage>> finger_stages_;
 
   In<DeviceState> device_{*this, "device_state"};
   In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}};

@@ -22,7 +22,7 @@ class Search {
   // Active sets of one, two, three; the programme is strictly convex, so the first set whose point is
   // feasible and whose multipliers are not negative is the answer.
   Feasible solve() {
-    if (consider({}, 0, g_)) return best_;
+    if (consider({}, {}, 0, g_)) return best_;
     const int n = all_.count;
     for (int i = 0; i < n; ++i) {
       if (one(i)) return best_;
@@ -49,7 +49,7 @@ class Search {
 
   bool one(int i) {
     const double lambda = lack(i, g_);
-    return lambda >= 0 && consider({i, -1, -1}, 1, g_ + lambda * normal(i));
+    return lambda >= 0 && consider({i, -1, -1}, {lambda, 0, 0}, 1, g_ + lambda * normal(i));
   }
 
   bool two(int i, int j) {
@@ -58,7 +58,7 @@ class Search {
     if (det < kDependent) return false;
     const double ri = lack(i, g_), rj = lack(j, g_);
     const double li = (ri - c * rj) / det, lj = (rj - c * ri) / det;
-    return li >= 0 && lj >= 0 && consider({i, j, -1}, 2, g_ + li * normal(i) + lj * normal(j));
+    return li >= 0 && lj >= 0 && consider({i, j, -1}, {li, lj, 0}, 2, g_ + li * normal(i) + lj * normal(j));
   }
 
   bool three(int i, int j, int k) {
@@ -75,16 +75,17 @@ class Search {
     if (det < kDependent) return false;
     const Vec3 lambda = gram.inverse() * r;
     if (lambda.minCoeff() < 0) return false;
-    return consider(set, 3, g_ + lambda[0] * normal(i) + lambda[1] * normal(j) + lambda[2] * normal(k));
+    return consider(set, {lambda[0], lambda[1], lambda[2]}, 3,
+                    g_ + lambda[0] * normal(i) + lambda[1] * normal(j) + lambda[2] * normal(k));
   }
 
   // Keeps the least violated candidate; true when it violates nothing.
-  bool consider(std::array<int, 3> active, int count, const Vec3& y) {
+  bool consider(const std::array<int, 3>& active, const std::array<double, 3>& weight, int count, const Vec3& y) {
     double worst = 0;
     for (int i = 0; i < all_.count; ++i) worst = std::max(worst, lack(i, y));
     if (worst < least_) {
       least_ = worst;
-      best_ = {y, active, count};
+      best_ = {y, active, weight, count};
     }
     return worst <= tolerance_;
   }

@@ -26,6 +26,7 @@ struct HalfSpaces {
 struct Feasible {
   Vec3 y = Vec3::Zero();
   std::array<int, 3> active{-1, -1, -1};  ///< half-spaces that hold y back, at most three
+  std::array<double, 3> weight{};         ///< their multipliers: y - g is the sum of weight * nhat
   int active_count = 0;
 };
 

@@ -113,6 +113,20 @@ TEST_F(CollisionModuleTest, RadiusGrowsByTheWayTheFingerCanGo) {
   EXPECT_NEAR(moving - still, 0.5 * horizon, 1e-15);
 }
 
+// The scene may fix the radius instead, and may allow fewer triangles: the patch stays true to what it says of itself.
+TEST_F(CollisionModuleTest, ObeysTheScenesMarginAndCap) {
+  addBody(makeSphere(0.02, 5), {});
+  world_.scene.collision = {.margin = 0.002, .max_triangles = 0};
+  const double margin_only = query({0, 0, 0.028}, {0.3, 0, 0.4}).fingers[0].bodies[0].radius;
+  EXPECT_NEAR(margin_only, kFingertip + 0.002, 1e-15);
+  world_.scene.collision.max_triangles = 100;
+  module_.reset(), bridge_.reset();
+  const FingerPatch& capped = query({0, 0, 0.028}).fingers[0];
+  EXPECT_EQ(capped.triangle_count, 100);
+  EXPECT_TRUE(capped.bodies[0].capped);
+  expectComplete(capped, capped.bodies[0]);
+}
+
 // A finger that rides on a spinning body stands still against it; one at rest beside it does not.
 TEST(MotionBound, SeesTheFingerFromTheRotatingBody) {
   const Vec3 w(0, 0, 10), p(0.05, 0, 0.02);

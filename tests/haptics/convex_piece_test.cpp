@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 #include "modules/haptics_proxy/convex_piece.h"
 
@@ -9,9 +10,7 @@ namespace presa {
 namespace {
 
 ConvexPiece triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  ConvexPiece piece;
-  piece.a = a, piece.b = b, piece.c = c;
-  return piece;
+  return {.body = 0, .id = -1, .shape = PreparedTriangle(a, b, c)};
 }
 
 Vec3 randomVec(std::mt19937_64& random, double scale) {
@@ -21,6 +20,7 @@ Vec3 randomVec(std::mt19937_64& random, double scale) {
 
 // Oracle: the nearest of a fine grid of the triangle's points, refined around the best. No Voronoi regions.
 double gridDistance(const ConvexPiece& t, const Vec3& p) {
+  const auto& corners = std::get<PreparedTriangle>(t.shape);
   double best = 1e300, u0 = 0.5, v0 = 0.5, span = 0.5;
   for (int level = 0; level < 12; ++level) {
     double bu = u0, bv = v0;
@@ -28,7 +28,7 @@ double gridDistance(const ConvexPiece& t, const Vec3& p) {
       for (int j = -10; j <= 10; ++j) {
         const double u = std::clamp(u0 + span * i / 10, 0.0, 1.0);
         const double v = std::clamp(v0 + span * j / 10, 0.0, 1.0 - u);
-        const double d = (t.a + u * (t.b - t.a) + v * (t.c - t.a) - p).norm();
+        const double d = (corners.a + u * corners.ab + v * corners.ac - p).norm();
         if (d < best) best = d, bu = u, bv = v;
       }
     }
@@ -50,14 +50,15 @@ TEST(ConvexPiece, TriangleDistanceMatchesARefinedGrid) {
 // For every kind: the normal is the gradient of the distance (central differences, second order: 1e-6 at step 1e-5).
 TEST(ConvexPiece, NormalIsGradientOfDistance) {
   std::mt19937_64 random(2);
-  for (const auto kind : {ConvexPiece::Kind::kTriangle, ConvexPiece::Kind::kBox, ConvexPiece::Kind::kSphere,
-                          ConvexPiece::Kind::kCylinder, ConvexPiece::Kind::kCapsule}) {
-    ConvexPiece piece = triangle({0, 0, 0}, {0.7, 0, 0.1}, {0.2, 0.6, 0});
-    piece.kind = kind;
-    piece.half = {0.3, 0.2, 0.5};
-    piece.radius = 0.3, piece.half_length = 0.4;
-    piece.X_AG.p = {0.1, -0.2, 0.05};
-    piece.X_AG.q = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  std::vector<ConvexPiece> pieces{triangle({0, 0, 0}, {0.7, 0, 0.1}, {0.2, 0.6, 0})};
+  for (const auto kind :
+       {Primitive::Kind::kBox, Primitive::Kind::kSphere, Primitive::Kind::kCylinder, Primitive::Kind::kCapsule}) {
+    Primitive primitive{.kind = kind, .X_AG = {}, .half = {0.3, 0.2, 0.5}, .radius = 0.3, .half_length = 0.4};
+    primitive.X_AG.p = {0.1, -0.2, 0.05};
+    primitive.X_AG.q = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    pieces.push_back({.body = 0, .id = -1, .shape = primitive});
+  }
+  for (const ConvexPiece& piece : pieces) {
     for (int i = 0; i < 200; ++i) {
       const Vec3 p = randomVec(random, 1.5);
       const Nearest at = nearest(piece, p);
@@ -66,7 +67,7 @@ TEST(ConvexPiece, NormalIsGradientOfDistance) {
       for (int axis = 0; axis < 3; ++axis) {
         const Vec3 step = 1e-5 * Vec3::Unit(axis);
         const double slope = (nearest(piece, p + step).distance - nearest(piece, p - step).distance) / 2e-5;
-        EXPECT_NEAR(at.nhat[axis], slope, 1e-4) << static_cast<int>(kind);
+        EXPECT_NEAR(at.nhat[axis], slope, 1e-4) << (&piece - pieces.data());
       }
     }
   }
@@ -74,27 +75,29 @@ TEST(ConvexPiece, NormalIsGradientOfDistance) {
 
 // Inside a solid primitive the distance is minus the depth, and the normal leads out the shortest way.
 TEST(ConvexPiece, DistanceInsideIsMinusTheDepth) {
-  ConvexPiece box;
-  box.kind = ConvexPiece::Kind::kBox;
-  box.half = {1, 2, 3};
-  const Nearest at = nearest(box, {0.9, 0, 0});
+  Primitive box{.kind = Primitive::Kind::kBox, .X_AG = {}, .half = {1, 2, 3}};
+  const Nearest at = nearest({.body = 0, .id = -1, .shape = box}, {0.9, 0, 0});
   EXPECT_NEAR(at.distance, -0.1, 1e-15);
   EXPECT_EQ(at.nhat, Vec3::UnitX());
-  ConvexPiece cylinder;
-  cylinder.kind = ConvexPiece::Kind::kCylinder;
-  cylinder.radius = 1, cylinder.half_length = 2;
+  const Primitive round{
+      .kind = Primitive::Kind::kCylinder, .X_AG = {}, .half = Vec3::Zero(), .radius = 1, .half_length = 2};
+  const ConvexPiece cylinder{.body = 0, .id = -1, .shape = round};
   EXPECT_NEAR(nearest(cylinder, {0.5, 0, 1.8}).distance, -0.2, 1e-15);
   EXPECT_NEAR(nearest(cylinder, {0, 0.9, 0}).distance, -0.1, 1e-15);
+}
+
+double sweep(const ConvexPiece& piece, const Vec3& x, const Vec3& move, double r, double tolerance) {
+  return firstTouch(piece, nearest(piece, x), x, move, 1, r, tolerance);
 }
 
 // A sphere that flies at a plane face from distance h touches after (h - r) / h of the way.
 TEST(ConvexPiece, SweepStopsWhereTheSphereTouches) {
   const ConvexPiece t = triangle({-1, -1, 0}, {1, -1, 0}, {0, 2, 0});
-  EXPECT_NEAR(firstTouch(t, {0, 0, 0.5}, {0, 0, -1}, 0.1, 1e-9), 0.4, 1e-9);
-  EXPECT_GT(firstTouch(t, {0, 0, 0.5}, {0, 0, 1}, 0.1, 1e-9), 1);
-  EXPECT_GT(firstTouch(t, {0, 0, 0.5}, {0, 0, -0.3}, 0.1, 1e-9), 1);
+  EXPECT_NEAR(sweep(t, {0, 0, 0.5}, {0, 0, -1}, 0.1, 1e-9), 0.4, 1e-9);
+  EXPECT_GT(sweep(t, {0, 0, 0.5}, {0, 0, 1}, 0.1, 1e-9), 1);
+  EXPECT_GT(sweep(t, {0, 0, 0.5}, {0, 0, -0.3}, 0.1, 1e-9), 1);
   // past the corner at (0, 2, 0): r^2 = 0.06^2 + 0.08^2
-  EXPECT_NEAR(firstTouch(t, {0, 2.06, 0.5}, {0, 0, -1}, 0.1, 1e-9), 0.5 - 0.08, 1e-8);
+  EXPECT_NEAR(sweep(t, {0, 2.06, 0.5}, {0, 0, -1}, 0.1, 1e-9), 0.5 - 0.08, 1e-8);
 }
 
 // The sweep against its definition: a thousand samples along the way find the same first touch.
@@ -110,7 +113,7 @@ TEST(ConvexPiece, SweepMatchesDenseSampling) {
     for (int s = 0; s <= 1000 && sampled > 1; ++s) {
       if (nearest(t, x + move * (s / 1000.0)).distance <= r) sampled = s / 1000.0;
     }
-    const double found = firstTouch(t, x, move, r, 1e-9);
+    const double found = sweep(t, x, move, r, 1e-9);
     if (sampled <= 1) {
       ++hits;
       EXPECT_LE(found, sampled + 1e-12);

@@ -11,12 +11,16 @@ namespace presa {
 namespace {
 
 constexpr double kR = 0.008;
-constexpr auto kFrictionless = [](std::int32_t) { return FrictionCone{}; };
+
+// One tick as the haptic loop makes it when friction is among its stages.
+ProxyContact stepProxy(const FingertipState& last, const Vec3& g, Surroundings& s, const FrictionCone& cone) {
+  ProxyContact contact = slideProxy(last, g, kR, s);
+  holdByFriction(contact, last, g, kR, cone, s);
+  return contact;
+}
 
 void addTriangle(Surroundings& s, const Vec3& a, const Vec3& b, const Vec3& c, std::int32_t body = 0) {
-  ConvexPiece piece;
-  piece.a = a, piece.b = b, piece.c = c, piece.body = body;
-  s.add(piece);
+  s.add({.body = body, .id = -1, .shape = PreparedTriangle(a, b, c)});
 }
 
 // A square of two triangles about the origin in the plane z = 0.
@@ -30,12 +34,9 @@ std::unique_ptr<Surroundings> plate(double size = 0.2) {
 
 std::unique_ptr<Surroundings> box(const Vec3& half, const Vec3& center = Vec3::Zero()) {
   auto s = std::make_unique<Surroundings>();
-  ConvexPiece piece;
-  piece.kind = ConvexPiece::Kind::kBox;
-  piece.half = half;
-  piece.body = 0;
-  piece.X_AG.p = center;
-  s->add(piece);
+  Primitive primitive{.kind = Primitive::Kind::kBox, .X_AG = {}, .half = half};
+  primitive.X_AG.p = center;
+  s->add({.body = 0, .id = -1, .shape = primitive});
   return s;
 }
 
@@ -80,11 +81,8 @@ TEST(GodObject, RestsInAGrooveOnBothFaces) {
 // just inside a sphere lies on the ray from the centre. Iterates to 1e-6 of the radius.
 TEST(GodObject, FindsTheNearestPointOfASphere) {
   Surroundings s;
-  ConvexPiece piece;
-  piece.kind = ConvexPiece::Kind::kSphere;
-  piece.radius = 0.04;
-  piece.body = 0;
-  s.add(piece);
+  const Primitive sphere{.kind = Primitive::Kind::kSphere, .X_AG = {}, .half = Vec3::Zero(), .radius = 0.04};
+  s.add({.body = 0, .id = -1, .shape = sphere});
   Vec3 x(0, 0, 0.1);
   const Vec3 g = 0.042 * Vec3(0.3, 0.1, 1).normalized();
   for (int tick = 0; tick < 3; ++tick) x = moveProxy(x, g, kR, s).x;
@@ -124,7 +122,7 @@ TEST(GodObject, GoesRoundTheEdgeOfABox) {
 // A patch that ends is a wall of ignorance: the proxy waits at its border and says so.
 TEST(GodObject, WaitsWhereThePatchEnds) {
   const auto s = plate();
-  s->addTriangles(nullptr, 0, 0, nullptr, {{0, 0, 0}, 0.02});
+  s->addTriangles(nullptr, nullptr, 0, 0, nullptr, {{0, 0, 0}, 0.02});
   const ProxyMove move = moveProxy({0, 0, 0.01}, {0.05, 0, 0.01}, kR, *s);
   EXPECT_FALSE(move.covered);
   EXPECT_NEAR(move.x.norm() + kR, 0.02, 1e-9);
@@ -137,7 +135,7 @@ TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
   FingertipState tip{x, x};
   for (int tick = 0; tick < 500; ++tick) {
     const Vec3 g(-0.05 + 2e-4 * tick, 1e-5 * tick, 0.006);
-    const ProxyContact c = stepProxy(tip, g, kR, *s, kFrictionless);
+    const ProxyContact c = stepProxy(tip, g, *s, {});
     tip = c.state;
     ASSERT_TRUE(tip.touching);
     ASSERT_LT(c.stretch.norm(), 1e-8 * kR);
@@ -147,7 +145,7 @@ TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
 // The two-state cone of the PERCRO paper: holds up to mu_s, slides at mu_d, in every direction alike.
 TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
   const auto s = plate();
-  const auto cone = [](std::int32_t) { return FrictionCone{0.8, 0.6}; };
+  const FrictionCone cone{0.8, 0.6};
   for (double heading = 0; heading < 6.28; heading += 0.4) {
     const Vec3 along(std::cos(heading), std::sin(heading), 0);
     const double depth = 0.002;
@@ -155,7 +153,7 @@ TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
     double most = 0, sliding = 0;
     for (int tick = 0; tick < 400; ++tick) {
       const Vec3 g = Vec3(0, 0, kR - depth) + along * (1e-5 * tick);
-      const ProxyContact c = stepProxy(tip, g, kR, *s, cone);
+      const ProxyContact c = stepProxy(tip, g, *s, cone);
       tip = c.state;
       const double ratio = c.stretch.norm() / c.depth;
       if (!tip.slipping) most = std::max(most, ratio);
@@ -169,13 +167,13 @@ TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
 // A finger that sticks does not creep: after a minute of shaking inside the cone the proxy is where it was, to the bit.
 TEST(Friction, StickingProxyDoesNotDrift) {
   const auto s = plate();
-  const auto cone = [](std::int32_t) { return FrictionCone{0.8, 0.6}; };
+  const FrictionCone cone{0.8, 0.6};
   FingertipState tip{{0, 0, kR}, {0, 0, kR}};
   Vec3 first = Vec3::Zero();
   for (int tick = 0; tick < 60'000; ++tick) {
     const double t = tick * 1e-3;
     const Vec3 g(4e-4 * std::sin(7 * t), 4e-4 * std::sin(11 * t), kR - 0.002 + 2e-4 * std::sin(5 * t));
-    tip = stepProxy(tip, g, kR, *s, cone).state;
+    tip = stepProxy(tip, g, *s, cone).state;
     if (tick == 0) first = tip.x;
     ASSERT_FALSE(tip.slipping);
   }

@@ -1,0 +1,104 @@
+#include "apps/presa/explain/instruction_counts.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNotFound = 127;
+
+/// A folder of our own under the system's temporary one, gone with this object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string pattern = (fs::temp_directory_path() / "presa_cost_XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + pattern);
+    folder_ = pattern;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  fs::path operator/(const char* name) const { return folder_ / name; }
+
+ private:
+  fs::path folder_;
+};
+
+/// Exit status; kNotFound when there is no such program. Output goes to `log`.
+int runProgram(const std::vector<std::string>& words, const fs::path& log) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = 0;
+  const int error = ::posix_spawnp(&child, arguments[0], &files, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (error != 0) return kNotFound;
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string textOf(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+std::optional<std::map<std::string, FunctionCost>> countInstructions(const Inputs& inputs, double duration) {
+  const ScratchFolder scratch;
+  const fs::path counts = scratch / "callgrind", log = scratch / "log";
+  std::vector<std::string> words{"valgrind",
+                                 "--tool=callgrind",
+                                 "--callgrind-out-file=" + counts.string(),
+                                 fs::read_symlink("/proc/self/exe").string(),
+                                 "run",
+                                 inputs.scene,
+                                 "--lockstep",
+                                 "--quiet",
+                                 "--view",
+                                 "none",
+                                 "--for",
+                                 std::to_string(duration)};
+  if (!inputs.rig.empty()) words.insert(words.end(), {"--rig", inputs.rig});
+  for (const std::string& set : inputs.sets) words.insert(words.end(), {"--set", set});
+  const int status = runProgram(words, log);
+  if (status == kNotFound) return std::nullopt;
+  std::ifstream file(counts);
+  if (status != 0 && status != 1)  // 1: the run reported a fault, the counts are there all the same
+    throw std::runtime_error("valgrind failed (status " + std::to_string(status) + "):\n" + textOf(log));
+  return readCallgrind(file);
+}
+
+std::optional<FunctionCost> costOf(const std::map<std::string, FunctionCost>& costs, const std::string& function) {
+  FunctionCost sum;
+  for (const auto& [name, cost] : costs) {
+    if (!name.starts_with(function) || (name.size() > function.size() && name[function.size()] != '(')) continue;
+    sum.calls += cost.calls;
+    sum.instructions += cost.instructions;
+  }
+  if (sum.calls == 0) return std::nullopt;
+  return sum;
+}
+
+}  // namespace presa

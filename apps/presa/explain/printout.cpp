@@ -1,0 +1,138 @@
+#include "apps/presa/explain/printout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/presa/terminal/text.h"
+
+namespace presa {
+namespace {
+
+using nlohmann::json;
+using terminal::format;
+
+constexpr std::size_t kFigures = 76;  // column where the figures begin
+constexpr std::size_t kWidth = 100;
+
+std::string text(const json& value) { return value.get<std::string>(); }
+
+std::string padded(std::string line, std::size_t width) {
+  line.resize(std::max(width, line.size()), ' ');
+  return line;
+}
+
+std::string grouped(double number) {
+  std::string digits = std::to_string(std::llround(number));
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), " ");
+  return digits;
+}
+
+// Microseconds, and instructions, of a row that may have either.
+std::string figures(const json& row) {
+  const auto microseconds = [&](const char* key) {
+    return row.contains(key) && row[key].is_number() ? format("%9.2f", row[key].get<double>() * 1e-3)
+                                                     : std::string(9, ' ');
+  };
+  std::string out = microseconds("median_ns") + microseconds("p999_ns");
+  if (row.contains("instructions_per_tick") && row["instructions_per_tick"].is_number()) {
+    const std::string number = grouped(row["instructions_per_tick"].get<double>());
+    out += std::string(number.size() < 13 ? 13 - number.size() : 1, ' ') + number;
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+void line(std::string& out, const std::string& left, const json& row) {
+  const std::string right = figures(row);
+  // a long left side keeps its words: the figures go to a line of their own
+  if (!right.empty() && left.size() > kFigures) {
+    out += left + '\n' + std::string(kFigures, ' ') + right + '\n';
+  } else {
+    out += (right.empty() ? left : padded(left, kFigures) + right) + '\n';
+  }
+}
+
+void threads(std::string& out, const json& run) {
+  const std::string title = "Threads, and what runs on them in order";
+  out += run.contains("cost") ? padded(title, kFigures) + "us median    p99.9 instructions\n" + padded("", kFigures) +
+                                    "           (per tick)\n"
+                              : title + '\n';
+  for (const json& thread : run["threads"]) {
+    out += format("\n  %s, %.0f Hz\n", text(thread["name"]).c_str(), thread["rate_hz"].get<double>());
+    for (const json& module : run["modules"]) {
+      if (module["group"] != thread["name"]) continue;
+      line(out, "    " + padded(text(module["name"]), 16) + text(module["reason"]), module);
+      int number = 0;
+      for (const json& stage : run["stages"]) {
+        if (stage["module"] == module["name"]) line(out, format("      %d. ", ++number) + text(stage["stage"]), stage);
+      }
+    }
+  }
+}
+
+void crossings(std::string& out, const json& run) {
+  for (const json& c : run["connections"]) {
+    if (!c["across_rates"].get<bool>()) continue;
+    out += "  " + padded(text(c["value"]), 18) + text(c["from"]) + " -> " + text(c["to"]);
+    if (c.contains("when_old"))
+      out += format(", older than %.0f ms: ", c["old_after_s"].get<double>() * 1e3) + text(c["when_old"]);
+    out += '\n';
+  }
+}
+
+void libraries(std::string& out, const json& run, bool plugins, const char* needed_by) {
+  std::string row = " ";
+  for (const json& library : run["libraries"]) {
+    if (library["plugin"] != plugins || library["needed_by"] != needed_by) continue;
+    const std::string name = ' ' + text(library["name"]);
+    if (row.size() + name.size() > kWidth) {
+      out += row + '\n';
+      row = " ";
+    }
+    row += name;
+  }
+  out += row + '\n';
+}
+
+}  // namespace
+
+std::string explainText(const json& run) {
+  std::string out = "Scene " + text(run["scene"]) + "\n\n";
+  threads(out, run);
+  if (run.contains("cost"))
+    out += "\n  " + text(run["cost"]["time"]) + "\n  " + text(run["cost"]["instructions"]) + '\n';
+  out += "\nDevices\n";
+  for (const json& device : run["devices"])
+    out += "  " + padded(text(device["role"]), 18) + "driver " + text(device["driver"]) + '\n';
+  out += "\nValues that cross threads\n";
+  crossings(out, run);
+  out += "\nLeft out\n";
+  for (const json& left_out : run["left_out"])
+    out += "  " + padded(text(left_out["what"]), 18) + text(left_out["why"]) + '\n';
+  out += "\nPlug-ins loaded\n";
+  libraries(out, run, true, "the scene");
+  out += "\nSystem libraries that came with them\n";
+  libraries(out, run, false, "the scene");
+  return out;
+}
+
+std::string explainDot(const json& run) {
+  std::string out =
+      "digraph \"" + text(run["scene"]) + "\" {\n  rankdir=LR; node [shape=box, style=rounded, fontname=\"sans\"];\n";
+  for (const json& thread : run["threads"]) {
+    const std::string name = text(thread["name"]);
+    out += "  subgraph cluster_" + name + " { label=\"" + name + format(" %.0f Hz\";", thread["rate_hz"].get<double>());
+    for (const json& module : run["modules"]) {
+      if (module["group"] == thread["name"]) out += ' ' + text(module["name"]) + ';';
+    }
+    out += " }\n";
+  }
+  for (const json& c : run["connections"]) {
+    out += "  " + text(c["from"]) + " -> " + text(c["to"]) + " [label=\"" + text(c["value"]) + '"' +
+           (c["across_rates"].get<bool>() ? ", style=dashed" : "") + "];\n";
+  }
+  return out + "}\n";
+}
+
+}  // namespace presa

@@ -1,0 +1,45 @@
+#include "modules/haptics_proxy/effects.h"
+
+#include <algorithm>
+
+namespace presa {
+
+HapticEffects effectsOf(const World& world) {
+  const Scene& scene = world.scene;
+  const auto any_touchable = [&](const auto& wanted) {
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [&](const Body& body) { return body.haptic && wanted(body); });
+  };
+  HapticEffects effects;
+  effects.renderer = scene.haptics.renderer;
+  if (any_touchable([](const Body& body) { return !body.fixed; })) {
+    effects.poses = scene.haptics.pose == HapticSettings::PoseUse::kHold ? HapticEffects::Poses::kHold
+                                                                         : HapticEffects::Poses::kInterpolate;
+  }
+  const bool god_object = effects.renderer == HapticSettings::Renderer::kGodObject;
+  effects.friction =
+      god_object && any_touchable([&](const Body& body) { return scene.materialOf(body).friction_static > 0; });
+  effects.shading = god_object && any_touchable([](const Body& body) {
+                      return body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape);
+                    });
+  effects.damping = any_touchable([&](const Body& body) { return scene.materialOf(body).damping > 0; });
+  return effects;
+}
+
+std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
+  const bool god_object = effects.renderer == HapticSettings::Renderer::kGodObject;
+  std::vector<LeftOut> left_out;
+  if (effects.poses == HapticEffects::Poses::kNone) left_out.push_back({"moving bodies", "nothing touchable moves"});
+  if (!effects.friction) {
+    left_out.push_back({"friction", god_object ? "no touchable material has friction"
+                                               : "the penalty renderer keeps no point to hold on to"});
+  }
+  if (!effects.shading) {
+    left_out.push_back({"force shading", god_object ? "no touchable mesh says shading=\"smooth\""
+                                                    : "the penalty renderer has no proxy to turn"});
+  }
+  if (!effects.damping) left_out.push_back({"surface damping", "no touchable material has damping"});
+  return left_out;
+}
+
+}  // namespace presa

@@ -1,0 +1,57 @@
+#pragma once
+#include <memory>
+
+#include "framework/scene/world.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/device_state.h"
+#include "modules/haptics_proxy/god_object.h"
+
+namespace presa {
+
+class Touchables;
+
+/// What one finger carries from tick to tick.
+struct Finger {
+  bool alive = false;
+  std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
+  FingertipState tip;
+  bool overlapping = false;
+  Vec3 penalty_nhat = Vec3::Zero();  ///< of the tick before, penalty only; zero: no contact
+  double radius = 0;                 ///< of the fingertip [m]
+  std::unique_ptr<Surroundings> near;
+};
+
+/// What the stages of one tick share about one finger. The working frame A is the body next to it when the tick began.
+struct FingerTick {
+  std::size_t index = 0;
+  const FingerInput& input;
+  Finger& finger;
+  FingerContact& out;
+  ContactExchange& all;
+  const Touchables& touchables;
+  double r = 0;
+  Pose X_WA;
+  Vec3 g = Vec3::Zero();  ///< HIP in A
+  ProxyContact contact;
+};
+
+/// One part of a finger's tick. The list of stages is made once, from what the scene calls for: an effect that it does not
+/// name is not in the list. Thread: haptic; apply is nonblocking.
+class FingerStage {
+ public:
+  virtual ~FingerStage() = default;
+  virtual void apply(FingerTick& tick) noexcept = 0;
+  /// In words, for `presa explain`.
+  virtual const char* what() const = 0;
+};
+
+// Each in the file of its name, but for the two of rendering.
+std::unique_ptr<FingerStage> makeGodObject();
+std::unique_ptr<FingerStage> makePenalty();
+std::unique_ptr<FingerStage> makeFriction(const World& world);
+std::unique_ptr<FingerStage> makeShading(const World& world);
+/// Writes contact and spring force; counts what should not happen.
+std::unique_ptr<FingerStage> makeSpring(const World& world);
+std::unique_ptr<FingerStage> makeDamping(const World& world);
+
+}  // namespace presa

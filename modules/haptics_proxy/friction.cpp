@@ -1,0 +1,59 @@
+#include <cmath>
+
+#include "modules/haptics_proxy/finger_stage.h"
+#include "modules/haptics_proxy/god_object.h"
+
+namespace presa {
+
+// The base of the cone is the frictionless point, its apex the HIP, its radius mu * depth; what friction holds on to is
+// the old proxy, or the point of first touch.
+void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
+                    const FrictionCone& cone, Surroundings& surroundings) noexcept {
+  if (!contact.state.touching) return;
+  const Vec3 held = last.touching ? last.x : contact.first_touch;
+  Vec3 stretch = held - contact.state.god;
+  stretch -= stretch.dot(contact.nhat) * contact.nhat;
+  const double length = stretch.norm();
+  const double mu = last.touching && last.slipping ? cone.mu_dynamic : cone.mu_static;
+  contact.state.slipping = length > mu * contact.depth;
+  if (contact.state.slipping) stretch *= cone.mu_dynamic * contact.depth / length;
+
+  // what sticks does not move at all: it lives in the body's coordinates, so there is no drift to correct
+  if (!contact.state.slipping && isClear(held, r, surroundings)) {
+    contact.state.x = held;
+  } else {
+    // the border of the cone is reached along the surface: move the goal sideways, and go there
+    const ProxyMove moved = moveProxy(held, g + stretch, r, surroundings);
+    contact.state.x = moved.x;
+    contact.covered = contact.covered && moved.covered;
+  }
+  contact.x = contact.state.x;
+  const Vec3 away = contact.x - g;
+  contact.depth = away.dot(contact.nhat);
+  contact.stretch = away - contact.depth * contact.nhat;
+}
+
+namespace {
+
+class Friction final : public FingerStage {
+ public:
+  explicit Friction(const Scene& scene) : scene_(scene) {}
+  void apply(FingerTick& tick) noexcept override {
+    if (!tick.contact.state.touching) return;
+    const Material& material = scene_.materialOf(scene_.bodies[static_cast<std::size_t>(tick.contact.body)]);
+    holdByFriction(tick.contact, tick.finger.tip, tick.g, tick.r, {material.friction_static, material.friction_dynamic},
+                   *tick.finger.near);
+    tick.out.friction_static = material.friction_static;
+    tick.out.friction_dynamic = material.friction_dynamic;
+  }
+  const char* what() const override { return "friction: two-state cone"; }
+
+ private:
+  const Scene& scene_;
+};
+
+}  // namespace
+
+std::unique_ptr<FingerStage> makeFriction(const World& world) { return std::make_unique<Friction>(world.scene); }
+
+}  // namespace presa

@@ -1,0 +1,99 @@
+#include <cmath>
+#include <vector>
+
+#include "modules/haptics_proxy/finger_stage.h"
+#include "modules/haptics_proxy/touchables.h"
+
+namespace presa {
+namespace {
+
+/// Unit normals of a mesh's vertices, each the mean of its triangles' weighted by their angle there [Thurmer1998].
+std::vector<Vec3> vertexNormals(const TriMesh& mesh) {
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (const TriMesh::Triangle& t : mesh.triangles) {
+    const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[i % 3])]; };
+    const Vec3 cross = (at(1) - at(0)).cross(at(2) - at(0));
+    if (!(cross.norm() > 0)) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 u = at(i + 1) - at(i), v = at(i + 2) - at(i);
+      normals[static_cast<std::size_t>(t[i])] += std::atan2(u.cross(v).norm(), u.dot(v)) * cross.normalized();
+    }
+  }
+  for (Vec3& normal : normals) normal.normalize();
+  return normals;
+}
+
+/// Weights of a triangle's corners at its point q: q = w0 a + w1 b + w2 c.
+Vec3 cornerWeights(const PreparedTriangle& t, const Vec3& q) noexcept {
+  const Vec3 aq = q - t.a;
+  const double d1 = t.ab.dot(aq), d2 = t.ac.dot(aq);
+  const double area = t.ab_ab * t.ac_ac - t.ab_ac * t.ab_ac;
+  if (!(area > 0)) return Vec3::Constant(1.0 / 3);
+  const double w1 = (t.ac_ac * d1 - t.ab_ac * d2) / area, w2 = (t.ab_ab * d2 - t.ab_ac * d1) / area;
+  return {1 - w1 - w2, w1, w2};
+}
+
+/// Force shading [Morgenbesser1996]: facets of a mesh feel like the surface they stand for. Where a triangle holds the
+/// fingertip, its part of the normal is interpolated between the corners; the force turns with it, its size stays.
+class Shading final : public FingerStage {
+ public:
+  explicit Shading(const World& world) {
+    for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
+      const auto& haptic = world.scene.bodies[b].haptic;
+      const auto& mesh = world.meshes[b].haptic;
+      const bool smooth = haptic && haptic->smooth && mesh;
+      bodies_.push_back(smooth ? Smooth{mesh, haptic->X_BG.q, vertexNormals(*mesh)} : Smooth{});
+    }
+  }
+
+  void apply(FingerTick& tick) noexcept override {
+    ProxyContact& contact = tick.contact;
+    if (!contact.state.touching || !bodies_[static_cast<std::size_t>(contact.body)].mesh) return;
+    const ProxyHolds holds = proxyHolds(contact.state.god, tick.g, tick.r, *tick.finger.near);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(holds.count); ++i) {
+      const ConvexPiece& piece = tick.finger.near->piece(holds.item[i].piece);
+      sum += holds.item[i].weight * normalOf(piece, holds.item[i].nhat, contact.state.god, tick);
+    }
+    const double length = sum.norm();
+    if (!(length > 0) || !(sum.dot(contact.nhat) > kLeastCosine * length)) return;
+    const Quat turn = Quat::FromTwoVectors(contact.nhat, sum);
+    contact.nhat = sum / length;
+    contact.stretch = turn * contact.stretch;
+    contact.x = tick.g + contact.depth * contact.nhat + contact.stretch;
+  }
+  const char* what() const override { return "force shading: normals interpolated over the facets"; }
+
+ private:
+  struct Smooth {
+    std::shared_ptr<const TriMesh> mesh;  ///< null: not smooth
+    Quat q_BG = Quat::Identity();
+    std::vector<Vec3> normals;  ///< mesh frame
+  };
+
+  // Normal in A of the piece that holds the fingertip at x along nhat.
+  Vec3 normalOf(const ConvexPiece& piece, const Vec3& nhat, const Vec3& x, const FingerTick& tick) const noexcept {
+    const Smooth& body = bodies_[static_cast<std::size_t>(piece.body)];
+    const auto* triangle = std::get_if<PreparedTriangle>(&piece.shape);
+    if (!body.mesh || triangle == nullptr || piece.id < 0) return nhat;
+    const Vec3 weight = cornerWeights(*triangle, closestOnTriangle(x, *triangle));
+    const TriMesh::Triangle& corners = body.mesh->triangles[static_cast<std::size_t>(piece.id)];
+    Vec3 normal_G = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      normal_G += weight[static_cast<Eigen::Index>(i)] * body.normals[static_cast<std::size_t>(corners[i])];
+    }
+    const Vec3 normal_W = tick.touchables.frameOf(piece.body).q * (body.q_BG * normal_G);
+    const Vec3 normal = tick.X_WA.q.conjugate() * normal_W;
+    const double length = normal.norm();
+    return length > 0 && normal.dot(nhat) > 0 ? Vec3(normal / length) : nhat;
+  }
+
+  static constexpr double kLeastCosine = 0.5;  // a force turns by less than 60 degrees
+  std::vector<Smooth> bodies_;                 // as Scene::bodies
+};
+
+}  // namespace
+
+std::unique_ptr<FingerStage> makeShading(const World& world) { return std::make_unique<Shading>(world); }
+
+}  // namespace presa

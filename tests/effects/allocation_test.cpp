@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "framework/plan/load_world.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/executor.h"
+#include "tests/app/support.h"
+#include "tests/support/alloc_lock_guard.h"
+
+namespace presa {
+namespace {
+
+struct Violations {
+  int most_in_a_tick = 0;
+  std::string first;
+};
+
+// A shipped scene's whole script (reach, squeeze, lift, hold, slip and drop), stepped by hand as lockstep does.
+std::array<Violations, kRateGroupCount> violationsOf(const std::string& scene) {
+  Diagnostics diagnostics;
+  const Loaded loaded = loadWorld({test::source(scene), "", {}}, {}, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  const RateTable rates(loaded.world->scene.rates);
+  RunControl control;
+  Session session(loaded.world, loaded.plan, control, {});
+  constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
+  for (const RateGroup group : kGroups) session.graph().start(group);
+  std::array<Violations, kRateGroupCount> violations;
+  for (std::uint64_t i = 0; i < 10'000; ++i) {
+    for (const RateGroup group : kGroups) {
+      const auto divisor = static_cast<std::uint64_t>(rates.divisor(group));
+      if (i % divisor != 0) continue;
+      const RealTimeGuard guard;
+      session.graph().step(group, rates.tick(group, i / divisor));
+      const int count = guard.violations();
+      Violations& own = violations[static_cast<std::size_t>(group)];
+      if (count > 0 && own.most_in_a_tick == 0)
+        own.first = guard.first() + (" at " + std::to_string(rates.tick(RateGroup::kHaptic, i).time));
+      own.most_in_a_tick = std::max(own.most_in_a_tick, count);
+    }
+  }
+  for (auto group = kGroups.rbegin(); group != kGroups.rend(); ++group) session.graph().stop(*group);
+  return violations;
+}
+
+/// What ODE's hash space takes and gives back at every search for pairs: a node per cell and body, and its lists. It keeps
+/// nothing from one search to the next, so warm-up does not help; the bound is for the two bodies of these scenes.
+constexpr int kHashSpace = 100;
+
+// Haptics and collision have all their memory from the start. Dynamics has but for ODE's search for pairs.
+TEST(Allocation, NoTickAllocatesButInsideTheEnginesSearchForPairs) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  for (const char* scene : {"config/scenes/cube.xml", "config/scenes/pinch_and_lift.xml"}) {
+    const auto violations = violationsOf(scene);
+    const auto of = [&](RateGroup group) { return violations[static_cast<std::size_t>(group)]; };
+    for (const RateGroup group : {RateGroup::kHaptic, RateGroup::kCollision}) {
+      EXPECT_EQ(of(group).most_in_a_tick, 0) << scene << ' ' << toString(group) << ": " << of(group).first;
+    }
+    EXPECT_LE(of(RateGroup::kDynamics).most_in_a_tick, kHashSpace) << scene << ": " << of(RateGroup::kDynamics).first;
+  }
+}
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "apps/presa/explain/callgrind_file.h"
+#include "apps/presa/explain/instruction_counts.h"
+#include "tests/app/support.h"
+#include "tests/effects/instructions.h"
+
+namespace presa {
+namespace {
+
+using nlohmann::json;
+using test::source;
+
+json explain(const std::string& arguments) {
+  const auto outcome = test::presa("explain " + arguments + " --format json");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.status == 0 ? json::parse(outcome.out) : json();
+}
+
+bool hasStage(const json& run, const std::string& words) {
+  return std::any_of(run["stages"].begin(), run["stages"].end(), [&](const json& stage) {
+    return stage["stage"].get<std::string>().find(words) != std::string::npos;
+  });
+}
+std::string whyLeftOut(const json& run, const std::string& what) {
+  for (const json& left_out : run["left_out"]) {
+    if (left_out["what"] == what) return left_out["why"];
+  }
+  return "not left out";
+}
+
+// The list is the truth: what the scene names is in it, what it does not name is left out with the reason.
+TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
+  const std::string cube = source("config/scenes/cube.xml");
+  const json full = explain(cube);
+  EXPECT_TRUE(hasStage(full, "friction: two-state cone"));
+  EXPECT_TRUE(hasStage(full, "surface damping"));
+  EXPECT_TRUE(hasStage(full, "interpolate the Object State"));
+  EXPECT_FALSE(hasStage(full, "shading"));
+  EXPECT_NE(whyLeftOut(full, "force shading").find("smooth"), std::string::npos);
+  EXPECT_EQ(whyLeftOut(full, "friction"), "not left out");
+
+  const json bare = explain(cube +
+                            " --set material/rubber/friction/static=0 --set material/rubber/friction/dynamic=0"
+                            " --set material/wood/friction/static=0 --set material/wood/friction/dynamic=0"
+                            " --set material/rubber/damping=0 --set material/wood/damping=0 --set haptics/pose=hold");
+  EXPECT_FALSE(hasStage(bare, "friction: two-state cone"));
+  EXPECT_FALSE(hasStage(bare, "surface damping"));
+  EXPECT_FALSE(hasStage(bare, "interpolate the Object State"));
+  EXPECT_NE(whyLeftOut(bare, "friction").find("no touchable material"), std::string::npos);
+
+  EXPECT_TRUE(hasStage(explain(cube + " --set haptics/renderer=penalty"), "penalty"));
+}
+
+TEST(Explain, NamesThreadsModulesAndLibrariesWithReasons) {
+  const json run = explain(source("config/scenes/pinch_and_lift.xml"));
+  ASSERT_EQ(run["threads"].size(), 3u);
+  for (const json& thread : run["threads"]) {
+    EXPECT_NEAR(thread["rate_hz"].get<double>() * thread["period_s"].get<double>(), 1, 1e-12);
+  }
+  for (const json& module : run["modules"]) EXPECT_FALSE(module["reason"].get<std::string>().empty());
+  const auto needed_by = [&](const std::string& start) -> std::string {
+    for (const json& library : run["libraries"]) {
+      if (library["name"].get<std::string>().starts_with(start)) return library["needed_by"];
+    }
+    return "nobody";
+  };
+  EXPECT_EQ(needed_by("presa_collision_fcl.so"), "the scene");
+  EXPECT_EQ(needed_by("libfcl.so"), "the scene");
+  EXPECT_EQ(needed_by("libc.so"), "the program");
+  EXPECT_EQ(needed_by("libosg"), "nobody");
+}
+
+// ---- cost ----------------------------------------------------------------------------------------------------------
+
+// A file by hand: f costs 10 itself and calls g twice for 30; names come whole once, then by number.
+TEST(CallgrindFile, SumsWhatAFunctionAndItsCalleesCost) {
+  std::istringstream file(
+      "# callgrind format\nversion: 1\nevents: Ir\n\nob=(1) /bin/x\nfl=(1) x.cpp\nfn=(1) f(int)\n12 4\n+1 6\n"
+      "cfn=(2) g::h\ncalls=2 40\n* 30\n\nfn=(2)\n40 25\n-3 5\ntotals: 40\n");
+  const auto costs = readCallgrind(file);
+  EXPECT_EQ(costs.at("f(int)").instructions, 40u);
+  EXPECT_EQ(costs.at("g::h").instructions, 30u);
+  EXPECT_EQ(costs.at("g::h").calls, 2u);
+  EXPECT_EQ(costOf(costs, "g::h")->calls, 2u);
+  EXPECT_FALSE(costOf(costs, "g"));
+  std::istringstream nonsense("hello");
+  EXPECT_THROW(readCallgrind(nonsense), std::runtime_error);
+}
+
+// Every module has a time; with valgrind every module has its instructions and the stages of a tick do not exceed their
+// module's.
+TEST(ExplainCost, AddsWhatEachPartCosts) {
+  const json run = explain(source("config/scenes/cube.xml") + " --cost");
+  ASSERT_TRUE(run.contains("cost"));
+  const bool counted = test::valgrindWorks();
+  for (const json& module : run["modules"]) {
+    EXPECT_GT(module["ticks"], 0) << module;
+    EXPECT_GE(module["p999_ns"], module["median_ns"]) << module;
+    EXPECT_EQ(module.contains("instructions_per_tick") && module["instructions_per_tick"].is_number(), counted)
+        << module;
+  }
+  if (!counted) GTEST_SKIP() << "valgrind is not installed: instructions cannot be counted";
+  double haptics = 0, stages = 0;
+  for (const json& module : run["modules"]) {
+    if (module["name"] == "haptics_proxy") haptics = module["instructions_per_tick"];
+  }
+  for (const json& stage : run["stages"]) {
+    if (stage["module"] != "haptics_proxy") continue;
+    EXPECT_GT(stage["instructions_per_tick"], 0) << stage;
+    stages += stage["instructions_per_tick"].get<double>();
+  }
+  EXPECT_LT(stages, haptics);
+  EXPECT_GT(stages, 0.5 * haptics);
+}
+
+}  // namespace
+}  // namespace presa

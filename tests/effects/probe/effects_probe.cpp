@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "framework/plan/load_world.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/executor.h"
+#include "modules/haptics_proxy/haptics_proxy.h"
+
+/// effects_probe SCENE TICKS STAGE SHAPE [PATH=VALUE…]: plays the scene in lockstep with the haptic stages that it calls
+/// for, but for STAGE ("none", "friction", "damping", "shading"), and prints the hash of all states and the sum of all
+/// forces. SHAPE: "as_is", or "mesh" or "smooth" to make the first body a ball of 1280 triangles, without the mesh reader,
+/// whose time limits do not hold under a profiler.
+namespace presa {
+namespace {
+
+struct ForceSum final : Module {
+  ForceSum() : Module("force_sum", RateGroup::kHaptic) {}
+  void step(const Tick&) noexcept override {
+    for (std::size_t f = 0; f < static_cast<std::size_t>(contact->count); ++f) sum += contact->fingers[f].f_H_W;
+  }
+  In<ContactExchange> contact{*this, "contact_exchange"};
+  Vec3 sum = Vec3::Zero();
+};
+
+void makeBall(Loaded& loaded, bool smooth) {
+  World world = *loaded.world;
+  world.meshes[0].haptic = std::make_shared<const TriMesh>(makeSphere(0.05, 3));
+  world.scene.bodies[0].haptic->shape = MeshRef{};
+  world.scene.bodies[0].haptic->smooth = smooth;
+  loaded.world = std::make_shared<const World>(std::move(world));
+  loaded.plan.modules.push_back({"collision_fcl", RateGroup::kCollision, "the ball is a mesh"});
+}
+
+int probe(int count, char** arguments) {
+  Inputs inputs{arguments[1], "", {arguments + 5, arguments + count}};
+  Diagnostics diagnostics;
+  Loaded loaded = loadWorld(inputs, {}, diagnostics);
+  if (diagnostics.hasErrors()) {
+    std::fputs(diagnostics.text().c_str(), stderr);
+    return 2;
+  }
+  const std::string shape = arguments[4];
+  if (shape != "as_is") makeBall(loaded, shape == "smooth");
+  HapticEffects effects = effectsOf(*loaded.world);
+  const std::string without = arguments[3];
+  effects.friction = effects.friction && without != "friction";
+  effects.damping = effects.damping && without != "damping";
+  effects.shading = effects.shading && without != "shading";
+
+  std::erase_if(loaded.plan.modules, [](const PlannedModule& m) { return m.plugin == "haptics_proxy"; });
+  Session::Options options;
+  options.more.push_back(std::make_unique<HapticsProxy>(loaded.world, effects));
+  auto sum = std::make_unique<ForceSum>();
+  const ForceSum& forces = *sum;
+  options.more.push_back(std::move(sum));
+  RunControl control;
+  Session session(loaded.world, loaded.plan, control, std::move(options));
+  LockstepExecutor executor(session.graph(), RateTable(loaded.world->scene.rates), control);
+  executor.run(std::atof(arguments[2]) / loaded.world->scene.rates.haptic);
+  std::printf("hash %016llx forces %a %a %a\n", static_cast<unsigned long long>(session.monitor().hash()),
+              forces.sum.x(), forces.sum.y(), forces.sum.z());
+  return 0;
+}
+
+}  // namespace
+}  // namespace presa
+
+int main(int count, char** arguments) {
+  if (count < 5) return 2;
+  return presa::probe(count, arguments);
+}

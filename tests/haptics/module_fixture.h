@@ -1,0 +1,101 @@
+#pragma once
+#include <memory>
+
+#include "framework/graph/graph_builder.h"
+#include "modules/haptics_proxy/haptics_proxy.h"
+
+namespace presa::test {
+
+/// Writes what the test puts into it; at haptic rate, so that the module under test reads it in place.
+template <class T>
+struct Source final : Module {
+  explicit Source(const char* port) : Module(std::string("source_of_") + port, RateGroup::kHaptic), out(*this, port) {}
+  void step(const Tick&) noexcept override {}
+  Out<T> out;
+};
+
+struct Sink final : Module {
+  Sink() : Module("sink", RateGroup::kHaptic) {}
+  void step(const Tick&) noexcept override {}
+  In<ContactExchange> contact{*this, "contact_exchange"};
+};
+
+/// One finger over a world, rendered by the module as the graph runs it.
+class OneFinger {
+ public:
+  explicit OneFinger(World world) : world_(std::make_shared<const World>(std::move(world))) {
+    build(effectsOf(*world_));
+  }
+  OneFinger(World world, const HapticEffects& effects) : world_(std::make_shared<const World>(std::move(world))) {
+    build(effects);
+  }
+
+  const FingerContact& tick(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero(), double time = 0) {
+    device_->out.value.count = 1;
+    device_->out.value.fingers[0] = {p_WH, v_WH, -1, true};
+    graph_.step(RateGroup::kHaptic, {index_++, time, 1e-3});
+    return sink_->contact->fingers[0];
+  }
+  ContactPatches& patches() { return patches_->out.value; }
+  ObjectState& objects() { return objects_->out.value; }
+  const ContactExchange& all() const { return sink_->contact.value(); }
+  std::vector<std::string> stages() const { return graph_.find("haptics_proxy")->stages(); }
+
+ private:
+  void build(const HapticEffects& effects) {
+    GraphBuilder builder;
+    device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
+    patches_ = &builder.add(std::make_unique<Source<ContactPatches>>("contact_patches"));
+    objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));
+    objects_->out.value.count = static_cast<std::int32_t>(world_->scene.bodies.size());
+    for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
+      objects_->out.value.bodies[b].X_WB_begin = objects_->out.value.bodies[b].X_WB_end = world_->scene.bodies[b].X_WB;
+    }
+    builder.add(std::make_unique<HapticsProxy>(world_, effects));
+    sink_ = &builder.add(std::make_unique<Sink>());
+    builder.connectByName();
+    graph_ = builder.build();
+  }
+
+  std::shared_ptr<const World> world_;
+  Graph graph_;
+  Source<DeviceState>* device_ = nullptr;
+  Source<ContactPatches>* patches_ = nullptr;
+  Source<ObjectState>* objects_ = nullptr;
+  Sink* sink_ = nullptr;
+  std::uint64_t index_ = 0;
+};
+
+/// A body of 1000 N/m under a fingertip of 8 mm, without friction or damping.
+inline World worldOf(const Shape& shape, bool fixed = true) {
+  World world;
+  world.scene.materials.resize(1);
+  world.scene.materials[0].stiffness = 1000;
+  Body body;
+  body.name = "body";
+  body.fixed = fixed;
+  body.haptic = Geometry{shape, {}, {}};
+  world.scene.bodies = {body};
+  world.scene.devices.resize(1);
+  world.meshes.resize(1);
+  world.inertias.resize(1);
+  return world;
+}
+
+/// The whole mesh as the patch of the one finger.
+inline void fillPatch(ContactPatches& patches, const TriMesh& mesh) {
+  patches.count = 1;
+  FingerPatch& patch = patches.fingers[0];
+  patch.body_count = 1;
+  patch.triangle_count = static_cast<std::int32_t>(mesh.triangles.size());
+  patch.bodies[0] = {0, 0, patch.triangle_count, Vec3::Zero(), 1, false};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      patch.triangles[t].v_B[i] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][i])];
+    }
+    patch.triangles[t].id = static_cast<std::int32_t>(t);
+    patch.bounds[t] = boundOf(patch.triangles[t].v_B);
+  }
+}
+
+}  // namespace presa::test
