@@ -55,9 +55,6 @@ std::vector<Finding> hold(const Grasp& grasp) {
                          "ringing decays to nothing")};
 }
 
-/// What explicit coupling needs: h^2 K / 2 per axis, times 1.5 for the rotation of the body.
-double leastMassOfExplicit(double stiffness) { return 1.5 * 0.005 * 0.005 * 2 * stiffness / 4; }
-
 /// The squeeze of two opposed rows converges by m / (m + h^2 K) a sweep: 0.85 h^2 K / 20, and four times that to be quiet.
 double leastMassOfIterations(double stiffness) { return 4 * 0.85 * 0.005 * 0.005 * stiffness / 20; }
 
@@ -79,9 +76,8 @@ Case graspInAir() {
         Trial trial;
         trial.parameters = {{"stiffness", number(stiffness / 1000) + " N/mm"}, {"mass", number(mass * 1000) + " g"}};
         trial.method = method.name;
-        if (method.name == explicitCoupling().name && mass < 4 * leastMassOfExplicit(stiffness)) {
-          trial.expected = Verdict::kUnstable;
-        }
+        // light ones explode below h^2 K / 2 per axis; heavy ones have nothing that would damp their ringing
+        if (method.name == explicitCoupling().name) trial.expected = Verdict::kUnstable;
         if (method.name == twentyIterations().name && mass < 4 * leastMassOfIterations(stiffness)) {
           trial.expected = Verdict::kUnstable;
         }
