@@ -3,8 +3,9 @@
 namespace presa::stability {
 
 std::vector<Case> allCases() {
-  return {graspInAir(),   massRatio(), blockTower(), freeRotation(), coulombSlide(),
-          coulombStick(), rolling(),   hapticWall(), thinPlate(),    grooves()};
+  return {graspInAir(),   graspOnTable(),      pressedOnTable(), pressedInCorner(), graspShaken(), needleSpun(),
+          graspAnySize(), stallWhileHolding(), endurance(),      massRatio(),       blockTower(),  freeRotation(),
+          coulombSlide(), coulombStick(),      rolling(),        hapticWall(),      thinPlate(),   grooves()};
 }
 
 }  // namespace presa::stability

@@ -5,6 +5,14 @@
 namespace presa::stability {
 
 Case graspInAir();
+Case graspOnTable();
+Case pressedOnTable();
+Case pressedInCorner();
+Case graspShaken();
+Case needleSpun();
+Case graspAnySize();
+Case stallWhileHolding();
+Case endurance();
 Case massRatio();
 Case blockTower();
 Case freeRotation();

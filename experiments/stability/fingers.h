@@ -28,6 +28,8 @@ struct Pinch {
   /// Added to both fingers from lift_end on: displacement and velocity along any axis.
   std::function<PrescribedFinger::State(double time)> sway{};
 };
+/// Way of one of the two: side -1 is the thumb, +1 the index.
+PrescribedFinger::State pinchState(const Pinch& pinch, double side, double time);
 /// Thumb (-x), then index (+x).
 DeviceList pinchFingers(const Pinch& pinch);
 

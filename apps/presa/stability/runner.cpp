@@ -19,8 +19,7 @@ namespace {
 
 constexpr double kTrialLimit = 300;  // [s]
 
-std::vector<Case> chosenCases(const RunnerOptions& options) {
-  std::vector<Case> all = allCases();
+std::vector<Case> chosenCases(const RunnerOptions& options, std::vector<Case> all) {
   std::vector<std::string> names;
   for (const Case& c : all) names.push_back(c.name);
   Diagnostics diagnostics;
@@ -110,8 +109,8 @@ std::string asLines(const std::vector<Row>& rows) {
 
 }  // namespace
 
-int runCases(const RunnerOptions& options) {
-  const std::vector<Case> cases = chosenCases(options);
+int runCases(const RunnerOptions& options, std::vector<Case> all) {
+  const std::vector<Case> cases = chosenCases(options, std::move(all));
   if (options.list) {
     list(cases);
     return kExitOk;

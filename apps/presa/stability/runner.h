@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/stability/case.h"
+
 namespace presa::stability {
 
 /// What the command line asks for.
@@ -14,7 +16,8 @@ struct RunnerOptions {
   int jobs = 0;
 };
 
-/// Runs the cases; returns the exit status. Throws InputError for names and folders that are wrong, before any work.
-int runCases(const RunnerOptions& options);
+/// Runs those of `all` that the options choose; returns the exit status. Throws InputError for names and folders that are
+/// wrong, before any work.
+int runCases(const RunnerOptions& options, std::vector<Case> all = allCases());
 
 }  // namespace presa::stability
