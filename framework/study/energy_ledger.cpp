@@ -60,7 +60,10 @@ void EnergyLedger::observe(const StudySample& sample) noexcept {
   ticked_ = true;
   if (sample.objects == nullptr || (stepped_ && sample.objects_version == version_)) return;
   const ObjectState& objects = *sample.objects;
-  if (std::abs(objects.time_begin - sample.tick.time) < 0.5 * sample.tick.period) close(bodies(objects) + springs);
+  // watched from the middle of a run on: the first state only says how fast the bodies are
+  const bool known = stepped_ || !(objects.time_begin > 0);
+  if (known && std::abs(objects.time_begin - sample.tick.time) < 0.5 * sample.tick.period)
+    close(bodies(objects) + springs);
   std::copy_n(objects.bodies.begin(), last_.size(), last_.begin());
   version_ = sample.objects_version;
   stepped_ = true;

@@ -55,6 +55,16 @@ TEST(Analysis, TheCheapestBelowALimit) {
   EXPECT_FALSE(cheapestBelow(made(), "force_rms", 0.05));
 }
 
+TEST(Analysis, TheCheapestThatNobodyFeelsIsBelowEveryLimit) {
+  Result result = made();
+  EXPECT_EQ(cheapestUnfelt(result), 0u);
+  result.metrics.push_back("grip");
+  result.reference.noticeable["grip"] = 1;
+  EXPECT_FALSE(cheapestUnfelt(result)) << "no setting has that error";
+  result.outcomes[2].error["grip"] = 0.5;
+  EXPECT_EQ(cheapestUnfelt(result), 2u);
+}
+
 TEST(Analysis, TheOrderIsTheSlope) {
   EXPECT_NEAR(observedOrder(made(), "force_rms", "dynamics_rate").value(), 1, 1e-12);
 }

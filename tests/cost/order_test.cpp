@@ -8,6 +8,7 @@
 #include "apps/presa/cost/analysis.h"
 #include "apps/presa/cost/driver.h"
 #include "apps/presa/cost/plan.h"
+#include "framework/study/energy_ledger.h"
 #include "framework/study/free_motion.h"
 #include "framework/study/prescribed_finger.h"
 #include "framework/study/study_run.h"
@@ -57,6 +58,9 @@ TEST(Order, FreeFallIsOfFirstOrder) {
   // and the size is that of theory: RMS of g t h / 2 over 0.2 … 1 s at h = 5 ms, within the grid's coarseness
   const double rms = 1e3 * 9.81 * 0.005 / 2 * std::sqrt((1 - 0.008) / 3 / 0.8);
   EXPECT_NEAR(result.outcomes.front().error.at("position"), rms, 0.02 * rms);
+  // the same scheme loses m g² h t / 2 of energy, to rounding
+  EXPECT_NEAR(result.outcomes.front().error.at("energy_drift"), 1e3 * 0.2 * 9.81 * 9.81 * 0.005 * 0.995 / 2, 1e-6);
+  EXPECT_LT(result.outcomes.front().error.at("energy_created"), 1e-9);
 }
 
 // One Runge–Kutta step of the exact rotation: fourth order, while one step is one step (it is divided from 25 mrad on).
@@ -102,7 +106,12 @@ double massOnFinger(double m, double k, double d, double amplitude, double w, do
          std::exp(-decay * t) * (a * std::cos(free * t) + b * std::sin(free * t));
 }
 
-double fingerSpringError(const std::string& scene_file, double dynamics_rate) {
+struct Ride {
+  double error = 0;    ///< of the cube's height, RMS [m]
+  double created = 0;  ///< energy [J]
+};
+
+Ride ride(const std::string& scene_file, double dynamics_rate, const std::string& coupling) {
   constexpr double kMass = 0.2, kStiffness = 1000, kDamping = 2, kAmplitude = 0.002, kOmega = 12, kRadius = 0.008;
   const double depth = kMass * 9.81 / kStiffness;
   DeviceList devices;
@@ -111,12 +120,15 @@ double fingerSpringError(const std::string& scene_file, double dynamics_rate) {
                                    Vec3(0, 0, kAmplitude * kOmega * std::sin(kOmega * t))};
   }));
   StudyRun run({.scene = scene_file,
-                .sets = {"rates/haptic=8000", "rates/dynamics=" + std::to_string(dynamics_rate)},
+                .sets = {"rates/haptic=8000", "rates/dynamics=" + std::to_string(dynamics_rate),
+                         "dynamics/coupling=" + coupling},
                 .duration = 1},
                std::move(devices));
+  EnergyLedger ledger(std::make_shared<const World>(run.world()));
   double squares = 0;
   int count = 0;
   run.observe([&](const StudySample& sample) {
+    if (sample.tick.time > 0.3) ledger.observe(sample);  // the output stage's soft start is no method of the dynamics
     const double time = sample.objects->time_begin;
     if (std::abs(time - sample.tick.time) > 1e-9) return;
     const double error = sample.objects->bodies[0].X_WB_begin.p.z() - 0.03 -
@@ -125,7 +137,7 @@ double fingerSpringError(const std::string& scene_file, double dynamics_rate) {
     ++count;
   });
   run.run();
-  return std::sqrt(squares / count);
+  return {std::sqrt(squares / count), ledger.created()};
 }
 
 // A cube that rides on a moving fingertip: implicit Euler of the finger's spring is of first order.
@@ -139,8 +151,13 @@ TEST(Order, TheFingerSpringIsOfFirstOrder) {
   write("ride_rig.xml",
         R"(<rig version="1.0" name="ride"><device role="thumb" driver="scripted"><set key="motion" value=")" +
             test::source("config/motions/hover.csv") + R"("/></device></rig>)");
-  const double coarse = fingerSpringError(file, 200), fine = fingerSpringError(file, 800);
-  EXPECT_NEAR(std::log(coarse / fine) / std::log(4.0), 1, 0.2) << coarse << ' ' << fine;
+  const Ride coarse = ride(file, 200, "soft"), fine = ride(file, 800, "soft");
+  EXPECT_NEAR(std::log(coarse.error / fine.error) / std::log(4.0), 1, 0.2) << coarse.error << ' ' << fine.error;
+  // an implicit spring makes no energy; an explicit one does, the more the coarser its step
+  const double rough = ride(file, 100, "explicit").created, finer = ride(file, 800, "explicit").created;
+  RecordProperty("created", std::to_string(coarse.created) + " " + std::to_string(rough) + " " + std::to_string(finer));
+  EXPECT_LT(coarse.created, 0.1 * rough);
+  EXPECT_LT(finer, 0.5 * rough);
 }
 
 }  // namespace

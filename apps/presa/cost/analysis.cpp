@@ -65,11 +65,14 @@ std::vector<KnobGain> knobGains(const Result& result, const std::string& metric)
   std::vector<KnobGain> gains;
   if (result.outcomes.empty() || !shown(result.outcomes.front(), metric)) return gains;
   const Outcome& usual = result.outcomes.front();
+  // a factor of an error that the reference itself does not know says nothing
+  const auto residual = result.reference.residual.find(metric);
+  const double known = std::max(kRounding, residual == result.reference.residual.end() ? 0 : residual->second);
   const Spread cost = usual.perSecond();
   for (const Outcome& other : result.outcomes) {
     if (!shown(other, metric)) continue;
     const std::string* knob = onlyDifference(usual.setting, other.setting);
-    if (knob == nullptr || !(usual.error.at(metric) > 0) || !(cost.median > 0)) continue;
+    if (knob == nullptr || !(usual.error.at(metric) > known) || !(cost.median > 0)) continue;
     const Spread changed = other.perSecond();
     KnobGain gain{*knob,
                   valueOf(usual.setting, *knob),
@@ -99,6 +102,21 @@ std::optional<std::size_t> cheapestBelow(const Result& result, const std::string
     if (result.outcomes[i].error.at(metric) < limit) return i;
   }
   return std::nullopt;
+}
+
+std::optional<std::size_t> cheapestUnfelt(const Result& result) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
+    const Outcome& outcome = result.outcomes[i];
+    const bool unfelt = std::all_of(result.metrics.begin(), result.metrics.end(), [&](const std::string& metric) {
+      const auto limit = result.reference.noticeable.find(metric);
+      if (limit == result.reference.noticeable.end()) return true;
+      return outcome.error.contains(metric) && outcome.error.at(metric) < limit->second;
+    });
+    if (!unfelt || !outcome.failure.empty() || !outcome.timed()) continue;
+    if (!best || outcome.perSecond().median < result.outcomes[*best].perSecond().median) best = i;
+  }
+  return best;
 }
 
 std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& knob) {

@@ -26,6 +26,9 @@ std::vector<KnobGain> knobGains(const Result& result, const std::string& metric)
 /// Index of the cheapest setting whose error is below `limit`.
 std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit);
 
+/// Index of the cheapest setting below the just-noticeable difference in every metric that has one.
+std::optional<std::size_t> cheapestUnfelt(const Result& result);
+
 /// Least-squares slope of log(error) over log(value) of a numeric knob, all else as in the default, times -1.
 std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& knob);
 

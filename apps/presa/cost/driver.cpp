@@ -27,9 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Errors that never exceed this, in whatever unit, are rounding: such a metric has nothing to show in this scene.
-constexpr double kRounding = 1e-9;
-
 std::string contents(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

@@ -280,12 +280,19 @@ void nameSettings(Study& study) {
   for (Setting& setting : study.settings) {
     const std::map<std::string, std::string> chosen(setting.choices.begin(), setting.choices.end());
     setting.choices.clear();
+    std::vector<std::string> needed;  // only what differs from the scene as it stands
     for (const Knob& knob : study.knobs) {
       const auto found = chosen.find(knob.name);
       const std::string& value = found == chosen.end() ? usual[knob.name] : found->second;
       setting.choices.emplace_back(knob.name, value);
-      if (value != usual[knob.name]) setting.name += (setting.name.empty() ? "" : ", ") + knob.name + " " + value;
+      if (value == usual[knob.name]) continue;
+      setting.name += (setting.name.empty() ? "" : ", ") + knob.name + " " + value;
+      for (const KnobValue& each : knob.values) {
+        if (each.name == value) needed = with(std::move(needed), each.sets);
+      }
     }
+    const Checked shorter = checkScene(study.inputs, needed);
+    if (!shorter.diagnostics.hasErrors() && shorter.hash == setting.scene_hash) setting.sets = needed;
     if (setting.name.empty()) setting.name = "default";
   }
 }

@@ -132,24 +132,32 @@ std::string gains(const Result& result) {
          out;
 }
 
+/// Cost and the line to paste of a chosen setting.
+std::vector<std::string> chosenCells(const Result& result, std::optional<std::size_t> index) {
+  if (!index) return {"none", "", ""};
+  const Outcome& best = result.outcomes[*index];
+  const std::string line = best.setting.sets.empty() ? "the scene as it stands"
+                                                     : "<code>" + escape(setOptions(best.setting.sets)) + "</code>";
+  return {format("%.3g", 1e3 * best.perSecond().median), format("%.3g", best.busiestTick().median), line};
+}
+
 std::string choice(const Result& result) {
   std::string rows;
+  const auto add = [&](std::vector<std::string> cells, const std::vector<std::string>& chosen) {
+    cells.insert(cells.end(), chosen.begin(), chosen.end());
+    rows += row(cells);
+  };
   for (const std::string& name : result.metrics) {
     const auto limit = result.reference.noticeable.find(name);
     if (limit == result.reference.noticeable.end()) continue;
     const Metric& metric = *findMetric(name);
     const auto found = cheapestBelow(result, name, limit->second);
-    if (!found) {
-      rows += row({escape(metric.title), withUnit(limit->second, metric.unit), "none", "", "", ""});
-      continue;
-    }
-    const Outcome& best = result.outcomes[*found];
-    const std::string line = best.setting.sets.empty() ? "(as it stands)" : setOptions(best.setting.sets);
-    rows += row({escape(metric.title), escape(withUnit(limit->second, metric.unit)),
-                 escape(withUnit(best.error.at(name), metric.unit)), format("%.3g", 1e3 * best.perSecond().median),
-                 format("%.3g", best.busiestTick().median), "<code class=\"wrap\">" + escape(line) + "</code>"});
+    const std::string error = found ? withUnit(result.outcomes[*found].error.at(name), metric.unit) : "";
+    add({escape(metric.title), escape(withUnit(limit->second, metric.unit)), escape(error)},
+        chosenCells(result, found));
   }
   if (rows.empty()) return {};
+  add({"<b>all of these</b>", "", ""}, chosenCells(result, cheapestUnfelt(result)));
   return "<h2>The cheapest setting that nobody feels</h2>\n" +
          table(
              {"error", "just noticeable", "its error", "ms per simulated second", "busiest tick / period", "to paste"},

@@ -9,6 +9,9 @@
 
 namespace presa::cost {
 
+/// Errors that never exceed this, in whatever unit, are rounding: such a metric has nothing to show in this scene.
+inline constexpr double kRounding = 1e-9;
+
 /// A figure from repeated runs.
 struct Spread {
   double median = 0, low = 0, high = 0;

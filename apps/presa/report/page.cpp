@@ -40,13 +40,13 @@ th { color: var(--soft); font-weight: 600; white-space: normal; vertical-align: 
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 table.facts td { text-align: left; white-space: normal; overflow-wrap: anywhere; }
 table.facts td:first-child { color: var(--soft); width: 170px; white-space: nowrap; vertical-align: top; }
+td > code { display: inline-block; white-space: normal; overflow-wrap: anywhere; text-align: left; min-width: 240px; }
 td.words { white-space: normal; text-align: left; } td.good { color: var(--good); } td.warn { color: var(--limit); } td.bad { color: var(--bad); }
 a { color: inherit; text-decoration-color: var(--soft); }
 .caption, .empty { color: var(--soft); font-size: 14px; }
 ul { margin: 6px 0; padding-left: 20px; }
 .fault { color: var(--bad); }
 code { font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
-code.wrap { white-space: normal; overflow-wrap: anywhere; display: inline-block; min-width: 240px; text-align: left; }
 pre { background: var(--card); border-radius: 4px; padding: 10px 14px; white-space: pre-wrap; overflow-wrap: anywhere; margin: 8px 0; }
 img { max-width: 100%; border-radius: 4px; display: block; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 16px; }
