@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "framework/schedule/clock.h"
 #include "modules/haptics_proxy/god_object.h"
 
 namespace presa {
@@ -29,12 +29,6 @@ std::vector<PatchTriangle> bumpyPatch(double edge, double reach) {
   return patch;
 }
 
-std::int64_t threadNs() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
-}
-
 // One haptic tick of two fingers that slide over a bumpy mesh with friction. The same 10 000 ticks again and again: the
 // machine's interrupts (tens of us of CPU time each, in one tick of a few hundred) fall on other ticks every time, so the
 // cheapest of five runs of each tick is the tick's own cost. p999_us is over those; p999_raw_us over every single tick.
@@ -49,7 +43,7 @@ void BM_HapticTickTwoFingers(benchmark::State& state) {
     std::unique_ptr<Surroundings> near[2] = {std::make_unique<Surroundings>(), std::make_unique<Surroundings>()};
     for (std::size_t i = 0; i < kTicks; ++i) {
       const double t = 1e-3 * static_cast<double>(i);
-      const std::int64_t begin = threadNs();
+      const std::int64_t begin = threadCpuNs();
       for (std::size_t f = 0; f < 2; ++f) {
         Surroundings& s = *near[f];
         s.begin(0, i / 10);  // a new patch every ten ticks
@@ -59,7 +53,7 @@ void BM_HapticTickTwoFingers(benchmark::State& state) {
         holdByFriction(contact, fingers[f], g, 0.008, {0.8, 0.6}, s);
         fingers[f] = contact.state;
       }
-      const std::int64_t took = threadNs() - begin;
+      const std::int64_t took = threadCpuNs() - begin;
       own[i] = std::min(own[i], took);
       raw.push_back(took);
     }
