@@ -6,9 +6,8 @@ namespace presa::ode {
 namespace {
 
 constexpr double kWindow = 0.5;      // [s]
-constexpr double kMeanMoves = 2e-6;  // [m] between windows, at most
+constexpr double kMeanMoves = 1e-5;  // [m] between windows, at most
 constexpr double kTrembles = 2e-4;   // [m] from where a window began, at most
-constexpr double kNeverStill = 1e3;  // [m]
 
 Eigen::Matrix<double, 6, 1> displacement(const Pose& from, const Pose& to, double extent) {
   Quat turn = to.q * from.q.conjugate();
@@ -64,9 +63,7 @@ void Sleep::afterStep(BodySet& bodies, Islands& islands, double h) {
 
 void Sleep::wake(BodySet& bodies, std::size_t i) {
   for (std::size_t j = 0; j < bodies.size(); ++j) {
-    if (!bodies.asleep(j) || group_[j] != group_[i]) continue;
-    bodies.wake(j);
-    stillness_[j].farthest = kNeverStill;  // at least one whole window more
+    if (bodies.asleep(j) && group_[j] == group_[i]) bodies.wake(j);
   }
 }
 

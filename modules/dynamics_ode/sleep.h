@@ -8,8 +8,8 @@
 namespace presa::ode {
 
 /// Puts islands to sleep that no finger touches and in which every body has stayed where it was: over two windows of half a
-/// second the mean of its pose moved by less than 2 um, and it never left 0.2 mm around it. The mean tells the trembling of an
-/// iterative solution from a body that slides or rolls slowly (4 um/s keep it awake).
+/// second the mean of its pose moved by less than 10 um, and it never left 0.2 mm around it. The mean tells the trembling of an
+/// iterative solution from a body that slides or rolls slowly (20 um/s keep it awake).
 ///
 /// A sleeping body does not move, collides only with those awake, and its whole island wakes in the step in which a finger or a body
 /// that is awake touches one of it.
