@@ -83,8 +83,6 @@ void StepSolver::startFromLastStep(Islands& islands) {
     joint.direction = frictionDirection(nhat, joint.f_B_W - f_n * nhat);
     if (f_n > 0 && solver_.isDirect(islands[islandOf(i, islands)])) joint.limit = joint.mu * f_n;
   }
-  was_close_.clear();
-  forEachPatch([&](const Patch& patch) { was_close_.push_back(patch.friction > kClose * patch.cone ? 1 : 0); });
 }
 
 // The contacts of one pair share the load as they like as long as they stick, a single one may be at its limit: what counts
@@ -112,7 +110,9 @@ void StepSolver::forEachPatch(Use use) {
 bool StepSolver::findSliding(Islands& islands) {
   sliding_.assign(bodies_.size(), 0);
   load_.assign(bodies_.size(), {});
+  was_close_.clear();
   forEachPatch([&](const Patch& patch) {
+    was_close_.push_back(patch.friction > kClose * patch.cone ? 1 : 0);
     const std::size_t island = islands.of(patch.body);
     const bool direct = solver_.isDirect(islands[island]);
     load_[island].all += patch.cone;

@@ -3,24 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "framework/schedule/clock.h"
 #include "modules/dynamics_ode/ode_world.h"
 
 // What a dynamics step costs over ODE alone: the same settled cubes, collided and solved by hand with ODE's plain friction, the same
 // solver and as many iterations.
 namespace presa::ode {
 namespace {
-
-// Processor time of this thread: what others do on the machine does not count.
-std::int64_t cpuNs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
-}
 
 constexpr double kStep = 0.005;
 constexpr double kEdge = 0.05;
@@ -160,12 +153,12 @@ void BM_DynamicsStep(benchmark::State& state) {
   BareOde bare(*world, out);
   std::vector<std::int64_t> ours, theirs;
   for (auto _ : state) {
-    const std::int64_t begin = cpuNs();
+    const std::int64_t begin = threadCpuNs();
     step();
-    const std::int64_t middle = cpuNs();
+    const std::int64_t middle = threadCpuNs();
     bare.step(layout != kApart);
     ours.push_back(middle - begin);
-    theirs.push_back(cpuNs() - middle);
+    theirs.push_back(threadCpuNs() - middle);
   }
   const auto median = [](std::vector<std::int64_t>& all) {
     std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
@@ -191,9 +184,9 @@ void BM_SleepingPile(benchmark::State& state) {
     std::vector<std::int64_t> times;
     double time = 0;
     for (int n = 0; n < 3000; ++n, time += kStep) {
-      const std::int64_t begin = cpuNs();
+      const std::int64_t begin = threadCpuNs();
       bodies.step({}, time, kStep, out);
-      if (n >= 2500) times.push_back(cpuNs() - begin);
+      if (n >= 2500) times.push_back(threadCpuNs() - begin);
     }
     asleep = 0;
     for (std::int32_t i = 0; i < out.count; ++i) asleep += out.bodies[static_cast<std::size_t>(i)].asleep ? 1 : 0;
