@@ -78,8 +78,9 @@ Case graspInAir() {
         trial.method = method.name;
         // light ones explode below h^2 K / 2 per axis; heavy ones have nothing that would damp their ringing
         if (method.name == explicitCoupling().name) trial.expected = Verdict::kUnstable;
-        if (method.name == twentyIterations().name && mass < 4 * leastMassOfIterations(stiffness)) {
-          trial.expected = Verdict::kUnstable;
+        // where the sweeps converge, those of a heavy body on soft springs leave some ringing
+        if (method.name == twentyIterations().name) {
+          trial.expected = mass < 4 * leastMassOfIterations(stiffness) ? Verdict::kUnstable : Verdict::kDrift;
         }
         trial.run = [grasp] { return hold(grasp); };
         trial.quick = stiffness > 5000 && mass < 0.02;
