@@ -156,7 +156,7 @@ Case grooves() {
       Trial trial;
       trial.parameters = {{"shape", named.name}};
       trial.method = penalty ? "penalty" : kPresa;
-      if (penalty) trial.expected = Verdict::kUnstable;
+      if (penalty && named.solid.hollow) trial.expected = Verdict::kUnstable;  // right outside a convex body
       trial.run = [=] { return drag(named.solid, penalty); };
       trial.quick = true;
       result.trials.push_back(std::move(trial));
