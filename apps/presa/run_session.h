@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "framework/plan/load_world.h"
 #include "apps/presa/run_result.h"
+#include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
 #include "framework/schedule/executor.h"
 

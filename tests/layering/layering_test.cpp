@@ -88,9 +88,10 @@ TEST(Layering, TheRootHoldsNothingElse) {
 // the engine's own, may ask the linker for one.
 TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
   const std::map<std::string, std::string> home_of{
-      {"libode", "presa_dynamics_ode.so"},   {"libfcl", "presa_collision_fcl.so"}, {"libosg", "presa_view_osg.so"},
-      {"libEGL", "presa_view_osg.so"},       {"libX11", "presa_view_osg.so"},      {"libhdf5", "presa_record.so"},
-      {"libassimp", "presa_mesh_import.so"},     {"libmeshoptimizer", "presa_mesh_decimate.so"},
+      {"libode", "presa_dynamics_ode.so"},   {"libfcl", "presa_collision_fcl.so"},
+      {"libosg", "presa_view_osg.so"},       {"libEGL", "presa_view_osg.so"},
+      {"libX11", "presa_view_osg.so"},       {"libhdf5", "presa_record.so"},
+      {"libassimp", "presa_mesh_import.so"}, {"libmeshoptimizer", "presa_mesh_decimate.so"},
   };
   const std::filesystem::path build = PRESA_BINARY_DIR;
   std::vector<std::filesystem::path> binaries{build / "bin/presa", build / "lib/presa/libpresa_framework.so"};

@@ -45,8 +45,9 @@ std::string contentOf(const Scene& scene) {
   text << scene.rates.haptic << " " << scene.rates.collision << " " << scene.rates.dynamics << " " << scene.rates.view
        << "\n";
   const DynamicsSettings& settings = scene.dynamics;
-  text << static_cast<int>(settings.engine) << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver) << static_cast<int>(settings.friction)
-       << static_cast<int>(settings.rotation) << settings.sleeping << " " << settings.iterations << " " << settings.substeps << "\n";
+  text << static_cast<int>(settings.engine) << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver)
+       << static_cast<int>(settings.friction) << static_cast<int>(settings.rotation) << settings.sleeping << " "
+       << settings.iterations << " " << settings.substeps << "\n";
   text << static_cast<int>(scene.haptics.renderer) << static_cast<int>(scene.haptics.pose) << " "
        << scene.collision.margin << " " << scene.collision.max_triangles << "\n";
   for (const Material& m : scene.materials) {

@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "apps/presa/commands/commands.h"
-#include "framework/plan/load_world.h"
 #include "apps/presa/report/report.h"
 #include "apps/presa/run_session.h"
 #include "apps/presa/summary.h"
 #include "apps/presa/terminal/closing.h"
+#include "framework/plan/load_world.h"
 
 namespace presa {
 namespace {
