@@ -70,4 +70,24 @@ double BoxStack::shift(const ObjectState& state) const {
   return farthest;
 }
 
+std::vector<Finding> runAndJudge(StudyRun& run, const BoxStack& stack, const std::string& top,
+                                 const std::string& metric, const std::string& oracle) {
+  const std::size_t highest = bodyNamed(run.world(), top);
+  double deepest = 0, shift = 0;
+  Curve height{top, {}, {}};
+  run.observe(atEachStep([&](const ObjectState& state) {
+    deepest = std::max(deepest, stack.penetration(state));
+    shift = std::max(shift, stack.shift(state));
+    height.x.push_back(state.time_end);
+    height.y.push_back(1000 * state.bodies[highest].X_WB_end.p.z());
+  }));
+  run.run();
+
+  Finding displacement = finding(metric, 1000 * shift, "mm", 1, oracle);
+  displacement.plot_x = "time [s]";
+  displacement.plot_y = "height of the highest box [mm]";
+  displacement.curves.push_back(decimated(std::move(height)));
+  return {finding("penetration", 1000 * deepest, "mm", 0.5, "rigid boxes do not overlap"), displacement};
+}
+
 }  // namespace presa::stability

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/study/study_run.h"
+#include "experiments/stability/case.h"
 
 /// Bodies as a case sees them from outside.
 namespace presa::stability {
@@ -32,5 +32,10 @@ class BoxStack {
   };
   std::vector<Member> members_;
 };
+
+/// Does the run and judges the stack: no overlap beyond 0.5 mm, no displacement (named `metric`, held against `oracle`)
+/// beyond 1 mm; with the height of the body `top` as curve.
+std::vector<Finding> runAndJudge(StudyRun& run, const BoxStack& stack, const std::string& top,
+                                 const std::string& metric, const std::string& oracle);
 
 }  // namespace presa::stability

@@ -53,22 +53,8 @@ std::vector<Finding> hold(Tower tower, bool iterative) {
   const double lift = lifted ? 0.05 : 0;
   StudyRun run(specOf("block_tower.xml", sets, lifted ? 10 : 30), handsOn(lift));
   const BoxStack stack(run.world(), lifted ? blocksFrom({}) : blocksFrom({"table"}));
-  const std::size_t top = bodyNamed(run.world(), "block" + std::to_string(kBlocks - 1));
-  double deepest = 0, shift = 0;
-  Curve height{"highest block", {}, {}};
-  run.observe(atEachStep([&](const ObjectState& state) {
-    deepest = std::max(deepest, stack.penetration(state));
-    shift = std::max(shift, stack.shift(state));
-    height.x.push_back(state.time_end);
-    height.y.push_back(1000 * state.bodies[top].X_WB_end.p.z());
-  }));
-  run.run();
-
-  Finding fallen = finding("displacement within the tower", 1000 * shift, "mm", 1, "nothing falls");
-  fallen.plot_x = "time [s]";
-  fallen.plot_y = "height of the highest block [mm]";
-  fallen.curves.push_back(decimated(std::move(height)));
-  return {finding("penetration", 1000 * deepest, "mm", 0.5, "rigid blocks do not overlap"), fallen};
+  return runAndJudge(run, stack, "block" + std::to_string(kBlocks - 1), "displacement within the tower",
+                     "nothing falls");
 }
 
 }  // namespace

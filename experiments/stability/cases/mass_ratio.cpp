@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/cases.h"
 
@@ -14,22 +12,7 @@ std::vector<Finding> stand(double ratio, bool iterative) {
   if (iterative) sets.insert(sets.end(), {"dynamics/solver=iterative", "dynamics/iterations=20"});
   StudyRun run(specOf("mass_ratio.xml", sets, kDuration));
   const BoxStack stack(run.world(), {"table", "light", "heavy"});
-  const std::size_t heavy = bodyNamed(run.world(), "heavy");
-  double deepest = 0, shift = 0;
-  Curve height{"height of the heavy box", {}, {}};
-  run.observe(atEachStep([&](const ObjectState& state) {
-    deepest = std::max(deepest, stack.penetration(state));
-    shift = std::max(shift, stack.shift(state));
-    height.x.push_back(state.time_end);
-    height.y.push_back(1000 * state.bodies[heavy].X_WB_end.p.z());
-  }));
-  run.run();
-
-  Finding walk = finding("displacement", 1000 * shift, "mm", 1, "rests where it was put");
-  walk.plot_x = "time [s]";
-  walk.plot_y = "height of the upper box [mm]";
-  walk.curves.push_back(decimated(std::move(height)));
-  return {finding("penetration", 1000 * deepest, "mm", 0.5, "rigid boxes do not overlap"), walk};
+  return runAndJudge(run, stack, "heavy", "displacement", "rests where it was put");
 }
 
 }  // namespace
