@@ -12,7 +12,6 @@ constexpr double kSlides = 1e-5;       // [m/s], where the direct solver says so
 constexpr double kSlidesFast = 0.01;   // [m/s], will not stop within a step
 constexpr double kSlidingShare = 0.2;  // of an island's friction limits, of what slides in it
 constexpr double kAtLimit = 0.98;      // friction over its limit, of what may slide
-constexpr double kClose = 0.7;         // the same, of what friction was aligned with
 constexpr double kTolerance = 0.01;    // friction above its cone
 constexpr double kLag = 0.05;          // friction below its cone because of an old normal force
 
@@ -110,9 +109,7 @@ void StepSolver::forEachPatch(Use use) {
 bool StepSolver::findSliding(Islands& islands) {
   sliding_.assign(bodies_.size(), 0);
   load_.assign(bodies_.size(), {});
-  was_close_.clear();
   forEachPatch([&](const Patch& patch) {
-    was_close_.push_back(patch.friction > kClose * patch.cone ? 1 : 0);
     const std::size_t island = islands.of(patch.body);
     const bool direct = solver_.isDirect(islands[island]);
     load_[island].all += patch.cone;
@@ -155,16 +152,14 @@ void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vec
   }
 }
 
-// A patch that comes to its limit only now had nothing to be aligned with. One that slides without reaching its limit was bounded
-// by an old normal force.
+// Friction above its cone: the normal force fell since the last step (after a blow), or it was not aligned with the slip. Friction
+// at its limit and well inside its cone: the normal force rose.
 bool StepSolver::judge(Islands& islands) {
   wrong_.assign(bodies_.size(), 0);
-  auto was_close = was_close_.cbegin();
   forEachPatch([&](const Patch& patch) {
     const std::size_t island = islands.of(patch.body);
-    const bool exceeds = patch.friction > (1 + kTolerance) * patch.cone && *was_close == 0;
+    const bool exceeds = patch.friction > (1 + kTolerance) * patch.cone;
     const bool lags = patch.friction > kAtLimit * patch.limit && patch.friction < (1 - kLag) * patch.cone;
-    ++was_close;
     if (solver_.isDirect(islands[island]) && (exceeds || lags)) wrong_[island] = 1;
   });
   counts.repeats += static_cast<std::uint64_t>(std::count(wrong_.begin(), wrong_.end(), 1));

@@ -58,7 +58,6 @@ class StepSolver {
   ContactJoints joints_;
   std::vector<char> all_, sliding_, wrong_;  // by island
   std::vector<Load> load_;                   // by island
-  std::vector<char> was_close_;              // by patch: to its limit in the last step
   int iterations_ = 0;
 };
 
