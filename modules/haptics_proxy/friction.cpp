@@ -5,13 +5,13 @@
 
 namespace presa {
 
-// The base of the cone is the frictionless point, its apex the HIP, its radius mu * depth; what friction holds on to is
-// the old proxy, or the point of first touch.
+// The base of the cone is the frictionless point, its apex the HIP, its radius mu * depth.
 void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
                     const FrictionCone& cone, Surroundings& surroundings) noexcept {
   if (!contact.state.touching) return;
   const Vec3 held = last.touching ? last.x : contact.first_touch;
-  Vec3 stretch = held - contact.state.god;
+  contact.state.hold = last.touching ? last.hold : contact.first_touch;
+  Vec3 stretch = contact.state.hold - contact.state.god;
   stretch -= stretch.dot(contact.nhat) * contact.nhat;
   const double length = stretch.norm();
   const double mu = last.touching && last.slipping ? cone.mu_dynamic : cone.mu_static;
@@ -23,7 +23,8 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
     contact.state.x = held;
   } else {
     // the border of the cone is reached along the surface: move the goal sideways, and go there
-    const ProxyMove moved = moveProxy(held, g + stretch, r, surroundings);
+    contact.state.hold = g + stretch;
+    const ProxyMove moved = moveProxy(held, contact.state.hold, r, surroundings);
     contact.state.x = moved.x;
     contact.covered = contact.covered && moved.covered;
   }

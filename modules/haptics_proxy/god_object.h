@@ -41,6 +41,7 @@ struct FingertipState {
   Vec3 god = Vec3::Zero();  ///< where it would be without friction; x itself in free space
   bool touching = false;
   bool slipping = false;
+  Vec3 hold = Vec3::Zero();  ///< what friction pulls the HIP back to: below the surface, x is the proxy of it
 };
 
 /// One fingertip at the surface, in the working frame A.
@@ -65,7 +66,8 @@ struct FrictionCone {
 };
 
 /// Holds the proxy of a sliding `contact` back: what sticks stays where `last` or the first touch was, what slips follows
-/// the border of the cone.
+/// the border of the cone. The stretch of friction is kept below the surface, where the HIP is, and never read back from
+/// the proxy: on a curved surface the two differ, and the difference would add up tick by tick, more at a higher rate.
 void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
                     const FrictionCone& cone, Surroundings& surroundings) noexcept;
 

@@ -69,6 +69,7 @@ void Touchables::moveToFrame(Finger& finger, Vec3& point, std::int32_t body) con
   const Pose X_BA = frameOf(body).inverse() * frameOf(finger.frame);
   finger.tip.x = X_BA * finger.tip.x;
   finger.tip.god = X_BA * finger.tip.god;
+  finger.tip.hold = X_BA * finger.tip.hold;
   point = X_BA * point;
   finger.frame = body;
 }

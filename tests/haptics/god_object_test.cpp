@@ -164,6 +164,32 @@ TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
   }
 }
 
+// Slipping along a cylinder after a pull around it: the stretch turns into the direction of motion as a rope's end follows
+// (tractrix), tan(phi / 2) = tan(phi_0 / 2) exp(-way / (mu depth)), at every rate alike. Error of Euler's step: step / (2 L).
+TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
+  const double radius = 0.02, depth = 0.004, mu = 0.5, length = mu * depth;
+  for (const double step : {1e-4, 1e-5, 1e-6}) {
+    Surroundings s;
+    s.add({.body = 0, .id = -1, .shape = Primitive{.kind = Primitive::Kind::kCylinder, .radius = radius, .half_length = 0.1}});
+    FingertipState tip{{radius + kR, 0, 0}, {radius + kR, 0, 0}};
+    const double inside = radius + kR - depth;
+    ProxyContact c = stepProxy(tip, {inside, 0, 0}, s, {mu, mu});
+    for (double around = 0; around < 0.01; around += 2e-5) {
+      c = stepProxy(c.state, {inside * std::cos(around / inside), -inside * std::sin(around / inside), 0}, s, {mu, mu});
+    }
+    const Vec3 from(inside * std::cos(0.01 / inside), -inside * std::sin(0.01 / inside), 0);
+    const double phi_0 = std::numbers::pi / 2, way = 0.003;
+    for (double along = step; along < way + 0.5 * step; along += step) {
+      c = stepProxy(c.state, from + Vec3(0, 0, along), s, {mu, mu});
+      ASSERT_TRUE(c.state.slipping);
+    }
+    const double phi = 2 * std::atan(std::tan(phi_0 / 2) * std::exp(-way / length));
+    const Vec3 stretch = c.state.hold - (from + Vec3(0, 0, way));
+    const double seen = std::acos(std::clamp(-stretch.z() / stretch.norm(), -1.0, 1.0));
+    EXPECT_NEAR(seen, phi, 0.01 + step / length) << step;
+  }
+}
+
 // A finger that sticks does not creep: after a minute of shaking inside the cone the proxy is where it was, to the bit.
 TEST(Friction, StickingProxyDoesNotDrift) {
   const auto s = plate();

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Writes what the studies of a tracing finger need: motions/*.csv (where the hand goes) and meshes/sine_plate.obj.
+Run it again only to change them: python3 experiments/accuracy_cost/make_tracing.py"""
+import math
+import pathlib
+
+HERE = pathlib.Path(__file__).parent
+WAVE, HEIGHT, LENGTH, WIDTH, PER_WAVE = 0.002, 0.00005, 0.080, 0.010, 32  # of the sine plate [m]
+BUZZ_TIP, BUZZ_DEPTH, BUZZ_SPEED = 0.0005, 0.0005, 0.160  # 160 mm/s over waves of 2 mm: 80 Hz
+BELLY, AMPHORA_TIP, AMPHORA_DEPTH = 0.040, 0.004, 0.0012
+PLANE_TIP, PLANE_DEPTH = 0.008, 0.010  # the hand goes 10 mm deep; its own spring yields
+
+
+def motion(name, comment, rows):
+    lines = [f"# {comment} Written by make_tracing.py.", "time_s,role,x_m,y_m,z_m,phase"]
+    lines += [f"{t:.6g},index,{x:.9g},{y:.9g},{z:.9g},{phase}" for t, (x, y, z), phase in rows]
+    (HERE / "motions" / name).write_text("\n".join(lines) + "\n")
+
+
+def amphora():
+    """A third of the way round the belly and back, up and down over the flutes."""
+    def at(out, angle, z):
+        return (BELLY + AMPHORA_TIP + out) * math.cos(angle), (BELLY + AMPHORA_TIP + out) * math.sin(angle), z
+    rows = [(0, at(0.01, 0, 0.012), "reach"), (0.4, at(-AMPHORA_DEPTH, 0, 0.012), "trace")]
+    steps = 800
+    for i in range(1, steps + 1):
+        s = i / steps
+        angle = 2 * math.pi / 3 * math.sin(math.pi * s)
+        rows.append((0.4 + 3.2 * s, at(-AMPHORA_DEPTH, angle, 0.012 + 0.006 * math.sin(4 * math.pi * s)), "trace"))
+    rows.append((4.0, at(0.01, 0, 0.012), "leave"))
+    motion("trace_amphora.csv", "A finger strokes the amphora's belly, 1.2 mm deep.", rows)
+
+
+def buzz():
+    """Straight across the waves at constant speed."""
+    x, z = LENGTH / 2 - 0.004, BUZZ_TIP - BUZZ_DEPTH
+    way = 2 * x / BUZZ_SPEED
+    rows = [(0, (-x, 0, BUZZ_TIP + 0.003), "reach"), (0.1, (-x, 0, z), "trace"), (0.1 + way, (x, 0, z), "turn"),
+            (0.2 + way, (x, 0, z), "trace"), (0.2 + 2 * way, (-x, 0, z), "leave"),
+            (0.3 + 2 * way, (-x, 0, BUZZ_TIP + 0.003), "leave")]
+    motion("buzz.csv", "A stylus drawn over waves of 2 mm at 160 mm/s: 80 Hz.", rows)
+
+
+def plane():
+    z = PLANE_TIP - PLANE_DEPTH
+    rows = [(0, (-0.1, 0, PLANE_TIP + 0.005), "reach"), (0.5, (-0.1, 0, z), "trace"), (2.5, (0.1, 0, z), "turn"),
+            (2.6, (0.1, 0, z), "trace"), (3.6, (-0.1, 0, z), "leave"), (4.0, (-0.1, 0, PLANE_TIP + 0.02), "leave")]
+    motion("trace_plane.csv", "A finger presses on a hard plane and draws along it, slowly and faster.", rows)
+
+
+def sine_plate():
+    count = round(LENGTH / WAVE * PER_WAVE)
+    lines = [f"# Waves of 2 mm and 0.05 mm along x, {count} strips of two triangles. Written by make_tracing.py. [m, z up]"]
+    for i in range(count + 1):
+        x = LENGTH * (i / count - 0.5)
+        z = HEIGHT * math.sin(2 * math.pi * i / PER_WAVE)
+        lines += [f"v {x:.6g} {-WIDTH / 2:.6g} {z:.6g}", f"v {x:.6g} {WIDTH / 2:.6g} {z:.6g}"]
+    for i in range(count):
+        a = 2 * i + 1
+        lines += [f"f {a} {a + 2} {a + 3}", f"f {a} {a + 3} {a + 1}"]
+    (HERE / "meshes" / "sine_plate.obj").write_text("\n".join(lines) + "\n")
+
+
+amphora()
+buzz()
+plane()
+sine_plate()
