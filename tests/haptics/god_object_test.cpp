@@ -170,7 +170,9 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
   const double radius = 0.02, depth = 0.004, mu = 0.5, length = mu * depth;
   for (const double step : {1e-4, 1e-5, 1e-6}) {
     Surroundings s;
-    s.add({.body = 0, .id = -1, .shape = Primitive{.kind = Primitive::Kind::kCylinder, .radius = radius, .half_length = 0.1}});
+    s.add({.body = 0,
+           .id = -1,
+           .shape = Primitive{.kind = Primitive::Kind::kCylinder, .radius = radius, .half_length = 0.1}});
     FingertipState tip{{radius + kR, 0, 0}, {radius + kR, 0, 0}};
     const double inside = radius + kR - depth;
     ProxyContact c = stepProxy(tip, {inside, 0, 0}, s, {mu, mu});
