@@ -14,4 +14,7 @@ struct BodyContact {
   double depth = 0;  ///< [m]
 };
 
+/// Room that is made at the start; where a body has more contacts than these, memory is taken once, when they come.
+inline constexpr std::size_t kContactsPerBody = 16;
+
 }  // namespace presa::ode

@@ -13,11 +13,6 @@ namespace {
 constexpr double kSamePoint = 1e-3;
 constexpr double kSameNormal = 0.999;
 
-void rememberPair(void* data, dGeomID a, dGeomID b) {
-  const auto [low, high] = std::minmax({BodySet::indexOf(a), BodySet::indexOf(b)});
-  static_cast<std::vector<std::pair<std::size_t, std::size_t>>*>(data)->emplace_back(low, high);
-}
-
 // Keeps the deepest contact, then again and again the one farthest from all kept: the hull of the touching area, which
 // is what carries the load. Returns how many are kept, at the front.
 int thin(dContactGeom* contacts, int count, int limit, double same_distance) {
@@ -44,16 +39,9 @@ int thin(dContactGeom* contacts, int count, int limit, double same_distance) {
 
 }  // namespace
 
-void BodyContacts::findPairs(dSpaceID space) {
-  pairs_.clear();
-  dSpaceCollide(space, &pairs_, rememberPair);
-  std::sort(pairs_.begin(), pairs_.end());
-}
-
 std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, std::vector<BodyContact>& contacts) {
   contacts.clear();
-  for (const Pair& pair : pairs_) {
-    if (!bodies.awake(pair.first) && !bodies.awake(pair.second)) continue;
+  for (const BroadPhase::Pair& pair : broad_phase_.find(bodies)) {
     const std::size_t before = contacts.size();
     collidePair(bodies, pair, contacts);
     if (contacts.size() == before) continue;
@@ -64,7 +52,8 @@ std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, std
   return std::nullopt;
 }
 
-void BodyContacts::collidePair(const BodySet& bodies, const Pair& pair, std::vector<BodyContact>& contacts) {
+void BodyContacts::collidePair(const BodySet& bodies, const BroadPhase::Pair& pair,
+                               std::vector<BodyContact>& contacts) {
   // ODE's normal points into the first geometry: that is B, and B must move
   const std::size_t B = bodies.moves(pair.second) ? pair.second : pair.first;
   const std::size_t A = B == pair.second ? pair.first : pair.second;

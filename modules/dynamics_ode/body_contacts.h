@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/broad_phase.h"
 
 namespace presa::ode {
 
@@ -17,23 +17,21 @@ namespace presa::ode {
 class BodyContacts {
  public:
   static constexpr int kMaxPerPair = 8;
+  explicit BodyContacts(const BodySet& bodies) : broad_phase_(bodies) {}
   /// Fills `contacts` with every contact between a body that is awake and another. A sleeping one that is met is handed to
   /// `wake(i)`, which must wake it: it then counts as awake.
   template <class Wake>
-  void find(dSpaceID space, const BodySet& bodies, std::vector<BodyContact>& contacts, Wake wake) {
-    findPairs(space);
+  void find(const BodySet& bodies, std::vector<BodyContact>& contacts, Wake wake) {
     while (const std::optional<std::size_t> met = collideAwake(bodies, contacts)) wake(*met);
   }
 
  private:
   static constexpr int kMaxReported = 64;  ///< asked of ODE per pair, then thinned to kMaxPerPair
-  using Pair = std::pair<std::size_t, std::size_t>;
-  void findPairs(dSpaceID space);
   /// Stops at the first sleeping body that is met.
   std::optional<std::size_t> collideAwake(const BodySet& bodies, std::vector<BodyContact>& contacts);
-  void collidePair(const BodySet& bodies, const Pair& pair, std::vector<BodyContact>& contacts);
+  void collidePair(const BodySet& bodies, const BroadPhase::Pair& pair, std::vector<BodyContact>& contacts);
 
-  std::vector<Pair> pairs_;
+  BroadPhase broad_phase_;
   dContactGeom reported_[kMaxReported];
 };
 

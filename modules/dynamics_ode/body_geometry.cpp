@@ -3,15 +3,14 @@
 
 namespace presa::ode {
 
-void BodySet::createGeom(Entry& entry, const Geometry& geometry, const TriMesh* mesh, dSpaceID space) {
+void BodySet::createGeom(Entry& entry, const Geometry& geometry, const TriMesh* mesh) {
   struct Create {
     Entry& entry;
     const TriMesh* mesh;
-    dSpaceID space;
-    dGeomID operator()(const Box& box) { return dCreateBox(space, box.size.x(), box.size.y(), box.size.z()); }
-    dGeomID operator()(const Sphere& sphere) { return dCreateSphere(space, sphere.radius); }
-    dGeomID operator()(const Cylinder& cylinder) { return dCreateCylinder(space, cylinder.radius, cylinder.length); }
-    dGeomID operator()(const Capsule& capsule) { return dCreateCapsule(space, capsule.radius, capsule.length); }
+    dGeomID operator()(const Box& box) { return dCreateBox(nullptr, box.size.x(), box.size.y(), box.size.z()); }
+    dGeomID operator()(const Sphere& sphere) { return dCreateSphere(nullptr, sphere.radius); }
+    dGeomID operator()(const Cylinder& cylinder) { return dCreateCylinder(nullptr, cylinder.radius, cylinder.length); }
+    dGeomID operator()(const Capsule& capsule) { return dCreateCapsule(nullptr, capsule.radius, capsule.length); }
     dGeomID operator()(const MeshRef&) {
       if (mesh == nullptr || mesh->triangles.empty()) return nullptr;
       for (const Vec3& v : mesh->vertices) entry.vertices.insert(entry.vertices.end(), {v.x(), v.y(), v.z()});
@@ -22,10 +21,10 @@ void BodySet::createGeom(Entry& entry, const Geometry& geometry, const TriMesh* 
       dGeomTriMeshDataBuildDouble(entry.mesh_data, entry.vertices.data(), 3 * sizeof(double),
                                   static_cast<int>(mesh->vertices.size()), entry.indices.data(),
                                   static_cast<int>(entry.indices.size()), 3 * sizeof(dTriIndex));
-      return dCreateTriMesh(space, entry.mesh_data, nullptr, nullptr, nullptr);
+      return dCreateTriMesh(nullptr, entry.mesh_data, nullptr, nullptr, nullptr);
     }
   };
-  entry.geom = std::visit(Create{entry, mesh, space}, geometry.shape);
+  entry.geom = std::visit(Create{entry, mesh}, geometry.shape);
   if (entry.geom == nullptr) return;
   if (entry.body != nullptr) {
     dGeomSetBody(entry.geom, entry.body);

@@ -26,7 +26,7 @@ dMass massOf(const BodyInertia& inertia) {
 
 }  // namespace
 
-BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorldID ode_world, dSpaceID space)
+BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorldID ode_world)
     : rotation_(rotation), bodies_(world.scene.bodies.size()) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = world.scene.bodies[i];
@@ -50,8 +50,7 @@ BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorld
       dBodySetAngularVel(entry.body, body.w_WB.x(), body.w_WB.y(), body.w_WB.z());
       entry.constant_force_W = body.force_W;
     }
-    if (body.physics) createGeom(entry, *body.physics, world.meshes[i].physics.get(), space);
-    if (entry.geom != nullptr) dGeomSetData(entry.geom, reinterpret_cast<void*>(i));
+    if (body.physics) createGeom(entry, *body.physics, world.meshes[i].physics.get());
   }
 }
 

@@ -15,7 +15,7 @@ namespace presa::ode {
 class BodySet {
  public:
   /// Takes bodies, their velocities at the start and geometries from `world`.
-  BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorldID ode_world, dSpaceID space);
+  BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorldID ode_world);
   ~BodySet();
   BodySet(const BodySet&) = delete;
   BodySet& operator=(const BodySet&) = delete;
@@ -29,7 +29,6 @@ class BodySet {
   bool anyAwake() const noexcept;
   dBodyID body(std::size_t i) const noexcept { return moves(i) ? bodies_[i].body : nullptr; }
   dGeomID geom(std::size_t i) const noexcept { return bodies_[i].geom; }
-  static std::size_t indexOf(dGeomID geom) noexcept { return reinterpret_cast<std::uintptr_t>(dGeomGetData(geom)); }
   /// Half the diagonal of the physics geometry's bounds at the start [m].
   double extent(std::size_t i) const noexcept { return bodies_[i].extent; }
 
@@ -93,7 +92,7 @@ class BodySet {
     State begin;
     Pose X_WB;  ///< as last written
   };
-  void createGeom(Entry& entry, const Geometry& geometry, const TriMesh* mesh, dSpaceID space);
+  void createGeom(Entry& entry, const Geometry& geometry, const TriMesh* mesh);
   static State read(const Entry& entry);
   static Pose poseOf(const Entry& entry, const State& state);
   static bool sane(const State& state);

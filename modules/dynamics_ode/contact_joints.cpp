@@ -11,7 +11,11 @@ std::size_t index(std::int32_t body) { return static_cast<std::size_t>(body); }
 
 }  // namespace
 
-ContactJoints::ContactJoints(const Scene& scene, const OdeOptions& options) : scene_(scene), options_(options) {
+ContactJoints::ContactJoints(const Scene& scene, const OdeOptions& options, std::size_t contacts)
+    : scene_(scene), options_(options) {
+  joints_.reserve(contacts);
+  feedback_.reserve(contacts);
+  past_.reserve(contacts);
   for (const Material& a : scene.materials) {
     for (const Material& b : scene.materials) {
       coefficients_.push_back({pairFriction(a, b, 0), pairFriction(a, b, 2 * kRestSpeed)});

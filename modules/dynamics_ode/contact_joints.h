@@ -22,7 +22,8 @@ class ContactJoints {
     Vec3 f_B_W = Vec3::Zero();      ///< on B [N]: before the solve that of the last step, after it the new one
   };
 
-  ContactJoints(const Scene& scene, const OdeOptions& options);
+  /// With room for `contacts`; more take memory once.
+  ContactJoints(const Scene& scene, const OdeOptions& options, std::size_t contacts);
 
   /// Starts a step with these contacts (sorted by pair), which stay the caller's.
   void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies);

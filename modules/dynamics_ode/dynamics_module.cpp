@@ -55,7 +55,7 @@ std::vector<std::string> DynamicsModule::stages() const {
   std::vector<std::string> all{
       "extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades"};
   if (method.sleeping) all.emplace_back("wake what a finger or a moving body touches; what lies still sleeps");
-  all.emplace_back("collide the physics geometries (hash space, at most 8 contacts per pair)");
+  all.emplace_back("collide the physics geometries (sort and sweep, at most 8 contacts per pair)");
   all.emplace_back(method.coupling == D::Coupling::kSoft
                        ? "fingers as implicit spring-dampers (soft contact joints) inside their friction cone"
                        : "fingers as forces that act for one step");

@@ -1,7 +1,8 @@
 #include "modules/dynamics_ode/engine.h"
 
-#include <mutex>
+#include <atomic>
 
+#include "framework/state/limits.h"
 #include "modules/dynamics_ode/ode_runtime.h"
 
 namespace presa::ode {
@@ -9,6 +10,7 @@ namespace {
 
 // far below any compliance that matters, enough to keep redundant rows solvable
 constexpr double kWorldCfm = 1e-10;
+constexpr dContact kAnyContact{};
 
 dWorldID createWorld(const Vec3& gravity) {
   attachThread();
@@ -26,23 +28,43 @@ dWorldID createWorld(const Vec3& gravity) {
   return world;
 }
 
-dSpaceID createSpace() {
-  const dSpaceID space = dHashSpaceCreate(nullptr);
-  dHashSpaceSetLevels(space, -10, 6);  // cells from 1 mm to 64 m
-  return space;
-}
+// Worlds on several threads (tests, studies) take turns. Without a rival it is one exchange: no call, no lock.
+class OneAtATime {
+ public:
+  OneAtATime() {
+    while (taken.test_and_set(std::memory_order_acquire)) taken.wait(true);
+  }
+  ~OneAtATime() {
+    taken.clear(std::memory_order_release);
+    taken.notify_one();
+  }
+  OneAtATime(const OneAtATime&) = delete;
+  OneAtATime& operator=(const OneAtATime&) = delete;
+
+ private:
+  static constinit std::atomic_flag taken;
+};
+constinit std::atomic_flag OneAtATime::taken;
 
 }  // namespace
 
-Engine::Engine(const Vec3& gravity, std::uint64_t seed)
-    : world_(createWorld(gravity)),
-      space_(createSpace()),
-      contacts_(dJointGroupCreate(0)),
-      random_state_(static_cast<unsigned long>(seed)) {}
+Engine::Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts)
+    : world_(createWorld(gravity)), contacts_(dJointGroupCreate(0)), random_state_(static_cast<unsigned long>(seed)) {
+  takeMemory(contacts + kMaxFingers);
+}
+
+// What ODE has had once it keeps: joints in their group, working memory and jobs of either solver.
+void Engine::takeMemory(std::size_t joints) {
+  for (std::size_t i = 0; i < joints; ++i) dJointCreateContact(world_, contacts_, &kAnyContact);
+  clearContacts();
+  const dBodyID body = dBodyCreate(world_);
+  solveDirectly(1e-3);
+  solveIteratively(1e-3, 1);
+  dBodyDestroy(body);
+}
 
 Engine::~Engine() {
   dJointGroupDestroy(contacts_);
-  dSpaceDestroy(space_);
   dWorldDestroy(world_);
 }
 
@@ -63,8 +85,7 @@ bool Engine::solveDirectly(double h) {
 void Engine::solveIteratively(double h, int iterations) {
   dWorldSetQuickStepNumIterations(world_, iterations);
   // ODE's random numbers are one global stream: each world takes its own up where it left it
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
+  const OneAtATime turn;
   dRandSetSeed(random_state_);
   dWorldQuickStep(world_, h);
   random_state_ = dRandGetSeed();

@@ -7,17 +7,17 @@
 
 namespace presa::ode {
 
-/// One ODE world with its collision space, the contact joints of one solve, and its own stream of the random numbers that ODE
+/// One ODE world with the contact joints of one solve, and its own stream of the random numbers that ODE
 /// keeps globally. One thread creates, uses and destroys it. ODE's failures come as OdeFailure.
 class Engine {
  public:
-  Engine(const Vec3& gravity, std::uint64_t seed);
+  /// With room for `contacts` and fingers; more take memory once.
+  Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
   dWorldID world() const noexcept { return world_; }
-  dSpaceID space() const noexcept { return space_; }
 
   /// A contact joint whose normal points into `first`; `second` may be null. `feedback` stays the caller's.
   void addContact(const dContact& contact, dBodyID first, dBodyID second, dJointFeedback* feedback);
@@ -29,8 +29,9 @@ class Engine {
   void solveIteratively(double h, int iterations);
 
  private:
+  void takeMemory(std::size_t joints);
+
   dWorldID world_;
-  dSpaceID space_;
   dJointGroupID contacts_;
   unsigned long random_state_;
 };

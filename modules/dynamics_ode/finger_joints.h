@@ -13,7 +13,7 @@ namespace presa::ode {
 /// The fingers of one step: as contact joints (soft coupling) or as forces (explicit coupling).
 class FingerJoints {
  public:
-  explicit FingerJoints(DynamicsSettings::Coupling coupling) : coupling_(coupling) {}
+  explicit FingerJoints(DynamicsSettings::Coupling coupling) : coupling_(coupling) { active_.reserve(kMaxFingers); }
 
   /// Takes the rows of every finger that touches a moving body, for a step of `h` from `time` on; forces of the explicit
   /// coupling go to `bodies` at once. Returns how many fingers made no sense and were left out.

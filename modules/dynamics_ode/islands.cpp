@@ -5,10 +5,9 @@
 
 namespace presa::ode {
 
-void Islands::reset(std::size_t bodies) {
-  parent_.resize(bodies);
+void Islands::reset() {
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  islands_.assign(bodies, {});
+  std::fill(islands_.begin(), islands_.end(), Island{});
 }
 
 std::size_t Islands::root(std::size_t a) {

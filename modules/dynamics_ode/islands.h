@@ -12,8 +12,9 @@ class Islands {
     std::uint32_t contacts = 0;  ///< with fingers
     bool touched = false;        ///< by a finger
   };
-  /// Starts over with `bodies` separate bodies.
-  void reset(std::size_t bodies);
+  explicit Islands(std::size_t bodies) : parent_(bodies), islands_(bodies) { reset(); }
+  /// Starts over with separate bodies.
+  void reset();
   /// A contact between two free bodies.
   void join(std::size_t a, std::size_t b);
   /// A contact of one free body with something fixed.

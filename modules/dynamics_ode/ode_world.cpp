@@ -19,11 +19,13 @@ struct OdeWorld::Impl {
   Impl(std::shared_ptr<const World> world_, const OdeOptions& options_)
       : world(std::move(world_)),
         options(options_),
-        engine(world->scene.gravity, options.seed),
-        bodies(*world, options.method.rotation, engine.world(), engine.space()),
+        engine(world->scene.gravity, options.seed, kContactsPerBody * world->scene.bodies.size()),
+        bodies(*world, options.method.rotation, engine.world()),
         fingers(options.method.coupling),
-        solver(world->scene, engine, bodies, options) {
-    contacts.reserve(4 * bodies.size());
+        collider(bodies),
+        solver(world->scene, engine, bodies, options),
+        islands(bodies.size()) {
+    contacts.reserve(kContactsPerBody * bodies.size());
     finger_force.fill(Vec3::Zero());
     finger_impulse.fill(Vec3::Zero());
     if (options.method.sleeping) sleep.emplace(bodies);
@@ -68,7 +70,7 @@ void OdeWorld::Impl::giveUp() {
 }
 
 void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
-  islands.reset(bodies.size());
+  islands.reset();
   for (const BodyContact& contact : contacts) {
     const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
     bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
@@ -115,7 +117,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   int substeps = 1;
   for (int s = 0; s < substeps; ++s) {
     bodies.beginStep();
-    collider.find(engine.space(), bodies, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
+    collider.find(bodies, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
     if (s == 0) substeps = substepsNow();
     substep(exchange, time + s * period / substeps, period / substeps, substeps);

@@ -45,15 +45,15 @@ void Sleep::afterStep(BodySet& bodies, Islands& islands, double h) {
   ++window_steps_;
   window_time_ += h;
   if (window_time_ < kWindow) return;
-  std::vector<char> may_sleep(bodies.size(), 1);
+  may_sleep_.assign(bodies.size(), 1);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies.awake(i)) continue;
     closeWindow(bodies, i);
     const std::size_t island = islands.of(i);
-    if (!stillness_[i].still || islands[island].touched) may_sleep[island] = 0;
+    if (!stillness_[i].still || islands[island].touched) may_sleep_[island] = 0;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies.awake(i) || may_sleep[islands.of(i)] == 0) continue;
+    if (!bodies.awake(i) || may_sleep_[islands.of(i)] == 0) continue;
     group_[i] = islands.of(i);
     bodies.sleep(i);
   }

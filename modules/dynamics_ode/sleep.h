@@ -15,7 +15,7 @@ namespace presa::ode {
 /// that is awake touches one of it.
 class Sleep {
  public:
-  explicit Sleep(const BodySet& bodies) : stillness_(bodies.size()), group_(bodies.size()) {}
+  explicit Sleep(const BodySet& bodies) : stillness_(bodies.size()), may_sleep_(bodies.size()), group_(bodies.size()) {}
 
   /// After a step of `h`: watches all that is awake, and lets sleep what may.
   void afterStep(BodySet& bodies, Islands& islands, double h);
@@ -34,6 +34,7 @@ class Sleep {
   void closeWindow(const BodySet& bodies, std::size_t i);
 
   std::vector<Stillness> stillness_;
+  std::vector<char> may_sleep_;     // by island, while a window closes
   std::vector<std::size_t> group_;  // of sleeping bodies: the island they fell asleep in
   double window_time_ = 0;
   int window_steps_ = 0;

@@ -21,7 +21,15 @@ bool any(const std::vector<char>& flags) { return std::find(flags.begin(), flags
 }  // namespace
 
 StepSolver::StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, const OdeOptions& options)
-    : engine_(engine), bodies_(bodies), options_(options), solver_(engine, bodies, options), joints_(scene, options) {}
+    : engine_(engine),
+      bodies_(bodies),
+      options_(options),
+      solver_(engine, bodies, options),
+      joints_(scene, options, kContactsPerBody * bodies.size()),
+      all_(bodies.size()),
+      sliding_(bodies.size()),
+      wrong_(bodies.size()),
+      load_(bodies.size()) {}
 
 bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h,
                        int substeps) {
