@@ -27,30 +27,13 @@ class ScriptedFinger final : public Device {
   }
 
   FingerInput read(const Tick& tick) noexcept override {
+    advance(tick);
     return {plant_.position(), plant_.velocity(), motion_->at(tick.time).phase, true};
   }
 
   void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
-    // the target in the middle of the coming tick: second-order accurate under zero-order hold
-    const MotionTarget target = motion_->at(tick.time + tick.period / 2);
-    const Vec3& inward = target.inward_W;
-    const bool gripping = inward.squaredNorm() > 0;
-
-    Vec3 lag = target.p_WT - plant_.position();
-    if (gripping) {
-      lag -= lag.dot(inward) * inward;
-      const double felt = -f_H_W.dot(inward);
-      if (felt > 0.05 * target.grip) grip_ += (target.grip - felt) * tick.period / kGripTime;
-    } else {
-      grip_ -= grip_ * tick.period / kGripTime;
-    }
-    grip_ = std::clamp(grip_, -kMaxCorrection, kMaxCorrection);
-    carry_ += impedance_.stiffness * kPositionRate * tick.period * lag;
-    if (const double norm = carry_.norm(); norm > kMaxCorrection) carry_ *= kMaxCorrection / norm;
-
-    Vec3 force = f_H_W + target.force_W + carry_;
-    if (gripping) force += (target.grip + grip_) * inward;
-    plant_.step(target.p_WT, target.v_WT, force);
+    advance(tick);
+    force_ = f_H_W;
   }
 
   std::vector<std::string> phases() const override { return motion_->phase_names; }
@@ -59,10 +42,41 @@ class ScriptedFinger final : public Device {
   std::vector<std::string> notes() const override { return notes_; }
 
  private:
+  /// Up to a tick under the held force; after a stall that is more than one period.
+  void advance(const Tick& tick) noexcept {
+    for (; at_.index < tick.index; ++at_.index, at_.time += tick.period) live(at_.time, tick.period);
+    at_ = tick;
+  }
+
+  void live(double time, double period) noexcept {
+    // the target in the middle of the coming period: second-order accurate under zero-order hold
+    const MotionTarget target = motion_->at(time + period / 2);
+    const Vec3& inward = target.inward_W;
+    const bool gripping = inward.squaredNorm() > 0;
+
+    Vec3 lag = target.p_WT - plant_.position();
+    if (gripping) {
+      lag -= lag.dot(inward) * inward;
+      const double felt = -force_.dot(inward);
+      if (felt > 0.05 * target.grip) grip_ += (target.grip - felt) * period / kGripTime;
+    } else {
+      grip_ -= grip_ * period / kGripTime;
+    }
+    grip_ = std::clamp(grip_, -kMaxCorrection, kMaxCorrection);
+    carry_ += impedance_.stiffness * kPositionRate * period * lag;
+    if (const double norm = carry_.norm(); norm > kMaxCorrection) carry_ *= kMaxCorrection / norm;
+
+    Vec3 force = force_ + target.force_W + carry_;
+    if (gripping) force += (target.grip + grip_) * inward;
+    plant_.step(target.p_WT, target.v_WT, force);
+  }
+
   std::unique_ptr<Motion> motion_;
   FingerImpedance impedance_;
   FingerPlant plant_;
   std::vector<std::string> notes_;
+  Tick at_;                    // where the plant is
+  Vec3 force_ = Vec3::Zero();  // [N] held by the device since the last write
   double grip_ = 0;            // [N] beyond the wanted grip
   Vec3 carry_ = Vec3::Zero();  // [N] that carries the load
 };

@@ -18,7 +18,8 @@ class Device {
   virtual void open() {}
   virtual void close() noexcept {}
 
-  /// The sample for this tick.
+  /// The sample for this tick. A simulated finger moves on to tick.time under the force held since the last write: after a
+  /// stall ticks come without a write between them, or not at all.
   virtual FingerInput read(const Tick& tick) noexcept = 0;
   /// Sends the force on the finger, held until the next write [N, world frame].
   virtual void write(const Vec3& f_H_W, const Tick& tick) noexcept = 0;

@@ -41,12 +41,14 @@ void DeviceOutput::step(const Tick& tick) noexcept {
   command.count = static_cast<std::int32_t>(devices_.size());
   command.status = 0;
   for (std::size_t f = 0; f < devices_.size(); ++f) {
-    const OutputStage::Input input{contact_->fingers[f].f_H_W, informationOld(f, tick), device_->stop_requested};
+    const OutputStage::Input input{contact_->fingers[f].f_H_W, informationOld(f, tick), device_->stop_requested,
+                                   tick.made_up};
     command.f_H_W[f] = stages_[f].step(input, tick.period);
     command.status |= stages_[f].status();
     report(f, reported_[f], stages_[f].status(), tick.time);
     reported_[f] = stages_[f].status();
-    devices_[f]->write(command.f_H_W[f], tick);
+    // a device that gets many forces at one instant feels only the last: as one step, and past the slew limit
+    if (!tick.made_up) devices_[f]->write(command.f_H_W[f], tick);
   }
 }
 
@@ -74,7 +76,7 @@ void DeviceOutput::stop() {
 std::vector<std::string> DeviceOutput::stages() const {
   return {"finite: a command that is not a number latches a fault", "magnitude: clip to the role's force limit",
           "fade: soft start, watchdog on contact ages, stop", "slew: change by at most the role's force rate",
-          "write to the device"};
+          "write to the device, but for ticks made up after a late wake-up: the force is held"};
 }
 
 }  // namespace presa

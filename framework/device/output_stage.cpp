@@ -35,7 +35,7 @@ Vec3 OutputStage::step(const Input& input, double period) noexcept {
   force *= gain_;
 
   // last, so that nothing above can make a step
-  const double step = limits_.force_rate * period;
+  const double step = input.held ? 0 : limits_.force_rate * period;
   if (const Vec3 change = force - last_; change.norm() > step) {
     force = last_ + change * (step / change.norm());
     status_ |= kOutputSlew;

@@ -24,7 +24,7 @@ struct OutputLimits {
 
 /// The last thing between the graph and one finger: finite -> magnitude -> fade (watchdog, stop, soft start)
 /// -> slew. Whatever the graph commands, what leaves is finite, at most `force`, changes by at most
-/// force_rate * period per tick, and reaches zero after a latched fault. Always present; no scene can leave it out.
+/// force_rate * period from one that was sent to the next, and reaches zero after a latched fault. Always present; no scene can leave it out.
 /// Thread: haptic; nonblocking.
 class OutputStage {
  public:
@@ -34,6 +34,7 @@ class OutputStage {
     Vec3 command = Vec3::Zero();   ///< wanted force on the finger [N]
     bool information_old = false;  ///< the watchdog's verdict on the ages of what the command was made from
     bool stop = false;             ///< the run is ending
+    bool held = false;             ///< nothing can be sent at this tick: time goes on, the force stays
   };
   Vec3 step(const Input& input, double period) noexcept;
 

@@ -19,7 +19,10 @@ void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
     const std::uint64_t version = g.inputs[i]->pull();
     if (row != nullptr) row->versions[i] = version;
   }
-  if (row != nullptr) row->index = tick.index;
+  if (row != nullptr) {
+    row->index = tick.index;
+    row->made_up = tick.made_up ? 1 : 0;
+  }
   for (std::size_t i = 0; i < g.modules.size(); ++i) stepModule(g, i, tick);
 }
 

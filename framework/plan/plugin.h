@@ -10,7 +10,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 1;
+inline constexpr int kPluginAbi = 2;
 
 struct ModulePlugin {
   int abi = kPluginAbi;

@@ -14,11 +14,12 @@
 
 namespace presa {
 
-/// One tick of one rate group, with the version of every value that it read across rates, in the graph's
+/// One tick of one rate group, whether it came too late for the device, and the version of every value that it read across rates, in the graph's
 /// bridge order. Threads make these versions differ from run to run; with them a replay is exact.
 struct ScheduleRow {
   static constexpr int kMaxBridges = 12;
   std::uint64_t index = 0;
+  std::uint64_t made_up = 0;  ///< 1: Tick::made_up
   std::array<std::uint64_t, kMaxBridges> versions{};
 };
 

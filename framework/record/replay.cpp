@@ -62,7 +62,9 @@ class Replayer {
     if (next_[g] >= rows(group)) return false;
     const ScheduleRow& row = recording_.schedule[g][next_[g]];
     if (group == RateGroup::kHaptic) control_.stop_requested = recording_.device[next_[g]].stop_requested;
-    if (!session_.graph().replayStep(group, rates_.tick(group, row.index), row)) return false;
+    Tick tick = rates_.tick(group, row.index);
+    tick.made_up = row.made_up != 0;
+    if (!session_.graph().replayStep(group, tick, row)) return false;
     if (group == RateGroup::kHaptic) compare(next_[g]);
     ++next_[g];
     return true;

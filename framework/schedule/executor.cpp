@@ -2,9 +2,10 @@
 
 namespace presa {
 
-void Executor::stepTimed(RateGroup group, std::uint64_t index) noexcept {
+void Executor::stepTimed(RateGroup group, std::uint64_t index, bool made_up) noexcept {
   GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
-  const Tick tick = rates_.tick(group, index);
+  Tick tick = rates_.tick(group, index);
+  tick.made_up = made_up;
   const std::int64_t begin = clock_();
   if (schedule_ == nullptr) {
     graph_.step(group, tick);

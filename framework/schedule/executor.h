@@ -42,13 +42,13 @@ class Executor {
 
   /// Simulated time from a stop request to the end: the output stage fades within it.
   static constexpr double kFadeTime = 0.15;
-  /// A group that is late runs its missed ticks at once, so that simulated time follows the clock; after
-  /// a stall longer than this it gives them up and counts them [s].
+  /// A group that is late runs its missed ticks at once (Tick::made_up, all but the newest), so that simulated time
+  /// follows the clock; after a stall longer than this it gives them up and counts them [s].
   static constexpr double kCatchUpLimit = 0.1;
 
  protected:
   /// One tick of one group with its timing and its row in the schedule.
-  void stepTimed(RateGroup group, std::uint64_t index) noexcept;
+  void stepTimed(RateGroup group, std::uint64_t index, bool made_up = false) noexcept;
 
   Graph& graph_;
   RateTable rates_;

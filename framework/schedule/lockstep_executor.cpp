@@ -20,7 +20,7 @@ void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double 
     done = index;
   }
   timing.missed.fetch_add(index - done, std::memory_order_relaxed);
-  while (done <= index) stepTimed(group, done++);
+  for (; done <= index; ++done) stepTimed(group, done, done < index);
 }
 
 void LockstepExecutor::run(double duration) {

@@ -12,7 +12,7 @@ RateTable::RateTable(const Rates& rates) : haptic_ns_(std::llround(1e9 / rates.h
 
 Tick RateTable::tick(RateGroup group, std::uint64_t index) const noexcept {
   const auto ns = static_cast<std::int64_t>(index) * periodNs(group);
-  return {index, static_cast<double>(ns) * 1e-9, period(group)};
+  return {index, static_cast<double>(ns) * 1e-9, period(group), false};
 }
 
 std::uint64_t RateTable::ticksWithin(RateGroup group, double duration) const noexcept {

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 
+#include "framework/schedule/catch_up.h"
 #include "framework/schedule/clock.h"
 #include "framework/schedule/executor.h"
 
@@ -111,21 +112,23 @@ void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {
   const std::uint64_t fade = rates_.ticksWithin(group, kFadeTime);
   bool stopping = false;
   std::int64_t previous = 0;
+  CatchUp catch_up(period);
 
   for (std::uint64_t i = 0; i < end && !control_.abort.load(std::memory_order_relaxed); ++i) {
     sleepUntilNs(start + static_cast<std::int64_t>(i) * period);
     const std::int64_t now = monotonicNs();
     std::int64_t late = now - (start + static_cast<std::int64_t>(i) * period);
+    timing.lateness.add(late);
+    if (late > period) timing.missed.fetch_add(1, std::memory_order_relaxed);
     if (late > limit) {
       const auto skip = std::min<std::uint64_t>(static_cast<std::uint64_t>(late / period), end - 1 - i);
       i += skip;
+      late -= static_cast<std::int64_t>(skip) * period;
       timing.skipped.fetch_add(skip, std::memory_order_relaxed);
     }
-    timing.lateness.add(late);
-    if (late > period) timing.missed.fetch_add(1, std::memory_order_relaxed);
     if (previous != 0) timing.period.add(now - previous);
     previous = now;
-    stepTimed(group, i);
+    stepTimed(group, i, catch_up.madeUp(now, late));
     if (group == RateGroup::kHaptic) {
       control_.time.store(rates_.tick(group, i + 1).time, std::memory_order_relaxed);
     }

@@ -14,6 +14,9 @@ struct Tick {
   std::uint64_t index = 0;
   double time = 0;    ///< [s]
   double period = 0;  ///< [s]
+  /// Run late, when a newer tick of its group was due already: state goes on, nothing leaves for the world outside, which
+  /// would see all of them at one instant.
+  bool made_up = false;
 };
 
 }  // namespace presa

@@ -29,7 +29,7 @@ struct ForceCommand {
   double time = 0;
   std::int32_t count = 0;
   std::uint32_t status = 0;             ///< OutputStatus bits of any finger
-  std::array<Vec3, kMaxFingers> f_H_W;  ///< force on each finger [N]
+  std::array<Vec3, kMaxFingers> f_H_W;  ///< force that each device holds from this tick on [N]
 };
 
 }  // namespace presa

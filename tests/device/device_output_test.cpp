@@ -13,7 +13,9 @@ class StillFinger final : public Device {
   void write(const Vec3& f_H_W, const Tick&) noexcept override {
     steepest = std::max(steepest, (f_H_W - force).norm());
     force = f_H_W;
+    ++writes;
   }
+  int writes = 0;
   Vec3 force = Vec3::Zero();
   double steepest = 0;
 };
@@ -60,6 +62,14 @@ struct Rig {
       graph.step(RateGroup::kHaptic, rates.tick(RateGroup::kHaptic, i));
     }
   }
+  /// Ticks made up at one instant after a stall, as an executor runs them.
+  void catchUp(int ticks) {
+    for (; ticks > 0; --ticks, ++i) {
+      Tick tick = rates.tick(RateGroup::kHaptic, i);
+      tick.made_up = ticks > 1;
+      graph.step(RateGroup::kHaptic, tick);
+    }
+  }
   DeviceList devices;
   RunControl control;
   StillFinger* finger = nullptr;
@@ -99,6 +109,22 @@ TEST(DeviceOutput, AStalledDynamicsFadesTheForceUntilItIsBack) {
   EXPECT_TRUE(told);
   rig.run(1000);
   EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9);
+  EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+// Ticks made up after a stall fall on one instant for the device: it hears once, and the force changes by what the slew limit
+// allows for one tick from the force that it held, however many there were. Meanwhile the fade has gone on.
+TEST(DeviceOutput, TicksMadeUpAtOneInstantAreOneStepOfTheForce) {
+  Rig rig;
+  rig.run(1000);
+  const int before = rig.finger->writes;
+  rig.objects->fault = true;
+  rig.graph.step(RateGroup::kDynamics, rig.rates.tick(RateGroup::kDynamics, rig.i / 5));
+  rig.catchUp(50);
+  EXPECT_EQ(rig.finger->writes, before + 1);
+  EXPECT_NEAR(rig.finger->force.x(), 4 - 1, 1e-9);
+  rig.run(3, false);
+  EXPECT_NEAR(rig.finger->force.x(), 0, 1e-9);
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "framework/graph/graph_builder.h"
+#include "framework/schedule/catch_up.h"
 #include "framework/schedule/executor.h"
 
 namespace presa {
@@ -129,6 +131,68 @@ TEST(Lockstep, MeetsRatesAtTheSameInstants) {
   for (std::size_t i = 1; i < slow.ages.size(); ++i) EXPECT_DOUBLE_EQ(slow.ages[i], 0.001);
   EXPECT_EQ(executor.timing(RateGroup::kHaptic).ticks, 20u);
   EXPECT_EQ(executor.timing(RateGroup::kDynamics).ticks, 4u);
+}
+
+/// Keeps the ticks it was stepped with.
+class Diary final : public Module {
+ public:
+  Diary() : Module("diary", RateGroup::kHaptic) {}
+  void step(const Tick& tick) noexcept override { ticks.push_back(tick); }
+  std::vector<Tick> ticks;
+};
+
+// A stall of 50 ms in virtual time: what it held up runs at once, and only the newest of it is for the device. A longer one
+// is given up, and counted, but for the newest.
+TEST(Lockstep, MarksTheTicksThatAStallMadeUp) {
+  for (const auto& [stall, made_up, skipped] : {std::tuple{0.050, 50u, 0u}, std::tuple{0.200, 0u, 200u}}) {
+    GraphBuilder builder;
+    auto& diary = builder.add(std::make_unique<Diary>());
+    Graph graph = builder.build();
+    RunControl control;
+    LockstepExecutor executor(graph, RateTable(Rates{}), control);
+    executor.delay([end = 0.100 + stall](RateGroup, double time) { return time >= 0.100 && time < end - 1e-9; });
+    executor.run(0.400);
+    EXPECT_EQ(diary.ticks.size(), 400u - skipped);
+    unsigned marked = 0;
+    for (const Tick& tick : diary.ticks) {
+      marked += tick.made_up ? 1 : 0;
+      EXPECT_EQ(tick.made_up, made_up > 0 && tick.time > 0.0995 && tick.time < 0.1495) << tick.time;
+    }
+    EXPECT_EQ(marked, made_up);
+    EXPECT_EQ(executor.timing(RateGroup::kHaptic).skipped, skipped);
+  }
+}
+
+// What leaves for a device as the clock says it: ticks cost `cost_us`, the loop was stalled for `stall_us` at the start.
+std::vector<std::int64_t> sentAt(std::int64_t stall_us, std::int64_t cost_us, int ticks) {
+  CatchUp catch_up(1000);
+  std::vector<std::int64_t> sent;
+  std::int64_t now = stall_us;
+  for (int i = 0; i < ticks; ++i) {
+    now = std::max<std::int64_t>(now, 1000 * i);
+    if (!catch_up.madeUp(now, now - 1000 * i)) sent.push_back(now);
+    now += cost_us;
+  }
+  return sent;
+}
+
+TEST(CatchUp, SendsOnlyTheNewestOfWhatWasMissed) {
+  EXPECT_EQ(sentAt(0, 20, 4), (std::vector<std::int64_t>{0, 1000, 2000, 3000}));
+  EXPECT_EQ(sentAt(900, 20, 3), (std::vector<std::int64_t>{900, 1000, 2000}));  // late, but nothing was missed
+  // 10.5 ms late: the eleventh tick is the newest that is due
+  EXPECT_EQ(sentAt(10'500, 20, 13), (std::vector<std::int64_t>{10'700, 11'000, 12'000}));
+}
+
+// Ticks that cost more than a period never get up to date; the device still hears something once a period.
+TEST(CatchUp, StillSendsOnceAPeriodWhenItNeverCatchesUp) {
+  const std::vector<std::int64_t> sent = sentAt(0, 1500, 100);
+  ASSERT_GT(sent.size(), 90u);
+  for (std::size_t i = 1; i < sent.size(); ++i) EXPECT_LE(sent[i] - sent[i - 1], 3000);
+  const std::vector<std::int64_t> slow = sentAt(50'000, 700, 100);  // 167 ticks to catch up
+  for (std::size_t i = 1; i < slow.size(); ++i) {
+    EXPECT_GE(slow[i] - slow[i - 1], 1000);
+    EXPECT_LE(slow[i] - slow[i - 1], 1400);
+  }
 }
 
 // A replay that is told the versions reads exactly those, also when newer ones exist.

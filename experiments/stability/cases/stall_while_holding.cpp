@@ -160,9 +160,6 @@ Case stallWhileHolding() {
           if (!method.own()) trial.expected = Verdict::kUnstable;
           const Stall stall{kind.group, lifting ? kWhileLifting : kWhileHolding, length, method};
           trial.run = [stall] { return judgeStall(stall); };
-          // made-up haptic ticks run at one instant, and each may change the force by what the limit allows for one
-          if (kind.group == RateGroup::kHaptic && length > 0.04)
-            trial.expected = std::max(trial.expected, Verdict::kDrift);
           trial.quick = !lifting && length > 0.04 && length < 0.06 && method.own();
           result.trials.push_back(std::move(trial));
         }

@@ -71,6 +71,8 @@ std::string linkName(std::string name) {
 Table scheduleTable() {
   Table table{sizeof(ScheduleRow), {}};
   table.columns.push_back({"index", offsetof(ScheduleRow, index), Cell::kU64, "1", "number of the group's tick"});
+  table.columns.push_back({"made_up", offsetof(ScheduleRow, made_up), Cell::kU64, "1",
+                           "1: run late, when a newer tick was due; not sent to the device"});
   for (std::size_t i = 0; i < ScheduleRow::kMaxBridges; ++i) {
     table.columns.push_back({"version_" + std::to_string(i),
                              offsetof(ScheduleRow, versions) + i * sizeof(std::uint64_t), Cell::kU64, "1",
