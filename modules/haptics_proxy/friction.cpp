@@ -19,14 +19,19 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   if (contact.state.slipping) stretch *= cone.mu_dynamic * contact.depth / length;
 
   // what sticks does not move at all: it lives in the body's coordinates, so there is no drift to correct
-  if (!contact.state.slipping && isClear(held, r, surroundings)) {
+  if (!contact.state.slipping && isSupported(held, r, surroundings)) {
     contact.state.x = held;
   } else {
-    // the border of the cone is reached along the surface: move the goal sideways, and go there
+    // the border of the cone is reached along the surface: move the goal sideways, and go there; also where the body that
+    // friction held on to is gone
     contact.state.hold = g + stretch;
     const ProxyMove moved = moveProxy(held, contact.state.hold, r, surroundings);
-    contact.state.x = moved.x;
     contact.covered = contact.covered && moved.covered;
+    // no surface on the way: nothing bears the normal force there, so friction has nothing to hold on to
+    const bool lost = moved.covered && !moved.touching;
+    contact.state.slipping = contact.state.slipping || lost;
+    contact.state.x = lost ? contact.state.god : moved.x;
+    if (lost) contact.state.hold = contact.state.god;
   }
   contact.x = contact.state.x;
   const Vec3 away = contact.x - g;

@@ -103,13 +103,17 @@ double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, Sur
 
 }  // namespace
 
-bool isClear(const Vec3& x, double r, Surroundings& surroundings) noexcept {
-  surroundings.lookAround(x, r, kSpare * r);
+bool isSupported(const Vec3& x, double r, Surroundings& surroundings) noexcept {
+  surroundings.lookAround(x, r * (1 + 2 * kInContact), kSpare * r);
+  bool touching = false;
   for (int i = 0; i < surroundings.count(); ++i) {
-    if (surroundings.atLeast(i, x) >= r * (1 - 0.5 * kInContact)) continue;
-    if (surroundings.nearestTo(i, x).distance < r * (1 - kInContact)) return false;
+    // what touches already spares the exact distance of pieces that cannot overlap
+    if (surroundings.atLeast(i, x) > r * (touching ? 1 - 0.5 * kInContact : 1 + 2 * kInContact)) continue;
+    const double distance = surroundings.nearestTo(i, x).distance;
+    if (distance < r * (1 - kInContact)) return false;
+    touching = touching || distance <= r * (1 + kInContact);
   }
-  return true;
+  return touching;
 }
 
 ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& surroundings) noexcept {

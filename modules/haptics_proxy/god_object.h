@@ -20,8 +20,8 @@ struct ProxyMove {
 /// Tolerances are relative to r. Thread: haptic; nonblocking.
 ProxyMove moveProxy(const Vec3& x, const Vec3& g, double r, Surroundings& surroundings) noexcept;
 
-/// True when a fingertip at x overlaps no piece.
-bool isClear(const Vec3& x, double r, Surroundings& surroundings) noexcept;
+/// True when a fingertip at x touches a piece and overlaps none.
+bool isSupported(const Vec3& x, double r, Surroundings& surroundings) noexcept;
 
 /// What holds a proxy at rest: g -> x is the sum of weight * nhat over at most three pieces.
 struct ProxyHolds {

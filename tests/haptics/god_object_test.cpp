@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <random>
 
 #include "modules/haptics_proxy/god_object.h"
 #include "modules/haptics_proxy/nearest_feasible.h"
@@ -206,6 +207,63 @@ TEST(Friction, StickingProxyDoesNotDrift) {
     ASSERT_FALSE(tip.slipping);
   }
   EXPECT_EQ(tip.x, first);
+}
+
+// The proxy sticks to a wall, above a floor that its HIP is pressed into as well; then the wall is gone. What friction held on
+// to is in the air now: the proxy comes down to the floor in the same tick. Oracle: the distance from the floor.
+TEST(Friction, LetsGoOfABodyThatHasGone) {
+  const FrictionCone cone{0.8, 0.6};
+  const double high = 0.0005;  // of the sticking proxy above where the floor would hold it
+  const auto surroundings = [](bool wall) {
+    auto s = box({0.2, 0.2, 0.05}, {0, 0, -0.05});
+    Primitive standing{.kind = Primitive::Kind::kBox, .X_AG = {}, .half = {0.05, 0.2, 0.2}};
+    standing.X_AG.p = {-0.05, 0, 0.15};
+    if (wall) s->add({.body = 1, .id = -1, .shape = standing});
+    return s;
+  };
+  const auto both = surroundings(true), floor = surroundings(false);
+  FingertipState tip{{kR + 0.001, 0, kR + high}, {kR + 0.001, 0, kR + high}};
+  tip = stepProxy(tip, {kR - 0.001, 0, kR + high}, *both, cone).state;
+  const Vec3 g(kR - 0.001, 0, kR - 0.005);
+  tip = stepProxy(tip, g, *both, cone).state;
+  ASSERT_FALSE(tip.slipping);
+  ASSERT_NEAR(tip.x.z(), kR + high, 1e-8 * kR);
+
+  const ProxyContact contact = stepProxy(tip, g, *floor, cone);
+  EXPECT_TRUE(contact.state.touching);
+  EXPECT_NEAR(contact.x.z(), kR, 1e-6 * kR);
+  EXPECT_LE(contact.stretch.norm(), cone.mu_static * contact.depth * (1 + 1e-9));
+}
+
+// Two boxes come and go about a fingertip that gropes in the wedge between them, round its edges too: a proxy that touches is
+// on a surface, whatever friction held on to before. Within 1e-4 r: so near the last of the legs comes round an edge when the HIP
+// is almost a radius deep.
+TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  FingertipState tip{{0.03, 0, 0.03}, {0.03, 0, 0.03}};
+  Vec3 g = tip.x, wall(-0.02, 0, 0.02), post(0.02, 0, -0.02);
+  int touching = 0, stuck = 0;
+  for (int tick = 0; tick < 20'000; ++tick) {
+    if (tick % 50 == 0) {
+      wall = Vec3(-0.02, 0, 0.02) + 0.002 * Vec3(unit(random), unit(random), unit(random));
+      post = Vec3(0.02, 0, -0.02) + 0.002 * Vec3(unit(random), unit(random), unit(random));
+    }
+    auto s = box({0.02, 0.02, 0.02}, wall);
+    Primitive second{.kind = Primitive::Kind::kBox, .X_AG = {}, .half = {0.02, 0.02, 0.02}};
+    second.X_AG.p = post;
+    s->add({.body = 1, .id = -1, .shape = second});
+    g += 3e-4 * Vec3(unit(random), unit(random), unit(random));
+    g = g.cwiseMax(Vec3(-0.002, -0.025, -0.002)).cwiseMin(Vec3(0.015, 0.025, 0.015));
+    tip = stepProxy(tip, g, *s, {0.8, 0.6}).state;
+    if (!tip.touching) continue;
+    ++touching;
+    stuck += tip.slipping ? 0 : 1;
+    const double off = std::min(nearest(s->piece(0), tip.x).distance, nearest(s->piece(1), tip.x).distance) - kR;
+    ASSERT_LE(off, 1e-4 * kR) << tick;
+  }
+  EXPECT_GT(touching, 5000);
+  EXPECT_GT(stuck, 1000);
 }
 
 // The programme against brute force: no feasible sample is nearer to the goal than the answer.
