@@ -1,3 +1,5 @@
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -9,9 +11,22 @@
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 /// effects_probe SCENE TICKS STAGE SHAPE [PATH=VALUE…]: plays the scene in lockstep with the haptic stages that it calls
-/// for, but for STAGE ("none", "friction", "damping", "shading"), and prints the hash of all states and the sum of all
-/// forces. SHAPE: "as_is", or "mesh" or "smooth" to make the first body a ball of 1280 triangles, without the mesh reader,
+/// for, but for STAGE ("none", "friction", "damping", "shading"; "gravity": ODE's world is one in which none was ever set),
+/// and prints the hash of all states and the sum of all forces. SHAPE: "as_is", or "mesh" or "smooth" to make the first body a ball of 1280 triangles, without the mesh reader,
 /// whose time limits do not hold under a profiler.
+namespace {
+bool without_gravity = false;
+}
+
+// Stands before the engine's own function: the dynamics plug-in finds the program's first.
+extern "C" void dWorldSetGravity(void* world, double x, double y, double z) {
+  if (without_gravity) return;
+  void* ode = dlopen("libode.so.8", RTLD_LAZY | RTLD_NOLOAD);
+  using Set = void (*)(void*, double, double, double);
+  reinterpret_cast<Set>(dlsym(ode, "dWorldSetGravity"))(world, x, y, z);
+  dlclose(ode);
+}
+
 namespace presa {
 namespace {
 
@@ -48,6 +63,7 @@ int probe(int count, char** arguments) {
   effects.friction = effects.friction && without != "friction";
   effects.damping = effects.damping && without != "damping";
   effects.shading = effects.shading && without != "shading";
+  without_gravity = without == "gravity";
 
   std::erase_if(loaded.plan.modules, [](const PlannedModule& m) { return m.plugin == "haptics_proxy"; });
   Session::Options options;
