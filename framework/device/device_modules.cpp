@@ -35,6 +35,14 @@ bool DeviceOutput::informationOld(std::size_t finger, const Tick& tick) const no
 }
 
 void DeviceOutput::step(const Tick& tick) noexcept {
+  NoStageWatch nobody;
+  run(tick, nobody);
+}
+
+void DeviceOutput::stepWatched(const Tick& tick, StageWatch& watch) noexcept { run(tick, watch); }
+
+template <class Watch>
+void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
   last_tick_ = tick;
   ForceCommand& command = command_.value;
   command.time = tick.time;
@@ -47,9 +55,15 @@ void DeviceOutput::step(const Tick& tick) noexcept {
     command.status |= stages_[f].status();
     report(f, reported_[f], stages_[f].status(), tick.time);
     reported_[f] = stages_[f].status();
-    // a device that gets many forces at one instant feels only the last: as one step, and past the slew limit
-    if (!tick.made_up) devices_[f]->write(command.f_H_W[f], tick);
+    watch.done(0);
+    send(f, tick);
+    watch.done(1);
   }
+}
+
+// A device that gets many forces at one instant feels only the last: as one step, and past the slew limit.
+void DeviceOutput::send(std::size_t finger, const Tick& tick) noexcept {
+  if (!tick.made_up) devices_[finger]->write(command_.value.f_H_W[finger], tick);
 }
 
 // One event when a bit comes up, not one per tick.
@@ -74,9 +88,13 @@ void DeviceOutput::stop() {
 }
 
 std::vector<std::string> DeviceOutput::stages() const {
-  return {"finite: a command that is not a number latches a fault", "magnitude: clip to the role's force limit",
-          "fade: soft start, watchdog on contact ages, stop", "slew: change by at most the role's force rate",
+  return {"output stage: finite, magnitude, fade (soft start, watchdog, stop), slew",
           "write to the device, but for ticks made up after a late wake-up: the force is held"};
+}
+
+std::vector<std::string> DeviceOutput::stageFunctions() const {
+  const std::string step = "presa::DeviceOutput::step", write = "presa::DeviceOutput::send";
+  return {step + " - " + write, write};
 }
 
 }  // namespace presa

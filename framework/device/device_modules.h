@@ -7,6 +7,7 @@
 #include "framework/device/output_stage.h"
 #include "framework/exchange/event_ring.h"
 #include "framework/graph/port.h"
+#include "framework/graph/stage_watch.h"
 #include "framework/schedule/executor.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/contact_patch.h"
@@ -38,14 +39,16 @@ class DeviceInput final : public Module {
 };
 
 /// The output stages and the devices behind them. Reads the ages of what the command was made from.
-class DeviceOutput final : public Module {
+class DeviceOutput final : public Module, public WatchedStages {
  public:
   /// `realtime`: the last fade, after the run, keeps the pace of the clock.
   DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles, bool realtime);
   void step(const Tick& tick) noexcept override;
+  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   /// Takes every force down to zero within the slew limit, then lets go.
   void stop() override;
   std::vector<std::string> stages() const override;
+  std::vector<std::string> stageFunctions() const override;
 
   /// Main thread: the next fault or watchdog event; false when there is none.
   bool nextEvent(FaultEvent& event) noexcept { return events_.pop(event); }
@@ -54,7 +57,10 @@ class DeviceOutput final : public Module {
   static constexpr double kPatchAge = 0.030;
 
  private:
+  template <class Watch>
+  void run(const Tick& tick, Watch& watch) noexcept;
   bool informationOld(std::size_t finger, const Tick& tick) const noexcept;
+  void send(std::size_t finger, const Tick& tick) noexcept;
   void report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept;
 
   DeviceList& devices_;

@@ -50,6 +50,12 @@ struct Monitor::Impl {
     trace.clear();
   }
 
+  /// One tick of a run, by the stages that Monitor lists.
+  template <class Watch>
+  void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
+               const ObjectState* state, std::uint64_t version, Watch& watch) noexcept;
+  void addToHash(const DeviceState& device, const ContactExchange& contact, const ObjectState* fresh) noexcept;
+  void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
   void sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept;
   void noteSlip(std::size_t f, const FingerContact& now, double time) noexcept;
   void sumObjects(const Tick& tick, const ObjectState* state, bool fresh) noexcept;
@@ -139,7 +145,7 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ObjectState* state, bool 
 
 void Monitor::Impl::sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
                            const ForceCommand& command, const ObjectState* state) noexcept {
-  if (stride == 0 || tick.index % stride != 0 || trace.size() == trace.capacity()) return;
+  if (tick.index % stride != 0 || trace.size() == trace.capacity()) return;
   TraceSample& now = trace.emplace_back();
   now.time = tick.time;
   now.phase = scriptedPhase(device);
@@ -154,45 +160,79 @@ Monitor::Monitor(std::shared_ptr<const World> world, double loosen_time, double 
 
 Monitor::~Monitor() = default;
 
+void Monitor::Impl::addToHash(const DeviceState& device, const ContactExchange& contact,
+                              const ObjectState* fresh) noexcept {
+  hash.add(device);
+  hash.add(contact);
+  if (fresh != nullptr) hash.add(*fresh);
+}
+
+void Monitor::Impl::sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                               bool fresh) noexcept {
+  if (state != nullptr) reaction.add(tick, contact, *state, fresh);
+  std::fill(fingers_on.begin(), fingers_on.end(), 0);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    sumFinger(f, contact.fingers[f], tick);
+    fingers[f].pop_through = contact.pop_through_by_finger[f];
+    fingers[f].reaction = reaction.of(f);
+  }
+  pop_through = contact.pop_through;
+}
+
+template <class Watch>
+void Monitor::Impl::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                            const ForceCommand& command, const ObjectState* state, std::uint64_t version,
+                            Watch& watch) noexcept {
+  const bool fresh = state != nullptr && version != objects_version;
+  objects_version = version;
+  addToHash(device, contact, fresh ? state : nullptr);
+  watch.done(0);
+  sumFingers(tick, contact, state, fresh);
+  watch.done(1);
+  if (fresh && state->faults != 0) {
+    if (object_faults == 0) object_fault_time = tick.time;
+    object_faults |= state->faults;
+  }
+  if (fresh) solver_fallbacks = state->fallback_steps;
+  sumObjects(tick, state, fresh);
+  simulated_time = static_cast<double>(tick.index + 1) * tick.period;
+  watch.done(2);
+  if (stride == 0) return;
+  sample(tick, device, contact, command, state);
+  watch.done(3);
+}
+
 void Monitor::step(const Tick& tick) noexcept {
   const bool moving = objects_.connected() && objects_.hasValue();
   observe(tick, device_.value(), contact_.value(), command_.value(), moving ? &objects_.value() : nullptr,
           objects_.version());
 }
 
+void Monitor::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
+  const bool moving = objects_.connected() && objects_.hasValue();
+  impl_->observe(tick, device_.value(), contact_.value(), command_.value(), moving ? &objects_.value() : nullptr,
+                 objects_.version(), watch);
+}
+
 void Monitor::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
                       const ForceCommand& command, const ObjectState* objects, std::uint64_t objects_version) noexcept {
-  Impl& m = *impl_;
-  const bool fresh = objects != nullptr && objects_version != m.objects_version;
-  m.objects_version = objects_version;
-  m.hash.add(device);
-  m.hash.add(contact);
-  if (fresh) m.hash.add(*objects);
-  if (fresh && objects->faults != 0) {
-    if (m.object_faults == 0) m.object_fault_time = tick.time;
-    m.object_faults |= objects->faults;
-  }
-  if (fresh) m.solver_fallbacks = objects->fallback_steps;
-  if (objects != nullptr) m.reaction.add(tick, contact, *objects, fresh);
-
-  std::fill(m.fingers_on.begin(), m.fingers_on.end(), 0);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
-    m.sumFinger(f, contact.fingers[f], tick);
-    m.fingers[f].pop_through = contact.pop_through_by_finger[f];
-    m.fingers[f].reaction = m.reaction.of(f);
-  }
-  m.sumObjects(tick, objects, fresh);
-  m.pop_through = contact.pop_through;
-  m.simulated_time = static_cast<double>(tick.index + 1) * tick.period;
-  m.sample(tick, device, contact, command, objects);
+  NoStageWatch nobody;
+  impl_->observe(tick, device, contact, command, objects, objects_version, nobody);
 }
 
 std::vector<std::string> Monitor::stages() const {
   std::vector<std::string> stages{"hash of Device, contact and Object State",
-                                  "time in each contact mode, normal force, slip onsets",
+                                  "time in each contact mode, normal force, slip onsets, impulse given and rendered",
                                   "object path, grasp and loss"};
   if (impl_->stride > 0) stages.push_back("trace sample every " + std::to_string(impl_->stride) + " ticks");
   return stages;
+}
+
+std::vector<std::string> Monitor::stageFunctions() const {
+  const std::string impl = "presa::Monitor::Impl::";
+  std::vector<std::string> functions{impl + "addToHash", impl + "sumFingers", impl + "sumObjects"};
+  if (impl_->stride > 0) functions.push_back(impl + "sample");
+  return functions;
 }
 
 const std::array<FingerSummary, kMaxFingers>& Monitor::fingers() const noexcept { return impl_->fingers; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/graph/port.h"
+#include "framework/graph/stage_watch.h"
 #include "framework/monitor/action_reaction.h"
 #include "framework/scene/world.h"
 #include "framework/schedule/timing_stats.h"
@@ -60,17 +61,19 @@ struct TraceSample {
 
 /// Haptic-rate observer: sums, hash and a decimated trace. Allocates everything at construction.
 /// In ports, all optional (a scene without fingers has none): device_state, contact_exchange, force_command, object_state.
-class Monitor final : public Module {
+class Monitor final : public Module, public WatchedStages {
  public:
   /// `loosen_time`: scripted start of letting go [s], or infinity. trace_rate 0: no trace.
   Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate);
   ~Monitor() override;
   void step(const Tick& tick) noexcept override;
+  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   /// What step does, on states given directly; `objects` null: no dynamics, bodies rest where the scene puts them.
   /// An Object State is summed and hashed when `objects_version` changes.
   void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
                const ObjectState* objects, std::uint64_t objects_version) noexcept;
   std::vector<std::string> stages() const override;
+  std::vector<std::string> stageFunctions() const override;
 
   const std::array<FingerSummary, kMaxFingers>& fingers() const noexcept;
   /// As Scene::bodies.

@@ -77,7 +77,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
         "engine=\"ode\" moves bodies that are held; the others are there to compare with, without fingers");
   }
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
-  call(!options.record.empty(), "record", RateGroup::kHaptic, "--record " + options.record, "nothing is recorded");
+  call(!options.record.empty(), "record", RateGroup::kHaptic, "the run is recorded", "nothing is recorded");
   call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,
        options.view == RunOptions::View::kWindow ? "--view window" : "a picture is wanted", "no view is wanted");
   return plan;

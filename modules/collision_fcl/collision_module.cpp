@@ -17,6 +17,8 @@ std::size_t capacityOf(const CollisionSettings& settings) {
   return settings.max_triangles == 0 ? kRoom : std::min(settings.max_triangles, kRoom);
 }
 
+enum Stage : std::size_t { kPlace, kGather, kDeliver };
+
 }  // namespace
 
 CollisionModule::CollisionModule(std::shared_ptr<const World> world)
@@ -40,11 +42,16 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
 }
 
 void CollisionModule::step(const Tick& tick) noexcept {
+  NoStageWatch nobody;
+  stepWatched(tick, nobody);
+}
+
+void CollisionModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
   ContactPatches& patches = contact_patches.value;
   patches.time = tick.time;
   patches.count = device_state->count;
   for (std::size_t f = 0; f < static_cast<std::size_t>(patches.count); ++f) {
-    gatherAround(f, tick);
+    gatherAround(f, tick, watch);
     patches.capped_total += keepNearestBodies();
     keepNearestTriangles();
     FingerPatch& patch = patches.fingers[f];
@@ -54,6 +61,7 @@ void CollisionModule::step(const Tick& tick) noexcept {
       write(candidates_[c], patch);
       patches.capped_total += candidates_[c].gathered.capped;
     }
+    watch.done(kDeliver);
   }
 }
 
@@ -89,21 +97,30 @@ double CollisionModule::reachOf(std::size_t finger, std::int32_t body, const Pos
   return least + motionBound(motion, horizon) + reach::kMargin;
 }
 
-void CollisionModule::gatherAround(std::size_t finger, const Tick& tick) noexcept {
+bool CollisionModule::place(std::size_t finger, const MeshBody& mesh_body, const Tick& tick,
+                            Query& query) const noexcept {
+  const Pose X_WB = poseOf(mesh_body.body, tick.time);
+  query.center_B = centerOf(finger, mesh_body.body, X_WB);
+  query.radius = reachOf(finger, mesh_body.body, X_WB, query.center_B, tick);
+  query.center_G = mesh_body.X_BG.inverseTimes(query.center_B);
+  const TriangleIndex& index = *mesh_body.index;
+  // a position that is not a number is out of reach
+  return (query.center_G - index.sphereCenter()).norm() <= index.sphereRadius() + query.radius;
+}
+
+void CollisionModule::gatherAround(std::size_t finger, const Tick& tick, StageWatch& watch) noexcept {
   candidate_count_ = 0;
   for (const MeshBody& mesh_body : mesh_bodies_) {
-    const Pose X_WB = poseOf(mesh_body.body, tick.time);
-    const Vec3 center_B = centerOf(finger, mesh_body.body, X_WB);
-    const double radius = reachOf(finger, mesh_body.body, X_WB, center_B, tick);
-    const Vec3 center_G = mesh_body.X_BG.inverseTimes(center_B);
-    const TriangleIndex& index = *mesh_body.index;
-    // written so that a position that is not a number is out of reach
-    if (!((center_G - index.sphereCenter()).norm() <= index.sphereRadius() + radius)) continue;
+    Query query;
+    const bool near = place(finger, mesh_body, tick, query);
+    watch.done(kPlace);
+    if (!near) continue;
     Candidate& candidate = candidates_[candidate_count_];
-    candidate.gathered = index.gather(center_G, radius, capacity_, candidate.triangles);
+    candidate.gathered = mesh_body.index->gather(query.center_G, query.radius, capacity_, candidate.triangles);
+    watch.done(kGather);
     if (candidate.triangles.empty()) continue;
     candidate.mesh_body = &mesh_body;
-    candidate.center_B = center_B;
+    candidate.center_B = query.center_B;
     candidate.nearest = std::ranges::min_element(candidate.triangles, nearer)->distance;
     ++candidate_count_;
   }
@@ -169,6 +186,12 @@ std::vector<std::string> CollisionModule::stages() const {
       "pose of each mesh body at this tick, reject bodies whose bounding sphere is out of reach",
       std::string("triangles within fingertip radius, ") + reach + " of each proxy (own traversal of an FCL box tree)",
       "share the patch capacity among the nearest bodies, deliver in body coordinates"};
+}
+
+std::vector<std::string> CollisionModule::stageFunctions() const {
+  const std::string module = "presa::CollisionModule::", place = module + "place",
+                    gather = "presa::TriangleIndex::gather";
+  return {place, gather, module + "stepWatched - " + place + " - " + gather};
 }
 
 }  // namespace presa

@@ -32,7 +32,8 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world)
       fingers_(*this, "contact_exchange", In<ContactExchange>::Optional{}, WhenOld::kFadeToZero, kFingerOldAfter),
       objects_(*this, "object_state"),
       world_(std::move(world)),
-      options_(optionsOf(*world_)) {}
+      options_(optionsOf(*world_)),
+      stages_(listStages(options_)) {}
 
 void DynamicsModule::start() {
   attachThread();
@@ -44,35 +45,38 @@ void DynamicsModule::step(const Tick& tick) noexcept {
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value);
 }
 
+void DynamicsModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
+  /// Numbers as in stages(); what the scene does without does nothing.
+  class Listed final : public StageWatch {
+   public:
+    Listed(const std::vector<StageText>& stages, StageWatch& watch) : stages_(stages), watch_(watch) {}
+    void done(std::size_t stage) noexcept override {
+      for (std::size_t i = 0; i < stages_.size(); ++i) {
+        if (stages_[i].stage == static_cast<Stage>(stage)) watch_.done(i);
+      }
+    }
+
+   private:
+    const std::vector<StageText>& stages_;
+    StageWatch& watch_;
+  } listed(stages_, watch);
+  bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, listed);
+}
+
 void DynamicsModule::stop() {
   bodies_.reset();
   detachThread();
 }
 
 std::vector<std::string> DynamicsModule::stages() const {
-  using D = DynamicsSettings;
-  const D& method = options_.method;
-  std::vector<std::string> all{
-      "extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades"};
-  if (method.sleeping) all.emplace_back("wake what a finger or a moving body touches; what lies still sleeps");
-  all.emplace_back("collide the physics geometries (sort and sweep, at most 8 contacts per pair)");
-  all.emplace_back(method.coupling == D::Coupling::kSoft
-                       ? "fingers as implicit spring-dampers (soft contact joints) inside their friction cone"
-                       : "fingers as forces that act for one step");
-  if (method.friction == D::Friction::kIsotropic) {
-    all.emplace_back("where something slides, solve once without friction, to point friction along the coming slip");
-  }
-  const std::string iterations =
-      method.iterations > 0 ? std::to_string(method.iterations) : "up to " + std::to_string(options_.most_iterations);
-  all.push_back(method.solver == D::Solver::kDirect ? "solve all islands directly"
-                : method.solver == D::Solver::kIterative
-                    ? "solve all islands with " + iterations + " iterations"
-                    : "solve: islands up to " + std::to_string(options_.direct_limit) +
-                          " contacts directly, larger ones with " + iterations + " iterations");
-  if (method.rotation == D::Rotation::kExact) {
-    all.emplace_back("rotate free bodies by one Runge-Kutta step of Euler's equations");
-  }
-  all.emplace_back("freeze a body whose state is not finite; publish poses at both ends of the step");
+  std::vector<std::string> all;
+  for (const StageText& stage : stages_) all.push_back(stage.what);
+  return all;
+}
+
+std::vector<std::string> DynamicsModule::stageFunctions() const {
+  std::vector<std::string> all;
+  for (const StageText& stage : stages_) all.push_back(stage.functions);
   return all;
 }
 

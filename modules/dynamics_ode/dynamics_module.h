@@ -7,18 +7,21 @@
 #include "framework/graph/port.h"
 #include "framework/plan/plugin.h"
 #include "modules/dynamics_ode/ode_world.h"
+#include "modules/dynamics_ode/stages.h"
 
 namespace presa::ode {
 
 /// The moving bodies of a scene: fingers in, Object State out. Thread: dynamics.
-class DynamicsModule final : public Module {
+class DynamicsModule final : public Module, public WatchedStages {
  public:
   explicit DynamicsModule(std::shared_ptr<const World> world);
 
   void start() override;
   void step(const Tick& tick) noexcept override;
+  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
+  std::vector<std::string> stageFunctions() const override;
 
   const Faults& faults() const noexcept { return bodies_->faults(); }  ///< between start and stop
 
@@ -27,6 +30,7 @@ class DynamicsModule final : public Module {
   Out<ObjectState> objects_;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;
+  std::vector<StageText> stages_;  ///< those of this scene
   std::unique_ptr<OdeWorld> bodies_;
 };
 

@@ -11,9 +11,15 @@
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/islands.h"
 #include "modules/dynamics_ode/sleep.h"
+#include "modules/dynamics_ode/stages.h"
 #include "modules/dynamics_ode/step_solver.h"
 
 namespace presa::ode {
+namespace {
+
+void done(StageWatch& watch, Stage stage) noexcept { watch.done(static_cast<std::size_t>(stage)); }
+
+}  // namespace
 
 struct OdeWorld::Impl {
   Impl(std::shared_ptr<const World> world_, const OdeOptions& options_)
@@ -31,8 +37,8 @@ struct OdeWorld::Impl {
     if (options.method.sleeping) sleep.emplace(bodies);
   }
 
-  void step(const ContactExchange& exchange, double time, double period);
-  void substep(const ContactExchange& exchange, double time, double h, int substeps);
+  void step(const ContactExchange& exchange, double time, double period, StageWatch& watch);
+  void substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch);
   void findIslands(const ContactExchange& exchange);
   void wakeTouched(const ContactExchange& exchange);
   int substepsNow();
@@ -87,17 +93,21 @@ int OdeWorld::Impl::substepsNow() {
   return 1;
 }
 
-void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps) {
+void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch) {
   bodies.resetForces();
   fingers.read(exchange, time, h, bodies);
-  if (solver.solve(contacts, fingers, islands, h, substeps)) ++fallback_steps;
+  done(watch, Stage::kExtrapolate);
+  if (solver.solve(contacts, fingers, islands, h, substeps, watch)) ++fallback_steps;
   for (std::size_t f = 0; f < kMaxFingers; ++f) {
     const Vec3 force = fingers.force(f);
     finger_force[f] += force / substeps;
     finger_impulse[f] += h * force;
   }
+  done(watch, Stage::kSolve);
   bodies.driftRotations(h);
+  done(watch, Stage::kRotate);
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
+  done(watch, Stage::kPublish);
 }
 
 void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
@@ -107,9 +117,10 @@ void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
   if (nonsense > 0) fault(Faults::kBadFinger, nonsense);
 }
 
-void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period) {
+void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period, StageWatch& watch) {
   finger_force.fill(Vec3::Zero());
   wakeTouched(exchange);
+  done(watch, Stage::kWake);
   if (!bodies.anyAwake()) {
     contacts.clear();
     return;
@@ -120,9 +131,11 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
     collider.find(bodies, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
     if (s == 0) substeps = substepsNow();
-    substep(exchange, time + s * period / substeps, period / substeps, substeps);
+    done(watch, Stage::kCollide);
+    substep(exchange, time + s * period / substeps, period / substeps, substeps, watch);
   }
   if (sleep) sleep->afterStep(bodies, islands, period);
+  done(watch, Stage::kWake);
 }
 
 OdeWorld::OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options)
@@ -131,16 +144,23 @@ OdeWorld::OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options
 OdeWorld::~OdeWorld() = default;
 
 void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept {
+  NoStageWatch nobody;
+  step(fingers, time, period, out, nobody);
+}
+
+void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out,
+                    StageWatch& watch) noexcept {
   Impl& impl = *impl_;
   if (!impl.failed) {
     try {
-      impl.step(fingers, time, period);
+      impl.step(fingers, time, period, watch);
     } catch (const std::exception&) {
       impl.giveUp();
     }
   }
   write(time, out);
   out.time_end = time + period;
+  done(watch, Stage::kPublish);
 }
 
 void OdeWorld::write(double time, ObjectState& out) noexcept {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "framework/graph/stage_watch.h"
 #include "framework/scene/world.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/object_state.h"
@@ -35,6 +36,8 @@ class OdeWorld {
   /// Advances all bodies from `time` to time + period. `fingers` is what the haptic thread found last, with its time;
   /// it is extrapolated to `time`, and fades when it is older than kFingerOldAfter. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
+  /// The same, telling `watch` after each part of it, by its number in Stage.
+  void step(const ContactExchange& fingers, double time, double period, ObjectState& out, StageWatch& watch) noexcept;
   /// The poses now, as a state valid from `time` on.
   void write(double time, ObjectState& out) noexcept;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "modules/dynamics_ode/stages.h"
+
 namespace presa::ode {
 namespace {
 
@@ -32,22 +34,22 @@ StepSolver::StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, cons
       load_(bodies.size()) {}
 
 bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h,
-                       int substeps) {
+                       int substeps, StageWatch& watch) {
   all_.assign(bodies_.size(), 1);
   iterations_ = solver_.iterations(contacts.size(), substeps);
   joints_.begin(contacts, bodies_);
   soften(islands, h);
   const bool isotropic = options_.method.friction == DynamicsSettings::Friction::kIsotropic && !contacts.empty();
   if (isotropic) startFromLastStep(islands);
-  if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h);
-  bool fell_back = pass(fingers, islands, all_, h, true);
+  if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h, watch);
+  bool fell_back = pass(fingers, islands, all_, h, true, watch);
   if (!isotropic) return fell_back;
   joints_.readForces(islands, all_);
   for (int repeat = 0; repeat < kMostRepeats && judge(islands); ++repeat) {
     putBack(islands, wrong_);
-    predict(fingers, islands, wrong_, h);
+    predict(fingers, islands, wrong_, h, watch);
     boundByNormalForce(islands);
-    fell_back = pass(fingers, islands, wrong_, h, true) || fell_back;
+    fell_back = pass(fingers, islands, wrong_, h, true, watch) || fell_back;
     joints_.readForces(islands, wrong_);
   }
   joints_.end(bodies_);
@@ -61,10 +63,12 @@ void StepSolver::boundByNormalForce(Islands& islands) {
   }
 }
 
-bool StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h,
-                      bool friction) {
+bool StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
+                      StageWatch& watch) {
   joints_.addTo(engine_, bodies_, islands, wanted, friction);
+  watch.done(static_cast<std::size_t>(friction ? Stage::kSolve : Stage::kPredict));
   fingers.addTo(engine_, bodies_, islands, wanted);
+  watch.done(static_cast<std::size_t>(Stage::kFingers));
   const bool fell_back =
       solver_.solve(islands, wanted, h, friction ? iterations_ : std::min(iterations_, kPredictionIterations));
   engine_.clearContacts();
@@ -143,9 +147,11 @@ void StepSolver::putBack(Islands& islands, const std::vector<char>& wanted) {
   }
 }
 
-void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h) {
+void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h,
+                         StageWatch& watch) {
+  watch.done(static_cast<std::size_t>(Stage::kSolve));
   counts.predictions += static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1));
-  pass(fingers, islands, wanted, h, false);
+  pass(fingers, islands, wanted, h, false, watch);
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const BodyContact& c = joints_.contact(i);
     if (wanted[islandOf(i, islands)] == 0) continue;
@@ -158,6 +164,7 @@ void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vec
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     joints_[i].slides = joints_[i].slides && joints_.slip(i, bodies_).norm() > kSlidesFast;
   }
+  watch.done(static_cast<std::size_t>(Stage::kPredict));
 }
 
 // Friction above its cone: the normal force fell since the last step (after a blow), or it was not aligned with the slip. Friction

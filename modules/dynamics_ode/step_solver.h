@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "framework/graph/stage_watch.h"
 #include "modules/dynamics_ode/contact_joints.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/island_solver.h"
@@ -18,7 +19,8 @@ class StepSolver {
   StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, const OdeOptions& options);
 
   /// Steps all bodies, which are at the start of the step. True when an island fell back to the iterative solver.
-  bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h, int substeps);
+  bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h, int substeps,
+             StageWatch& watch);
 
   bool isDirect(const Islands::Island& island) const noexcept { return solver_.isDirect(island); }
 
@@ -27,7 +29,8 @@ class StepSolver {
   } counts;
 
  private:
-  bool pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction);
+  bool pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
+            StageWatch& watch);
   /// The contacts of one pair.
   struct Patch {
     std::size_t body = 0;  // B
@@ -47,7 +50,7 @@ class StepSolver {
     return islands.of(static_cast<std::size_t>(joints_.contact(i).B));
   }
   bool findSliding(Islands& islands);
-  void predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h);
+  void predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, StageWatch& watch);
   bool judge(Islands& islands);
   void putBack(Islands& islands, const std::vector<char>& wanted);
 

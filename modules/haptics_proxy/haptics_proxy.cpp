@@ -45,16 +45,28 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
 }
 
 void HapticsProxy::step(const Tick& tick) noexcept {
+  NoStageWatch nobody;
+  run(tick, nobody);
+}
+
+void HapticsProxy::stepWatched(const Tick& tick, StageWatch& watch) noexcept { run(tick, watch); }
+
+template <class Watch>
+void HapticsProxy::run(const Tick& tick, Watch& watch) noexcept {
   if (objects_.hasValue()) {
-    for (const PlaceBodies& stage : place_bodies_) stage.apply(touchables_, objects_.value(), tick.time);
+    for (const PlaceBodies& stage : place_bodies_) {
+      stage.apply(touchables_, objects_.value(), tick.time);
+      watch.done(0);
+    }
   }
   ContactExchange& out = contact_.value;
   out.time = tick.time;
   out.count = device_->count;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, watch);
 }
 
-void HapticsProxy::stepFinger(std::size_t f) noexcept {
+template <class Watch>
+void HapticsProxy::stepFinger(std::size_t f, Watch& watch) noexcept {
   const FingerInput& input = device_->fingers[f];
   FingerContact& out = contact_.value.fingers[f];
   Finger& finger = fingers_[f];
@@ -74,7 +86,12 @@ void HapticsProxy::stepFinger(std::size_t f) noexcept {
   const bool patched = patches_.hasValue() && f < static_cast<std::size_t>(patches_->count);
   touchables_.surround(finger, input.p_WH, way + 1.1 * finger.radius,  // 10 %: room to be pushed out of a moving body
                        patched ? &patches_->fingers[f] : nullptr, patches_.version());
-  for (const auto& stage : finger_stages_) stage->apply(tick);
+  const std::size_t gathered = place_bodies_.size();
+  watch.done(gathered);
+  for (std::size_t i = 0; i < finger_stages_.size(); ++i) {
+    finger_stages_[i]->apply(tick);
+    watch.done(gathered + 1 + i);
+  }
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "framework/graph/port.h"
+#include "framework/graph/stage_watch.h"
 #include "modules/haptics_proxy/effects.h"
 #include "modules/haptics_proxy/touchables.h"
 
@@ -13,11 +14,12 @@ namespace presa {
 ///   f = k (p_WP - p_WH), and what the effects that the scene names make of it.
 /// Meshes come as patches from the collision thread; primitives are exact and need none.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
-class HapticsProxy final : public Module {
+class HapticsProxy final : public Module, public WatchedStages {
  public:
   explicit HapticsProxy(const std::shared_ptr<const World>& world) : HapticsProxy(world, effectsOf(*world)) {}
   HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects);
   void step(const Tick& tick) noexcept override;
+  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   std::vector<std::string> stages() const override;
   std::vector<std::string> stageFunctions() const override;
   std::vector<LeftOut> leftOut() const override { return effectsLeftOut(effects_); }
@@ -28,7 +30,10 @@ class HapticsProxy final : public Module {
     const char* what;
     void (*apply)(Touchables& touchables, const ObjectState& objects, double time) noexcept;
   };
-  void stepFinger(std::size_t finger) noexcept;
+  template <class Watch>
+  void run(const Tick& tick, Watch& watch) noexcept;
+  template <class Watch>
+  void stepFinger(std::size_t finger, Watch& watch) noexcept;
 
   std::shared_ptr<const World> world_;
   HapticEffects effects_;

@@ -36,7 +36,7 @@ ViewModule::ViewModule(std::shared_ptr<const World> world)
 ViewModule::~ViewModule() = default;
 
 std::vector<std::string> ViewModule::stages() const {
-  if (windowed()) return {"interpolate object poses to now", "draw a frame", "handle keys and mouse"};
+  if (windowed()) return {"take the latest states, poses interpolated to now", "handle keys and mouse, draw a frame"};
   return {"keep the latest state", "draw the picture once, when it is due"};
 }
 
@@ -56,11 +56,18 @@ void ViewModule::start() {
 }
 
 void ViewModule::step(const Tick& tick) noexcept {
+  NoStageWatch nobody;
+  stepWatched(tick, nobody);
+}
+
+void ViewModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
   if (!renderer_ || broken_) return;
   try {
     copyPorts(tick);
+    watch.done(0);
     if (windowed()) drawWindow();
     if (screenshotDue()) saveScreenshot();
+    watch.done(1);
   } catch (const std::exception& error) {
     giveUp(error.what());
   }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "framework/graph/port.h"
+#include "framework/graph/stage_watch.h"
 #include "framework/plan/view.h"
 #include "framework/scene/world.h"
 #include "framework/state/object_state.h"
@@ -12,7 +13,7 @@ namespace presa::view {
 
 /// The view: reads its ports, draws. Off-screen it only copies the states until the one picture is due; in a window
 /// every step is a frame. Thread: view; free to allocate; nobody waits for it.
-class ViewModule final : public View {
+class ViewModule final : public View, public WatchedStages {
  public:
   explicit ViewModule(std::shared_ptr<const World> world);
   ~ViewModule() override;
@@ -20,6 +21,7 @@ class ViewModule final : public View {
   /// Opens the window or the off-screen context. Throws InputError when it cannot.
   void start() override;
   void step(const Tick& tick) noexcept override;
+  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
 

@@ -5,6 +5,7 @@
 #include "apps/presa/explain/cost.h"
 #include "apps/presa/explain/description.h"
 #include "apps/presa/explain/printout.h"
+#include "apps/presa/explain/scratch_folder.h"
 
 namespace presa {
 namespace {
@@ -13,12 +14,31 @@ struct Arguments {
   Inputs inputs;
   std::string format = "text";
   bool cost = false;
+  bool record = false;
+  std::string view = "none";
 };
+
+/// What it leaves goes to `scratch`: nobody asked for it.
+RunOptions optionsOf(const Arguments& arguments, const ScratchFolder& scratch) {
+  RunOptions options;
+  if (arguments.record) {
+    options.record = scratch / "run.h5";
+    options.realtime = true;  // a recorder that waits for the disk would hide what it costs a haptic tick
+  }
+  if (arguments.view == "window") options.view = RunOptions::View::kWindow;
+  if (arguments.view == "offscreen") {
+    options.view = RunOptions::View::kOffscreen;
+    options.screenshot = scratch / "picture.png";
+    options.screenshot_time = 0;
+  }
+  return options;
+}
 
 int explain(const Arguments& arguments) {
   const std::set<std::string> before = mappedLibraries();
+  const ScratchFolder scratch;
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorld(arguments.inputs, {}, diagnostics);
+  const Loaded loaded = loadWorld(arguments.inputs, optionsOf(arguments, scratch), diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
   RunControl control;
@@ -45,11 +65,15 @@ void addExplain(CLI::App& app, int& status) {
   command->add_option("--set", arguments->inputs.sets, "PATH=VALUE; may be repeated")->allow_extra_args(false);
   command->add_option("--format", arguments->format, "text, json or dot (for graphviz)")
       ->check(CLI::IsMember({"text", "json", "dot"}));
+  command->add_flag("--record", arguments->record, "explain a run that is recorded (to a file that is thrown away)");
+  command->add_option("--view", arguments->view, "explain a run with this view: window, offscreen or none (default)")
+      ->check(CLI::IsMember({"window", "offscreen", "none"}));
   command->add_flag("--cost", arguments->cost,
-                    "play the scene with its devices and tell time and instructions per tick of each module,\n"
-                    "instructions of each stage; takes up to a minute");
+                    "play the scene with its devices and tell time and instructions per tick of each module and\n"
+                    "stage; takes up to a minute");
   command->footer(
       "Examples:  presa explain config/scenes/cube.xml --cost\n"
+      "           presa explain config/scenes/cube.xml --cost --record --view offscreen\n"
       "           presa explain config/scenes/cube.xml --format dot | dot -Tsvg > cube.svg");
   command->callback([arguments, &status] { status = explain(*arguments); });
 }

@@ -11,32 +11,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/presa/explain/scratch_folder.h"
+
 namespace presa {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr int kNotFound = 127;
-
-/// A folder of our own under the system's temporary one, gone with this object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "presa_cost_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + pattern);
-    folder_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  fs::path operator/(const char* name) const { return folder_ / name; }
-
- private:
-  fs::path folder_;
-};
 
 /// Exit status; kNotFound when there is no such program. Output goes to `log`.
 int runProgram(const std::vector<std::string>& words, const fs::path& log) {
@@ -65,7 +47,8 @@ std::string textOf(const fs::path& file) {
 
 }  // namespace
 
-std::optional<std::map<std::string, FunctionCost>> countInstructions(const Inputs& inputs, double duration) {
+std::optional<std::map<std::string, FunctionCost>> countInstructions(const Inputs& inputs, double duration,
+                                                                     bool recorded) {
   const ScratchFolder scratch;
   const fs::path counts = scratch / "callgrind", log = scratch / "log";
   std::vector<std::string> words{"valgrind",
@@ -80,6 +63,7 @@ std::optional<std::map<std::string, FunctionCost>> countInstructions(const Input
                                  "none",
                                  "--for",
                                  std::to_string(duration)};
+  if (recorded) words.insert(words.end(), {"--record", (scratch / "run.h5").string()});
   if (!inputs.rig.empty()) words.insert(words.end(), {"--rig", inputs.rig});
   for (const std::string& set : inputs.sets) words.insert(words.end(), {"--set", set});
   const int status = runProgram(words, log);
@@ -94,6 +78,7 @@ std::optional<FunctionCost> costOf(const std::map<std::string, FunctionCost>& co
   FunctionCost sum;
   for (const auto& [name, cost] : costs) {
     if (!name.starts_with(function) || (name.size() > function.size() && name[function.size()] != '(')) continue;
+    if (name.find(")::{lambda") != std::string::npos) continue;  // inside it, and counted with it
     sum.calls += cost.calls;
     sum.instructions += cost.instructions;
   }

@@ -31,8 +31,9 @@ std::string grouped(double number) {
 // Microseconds, and instructions, of a row that may have either.
 std::string figures(const json& row) {
   const auto microseconds = [&](const char* key) {
-    return row.contains(key) && row[key].is_number() ? format("%9.2f", row[key].get<double>() * 1e-3)
-                                                     : std::string(9, ' ');
+    if (!row.contains(key) || !row[key].is_number()) return std::string(9, ' ');
+    const double value = row[key].get<double>() * 1e-3;
+    return format(value < 1e5 ? " %8.2f" : " %8.0f", value);
   };
   std::string out = microseconds("median_ns") + microseconds("p999_ns");
   if (row.contains("instructions_per_tick") && row["instructions_per_tick"].is_number()) {

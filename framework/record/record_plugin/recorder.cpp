@@ -61,6 +61,10 @@ std::vector<std::string> FileRecorder::stages() const {
                     : "hand the row to the writer thread, waiting for the disk when it is behind"};
 }
 
+std::vector<std::string> FileRecorder::stageFunctions() const {
+  return {"presa::record::FileRecorder::fillRow", "presa::record::FileRecorder::handOver"};
+}
+
 // ---- haptic thread
 
 template <class Row>
@@ -70,6 +74,17 @@ void FileRecorder::put(std::size_t offset, const Row& row) noexcept {
 
 void FileRecorder::step(const Tick& tick) noexcept {
   fillRow(tick);
+  handOver();
+}
+
+void FileRecorder::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
+  fillRow(tick);
+  watch.done(0);
+  handOver();
+  watch.done(1);
+}
+
+void FileRecorder::handOver() noexcept {
   if (!realtime_) {
     // also keeps the schedule rings from overflowing: they hold twice as many rows, and are emptied as often
     if (ring_.crowded()) hurryWriter();

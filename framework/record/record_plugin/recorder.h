@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/graph/port.h"
+#include "framework/graph/stage_watch.h"
 #include "framework/record/record_plugin/row_ring.h"
 #include "framework/record/record_plugin/rows.h"
 #include "framework/record/recording.h"
@@ -27,13 +28,15 @@ struct WriterSettings {
 
 /// Two threads: step() belongs to the haptic one and puts rows into a ring; the writer, an ordinary thread, takes
 /// them out and is, between construction and finish(), the only one that touches the file.
-class FileRecorder final : public Recorder {
+class FileRecorder final : public Recorder, public WatchedStages {
  public:
   explicit FileRecorder(std::shared_ptr<const World> world, WriterSettings settings = {});
   ~FileRecorder() override;
 
   void step(const Tick& tick) noexcept override;
+  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   std::vector<std::string> stages() const override;
+  std::vector<std::string> stageFunctions() const override;
   void attach(ScheduleLog& schedule) override { schedule_.store(&schedule, std::memory_order_release); }
   void finish() override;
   RecorderStatus status() const noexcept override;
@@ -43,6 +46,7 @@ class FileRecorder final : public Recorder {
 
  private:
   void fillRow(const Tick& tick) noexcept;
+  void handOver() noexcept;
   void fillFinger(std::size_t finger, const Tick& tick) noexcept;
   void fillBody(std::size_t slot, const Tick& tick) noexcept;
   template <class Row>
