@@ -49,6 +49,13 @@ PenetrationCheck::PenetrationCheck(const World& world) {
   }
 }
 
+std::size_t PenetrationCheck::pairs() const noexcept {
+  std::size_t fixed = 0;
+  for (const BoxBody& box : boxes_) fixed += box.fixed ? 1 : 0;
+  const auto of = [](std::size_t n) { return n * (n - 1) / 2; };
+  return of(boxes_.size()) - of(fixed);
+}
+
 PenetrationCheck::Result PenetrationCheck::measure(const ObjectState& objects) const {
   Result result;
   std::vector<Pose> poses;

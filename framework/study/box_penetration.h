@@ -19,6 +19,8 @@ class PenetrationCheck {
     double max = 0;   ///< [m]
     std::size_t pairs = 0;
   };
+  /// Pairs that could overlap: boxes, not both fixed.
+  std::size_t pairs() const noexcept;
   /// Poses at the end of the step.
   Result measure(const ObjectState& objects) const;
 

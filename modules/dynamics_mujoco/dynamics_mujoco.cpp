@@ -59,7 +59,9 @@ class DynamicsMujoco final : public Module {
   }
 
   std::vector<std::string> stages() const override {
-    return {"collide and solve by MuJoCo (Newton, elliptic cones), " + std::to_string(substeps_) + " step(s) a period"};
+    const bool iterative = world_->scene.dynamics.solver == DynamicsSettings::Solver::kIterative;
+    return {std::string("collide and solve by MuJoCo (") + (iterative ? "conjugate gradients" : "Newton") +
+            ", elliptic cones), " + std::to_string(substeps_) + " step(s) a period"};
   }
 
  private:

@@ -59,15 +59,20 @@ std::string mjcfOf(const World& world, double step) {
   }
   const std::string iterations =
       scene.dynamics.iterations > 0 ? " iterations=\"" + std::to_string(scene.dynamics.iterations) + "\"" : "";
-  // room for eight contacts of four rows each and pair of neighbours
-  const std::size_t contacts = 100 + 40 * scene.bodies.size();
+  const std::string solver = scene.dynamics.solver == DynamicsSettings::Solver::kIterative ? "CG" : "Newton";
+  // room for six neighbours with four contacts each, of three rows; the stack as its own default grows with the square of
+  // the rows, to 19 GB for 125 bodies
+  const std::size_t contacts = 100 + 24 * scene.bodies.size();
+  const std::size_t unknowns = 6 * scene.bodies.size();
+  const std::size_t stack = 100000 + 6 * contacts * 200 + 4 * unknowns * unknowns;
   return "<mujoco model=\"" + scene.name +
          "\"><compiler balanceinertia=\"false\" boundmass=\"0\" boundinertia=\"0\"/>\n"
          "<size njmax=\"" +
-         std::to_string(4 * contacts) + "\" nconmax=\"" + std::to_string(contacts) +
+         std::to_string(3 * contacts) + "\" nconmax=\"" + std::to_string(contacts) + "\" nstack=\"" +
+         std::to_string(stack) +
          "\"/>\n"
          "<option timestep=\"" +
-         number(step) + "\" gravity=\"" + numbers(scene.gravity) + "\" cone=\"elliptic\" solver=\"Newton\"" +
+         number(step) + "\" gravity=\"" + numbers(scene.gravity) + "\" cone=\"elliptic\" solver=\"" + solver + "\"" +
          iterations + "/>\n<worldbody>\n" + bodies + "</worldbody></mujoco>\n";
 }
 

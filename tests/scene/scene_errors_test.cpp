@@ -96,7 +96,7 @@ const Slip kValues[] = {
      "3 numbers > 0, found '0'"},
     {"Fingertip", 117, "fingertip_radius=\"0.008\"", "@fingertip_radius=\"0\"", "[m]"},
     {"Watchdog", 117, "watchdog_ms=\"20\"", "@watchdog_ms=\"-20\"", "[ms]"},
-    {"HapticRate", 117, "haptic=\"1000\"", "@haptic=\"50\"", "[100, 10000]"},
+    {"HapticRate", 117, "haptic=\"1000\"", "@haptic=\"50\"", "[100, 40000]"},
     {"GravityNaN", 117, "gravity=\"0 0 -9.81\"", "@gravity=\"0 nan 0\"", "finite"},
     {"VectorShort", 118, "gravity=\"0 0 -9.81\"", "@gravity=\"0 -9.81\"", "3 numbers, found 2"},
     {"VectorLong", 118, "pos=\"0 0 0.035\"", "@pos=\"0 0 0.035 1\"", "3 numbers, found 4"},

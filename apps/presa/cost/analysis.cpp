@@ -51,7 +51,7 @@ std::vector<std::size_t> paretoFront(const Result& result, const std::string& me
     if (shown(result.outcomes[i], metric)) order.push_back(i);
   }
   const auto cost = [&](std::size_t i) { return (result.outcomes[i].*cost_of)().median; };
-  const auto error = [&](std::size_t i) { return result.outcomes[i].error.at(metric); };
+  const auto error = [&](std::size_t i) { return result.claimed(result.outcomes[i], metric); };
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return cost(a) != cost(b) ? cost(a) < cost(b) : error(a) < error(b); });
   std::vector<std::size_t> front;
@@ -61,13 +61,28 @@ std::vector<std::size_t> paretoFront(const Result& result, const std::string& me
   return front;
 }
 
+std::optional<FrontDistance> distanceToFront(const Result& result, const std::string& metric) {
+  if (result.outcomes.empty() || !shown(result.outcomes.front(), metric)) return std::nullopt;
+  const auto cost = [&](std::size_t i) { return result.outcomes[i].perSecond().median; };
+  const auto error = [&](std::size_t i) { return result.claimed(result.outcomes[i], metric); };
+  FrontDistance found;
+  for (std::size_t i = 1; i < result.outcomes.size(); ++i) {
+    if (!shown(result.outcomes[i], metric)) continue;
+    if (error(i) <= error(0) && cost(i) < cost(found.as_accurate)) found.as_accurate = i;
+    if (cost(i) <= cost(0) && error(i) < error(found.as_cheap)) found.as_cheap = i;
+  }
+  const auto over = [](double a, double b) { return a > b ? a / b : 1; };
+  found.cost = over(cost(0), cost(found.as_accurate));
+  found.error = over(error(0), error(found.as_cheap));
+  return found;
+}
+
 std::vector<KnobGain> knobGains(const Result& result, const std::string& metric) {
   std::vector<KnobGain> gains;
   if (result.outcomes.empty() || !shown(result.outcomes.front(), metric)) return gains;
   const Outcome& usual = result.outcomes.front();
   // a factor of an error that the reference itself does not know says nothing
-  const auto residual = result.reference.residual.find(metric);
-  const double known = std::max(kRounding, residual == result.reference.residual.end() ? 0 : residual->second);
+  const double known = std::max(kRounding, result.resolution(metric) / 10);
   const Spread cost = usual.perSecond();
   for (const Outcome& other : result.outcomes) {
     if (!shown(other, metric)) continue;
@@ -99,7 +114,7 @@ std::vector<KnobGain> knobGains(const Result& result, const std::string& metric)
 
 std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit) {
   for (const std::size_t i : paretoFront(result, metric)) {
-    if (result.outcomes[i].error.at(metric) < limit) return i;
+    if (result.claimed(result.outcomes[i], metric) < limit) return i;
   }
   return std::nullopt;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,10 +9,24 @@
 /// What the numbers of a study say.
 namespace presa::cost {
 
-/// Indices of the outcomes that no other beats in both error and cost, by rising cost.
+/// Indices of the outcomes that no other beats in both error and cost, by rising cost. Errors below the reference's
+/// resolution count as equal to it.
 using CostOf = Spread (Outcome::*)() const;
 std::vector<std::size_t> paretoFront(const Result& result, const std::string& metric,
                                      CostOf cost = &Outcome::perSecond);
+
+/// How far the default is from the front: 1 is on it.
+struct FrontDistance {
+  double cost = 1;              ///< its cost over that of the cheapest setting that is as accurate
+  double error = 1;             ///< its error over that of the most accurate setting that costs no more
+  std::size_t as_accurate = 0;  ///< index of that cheapest setting
+  std::size_t as_cheap = 0;     ///< index of that most accurate setting
+  double least() const { return std::min(cost, error); }
+};
+/// Nothing when the default has no error or cost in this metric.
+std::optional<FrontDistance> distanceToFront(const Result& result, const std::string& metric);
+/// A default that is farther than this from the front, in cost and in error, should be another.
+inline constexpr double kNearFront = 1.3;
 
 /// What going from the default to one other value of one knob does.
 struct KnobGain {

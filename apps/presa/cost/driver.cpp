@@ -8,9 +8,11 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/cost/fixed_rig.h"
+#include "apps/presa/cost/forecast.h"
 #include "apps/presa/cost/hash.h"
 #include "apps/presa/cost/knobs.h"
 #include "apps/presa/cost/measure.h"
@@ -20,6 +22,7 @@
 #include "apps/presa/terminal/text.h"
 #include "apps/presa/version.h"
 #include "framework/geometry/decimate.h"
+#include "framework/schedule/clock.h"
 #include "framework/study/jobs.h"
 
 namespace presa::cost {
@@ -51,9 +54,22 @@ struct Task {
   int repeat = kWatched;  ///< of timed runs: which
 };
 
+int workersOf(const DriverOptions& options) {
+  return options.workers > 0 ? options.workers : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+Forecast::Run runOf(const Task& task) {
+  using Kind = Forecast::Kind;
+  return {task.repeat == kWatched   ? Kind::kWatched
+          : task.repeat == kCounted ? Kind::kCounted
+                                    : Kind::kTimed,
+          task.hash};
+}
+
 class Driver {
  public:
-  Driver(const Study& study, const DriverOptions& options) : study_(study), options_(options) {}
+  Driver(const Study& study, const DriverOptions& options)
+      : study_(study), options_(options), forecast_(workersOf(options)) {}
 
   Result run() {
     prepare();
@@ -71,6 +87,8 @@ class Driver {
 
  private:
   void prepare();
+  void expectAll();
+  void ended(const Task& task, double seconds, const std::string& what);
   void makeMeshes();
   StudySpec spec(const Task& task) const;
   void work(const std::vector<Task>& tasks, int workers, const std::string& what);
@@ -78,7 +96,7 @@ class Driver {
   void timeAll(int repeat);
   Timing timing(const Task& task) const;
   void compare(std::size_t levels);
-  double demanded() const;
+  bool allResolved() const;
   void collect();
 
   const Study& study_;
@@ -89,6 +107,7 @@ class Driver {
   Result result_;
   bool stopped_ = false;
   std::unique_ptr<terminal::JobProgress> progress_;
+  Forecast forecast_;
 };
 
 void Driver::prepare() {
@@ -118,10 +137,29 @@ void Driver::prepare() {
   if (!options_.resume) fs::remove_all(runs);
   fs::create_directories(runs);
   store_ = std::make_unique<RunStore>(runs, common.value());
-  std::size_t possible = 0;
-  for (const Setting& setting : study_.settings) possible += setting.impossible.empty() ? 1 : 0;
-  progress_ = std::make_unique<terminal::JobProgress>(
-      possible * static_cast<std::size_t>(1 + study_.repeats + (options_.instructions ? 1 : 0)) + 2);
+  expectAll();
+}
+
+void Driver::expectAll() {
+  std::size_t count = 0;
+  const auto expect = [&](Task task) {
+    forecast_.add(runOf(task));
+    ++count;
+  };
+  for (std::size_t level = 0; level < std::min<std::size_t>(2, level_hash_.size()); ++level)
+    expect({{}, level_hash_[level]});
+  for (const Setting& setting : study_.settings) {
+    if (!setting.impossible.empty()) continue;
+    for (int repeat = kWatched; repeat < study_.repeats; ++repeat) expect({{}, setting.scene_hash, repeat});
+    if (options_.instructions) expect({{}, setting.scene_hash, kCounted});
+  }
+  progress_ = std::make_unique<terminal::JobProgress>(count);
+}
+
+void Driver::ended(const Task& task, double seconds, const std::string& what) {
+  forecast_.done(runOf(task), seconds);
+  if (const double left = forecast_.left(); left >= 0) progress_->expect(left);
+  progress_->done(what);
 }
 
 void Driver::makeMeshes() {
@@ -166,18 +204,19 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
     if (!there && planned.insert({task.hash, task.repeat}).second)
       missing.push_back(task);
     else
-      progress_->done(what);
+      ended(task, there && task.repeat < 0 ? store_->evidence(task.hash, false).seconds : -1, what);
   }
   JobOptions jobs;
   jobs.workers = workers;
   jobs.stop = [] { return terminal::JobProgress::interrupted(); };
   jobs.on_wait = [&] { progress_->show(); };
   jobs.on_done = [&](std::size_t i, const JobResult& job) {
-    progress_->done(what);
+    ended(missing[i], job.seconds, what);
     if (job.outcome == JobResult::Outcome::kDone || job.outcome == JobResult::Outcome::kNotRun ||
         missing[i].repeat >= 0)
       return;
     Evidence evidence;
+    evidence.seconds = job.seconds;
     evidence.failure = job.outcome == JobResult::Outcome::kTimedOut ? kTooLong : job.text;
     store_->save(missing[i].hash, evidence);
   };
@@ -185,9 +224,12 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
       missing.size(),
       [&](std::size_t i) {
         const Task& task = missing[i];
-        if (task.repeat < 0)
-          store_->save(task.hash, watch(spec(task), study_));
-        else
+        if (task.repeat < 0) {
+          const std::int64_t begin = monotonicNs();
+          Evidence evidence = watch(spec(task), study_);
+          evidence.seconds = static_cast<double>(monotonicNs() - begin) * 1e-9;
+          store_->save(task.hash, evidence);
+        } else
           store_->save(task.hash, task.repeat, timing(task));
         return std::string{};
       },
@@ -206,8 +248,11 @@ void Driver::watchAll() {
   work(tasks, options_.workers, "accuracy");
   for (std::size_t levels = 2; !stopped_; ++levels) {
     compare(levels);
-    if (study_.analytic || result_.reference.fine_enough || levels >= study_.reference.size()) return;
-    work({{study_.reference[levels], level_hash_[levels]}}, 1, "a finer reference");
+    if (study_.reference.empty() || result_.reference.fine_enough || levels >= study_.reference.size()) return;
+    const Task finer{study_.reference[levels], level_hash_[levels]};
+    progress_->more(1);
+    forecast_.add(runOf(finer));
+    work({finer}, 1, "a finer reference");
   }
 }
 
@@ -222,8 +267,12 @@ void Driver::timeAll(int repeat) {
   if (stopped_) return;
   std::vector<Task> tasks;
   for (const Setting& setting : study_.settings) {
-    if (!setting.impossible.empty() || store_->evidence(setting.scene_hash, false).failure == kTooLong) continue;
-    tasks.push_back({setting.sets, setting.scene_hash, repeat});
+    if (!setting.impossible.empty()) continue;
+    const Task task{setting.sets, setting.scene_hash, repeat};
+    if (store_->evidence(setting.scene_hash, false).failure == kTooLong)
+      ended(task, -1, "time");
+    else
+      tasks.push_back(task);
   }
   if (repeat == kCounted) return work(tasks, options_.workers, "instructions");
   work(tasks, 1, "time");  // one at a time: two runs would share the cache that they are measured by
@@ -231,19 +280,23 @@ void Driver::timeAll(int repeat) {
 
 void Driver::compare(std::size_t levels) {
   Result::Reference& reference = result_.reference;
-  const Evidence fine = study_.analytic ? analyticAnswer(spec({})) : store_->evidence(level_hash_[levels - 1], true);
-  const Evidence coarser = study_.analytic ? fine : store_->evidence(level_hash_[levels - 2], true);
+  using Kind = Study::Reference;
+  const bool refined = study_.reference_kind == Kind::kRefined;
+  const Evidence fine = refined                                    ? store_->evidence(level_hash_[levels - 1], true)
+                        : study_.reference_kind == Kind::kAnalytic ? analyticAnswer(spec({}))
+                                                                   : Evidence{};
+  const Evidence coarser = refined ? store_->evidence(level_hash_[levels - 2], true) : fine;
   for (const Evidence* level : {&fine, &coarser}) {
     if (!level->failure.empty()) throw std::runtime_error("the reference cannot be run: " + level->failure);
   }
-  reference.analytic = study_.analytic;
-  if (!study_.analytic) reference.sets = study_.reference[levels - 1];
+  if (refined) reference.sets = study_.reference[levels - 1];
   result_.outcomes.clear();
   result_.metrics = study_.metrics;
   for (const Setting& setting : study_.settings) result_.outcomes.push_back({setting, setting.impossible, {}, {}});
   for (const std::string& name : study_.metrics) {
     const Metric& metric = *findMetric(name);
-    if (const auto residual = metric.error(coarser, fine)) reference.residual[name] = *residual;
+    const auto residual = metric.error(coarser, fine);
+    if (residual && !metric.absolute) reference.residual[name] = *residual;
     if (const auto noticeable = metric.noticeable(fine)) reference.noticeable[name] = *noticeable;
   }
   for (Outcome& outcome : result_.outcomes) {
@@ -260,23 +313,17 @@ void Driver::compare(std::size_t levels) {
       return outcome.error.contains(name) && outcome.error.at(name) > kRounding;
     });
   });
-  reference.fine_enough = demanded() >= 1;
+  reference.fine_enough = allResolved();
 }
 
-/// Smallest error shown over ten times the reference's residual, of the worst metric.
-double Driver::demanded() const {
-  double worst = INFINITY;
+/// Whether every error shown is known to a tenth.
+bool Driver::allResolved() const {
   for (const std::string& name : result_.metrics) {
-    if (findMetric(name)->absolute) continue;
     for (const Outcome& outcome : result_.outcomes) {
-      const auto error = outcome.error.find(name);
-      if (error == outcome.error.end() || !outcome.failure.empty()) continue;
-      const auto residual = result_.reference.residual.find(name);
-      if (residual != result_.reference.residual.end() && residual->second > 0)
-        worst = std::min(worst, error->second / (10 * residual->second));
+      if (outcome.failure.empty() && !result_.resolved(outcome, name)) return false;
     }
   }
-  return worst;
+  return true;
 }
 
 void Driver::collect() {

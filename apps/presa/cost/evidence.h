@@ -42,6 +42,9 @@ struct Evidence {
   std::optional<double> energy_created, energy_drift;  ///< [J]
   std::optional<double> force_step;                    ///< at dynamics boundaries, RMS [N]
   std::optional<double> hum;                           ///< at the dynamics rate, amplitude [N]
+  std::optional<double> penetration, penetration_max;  ///< of boxes: mean at rest, deepest ever [m]
+  std::optional<double> rest_energy, rest_drift;       ///< of all free bodies [J], of the one that moves farthest [m]
+  double seconds = 0;                                  ///< that the run took, watched
   std::uint64_t hash = 0;
   Trace trace;
 };

@@ -187,6 +187,18 @@ const std::vector<Metric>& allMetrics() {
       {"energy_drift", "Energy drift", "mJ",
        "largest |energy − work of the hands − energy at the start|; for scenes without fingers",
        [](const Evidence& s, const Evidence&) { return scaled(s.energy_drift, 1e3); }, true, none},
+      {"penetration", "Overlap of boxes at rest", "mm",
+       "mean overlap of the pairs of boxes that overlap, in the steady window; from poses and sizes, whatever the "
+       "engine",
+       [](const Evidence& s, const Evidence&) { return scaled(s.penetration, 1e3); }, true, none},
+      {"penetration_max", "Deepest overlap of boxes", "mm", "of any pair of boxes in the whole compared window",
+       [](const Evidence& s, const Evidence&) { return scaled(s.penetration_max, 1e3); }, true, none},
+      {"rest_energy", "Kinetic energy at rest", "mJ",
+       "of all free bodies, mean over the steady window, from the change of their poses; for scenes without fingers",
+       [](const Evidence& s, const Evidence&) { return scaled(s.rest_energy, 1e3); }, true, none},
+      {"rest_drift", "Drift at rest", "mm",
+       "way of the body that strays farthest during the steady window; for scenes without fingers",
+       [](const Evidence& s, const Evidence&) { return scaled(s.rest_drift, 1e3); }, true, none},
       {"force_step", "Force step at dynamics boundaries", "N",
        "bend of the normal force (second difference) at ticks that bring a new object state; RMS in the steady window, "
        "worst finger",

@@ -31,12 +31,11 @@ Knob parseKnob(const std::string& text, const Scene& scene, const std::string& f
 
 std::vector<std::vector<std::string>> defaultReference(const Plan& plan) {
   std::vector<std::vector<std::string>> levels;
-  for (const char* rate : {"2500", "5000", "10000"}) {
+  for (const char* rate : {"5000", "10000", "20000", "40000"}) {
     std::vector<std::string>& sets = levels.emplace_back();
     sets.push_back("rates/haptic=" + std::string(rate));
     if (hasMotion(plan)) sets.push_back("rates/dynamics=" + std::string(rate));
-    if (plan.has("collision_fcl"))
-      sets.push_back("rates/collision=" + std::string(std::stoi(rate) > 2500 ? "2500" : rate));
+    if (plan.has("collision_fcl")) sets.push_back("rates/collision=2500");
   }
   return levels;
 }
@@ -60,6 +59,9 @@ std::vector<SentenceRule> defaultSentences(const Study& study) {
     if (!has(metric)) continue;
     rules.push_back({.kind = SentenceRule::Kind::kBelow, .metric = metric});
     rules.push_back({.kind = SentenceRule::Kind::kCheapest, .metric = metric});
+  }
+  for (const char* metric : {"force_rms", "position", "penetration"}) {
+    if (has(metric)) rules.push_back({.kind = SentenceRule::Kind::kFront, .metric = metric});
   }
   for (const Knob& knob : study.knobs) {
     if (knob.name == "dynamics_rate" && has("force_rms"))
@@ -106,15 +108,22 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   chooseFolder(request, study);
   if (study.title.empty()) study.title = "What accuracy costs: " + scene.name;
   if (study.metrics.empty()) study.metrics = metricNames();
-  if (study.file.empty()) study.analytic = isAlone(base);
-  if (study.analytic)
+  if (study.reference_kind == Study::Reference::kNone) {
+    std::erase_if(study.metrics, [](const std::string& name) {
+      const Metric* metric = findMetric(name);
+      return metric != nullptr && !metric->absolute;
+    });
+  }
+  using Reference = Study::Reference;
+  if (study.file.empty() && isAlone(base)) study.reference_kind = Reference::kAnalytic;
+  if (study.reference_kind != Reference::kRefined)
     study.reference.clear();
   else if (study.reference.empty())
     study.reference = defaultReference(base.plan);
   for (const auto& level : study.reference) checkedScene(study.inputs, level, diagnostics);
 
   const bool hands_off = scene.devices.empty() && hasMotion(base.plan);
-  if (study.analytic && !hands_off)
+  if (study.reference_kind == Reference::kAnalytic && !hands_off)
     diagnostics.error(808, {study.file, 0, 0}, "an analytic reference is for scenes of free bodies without fingers",
                       "leave the reference out, or give its levels");
   if (!request.knobs.empty()) {

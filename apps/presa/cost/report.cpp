@@ -34,11 +34,6 @@ std::string setOptions(const std::vector<std::string>& sets) {
   return out;
 }
 
-double residualOf(const Result& result, const std::string& metric) {
-  const auto found = result.reference.residual.find(metric);
-  return findMetric(metric)->absolute || found == result.reference.residual.end() ? 0 : found->second;
-}
-
 struct CostAxis {
   std::string label;
   double scale = 1;
@@ -53,7 +48,7 @@ svg::WorkFigure figureOf(const Result& result, const std::string& name, const Co
   figure.x_label = axis.label;
   figure.y_label = metric.title + (metric.unit == "steps" ? "" : " [" + metric.unit + "]");
   figure.x_levels.push_back(axis.period);
-  figure.floor = residualOf(result, name);
+  figure.floor = result.resolution(name);
   const auto noticeable = result.reference.noticeable.find(name);
   if (noticeable != result.reference.noticeable.end())
     figure.y_levels.push_back({noticeable->second, "just noticeable", ""});
@@ -72,7 +67,10 @@ svg::WorkFigure figureOf(const Result& result, const std::string& name, const Co
     const bool best = std::find(front.begin(), front.end(), i) != front.end();
     point.css_class = i == 0 ? "usual" : best ? "front" : "other";
     point.label = outcome.setting.name + "\n" +
-                  (failed ? "failed: " + outcome.failure : withUnit(error->second, metric.unit)) +
+                  (failed ? "failed: " + outcome.failure
+                   : result.resolved(outcome, name)
+                       ? withUnit(error->second, metric.unit)
+                       : "below the reference's resolution of " + withUnit(result.resolution(name), metric.unit)) +
                   format("\n%.3g ms per simulated second", 1e3 * outcome.perSecond().median) +
                   format("\nbusiest tick %.3g of its period", outcome.busiestTick().median);
     figure.points.push_back(point);
@@ -94,14 +92,15 @@ std::string plots(const Result& result) {
   std::string out =
       "<h2>Error over cost</h2>\n<p class=\"caption\">◆ the scene as it stands. ● on the line: no setting is both "
       "cheaper and "
-      "better. ○ in the shaded ground: nearer to the reference than the reference knows itself. ✕ failed. Whiskers: "
+      "better. ○ in the shaded ground: below the reference's resolution (ten times its residual), no better than its "
+      "edge. ✕ failed. Whiskers: "
       "spread of the repeats. Point at a symbol for its setting.</p>\n";
   for (const std::string& name : result.metrics) {
     const Metric& metric = *findMetric(name);
     out += "<h3>" + escape(metric.title) + "</h3>\n<p class=\"caption\"><code>" + name +
            "</code>: " + escape(metric.meaning) + ".";
-    if (!metric.absolute)
-      out += " Residual of the reference: " + escape(withUnit(residualOf(result, name), metric.unit)) + ".";
+    if (const double limit = result.resolution(name); limit > 0)
+      out += " Residual of the reference: " + escape(withUnit(limit / 10, metric.unit)) + ".";
     out += "</p>\n<div class=\"pair\"><div>" + svg::render(figureOf(result, name, total)) + "</div><div>" +
            svg::render(figureOf(result, name, tick)) + "</div></div>\n";
   }
@@ -176,7 +175,10 @@ std::string settings(const Result& result) {
     if (!outcome.failure.empty()) cells[0] += "<br><span class=\"fault\">✕ " + escape(outcome.failure) + "</span>";
     for (const std::string& name : result.metrics) {
       const auto error = outcome.error.find(name);
-      cells.push_back(error == outcome.error.end() ? "" : format("%.3g", error->second));
+      const bool known = result.resolved(outcome, name);
+      cells.push_back(error == outcome.error.end() ? ""
+                      : known                      ? format("%.3g", error->second)
+                                                   : format("≲ %.3g", result.resolution(name)));
     }
     if (outcome.timed()) {
       const Spread cpu = outcome.perSecond();
@@ -215,13 +217,16 @@ std::string finePrint(const Result& result) {
   const Study& study = result.study;
   const auto fact = [](const std::string& name, const std::string& html) { return row({escape(name), html}); };
   std::string rows = fact("scene", "<code>" + escape(study.inputs.scene) + "</code>");
-  std::string reference = result.reference.analytic ? "the analytic answer"
-                                                    : "<code>" + escape(setOptions(result.reference.sets)) + "</code>";
-  if (!result.reference.analytic) {
-    reference += result.reference.fine_enough
-                     ? ". It differs from the next coarser one by less than a tenth of the smallest error shown."
-                     : ". It differs from the next coarser one by more than a tenth of some errors shown: errors near "
-                       "the shaded ground are uncertain.";
+  std::string reference;
+  if (study.reference_kind == Study::Reference::kAnalytic) reference = "the analytic answer";
+  if (study.reference_kind == Study::Reference::kNone)
+    reference = "none is needed: a perfect run has zero of each error";
+  if (study.reference_kind == Study::Reference::kRefined) {
+    reference = "<code>" + escape(setOptions(result.reference.sets)) +
+                "</code>. It differs from the next coarser one by " +
+                (result.reference.fine_enough
+                     ? "less than a tenth of the smallest error shown."
+                     : "more than a tenth of some errors: those are marked ≲, below the reference's resolution.");
   }
   rows += fact("reference", reference);
   rows += fact(

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/presa/cost/metrics.h"
+
 namespace presa::cost {
 namespace {
 
@@ -17,6 +19,20 @@ Spread spread(const std::vector<Timing>& timings, Value value) {
 }
 
 }  // namespace
+
+double Result::resolution(const std::string& metric) const {
+  const auto found = reference.residual.find(metric);
+  return findMetric(metric)->absolute || found == reference.residual.end() ? 0 : 10 * found->second;
+}
+
+double Result::claimed(const Outcome& outcome, const std::string& metric) const {
+  return std::max({outcome.error.at(metric), resolution(metric), kRounding});
+}
+
+bool Result::resolved(const Outcome& outcome, const std::string& metric) const {
+  const auto error = outcome.error.find(metric);
+  return error == outcome.error.end() || error->second >= resolution(metric);
+}
 
 Spread Outcome::perSecond() const {
   return spread(timings, [](const Timing& t) { return t.per_second; });

@@ -39,7 +39,6 @@ struct Result {
   Study study;
   std::vector<Outcome> outcomes;
   struct Reference {
-    bool analytic = false;
     bool fine_enough = false;                ///< residual below a tenth of the smallest error shown, in every metric
     std::vector<std::string> sets;           ///< of the finest level used
     std::map<std::string, double> residual;  ///< by metric: difference of the two finest levels
@@ -52,6 +51,12 @@ struct Result {
     double hausdorff = 0;  ///< [file units]
   };
   std::vector<Mesh> meshes;
+  /// Errors below this, ten residuals of the reference, are not known to a tenth; 0: all are known.
+  double resolution(const std::string& metric) const;
+  /// True when the outcome's error is known so, or when it has none.
+  bool resolved(const Outcome& outcome, const std::string& metric) const;
+  /// The outcome's error, at least the resolution: what may be claimed.
+  double claimed(const Outcome& outcome, const std::string& metric) const;
   std::vector<std::string> metrics;                          ///< those that the scene has, in the study's order
   std::vector<std::pair<std::string, std::string>> machine;  ///< for the fine print
   std::string command;

@@ -84,17 +84,20 @@ std::string below(const Result& result, const SentenceRule& rule) {
   const Outcome* worst = nullptr;
   for (const Outcome& outcome : result.outcomes) {
     if (!has(outcome, rule.metric)) continue;
-    const double error = outcome.error.at(rule.metric);
+    const double error = result.claimed(outcome, rule.metric);
     good += error < limit->value ? 1 : 0;
     if (best == nullptr || error < best->error.at(rule.metric)) best = &outcome;
     if (worst == nullptr || error > worst->error.at(rule.metric)) worst = &outcome;
   }
   if (best == nullptr) return {};
   const Metric& metric = *findMetric(rule.metric);
+  const auto told = [&](const Outcome& outcome) {
+    return (result.resolved(outcome, rule.metric) ? "" : "at most ") +
+           withUnit(result.claimed(outcome, rule.metric), metric.unit) + " (" + outcome.setting.name + ")";
+  };
   return format("%zu of %zu settings stay below %s in %s: from ", good, result.outcomes.size(), limit->words.c_str(),
                 lowered(metric.title).c_str()) +
-         withUnit(best->error.at(rule.metric), metric.unit) + " (" + best->setting.name + ") to " +
-         withUnit(worst->error.at(rule.metric), metric.unit) + " (" + worst->setting.name + ").";
+         told(*best) + " to " + told(*worst) + ".";
 }
 
 std::string halving(const Result& result, const SentenceRule& rule) {
@@ -163,6 +166,20 @@ std::string cheapest(const Result& result, const SentenceRule& rule) {
   return text + ".";
 }
 
+std::string front(const Result& result, const SentenceRule& rule) {
+  const auto distance = distanceToFront(result, rule.metric);
+  if (!distance) return {};
+  const std::string title = lowered(findMetric(rule.metric)->title);
+  if (distance->least() <= 1) return "The default lies on the front of " + title + ".";
+  const std::string cheaper = result.outcomes[distance->as_accurate].setting.name;
+  const std::string better = result.outcomes[distance->as_cheap].setting.name;
+  return format("The default lies %s 1.3 times of the front of ",
+                distance->least() <= kNearFront ? "within" : "beyond") +
+         title +
+         format(": as accurate at 1/%.3g of the processor time is %s, and no dearer at 1/%.3g of the error is %s.",
+                distance->cost, cheaper.c_str(), distance->error, better.c_str());
+}
+
 std::string failures(const Result& result) {
   std::map<std::string, int> reasons;
   int count = 0;
@@ -201,6 +218,9 @@ std::vector<std::string> sentences(const Result& result) {
         break;
       case SentenceRule::Kind::kCheapest:
         text = cheapest(result, rule);
+        break;
+      case SentenceRule::Kind::kFront:
+        text = front(result, rule);
         break;
       case SentenceRule::Kind::kFailures:
         text = failures(result);

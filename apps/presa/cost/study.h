@@ -38,7 +38,7 @@ struct Setting {
 
 /// A sentence that a report ends with, written from its numbers.
 struct SentenceRule {
-  enum class Kind { kBelow, kHalving, kCompare, kCheapest, kFailures };
+  enum class Kind { kBelow, kHalving, kCompare, kCheapest, kFront, kFailures };
   Kind kind = Kind::kBelow;
   std::string metric{};  ///< name; empty for kFailures
   std::string knob{};    ///< of kHalving and kCompare
@@ -61,8 +61,11 @@ struct Study {
   int repeats = 5;  ///< timed runs of each setting
   Window compared{"", "loosen"};
   Window steady{"hold", "loosen"};
-  bool analytic = false;                            ///< the answer is known: free bodies that touch nothing
-  std::vector<std::vector<std::string>> reference;  ///< sets of each level, coarse to fine; at least two
+  /// What errors are measured from: finer and finer runs; the known answer of free bodies that touch nothing; or
+  /// nothing, where every metric would be zero in a perfect run (a pile is chaotic: no run is its reference).
+  enum class Reference { kRefined, kAnalytic, kNone };
+  Reference reference_kind = Reference::kRefined;
+  std::vector<std::vector<std::string>> reference;  ///< of kRefined: sets of each level, coarse to fine; at least two
   std::vector<Knob> knobs;                          ///< all that vary
   std::vector<Setting> settings;                    ///< the first is the scene as it stands
   std::vector<std::string> metrics;                 ///< names, see metrics.h

@@ -56,11 +56,9 @@ Knob readKnob(const Element& element, const Scene& scene, const std::string& fol
 
 std::optional<SentenceRule> readRule(const Element& element) {
   using Kind = SentenceRule::Kind;
-  static const std::pair<const char*, Kind> kKinds[] = {{"below", Kind::kBelow},
-                                                        {"cheapest", Kind::kCheapest},
-                                                        {"halving", Kind::kHalving},
-                                                        {"compare", Kind::kCompare},
-                                                        {"failures", Kind::kFailures}};
+  static const std::pair<const char*, Kind> kKinds[] = {{"below", Kind::kBelow},     {"cheapest", Kind::kCheapest},
+                                                        {"halving", Kind::kHalving}, {"compare", Kind::kCompare},
+                                                        {"front", Kind::kFront},     {"failures", Kind::kFailures}};
   for (const auto& [name, kind] : kKinds) {
     if (element.name() != name) continue;
     return SentenceRule{kind,
@@ -71,6 +69,13 @@ std::optional<SentenceRule> readRule(const Element& element) {
                         element.number("limit", 0)};
   }
   return std::nullopt;
+}
+
+Study::Reference kindOf(const Element& reference) {
+  const std::string kind = reference.attribute("kind");
+  return kind == "analytic" ? Study::Reference::kAnalytic
+         : kind == "none"   ? Study::Reference::kNone
+                            : Study::Reference::kRefined;
 }
 
 void checkMetric(const Element& element, const std::string& attribute, Diagnostics& diagnostics) {
@@ -141,9 +146,9 @@ std::vector<std::vector<Knob>> readStudyFile(const std::string& file, const Requ
   const Element root = document->root();
   readHead(root, file, request, study);
   for (const Element& reference : root.children("reference")) {
-    study.analytic = reference.attribute("kind") == "analytic";
+    study.reference_kind = kindOf(reference);
     for (const Element& level : reference.children("level")) study.reference.push_back(setsIn(level));
-    if (!study.analytic && study.reference.size() < 2)
+    if (study.reference_kind == Study::Reference::kRefined && study.reference.size() < 2)
       diagnostics.error(807, reference.where(),
                         "a reference needs at least two levels, found " + std::to_string(study.reference.size()),
                         "what two levels differ by is how well the reference is known");

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/presa/cost/analysis.h"
 #include "apps/presa/cost/metrics.h"
 #include "apps/presa/terminal/text.h"
 #include "apps/presa/version.h"
@@ -13,10 +14,23 @@ using nlohmann::json;
 
 json toJson(const Spread& spread) { return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}}; }
 
-json toJson(const Outcome& outcome) {
+json toJson(const FrontDistance& distance, const Result& result) {
+  return {{"cost", distance.cost},
+          {"error", distance.error},
+          {"near", distance.least() <= kNearFront},
+          {"as_accurate", result.outcomes[distance.as_accurate].setting.name},
+          {"as_cheap", result.outcomes[distance.as_cheap].setting.name}};
+}
+
+json toJson(const Outcome& outcome, const Result& result) {
   json knobs = json::object();
   for (const auto& [knob, value] : outcome.setting.choices) knobs[knob] = value;
   json row{{"name", outcome.setting.name}, {"knobs", knobs}, {"set", outcome.setting.sets}, {"error", outcome.error}};
+  json unresolved = json::array();
+  for (const std::string& name : result.metrics) {
+    if (!result.resolved(outcome, name)) unresolved.push_back(name);
+  }
+  row["below_resolution"] = unresolved;
   row["failure"] = outcome.failure.empty() ? json(nullptr) : json(outcome.failure);
   if (!outcome.timed()) return row;
   row["cpu_per_simulated_s"] = toJson(outcome.perSecond());
@@ -44,15 +58,17 @@ std::string toJsonText(const Result& result) {
   for (const std::string& name : result.metrics) {
     const Metric& metric = *findMetric(name);
     json entry{{"name", name}, {"unit", metric.unit}, {"meaning", metric.meaning}, {"absolute", metric.absolute}};
-    if (const auto found = result.reference.residual.find(name);
-        found != result.reference.residual.end() && !metric.absolute)
-      entry["reference_residual"] = found->second;
+    if (const double limit = result.resolution(name); limit > 0) {
+      entry["reference_residual"] = limit / 10;
+      entry["resolution"] = limit;
+    }
+    if (const auto distance = distanceToFront(result, name)) entry["default_over_front"] = toJson(*distance, result);
     if (const auto found = result.reference.noticeable.find(name); found != result.reference.noticeable.end())
       entry["just_noticeable"] = found->second;
     metrics.push_back(entry);
   }
   json settings = json::array();
-  for (const Outcome& outcome : result.outcomes) settings.push_back(toJson(outcome));
+  for (const Outcome& outcome : result.outcomes) settings.push_back(toJson(outcome, result));
   json meshes = json::array();
   for (const Result::Mesh& mesh : result.meshes) {
     meshes.push_back({{"body", mesh.body},
@@ -71,7 +87,7 @@ std::string toJsonText(const Result& result) {
                  {"command", result.command},
                  {"interrupted", result.interrupted},
                  {"reference",
-                  {{"analytic", result.reference.analytic},
+                  {{"analytic", study.reference_kind == Study::Reference::kAnalytic},
                    {"set", result.reference.sets},
                    {"residual_below_a_tenth_of_the_smallest_error", result.reference.fine_enough}}},
                  {"metrics", metrics},
@@ -87,7 +103,7 @@ std::string toCsv(const Result& result) {
   for (const std::string& name : result.metrics) out += "," + name + "_" + findMetric(name)->unit;
   out +=
       ",cpu_ms_per_s,cpu_ms_per_s_low,cpu_ms_per_s_high,busiest_tick_of_period,load_ms,memory_MB,instructions_per_s,"
-      "failure,set\n";
+      "below_resolution,failure,set\n";
   for (const Outcome& outcome : result.outcomes) {
     out += csvText(outcome.setting.name);
     for (const auto& [knob, value] : outcome.setting.choices) out += "," + csvText(value);
@@ -106,7 +122,11 @@ std::string toCsv(const Result& result) {
     }
     std::string sets;
     for (const std::string& set : outcome.setting.sets) sets += (sets.empty() ? "" : " ") + set;
-    out += "," + csvText(outcome.failure) + "," + csvText(sets) + "\n";
+    std::string unresolved;
+    for (const std::string& name : result.metrics) {
+      if (!result.resolved(outcome, name)) unresolved += (unresolved.empty() ? "" : " ") + name;
+    }
+    out += "," + csvText(unresolved) + "," + csvText(outcome.failure) + "," + csvText(sets) + "\n";
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
@@ -49,6 +50,10 @@ void JobProgress::done(const std::string& what) {
   show();
 }
 
+void JobProgress::expect(double seconds_left) {
+  expected_end_ = static_cast<double>(monotonicNs() - start_ns_) * 1e-9 + seconds_left;
+}
+
 void JobProgress::show() {
   const std::int64_t now = monotonicNs();
   if (now < next_ns_) return;
@@ -56,8 +61,9 @@ void JobProgress::show() {
   const double elapsed = static_cast<double>(now - start_ns_) * 1e-9;
   std::string line = format("%zu of %zu", done_, jobs_);
   if (done_ > 0) {
-    line += ", about " + clockText(elapsed * static_cast<double>(jobs_ - done_) / static_cast<double>(done_)) +
-            " left  " + last_;
+    const double alike = elapsed * static_cast<double>(jobs_ - done_) / static_cast<double>(done_);
+    const double left = expected_end_ >= 0 ? std::max(1.0, expected_end_ - elapsed) : alike;
+    line += ", about " + clockText(left) + " left  " + last_;
   }
   std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
   std::fflush(stderr);

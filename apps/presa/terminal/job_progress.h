@@ -15,6 +15,9 @@ class JobProgress {
   JobProgress& operator=(const JobProgress&) = delete;
 
   void done(const std::string& what);
+  void more(std::size_t jobs) { jobs_ += jobs; }
+  /// How long the rest will take, as known now; without it every job is taken to last as long as those before.
+  void expect(double seconds_left);
   void show();
   void finish();
   static bool interrupted() noexcept;
@@ -25,6 +28,7 @@ class JobProgress {
   std::string last_;
   bool terminal_, shown_ = false;
   std::int64_t start_ns_, next_ns_ = 0;
+  double expected_end_ = -1;  ///< [s] since the start; negative: unknown
   Signals* signals_;
 };
 
