@@ -5,6 +5,8 @@
 namespace presa {
 namespace {
 
+constexpr double kFastestRealTime = 10000;  // [Hz]
+
 template <class Wanted>
 std::string firstBody(const Scene& scene, const Wanted& wanted) {
   const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), wanted);
@@ -75,6 +77,10 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
     diagnostics.error(
         407, {scene.file, 0, 0}, std::string("the scene has devices, and ") + dynamics + " knows no fingers",
         "engine=\"ode\" moves bodies that are held; the others are there to compare with, without fingers");
+  }
+  if (options.realtime && scene.rates.haptic > kFastestRealTime) {
+    diagnostics.error(408, {scene.file, 0, 0}, "a haptic rate above 10000 Hz cannot be kept against the clock",
+                      "--lockstep, where finer steps are a reference for coarser ones");
   }
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty(), "record", RateGroup::kHaptic, "the run is recorded", "nothing is recorded");

@@ -17,6 +17,7 @@ struct ModulePlugin {
   const char* name;     ///< folder name
   const char* summary;  ///< one line for --help and explain
   std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world);
+  std::string (*library)() = nullptr;  ///< what does its work: "ODE 0.16.2"; null: nothing but Presa
 };
 
 struct DevicePlugin {

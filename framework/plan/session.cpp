@@ -43,6 +43,16 @@ DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diag
   return devices;
 }
 
+std::vector<std::string> engineVersions(const Plan& plan) {
+  std::vector<std::string> versions;
+  for (const PlannedModule& planned : plan.modules) {
+    if (planned.plugin == "record") continue;
+    const auto& table = tableOf<ModulePlugin>(planned.plugin, "presaModulePlugin");
+    if (table.library != nullptr) versions.push_back(table.library());
+  }
+  return versions;
+}
+
 Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
     : devices_(std::move(options.devices)) {
   if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);

@@ -11,6 +11,9 @@
 
 namespace presa {
 
+/// Names and versions of the libraries that the plan's modules work with: "ODE 0.16.2". Loads the plug-ins.
+std::vector<std::string> engineVersions(const Plan& plan);
+
 /// A planned run brought to life: plug-ins loaded, devices opened, graph built and frozen.
 /// Thread: main. The executor runs graph(); everything else is read after it, or through atomics.
 class Session {

@@ -53,6 +53,7 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices) {
   world_ = loaded.world;
   duration_ = world_->options.duration > 0 ? world_->options.duration : kDefaultDuration;
 
+  engines_ = engineVersions(loaded.plan);
   Session::Options session_options;
   session_options.trace_rate = spec.trace_rate;
   session_options.devices = std::move(devices);

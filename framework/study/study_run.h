@@ -40,6 +40,8 @@ class StudyRun {
 
   const World& world() const noexcept { return *world_; }
   double duration() const noexcept { return duration_; }
+  /// As engineVersions().
+  const std::vector<std::string>& engines() const noexcept { return engines_; }
   /// Called in every haptic tick, last in the group. Before run().
   void observe(Observer observer);
   /// Asked before every tick of a group whether it is held up (see LockstepExecutor::delay). Before run().
@@ -57,6 +59,7 @@ class StudyRun {
   std::shared_ptr<const World> world_;
   RunControl control_;
   double duration_ = 0;
+  std::vector<std::string> engines_;
   Probe* probe_ = nullptr;  // owned by the session's graph
   std::unique_ptr<Session> session_;
   std::unique_ptr<LockstepExecutor> executor_;

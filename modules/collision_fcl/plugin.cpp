@@ -1,3 +1,5 @@
+#include <fcl/config.h>
+
 #include "framework/plan/plugin.h"
 #include "modules/collision_fcl/collision_module.h"
 
@@ -8,7 +10,8 @@ std::unique_ptr<presa::Module> create(std::shared_ptr<const presa::World> world)
 }
 
 const presa::ModulePlugin kPlugin{presa::kPluginAbi, "collision_fcl",
-                                  "local triangle patches around each finger (FCL hierarchy as spatial index)", create};
+                                  "local triangle patches around each finger (FCL hierarchy as spatial index)", create,
+                                  [] { return std::string("FCL " FCL_VERSION); }};
 
 }  // namespace
 

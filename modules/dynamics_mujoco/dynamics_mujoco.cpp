@@ -114,7 +114,8 @@ const ModulePlugin kPlugin{.name = "dynamics_mujoco",
                            .summary = "moves free bodies by MuJoCo as it comes, to compare with",
                            .create = [](std::shared_ptr<const World> world) -> std::unique_ptr<Module> {
                              return std::make_unique<DynamicsMujoco>(std::move(world));
-                           }};
+                           },
+                           .library = [] { return std::string("MuJoCo ") + mj_versionString(); }};
 
 }  // namespace
 }  // namespace presa::mujoco

@@ -23,7 +23,8 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
 
 const ModulePlugin kPlugin{
     kPluginAbi, "dynamics_ode",
-    "moves free bodies: gravity, collision, friction and the fingers' grip (Open Dynamics Engine)", create};
+    "moves free bodies: gravity, collision, friction and the fingers' grip (Open Dynamics Engine)", create,
+    [] { return std::string("ODE " PRESA_ODE_VERSION); }};
 
 }  // namespace
 

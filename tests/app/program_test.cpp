@@ -40,6 +40,15 @@ TEST(Run, WritesTheSummaryThatIsPromised) {
   EXPECT_EQ(summary.at("state_hash").get<std::string>().size(), 18u);
 }
 
+// Rates that only a reference needs are for virtual time.
+TEST(Run, RefusesRatesThatNoClockKeeps) {
+  const std::string fast = "run " + kCube + " --view none --quiet --for 0.01 --set rates/haptic=20000 ";
+  const auto refused = presa(fast + "--realtime");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("error[E408]"), std::string::npos) << refused.err;
+  EXPECT_EQ(presa(fast + "--lockstep").status, 0);
+}
+
 // A recording of a lockstep run, and one of real threads with their random timing: both give every force again.
 TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
   for (const std::string mode : {"--lockstep", "--realtime --view none"}) {

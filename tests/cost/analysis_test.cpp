@@ -37,6 +37,44 @@ TEST(Analysis, TheFrontHoldsWhatNothingBeats) {
   EXPECT_EQ(paretoFront(made(), "force_rms"), (std::vector<std::size_t>{1, 0, 2}));
 }
 
+TEST(Analysis, TheDistanceFromTheFrontIsThatInCostAndThatInError) {
+  Result result = made();
+  const auto on = distanceToFront(result, "force_rms");
+  ASSERT_TRUE(on);
+  EXPECT_EQ(on->cost, 1);
+  EXPECT_EQ(on->error, 1);
+  // one that is as accurate at 0.8 of the cost, one that is no dearer at a quarter of the error, and better ones that do not count
+  result.outcomes.push_back(outcome("150", "soft", 0.008, 0.2));
+  result.outcomes.push_back(outcome("170", "soft", 0.010, 0.05));
+  result.outcomes.push_back(outcome("500", "soft", 0.011, 0.01));
+  result.outcomes.push_back(outcome("600", "soft", 0.001, 0.01, "cube was dropped"));
+  const auto off = distanceToFront(result, "force_rms");
+  EXPECT_NEAR(off->cost, 1.25, 1e-12);
+  EXPECT_EQ(off->as_accurate, 6u);
+  EXPECT_NEAR(off->error, 4, 1e-12);
+  EXPECT_EQ(off->as_cheap, 7u);
+  EXPECT_NEAR(off->least(), 1.25, 1e-12);
+  // an engine without fingers is no default
+  for (Outcome& each : result.outcomes) each.setting.choices.emplace_back("engine", "ode");
+  result.outcomes.push_back(outcome("200", "soft", 0.001, 0.001));
+  result.outcomes.back().setting.choices.emplace_back("engine", "bullet");
+  EXPECT_EQ(distanceToFront(result, "force_rms")->least(), off->least());
+  EXPECT_FALSE(distanceToFront(result, "hum")) << "the default has no such error";
+}
+
+// What two references differ by is no accuracy: below ten times that all settings are equal, and the cheapest is the front.
+TEST(Analysis, ErrorsBelowTheResolutionAreEqual) {
+  Result result = made();
+  result.reference.residual["force_rms"] = 0.03;
+  EXPECT_NEAR(result.resolution("force_rms"), 0.3, 1e-15);
+  EXPECT_FALSE(result.resolved(result.outcomes[0], "force_rms"));
+  EXPECT_TRUE(result.resolved(result.outcomes[1], "force_rms"));
+  EXPECT_TRUE(result.resolved(result.outcomes[3], "force_rms")) << "a failure has no error to doubt";
+  EXPECT_EQ(paretoFront(result, "force_rms"), (std::vector<std::size_t>{1, 0}));
+  EXPECT_FALSE(cheapestBelow(result, "force_rms", 0.3)) << "nothing is known to be below";
+  EXPECT_EQ(distanceToFront(result, "force_rms")->least(), 1);
+}
+
 TEST(Analysis, OneKnobBuysWhatItsNeighboursShow) {
   const auto gains = knobGains(made(), "force_rms");
   ASSERT_EQ(gains.size(), 3u);
@@ -78,9 +116,10 @@ TEST(Sentences, SayWhatTheNumbersSay) {
       {.kind = Kind::kCompare, .metric = "force_rms", .knob = "coupling", .a = "soft", .b = "explicit"},
       {.kind = Kind::kCheapest, .metric = "force_rms"},
       {.kind = Kind::kFailures},
-      {.kind = Kind::kBelow, .metric = "hum"}};
+      {.kind = Kind::kBelow, .metric = "hum"},
+      {.kind = Kind::kFront, .metric = "force_rms"}};
   const auto texts = sentences(result);
-  ASSERT_EQ(texts.size(), 5u) << "a metric that the scene does not have has no sentence";
+  ASSERT_EQ(texts.size(), 6u) << "a metric that the scene does not have has no sentence";
   EXPECT_NE(texts[0].find("2 of 6 settings stay below the just-noticeable difference of 0.3 N"), std::string::npos)
       << texts[0];
   EXPECT_NE(texts[1].find("by 2 (2 to 2 over 3 pairs) and multiplies the processor time by 2."), std::string::npos)
@@ -89,6 +128,11 @@ TEST(Sentences, SayWhatTheNumbersSay) {
   EXPECT_NE(texts[2].find("explicit fails in 1 of 3 settings, soft in 0"), std::string::npos) << texts[2];
   EXPECT_NE(texts[3].find("is default: 10 ms"), std::string::npos) << texts[3];
   EXPECT_NE(texts[4].find("1 of 6 settings failed: cube was dropped (1)"), std::string::npos) << texts[4];
+  EXPECT_EQ(texts[5], "The default lies on the front of force, RMS error.");
+  result.outcomes.push_back(outcome("150", "soft", 0.005, 0.1));
+  EXPECT_EQ(sentences(result).back(),
+            "The default lies beyond 1.3 times of the front of force, RMS error: as accurate at 1/2 of the processor "
+            "time is rate 150 soft, and no dearer at 1/2 of the error is rate 150 soft.");
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/cost/analysis.h"
 #include "apps/presa/cost/driver.h"
-#include "apps/presa/cost/machine.h"
 #include "apps/presa/cost/plan.h"
 #include "apps/presa/cost/report.h"
 #include "apps/presa/cost/tables.h"
+#include "apps/presa/cost/work_plots.h"
 
 namespace presa {
 namespace {
@@ -43,7 +43,6 @@ int runCost(Arguments a) {
 
   cost::Result result = cost::runStudy(study, {a.jobs, a.resume, a.instructions});
   result.command = commandLine(a);
-  result.machine = cost::machineFacts();
   if (result.interrupted) {
     std::fprintf(stderr, "stopped; what is done is kept in %s, go on with: %s --out %s --resume\n",
                  study.folder.c_str(), result.command.c_str(), study.folder.c_str());
@@ -52,6 +51,8 @@ int runCost(Arguments a) {
   writeFileAtomically(study.folder + "/cost.json", cost::toJsonText(result));
   writeFileAtomically(study.folder + "/cost.csv", cost::toCsv(result));
   writeFileAtomically(study.folder + "/report.html", cost::reportHtml(result));
+  if (const std::string picture = cost::frontPicture(result); !picture.empty())
+    writeFileAtomically(study.folder + "/front.svg", picture);
   for (const std::string& text : cost::sentences(result)) std::printf("%s\n", text.c_str());
   std::printf("%s/report.html\n", study.folder.c_str());
   return kExitOk;
@@ -73,7 +74,8 @@ void addCost(CLI::App& app, int& status) {
       ->allow_extra_args(false);
   command->add_option("--metric", a->request.metrics, "error to show (default: all that the scene has)")
       ->allow_extra_args(false);
-  command->add_option("--out", a->request.out, "folder for report.html, cost.csv and cost.json (default: cost_NAME)");
+  command->add_option("--out", a->request.out,
+                      "folder for report.html, front.svg, cost.csv and cost.json (default: cost_NAME)");
   command->add_option("--jobs", a->jobs, "watched runs at a time (default: one per processor); timed runs go alone")
       ->check(CLI::PositiveNumber);
   command->add_flag("--resume", a->resume, "keep the runs that an interrupted study has made");

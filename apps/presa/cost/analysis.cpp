@@ -9,6 +9,9 @@
 namespace presa::cost {
 namespace {
 
+// engines other than the scene's are there to compare with: they know no fingers, so none can be a default
+constexpr const char* kEngineKnob = "engine";
+
 /// Comparable in this metric: has an error and a cost.
 bool shown(const Outcome& outcome, const std::string& metric) {
   return outcome.failure.empty() && outcome.timed() && outcome.error.contains(metric);
@@ -67,7 +70,9 @@ std::optional<FrontDistance> distanceToFront(const Result& result, const std::st
   const auto error = [&](std::size_t i) { return result.claimed(result.outcomes[i], metric); };
   FrontDistance found;
   for (std::size_t i = 1; i < result.outcomes.size(); ++i) {
-    if (!shown(result.outcomes[i], metric)) continue;
+    const Setting& setting = result.outcomes[i].setting;
+    const bool eligible = valueOf(setting, kEngineKnob) == valueOf(result.outcomes.front().setting, kEngineKnob);
+    if (!shown(result.outcomes[i], metric) || !eligible) continue;
     if (error(i) <= error(0) && cost(i) < cost(found.as_accurate)) found.as_accurate = i;
     if (cost(i) <= cost(0) && error(i) < error(found.as_cheap)) found.as_cheap = i;
   }

@@ -23,6 +23,7 @@ struct FrontDistance {
   std::size_t as_cheap = 0;     ///< index of that most accurate setting
   double least() const { return std::min(cost, error); }
 };
+/// Against the settings of the default's own engine: the others know no fingers and are there to compare with.
 /// Nothing when the default has no error or cost in this metric.
 std::optional<FrontDistance> distanceToFront(const Result& result, const std::string& metric);
 /// A default that is farther than this from the front, in cost and in error, should be another.

@@ -15,6 +15,7 @@
 #include "apps/presa/cost/forecast.h"
 #include "apps/presa/cost/hash.h"
 #include "apps/presa/cost/knobs.h"
+#include "apps/presa/cost/machine.h"
 #include "apps/presa/cost/measure.h"
 #include "apps/presa/cost/metrics.h"
 #include "apps/presa/cost/run_store.h"
@@ -46,6 +47,20 @@ std::string objText(const TriMesh& mesh) {
 constexpr const char* kTooLong = "it took too long";
 constexpr int kWatched = -1;
 constexpr int kCounted = 1000;  ///< instructions are kept beside the repeats
+
+/// Writes the coarser mesh. Collapsing edges may leave one with three triangles, which no scene takes; some triangles fewer,
+/// and it is another edge's turn.
+TriMesh decimated(const TriMesh& source, const Decimation& wanted) {
+  constexpr int kTries = 20;
+  const double count = wanted.part * static_cast<double>(source.triangles.size());
+  for (int attempt = 0;; ++attempt) {
+    TriMesh coarse = decimateMesh(source, static_cast<std::size_t>(count * (1 - 0.005 * attempt)));
+    writeFileAtomically(wanted.file, objText(coarse));
+    Diagnostics findings;
+    importMesh(wanted.file, {.must_be_closed = false}, {wanted.file, 0, 0}, findings);
+    if (!findings.hasErrors() || attempt == kTries) return coarse;
+  }
+}
 
 /// One run to make: of a setting, or of a level of the reference.
 struct Task {
@@ -173,10 +188,8 @@ void Driver::makeMeshes() {
               importMesh(wanted.source, {.must_be_closed = false}, {wanted.source, 0, 0}, diagnostics);
         if (diagnostics.hasErrors()) throw InputError(diagnostics);
         const TriMesh& source = sources[wanted.source];
-        const auto count = static_cast<std::size_t>(wanted.part * static_cast<double>(source.triangles.size()));
-        const TriMesh coarse = decimateMesh(source, count);
         fs::create_directories(fs::path(wanted.file).parent_path());
-        writeFileAtomically(wanted.file, objText(coarse));
+        const TriMesh coarse = decimated(source, wanted);
         result_.meshes.push_back({wanted.body, value.name, source.triangles.size(), coarse.triangles.size(),
                                   hausdorffDistance(source, coarse)});
       }
@@ -327,6 +340,7 @@ bool Driver::allResolved() const {
 }
 
 void Driver::collect() {
+  std::set<std::string> engines;
   for (Outcome& outcome : result_.outcomes) {
     if (!outcome.setting.impossible.empty()) continue;
     if (options_.instructions && store_->hasTiming(outcome.setting.scene_hash, kCounted))
@@ -335,7 +349,12 @@ void Driver::collect() {
       if (store_->hasTiming(outcome.setting.scene_hash, repeat))
         outcome.timings.push_back(store_->timing(outcome.setting.scene_hash, repeat));
     }
+    for (const Timing& timing : outcome.timings) engines.insert(timing.engines.begin(), timing.engines.end());
   }
+  result_.machine = machineFacts();
+  std::string names;
+  for (const std::string& engine : engines) names += (names.empty() ? "" : ", ") + engine;
+  if (!names.empty()) result_.machine.emplace_back("engines", names);
 }
 
 }  // namespace

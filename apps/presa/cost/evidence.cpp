@@ -113,6 +113,7 @@ nlohmann::json toJson(const Timing& timing) {
                       {"p999_s", group.p999}});
   }
   return {{"cpu_per_simulated_s", timing.per_second},
+          {"engines", timing.engines},
           {"groups", groups},
           {"load_s", timing.load},
           {"memory_B", timing.memory},
@@ -122,6 +123,7 @@ nlohmann::json toJson(const Timing& timing) {
 Timing timingFrom(const nlohmann::json& json) {
   Timing timing;
   timing.per_second = json.at("cpu_per_simulated_s");
+  timing.engines = json.at("engines").get<std::vector<std::string>>();
   timing.load = json.at("load_s");
   timing.memory = json.at("memory_B");
   timing.instructions = json.at("instructions_per_simulated_s");

@@ -60,7 +60,8 @@ struct Timing {
     std::uint64_t ticks = 0;
     double mean = 0, median = 0, p999 = 0;  ///< per tick [s], the clock's own cost taken off
   };
-  double per_second = 0;  ///< all groups, seconds of processor per simulated second
+  std::vector<std::string> engines;  ///< with versions
+  double per_second = 0;             ///< all groups, seconds of processor per simulated second
   std::vector<Group> groups;
   double load = 0;          ///< from files to the first tick [s]
   double memory = 0;        ///< growth of the process [B]

@@ -68,6 +68,7 @@ Timing timeRun(const StudySpec& spec) {
   StudyRun run(spec);
   Timing timing;
   timing.load = static_cast<double>(threadCpuNs() - begin) * 1e-9;
+  timing.engines = run.engines();
   run.timeProcessor();
   run.run();
   timing.memory = residentBytes() - memory;

@@ -5,6 +5,7 @@
 
 #include "apps/presa/cost/analysis.h"
 #include "apps/presa/cost/metrics.h"
+#include "apps/presa/cost/work_plots.h"
 #include "apps/presa/report/page.h"
 #include "apps/presa/report/svg_plot.h"
 #include "apps/presa/terminal/text.h"
@@ -30,79 +31,6 @@ std::string setOptions(const std::vector<std::string>& sets) {
   for (const std::string& set : sets) {
     const bool plain = set.find_first_of(" '\"$") == std::string::npos;
     out += (out.empty() ? "--set " : " --set ") + (plain ? set : "'" + set + "'");
-  }
-  return out;
-}
-
-struct CostAxis {
-  std::string label;
-  double scale = 1;
-  CostOf cost = nullptr;
-  svg::Level period;
-};
-
-svg::WorkFigure figureOf(const Result& result, const std::string& name, const CostAxis& axis) {
-  const Metric& metric = *findMetric(name);
-  svg::WorkFigure figure;
-  figure.title = metric.title + " over cost";
-  figure.x_label = axis.label;
-  figure.y_label = metric.title + (metric.unit == "steps" ? "" : " [" + metric.unit + "]");
-  figure.x_levels.push_back(axis.period);
-  figure.floor = result.resolution(name);
-  const auto noticeable = result.reference.noticeable.find(name);
-  if (noticeable != result.reference.noticeable.end())
-    figure.y_levels.push_back({noticeable->second, "just noticeable", ""});
-  const std::vector<std::size_t> front = paretoFront(result, name, axis.cost);
-  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
-    const Outcome& outcome = result.outcomes[i];
-    const auto error = outcome.error.find(name);
-    const bool failed = !outcome.failure.empty();
-    if (!outcome.timed() || (!failed && error == outcome.error.end())) continue;
-    const Spread cost = (outcome.*axis.cost)();
-    svg::WorkPoint point;
-    point.at = {axis.scale * cost.median, failed ? 0 : error->second};
-    point.x_low = axis.scale * cost.low;
-    point.x_high = axis.scale * cost.high;
-    point.failed = failed;
-    const bool best = std::find(front.begin(), front.end(), i) != front.end();
-    point.css_class = i == 0 ? "usual" : best ? "front" : "other";
-    point.label = outcome.setting.name + "\n" +
-                  (failed ? "failed: " + outcome.failure
-                   : result.resolved(outcome, name)
-                       ? withUnit(error->second, metric.unit)
-                       : "below the reference's resolution of " + withUnit(result.resolution(name), metric.unit)) +
-                  format("\n%.3g ms per simulated second", 1e3 * outcome.perSecond().median) +
-                  format("\nbusiest tick %.3g of its period", outcome.busiestTick().median);
-    figure.points.push_back(point);
-  }
-  for (const std::size_t i : front) {
-    const Outcome& outcome = result.outcomes[i];
-    figure.front.push_back({axis.scale * (outcome.*axis.cost)().median, outcome.error.at(name)});
-  }
-  return figure;
-}
-
-std::string plots(const Result& result) {
-  const CostAxis total{
-      "processor time [ms per simulated second]", 1e3, &Outcome::perSecond, {1e3, "one second per second", ""}};
-  const CostAxis tick{"busiest rate group: 99.9 % of ticks below [parts of its period]",
-                      1,
-                      &Outcome::busiestTick,
-                      {1, "one tick = its period", ""}};
-  std::string out =
-      "<h2>Error over cost</h2>\n<p class=\"caption\">◆ the scene as it stands. ● on the line: no setting is both "
-      "cheaper and "
-      "better. ○ in the shaded ground: below the reference's resolution (ten times its residual), no better than its "
-      "edge. ✕ failed. Whiskers: "
-      "spread of the repeats. Point at a symbol for its setting.</p>\n";
-  for (const std::string& name : result.metrics) {
-    const Metric& metric = *findMetric(name);
-    out += "<h3>" + escape(metric.title) + "</h3>\n<p class=\"caption\"><code>" + name +
-           "</code>: " + escape(metric.meaning) + ".";
-    if (const double limit = result.resolution(name); limit > 0)
-      out += " Residual of the reference: " + escape(withUnit(limit / 10, metric.unit)) + ".";
-    out += "</p>\n<div class=\"pair\"><div>" + svg::render(figureOf(result, name, total)) + "</div><div>" +
-           svg::render(figureOf(result, name, tick)) + "</div></div>\n";
   }
   return out;
 }
@@ -161,6 +89,29 @@ std::string choice(const Result& result) {
          table(
              {"error", "just noticeable", "its error", "ms per simulated second", "busiest tick / period", "to paste"},
              rows);
+}
+
+std::string frontDistances(const Result& result) {
+  std::string rows;
+  const auto named = [&](double ratio, std::size_t index) {
+    return ratio > 1 ? escape(result.outcomes[index].setting.name) : std::string("none");
+  };
+  for (const std::string& name : result.metrics) {
+    const auto distance = distanceToFront(result, name);
+    if (!distance) continue;
+    rows += row({escape(findMetric(name)->title), format("%.3g", distance->cost),
+                 named(distance->cost, distance->as_accurate), format("%.3g", distance->error),
+                 named(distance->error, distance->as_cheap),
+                 distance->least() <= 1            ? "on the front"
+                 : distance->least() <= kNearFront ? "within 1.3 ×"
+                                                   : "<span class=\"fault\">beyond 1.3 ×</span>"});
+  }
+  if (rows.empty()) return {};
+  return "<h2>How far the default is from the front</h2>\n<p class=\"caption\">Among the settings of its own "
+         "engine.</p>\n" +
+         table({"error", "its cost over that of", "the cheapest that is as accurate", "its error over that of",
+                "the most accurate that costs no more", "the default is"},
+               rows);
 }
 
 std::string settings(const Result& result) {
@@ -245,7 +196,8 @@ std::string finePrint(const Result& result) {
 std::string reportHtml(const Result& result) {
   std::string out = page::head(result.study.title + " – Presa") + "<h1>" + escape(result.study.title) + "</h1>\n";
   if (!result.study.description.empty()) out += "<p class=\"lead\">" + escape(result.study.description) + "</p>\n";
-  out += choice(result) + plots(result) + gains(result) + settings(result) + meshes(result) + finePrint(result);
+  out += choice(result) + frontDistances(result) + workPlots(result) + gains(result) + settings(result) +
+         meshes(result) + finePrint(result);
   const std::vector<std::string> texts = sentences(result);
   if (!texts.empty()) out += "<h2>In words</h2>\n<div class=\"verdict neutral\">\n";
   for (const std::string& text : texts) out += "<p>" + escape(text) + "</p>\n";
