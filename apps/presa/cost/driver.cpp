@@ -3,10 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <set>
 #include <thread>
 
@@ -17,12 +15,12 @@
 #include "apps/presa/cost/knobs.h"
 #include "apps/presa/cost/machine.h"
 #include "apps/presa/cost/measure.h"
+#include "apps/presa/cost/meshes.h"
 #include "apps/presa/cost/metrics.h"
 #include "apps/presa/cost/run_store.h"
 #include "apps/presa/terminal/job_progress.h"
 #include "apps/presa/terminal/text.h"
 #include "apps/presa/version.h"
-#include "framework/geometry/decimate.h"
 #include "framework/schedule/clock.h"
 #include "framework/study/jobs.h"
 
@@ -36,31 +34,9 @@ std::string contents(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string objText(const TriMesh& mesh) {
-  std::string text;
-  for (const Vec3& v : mesh.vertices) text += terminal::format("v %.9g %.9g %.9g\n", v.x(), v.y(), v.z());
-  for (const TriMesh::Triangle& t : mesh.triangles)
-    text += terminal::format("f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
-  return text;
-}
-
 constexpr const char* kTooLong = "it took too long";
 constexpr int kWatched = -1;
 constexpr int kCounted = 1000;  ///< instructions are kept beside the repeats
-
-/// Writes the coarser mesh. Collapsing edges may leave one with three triangles, which no scene takes; some triangles fewer,
-/// and it is another edge's turn.
-TriMesh decimated(const TriMesh& source, const Decimation& wanted) {
-  constexpr int kTries = 20;
-  const double count = wanted.part * static_cast<double>(source.triangles.size());
-  for (int attempt = 0;; ++attempt) {
-    TriMesh coarse = decimateMesh(source, static_cast<std::size_t>(count * (1 - 0.005 * attempt)));
-    writeFileAtomically(wanted.file, objText(coarse));
-    Diagnostics findings;
-    importMesh(wanted.file, {.must_be_closed = false}, {wanted.file, 0, 0}, findings);
-    if (!findings.hasErrors() || attempt == kTries) return coarse;
-  }
-}
 
 /// One run to make: of a setting, or of a level of the reference.
 struct Task {
@@ -104,7 +80,6 @@ class Driver {
   void prepare();
   void expectAll();
   void ended(const Task& task, double seconds, const std::string& what);
-  void makeMeshes();
   StudySpec spec(const Task& task) const;
   void work(const std::vector<Task>& tasks, int workers, const std::string& what);
   void watchAll();
@@ -137,7 +112,7 @@ void Driver::prepare() {
     rig_ = study_.folder + "/rig.xml";
     writeFileAtomically(rig_, rig);
   }
-  makeMeshes();
+  result_.meshes = makeMeshes(study_);
   Hash common;
   common.add(rig);
   for (const DeviceBinding& binding : base.world->rig.devices) {
@@ -175,26 +150,6 @@ void Driver::ended(const Task& task, double seconds, const std::string& what) {
   forecast_.done(runOf(task), seconds);
   if (const double left = forecast_.left(); left >= 0) progress_->expect(left);
   progress_->done(what);
-}
-
-void Driver::makeMeshes() {
-  std::map<std::string, TriMesh> sources;
-  for (const Knob& knob : study_.knobs) {
-    for (const KnobValue& value : knob.values) {
-      for (const Decimation& wanted : value.meshes) {
-        Diagnostics diagnostics;
-        if (!sources.contains(wanted.source))
-          sources[wanted.source] =
-              importMesh(wanted.source, {.must_be_closed = false}, {wanted.source, 0, 0}, diagnostics);
-        if (diagnostics.hasErrors()) throw InputError(diagnostics);
-        const TriMesh& source = sources[wanted.source];
-        fs::create_directories(fs::path(wanted.file).parent_path());
-        const TriMesh coarse = decimated(source, wanted);
-        result_.meshes.push_back({wanted.body, value.name, source.triangles.size(), coarse.triangles.size(),
-                                  hausdorffDistance(source, coarse)});
-      }
-    }
-  }
 }
 
 StudySpec Driver::spec(const Task& task) const {

@@ -35,6 +35,12 @@ std::string setOptions(const std::vector<std::string>& sets) {
   return out;
 }
 
+/// The error, or what it is known to be below.
+std::string claimText(const Result& result, const Outcome& outcome, const std::string& metric) {
+  return (result.resolved(outcome, metric) ? "" : "≲ ") +
+         format("%.3g", result.resolved(outcome, metric) ? outcome.error.at(metric) : result.resolution(metric));
+}
+
 std::string gainTable(const Result& result, const std::string& metric) {
   std::string rows;
   for (const KnobGain& gain : knobGains(result, metric)) {
@@ -79,7 +85,7 @@ std::string choice(const Result& result) {
     if (limit == result.reference.noticeable.end()) continue;
     const Metric& metric = *findMetric(name);
     const auto found = cheapestBelow(result, name, limit->second);
-    const std::string error = found ? withUnit(result.outcomes[*found].error.at(name), metric.unit) : "";
+    const std::string error = found ? claimText(result, result.outcomes[*found], name) + " " + metric.unit : "";
     add({escape(metric.title), escape(withUnit(limit->second, metric.unit)), escape(error)},
         chosenCells(result, found));
   }
@@ -109,8 +115,8 @@ std::string frontDistances(const Result& result) {
   if (rows.empty()) return {};
   return "<h2>How far the default is from the front</h2>\n<p class=\"caption\">Among the settings of its own "
          "engine.</p>\n" +
-         table({"error", "its cost over that of", "the cheapest that is as accurate", "its error over that of",
-                "the most accurate that costs no more", "the default is"},
+         table({"error", "cost ×", "against the cheapest as accurate", "error ×", "against the most accurate as cheap",
+                "the default is"},
                rows);
 }
 
@@ -126,10 +132,7 @@ std::string settings(const Result& result) {
     if (!outcome.failure.empty()) cells[0] += "<br><span class=\"fault\">✕ " + escape(outcome.failure) + "</span>";
     for (const std::string& name : result.metrics) {
       const auto error = outcome.error.find(name);
-      const bool known = result.resolved(outcome, name);
-      cells.push_back(error == outcome.error.end() ? ""
-                      : known                      ? format("%.3g", error->second)
-                                                   : format("≲ %.3g", result.resolution(name)));
+      cells.push_back(error == outcome.error.end() ? "" : claimText(result, outcome, name));
     }
     if (outcome.timed()) {
       const Spread cpu = outcome.perSecond();

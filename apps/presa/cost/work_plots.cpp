@@ -100,7 +100,7 @@ std::string frontPicture(const Result& result) {
     metric = rule.metric;
     break;
   }
-  return page::picture(svg::render(figureOf(result, metric, totalAxis())));
+  return page::picture(svg::render(figureOf(result, metric, totalAxis())), result.study.title);
 }
 
 }  // namespace presa::cost

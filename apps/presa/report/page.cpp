@@ -148,13 +148,14 @@ std::string head(const std::string& title) {
 
 std::string tail() { return std::string("</main>\n<script>") + kScript + "</script>\n</body></html>\n"; }
 
-std::string picture(const std::string& figure_html) {
+std::string picture(const std::string& figure_html, const std::string& title) {
   const std::size_t begin = figure_html.find("<svg "), inside = figure_html.find('>', begin);
   const std::size_t end = figure_html.find("</svg>");
   if (begin == std::string::npos || end == std::string::npos) return {};
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + figure_html.substr(begin + 5, inside - begin - 4) +
-         "\n<style>" + kStyle + "svg { background: var(--bg); }</style>" +
-         figure_html.substr(inside + 1, end - inside - 1) + "</svg>\n";
+         "\n<style>" + kStyle +
+         "svg { background: var(--bg); }</style>\n<text class=\"panel-title\" x=\"62\" y=\"18\">" + svg::escape(title) +
+         "</text>" + figure_html.substr(inside + 1, end - inside - 1) + "</svg>\n";
 }
 
 }  // namespace presa::page
