@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "modules/dynamics_ode/grown_geom.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
@@ -12,6 +13,14 @@ namespace {
 // between two triangles, a box reported once per triangle
 constexpr double kSamePoint = 1e-3;
 constexpr double kSameNormal = 0.999;
+// so many contacts carry a body whichever way it would tip
+constexpr std::size_t kSupported = 4;
+// of the smaller body: farther ahead the grown shape would meet the other one on a wrong side
+constexpr double kMostGrowth = 0.2;
+// the far end of a body that tips falls faster than g (a rod: 1.5)
+constexpr double kRim = 2;
+constexpr double kSameCorner = 0.01;
+constexpr double kRounding = 1e-6;
 
 // Keeps the deepest contact, then again and again the one farthest from all kept: the hull of the touching area, which
 // is what carries the load. Returns how many are kept, at the front.
@@ -39,11 +48,13 @@ int thin(dContactGeom* contacts, int count, int limit, double same_distance) {
 
 }  // namespace
 
-std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, std::vector<BodyContact>& contacts) {
+std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, const std::vector<char>& ahead, double h,
+                                                      std::vector<BodyContact>& contacts) {
   contacts.clear();
-  for (const BroadPhase::Pair& pair : broad_phase_.find(bodies)) {
+  for (const BroadPhase::Pair& pair : broad_phase_.find(bodies, h, kRim * h * h * gravity_.norm())) {
     const std::size_t before = contacts.size();
-    collidePair(bodies, pair, contacts);
+    const double look = ahead[pair.first] != 0 && ahead[pair.second] != 0 ? h : 0;
+    collidePair(bodies, pair, look, contacts);
     if (contacts.size() == before) continue;
     for (const std::size_t i : {pair.first, pair.second}) {
       if (bodies.asleep(i)) return i;
@@ -52,23 +63,65 @@ std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, std
   return std::nullopt;
 }
 
-void BodyContacts::collidePair(const BodySet& bodies, const BroadPhase::Pair& pair,
+void BodyContacts::collidePair(const BodySet& bodies, const BroadPhase::Pair& pair, double h,
                                std::vector<BodyContact>& contacts) {
   // ODE's normal points into the first geometry: that is B, and B must move
   const std::size_t B = bodies.moves(pair.second) ? pair.second : pair.first;
   const std::size_t A = B == pair.second ? pair.first : pair.second;
-  int count = dCollide(bodies.geom(B), bodies.geom(A), kMaxReported, reported_, sizeof(dContactGeom));
+  const std::size_t before = contacts.size();
+  const double same = kSamePoint * std::min(bodies.extent(A), bodies.extent(B));
+  report(bodies, A, B, same, contacts);
+  if (h > 0 && contacts.size() < before + kSupported) reportNearing(bodies, A, B, h, contacts, before);
+}
+
+void BodyContacts::report(const BodySet& bodies, std::size_t A, std::size_t B, double same,
+                          std::vector<BodyContact>& contacts) {
+  const dGeomID b = parallel_boxes_.standIn(bodies.geom(B), bodies.geom(A));
+  int count = dCollide(b, bodies.geom(A), kMaxReported, reported_, sizeof(dContactGeom));
   const auto useless = [](const dContactGeom& contact) {
     return !(contact.depth >= 0) || !(toVec3(contact.normal).squaredNorm() > 0.25) || !toVec3(contact.pos).allFinite();
   };
   count = static_cast<int>(std::remove_if(reported_, reported_ + count, useless) - reported_);
   if (count == 0) return;
-  count = thin(reported_, count, kMaxPerPair, kSamePoint * std::min(bodies.extent(A), bodies.extent(B)));
+  count = thin(reported_, count, kMaxPerPair, same);
   for (int i = 0; i < count; ++i) {
     const dContactGeom& contact = reported_[i];
     contacts.push_back({static_cast<std::int32_t>(A), static_cast<std::int32_t>(B), toVec3(contact.pos),
                         toVec3(contact.normal).normalized(), contact.depth});
   }
+}
+
+// At the speed it has, and, of two that are awake, when gravity pulls one towards the other and something else holds that.
+double BodyContacts::mayClose(const BodySet& bodies, const BodyContact& c, double h) const {
+  const auto A = static_cast<std::size_t>(c.A), B = static_cast<std::size_t>(c.B);
+  const double closing = -(bodies.velocityAt(B, c.p_W) - bodies.velocityAt(A, c.p_W)).dot(c.nhat_AB_W);
+  if (bodies.asleep(A) || bodies.asleep(B)) return h * closing;
+  const double pull = -gravity_.dot(c.nhat_AB_W);
+  return h * closing + kRim * h * h * std::max(pull, bodies.moves(A) ? -pull : 0);
+}
+
+// Where the two do not touch but may within the step: a contact with a gap, which ends the approach at the surface.
+void BodyContacts::reportNearing(const BodySet& bodies, std::size_t A, std::size_t B, double h,
+                                 std::vector<BodyContact>& contacts, std::size_t first) {
+  const std::size_t grown = GrownGeom::possible(bodies.geom(B)) ? B : A;
+  if (!GrownGeom::possible(bodies.geom(grown))) return;
+  const double extent = std::min(bodies.extent(A), bodies.extent(B));
+  const double margin =
+      std::min(bodies.reach(A, h) + bodies.reach(B, h) + kRim * h * h * gravity_.norm(), kMostGrowth * extent);
+  const std::size_t touching = contacts.size();
+  const GrownGeom geom(bodies.geom(grown), margin);
+  report(bodies, A, B, kSamePoint * extent, contacts);
+  const auto nearing = [&](BodyContact& c) {
+    geom.takeBack(c.p_W, c.depth, grown == B ? Vec3(-c.nhat_AB_W) : c.nhat_AB_W);
+    if (c.depth > kRounding * extent) return false;
+    for (std::size_t i = first; i < touching; ++i) {
+      if ((contacts[i].p_W - c.p_W).norm() < kSameCorner * extent) return false;
+    }
+    return -c.depth <= mayClose(bodies, c, h);
+  };
+  const auto end = std::remove_if(contacts.begin() + static_cast<std::ptrdiff_t>(touching), contacts.end(),
+                                  [&](BodyContact& c) { return !nearing(c); });
+  contacts.erase(end, contacts.end());
 }
 
 }  // namespace presa::ode

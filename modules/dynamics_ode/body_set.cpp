@@ -103,12 +103,28 @@ Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
   return toVec3(dBodyGetLinearVel(entry.body)) + w_WB.cross(p_W - entry.begin.p_WCm);
 }
 
+double BodySet::reach(std::size_t i, double h) const {
+  if (!moves(i)) return 0;
+  const Entry& entry = bodies_[i];
+  return h *
+         (toVec3(dBodyGetLinearVel(entry.body)).norm() + toVec3(dBodyGetAngularVel(entry.body)).norm() * entry.extent);
+}
+
 void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
   if (!moves(i)) return;
   const Entry& entry = bodies_[i];
   const Vec3 v_WCm = v_WB + w_WB.cross(toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm);
   dBodySetLinearVel(entry.body, v_WCm.x(), v_WCm.y(), v_WCm.z());
   dBodySetAngularVel(entry.body, w_WB.x(), w_WB.y(), w_WB.z());
+}
+
+void BodySet::nudge(std::size_t i, double speed) {
+  const Entry& entry = bodies_[i];
+  const Vec3 oblique = speed * Vec3(0.62, -0.41, 0.67);
+  const Vec3 v = toVec3(dBodyGetLinearVel(entry.body)) + oblique;
+  const Vec3 w = toVec3(dBodyGetAngularVel(entry.body)) + oblique.reverse() / std::max(entry.extent, 1e-6);
+  dBodySetLinearVel(entry.body, v.x(), v.y(), v.z());
+  dBodySetAngularVel(entry.body, w.x(), w.y(), w.z());
 }
 
 void BodySet::sleep(std::size_t i) {

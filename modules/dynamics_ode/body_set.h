@@ -43,7 +43,13 @@ class BodySet {
   /// Velocity now, of the point of body `i` that was at p_W at the last beginStep [m/s]; zero when it does not move.
   Vec3 velocityAt(std::size_t i, const Vec3& p_W) const;
 
+  /// How far a point of body `i` goes in `h` at the speed it has, at most [m]; zero when it does not move.
+  double reach(std::size_t i, double h) const;
+
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; nothing if it does not move
+
+  /// Adds `speed` to its velocity, and what that is at its rim to its angular velocity, in a direction along no axis.
+  void nudge(std::size_t i, double speed);
 
   void sleep(std::size_t i);  ///< stops it where it is
   void wake(std::size_t i);

@@ -9,14 +9,17 @@ BroadPhase::BroadPhase(const BodySet& bodies) {
   pairs_.reserve(16 * bodies.size());
 }
 
-void BroadPhase::measure(const BodySet& bodies) {
+void BroadPhase::measure(const BodySet& bodies, double h, double margin) {
   bounds_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies.geom(i) == nullptr) continue;
     dReal box[6];
     dGeomGetAABB(bodies.geom(i), box);
-    bounds_.push_back(
-        {{box[0], box[2], box[4]}, {box[1], box[3], box[5]}, static_cast<std::uint32_t>(i), bodies.awake(i)});
+    const double wider = bodies.reach(i, h) + margin / 2;
+    bounds_.push_back({{box[0] - wider, box[2] - wider, box[4] - wider},
+                       {box[1] + wider, box[3] + wider, box[5] + wider},
+                       static_cast<std::uint32_t>(i),
+                       bodies.awake(i)});
   }
 }
 
@@ -39,8 +42,8 @@ int BroadPhase::longestAxis() const {
   return longest;
 }
 
-const std::vector<BroadPhase::Pair>& BroadPhase::find(const BodySet& bodies) {
-  measure(bodies);
+const std::vector<BroadPhase::Pair>& BroadPhase::find(const BodySet& bodies, double h, double margin) {
+  measure(bodies, h, margin);
   pairs_.clear();
   const int x = longestAxis(), y = (x + 1) % 3, z = (x + 2) % 3;
   std::sort(bounds_.begin(), bounds_.end(), [x](const Bounds& a, const Bounds& b) { return a.low[x] < b.low[x]; });

@@ -15,8 +15,9 @@ class BroadPhase {
 
   explicit BroadPhase(const BodySet& bodies);
 
-  /// Pairs whose bounds overlap, at least one of the two awake; in scene order, so that the same state gives the same pairs.
-  const std::vector<Pair>& find(const BodySet& bodies);
+  /// Pairs whose bounds will overlap within `h` [s] or come within `margin` [m], at least one of the two awake; in scene order, so
+  /// that the same state gives the same pairs.
+  const std::vector<Pair>& find(const BodySet& bodies, double h, double margin);
 
  private:
   struct Bounds {
@@ -24,7 +25,7 @@ class BroadPhase {
     std::uint32_t body;
     bool awake;
   };
-  void measure(const BodySet& bodies);
+  void measure(const BodySet& bodies, double h, double margin);
   int longestAxis() const;
 
   std::vector<Bounds> bounds_;

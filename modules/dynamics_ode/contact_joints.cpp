@@ -36,8 +36,9 @@ Vec3 ContactJoints::slip(std::size_t i, const BodySet& bodies) const {
   return relative - relative.dot(c.nhat_AB_W) * c.nhat_AB_W;
 }
 
-void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySet& bodies) {
+void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySet& bodies, double h) {
   contacts_ = &contacts;
+  h_ = h;
   joints_.assign(contacts.size(), {});
   feedback_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -77,7 +78,11 @@ dContact ContactJoints::make(const BodyContact& c, const Joint& joint, bool fric
   surface.soft_cfm = joint.cfm;
   assign(contact.geom.pos, c.p_W);
   assign(contact.geom.normal, c.nhat_AB_W);
-  contact.geom.depth = c.depth;
+  contact.geom.depth = std::max(0.0, c.depth);
+  if (c.depth < 0) {  // may close the gap, no more
+    surface.mode |= dContactMotionN;
+    surface.motionN = c.depth / h_;
+  }
   assign(contact.fdir1, joint.direction);
   return contact;
 }

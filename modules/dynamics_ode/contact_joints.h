@@ -25,8 +25,8 @@ class ContactJoints {
   /// With room for `contacts`; more take memory once.
   ContactJoints(const Scene& scene, const OdeOptions& options, std::size_t contacts);
 
-  /// Starts a step with these contacts (sorted by pair), which stay the caller's.
-  void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies);
+  /// Starts a step of `h` with these contacts (sorted by pair), which stay the caller's.
+  void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies, double h);
   /// Joints for the contacts of `wanted` islands.
   void addTo(Engine& engine, const BodySet& bodies, Islands& islands, const std::vector<char>& wanted, bool friction);
   /// Ends the step: what was found is what the next one remembers.
@@ -57,6 +57,7 @@ class ContactJoints {
   };
   std::vector<Coefficients> coefficients_;  // by pair of materials
   const std::vector<BodyContact>* contacts_ = nullptr;
+  double h_ = 0;
   std::vector<Joint> joints_;  // as contacts
   std::vector<dJointFeedback> feedback_;
   std::vector<Past> past_;  // sorted by pair

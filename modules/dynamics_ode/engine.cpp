@@ -1,5 +1,6 @@
 #include "modules/dynamics_ode/engine.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "framework/state/limits.h"
@@ -10,9 +11,11 @@ namespace {
 
 // far below any compliance that matters, enough to keep redundant rows solvable
 constexpr double kWorldCfm = 1e-10;
-constexpr dContact kAnyContact{};
+constexpr std::size_t kJointsPerGroup = 1024;  // to empty a larger one ODE takes memory
+// [bytes] of the direct solver at its limit, and of the iterative one
+constexpr std::size_t kWorkingMemory = 2U << 20U, kWorkingMemoryPerContact = 2048;
 
-dWorldID createWorld(const Vec3& gravity) {
+dWorldID createWorld(const Vec3& gravity, std::size_t contacts) {
   attachThread();
   const dWorldID world = dWorldCreate();
   dWorldSetGravity(world, gravity.x(), gravity.y(), gravity.z());
@@ -23,7 +26,7 @@ dWorldID createWorld(const Vec3& gravity) {
   dWorldStepReserveInfo reserve{};
   reserve.struct_size = sizeof(reserve);
   reserve.reserve_factor = 1.5F;
-  reserve.reserve_minimum = 1U << 20U;
+  reserve.reserve_minimum = static_cast<unsigned>(kWorkingMemory + contacts * kWorkingMemoryPerContact);
   dWorldSetStepMemoryReservationPolicy(world, &reserve);
   return world;
 }
@@ -49,13 +52,15 @@ constinit std::atomic_flag OneAtATime::taken;
 }  // namespace
 
 Engine::Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts)
-    : world_(createWorld(gravity)), contacts_(dJointGroupCreate(0)), random_state_(static_cast<unsigned long>(seed)) {
-  takeMemory(contacts + kMaxFingers);
+    : world_(createWorld(gravity, contacts)), random_state_(static_cast<unsigned long>(seed)) {
+  const std::size_t room = contacts + kMaxFingers;
+  for (std::size_t joints = 0; joints < room; joints += kJointsPerGroup) groups_.push_back(dJointGroupCreate(0));
+  takeMemory(room);
 }
 
-// What ODE has had once it keeps: joints in their group, working memory and jobs of either solver.
+// What ODE has had once it keeps: joints in their groups, working memory and jobs of either solver.
 void Engine::takeMemory(std::size_t joints) {
-  for (std::size_t i = 0; i < joints; ++i) dJointCreateContact(world_, contacts_, &kAnyContact);
+  for (std::size_t i = 0; i < joints; ++i) createContact({});
   clearContacts();
   const dBodyID body = dBodyCreate(world_);
   solveDirectly(1e-3);
@@ -64,17 +69,25 @@ void Engine::takeMemory(std::size_t joints) {
 }
 
 Engine::~Engine() {
-  dJointGroupDestroy(contacts_);
+  for (const dJointGroupID group : groups_) dJointGroupDestroy(group);
   dWorldDestroy(world_);
 }
 
+dJointID Engine::createContact(const dContact& contact) {
+  const std::size_t group = std::min(joints_++ / kJointsPerGroup, groups_.size() - 1);
+  return dJointCreateContact(world_, groups_[group], &contact);
+}
+
 void Engine::addContact(const dContact& contact, dBodyID first, dBodyID second, dJointFeedback* feedback) {
-  const dJointID joint = dJointCreateContact(world_, contacts_, &contact);
+  const dJointID joint = createContact(contact);
   dJointAttach(joint, first, second);
   dJointSetFeedback(joint, feedback);
 }
 
-void Engine::clearContacts() { dJointGroupEmpty(contacts_); }
+void Engine::clearContacts() {
+  for (const dJointGroupID group : groups_) dJointGroupEmpty(group);
+  joints_ = 0;
+}
 
 bool Engine::solveDirectly(double h) {
   const std::uint64_t messages = messageCount();

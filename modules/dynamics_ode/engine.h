@@ -2,6 +2,7 @@
 #include <ode/ode.h>
 
 #include <cstdint>
+#include <vector>
 
 #include "framework/math/spatial.h"
 
@@ -30,9 +31,11 @@ class Engine {
 
  private:
   void takeMemory(std::size_t joints);
+  dJointID createContact(const dContact& contact);
 
   dWorldID world_;
-  dJointGroupID contacts_;
+  std::vector<dJointGroupID> groups_;
+  std::size_t joints_ = 0;  // in them
   unsigned long random_state_;
 };
 

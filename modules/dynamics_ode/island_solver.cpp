@@ -45,40 +45,54 @@ bool IslandSolver::enableWhere(Choose choose) {
   return any;
 }
 
-bool IslandSolver::solve(Islands& islands, const std::vector<char>& wanted, double h, int iterations) {
+void IslandSolver::solve(Islands& islands, const std::vector<char>& wanted, double h, int iterations,
+                         std::vector<char>& fell_back) {
   const auto wants = [&](std::size_t i, bool direct) {
     const std::size_t island = islands.of(i);
     return wanted[island] != 0 && isDirect(islands[island]) == direct;
   };
-  bool fell_back = false;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (wanted[i] != 0) fell_back[i] = 0;
+  }
   if (enableWhere([&](std::size_t i) { return wants(i, true); }) && !engine_.solveDirectly(h)) {
-    fell_back = solveEachDirectly(islands, wanted, h, iterations);
+    solveEachDirectly(islands, wanted, h, iterations, fell_back);
   }
   if (enableWhere([&](std::size_t i) { return wants(i, false); })) engine_.solveIteratively(h, iterations);
-  return fell_back;
+}
+
+void IslandSolver::putBack(Islands& islands, std::size_t island) {
+  for (std::size_t i = island; i < bodies_.size(); ++i) {
+    if (bodies_.awake(i) && islands.of(i) == island) bodies_.restore(i);
+  }
+}
+
+// The direct solver gives up at a tie, two rows that come to their bound in the same instant: a body set down flat does that to
+// the last bit. A push that nobody could measure decides it.
+bool IslandSolver::solveNudged(Islands& islands, std::size_t island, double h) {
+  for (const double speed : {0.0, 1e-9, 1e-7}) {
+    putBack(islands, island);
+    for (std::size_t i = island; i < bodies_.size() && speed > 0; ++i) {
+      if (bodies_.awake(i) && islands.of(i) == island) bodies_.nudge(i, speed);
+    }
+    bodies_.applyForces();
+    if (engine_.solveDirectly(h)) return true;
+  }
+  return false;
 }
 
 // After trouble in one of them: one by one, to see which.
-bool IslandSolver::solveEachDirectly(Islands& islands, const std::vector<char>& wanted, double h, int iterations) {
-  bool fell_back = false;
+void IslandSolver::solveEachDirectly(Islands& islands, const std::vector<char>& wanted, double h, int iterations,
+                                     std::vector<char>& fell_back) {
   for (std::size_t island = 0; island < bodies_.size(); ++island) {
     if (!bodies_.awake(island) || islands.of(island) != island) continue;
     if (wanted[island] == 0 || !isDirect(islands[island])) continue;
-    const auto belongs = [&](std::size_t i) { return islands.of(i) == island; };
-    const auto putBack = [&] {
-      for (std::size_t i = island; i < bodies_.size(); ++i) {
-        if (bodies_.awake(i) && belongs(i)) bodies_.restore(i);
-      }
-    };
-    putBack();
-    enableWhere(belongs);
-    if (engine_.solveDirectly(h)) continue;
-    fell_back = true;
-    putBack();
+    enableWhere([&](std::size_t i) { return islands.of(i) == island; });
+    if (solveNudged(islands, island, h)) continue;
+    fell_back[island] = 1;
+    putBack(islands, island);
     bodies_.applyForces();
     engine_.solveIteratively(h, std::max(iterations, kFallbackIterations));
   }
-  return fell_back;
 }
 
 }  // namespace presa::ode

@@ -15,6 +15,15 @@ std::size_t Islands::root(std::size_t a) {
   return a;
 }
 
+Islands::Island Islands::joined(std::size_t a, std::size_t b) {
+  Island all = islands_[root(a)];
+  ++all.contacts;
+  if (root(a) == root(b)) return all;
+  all.contacts += islands_[root(b)].contacts;
+  all.touched = all.touched || islands_[root(b)].touched;
+  return all;
+}
+
 void Islands::join(std::size_t a, std::size_t b) {
   const auto [low, high] = std::minmax({root(a), root(b)});
   ++islands_[low].contacts;

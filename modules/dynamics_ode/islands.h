@@ -15,6 +15,8 @@ class Islands {
   explicit Islands(std::size_t bodies) : parent_(bodies), islands_(bodies) { reset(); }
   /// Starts over with separate bodies.
   void reset();
+  /// The island that a contact between two free bodies would make.
+  Island joined(std::size_t a, std::size_t b);
   /// A contact between two free bodies.
   void join(std::size_t a, std::size_t b);
   /// A contact of one free body with something fixed.

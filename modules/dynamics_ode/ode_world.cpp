@@ -28,9 +28,10 @@ struct OdeWorld::Impl {
         engine(world->scene.gravity, options.seed, kContactsPerBody * world->scene.bodies.size()),
         bodies(*world, options.method.rotation, engine.world()),
         fingers(options.method.coupling),
-        collider(bodies),
+        collider(bodies, world->scene.gravity),
         solver(world->scene, engine, bodies, options),
-        islands(bodies.size()) {
+        islands(bodies.size()),
+        ahead(bodies.size()) {
     contacts.reserve(kContactsPerBody * bodies.size());
     finger_force.fill(Vec3::Zero());
     finger_impulse.fill(Vec3::Zero());
@@ -39,6 +40,7 @@ struct OdeWorld::Impl {
 
   void step(const ContactExchange& exchange, double time, double period, StageWatch& watch);
   void substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch);
+  void lookAhead();
   void findIslands(const ContactExchange& exchange);
   void wakeTouched(const ContactExchange& exchange);
   int substepsNow();
@@ -55,6 +57,7 @@ struct OdeWorld::Impl {
   std::optional<Sleep> sleep;  // absent when the scene does without
   Islands islands;
   std::vector<BodyContact> contacts;
+  std::vector<char> ahead;  // by body: contacts are made before they touch
   std::array<Vec3, kMaxFingers> finger_force, finger_impulse;
   Faults faults;
   std::uint64_t fallback_steps = 0;
@@ -75,13 +78,30 @@ void OdeWorld::Impl::giveUp() {
   finger_force.fill(Vec3::Zero());
 }
 
+// As far as can be told from the last step. In a heap, solved iteratively, it would cost more than it helps.
+void OdeWorld::Impl::lookAhead() {
+  for (std::size_t i = 0; i < bodies.size(); ++i) ahead[i] = solver.isDirect(islands[islands.of(i)]) ? 1 : 0;
+}
+
 void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
   islands.reset();
-  for (const BodyContact& contact : contacts) {
+  forEachTouch(exchange, bodies, [&](std::size_t, std::size_t body) { islands.touchByFinger(body); });
+  const auto add = [&](const BodyContact& contact) {
     const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
     bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
+  };
+  for (const BodyContact& contact : contacts) {
+    if (contact.depth >= 0) add(contact);
   }
-  forEachTouch(exchange, bodies, [&](std::size_t, std::size_t body) { islands.touchByFinger(body); });
+  // what does not touch yet must not make an island too large for the direct solver
+  const auto useless = [&](const BodyContact& contact) {
+    if (contact.depth >= 0) return false;
+    const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
+    if (!solver.isDirect(islands.joined(bodies.moves(A) ? A : B, B))) return true;
+    add(contact);
+    return false;
+  };
+  contacts.erase(std::remove_if(contacts.begin(), contacts.end(), useless), contacts.end());
 }
 
 int OdeWorld::Impl::substepsNow() {
@@ -128,7 +148,8 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   int substeps = 1;
   for (int s = 0; s < substeps; ++s) {
     bodies.beginStep();
-    collider.find(bodies, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
+    lookAhead();
+    collider.find(bodies, ahead, period / substeps, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
     if (s == 0) substeps = substepsNow();
     done(watch, Stage::kCollide);

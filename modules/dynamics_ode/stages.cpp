@@ -17,8 +17,10 @@ std::vector<StageText> listStages(const OdeOptions& options) {
     all.push_back(
         {Stage::kWake, "wake what a finger or a moving body touches; what lies still sleeps", wake + " + " + sleep});
   }
-  all.push_back({Stage::kCollide, "collide the physics geometries (sort and sweep, at most 8 contacts per pair)",
-                 ode + "OdeWorld::Impl::step - " + ode + "OdeWorld::Impl::substep - " + wake + " - " + sleep});
+  all.push_back(
+      {Stage::kCollide,
+       "collide the physics geometries, a step ahead of the touch (sort and sweep, at most 8 contacts per pair)",
+       ode + "OdeWorld::Impl::step - " + ode + "OdeWorld::Impl::substep - " + wake + " - " + sleep});
   all.push_back({Stage::kExtrapolate,
                  "extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades", read});
   all.push_back({Stage::kFingers,

@@ -31,48 +31,48 @@ StepSolver::StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, cons
       all_(bodies.size()),
       sliding_(bodies.size()),
       wrong_(bodies.size()),
+      fell_back_(bodies.size()),
       load_(bodies.size()) {}
 
 bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h,
                        int substeps, StageWatch& watch) {
   all_.assign(bodies_.size(), 1);
   iterations_ = solver_.iterations(contacts.size(), substeps);
-  joints_.begin(contacts, bodies_);
+  joints_.begin(contacts, bodies_, h);
   soften(islands, h);
   const bool isotropic = options_.method.friction == DynamicsSettings::Friction::kIsotropic && !contacts.empty();
   if (isotropic) startFromLastStep(islands);
   if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h, watch);
-  bool fell_back = pass(fingers, islands, all_, h, true, watch);
-  if (!isotropic) return fell_back;
+  pass(fingers, islands, all_, h, true, watch);
+  if (!isotropic) return any(fell_back_);
   joints_.readForces(islands, all_);
   for (int repeat = 0; repeat < kMostRepeats && judge(islands); ++repeat) {
     putBack(islands, wrong_);
-    predict(fingers, islands, wrong_, h, watch);
     boundByNormalForce(islands);
-    fell_back = pass(fingers, islands, wrong_, h, true, watch) || fell_back;
+    predict(fingers, islands, wrong_, h, watch);
+    pass(fingers, islands, wrong_, h, true, watch);
     joints_.readForces(islands, wrong_);
   }
   joints_.end(bodies_);
-  return fell_back;
+  return any(fell_back_);
 }
 
 void StepSolver::boundByNormalForce(Islands& islands) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const double f_n = joints_[i].f_B_W.dot(joints_.contact(i).nhat_AB_W);
-    if (wrong_[islandOf(i, islands)] != 0) joints_[i].limit = f_n > 0 ? joints_[i].mu * f_n : -1;
+    const std::size_t island = islandOf(i, islands);
+    if (wrong_[island] != 0) joints_[i].limit = f_n > 0 ? joints_[i].mu * f_n : fell_back_[island] != 0 ? 0 : -1;
   }
 }
 
-bool StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
+void StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
                       StageWatch& watch) {
   joints_.addTo(engine_, bodies_, islands, wanted, friction);
   watch.done(static_cast<std::size_t>(friction ? Stage::kSolve : Stage::kPredict));
   fingers.addTo(engine_, bodies_, islands, wanted);
   watch.done(static_cast<std::size_t>(Stage::kFingers));
-  const bool fell_back =
-      solver_.solve(islands, wanted, h, friction ? iterations_ : std::min(iterations_, kPredictionIterations));
+  solver_.solve(islands, wanted, h, friction ? iterations_ : std::min(iterations_, kPredictionIterations), fell_back_);
   engine_.clearContacts();
-  return fell_back;
 }
 
 void StepSolver::soften(Islands& islands, double h) {
@@ -177,6 +177,8 @@ bool StepSolver::judge(Islands& islands) {
     const bool lags = patch.friction > kAtLimit * patch.limit && patch.friction < (1 - kLag) * patch.cone;
     if (solver_.isDirect(islands[island]) && (exceeds || lags)) wrong_[island] = 1;
   });
+  // a bound that the direct solver found itself, at a contact without load, is one it cannot get past
+  for (std::size_t i = 0; i < bodies_.size(); ++i) wrong_[i] = wrong_[i] != 0 || fell_back_[i] != 0 ? 1 : 0;
   counts.repeats += static_cast<std::uint64_t>(std::count(wrong_.begin(), wrong_.end(), 1));
   return any(wrong_);
 }

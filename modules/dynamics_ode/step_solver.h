@@ -29,7 +29,7 @@ class StepSolver {
   } counts;
 
  private:
-  bool pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
+  void pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
             StageWatch& watch);
   /// The contacts of one pair.
   struct Patch {
@@ -59,8 +59,8 @@ class StepSolver {
   const OdeOptions options_;
   IslandSolver solver_;
   ContactJoints joints_;
-  std::vector<char> all_, sliding_, wrong_;  // by island
-  std::vector<Load> load_;                   // by island
+  std::vector<char> all_, sliding_, wrong_, fell_back_;  // by island
+  std::vector<Load> load_;                               // by island
   int iterations_ = 0;
 };
 

@@ -1,0 +1,96 @@
+#include "modules/dynamics_ode/grown_geom.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/dynamics_ode/ode_types.h"
+
+namespace presa::ode {
+namespace {
+
+constexpr double kRounding = 1e-6;
+
+Pose poseOf(dGeomID geom) {
+  dQuaternion q;
+  dGeomGetQuaternion(geom, q);
+  return {toVec3(dGeomGetPosition(geom)), toQuat(q)};
+}
+
+}  // namespace
+
+GrownGeom::GrownGeom(dGeomID geom, double margin)
+    : geom_(geom), shape_(dGeomGetClass(geom)), margin_(margin), X_WG_(poseOf(geom)) {
+  switch (shape_) {
+    case dBoxClass:
+      dGeomBoxGetLengths(geom, size_);
+      break;
+    case dSphereClass:
+      size_[0] = dGeomSphereGetRadius(geom);
+      break;
+    case dCylinderClass:
+      dGeomCylinderGetParams(geom, &size_[0], &size_[1]);
+      break;
+    default:
+      dGeomCapsuleGetParams(geom, &size_[0], &size_[1]);
+  }
+  set(margin);
+}
+
+void GrownGeom::set(double margin) {
+  switch (shape_) {
+    case dBoxClass:
+      return dGeomBoxSetLengths(geom_, size_[0] + 2 * margin, size_[1] + 2 * margin, size_[2] + 2 * margin);
+    case dSphereClass:
+      return dGeomSphereSetRadius(geom_, size_[0] + margin);
+    case dCylinderClass:
+      return dGeomCylinderSetParams(geom_, size_[0] + margin, size_[1] + 2 * margin);
+    default:
+      dGeomCapsuleSetParams(geom_, size_[0] + margin, size_[1]);
+  }
+}
+
+// How far a point is outside the grown shape, zero on its surface: as an order of points, not as a distance.
+double GrownGeom::outside(const Vec3& p) const {
+  switch (shape_) {
+    case dBoxClass:
+      return (p.cwiseAbs() - toVec3(size_) / 2).maxCoeff() - margin_;
+    case dCylinderClass:
+      return std::max(p.head<2>().norm() - size_[0], std::abs(p.z()) - size_[1] / 2) - margin_;
+    default:
+      return (p - Vec3(0, 0, std::clamp(p.z(), -size_[1] / 2, size_[1] / 2))).norm() - size_[0] - margin_;
+  }
+}
+
+Vec3 GrownGeom::onTrueShape(const Vec3& p) const {
+  switch (shape_) {
+    case dBoxClass: {
+      const Vec3 half = toVec3(size_) / 2;
+      return p.cwiseMax(-half).cwiseMin(half);
+    }
+    case dCylinderClass: {
+      const double r = p.head<2>().norm(), shrink = r > size_[0] ? size_[0] / r : 1;
+      return {shrink * p.x(), shrink * p.y(), std::clamp(p.z(), -size_[1] / 2, size_[1] / 2)};
+    }
+    default: {  // a sphere swept along a line, which may have no length
+      const Vec3 centre(0, 0, std::clamp(p.z(), -size_[1] / 2, size_[1] / 2));
+      return centre + size_[0] * (p - centre).normalized();
+    }
+  }
+}
+
+// ODE places a contact on either surface or halfway: of these points the outermost that is not outside is on ours. (Its round caps are
+// octagons, 8 % too wide.)
+void GrownGeom::takeBack(Vec3& p_W, double& depth, const Vec3& outward_W) const {
+  const Vec3 p = X_WG_.inverseTimes(p_W), outward = X_WG_.q.conjugate() * outward_W;
+  const double allowed = std::max(0.0, outside(p)) + kRounding * margin_;
+  Vec3 on_grown = p;
+  for (const double part : {0.5, 1.0}) {
+    const Vec3 other = p + part * depth * outward;
+    if (outside(other) < allowed) on_grown = other;
+  }
+  const Vec3 on_true = onTrueShape(on_grown);
+  depth -= (on_grown - on_true).dot(outward);
+  p_W = X_WG_ * on_true;
+}
+
+}  // namespace presa::ode

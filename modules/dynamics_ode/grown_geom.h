@@ -1,0 +1,35 @@
+#pragma once
+#include <ode/ode.h>
+
+#include "framework/math/spatial.h"
+
+namespace presa::ode {
+
+/// A box, sphere, cylinder or capsule that reaches `margin` further on all sides while this lives: what is near it touches it. A
+/// contact of the grown shape, taken back to the true one, has the distance to that as negative depth.
+class GrownGeom {
+ public:
+  static bool possible(dGeomID geom) noexcept { return geom != nullptr && dGeomGetClass(geom) != dTriMeshClass; }
+
+  GrownGeom(dGeomID geom, double margin);
+  ~GrownGeom() { set(0); }
+  GrownGeom(const GrownGeom&) = delete;
+  GrownGeom& operator=(const GrownGeom&) = delete;
+
+  /// Makes a contact of the grown shape one of the true shape: p_W on its surface, depth negative where there is a gap.
+  /// `outward_W` is the unit normal of the contact, out of this shape.
+  void takeBack(Vec3& p_W, double& depth, const Vec3& outward_W) const;
+
+ private:
+  void set(double margin);
+  double outside(const Vec3& p_G) const;
+  Vec3 onTrueShape(const Vec3& p_G) const;
+
+  dGeomID geom_;
+  int shape_;
+  double margin_;
+  dVector3 size_{};  ///< true; box: edges; others: radius, length
+  Pose X_WG_;
+};
+
+}  // namespace presa::ode
