@@ -63,6 +63,9 @@ void StateHash::add(const ObjectState& state) noexcept {
   add(state.time_begin);
   add(state.time_end);
   add(state.count);
+  add(state.faults);
+  addWord(state.fallback_steps);
+  for (const Vec3& impulse_W : state.finger_impulse_W) add(impulse_W);
   for (std::size_t i = 0; i < static_cast<std::size_t>(state.count); ++i) {
     const BodyMotion& body = state.bodies[i];
     add(body.X_WB_begin);
