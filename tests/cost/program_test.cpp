@@ -86,7 +86,7 @@ TEST(Cost, WritesWhatItPromises) {
 // The same study interrupted, resumed, and never interrupted gives the same errors; what was done is kept.
 TEST(Cost, GoesOnAfterCtrlC) {
   const std::string whole = scratch("whole"), broken = scratch("broken");
-  const std::string study = "cost " + kCube + " --knob dynamics_rate=50,100,200,250,500,1000 --jobs 1";
+  const std::string study = "cost " + kCube + " --for 1.5 --knob dynamics_rate=50,100,200,250,500,1000 --jobs 1";
   // interrupted as soon as two runs are kept: no clock decides
   const auto stopped = shell("sh -c '" + std::string(PRESA_BINARY_DIR) + "/bin/presa " + study + " --out " + broken +
                              " & pid=$!; while kill -0 $pid 2>/dev/null && [ $(ls " + broken +

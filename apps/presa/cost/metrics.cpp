@@ -204,9 +204,9 @@ const std::vector<Metric>& allMetrics() {
        "worst finger",
        [](const Evidence& s, const Evidence&) { return s.force_step; }, true, none},
       {"hum", "Hum at the dynamics rate", "N",
-       "amplitude of the force at the dynamics rate while touching, worst finger; 0 where the haptic rate is too low "
-       "to "
-       "carry it",
+       "amplitude of the force at the dynamics rate while touching, worst finger; none where the haptic rate is too "
+       "low "
+       "to carry it",
        [](const Evidence& s, const Evidence&) { return s.hum; }, true, none},
   };
   return metrics;

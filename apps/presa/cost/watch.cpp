@@ -72,7 +72,7 @@ class Watcher {
     for (const Ripple& ripple : ripples_) {
       if (const auto step = ripple.step()) evidence_.force_step = std::max(evidence_.force_step.value_or(0), *step);
       const auto hum = ripple.hum();
-      if (hum && !free_.empty()) evidence_.hum = std::max(evidence_.hum.value_or(0), hears ? *hum : 0);
+      if (hum && hears && !free_.empty()) evidence_.hum = std::max(evidence_.hum.value_or(0), *hum);
     }
     return std::move(evidence_);
   }

@@ -46,7 +46,7 @@ std::vector<std::pair<double, std::string>> ticks(const LogScale& scale) {
       const double at = e + std::log10(lead);
       if (at < low || at > high || (lead > 1 && !fine)) continue;
       const double value = std::pow(10.0, at);
-      found.emplace_back(value, lead == 1 ? powerText(e) : number(value, 1));
+      found.emplace_back(value, lead == 1 ? powerText(e) : number(value, e >= -3 && e <= 4 ? 12 : 1));
     }
   }
   return found;
