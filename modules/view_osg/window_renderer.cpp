@@ -124,6 +124,7 @@ class WindowRenderer final : public Renderer {
     viewer_.setCameraManipulator(orbit_, false);
     viewer_.setSceneData(picture.root());
     orbit_->setVerticalAxisFixed(true);
+    orbit_->setAllowThrow(false);  // a quick drag must not leave the scene spinning
     picture.setSize(kWidth, kHeight);
     viewer_.realize();
     if (!viewer_.isRealized()) throw std::runtime_error("the window opened, but it gives no OpenGL context");
