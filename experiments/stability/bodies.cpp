@@ -1,30 +1,11 @@
 #include "experiments/stability/bodies.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
+#include "framework/study/box_penetration.h"
+
 namespace presa::stability {
-namespace {
-
-// a corner as far as this beside the other box still counts as over it: boxes of equal size
-constexpr double kBeside = 1e-3;  // [m]
-
-/// How far the corners of box B on the side `sign` along its z reach into box A through A's opposite face.
-double cornersInside(const Pose& X_AB, const Vec3& half_A, const Vec3& half_B, double sign) {
-  double deepest = 0;
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      const Vec3 p_A = X_AB * Vec3(x * half_B.x(), y * half_B.y(), sign * half_B.z());
-      const bool over = std::abs(p_A.x()) <= half_A.x() + kBeside && std::abs(p_A.y()) <= half_A.y() + kBeside;
-      if (over) deepest = std::max(deepest, half_A.z() + sign * p_A.z());
-    }
-  }
-  return deepest;
-}
-
-}  // namespace
-
 StudyRun::Observer atEachStep(std::function<void(const ObjectState&)> use) {
   return [use = std::move(use), last = std::uint64_t{0}](const StudySample& sample) mutable {
     if (sample.objects == nullptr || sample.objects_version == last) return;
@@ -45,7 +26,7 @@ BoxStack::BoxStack(const World& world, const std::vector<std::string>& bodies) {
     const std::size_t i = bodyNamed(world, name);
     const Body& body = world.scene.bodies[i];
     const Pose& X_WLowest = world.scene.bodies[members_.empty() ? i : members_.front().body].X_WB;
-    members_.push_back({i, std::get<Box>(body.physics.value().shape).size / 2, X_WLowest.inverseTimes(body.X_WB.p)});
+    members_.push_back({i, std::get<Box>(body.physics.value().shape).size, X_WLowest.inverseTimes(body.X_WB.p)});
   }
 }
 
@@ -53,9 +34,8 @@ double BoxStack::penetration(const ObjectState& state) const {
   double deepest = 0;
   for (std::size_t i = 1; i < members_.size(); ++i) {
     const Member &low = members_[i - 1], &high = members_[i];
-    const Pose X_LowHigh = state.bodies[low.body].X_WB_end.inverse() * state.bodies[high.body].X_WB_end;
-    deepest = std::max({deepest, cornersInside(X_LowHigh, low.half, high.half, -1),
-                        cornersInside(X_LowHigh.inverse(), high.half, low.half, 1)});
+    deepest = std::max(deepest, boxPenetration(low.size, state.bodies[low.body].X_WB_end, high.size,
+                                               state.bodies[high.body].X_WB_end));
   }
   return deepest;
 }

@@ -19,7 +19,7 @@ class BoxStack {
  public:
   /// From the lowest to the highest; each a box in its own frame.
   BoxStack(const World& world, const std::vector<std::string>& bodies);
-  /// How far any corner of a box is inside the next one [m]; 0 when none is.
+  /// How deep any box is in the next one, by the separating axis test [m]; 0 when none is.
   double penetration(const ObjectState& state) const;
   /// How far the centre of any box has gone from where it was at the start, seen from the lowest one [m].
   double shift(const ObjectState& state) const;
@@ -27,7 +27,7 @@ class BoxStack {
  private:
   struct Member {
     std::size_t body = 0;
-    Vec3 half = Vec3::Zero();
+    Vec3 size = Vec3::Zero();
     Vec3 p_Lowest = Vec3::Zero();  ///< at the start, in the lowest box's frame
   };
   std::vector<Member> members_;
