@@ -40,6 +40,7 @@ struct BodyPatch {
 };
 
 struct FingerPatch {
+  std::uint64_t serial = 0;  ///< of the query that made it: equal serials mean equal patches
   std::int32_t body_count = 0;
   std::int32_t triangle_count = 0;
   std::array<BodyPatch, kMaxNearBodies> bodies;
@@ -57,13 +58,15 @@ struct ContactPatches {
 
   ContactPatches() = default;
   ContactPatches(const ContactPatches& other) { *this = other; }
-  /// Copies only what is in use.
+  /// Copies only what is in use, and what is not there yet.
   ContactPatches& operator=(const ContactPatches& other) {
     if (this == &other) return *this;
     time = other.time;
     count = other.count;
     capped_total = other.capped_total;
     for (std::size_t f = 0; f < static_cast<std::size_t>(count); ++f) {
+      if (fingers[f].serial == other.fingers[f].serial && other.fingers[f].serial != 0) continue;
+      fingers[f].serial = other.fingers[f].serial;
       fingers[f].body_count = other.fingers[f].body_count;
       fingers[f].triangle_count = other.fingers[f].triangle_count;
       std::copy_n(other.fingers[f].bodies.begin(), other.fingers[f].body_count, fingers[f].bodies.begin());

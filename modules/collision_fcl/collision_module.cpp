@@ -17,6 +17,14 @@ std::size_t capacityOf(const CollisionSettings& settings) {
   return settings.max_triangles == 0 ? kRoom : std::min(settings.max_triangles, kRoom);
 }
 
+// How far to look when `needed` must be complete: farther, so that the patch serves for a while, but where the last one was
+// full, complete to `held`, not much farther than that (zero: it was not full).
+double askedFor(double needed, double held) {
+  constexpr double kFarther = 1.5, kGrowth = 1.1;
+  const double most = kFarther * needed;
+  return held > 0 ? std::clamp(kGrowth * held, needed, most) : most;
+}
+
 enum Stage : std::size_t { kPlace, kGather, kDeliver };
 
 }  // namespace
@@ -37,6 +45,7 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
     mesh_bodies_.push_back({static_cast<std::int32_t>(b), world_->scene.bodies[b].haptic->X_BG, index});
   }
   candidates_.resize(mesh_bodies_.size());
+  for (std::vector<Ball>& known : known_) known.resize(mesh_bodies_.size());
   for (Candidate& candidate : candidates_) candidate.triangles.reserve(capacity_);
   contenders_.reserve(kMaxNearBodies * capacity_);
 }
@@ -51,16 +60,18 @@ void CollisionModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept 
   patches.time = tick.time;
   patches.count = device_state->count;
   for (std::size_t f = 0; f < static_cast<std::size_t>(patches.count); ++f) {
+    const bool serves = lastPatchServes(f, tick);
+    watch.done(kPlace);
+    if (serves) continue;
     gatherAround(f, tick, watch);
     patches.capped_total += keepNearestBodies();
     keepNearestTriangles();
+    patches.capped_total += remember(f);
     FingerPatch& patch = patches.fingers[f];
+    patch.serial = ++serial_;
     patch.body_count = 0;
     patch.triangle_count = 0;
-    for (std::size_t c = 0; c < candidate_count_; ++c) {
-      write(candidates_[c], patch);
-      patches.capped_total += candidates_[c].gathered.capped;
-    }
+    for (std::size_t c = 0; c < candidate_count_; ++c) write(candidates_[c], patch);
     watch.done(kDeliver);
   }
 }
@@ -97,33 +108,64 @@ double CollisionModule::reachOf(std::size_t finger, std::int32_t body, const Pos
   return least + motionBound(motion, horizon) + reach::kMargin;
 }
 
-bool CollisionModule::place(std::size_t finger, const MeshBody& mesh_body, const Tick& tick,
-                            Query& query) const noexcept {
+CollisionModule::Ball CollisionModule::neededOn(const MeshBody& mesh_body, std::size_t finger,
+                                                const Tick& tick) const noexcept {
   const Pose X_WB = poseOf(mesh_body.body, tick.time);
-  query.center_B = centerOf(finger, mesh_body.body, X_WB);
-  query.radius = reachOf(finger, mesh_body.body, X_WB, query.center_B, tick);
-  query.center_G = mesh_body.X_BG.inverseTimes(query.center_B);
+  const Vec3 center_B = centerOf(finger, mesh_body.body, X_WB);
+  const double radius = reachOf(finger, mesh_body.body, X_WB, center_B, tick);
+  const Vec3 center_G = mesh_body.X_BG.inverseTimes(center_B);
   const TriangleIndex& index = *mesh_body.index;
-  // a position that is not a number is out of reach
-  return (query.center_G - index.sphereCenter()).norm() <= index.sphereRadius() + query.radius;
+  // written so that a position that is not a number is out of reach
+  if (!((center_G - index.sphereCenter()).norm() <= index.sphereRadius() + radius)) return {};
+  return {center_B, radius};
+}
+
+bool CollisionModule::lastPatchServes(std::size_t finger, const Tick& tick) const noexcept {
+  for (std::size_t m = 0; m < mesh_bodies_.size(); ++m) {
+    const Ball needed = neededOn(mesh_bodies_[m], finger, tick);
+    // a body that was in reach and is no more is taken off the list
+    if ((needed.radius < 0) != (known_[finger][m].radius < 0)) return false;
+    if (needed.radius >= 0 && !known_[finger][m].holds(needed)) return false;
+  }
+  return contact_patches.value.fingers[finger].serial != 0;
 }
 
 void CollisionModule::gatherAround(std::size_t finger, const Tick& tick, StageWatch& watch) noexcept {
   candidate_count_ = 0;
-  for (const MeshBody& mesh_body : mesh_bodies_) {
-    Query query;
-    const bool near = place(finger, mesh_body, tick, query);
+  for (std::size_t m = 0; m < mesh_bodies_.size(); ++m) {
+    const MeshBody& mesh_body = mesh_bodies_[m];
+    Ball& known = known_[finger][m];
+    const Ball needed = neededOn(mesh_body, finger, tick);
+    const bool fixed = world_->scene.collision.margin > 0;
+    const double asked = fixed ? needed.radius : askedFor(needed.radius, known.full ? known.radius : 0);
+    known = {};
     watch.done(kPlace);
-    if (!near) continue;
+    if (needed.radius < 0) continue;
     Candidate& candidate = candidates_[candidate_count_];
-    candidate.gathered = mesh_body.index->gather(query.center_G, query.radius, capacity_, candidate.triangles);
+    candidate.gathered =
+        mesh_body.index->gather(mesh_body.X_BG.inverseTimes(needed.center_B), asked, capacity_, candidate.triangles);
     watch.done(kGather);
-    if (candidate.triangles.empty()) continue;
+    if (candidate.triangles.empty()) {
+      known = {needed.center_B, asked};
+      continue;
+    }
     candidate.mesh_body = &mesh_body;
-    candidate.center_B = query.center_B;
+    candidate.needed = needed;
     candidate.nearest = std::ranges::min_element(candidate.triangles, nearer)->distance;
     ++candidate_count_;
   }
+}
+
+std::uint64_t CollisionModule::remember(std::size_t finger) noexcept {
+  std::uint64_t cut_short = 0;
+  for (std::size_t c = 0; c < candidate_count_; ++c) {
+    Candidate& candidate = candidates_[c];
+    const auto m = static_cast<std::size_t>(candidate.mesh_body - mesh_bodies_.data());
+    known_[finger][m] = {candidate.needed.center_B, candidate.gathered.radius, candidate.gathered.capped};
+    candidate.gathered.capped = candidate.gathered.radius < candidate.needed.radius;
+    cut_short += candidate.gathered.capped;
+  }
+  return cut_short;
 }
 
 std::size_t CollisionModule::keepNearestBodies() noexcept {
@@ -165,7 +207,7 @@ void CollisionModule::write(Candidate& candidate, FingerPatch& patch) noexcept {
   std::ranges::sort(candidate.triangles, {}, &NearTriangle::id);
   BodyPatch& body = patch.bodies[static_cast<std::size_t>(patch.body_count++)];
   body = {candidate.mesh_body->body, patch.triangle_count,      static_cast<std::int32_t>(candidate.triangles.size()),
-          candidate.center_B,        candidate.gathered.radius, candidate.gathered.capped};
+          candidate.needed.center_B, candidate.gathered.radius, candidate.gathered.capped};
   for (const NearTriangle& near : candidate.triangles) {
     const auto slot = static_cast<std::size_t>(patch.triangle_count++);
     PatchTriangle& out = patch.triangles[slot];
@@ -189,7 +231,7 @@ std::vector<std::string> CollisionModule::stages() const {
 }
 
 std::vector<std::string> CollisionModule::stageFunctions() const {
-  const std::string module = "presa::CollisionModule::", place = module + "place",
+  const std::string module = "presa::CollisionModule::", place = module + "neededOn",
                     gather = "presa::TriangleIndex::gather";
   return {place, gather, module + "stepWatched - " + place + " - " + gather};
 }

@@ -109,8 +109,30 @@ TEST_F(CollisionModuleTest, RadiusGrowsByTheWayTheFingerCanGo) {
   const double still = query({0, 0, 0.06}).fingers[0].bodies[0].radius;
   const double moving = query({0, 0, 0.06}, {0.3, 0, 0.4}).fingers[0].bodies[0].radius;
   const double horizon = 2 * 0.01 + 1 / world_.scene.rates.dynamics;
-  EXPECT_NEAR(still, kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * horizon * horizon, 1e-15);
-  EXPECT_NEAR(moving - still, 0.5 * horizon, 1e-15);
+  constexpr double kFarther = 1.5;  // a patch is made half as large again as needed, so that it serves for a while
+  EXPECT_NEAR(still, kFarther * (kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * horizon * horizon), 1e-15);
+  EXPECT_NEAR(moving - still, kFarther * 0.5 * horizon, 1e-15);
+}
+
+// A patch serves until what the finger needs is no longer in it; whatever the way, what is needed is always there.
+TEST_F(CollisionModuleTest, APatchServesUntilTheFingerNeedsMore) {
+  addBody(makeSphere(0.05, 4), kPlaced, kInBody);
+  const double needed = kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * 0.025 * 0.025;
+  ASSERT_EQ(1 / world_.scene.rates.dynamics, 0.005);
+  int made = 0;
+  std::uint64_t serial = 0;
+  for (double angle = 0; angle < 1; angle += 0.01) {  // 0.56 mm a query
+    const Vec3 finger = kPlaced * (kInBody * Vec3(0.056 * std::sin(angle), 0, 0.056 * std::cos(angle)));
+    const FingerPatch& patch = query(finger).fingers[0];
+    if (patch.serial != serial) ++made;
+    serial = patch.serial;
+    ASSERT_EQ(patch.body_count, 1);
+    const BodyPatch& part = patch.bodies[0];
+    ASSERT_GE(part.radius, (kPlaced * part.center_B - finger).norm() + needed);
+    expectComplete(patch, part);
+  }
+  // half the radius lasts for 0.5 needed / 0.56 mm queries
+  EXPECT_NEAR(made, 100 / (0.5 * needed / 0.00056), 2);
 }
 
 // The scene may fix the radius instead, and may allow fewer triangles: the patch stays true to what it says of itself.
