@@ -126,7 +126,7 @@ TEST(Cost, TheReportWorksInABrowser) {
       box.firstChild && box.firstChild.textContent === points[0].dataset.name.split('\n')[0]].join(' ');</script>)";
   std::ofstream(scratch("probe.html")) << page;
   const auto seen = shell(
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
+      "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic --no-first-run "
       "--disable-background-networking"
       " --disable-component-update --disable-sync --enable-logging=stderr --user-data-dir=" +
       scratch("profile") + " --dump-dom file://" + scratch("probe.html"));
