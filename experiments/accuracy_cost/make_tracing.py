@@ -35,9 +35,9 @@ def buzz():
     """Straight across the waves at constant speed."""
     x, z = LENGTH / 2 - 0.004, BUZZ_TIP - BUZZ_DEPTH
     way = 2 * x / BUZZ_SPEED
-    rows = [(0, (-x, 0, BUZZ_TIP + 0.003), "reach"), (0.1, (-x, 0, z), "trace"), (0.1 + way, (x, 0, z), "turn"),
-            (0.2 + way, (x, 0, z), "trace"), (0.2 + 2 * way, (-x, 0, z), "leave"),
-            (0.3 + 2 * way, (-x, 0, BUZZ_TIP + 0.003), "leave")]
+    rows = [(0, (-x, 0, BUZZ_TIP + 0.003), "reach"), (0.6, (-x, 0, z), "trace"), (0.6 + way, (x, 0, z), "turn"),
+            (0.7 + way, (x, 0, z), "trace"), (0.7 + 2 * way, (-x, 0, z), "leave"),
+            (0.8 + 2 * way, (-x, 0, BUZZ_TIP + 0.003), "leave")]
     motion("buzz.csv", "A stylus drawn over waves of 2 mm at 160 mm/s: 80 Hz.", rows)
 
 

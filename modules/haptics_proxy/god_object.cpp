@@ -122,8 +122,8 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   Legs legs;
   legs.margin = kMargin * r;
   legs.look(start, r, surroundings);
-  bool met = false;
-  for (int i = 0; i < kMaxLegs; ++i) {
+  bool met = false, arrived = false;
+  for (int i = 0; i < kMaxLegs && result.covered; ++i) {
     if ((result.x - legs.center).norm() > 0.9 * legs.margin) {
       legs.margin *= 2;  // a long way is looked at in ever larger parts: the number of legs is bounded
       legs.look(result.x, r, surroundings);
@@ -135,14 +135,17 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     }
     legs.target = nearestFeasible(legs.half_spaces, g);
     result.touching = legs.target.active_count > 0;
-    result.body = holdingBody(legs, g, surroundings);
+    if (result.touching) result.body = holdingBody(legs, g, surroundings);
     const Vec3 move = legs.target.y - result.x;
-    if (move.norm() <= kStill * r) break;
+    arrived = move.norm() <= kStill * r;
+    if (arrived) break;
     const double room = legs.margin - (result.x - legs.center).norm();
     result.x += freeFraction(result.x, move, room, r, surroundings, legs, result.covered) * move;
-    if (!result.covered) break;
   }
   if (!met) result.first_touch = result.x;
+  // out of legs between one edge and the next: what held it last still does, and the next tick goes on from here
+  if (!arrived && result.covered && result.body != kNoBody) result.touching = true;
+  if (!result.touching) result.body = kNoBody;
   return result;
 }
 

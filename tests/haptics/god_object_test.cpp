@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "modules/haptics_proxy/god_object.h"
 #include "modules/haptics_proxy/nearest_feasible.h"
@@ -47,6 +48,21 @@ TEST(GodObject, IsTheProjectionOnAPlane) {
   const ProxyMove move = moveProxy({0.01, 0.02, 0.05}, {0.03, -0.01, -0.02}, kR, *s);
   EXPECT_TRUE(move.touching);
   EXPECT_NEAR((move.x - Vec3(0.03, -0.01, kR)).norm(), 0, 1e-8 * kR);
+}
+
+// On the ridge of a roof, with the HIP just below it, the fingertip leaves the top ever faster but slowly at first, a short
+// leg round the edge at a time: when they run out, it is still on the roof.
+TEST(GodObject, IsInTouchWhenItsLegsRunOutOnARidge) {
+  auto s = std::make_unique<Surroundings>();
+  const double run = 0.01, fall = 0.0002;
+  addTriangle(*s, {0, -0.1, 0}, {run, 0, -fall}, {0, 0.1, 0});
+  addTriangle(*s, {0, -0.1, 0}, {0, 0.1, 0}, {-run, 0, -fall});
+  for (const double off : {1e-5, 1e-4, 1e-3}) {
+    const ProxyMove move = moveProxy({off * kR, 0, std::sqrt(1 - off * off) * kR}, {0, 0, -0.03 * kR}, kR, *s);
+    EXPECT_TRUE(move.touching) << off;
+    EXPECT_EQ(move.body, 0) << off;
+    EXPECT_NEAR((move.x - Vec3(0, 0, -0.03 * kR)).norm(), 1.03 * kR, 0.001 * kR) << off;
+  }
 }
 
 // Going down a step of any size and any scale gives the same answer: no tolerance is absolute.

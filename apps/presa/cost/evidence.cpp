@@ -10,7 +10,7 @@
 namespace presa::cost {
 namespace {
 
-constexpr char kMark[8] = {'P', 'R', 'C', 'O', 'S', 'T', '0', '2'};
+constexpr char kMark[8] = {'P', 'R', 'C', 'O', 'S', 'T', '0', '3'};
 
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {
@@ -36,11 +36,13 @@ std::optional<double> optionalNumber(const nlohmann::json& json, const char* key
 
 void Trace::save(const std::string& file) const {
   std::string bytes(kMark, sizeof kMark);
-  append(bytes, std::vector<std::uint64_t>{fingers, bodies, time_ns.size()});
+  append(bytes, std::vector<std::uint64_t>{fingers, bodies, time_ns.size(), held_from_ns.size()});
   append(bytes, time_ns);
   append(bytes, stepped);
   append(bytes, finger);
   append(bytes, body);
+  append(bytes, held_from_ns);
+  append(bytes, held);
   writeFileAtomically(file, bytes);
 }
 
@@ -50,7 +52,7 @@ Trace Trace::load(const std::string& file) {
   if (bytes.compare(0, sizeof kMark, kMark, sizeof kMark) != 0) throw std::runtime_error("no stored run: " + file);
   std::size_t at = sizeof kMark;
   std::vector<std::uint64_t> counts;
-  take(bytes, at, counts, 3);
+  take(bytes, at, counts, 4);
   Trace trace;
   trace.fingers = counts[0];
   trace.bodies = counts[1];
@@ -58,6 +60,8 @@ Trace Trace::load(const std::string& file) {
   take(bytes, at, trace.stepped, counts[2]);
   take(bytes, at, trace.finger, counts[0] * counts[2]);
   take(bytes, at, trace.body, counts[1] * counts[2]);
+  take(bytes, at, trace.held_from_ns, counts[3]);
+  take(bytes, at, trace.held, counts[0] * counts[3]);
   return trace;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -28,6 +29,10 @@ struct Trace {
   std::vector<std::uint8_t> stepped;  ///< 1 where bodies are where a dynamics step put them, not in between
   std::vector<FingerSample> finger;   ///< fingers per instant
   std::vector<BodySample> body;       ///< free bodies per instant
+
+  // What the devices hold from each haptic tick to the next, at the run's own rate.
+  std::vector<std::int64_t> held_from_ns;
+  std::vector<std::array<float, 3>> held;  ///< fingers per tick, W [N]
 
   void save(const std::string& file) const;
   static Trace load(const std::string& file);  ///< throws std::runtime_error

@@ -64,6 +64,30 @@ Value fingers(const Evidence& s, const Evidence& r, double (*error)(const Finger
   return worst;
 }
 
+/// The worst finger's difference of what the devices hold, at every tick of the reference: a slow rate holds what is old.
+Value held(const Evidence& s, const Evidence& r, bool in_steps) {
+  const Trace &a = s.trace, &b = r.trace;
+  if (a.fingers != b.fingers || a.held_from_ns.empty()) return std::nullopt;
+  std::vector<Sum> sums(a.fingers);
+  for (std::size_t j = 0, i = 0; j < b.held_from_ns.size(); ++j) {
+    const std::int64_t now = b.held_from_ns[j];
+    while (i + 1 < a.held_from_ns.size() && a.held_from_ns[i + 1] <= now) ++i;
+    const double time = static_cast<double>(now) * 1e-9;
+    if (time < s.compared_from || time >= s.compared_to) continue;
+    for (std::size_t f = 0; f < sums.size(); ++f) {
+      const auto &x = a.held[i * sums.size() + f], &y = b.held[j * sums.size() + f];
+      const double difference = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]), force = std::hypot(y[0], y[1], y[2]);
+      if (difference == 0 && force == 0) continue;  // neither touches
+      sums[f].add(in_steps ? difference / (kForceStep * std::max(force, kLeastForce)) : difference);
+    }
+  }
+  Value worst;
+  for (const Sum& sum : sums) {
+    if (const Value v = sum.rms()) worst = std::max(worst.value_or(0), *v);
+  }
+  return worst;
+}
+
 /// Over all free bodies and the instants at which a step of the setting's dynamics ends: between them readers interpolate.
 Value bodies(const Evidence& s, const Evidence& r, double (*error)(const BodySample&, const BodySample&)) {
   Sum sum;
@@ -165,6 +189,14 @@ const std::vector<Metric>& allMetrics() {
        "as force_peak, in tenths of the reference's force at that moment (of 0.5 N below that)",
        [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceSteps, false, &Sum::peak); }, false,
        oneStep},
+      {"force_held", "Force as held, RMS error", "N",
+       "root of the mean square of |force that the device holds − reference| over all time, between the ticks too; "
+       "worst "
+       "finger",
+       [](const Evidence& s, const Evidence& r) { return held(s, r, false); }, false, forceNoticeable},
+      {"force_held_jnd", "Force as held, RMS error in just-noticeable steps", "steps",
+       "as force_held, in tenths of the reference's force at that moment (of 0.5 N below that)",
+       [](const Evidence& s, const Evidence& r) { return held(s, r, true); }, false, oneStep},
       {"proxy", "Proxy, RMS error", "mm", "distance of the proxy from the reference's, while both touch; worst finger",
        [](const Evidence& s, const Evidence& r) { return fingers(s, r, proxyError, true, &Sum::rms); }, false,
        apertureNoticeable},

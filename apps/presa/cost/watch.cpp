@@ -56,6 +56,7 @@ class Watcher {
       ripples_[f].add(sample.tick.time, contact.f_H_W, contact.mode != ContactMode::kNone, boundary);
     }
     const std::int64_t ns = static_cast<std::int64_t>(sample.tick.index) * rates_.periodNs(RateGroup::kHaptic);
+    hold(sample, ns);
     if (ns % kGridNs == 0) store(sample, ns);
   }
 
@@ -78,6 +79,15 @@ class Watcher {
   }
 
  private:
+  void hold(const StudySample& sample, std::int64_t ns) {
+    Trace& trace = evidence_.trace;
+    trace.held_from_ns.push_back(ns);
+    for (std::size_t f = 0; f < trace.fingers; ++f) {
+      const Eigen::Vector3f force = sample.command.f_H_W[f].cast<float>();
+      trace.held.push_back({force.x(), force.y(), force.z()});
+    }
+  }
+
   void store(const StudySample& sample, std::int64_t ns) {
     Trace& trace = evidence_.trace;
     trace.time_ns.push_back(ns);
