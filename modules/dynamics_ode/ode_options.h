@@ -9,16 +9,17 @@ namespace presa::ode {
 struct OdeOptions {
   DynamicsSettings method;
   std::uint64_t seed = 1;  ///< order in which the iterative solver visits its rows
-  /// Contacts of an island up to which it is solved directly. Cubic: 80 contacts take 2 to 3 ms, 150 take 20.
-  std::uint32_t direct_limit = 80;
+  /// Contacts of an island up to which it is solved directly: a tower of ten has 40. Cubic: 48 contacts take half a
+  /// millisecond, 80 take 2 to 3, 150 take 20; a heap of 27 cubes is cheaper and no worse with sub-steps of iterations.
+  std::uint32_t direct_limit = 48;
   /// Iterations for larger islands when the scene leaves them open: `most_iterations`, fewer when contacts * iterations
   /// would exceed the budget (2 ms), never below `least_iterations`.
   int most_iterations = 200;
   int iteration_budget = 40000;
   int least_iterations = 50;
-  /// A finger on an island too large for the direct solver: its spring converges with h^2 / iterations, so the period is cut
-  /// into so many sub-steps, with fewer iterations each.
-  int touched_substeps = 5;
+  /// With an island too large for the direct solver the period is cut into so many sub-steps, with fewer iterations each: a
+  /// finger's spring converges with h^2 / iterations, and a heap overlaps less for less time (config/README.md).
+  int large_substeps = 5;
   int least_iterations_of_substep = 20;
   /// Contact between bodies: part of the penetration removed per step, and compliance cfm = h * softness / reduced
   /// mass, at most max_contact_cfm [m/(N s)]. A body on a table sinks g h^2 softness / (contacts * erp), below 1 um,

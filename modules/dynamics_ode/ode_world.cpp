@@ -107,10 +107,16 @@ void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
 int OdeWorld::Impl::substepsNow() {
   if (options.method.substeps > 0) return static_cast<int>(options.method.substeps);
   if (options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
+  bool large = false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (islands[i].touched && !solver.isDirect(islands[i])) return options.touched_substeps;
+    if (solver.isDirect(islands[i])) continue;
+    if (islands[i].touched) return options.large_substeps;
+    large = large || islands[i].contacts > options.direct_limit;
   }
-  return 1;
+  if (!large) return 1;
+  // a heap that no finger feels gets as many as its time allows
+  const auto row_visits = static_cast<int>(contacts.size()) * options.least_iterations_of_substep;
+  return std::clamp(options.iteration_budget / row_visits, 1, options.large_substeps);
 }
 
 void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch) {

@@ -157,6 +157,9 @@ Case stallWhileHolding() {
                               {"for", number(1000 * length) + " ms"},
                               {"while", lifting ? "lifting" : "holding"}};
           trial.method = method.name;
+          // the hand has gone 30 mm up to the shoulder, which no pinch holds: the amphora slips out of the new grip
+          const bool left = lifting && kind.group == RateGroup::kDynamics && length > 0.4;
+          if (left) trial.expected = Verdict::kDrift;
           if (!method.own()) trial.expected = Verdict::kUnstable;
           const Stall stall{kind.group, lifting ? kWhileLifting : kWhileHolding, length, method};
           trial.run = [stall] { return judgeStall(stall); };
