@@ -74,6 +74,7 @@ void DeviceOutput::report(std::size_t finger, std::uint32_t before, std::uint32_
 
 void DeviceOutput::stop() {
   Tick tick = last_tick_;
+  tick.made_up = false;  // these are written
   for (bool moving = true; moving;) {
     moving = false;
     ++tick.index;

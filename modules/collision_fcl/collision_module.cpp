@@ -136,11 +136,12 @@ void CollisionModule::gatherAround(std::size_t finger, const Tick& tick, StageWa
     const MeshBody& mesh_body = mesh_bodies_[m];
     Ball& known = known_[finger][m];
     const Ball needed = neededOn(mesh_body, finger, tick);
-    const bool fixed = world_->scene.collision.margin > 0;
-    const double asked = fixed ? needed.radius : askedFor(needed.radius, known.full ? known.radius : 0);
+    const double held = known.full ? known.radius : 0;
     known = {};
     watch.done(kPlace);
     if (needed.radius < 0) continue;
+    const bool fixed = world_->scene.collision.margin > 0;
+    const double asked = fixed ? needed.radius : askedFor(needed.radius, held);
     Candidate& candidate = candidates_[candidate_count_];
     candidate.gathered =
         mesh_body.index->gather(mesh_body.X_BG.inverseTimes(needed.center_B), asked, capacity_, candidate.triangles);
@@ -186,9 +187,11 @@ void CollisionModule::keepNearestTriangles() noexcept {
     for (const NearTriangle& triangle : candidates_[c].triangles) contenders_.push_back({triangle, c});
   }
   if (contenders_.size() <= capacity_) return;
-  std::ranges::sort(contenders_, [](const Contender& a, const Contender& b) {
-    return std::tuple(a.triangle.distance, a.candidate, a.triangle.id) <
-           std::tuple(b.triangle.distance, b.candidate, b.triangle.id);
+  // what is needed comes before what would only save the next query
+  const auto spare = [&](const Contender& c) { return c.triangle.distance > candidates_[c.candidate].needed.radius; };
+  std::ranges::sort(contenders_, [&](const Contender& a, const Contender& b) {
+    return std::tuple(spare(a), a.triangle.distance, a.candidate, a.triangle.id) <
+           std::tuple(spare(b), b.triangle.distance, b.candidate, b.triangle.id);
   });
   for (std::size_t c = 0; c < candidate_count_; ++c) candidates_[c].triangles.clear();
   for (std::size_t i = 0; i < capacity_; ++i) {

@@ -13,9 +13,10 @@ struct OdeOptions {
   /// millisecond, 80 take 2 to 3, 150 take 20; a heap of 27 cubes is cheaper and no worse with sub-steps of iterations.
   std::uint32_t direct_limit = 48;
   /// Iterations for larger islands when the scene leaves them open: `most_iterations`, fewer when contacts * iterations
-  /// would exceed the budget (2 ms), never below `least_iterations`.
+  /// would exceed the budget (2 ms), never below `least_iterations`, in sub-steps `least_iterations_of_substep`.
   int most_iterations = 200;
   int iteration_budget = 40000;
+  double visits_of_direct = 0.09;  ///< times contacts^3: what a direct solution takes, in contacts * iterations
   int least_iterations = 50;
   /// With an island too large for the direct solver the period is cut into so many sub-steps, with fewer iterations each: a
   /// finger's spring converges with h^2 / iterations, and a heap overlaps less for less time (config/README.md).

@@ -108,15 +108,20 @@ int OdeWorld::Impl::substepsNow() {
   if (options.method.substeps > 0) return static_cast<int>(options.method.substeps);
   if (options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
   bool large = false;
+  double direct = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (solver.isDirect(islands[i])) continue;
+    if (solver.isDirect(islands[i])) {
+      direct += std::pow(static_cast<double>(islands[i].contacts), 3);
+      continue;
+    }
     if (islands[i].touched) return options.large_substeps;
     large = large || islands[i].contacts > options.direct_limit;
   }
   if (!large) return 1;
-  // a heap that no finger feels gets as many as its time allows
-  const auto row_visits = static_cast<int>(contacts.size()) * options.least_iterations_of_substep;
-  return std::clamp(options.iteration_budget / row_visits, 1, options.large_substeps);
+  // a heap that no finger feels gets as many as its time allows, what is solved directly beside it included
+  const int iterations = std::max(options.least_iterations_of_substep, static_cast<int>(options.method.iterations));
+  const double visits = static_cast<double>(contacts.size()) * iterations + options.visits_of_direct * direct;
+  return static_cast<int>(std::clamp(options.iteration_budget / visits, 1.0, double(options.large_substeps)));
 }
 
 void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch) {

@@ -60,6 +60,18 @@ void findConstraints(const Vec3& x, double r, Surroundings& surroundings, Legs& 
   }
 }
 
+// No farther from a surface than a leg round an edge ends.
+bool isNear(const Vec3& x, double r, Surroundings& surroundings, const Legs& legs) noexcept {
+  constexpr double kOffAnEdge = 1e-2;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(legs.near_count); ++n) {
+    const int i = legs.near[n];
+    if (surroundings.atLeast(i, x) <= r * (1 + kOffAnEdge) &&
+        surroundings.nearestTo(i, x).distance <= r * (1 + kOffAnEdge))
+      return true;
+  }
+  return false;
+}
+
 // The body whose constraint holds the proxy back most.
 std::int32_t holdingBody(const Legs& leg, const Vec3& g, const Surroundings& surroundings) noexcept {
   std::int32_t body = kNoBody;
@@ -144,7 +156,8 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   }
   if (!met) result.first_touch = result.x;
   // out of legs between one edge and the next: what held it last still does, and the next tick goes on from here
-  if (!arrived && result.covered && result.body != kNoBody) result.touching = true;
+  if (!arrived && result.covered && result.body != kNoBody && isNear(result.x, r, surroundings, legs))
+    result.touching = true;
   if (!result.touching) result.body = kNoBody;
   return result;
 }

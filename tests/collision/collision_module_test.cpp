@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "framework/geometry/closest_point.h"
 #include "modules/collision_fcl/reach.h"
@@ -199,6 +200,45 @@ TEST_F(CollisionModuleTest, OnlyTheNearestBodiesAreKept) {
   EXPECT_EQ(patches.fingers[0].body_count, kMaxNearBodies);
   EXPECT_EQ(patches.capped_total, 2u);
   for (int i = 0; i < kMaxNearBodies; ++i) EXPECT_EQ(patches.fingers[0].bodies[static_cast<std::size_t>(i)].body, i);
+}
+
+// Three slots of a triple buffer, each copied to in turn while patches change one by one: every slot ends as its source was.
+TEST(ContactPatches, ACopyIsWhatItsSourceWasWhateverItHeldBefore) {
+  auto source = std::make_unique<ContactPatches>();
+  std::array<std::unique_ptr<ContactPatches>, 3> slots;
+  for (auto& slot : slots) slot = std::make_unique<ContactPatches>();
+  for (std::uint64_t round = 1; round < 30; ++round) {
+    source->count = 1 + static_cast<int>(round % 3);
+    FingerPatch& changed = source->fingers[round % 3];
+    changed.serial = round;
+    changed.body_count = 1;
+    changed.triangle_count = static_cast<int>(round % 7);
+    changed.bodies[0] = {.body = static_cast<std::int32_t>(round), .count = changed.triangle_count};
+    for (int t = 0; t < changed.triangle_count; ++t)
+      changed.triangles[static_cast<std::size_t>(t)].id = static_cast<int>(100 * round) + t;
+    ContactPatches& slot = *slots[round / 2 % 3];
+    slot = *source;
+    ASSERT_EQ(slot.count, source->count);
+    for (std::size_t f = 0; f < static_cast<std::size_t>(slot.count); ++f) {
+      const FingerPatch &copy = slot.fingers[f], &original = source->fingers[f];
+      ASSERT_EQ(copy.serial, original.serial);
+      ASSERT_EQ(copy.triangle_count, original.triangle_count);
+      ASSERT_EQ(copy.bodies[0].body, original.bodies[0].body);
+      for (std::size_t t = 0; t < static_cast<std::size_t>(copy.triangle_count); ++t)
+        ASSERT_EQ(copy.triangles[t].id, original.triangles[t].id);
+    }
+  }
+}
+
+// A finger that leaves a body whose patch was full finds it gone, and finds it again when it comes back.
+TEST_F(CollisionModuleTest, LeavesAFullPatchAndComesBack) {
+  addBody(makeSphere(0.02, 6), {});
+  world_.scene.collision = {.margin = 0, .max_triangles = 50};
+  EXPECT_EQ(query({0, 0, 0.028}).fingers[0].triangle_count, 50);
+  EXPECT_EQ(query({0, 0, 1.0}).fingers[0].body_count, 0);
+  const FingerPatch& back = query({0, 0, 0.028}).fingers[0];
+  EXPECT_EQ(back.triangle_count, 50);
+  expectComplete(back, back.bodies[0]);
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ TEST_P(Landing, StopsAtTheSurface) {
       first_touch = deepestContact(runner);
     }
     EXPECT_LT(first_touch, kDeepest) << axis.transpose();
+    EXPECT_FALSE(runner.bodies.contacts().empty()) << "it has landed: " << axis.transpose();
   }
 }
 

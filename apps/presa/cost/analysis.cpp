@@ -131,7 +131,7 @@ std::optional<std::size_t> cheapestUnfelt(const Result& result) {
     const bool unfelt = std::all_of(result.metrics.begin(), result.metrics.end(), [&](const std::string& metric) {
       const auto limit = result.reference.noticeable.find(metric);
       if (limit == result.reference.noticeable.end()) return true;
-      return outcome.error.contains(metric) && outcome.error.at(metric) < limit->second;
+      return outcome.error.contains(metric) && result.claimed(outcome, metric) < limit->second;
     });
     if (!unfelt || !outcome.failure.empty() || !outcome.timed()) continue;
     if (!best || outcome.perSecond().median < result.outcomes[*best].perSecond().median) best = i;

@@ -21,7 +21,9 @@ struct FrontDistance {
   double error = 1;             ///< its error over that of the most accurate setting that costs no more
   std::size_t as_accurate = 0;  ///< index of that cheapest setting
   std::size_t as_cheap = 0;     ///< index of that most accurate setting
-  double least() const { return std::min(cost, error); }
+  /// The lesser way to the front; where one of the two is no way at all, because a cheaper setting is just as accurate or a
+  /// more accurate one costs just as much, the other.
+  double least() const { return cost > 1 && error > 1 ? std::min(cost, error) : std::max(cost, error); }
 };
 /// Against the settings of the default's own engine: the others know no fingers and are there to compare with.
 /// Nothing when the default has no error or cost in this metric.

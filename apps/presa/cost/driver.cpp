@@ -120,8 +120,9 @@ void Driver::prepare() {
       if (key == "motion" || key == "file") common.add(contents(setting.value));
     }
   }
-  for (const std::string& text : {std::to_string(study_.duration), std::to_string(study_.seed), study_.compared.from,
-                                  study_.compared.to, study_.steady.from, study_.steady.to, std::string(kVersion)})
+  for (const std::string& text :
+       {std::to_string(study_.duration), std::to_string(study_.seed), study_.compared.from, study_.compared.to,
+        study_.steady.from, study_.steady.to, std::string(kVersion), std::string(Trace::kFormat)})
     common.add(text);
   const std::string runs = study_.folder + "/runs";
   if (!options_.resume) fs::remove_all(runs);

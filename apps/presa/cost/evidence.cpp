@@ -10,8 +10,6 @@
 namespace presa::cost {
 namespace {
 
-constexpr char kMark[8] = {'P', 'R', 'C', 'O', 'S', 'T', '0', '3'};
-
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
@@ -35,7 +33,7 @@ std::optional<double> optionalNumber(const nlohmann::json& json, const char* key
 }  // namespace
 
 void Trace::save(const std::string& file) const {
-  std::string bytes(kMark, sizeof kMark);
+  std::string bytes = kFormat;
   append(bytes, std::vector<std::uint64_t>{fingers, bodies, time_ns.size(), held_from_ns.size()});
   append(bytes, time_ns);
   append(bytes, stepped);
@@ -49,8 +47,9 @@ void Trace::save(const std::string& file) const {
 Trace Trace::load(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (bytes.compare(0, sizeof kMark, kMark, sizeof kMark) != 0) throw std::runtime_error("no stored run: " + file);
-  std::size_t at = sizeof kMark;
+  const std::size_t mark = std::strlen(kFormat);
+  if (bytes.compare(0, mark, kFormat) != 0) throw std::runtime_error("no stored run: " + file);
+  std::size_t at = mark;
   std::vector<std::uint64_t> counts;
   take(bytes, at, counts, 4);
   Trace trace;

@@ -34,6 +34,8 @@ struct Trace {
   std::vector<std::int64_t> held_from_ns;
   std::vector<std::array<float, 3>> held;  ///< fingers per tick, W [N]
 
+  /// Of the stored bytes: part of what decides whether a kept run serves.
+  static constexpr const char* kFormat = "PRCOST03";
   void save(const std::string& file) const;
   static Trace load(const std::string& file);  ///< throws std::runtime_error
 };

@@ -152,13 +152,22 @@ void readHeader(hid_t file, Recording& recording) {
   recording.haptic_period = h5::readRealAttribute(file, "haptic_period_s");
 }
 
+/// Version 1 had no ticks that were made up without reaching the device.
+Table scheduleTableOf(hid_t file) {
+  Table table = scheduleTable();
+  if (h5::readCountAttribute(file, "format_version") < 2)
+    std::erase_if(table.columns, [](const Column& column) { return column.name == "made_up"; });
+  return table;
+}
+
 void readTicks(hid_t file, const std::string& name, Recording& recording) {
   auto ticks = readTable<TickRow>(file, "haptic/ticks", tickTable());
   const auto fingers = readFingers(file);
   std::size_t count = commonPrefix(ticks, fingers);
+  const Table schedule = scheduleTableOf(file);
   for (int g = 0; g < kRateGroupCount; ++g) {
     recording.schedule[static_cast<std::size_t>(g)] =
-        readTable<ScheduleRow>(file, std::string("schedule/") + toString(static_cast<RateGroup>(g)), scheduleTable());
+        readTable<ScheduleRow>(file, std::string("schedule/") + toString(static_cast<RateGroup>(g)), schedule);
   }
   auto& haptic = recording.schedule[static_cast<std::size_t>(RateGroup::kHaptic)];
   if (!haptic.empty()) {
