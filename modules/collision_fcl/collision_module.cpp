@@ -17,6 +17,15 @@ std::size_t capacityOf(const CollisionSettings& settings) {
   return settings.max_triangles == 0 ? kRoom : std::min(settings.max_triangles, kRoom);
 }
 
+// The mesh's vertices in body coordinates, where those are others than the mesh's own.
+std::vector<Vec3> placed(const TriMesh& mesh, const Pose& X_BG) {
+  if (X_BG.p == Vec3::Zero() && X_BG.q.coeffs() == Quat::Identity().coeffs()) return {};
+  std::vector<Vec3> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) vertices.push_back(X_BG * vertex);
+  return vertices;
+}
+
 // How far to look when `needed` must be complete: farther, so that the patch serves for a while, but where the last one was
 // full, complete to `held`, not much farther than that (zero: it was not full).
 double askedFor(double needed, double held) {
@@ -42,7 +51,8 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
       throw std::invalid_argument("a haptic mesh needs its adjacency");
     std::shared_ptr<const TriangleIndex>& index = indices[mesh.get()];
     if (!index) index = std::make_shared<TriangleIndex>(mesh);
-    mesh_bodies_.push_back({static_cast<std::int32_t>(b), world_->scene.bodies[b].haptic->X_BG, index});
+    const Pose& X_BG = world_->scene.bodies[b].haptic->X_BG;
+    mesh_bodies_.push_back({static_cast<std::int32_t>(b), X_BG, index, placed(*mesh, X_BG)});
   }
   candidates_.resize(mesh_bodies_.size());
   for (std::vector<Ball>& known : known_) known.resize(mesh_bodies_.size());
@@ -206,7 +216,7 @@ void CollisionModule::keepNearestTriangles() noexcept {
 
 void CollisionModule::write(Candidate& candidate, FingerPatch& patch) noexcept {
   const TriMesh& mesh = candidate.mesh_body->index->mesh();
-  const Pose& X_BG = candidate.mesh_body->X_BG;
+  const std::vector<Vec3>& vertices = candidate.mesh_body->vertices();
   std::ranges::sort(candidate.triangles, {}, &NearTriangle::id);
   BodyPatch& body = patch.bodies[static_cast<std::size_t>(patch.body_count++)];
   body = {candidate.mesh_body->body, patch.triangle_count,      static_cast<std::int32_t>(candidate.triangles.size()),
@@ -216,7 +226,7 @@ void CollisionModule::write(Candidate& candidate, FingerPatch& patch) noexcept {
     PatchTriangle& out = patch.triangles[slot];
     const auto id = static_cast<std::size_t>(near.id);
     for (std::size_t i = 0; i < 3; ++i) {
-      out.v_B[i] = X_BG * mesh.vertices[static_cast<std::size_t>(mesh.triangles[id][i])];
+      out.v_B[i] = vertices[static_cast<std::size_t>(mesh.triangles[id][i])];
     }
     patch.bounds[slot] = boundOf(out.v_B);
     out.id = near.id;

@@ -39,6 +39,8 @@ class CollisionModule final : public Module, public WatchedStages {
     std::int32_t body;
     Pose X_BG;
     std::shared_ptr<const TriangleIndex> index;
+    std::vector<Vec3> placed;  ///< vertices in body coordinates; empty: those of the mesh itself
+    const std::vector<Vec3>& vertices() const noexcept { return placed.empty() ? index->mesh().vertices : placed; }
   };
   /// Sphere around a finger, in body coordinates, within which its patch must be complete, and is.
   struct Ball {

@@ -1,5 +1,7 @@
 #include "modules/dynamics_ode/finger_joints.h"
 
+#include <algorithm>
+
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
@@ -44,6 +46,24 @@ void FingerJoints::addTo(Engine& engine, BodySet& bodies, Islands& islands, cons
     if (wanted[islands.of(active.body)] == 0) continue;
     engine.addContact(jointOf(active.row), bodies.body(active.body), nullptr, &feedback_[active.finger]);
   }
+}
+
+bool FingerJoints::letGo(Islands& islands, std::vector<char>& wanted) {
+  constexpr double kAtBound = 1 - 1e-6;
+  std::fill(wanted.begin(), wanted.end(), 0);
+  if (coupling_ == DynamicsSettings::Coupling::kExplicit) return false;
+  bool any = false;
+  for (Active& active : active_) {
+    FingerRow& row = active.row;
+    const Vec3 force = toVec3(feedback_[active.finger].f1);
+    const double f_n = force.dot(row.n_in);
+    const bool at_bound = f_n > 0 && force.dot(row.t1) >= kAtBound * row.mu * f_n;
+    if (!at_bound || !(row.mu_dynamic < row.mu)) continue;
+    row.mu = row.mu_dynamic;
+    wanted[islands.of(active.body)] = 1;
+    any = true;
+  }
+  return any;
 }
 
 Vec3 FingerJoints::force(std::size_t f) const {

@@ -20,6 +20,9 @@ class FingerJoints {
   std::size_t read(const ContactExchange& exchange, double time, double h, BodySet& bodies);
   /// Joints for the fingers on `wanted` islands.
   void addTo(Engine& engine, BodySet& bodies, Islands& islands, const std::vector<char>& wanted);
+  /// After the solve: fingers whose friction came to its static bound within the step slip at its end, as the haptic side will
+  /// render. Gives them their dynamic coefficient and marks their islands in `wanted`; false when there is none.
+  bool letGo(Islands& islands, std::vector<char>& wanted);
   /// After the solve: the mean force of finger `f` on its body [N]; zero without contact.
   Vec3 force(std::size_t f) const;
 

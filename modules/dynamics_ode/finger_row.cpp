@@ -47,6 +47,7 @@ std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyI
   row.motion_1 = length / h + row.t1.dot(contact.v_WH);
   row.motion_2 = t2.dot(contact.v_WH);
   row.mu = std::max(0.0, contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static);
+  row.mu_dynamic = std::clamp(contact.friction_dynamic, 0.0, row.mu);
   row.expected_force_W = k * (row.depth * row.n_in + std::min(length, row.mu * row.depth) * row.t1);
   return row;
 }

@@ -41,6 +41,7 @@ struct FingerRow {
   double motion_1 = 0, motion_2 = 0;
   double slip = 0;                       ///< cfm of the tangential rows [m/(N s)]
   double mu = 0;                         ///< static while the proxy sticks, dynamic while it slips
+  double mu_dynamic = 0;                 ///< what it falls to where the proxy lets go within the step
   Vec3 expected_force_W = Vec3::Zero();  ///< on the body, at the start of the step, inside the cone [N]
 };
 

@@ -44,6 +44,10 @@ bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& f
   if (isotropic) startFromLastStep(islands);
   if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h, watch);
   pass(fingers, islands, all_, h, true, watch);
+  if (fingers.letGo(islands, wrong_)) {
+    putBack(islands, wrong_);
+    pass(fingers, islands, wrong_, h, true, watch);
+  }
   if (!isotropic) return any(fell_back_);
   joints_.readForces(islands, all_);
   for (int repeat = 0; repeat < kMostRepeats && judge(islands); ++repeat) {

@@ -14,7 +14,7 @@ constexpr double kTouchGap = 3e-11;   // a sweep stops this far off
 constexpr double kInContact = 1e-10;  // a gap below this makes a constraint
 constexpr double kStill = 1e-6;       // a leg shorter than this ends the motion: 8 nm, some 10 uN
 constexpr double kMargin = 0.01;      // how far the fingertip may go before it looks around again
-constexpr double kSpare = 0.12;       // how much farther a new look reaches: it serves until the fingertip left it
+constexpr double kSpare = 0.25;       // how much farther a new look reaches: it serves until the fingertip left it
 constexpr int kMaxLegs = 64;          // a leg per face, edge or look; curved edges converge by d / r
 
 // Fraction of `move` after which x leaves the sphere; 1 when it stays inside.

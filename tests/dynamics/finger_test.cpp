@@ -191,6 +191,31 @@ TEST(Finger, OldSampleIsExtrapolatedWithItsVelocity) {
   EXPECT_NEAR(force(0).x(), 0.5, 1e-6);
 }
 
+// A proxy that sticks and comes to its static bound within the step lets go there: what is rendered from then on is sliding
+// friction, and the body gets no more than that. mu 0.8 and 0.6 over 2 N; stretched to 1.5 and to 1.7 mm at the end of the step.
+TEST(Finger, LetsGoInTheStepInWhichItsStaticBoundIsReached) {
+  const auto friction = [](double end) {
+    WorldMaker maker;
+    maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+    Runner runner(maker.world());
+    ReferenceFinger finger(0, {0, 0, kEdge / 2}, Vec3::UnitZ());
+    finger.p_WH = finger.p_BP - Vec3(0.0014, 0, 0.002);
+    finger.v_WH = Vec3(-(end - 0.0014) / kStep, 0, 0);
+    ContactExchange exchange;
+    exchange.count = 1;
+    exchange.fingers[0] = finger.contact({});
+    exchange.fingers[0].mode = ContactMode::kStick;
+    exchange.fingers[0].friction_static = 0.8;
+    exchange.fingers[0].friction_dynamic = 0.6;
+    runner.step(exchange);
+    const Vec3 force = runner.bodies.fingerForce(0);
+    EXPECT_NEAR(-force.z(), 2, 1e-6);
+    return -force.x();
+  };
+  EXPECT_NEAR(friction(0.0015), 1.5, 1e-6);
+  EXPECT_NEAR(friction(0.0017), 0.6 * 2, 1e-6);
+}
+
 // Fingers that are no longer reported must let go smoothly, not hold for ever: full up to 20 ms, gone at 40 ms.
 TEST(Finger, FadesWhenNoLongerReported) {
   const auto force = [&](double age) {
