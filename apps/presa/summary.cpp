@@ -57,7 +57,7 @@ Json slipOnset(const SlipOnset& slip) {
 
 Json reaction(const ActionReaction::Result& result) {
   if (result.windows == 0) return nullptr;  // it never held a free body for a tenth of a second
-  return {{"worst", result.worst}, {"time_s", result.time}, {"windows", result.windows}, {"at_end", result.at_end}};
+  return {{"worst", result.worst}, {"time_s", result.time}, {"windows", result.windows}};
 }
 
 Json contactPoints(const RunResult& result) {

@@ -24,7 +24,8 @@ struct OutputLimits {
 
 /// The last thing between the graph and one finger: finite -> magnitude -> fade (watchdog, stop, soft start)
 /// -> slew. Whatever the graph commands, what leaves is finite, at most `force`, changes by at most
-/// force_rate * period from one that was sent to the next, and reaches zero after a latched fault. Always present; no scene can leave it out.
+/// force_rate * period from one that was sent to the next, and reaches zero after a latched fault. Always present; no scene
+/// can leave it out.
 /// Thread: haptic; nonblocking.
 class OutputStage {
  public:

@@ -6,13 +6,12 @@
 namespace presa {
 
 ActionReaction::ActionReaction(const Scene& scene)
-    : span_(static_cast<std::size_t>(std::max(1.0, std::round(kWindow * scene.rates.dynamics)))),
-      ring_(span_ + kLastSteps + 1) {
+    : span_(static_cast<std::size_t>(std::max(1.0, std::round(kWindow * scene.rates.dynamics)))), ring_(span_ + 1) {
   for (const Body& body : scene.bodies) free_.push_back(body.fixed ? 0 : 1);
   sums_.rendered.fill(Vec3::Zero());
   sums_.given.fill(Vec3::Zero());
   sums_.grasp.fill(0);
-  sums_.body.fill(kNoBody);
+  body_.fill(kNoBody);
   force_.fill(Vec3::Zero());
 }
 
@@ -31,8 +30,8 @@ void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const
   pair(tick);
   for (std::size_t f = 0; f < static_cast<std::size_t>(fingers_); ++f) {
     const FingerContact& finger = contact.fingers[f];
-    if (finger.body != sums_.body[f] || finger.mode == ContactMode::kNone) ++sums_.grasp[f];
-    sums_.body[f] = finger.body;
+    if (finger.body != body_[f] || finger.mode == ContactMode::kNone) ++sums_.grasp[f];
+    body_[f] = finger.body;
     force_[f] = finger.f_H_W;
     sums_.rendered[f] += tick.period * finger.f_H_W;
   }
@@ -47,8 +46,8 @@ void ActionReaction::pair(const Tick& tick) noexcept {
     now.given = pending_[done].impulse;
     // the force is held over a tick: what the last one rendered after that time is taken off again
     for (std::size_t f = 0; f < now.rendered.size(); ++f) now.rendered[f] -= (tick.time - now.time) * force_[f];
+    compare(now);
     ring_[count_++ % ring_.size()] = now;
-    compare();
     ++done;
   }
   std::copy(pending_.begin() + static_cast<std::ptrdiff_t>(done),
@@ -56,23 +55,19 @@ void ActionReaction::pair(const Tick& tick) noexcept {
   pending_count_ -= done;
 }
 
-void ActionReaction::compare() noexcept {
-  if (count_ <= span_ + kLastSteps) return;
-  const auto ago = [&](std::size_t steps) -> const Sums& { return ring_[(count_ - 1 - steps) % ring_.size()]; };
-  const Sums &now = ago(0), &end = ago(kLastSteps), &begin = ago(kLastSteps + span_);
+void ActionReaction::compare(const Sums& now) noexcept {
+  if (count_ < span_) return;
+  const Sums& before = ring_[(count_ - span_) % ring_.size()];
   for (std::size_t f = 0; f < static_cast<std::size_t>(fingers_); ++f) {
-    if (!moves(end.body[f]) || end.grasp[f] != begin.grasp[f]) continue;
-    const Vec3 rendered = end.rendered[f] - begin.rendered[f], given = end.given[f] - begin.given[f];
-    const double error = (given + rendered).norm() / std::max(rendered.norm(), kLeastForce * (end.time - begin.time));
+    if (!moves(body_[f]) || now.grasp[f] != before.grasp[f]) continue;
+    const Vec3 rendered = now.rendered[f] - before.rendered[f], given = now.given[f] - before.given[f];
+    const double size = std::max(rendered.norm(), kLeastForce * (now.time - before.time));
     Result& result = results_[f];
-    if (now.grasp[f] != end.grasp[f]) {
-      result.at_end = std::max(result.at_end, error);
-      continue;
-    }
     ++result.windows;
+    const double error = (given + rendered).norm() / size;
     if (error > result.worst || result.time < 0) {
       result.worst = error;
-      result.time = end.time;
+      result.time = now.time;
     }
   }
 }

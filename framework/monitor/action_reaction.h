@@ -16,15 +16,12 @@ namespace presa {
 /// Each force is counted around the instant for which it was computed: that of a tick around its sample, that of an implicit
 /// step around its end. (Taken as they are held, the sums would differ by half a step and half a tick times the change of
 /// the force; that does not grow with time.)
-/// A step that straddles the end of a touch acts on what was known before it: a window counts when the touch lasts two more
-/// dynamics steps, and those that end later are kept apart (`at_end`).
 /// Thread: haptic; nonblocking, all memory is taken at construction.
 class ActionReaction {
  public:
   /// Windows with less impulse than a mean force of 0.05 N would give are measured against that.
   static constexpr double kWindow = 0.1;       // [s]
   static constexpr double kLeastForce = 0.05;  // [N]
-  static constexpr std::size_t kLastSteps = 2;
 
   explicit ActionReaction(const Scene& scene);
   void add(const Tick& tick, const ContactExchange& contact, const ObjectState& objects, bool fresh) noexcept;
@@ -33,7 +30,6 @@ class ActionReaction {
     double worst = 0;  ///< largest |given + rendered| / |rendered| of any window
     double time = -1;  ///< end of that window [s]; -1: there was none
     std::uint64_t windows = 0;
-    double at_end = 0;  ///< the same of windows that end in the last two dynamics steps of a touch
   };
   const Result& of(std::size_t finger) const noexcept { return results_[finger]; }
 
@@ -42,14 +38,13 @@ class ActionReaction {
     double time = 0;
     std::array<Vec3, kMaxFingers> rendered, given;  // [N s]
     std::array<std::uint64_t, kMaxFingers> grasp;   // counts changes of body: equal means the same touch
-    std::array<std::int32_t, kMaxFingers> body;     // touched
   };
   struct Given {
     double time = 0;
     std::array<Vec3, kMaxFingers> impulse;
   };
   void pair(const Tick& tick) noexcept;
-  void compare() noexcept;
+  void compare(const Sums& now) noexcept;
 
   bool moves(std::int32_t body) const noexcept;
 
@@ -61,6 +56,7 @@ class ActionReaction {
   std::size_t pending_count_ = 0;
   Sums sums_;                            // rendered so far
   std::array<Vec3, kMaxFingers> force_;  // rendered in the last tick
+  std::array<std::int32_t, kMaxFingers> body_;
   std::array<Result, kMaxFingers> results_;
   std::int32_t fingers_ = 0;
 };

@@ -14,8 +14,8 @@
 
 namespace presa {
 
-/// One tick of one rate group, whether it came too late for the device, and the version of every value that it read across rates, in the graph's
-/// bridge order. Threads make these versions differ from run to run; with them a replay is exact.
+/// One tick of one rate group, whether it came too late for the device, and the version of every value that it read across
+/// rates, in the graph's bridge order. Threads make these versions differ from run to run; with them a replay is exact.
 struct ScheduleRow {
   static constexpr int kMaxBridges = 12;
   std::uint64_t index = 0;
