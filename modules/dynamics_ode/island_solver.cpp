@@ -20,15 +20,15 @@ bool IslandSolver::isDirect(const Islands::Island& island) const noexcept {
     case DynamicsSettings::Solver::kIterative:
       return false;
     default:
-      return island.contacts <= options_.direct_limit;
+      return island.contacts <= (crowded_ && !island.touched ? options_.crowded_limit : options_.direct_limit);
   }
 }
 
-int IslandSolver::iterations(std::size_t contacts, int substeps) const noexcept {
+int IslandSolver::iterations(std::size_t contacts, int layers, int substeps) const noexcept {
   if (options_.method.iterations > 0) return static_cast<int>(options_.method.iterations);
-  const int affordable = options_.iteration_budget / std::max(1, static_cast<int>(contacts));
-  const int least = substeps > 1 ? options_.least_iterations_of_substep : options_.least_iterations;
-  return std::min(options_.most_iterations, std::max(least, affordable / substeps));
+  const int affordable = options_.iteration_budget / (substeps * std::max(1, static_cast<int>(contacts)));
+  const int most = std::min({affordable, options_.most_iterations, layers * layers});
+  return std::max(substeps > 1 ? options_.least_iterations_of_substep : options_.least_iterations, most);
 }
 
 // True when there is such a body.

@@ -16,8 +16,11 @@ class IslandSolver {
   IslandSolver(Engine& engine, BodySet& bodies, const OdeOptions& options);
 
   bool isDirect(const Islands::Island& island) const noexcept;
-  /// Iterations for a step that `contacts` contacts share, when it is one of `substeps`.
-  int iterations(std::size_t contacts, int substeps) const noexcept;
+  /// An island too large for the direct solver is about: all take the sub-steps that it calls for, and what no finger
+  /// touches is solved directly only up to `crowded_limit`.
+  void setCrowded(bool crowded) noexcept { crowded_ = crowded; }
+  /// Iterations for a step that `contacts` contacts of bodies in so many layers share, when it is one of `substeps`.
+  int iterations(std::size_t contacts, int layers, int substeps) const noexcept;
   /// Steps the islands for which `wanted[island]` is set over `h`; the contacts are in the engine. Says of each in
   /// `fell_back[island]` whether the iterative solver had to take it over.
   void solve(Islands& islands, const std::vector<char>& wanted, double h, int iterations, std::vector<char>& fell_back);
@@ -33,6 +36,7 @@ class IslandSolver {
   Engine& engine_;
   BodySet& bodies_;
   const OdeOptions options_;
+  bool crowded_ = false;
 };
 
 }  // namespace presa::ode

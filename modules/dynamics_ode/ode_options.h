@@ -12,8 +12,11 @@ struct OdeOptions {
   /// Contacts of an island up to which it is solved directly: a tower of ten has 40. Cubic: 48 contacts take half a
   /// millisecond, 80 take 2 to 3, 150 take 20; a heap of 27 cubes is cheaper and no worse with sub-steps of iterations.
   std::uint32_t direct_limit = 48;
+  /// The same for what no finger touches beside a larger island: it shares all of that one's sub-steps.
+  std::uint32_t crowded_limit = 16;
   /// Iterations for larger islands when the scene leaves them open: `most_iterations`, fewer when contacts * iterations
-  /// would exceed the budget (2 ms), never below `least_iterations`, in sub-steps `least_iterations_of_substep`.
+  /// would exceed the budget (2 ms), never below `least_iterations`. In sub-steps at least
+  /// `least_iterations_of_substep`, and where no finger feels it no more than the square of the layers (`Layers`).
   int most_iterations = 200;
   int iteration_budget = 40000;
   double visits_of_direct = 0.09;  ///< times contacts^3: what a direct solution takes, in contacts * iterations

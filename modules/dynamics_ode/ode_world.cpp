@@ -10,6 +10,7 @@
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/islands.h"
+#include "modules/dynamics_ode/layers.h"
 #include "modules/dynamics_ode/sleep.h"
 #include "modules/dynamics_ode/stages.h"
 #include "modules/dynamics_ode/step_solver.h"
@@ -31,6 +32,7 @@ struct OdeWorld::Impl {
         collider(bodies, world->scene.gravity),
         solver(world->scene, engine, bodies, options),
         islands(bodies.size()),
+        layers(bodies.size()),
         ahead(bodies.size()) {
     contacts.reserve(kContactsPerBody * bodies.size());
     finger_force.fill(Vec3::Zero());
@@ -43,6 +45,8 @@ struct OdeWorld::Impl {
   void lookAhead();
   void findIslands(const ContactExchange& exchange);
   void wakeTouched(const ContactExchange& exchange);
+  bool anyLarge() const;
+  int layersThatMatter(int substeps);
   int substepsNow();
   void fault(Faults::Bit bit, std::uint64_t count = 1);
   void giveUp();
@@ -56,6 +60,7 @@ struct OdeWorld::Impl {
   StepSolver solver;
   std::optional<Sleep> sleep;  // absent when the scene does without
   Islands islands;
+  Layers layers;
   std::vector<BodyContact> contacts;
   std::vector<char> ahead;  // by body: contacts are made before they touch
   std::array<Vec3, kMaxFingers> finger_force, finger_impulse;
@@ -104,10 +109,24 @@ void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
   contacts.erase(std::remove_if(contacts.begin(), contacts.end(), useless), contacts.end());
 }
 
+bool OdeWorld::Impl::anyLarge() const {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (islands[i].contacts > options.direct_limit) return true;
+  }
+  return false;
+}
+
+int OdeWorld::Impl::layersThatMatter(int substeps) {
+  if (substeps == 1) return kAllLayers;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (islands[i].touched && !solver.isDirect(islands[i])) return kAllLayers;
+  }
+  return layers.count(contacts, bodies);
+}
+
 int OdeWorld::Impl::substepsNow() {
   if (options.method.substeps > 0) return static_cast<int>(options.method.substeps);
   if (options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
-  bool large = false;
   double direct = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (solver.isDirect(islands[i])) {
@@ -115,9 +134,8 @@ int OdeWorld::Impl::substepsNow() {
       continue;
     }
     if (islands[i].touched) return options.large_substeps;
-    large = large || islands[i].contacts > options.direct_limit;
   }
-  if (!large) return 1;
+  if (!anyLarge()) return 1;
   // a heap that no finger feels gets as many as its time allows, what is solved directly beside it included
   const int iterations = std::max(options.least_iterations_of_substep, static_cast<int>(options.method.iterations));
   const double visits = static_cast<double>(contacts.size()) * iterations + options.visits_of_direct * direct;
@@ -128,7 +146,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   bodies.resetForces();
   fingers.read(exchange, time, h, bodies);
   done(watch, Stage::kExtrapolate);
-  if (solver.solve(contacts, fingers, islands, h, substeps, watch)) ++fallback_steps;
+  if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps, watch)) ++fallback_steps;
   for (std::size_t f = 0; f < kMaxFingers; ++f) {
     const Vec3 force = fingers.force(f);
     finger_force[f] += force / substeps;
@@ -162,6 +180,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
     lookAhead();
     collider.find(bodies, ahead, period / substeps, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
+    solver.setCrowded(anyLarge());
     if (s == 0) substeps = substepsNow();
     done(watch, Stage::kCollide);
     substep(exchange, time + s * period / substeps, period / substeps, substeps, watch);

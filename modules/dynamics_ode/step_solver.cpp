@@ -34,10 +34,10 @@ StepSolver::StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, cons
       fell_back_(bodies.size()),
       load_(bodies.size()) {}
 
-bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h,
-                       int substeps, StageWatch& watch) {
+bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, int layers,
+                       double h, int substeps, StageWatch& watch) {
   all_.assign(bodies_.size(), 1);
-  iterations_ = solver_.iterations(contacts.size(), substeps);
+  iterations_ = solver_.iterations(contacts.size(), layers, substeps);
   joints_.begin(contacts, bodies_, h);
   soften(islands, h);
   const bool isotropic = options_.method.friction == DynamicsSettings::Friction::kIsotropic && !contacts.empty();

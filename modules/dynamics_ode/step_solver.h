@@ -18,11 +18,13 @@ class StepSolver {
  public:
   StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, const OdeOptions& options);
 
-  /// Steps all bodies, which are at the start of the step. True when an island fell back to the iterative solver.
-  bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, double h, int substeps,
-             StageWatch& watch);
+  /// Steps all bodies, which are at the start of the step and stand in so many layers (`Layers`, `kAllLayers`). True
+  /// when an island fell back to the iterative solver.
+  bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, int layers, double h,
+             int substeps, StageWatch& watch);
 
   bool isDirect(const Islands::Island& island) const noexcept { return solver_.isDirect(island); }
+  void setCrowded(bool crowded) noexcept { solver_.setCrowded(crowded); }
 
   struct Counts {
     std::uint64_t predictions = 0, repeats = 0;  // of islands
