@@ -1,0 +1,65 @@
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace presa {
+
+/// Random numbers that are the same on every machine: the raw output of std::mt19937_64 is fixed by the standard, its
+/// distributions and std::shuffle are not, so they are written out here. A stream is named: drawing more from one
+/// ("stimulus noise") leaves the others ("order") as they were.
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, std::string_view name) : engine_(mix(seed ^ hashOf(name))) {}
+  /// The stream of one item of many: a subject, a trial.
+  RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t item)
+      : engine_(mix(mix(seed ^ hashOf(name)) + item)) {}
+
+  std::uint64_t bits() { return engine_(); }
+  /// In [0, 1), 53 bits.
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  /// In [0, count), each equally likely; count > 0.
+  std::uint64_t below(std::uint64_t count) {
+    const std::uint64_t unfair = (0 - count) % count;  // 2^64 mod count
+    for (;;) {
+      if (const std::uint64_t drawn = bits(); drawn >= unfair) return drawn % count;
+    }
+  }
+  /// Mean 0, standard deviation 1 [Box & Muller 1958]; takes two raw numbers, keeps nothing back.
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
+    return radius * std::cos(2 * std::numbers::pi * uniform());
+  }
+  /// exp of a normal variable: half of all draws lie below `median`.
+  double logNormal(double median, double sd_of_log) { return median * std::exp(sd_of_log * normal()); }
+  /// Every order equally likely [Fisher & Yates].
+  template <class T>
+  void shuffle(std::span<T> items) {
+    for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[below(left)]);
+  }
+
+ private:
+  /// FNV-1a.
+  static std::uint64_t hashOf(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+    return hash;
+  }
+  /// SplitMix64: neighbouring seeds give unrelated streams.
+  static std::uint64_t mix(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+    return x ^ (x >> 31);
+  }
+
+  std::mt19937_64 engine_;
+};
+
+}  // namespace presa
