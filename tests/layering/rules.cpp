@@ -30,6 +30,7 @@ constexpr std::array kLibraries{
     Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},
     Library{"meshoptimizer.*", "framework/geometry/mesh_decimate_plugin/"},
     Library{"(CLI|nlohmann)/.*", "apps/"},
+    Library{"boost/math/.*", "framework/statistics/"},
     Library{"(gtest|gmock|benchmark|rapidcheck)[./].*", "tests/"},
 };
 
