@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   presa::addReplay(app, status);
   presa::addStability(app, status);
   presa::addCost(app, status);
+  presa::addExperiment(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -20,7 +20,7 @@ struct Diagnostic {
   enum class Severity { kWarning, kError };
   Severity severity = Severity::kError;
   int code =
-      0;  ///< E1xx reading, well-formedness and schema, E2xx scene, E3xx mesh, E4xx rig and devices, E5xx graph, E6xx recording, E7xx view, E8xx studies of cost
+      0;  ///< E1xx reading, well-formedness and schema, E2xx scene, E3xx mesh, E4xx rig and devices, E5xx graph, E6xx recording, E7xx view, E8xx studies of cost, E9xx experiments
   std::string message;
   std::string help;  ///< may be empty
   SourceLocation where;

@@ -5,4 +5,5 @@ extern const char* const scene;
 extern const char* const rig;
 extern const char* const motion;
 extern const char* const accuracy_cost;
+extern const char* const experiment;
 }  // namespace presa::schemas

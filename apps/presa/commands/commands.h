@@ -18,5 +18,6 @@ void addExplain(CLI::App& app, int& status);
 void addReplay(CLI::App& app, int& status);
 void addStability(CLI::App& app, int& status);
 void addCost(CLI::App& app, int& status);
+void addExperiment(CLI::App& app, int& status);
 
 }  // namespace presa

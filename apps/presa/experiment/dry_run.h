@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/presa/experiment/subject.h"
+#include "framework/experiment/definition.h"
+#include "framework/experiment/order.h"
+
+namespace presa::experiment {
+
+/// Seconds that a trial takes: `least` when every awaited thing happens at once, `most` when nothing does.
+struct Span {
+  double least = 0, most = 0;
+};
+Span durationOf(const Experiment& experiment);
+
+/// Every trial of a session, as people read it, as a table (CSV) and as JSON.
+std::string dryRunText(const Experiment& experiment, const Subject& subject, int session,
+                       const std::vector<PlannedTrial>& trials);
+std::string dryRunCsv(const Experiment& experiment, const std::vector<PlannedTrial>& trials);
+std::string dryRunJson(const Experiment& experiment, const Subject& subject, int session,
+                       const std::vector<PlannedTrial>& trials);
+
+}  // namespace presa::experiment

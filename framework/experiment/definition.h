@@ -1,0 +1,114 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/experiment/expression.h"
+
+/// An experiment as its file states it: what varies, in which order, what a trial consists of, what is measured. Immutable
+/// after reading; SI units. Thread: any.
+namespace presa::experiment {
+
+/// One number or word of a factor's level, and the values of the scene that it sets.
+struct Column {
+  std::string name, unit;
+  std::vector<std::string> paths;  ///< as after --set; may be empty
+};
+
+/// What is varied on purpose. Its columns change together: static with dynamic friction.
+struct Factor {
+  std::string name;
+  bool between = false;  ///< one level per subject instead of all
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> levels;  ///< a value for each column
+};
+
+/// One level of every factor, by index; also the row of a trial.
+using Condition = std::vector<std::size_t>;
+
+struct Design {
+  enum class Order {
+    kListed,         ///< as written: the last factor changes fastest
+    kRandom,         ///< all trials of a block shuffled
+    kRandomRepeats,  ///< each repeat holds every condition once, shuffled
+    kLatinSquare,    ///< the subject's row of a cyclic square over the conditions
+    kBalancedSquare  ///< the same, each condition after each other one equally often [Williams 1949]
+  };
+  Order order = Order::kRandomRepeats;
+  int repeats = 1;
+  std::string block_by{};  ///< factor whose levels are run one after another; their order follows `order` too
+  bool no_immediate_repeat = false;
+  int practice = 0;  ///< trials before the first, drawn from all conditions
+};
+
+/// One state of a trial. It ends when `until` has held for `hold` seconds; is aborted when `abort` holds.
+struct Phase {
+  enum class OnTimeout { kAbort, kNext };
+  std::string name;
+  std::optional<Expression> until, abort;
+  double hold = 0;     ///< [s]
+  double seconds = 0;  ///< longest [s], with kNext its duration
+  OnTimeout on_timeout = OnTimeout::kAbort;
+  std::string abort_reason{};
+};
+
+/// What to do with a trial that was aborted.
+struct Retry {
+  enum class Place { kNext, kEndOfBlock };
+  int attempts = 3;  ///< in all
+  Place place = Place::kEndOfBlock;
+};
+
+struct Rest {
+  int every = 0;       ///< trials; 0: none
+  double seconds = 0;  ///< at least [s]
+};
+
+struct Text {
+  std::string when;  ///< "start", "rest", "end" or the name of a phase
+  std::string language, text;
+};
+
+/// One number per trial, from its samples, its condition and the measures above it.
+struct Measure {
+  std::string name, unit, description;
+  std::optional<Expression> value;
+  std::vector<Aggregate> aggregates;
+  std::size_t names = 0;  ///< how many of Experiment::names it may see; its aggregates take the slots after them
+};
+
+/// A rule written before the run: a trial for which it holds does not count.
+struct Exclusion {
+  std::optional<Expression> when;  ///< over Experiment::names
+  std::string reason;
+};
+
+struct Experiment {
+  std::string file, name, title, description;
+  std::string scene, rig;  ///< files
+  std::vector<std::string> sets{};
+  std::uint64_t seed = 1;
+  std::vector<Factor> factors;
+  Design design;
+  Retry retry;
+  Rest rest;
+  std::vector<Phase> phases;
+  std::vector<Text> texts;
+  std::vector<Measure> measures;
+  std::vector<Exclusion> exclusions;
+  Names samples;  ///< what a phase can ask at haptic rate: see sample_names.h
+  Names names;    ///< of a trial: columns, quality figures, measures in order
+  std::string resolved_xml;
+
+  /// Names of all phases, in order.
+  std::vector<std::string> phaseNames() const;
+  /// The value of a column in a condition; empty when there is no such column.
+  std::string valueOf(const std::string& column, const Condition& condition) const;
+  /// PATH=VALUE for the scene of a condition.
+  std::vector<std::string> setsOf(const Condition& condition) const;
+  /// The text in `language`, else in the first language there is.
+  std::string textFor(const std::string& when, const std::string& language) const;
+};
+
+}  // namespace presa::experiment

@@ -1,0 +1,108 @@
+#include "framework/experiment/expression.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa::experiment {
+
+std::size_t Names::add(const std::string& name) {
+  if (const auto known = find(name)) return *known;
+  names_.push_back(name);
+  return names_.size() - 1;
+}
+
+std::optional<std::size_t> Names::find(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+double Expression::evaluate(std::span<const double> values) const noexcept {
+  std::array<double, kMaxDepth> stack;
+  std::size_t top = 0;
+  for (const Instruction& now : program_) {
+    if (now.code == Code::kNumber) {
+      stack[top++] = now.number;
+      continue;
+    }
+    if (now.code == Code::kSlot) {
+      stack[top++] = values[now.slot];
+      continue;
+    }
+    double& b = stack[top - 1];
+    switch (now.code) {
+      case Code::kNot:
+        b = b == 0 ? 1 : 0;
+        continue;
+      case Code::kNegate:
+        b = -b;
+        continue;
+      case Code::kAbs:
+        b = std::abs(b);
+        continue;
+      case Code::kSqrt:
+        b = std::sqrt(b);
+        continue;
+      case Code::kLn:
+        b = std::log(b);
+        continue;
+      case Code::kExp:
+        b = std::exp(b);
+        continue;
+      default:
+        break;
+    }
+    double& a = stack[top - 2];
+    switch (now.code) {
+      case Code::kOr:
+        a = a != 0 || b != 0;
+        break;
+      case Code::kAnd:
+        a = a != 0 && b != 0;
+        break;
+      case Code::kLess:
+        a = a < b;
+        break;
+      case Code::kLessEqual:
+        a = a <= b;
+        break;
+      case Code::kGreater:
+        a = a > b;
+        break;
+      case Code::kGreaterEqual:
+        a = a >= b;
+        break;
+      case Code::kEqual:
+        a = a == b;
+        break;
+      case Code::kNotEqual:
+        a = a != b;
+        break;
+      case Code::kAdd:
+        a += b;
+        break;
+      case Code::kSubtract:
+        a -= b;
+        break;
+      case Code::kMultiply:
+        a *= b;
+        break;
+      case Code::kDivide:
+        a /= b;
+        break;
+      case Code::kMin:
+        a = std::fmin(a, b);
+        break;
+      case Code::kMax:
+        a = std::fmax(a, b);
+        break;
+      default:
+        a = std::hypot(a, b);
+        break;
+    }
+    --top;
+  }
+  return top == 0 ? 0 : stack[0];
+}
+
+}  // namespace presa::experiment

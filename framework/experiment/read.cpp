@@ -1,0 +1,88 @@
+#include "framework/experiment/read.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "framework/experiment/order.h"
+#include "framework/experiment/read_parts.h"
+#include "framework/plan/load_world.h"
+#include "framework/scene/schemas.h"
+#include "framework/xml/schema.h"
+
+namespace presa::experiment {
+namespace {
+
+using xml::Element;
+
+const xml::Schema& schema() {
+  static const xml::Schema compiled(schemas::experiment);
+  return compiled;
+}
+
+std::string beside(const std::string& file, const std::string& path) {
+  if (path.empty()) return {};
+  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
+void readHead(const Element& root, const std::string& file, Experiment& experiment) {
+  experiment.file = file;
+  experiment.name = root.attribute("name");
+  experiment.title = root.attribute("title");
+  experiment.description = root.attribute("description");
+  experiment.scene = beside(file, root.attribute("scene"));
+  experiment.rig = beside(file, root.attribute("rig"));
+  experiment.seed = static_cast<std::uint64_t>(root.number("seed", 1));
+  for (const Element& set : root.children("set"))
+    experiment.sets.push_back(set.attribute("path") + "=" + set.attribute("value"));
+}
+
+/// Scene and rig with the file's own sets: what names there are to ask for.
+void readSampleNames(Experiment& experiment, Diagnostics& diagnostics) {
+  const Loaded loaded = loadWorld({experiment.scene, experiment.rig, experiment.sets}, {}, diagnostics);
+  if (loaded.world && !diagnostics.hasErrors()) experiment.samples = sampleNames(loaded.world->scene);
+}
+
+/// Every condition of the first subjects that differ, once; the same finding is told once.
+void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
+  std::size_t cells = 1;
+  for (const Factor& factor : experiment.factors) cells *= factor.between ? factor.levels.size() : 1;
+  std::set<std::string> told;
+  for (std::size_t subject = 1; subject <= cells; ++subject) {
+    for (const Condition& condition : conditionsOf(experiment, static_cast<int>(subject))) {
+      Diagnostics found;
+      loadWorld({experiment.scene, experiment.rig, experiment.setsOf(condition)}, {}, found);
+      for (const Diagnostic& one : found.all()) {
+        if (one.severity != Diagnostic::Severity::kError || !told.insert(format(one)).second) continue;
+        diagnostics.error(one.code, one.where, one.message, one.help);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Experiment> readExperiment(const std::string& file, Diagnostics& diagnostics) {
+  const auto document = xml::Document::load(file, diagnostics);
+  if (!document || !document->validate(schema(), diagnostics)) return std::nullopt;
+  document->writeDefaults(schema());
+  const Element root = document->root();
+  Experiment experiment;
+  readHead(root, file, experiment);
+  readSampleNames(experiment, diagnostics);
+  if (diagnostics.hasErrors()) return std::nullopt;  // nothing below could be told apart from what follows from it
+  readFactors(root, experiment, diagnostics);
+  readDesign(root, experiment, diagnostics);
+  readPhases(root, experiment, diagnostics);
+  readTexts(root, experiment, diagnostics);
+  readMeasures(root, experiment, diagnostics);
+  if (diagnostics.hasErrors()) return std::nullopt;
+  checkConditions(experiment, diagnostics);
+  if (diagnostics.hasErrors()) return std::nullopt;
+  experiment.resolved_xml = document->text();
+  return experiment;
+}
+
+}  // namespace presa::experiment

@@ -1,0 +1,16 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "framework/experiment/definition.h"
+
+namespace presa::experiment {
+
+/// Quality figures of every trial, which a rule for exclusion may ask for beside columns and measures.
+inline const std::vector<std::string> kQualityNames{"missed_ticks", "clipped_s", "device_lost_s", "most_force"};
+
+/// Reads an experiment file with its scene and rig: names, expressions and paths are resolved, and every condition's scene is
+/// loaded once. All findings go to `diagnostics` (E9xx, and those of scene and rig); null when there are errors.
+std::optional<Experiment> readExperiment(const std::string& file, Diagnostics& diagnostics);
+
+}  // namespace presa::experiment

@@ -1,0 +1,16 @@
+#pragma once
+#include "framework/experiment/definition.h"
+#include "framework/experiment/sample_names.h"
+#include "framework/xml/xml.h"
+
+/// The steps of reading an experiment, in their order; each adds its findings and goes on with what is left.
+namespace presa::experiment {
+
+void readFactors(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+void readDesign(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+void readPhases(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+/// Measures and rules of exclusion.
+void readMeasures(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+
+}  // namespace presa::experiment

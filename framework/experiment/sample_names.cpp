@@ -1,0 +1,52 @@
+#include "framework/experiment/sample_names.h"
+
+namespace presa::experiment {
+
+Names sampleNames(const Scene& scene) {
+  Names names({"t", "t_phase", "signal"});
+  for (const DeviceRole& role : scene.devices) {
+    for (const char* what : {"x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz", "fn", "ft", "depth", "state"})
+      names.add(role.role + "." + what);
+  }
+  for (const Body& body : scene.bodies) {
+    if (body.fixed) continue;
+    for (const char* what : {"x", "y", "z", "vx", "vy", "vz", "speed", "lift"}) names.add(body.name + "." + what);
+  }
+  return names;
+}
+
+SampleReader::SampleReader(const Scene& scene) : roles_(scene.devices.size()) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!scene.bodies[i].fixed) bodies_.push_back({i, scene.bodies[i].X_WB.p.z()});
+  }
+}
+
+void SampleReader::read(double time, const DeviceState& device, const ContactExchange& contact,
+                        const ForceCommand& command, const ObjectState* objects,
+                        std::span<double> values) const noexcept {
+  std::size_t slot = kSignal + 1;
+  const auto put = [&](const Vec3& v) {
+    for (int k = 0; k < 3; ++k) values[slot++] = v[k];
+  };
+  for (std::size_t f = 0; f < roles_; ++f) {
+    const FingerContact& touch = contact.fingers[f];
+    put(device.fingers[f].p_WH);
+    put(device.fingers[f].v_WH);
+    put(command.f_H_W[f]);
+    values[slot++] = touch.normal_force;
+    values[slot++] = touch.tangential_force_W.norm();
+    values[slot++] = touch.mode == ContactMode::kNone ? 0 : touch.depth;
+    values[slot++] = static_cast<double>(touch.mode);
+  }
+  for (const FreeBody& body : bodies_) {
+    const Vec3 p =
+        objects == nullptr ? Vec3(Vec3::Zero()) : objects->poseAt(static_cast<std::int32_t>(body.index), time).p;
+    const Vec3 v = objects == nullptr ? Vec3(Vec3::Zero()) : objects->bodies[body.index].v_WB;
+    put(p);
+    put(v);
+    values[slot++] = v.norm();
+    values[slot++] = p.z() - body.start_z;
+  }
+}
+
+}  // namespace presa::experiment
