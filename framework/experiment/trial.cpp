@@ -1,0 +1,120 @@
+#include "framework/experiment/trial.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "framework/experiment/sample_names.h"
+
+namespace presa::experiment {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+double numberOf(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : kNothing;
+}
+
+}  // namespace
+
+Trial::Trial(const Experiment& experiment, const Condition& condition, double period)
+    : experiment_(experiment),
+      period_(period),
+      values_(experiment.samples.size(), 0),
+      stretches_(experiment.phases.size()) {
+  for (std::size_t f = 0; f < experiment.factors.size(); ++f) {
+    for (const std::string& text : experiment.factors[f].levels[condition[f]]) columns_.push_back(numberOf(text));
+  }
+  values_.insert(values_.end(), columns_.begin(), columns_.end());
+  for (const Measure& measure : experiment.measures) {
+    aggregates_.emplace_back();
+    for (const Aggregate& aggregate : measure.aggregates) aggregates_.back().emplace_back(aggregate);
+  }
+}
+
+void Trial::enter(double time, std::size_t phase) noexcept {
+  if (phase > 0) stretches_[phase - 1].end = time;
+  phase_ = phase;
+  held_since_ = -1;
+  stretches_[phase].begin = time;
+}
+
+void Trial::end(double time, State state, Cause cause) noexcept {
+  stretches_[phase_].end = time;
+  state_ = state;
+  cause_ = cause;
+}
+
+Trial::State Trial::step(double time) noexcept {
+  if (state_ != State::kRunning) return state_;
+  if (stretches_[0].begin < 0) enter(time, 0);
+  const Phase& phase = experiment_.phases[phase_];
+  const double begin = stretches_[phase_].begin;
+  values_[SampleReader::kTime] = time;
+  values_[SampleReader::kPhaseTime] = time - begin;
+  for (auto& measure : aggregates_) {
+    for (RunningAggregate& aggregate : measure) aggregate.add(phase_, samples(), begin);
+  }
+  if (phase.abort && phase.abort->holds(values_)) {
+    end(time, State::kAborted, Cause::kGuard);
+    return state_;
+  }
+  if (phase.until && phase.until->holds(values_)) {
+    if (held_since_ < 0) held_since_ = time;
+  } else {
+    held_since_ = -1;
+  }
+  // half a period: times are multiples of it, up to rounding
+  const bool met = held_since_ >= 0 && time - held_since_ > phase.hold - 0.5 * period_;
+  const bool late = time - begin > phase.seconds - 1.5 * period_;
+  if (!met && late && phase.on_timeout == Phase::OnTimeout::kAbort) {
+    end(time, State::kAborted, Cause::kTimeout);
+  } else if (met || late) {
+    if (phase_ + 1 == experiment_.phases.size())
+      end(time + period_, State::kDone, Cause::kNone);
+    else
+      enter(time + period_, phase_ + 1);
+  }
+  return state_;
+}
+
+void Trial::abort(double time, std::string reason) {
+  if (state_ != State::kRunning) return;
+  outside_reason_ = std::move(reason);
+  end(time, State::kAborted, Cause::kOutside);
+}
+
+std::string Trial::reason() const {
+  const Phase& phase = experiment_.phases[phase_];
+  switch (cause_) {
+    case Cause::kGuard:
+      return phase.abort_reason.empty() ? "aborted in " + phase.name : phase.abort_reason;
+    case Cause::kTimeout:
+      return "no end of " + phase.name;
+    default:
+      return outside_reason_;
+  }
+}
+
+std::vector<double> Trial::results(std::span<const double> quality) const {
+  std::vector<double> all = columns_;
+  all.insert(all.end(), quality.begin(), quality.end());
+  for (std::size_t m = 0; m < experiment_.measures.size(); ++m) {
+    const Measure& measure = experiment_.measures[m];
+    std::vector<double> seen(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(measure.names));
+    for (const RunningAggregate& aggregate : aggregates_[m]) seen.push_back(aggregate.result(period_));
+    all.push_back(measure.value->evaluate(seen));
+  }
+  return all;
+}
+
+std::string Trial::exclusion(std::span<const double> results) const {
+  for (const Exclusion& rule : experiment_.exclusions) {
+    if (rule.when->holds(results)) return rule.reason;
+  }
+  return {};
+}
+
+}  // namespace presa::experiment
