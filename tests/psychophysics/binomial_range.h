@@ -1,0 +1,21 @@
+#pragma once
+#include <cmath>
+
+/// Central range of a binomial count: below `low` and above `high` lie at most (1 - mass) / 2 each.
+struct BinomialRange {
+  int low = 0, high = 0;
+};
+
+inline BinomialRange binomialRange(int n, double p, double mass) {
+  const auto pmf = [&](int k) {
+    return std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) + k * std::log(p) +
+                    (n - k) * std::log1p(-p));
+  };
+  const double tail = (1 - mass) / 2;
+  BinomialRange range{0, n};
+  for (double sum = pmf(0); sum <= tail; sum += pmf(++range.low)) {
+  }
+  for (double sum = pmf(n); sum <= tail; sum += pmf(--range.high)) {
+  }
+  return range;
+}

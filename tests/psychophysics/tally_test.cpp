@@ -1,0 +1,25 @@
+#include "framework/psychophysics/tally.h"
+
+#include <gtest/gtest.h>
+
+namespace presa::psychophysics {
+namespace {
+
+// The tally is what a fit takes: as many answers as were given, by rising level.
+TEST(Tally, CountsAnswersByLevelAndLeavesOutTheRest) {
+  const auto trial = [](double level, TrialKind kind, std::optional<bool> positive) {
+    Trial made{.stimulus = {.level = level, .kind = kind}, .response = std::nullopt};
+    if (positive) made.response = Response{.positive = *positive};
+    return made;
+  };
+  using enum TrialKind;
+  const std::vector<Trial> trials{trial(2, kTest, true),        trial(-1, kTest, false), trial(1, kTest, true),
+                                  trial(2, kTest, false),       trial(9, kCatch, true),  trial(9, kCatch, false),
+                                  trial(2, kTest, std::nullopt)};
+  EXPECT_EQ(tally(trials, Coding::kGreater), (std::vector<LevelCount>{{-1, 1, 0}, {1, 1, 1}, {2, 2, 1}}));
+  EXPECT_EQ(tally(trials, Coding::kCorrect), (std::vector<LevelCount>{{1, 2, 1}, {2, 2, 1}}));
+  EXPECT_EQ(tallyCatch(trials), (LevelCount{0, 2, 1}));
+}
+
+}  // namespace
+}  // namespace presa::psychophysics
