@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framework/diagnostics/diagnostics.h"
+#include "framework/math/minimum_jerk.h"
 #include "framework/math/spatial.h"
 
 namespace presa {
@@ -53,9 +54,5 @@ std::unique_ptr<Motion> readPhasedMotion(const std::string& file, const MotionCo
 /// between keyframes of one role. Null with findings when wrong.
 std::unique_ptr<Motion> readKeyframeMotion(const std::string& file, const MotionContext& context,
                                            Diagnostics& diagnostics);
-
-/// Minimum-jerk step from 0 to 1 over s in [0, 1], and its slope [Flash1985].
-inline double minimumJerk(double s) noexcept { return s <= 0 ? 0 : s >= 1 ? 1 : s * s * s * (10 + s * (-15 + 6 * s)); }
-inline double minimumJerkSlope(double s) noexcept { return s <= 0 || s >= 1 ? 0 : 30 * s * s * (1 - s) * (1 - s); }
 
 }  // namespace presa

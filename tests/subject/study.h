@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "framework/subject/stand_alone.h"
+
+namespace presa::subject {
+
+/// The 27 cubes of the grip study, mass slowest, stiffness fastest.
+std::vector<Cube> studyCubes();
+
+/// All noise off, and no allowance for what is not there: the mechanics alone.
+Population withoutNoise(Level level);
+
+struct StudyTrial {
+  Trial trial;
+  TrialResult result;
+};
+
+/// Seeds 1 … seeds, 3 subjects, each cube twice: 162 trials a seed.
+std::vector<StudyTrial> runStudy(const Population& population, int seeds);
+
+/// Median over the trials for which the quantity is a number, one for each level of the factor, in their order.
+std::vector<double> mediansBy(const std::vector<StudyTrial>& trials, const std::function<double(const Cube&)>& factor,
+                              const std::function<double(const StudyTrial&)>& quantity);
+
+/// Spearman of mean grip with a factor for each seed, over its 162 trials.
+std::vector<double> correlationsPerSeed(const std::vector<StudyTrial>& trials,
+                                        const std::function<double(const Cube&)>& factor);
+
+}  // namespace presa::subject
