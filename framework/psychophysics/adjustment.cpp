@@ -22,7 +22,7 @@ std::vector<std::string> mistakes(const AdjustmentPlan& plan) {
   return found;
 }
 
-Adjustment::Adjustment(AdjustmentPlan plan, RandomStream stream) : plan_(plan), stream_(std::move(stream)) {
+Adjustment::Adjustment(AdjustmentPlan plan, const RandomStream& stream) : plan_(plan), stream_(stream) {
   requireNone(mistakes(plan_));
   const std::size_t above = (plan_.trials + (stream_.uniform() < 0.5 ? 1 : 0)) / 2;
   for (std::size_t i = 0; i < plan_.trials; ++i) {

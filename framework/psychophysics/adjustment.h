@@ -37,7 +37,7 @@ struct Settings {
 class Adjustment final : public Method {
  public:
   /// Throws std::invalid_argument naming every mistake of the plan.
-  Adjustment(AdjustmentPlan plan, RandomStream stream);
+  Adjustment(AdjustmentPlan plan, const RandomStream& stream);
 
   Settings settings() const;
 

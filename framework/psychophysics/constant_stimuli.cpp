@@ -23,8 +23,8 @@ std::vector<std::string> mistakes(const ConstantStimuliPlan& plan) {
   return found;
 }
 
-ConstantStimuli::ConstantStimuli(ConstantStimuliPlan plan, RandomStream stream)
-    : plan_(std::move(plan)), stream_(std::move(stream)) {
+ConstantStimuli::ConstantStimuli(ConstantStimuliPlan plan, const RandomStream& stream)
+    : plan_(std::move(plan)), stream_(stream) {
   requireNone(mistakes(plan_));
   std::vector<std::size_t> block;
   for (std::size_t i = 0; i < plan_.levels.size(); ++i) block.insert(block.end(), plan_.per_block, i);

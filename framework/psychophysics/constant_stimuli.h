@@ -21,7 +21,7 @@ std::vector<std::string> mistakes(const ConstantStimuliPlan& plan);
 class ConstantStimuli final : public Method {
  public:
   /// Throws std::invalid_argument naming every mistake of the plan.
-  ConstantStimuli(ConstantStimuliPlan plan, RandomStream stream);
+  ConstantStimuli(ConstantStimuliPlan plan, const RandomStream& stream);
 
  private:
   void update(Trial& trial) override;

@@ -5,8 +5,8 @@
 
 namespace presa::psychophysics {
 
-ForcedChoice::ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan, RandomStream stream)
-    : method_(std::move(method)), plan_(plan), stream_(std::move(stream)) {
+ForcedChoice::ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan, const RandomStream& stream)
+    : method_(std::move(method)), plan_(plan), stream_(stream) {
   if (!method_) throw std::invalid_argument("forced choice needs a method that chooses the level");
   if (method_->next() && method_->next()->kind == TrialKind::kAdjustment) {
     throw std::invalid_argument("forced choice cannot go with the method of adjustment");

@@ -30,7 +30,7 @@ struct ForcedChoicePlan {
 class ForcedChoice final : public Method {
  public:
   /// Throws std::invalid_argument without a method, around a method of adjustment, or when `balance_over` is 0.
-  ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan, RandomStream stream);
+  ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan, const RandomStream& stream);
 
   const Method& method() const noexcept { return *method_; }
   Response responseFor(bool positive) const override;

@@ -23,8 +23,8 @@ std::vector<std::string> mistakes(const InterleavedPlan& plan) {
   return found;
 }
 
-Interleaved::Interleaved(const InterleavedPlan& plan, RandomStream stream)
-    : catch_rate_(plan.catch_rate), catch_level_(plan.catch_level), stream_(std::move(stream)) {
+Interleaved::Interleaved(const InterleavedPlan& plan, const RandomStream& stream)
+    : catch_rate_(plan.catch_rate), catch_level_(plan.catch_level), stream_(stream) {
   requireNone(mistakes(plan));
   for (const StaircaseRule& rule : plan.tracks) tracks_.emplace_back(rule);
   start();

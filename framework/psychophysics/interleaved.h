@@ -23,7 +23,7 @@ std::vector<std::string> mistakes(const InterleavedPlan& plan);
 class Interleaved final : public Method {
  public:
   /// Throws std::invalid_argument naming every mistake of the plan.
-  Interleaved(const InterleavedPlan& plan, RandomStream stream);
+  Interleaved(const InterleavedPlan& plan, const RandomStream& stream);
 
   const std::vector<Staircase>& tracks() const noexcept { return tracks_; }
   /// Mean of the staircases' thresholds; none while one of them has fewer than `last` reversals.

@@ -166,7 +166,7 @@ double Posterior::sd(Parameter parameter) const {
   return std::sqrt(variance);
 }
 
-Interval Posterior::credible(Parameter parameter, double mass) const {
+statistics::Interval Posterior::credible(Parameter parameter, double mass) const {
   const std::vector<double> weights = marginal(parameter);
   const std::vector<double>& values = candidates(parameter).values;
   return {quantile(values, weights, (1 - mass) / 2), quantile(values, weights, (1 + mass) / 2)};

@@ -6,6 +6,7 @@
 
 #include "framework/psychophysics/psychometric_function.h"
 #include "framework/psychophysics/tally.h"
+#include "framework/statistics/interval.h"
 
 namespace presa::psychophysics {
 
@@ -24,10 +25,6 @@ struct PosteriorGrid {
 std::vector<std::string> mistakes(const PosteriorGrid& grid);
 
 enum class Parameter { kThreshold, kSpread, kLapse };
-
-struct Interval {
-  double low = 0, high = 0;
-};
 
 /// What binary trials say about the psychometric function, whichever method chose their levels: the likelihood does not
 /// depend on the choice. Probabilities are kept 1e-12 off 0 and 1: a slip that a candidate calls impossible leaves it a
@@ -54,7 +51,7 @@ class Posterior {
   double sd(Parameter parameter) const;
   /// Holds the parameter with probability `mass` in (0, 1), as much of the rest on either side. It covers at that rate
   /// when truths follow the prior; at a given truth only about so.
-  Interval credible(Parameter parameter, double mass) const;
+  statistics::Interval credible(Parameter parameter, double mass) const;
   /// Of all parameters together [nat].
   double entropy() const;
   /// Weight of each candidate of one parameter.

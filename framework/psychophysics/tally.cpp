@@ -16,6 +16,7 @@ std::vector<LevelCount> tally(std::span<const Trial> trials, Coding coding) {
     count.k += trial.response->positive ? 1 : 0;
   }
   std::vector<LevelCount> counts;
+  counts.reserve(by_level.size());
   for (const auto& [level, count] : by_level) counts.push_back(count);
   return counts;
 }

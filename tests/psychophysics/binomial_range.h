@@ -13,9 +13,8 @@ inline BinomialRange binomialRange(int n, double p, double mass) {
   };
   const double tail = (1 - mass) / 2;
   BinomialRange range{0, n};
-  for (double sum = pmf(0); sum <= tail; sum += pmf(++range.low)) {
-  }
-  for (double sum = pmf(n); sum <= tail; sum += pmf(--range.high)) {
-  }
+  double below = pmf(0), above = pmf(n);
+  while (below <= tail) below += pmf(++range.low);
+  while (above <= tail) above += pmf(--range.high);
   return range;
 }

@@ -87,10 +87,7 @@ TEST_P(Recovery, PosteriorIsUnbiasedAndAsWideAsItsError) {
     const double off = posterior.mean(Parameter::kThreshold) - truth;
     error += off, squared_error += off * off;
     squared_z += std::pow(off / posterior.sd(Parameter::kThreshold), 2);
-    const auto covers = [&](double mass) {
-      const Interval interval = posterior.credible(Parameter::kThreshold, mass);
-      return interval.low <= truth && truth <= interval.high;
-    };
+    const auto covers = [&](double mass) { return posterior.credible(Parameter::kThreshold, mass).contains(truth); };
     covered_95 += covers(0.95), covered_50 += covers(0.5);
   }
   const double rms = std::sqrt(squared_error / kObservers);
