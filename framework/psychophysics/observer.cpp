@@ -1,5 +1,6 @@
 #include "framework/psychophysics/observer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "framework/math/random.h"
@@ -10,12 +11,12 @@ Response Observer::answer(const Method& method) const {
   const Stimulus& stimulus = method.next().value();
   RandomStream stream(seed_, "observer", stimulus.trial);
   if (stimulus.kind == TrialKind::kAdjustment) {
-    const bool linear = function_.scale == Scale::kLinear;
-    return {.value = linear ? function_.threshold + function_.spread * stream.normal()
-                            : stream.logNormal(function_.threshold, function_.spread)};
+    const double share = std::clamp(stream.uniform(), 1e-12, 1 - 1e-12);
+    const statistics::PsychometricFunction rise{function_.shape, function_.location, function_.spread};
+    return {.value = rise.threshold(share).value()};
   }
   const double level = coding_ == Coding::kCorrect ? std::abs(stimulus.level) : stimulus.level;
-  return method.responseFor(stream.uniform() < function_(level));
+  return method.responseFor(stream.uniform() < function_.probability(level));
 }
 
 }  // namespace presa::psychophysics

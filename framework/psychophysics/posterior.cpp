@@ -65,10 +65,10 @@ std::vector<std::string> mistakes(const PosteriorGrid& grid) {
         return lapse >= 0 && guess >= 0 && guess + lapse < 1;
       },
       "guess and lapse rate must be >= 0 and together < 1");
-  if (grid.scale == Scale::kLn) {
+  if (grid.shape == statistics::PsychometricShape::kWeibull) {
     require(
         grid.threshold, [](double threshold) { return threshold > 0; },
-        "on a logarithmic scale the threshold must be > 0");
+        "the threshold of a Weibull function must be > 0");
   }
   return found;
 }
@@ -88,12 +88,13 @@ Posterior::Posterior(PosteriorGrid grid) : grid_(std::move(grid)) {
 double Posterior::probability(std::size_t cell, double level) const {
   const std::size_t lapses = grid_.lapse.values.size(), spreads = grid_.spread.values.size();
   const double lapse = grid_.lapse.values[cell % lapses];
-  const PsychometricFunction function{.threshold = grid_.threshold.values[cell / lapses / spreads],
-                                      .spread = grid_.spread.values[cell / lapses % spreads],
-                                      .guess = grid_.guess.value_or(lapse),
-                                      .lapse = lapse,
-                                      .scale = grid_.scale};
-  return std::clamp(function(level), 1e-12, 1 - 1e-12);
+  const statistics::PsychometricFunction function{.shape = grid_.shape,
+                                                  .location = grid_.threshold.values[cell / lapses / spreads],
+                                                  .spread = grid_.spread.values[cell / lapses % spreads],
+                                                  .guess = grid_.guess.value_or(lapse),
+                                                  .lapse = lapse};
+  const bool from_zero = grid_.shape == statistics::PsychometricShape::kWeibull;
+  return std::clamp(function.probability(from_zero ? std::max(level, 0.0) : level), 1e-12, 1 - 1e-12);
 }
 
 void Posterior::update(double level, bool positive) {
@@ -111,12 +112,12 @@ void Posterior::update(std::span<const double> probabilities, bool positive) {
   normalise();
 }
 
-void Posterior::update(const LevelCount& count) {
-  const auto k = static_cast<double>(count.k), misses = static_cast<double>(count.n - count.k);
+void Posterior::update(const statistics::StimulusLevel& count) {
+  const double hits = count.hits, misses = count.trials - count.hits;
   std::vector<double> log_weights(size());
   for (std::size_t cell = 0; cell < size(); ++cell) {
-    const double p = probability(cell, count.level);
-    log_weights[cell] = std::log(weights_[cell]) + k * std::log(p) + misses * std::log1p(-p);
+    const double p = probability(cell, count.x);
+    log_weights[cell] = std::log(weights_[cell]) + hits * std::log(p) + misses * std::log1p(-p);
   }
   const double greatest = *std::ranges::max_element(log_weights);
   for (std::size_t cell = 0; cell < size(); ++cell) weights_[cell] = std::exp(log_weights[cell] - greatest);

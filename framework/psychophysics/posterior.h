@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "framework/psychophysics/psychometric_function.h"
 #include "framework/psychophysics/tally.h"
 #include "framework/statistics/interval.h"
 
@@ -17,9 +16,9 @@ struct Candidates {
 };
 
 struct PosteriorGrid {
-  Candidates threshold{}, spread{}, lapse{};  ///< as in PsychometricFunction
+  Candidates threshold{}, spread{}, lapse{};  ///< location, spread and lapse of a statistics::PsychometricFunction
   std::optional<double> guess = 0.5;          ///< none: as the lapse rate, for "which was greater?"
-  Scale scale = Scale::kLinear;
+  statistics::PsychometricShape shape = statistics::PsychometricShape::kNormal;
 };
 
 std::vector<std::string> mistakes(const PosteriorGrid& grid);
@@ -38,14 +37,14 @@ class Posterior {
   std::size_t size() const noexcept { return weights_.size(); }
   /// Sum 1.
   std::span<const double> weights() const noexcept { return weights_; }
-  /// P(positive) at the level under one combination.
+  /// P(positive) at the level under one combination; a Weibull function has not risen at level 0 and below.
   double probability(std::size_t cell, double level) const;
 
   void update(double level, bool positive);
   /// The same with `probability` of every cell at hand.
   void update(std::span<const double> probabilities, bool positive);
   /// All answers at one level.
-  void update(const LevelCount& count);
+  void update(const statistics::StimulusLevel& count);
 
   double mean(Parameter parameter) const;
   double sd(Parameter parameter) const;

@@ -5,28 +5,30 @@
 
 namespace presa::psychophysics {
 
-std::vector<LevelCount> tally(std::span<const Trial> trials, Coding coding) {
-  std::map<double, LevelCount> by_level;
+using statistics::StimulusLevel;
+
+std::vector<StimulusLevel> tally(std::span<const Trial> trials, Coding coding) {
+  std::map<double, StimulusLevel> by_level;
   for (const Trial& trial : trials) {
     if (!trial.response || trial.stimulus.kind != TrialKind::kTest) continue;
     const double level = coding == Coding::kCorrect ? std::abs(trial.stimulus.level) : trial.stimulus.level;
-    LevelCount& count = by_level[level];
-    count.level = level;
-    ++count.n;
-    count.k += trial.response->positive ? 1 : 0;
+    StimulusLevel& count = by_level[level];
+    count.x = level;
+    ++count.trials;
+    count.hits += trial.response->positive ? 1 : 0;
   }
-  std::vector<LevelCount> counts;
+  std::vector<StimulusLevel> counts;
   counts.reserve(by_level.size());
   for (const auto& [level, count] : by_level) counts.push_back(count);
   return counts;
 }
 
-LevelCount tallyCatch(std::span<const Trial> trials) {
-  LevelCount count;
+StimulusLevel tallyCatch(std::span<const Trial> trials) {
+  StimulusLevel count;
   for (const Trial& trial : trials) {
     if (!trial.response || trial.stimulus.kind != TrialKind::kCatch) continue;
-    ++count.n;
-    count.k += trial.response->positive ? 1 : 0;
+    ++count.trials;
+    count.hits += trial.response->positive ? 1 : 0;
   }
   return count;
 }

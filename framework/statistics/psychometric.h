@@ -16,6 +16,7 @@ struct StimulusLevel {
   double x = 0;
   int trials = 0;
   int hits = 0;  ///< correct, or "the comparison is greater"
+  bool operator==(const StimulusLevel&) const = default;
 };
 
 struct PsychometricModel {

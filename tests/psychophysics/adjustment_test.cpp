@@ -46,7 +46,7 @@ TEST(Adjustment, SettingsRecoverTheObserver) {
   plan.trials = 4000;
   plan.min = -100, plan.max = 100;
   Adjustment method(plan, RandomStream(1, "starts"));
-  const Observer observer({.threshold = 2.2, .spread = 0.4}, Coding::kGreater, 9);
+  const Observer observer({.location = 2.2, .spread = 0.4}, Coding::kGreater, 9);
   while (!method.finished()) method.respond(observer.answer(method));
   const Settings settings = method.settings();
   EXPECT_EQ(settings.n, 4000U);

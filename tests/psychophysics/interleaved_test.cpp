@@ -11,7 +11,7 @@ namespace presa::psychophysics {
 namespace {
 
 const StaircaseRule kRule{.start = 1, .steps_up = {0.1}, .down = 2, .stop_trials = 500};
-const Observer kObserver({.threshold = 0.3, .spread = 0.2, .guess = 0.5}, Coding::kCorrect, 3);
+const Observer kObserver({.location = 0.3, .spread = 0.2, .guess = 0.5}, Coding::kCorrect, 3);
 
 // Bounds: 99.99 % of the binomial counts, one for each staircase and one for the catch trials.
 TEST(Interleaved, StaircasesTakeTurnsAtRandomWithCatchTrialsAtTheirRate) {

@@ -98,7 +98,7 @@ QuestPlusPlan smallPlan() {
 TEST(QuestPlus, AgreesWithItsDefinitionWrittenOut) {
   QuestPlus quest(smallPlan());
   BruteForce brute(smallPlan());
-  const Observer observer({.threshold = 0.25, .spread = 0.2, .guess = 0.5, .lapse = 0.03}, Coding::kGreater, 5);
+  const Observer observer({.location = 0.25, .spread = 0.2, .guess = 0.5, .lapse = 0.03}, Coding::kGreater, 5);
   while (!quest.finished()) {
     const std::vector<double> got = quest.expectedEntropy(), expected = brute.expectedEntropy();
     for (std::size_t level = 0; level < got.size(); ++level) ASSERT_NEAR(got[level], expected[level], 1e-12);
@@ -121,7 +121,7 @@ TEST(QuestPlus, StopsOnceTheThresholdIsKnownWellEnough) {
   plan.stop_sd = 0.08;
   plan.stop_trials = 1000;
   QuestPlus quest(plan);
-  const Observer observer({.threshold = 0.3, .spread = 0.1, .guess = 0.5, .lapse = 0.01}, Coding::kGreater, 5);
+  const Observer observer({.location = 0.3, .spread = 0.1, .guess = 0.5, .lapse = 0.01}, Coding::kGreater, 5);
   while (!quest.finished()) {
     ASSERT_GT(quest.posterior().sd(Parameter::kThreshold), 0.08);
     quest.respond(observer.answer(quest));
@@ -152,8 +152,8 @@ TEST(Posterior, CountsAndSingleTrialsSayTheSame) {
   Posterior one_by_one(smallPlan().grid), counted(smallPlan().grid);
   for (int i = 0; i < 12; ++i) one_by_one.update(0.25, i < 9);
   for (int i = 0; i < 5; ++i) one_by_one.update(0.4, i < 4);
-  counted.update({.level = 0.25, .n = 12, .k = 9});
-  counted.update({.level = 0.4, .n = 5, .k = 4});
+  counted.update({.x = 0.25, .trials = 12, .hits = 9});
+  counted.update({.x = 0.4, .trials = 5, .hits = 4});
   for (std::size_t cell = 0; cell < counted.size(); ++cell) {
     EXPECT_NEAR(counted.weights()[cell], one_by_one.weights()[cell], 1e-13);
   }
@@ -195,9 +195,9 @@ TEST(Posterior, PeaksAtTheMaximumOfTheLikelihood) {
   for (int i = 0; i < 31; ++i) grid.spread.values.push_back(0.015 + 0.0005 * i);
   Posterior posterior(grid);
   const std::vector<double> levels{0.160, 0.172, 0.184, 0.200, 0.216, 0.228, 0.240};
-  const std::vector<std::size_t> heavier{1, 3, 5, 10, 15, 18, 19};
+  const std::vector<int> heavier{1, 3, 5, 10, 15, 18, 19};
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    posterior.update({.level = levels[i], .n = 20, .k = heavier[i]});
+    posterior.update({.x = levels[i], .trials = 20, .hits = heavier[i]});
   }
   const auto best =
       static_cast<std::size_t>(std::ranges::max_element(posterior.weights()) - posterior.weights().begin());

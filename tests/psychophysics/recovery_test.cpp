@@ -16,6 +16,9 @@
 namespace presa::psychophysics {
 namespace {
 
+using statistics::PsychometricFunction;
+using statistics::StimulusLevel;
+
 constexpr int kObservers = 500;
 
 std::vector<double> evenly(double low, double high, std::size_t count) {
@@ -32,7 +35,7 @@ PosteriorGrid grid() {
 }
 
 PsychometricFunction drawTruth(RandomStream& stream) {
-  return {.threshold = stream.uniform(0.095, 0.505),  // the candidates' cells: half a step beyond the outer ones
+  return {.location = stream.uniform(0.095, 0.505),  // the candidates' cells: half a step beyond the outer ones
           .spread = grid().spread.values[stream.below(4)],
           .guess = 0.5,
           .lapse = grid().lapse.values[stream.below(3)]};
@@ -64,7 +67,7 @@ Posterior interleavedStaircases(const Observer& observer, std::uint64_t seed) {
                     RandomStream(seed, "places"));
   while (!task.finished()) task.respond(observer.answer(task));
   Posterior posterior(grid());
-  for (const LevelCount& count : tally(task.trials(), Coding::kCorrect)) posterior.update(count);
+  for (const StimulusLevel& count : tally(task.trials(), Coding::kCorrect)) posterior.update(count);
   return posterior;
 }
 
@@ -83,7 +86,7 @@ TEST_P(Recovery, PosteriorIsUnbiasedAndAsWideAsItsError) {
     RandomStream stream(2026, "truths", seed);
     const Observer observer(drawTruth(stream), Coding::kCorrect, seed);
     const Posterior posterior = GetParam().session(observer, seed);
-    const double truth = observer.function().threshold;
+    const double truth = observer.function().location;
     const double off = posterior.mean(Parameter::kThreshold) - truth;
     error += off, squared_error += off * off;
     squared_z += std::pow(off / posterior.sd(Parameter::kThreshold), 2);
@@ -102,6 +105,19 @@ TEST_P(Recovery, PosteriorIsUnbiasedAndAsWideAsItsError) {
     EXPECT_GE(covered, range.low) << "of mass " << mass;
     EXPECT_LE(covered, range.high) << "of mass " << mass;
   }
+}
+
+// A laboratory has one truth, not a prior: there the interval need not cover exactly at its rate, but must not do so more
+// rarely. The spread lies between two candidates. 99.9 % range of the binomial count.
+TEST_P(Recovery, IntervalCoversAGivenTruth) {
+  const PsychometricFunction truth{.location = 0.3, .spread = 0.15, .guess = 0.5, .lapse = 0.01};
+  int covered = 0;
+  for (std::uint64_t seed = 0; seed < kObservers; ++seed) {
+    const Observer observer(truth, Coding::kCorrect, seed);
+    covered += GetParam().session(observer, seed).credible(Parameter::kThreshold, 0.95).contains(truth.location);
+  }
+  RecordProperty("covered_95", covered);
+  EXPECT_GE(covered, binomialRange(kObservers, 0.95, 0.999).low);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Recovery,

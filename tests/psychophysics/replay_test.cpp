@@ -54,7 +54,7 @@ Factory asForcedChoice(const Factory& inner) {
 }
 
 constexpr std::uint64_t kSeed = 41;
-const Observer kObserver({.threshold = 0.3, .spread = 0.15, .guess = 0.5, .lapse = 0.02}, Coding::kCorrect, kSeed);
+const Observer kObserver({.location = 0.3, .spread = 0.15, .guess = 0.5, .lapse = 0.02}, Coding::kCorrect, kSeed);
 
 /// One trial; every seventh presentation is spoilt.
 void step(Method& method) {

@@ -10,6 +10,8 @@
 namespace presa::psychophysics {
 namespace {
 
+using statistics::PsychometricFunction;
+
 /// The levels presented while the observer answers as the text says: '+' positive, '-' negative.
 std::vector<double> levels(Staircase& staircase, const std::string& answers) {
   std::vector<double> presented;

@@ -16,9 +16,10 @@ TEST(Tally, CountsAnswersByLevelAndLeavesOutTheRest) {
   const std::vector<Trial> trials{trial(2, kTest, true),        trial(-1, kTest, false), trial(1, kTest, true),
                                   trial(2, kTest, false),       trial(9, kCatch, true),  trial(9, kCatch, false),
                                   trial(2, kTest, std::nullopt)};
-  EXPECT_EQ(tally(trials, Coding::kGreater), (std::vector<LevelCount>{{-1, 1, 0}, {1, 1, 1}, {2, 2, 1}}));
-  EXPECT_EQ(tally(trials, Coding::kCorrect), (std::vector<LevelCount>{{1, 2, 1}, {2, 2, 1}}));
-  EXPECT_EQ(tallyCatch(trials), (LevelCount{0, 2, 1}));
+  EXPECT_EQ(tally(trials, Coding::kGreater),
+            (std::vector<statistics::StimulusLevel>{{-1, 1, 0}, {1, 1, 1}, {2, 2, 1}}));
+  EXPECT_EQ(tally(trials, Coding::kCorrect), (std::vector<statistics::StimulusLevel>{{1, 2, 1}, {2, 2, 1}}));
+  EXPECT_EQ(tallyCatch(trials), (statistics::StimulusLevel{0, 2, 1}));
 }
 
 }  // namespace
