@@ -17,9 +17,9 @@ std::vector<std::string> mistakes(const QuestPlusPlan& plan);
 
 /// QUEST+ [Watson2017]: presents the level after whose answer the expected entropy of the posterior over threshold,
 /// spread and lapse rate is least; the first of the list among equals. With one candidate for spread and for lapse rate
-/// only the threshold is free: that is QUEST [WatsonPelli1983] with the entropy rule; its Weibull shape is a
-/// choice of the grid, its Gaussian prior goes into `grid.threshold.prior`. Draws no random numbers. Two tables of levels x candidates are kept: 40 x 840 take 0.5 MB, 2 ms
-/// to build and 0.03 ms per trial.
+/// only the threshold is free: that is QUEST [WatsonPelli1983] with the entropy rule; its Weibull shape is a choice of
+/// the grid, its Gaussian prior goes into `grid.threshold.prior`. Draws no random numbers. Keeps two tables of levels x
+/// candidates: 40 x 840 take 0.5 MB, 2 ms to build and 0.03 ms per trial.
 class QuestPlus final : public Method {
  public:
   /// Throws std::invalid_argument naming every mistake of the plan.
