@@ -53,7 +53,7 @@ std::optional<double> kendallTauB(std::span<const double> x, std::span<const dou
   for (std::size_t i = 1; i < x.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const int sx = signOf(x[i] - x[j]), sy = signOf(y[i] - y[j]);
-      score += sx * sy, untied_x += sx != 0, untied_y += sy != 0;
+      score += std::int64_t{sx} * sy, untied_x += sx != 0, untied_y += sy != 0;
     }
   }
   return static_cast<double>(score) / std::sqrt(static_cast<double>(untied_x) * static_cast<double>(untied_y));

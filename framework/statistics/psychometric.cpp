@@ -114,12 +114,10 @@ std::optional<PsychometricBootstrap> bootstrapPsychometric(std::span<const Stimu
   }
   if (locations.empty()) return std::nullopt;
   PsychometricBootstrap result;
-  result.location = *biasCorrectedInterval(locations, fit.function.location, level);
-  result.spread = *biasCorrectedInterval(spreads, fit.function.spread, level);
-  result.jnd = *biasCorrectedInterval(jnds, fit.function.jnd(), level);
-  for (std::size_t i = 0; i < proportions.size(); ++i) {
-    result.thresholds.push_back(*biasCorrectedInterval(thresholds[i], *fit.function.threshold(proportions[i]), level));
-  }
+  result.location = *percentileInterval(locations, level);
+  result.spread = *percentileInterval(spreads, level);
+  result.jnd = *percentileInterval(jnds, level);
+  for (const std::vector<double>& values : thresholds) result.thresholds.push_back(*percentileInterval(values, level));
   result.draws = draws, result.undetermined = draws - locations.size();
   result.deviance_p = static_cast<double>(1 + as_deviant) / static_cast<double>(1 + locations.size());
   return result;

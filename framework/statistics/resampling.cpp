@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "framework/statistics/correlation.h"
-#include "framework/statistics/distributions.h"
 #include "framework/statistics/means.h"
 #include "framework/statistics/ranks.h"
 
@@ -46,18 +45,6 @@ double productSum(const std::vector<double>& x, const std::vector<double>& y) {
 std::optional<Interval> percentileInterval(std::span<const double> draws, double level) {
   const std::optional<double> low = quantile(draws, 0.5 - level / 2), high = quantile(draws, 0.5 + level / 2);
   if (!low || !(level > 0 && level < 1)) return std::nullopt;
-  return Interval{*low, *high};
-}
-
-std::optional<Interval> biasCorrectedInterval(std::span<const double> draws, double estimate, double level) {
-  if (draws.empty() || !std::isfinite(estimate) || !(level > 0 && level < 1)) return std::nullopt;
-  double below = 0;
-  for (const double draw : draws) below += draw < estimate ? 1 : draw == estimate ? 0.5 : 0;
-  const double shift = 2 * normalQuantile(below / static_cast<double>(draws.size()));
-  const double reach = normalQuantile(0.5 + level / 2);
-  const std::optional<double> low = quantile(draws, normalCdf(shift - reach)),
-                              high = quantile(draws, normalCdf(shift + reach));
-  if (!low || !high) return std::nullopt;
   return Interval{*low, *high};
 }
 

@@ -13,9 +13,6 @@ namespace presa::statistics {
 
 /// Between the quantiles (1 - level) / 2 and (1 + level) / 2 of bootstrap draws; at least one draw, 0 < level < 1.
 std::optional<Interval> percentileInterval(std::span<const double> draws, double level);
-/// The quantiles moved by what the draws are off the estimate they were drawn from, bias-corrected percentiles [Efron 1981]:
-/// for estimates that are biased, as the steepness of a fit. The same refusals; draws all on one side give their end.
-std::optional<Interval> biasCorrectedInterval(std::span<const double> draws, double estimate, double level);
 
 struct PermutationTest {
   double rho = 0;        ///< Spearman's, of all cases pooled
