@@ -104,7 +104,7 @@ TEST(BootstrapIntervals, LieBetweenPercentiles) {
 }
 
 TEST(BootstrapSubjects, SaysWhyNotBelowEight) {
-  std::vector<int> subjects(54 * 7);
+  std::vector<int> subjects(std::size_t{54} * 7);
   for (std::size_t i = 0; i < subjects.size(); ++i) subjects[i] = static_cast<int>(i / 54);
   RandomStream random(1, "bootstrap");
   const TrialStatistic one = [](auto) { return 1.0; }, none = [](auto) { return std::optional<double>(); };
