@@ -13,6 +13,7 @@ pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 find_library(MUJOCO_LIBRARY mujoco REQUIRED) # Debian's CMake package of it names a folder that does not exist
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)
+pkg_check_modules(CRYPTO REQUIRED IMPORTED_TARGET libcrypto)
 pkg_check_modules(OSG REQUIRED IMPORTED_TARGET openscenegraph)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 find_package(X11 REQUIRED)

@@ -99,7 +99,8 @@ struct Experiment {
   std::vector<Exclusion> exclusions;
   Names samples;  ///< what a phase can ask at haptic rate: see sample_names.h
   Names names;    ///< of a trial: columns, quality figures, measures in order
-  std::string resolved_xml;
+  std::string resolved_xml, scene_xml,
+      rig_xml;  ///< the three documents with every default, scene and rig before any level
 
   /// Names of all phases, in order.
   std::vector<std::string> phaseNames() const;

@@ -27,13 +27,13 @@ std::string beside(const std::string& file, const std::string& path) {
   return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
 
-void readHead(const Element& root, const std::string& file, Experiment& experiment) {
+void readHead(const Element& root, const std::string& file, const std::string& rig, Experiment& experiment) {
   experiment.file = file;
   experiment.name = root.attribute("name");
   experiment.title = root.attribute("title");
   experiment.description = root.attribute("description");
   experiment.scene = beside(file, root.attribute("scene"));
-  experiment.rig = beside(file, root.attribute("rig"));
+  experiment.rig = rig.empty() ? beside(file, root.attribute("rig")) : rig;
   experiment.seed = static_cast<std::uint64_t>(root.number("seed", 1));
   for (const Element& set : root.children("set"))
     experiment.sets.push_back(set.attribute("path") + "=" + set.attribute("value"));
@@ -42,7 +42,10 @@ void readHead(const Element& root, const std::string& file, Experiment& experime
 /// Scene and rig with the file's own sets: what names there are to ask for.
 void readSampleNames(Experiment& experiment, Diagnostics& diagnostics) {
   const Loaded loaded = loadWorld({experiment.scene, experiment.rig, experiment.sets}, {}, diagnostics);
-  if (loaded.world && !diagnostics.hasErrors()) experiment.samples = sampleNames(loaded.world->scene);
+  if (!loaded.world || diagnostics.hasErrors()) return;
+  experiment.samples = sampleNames(loaded.world->scene);
+  experiment.scene_xml = loaded.world->scene.resolved_xml;
+  experiment.rig_xml = loaded.world->rig.resolved_xml;
 }
 
 /// Every condition of the first subjects that differ, once; the same finding is told once.
@@ -64,13 +67,13 @@ void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::optional<Experiment> readExperiment(const std::string& file, Diagnostics& diagnostics) {
+std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics) {
   const auto document = xml::Document::load(file, diagnostics);
   if (!document || !document->validate(schema(), diagnostics)) return std::nullopt;
   document->writeDefaults(schema());
   const Element root = document->root();
   Experiment experiment;
-  readHead(root, file, experiment);
+  readHead(root, file, rig, experiment);
   readSampleNames(experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;  // nothing below could be told apart from what follows from it
   readFactors(root, experiment, diagnostics);

@@ -25,11 +25,13 @@ void SampleReader::read(double time, const DeviceState& device, const ContactExc
                         const ForceCommand& command, const ObjectState* objects,
                         std::span<double> values) const noexcept {
   std::size_t slot = kSignal + 1;
+  values[kSignal] = 0;
   const auto put = [&](const Vec3& v) {
     for (int k = 0; k < 3; ++k) values[slot++] = v[k];
   };
   for (std::size_t f = 0; f < roles_; ++f) {
     const FingerContact& touch = contact.fingers[f];
+    if ((device.fingers[f].buttons & 1U) != 0) values[kSignal] = 1;
     put(device.fingers[f].p_WH);
     put(device.fingers[f].v_WH);
     put(command.f_H_W[f]);

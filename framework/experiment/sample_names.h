@@ -11,7 +11,7 @@
 namespace presa::experiment {
 
 /// What phases and measures can ask of every haptic tick, in SI units, world frame:
-///   t (since the trial began), t_phase, signal (1 in the tick in which the participant answers or is ready);
+///   t (since the trial began), t_phase, signal (1 while the participant's button is pressed on any device);
 ///   ROLE.x .y .z .vx .vy .vz (fingertip) .fx .fy .fz (force sent to the device) .fn .ft (contact force along and across the
 ///   surface) .depth .state (0 none, 1 stick, 2 slip);
 ///   BODY.x .y .z .vx .vy .vz .speed of every free body, and .lift, how far it is above its place at the start.

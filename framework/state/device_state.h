@@ -9,10 +9,11 @@ namespace presa {
 
 /// One haptic interface point (HIP) as its device reports it.
 struct FingerInput {
-  Vec3 p_WH = Vec3::Zero();  ///< position of the fingertip centre [m]
-  Vec3 v_WH = Vec3::Zero();  ///< velocity [m/s]
-  std::int32_t phase = -1;   ///< phase of a scripted motion, index into Device::phases(); -1: none
-  bool valid = false;        ///< the device delivered a usable sample this tick
+  Vec3 p_WH = Vec3::Zero();   ///< position of the fingertip centre [m]
+  Vec3 v_WH = Vec3::Zero();   ///< velocity [m/s]
+  std::int32_t phase = -1;    ///< phase of a scripted motion, index into Device::phases(); -1: none
+  bool valid = false;         ///< the device delivered a usable sample this tick
+  std::uint32_t buttons = 0;  ///< bit 0: the participant's "ready" or answer; others as the device counts them
 };
 
 /// Device State: everything that comes in from the devices in one haptic tick.

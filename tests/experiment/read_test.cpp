@@ -33,7 +33,7 @@ class Changed : public testing::Test {
     if (at != std::string::npos) text.replace(at, from.size(), to);
     std::ofstream(file_) << text;
     Diagnostics diagnostics;
-    EXPECT_FALSE(readExperiment(file_, diagnostics));
+    EXPECT_FALSE(readExperiment(file_, {}, diagnostics));
     return diagnostics.text();
   }
   // beside the original, whose scene it names
@@ -42,7 +42,7 @@ class Changed : public testing::Test {
 
 TEST(Read, TheGripStudyIsThatOfThePaper) {
   Diagnostics diagnostics;
-  const auto experiment = readExperiment(kGrip, diagnostics);
+  const auto experiment = readExperiment(kGrip, {}, diagnostics);
   ASSERT_TRUE(experiment) << diagnostics.text();
   EXPECT_EQ(conditionsOf(*experiment, 1).size(), 27U);
   EXPECT_EQ(planTrials(*experiment, 1, 1).size(), 2U + 54U);

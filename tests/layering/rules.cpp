@@ -26,6 +26,7 @@ constexpr std::array kLibraries{
     Library{"(fcl|ccd|octomap)/.*", "modules/collision_fcl/"},
     Library{"(osg[A-Za-z]*|OpenThreads|EGL|X11|GL|GLES[23]?)/.*", "modules/view_osg/"},
     Library{"(hdf5|H5).*", "framework/record/record_plugin/"},
+    Library{"openssl/.*", "framework/checksum/checksum_plugin/"},
     Library{"libxml/.*", "framework/xml/"},
     Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},
     Library{"meshoptimizer.*", "framework/geometry/mesh_decimate_plugin/"},

@@ -1,41 +1,125 @@
 #include <cstdio>
 #include <memory>
+#include <system_error>
 
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/experiment/dataset.h"
 #include "apps/presa/experiment/dry_run.h"
-#include "apps/presa/experiment/subject.h"
+#include "apps/presa/experiment/session.h"
 #include "framework/experiment/read.h"
 
 namespace presa {
 namespace {
 
-struct DryRun {
-  std::string file, subject = "S01", format = "text";
+using namespace experiment;
+
+struct Arguments {
+  std::string file, rig, data, subject = "S01", format = "text";
   int number = 0, session = 1;
+  bool lockstep = false;
 };
 
-int dryRun(const DryRun& a) {
+int dryRun(const Arguments& a) {
   Diagnostics diagnostics;
-  const experiment::Subject subject = experiment::subjectOf(a.subject, a.number, diagnostics);
-  const auto experiment = experiment::readExperiment(a.file, diagnostics);
+  const Subject subject = subjectOf(a.subject, a.number, diagnostics);
+  const auto experiment = readExperiment(a.file, a.rig, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
-  const auto trials = experiment::planTrials(*experiment, subject.number, a.session);
-  const std::string text = a.format == "json"  ? experiment::dryRunJson(*experiment, subject, a.session, trials)
-                           : a.format == "csv" ? experiment::dryRunCsv(*experiment, trials)
-                                               : experiment::dryRunText(*experiment, subject, a.session, trials);
+  const auto trials = planTrials(*experiment, subject.number, a.session);
+  const std::string text = a.format == "json"  ? dryRunJson(*experiment, subject, a.session, trials)
+                           : a.format == "csv" ? dryRunCsv(*experiment, trials)
+                                               : dryRunText(*experiment, subject, a.session, trials);
   std::fputs(text.c_str(), stdout);
   return kExitOk;
 }
 
-void addDryRun(CLI::App& app, int& status) {
-  auto a = std::make_shared<DryRun>();
-  CLI::App* command = app.add_subcommand("dry-run", "List every trial with its order and seeds; nothing is run");
-  command->add_option("EXPERIMENT", a->file, "experiment file")->required();
-  command->add_option("--subject", a->subject, "pseudonym that ends in the subject's number")->capture_default_str();
-  command->add_option("--number", a->number, "number of the subject, from 1 (default: the pseudonym's digits)")
+/// Runs what is left of a session and says how it ended.
+int runToEnd(SubjectSession& session) {
+  SubjectSession::End end = SubjectSession::End::kStopped;
+  try {
+    end = session.run();
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr,
+                 "presa: error: %s\n%s is whole up to there; when the disk is in order: presa experiment resume %s\n",
+                 error.what(), session.folder().journal().c_str(), session.folder().path.c_str());
+    return kExitFault;
+  }
+  const TrialQueue& queue = session.queue();
+  if (end == SubjectSession::End::kStopped) {
+    std::fprintf(stderr, "stopped; %zu trials are left, go on with: presa experiment resume %s\n",
+                 queue.waiting().size(), session.folder().path.c_str());
+    return kExitInterrupted;
+  }
+  std::printf("%zu trials done, %zu given up, in %d runs: %s\n", queue.done(), queue.missing(), session.runsMade(),
+              session.folder().file("trials.csv").c_str());
+  return kExitOk;
+}
+
+int run(const Arguments& a) {
+  Diagnostics diagnostics;
+  const Subject subject = subjectOf(a.subject, a.number, diagnostics);
+  const auto experiment = readExperiment(a.file, a.rig, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
+  auto session = SubjectSession::begin(*experiment, {a.file, a.rig, subject, a.session, !a.lockstep}, a.data);
+  return runToEnd(session);
+}
+
+/// The one session below a folder that is not finished.
+int resume(const std::string& data) {
+  std::vector<SessionFolder> open;
+  for (const SessionFolder& folder : sessionsIn(data)) {
+    if (!readLog(folder.journal(), Journal::read(folder.journal()).records).complete) open.push_back(folder);
+  }
+  if (open.empty()) {
+    std::printf("%s: no session is left to finish\n", data.c_str());
+    return kExitOk;
+  }
+  if (open.size() > 1) {
+    std::fprintf(stderr, "%zu sessions are not finished, name one:\n", open.size());
+    for (const SessionFolder& folder : open)
+      std::fprintf(stderr, "  presa experiment resume %s\n", folder.path.c_str());
+    return kExitBadInput;
+  }
+  const SessionStart start = readLog(open[0].journal(), Journal::read(open[0].journal()).records).start;
+  Diagnostics diagnostics;
+  const auto experiment = readExperiment(start.experiment_file, start.rig_file, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (!experiment) return kExitBadInput;
+  auto session = SubjectSession::resume(*experiment, open[0]);
+  return runToEnd(session);
+}
+
+int validateAll(const std::string& data) {
+  const std::vector<SessionFolder> sessions = sessionsIn(data);
+  if (sessions.empty()) {
+    std::fprintf(stderr, "%s: holds no session\n", data.c_str());
+    return kExitBadInput;
+  }
+  bool good = true;
+  for (const SessionFolder& folder : sessions) {
+    const Verdict verdict = validate(folder);
+    good = good && verdict.findings.empty();
+    std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(),
+                verdict.findings.empty() ? "complete and unaltered" : "NOT in order", verdict.trials, verdict.runs);
+    for (const std::string& finding : verdict.findings) std::printf("  %s\n", finding.c_str());
+  }
+  return good ? kExitOk : kExitFault;
+}
+
+void addWho(CLI::App& command, Arguments& a) {
+  command.add_option("EXPERIMENT", a.file, "experiment file")->required();
+  command.add_option("--subject", a.subject, "pseudonym that ends in the subject's number")->capture_default_str();
+  command.add_option("--number", a.number, "number of the subject, from 1 (default: the pseudonym's digits)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--session", a->session, "from 1")->check(CLI::PositiveNumber)->capture_default_str();
+  command.add_option("--session", a.session, "from 1")->check(CLI::PositiveNumber)->capture_default_str();
+  command.add_option("--rig", a.rig, "rig file instead of the experiment's");
+}
+
+void addDryRun(CLI::App& app, int& status) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("dry-run", "List every trial with its order and seeds; nothing is run");
+  addWho(*command, *a);
   command->add_option("--format", a->format, "text, csv or json")
       ->check(CLI::IsMember({"text", "csv", "json"}))
       ->capture_default_str();
@@ -43,13 +127,37 @@ void addDryRun(CLI::App& app, int& status) {
   command->callback([a, &status] { status = dryRun(*a); });
 }
 
+void addRunSession(CLI::App& app, int& status) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("run", "Run a session; every trial is on disk before the next begins");
+  addWho(*command, *a);
+  command->get_option("--subject")->required();
+  command->add_option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N")->required();
+  command->add_flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
+  command->footer(
+      "Exit status: 0 complete, 1 the disk failed, 2 bad input (nothing was run), 130 Ctrl-C (go on with resume).\n"
+      "Example:  presa experiment run experiments/grip_slip/experiment.xml --subject S01 --data data");
+  command->callback([a, &status] { status = run(*a); });
+}
+
+void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&)) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("DIR", *folder, "folder of a dataset, or of one session in it")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->callback([folder, act, &status] { status = act(*folder); });
+}
+
 }  // namespace
 
 void addExperiment(CLI::App& app, int& status) {
-  CLI::App* command =
-      app.add_subcommand("experiment", "Psychophysics: from an experiment's definition to its list of trials");
+  CLI::App* command = app.add_subcommand("experiment", "Psychophysics: from an experiment's definition to its data");
   command->require_subcommand(1);
   addDryRun(*command, status);
+  addRunSession(*command, status);
+  addFolderCommand(*command, status, "resume", "Finish a session that was stopped or killed", resume);
+  addFolderCommand(*command, status, "validate", "Prove that a dataset is complete and unaltered", validateAll);
 }
 
 }  // namespace presa

@@ -13,7 +13,7 @@
 #include "apps/presa/cost/forecast.h"
 #include "apps/presa/cost/hash.h"
 #include "apps/presa/cost/knobs.h"
-#include "apps/presa/cost/machine.h"
+#include "apps/presa/machine.h"
 #include "apps/presa/cost/measure.h"
 #include "apps/presa/cost/meshes.h"
 #include "apps/presa/cost/metrics.h"

@@ -1,4 +1,4 @@
-#include "apps/presa/cost/machine.h"
+#include "apps/presa/machine.h"
 
 #include <sys/utsname.h>
 
@@ -8,7 +8,7 @@
 
 #include "apps/presa/version.h"
 
-namespace presa::cost {
+namespace presa {
 namespace {
 
 std::string processor() {
@@ -45,4 +45,4 @@ std::vector<std::pair<std::string, std::string>> machineFacts() {
           {"Presa", kVersion}};
 }
 
-}  // namespace presa::cost
+}  // namespace presa

@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-namespace presa::cost {
+namespace presa {
 
 /// What a cost depends on beside the settings: processor, kernel, compiler, versions. For the fine print.
 std::vector<std::pair<std::string, std::string>> machineFacts();
 
-}  // namespace presa::cost
+}  // namespace presa

@@ -1,0 +1,200 @@
+#include "apps/presa/experiment/session.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/presa/atomic_file.h"
+#include "apps/presa/experiment/dry_run.h"
+#include "apps/presa/experiment/trial_table.h"
+#include "apps/presa/machine.h"
+#include "apps/presa/terminal/job_progress.h"
+#include "apps/presa/terminal/text.h"
+#include "apps/presa/version.h"
+#include "framework/checksum/checksum.h"
+
+namespace presa::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// For people only: nothing is computed from it, so that a clock that jumps does no harm.
+std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+[[noreturn]] void refuse(int code, const std::string& file, const std::string& message, const std::string& help = {}) {
+  Diagnostics diagnostics;
+  diagnostics.error(code, {file, 0, 0}, message, help);
+  throw InputError(std::move(diagnostics));
+}
+
+std::vector<std::pair<const char*, const std::string*>> documentsOf(const Experiment& experiment) {
+  return {{"experiment.xml", &experiment.resolved_xml},
+          {"scene.xml", &experiment.scene_xml},
+          {"rig.xml", &experiment.rig_xml}};
+}
+
+std::string contentsOf(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A process that died before its first record leaves an empty log: nothing to overwrite.
+Journal createJournal(const SessionFolder& folder) {
+  if (!fs::exists(folder.journal())) return Journal::create(folder.journal());
+  Journal::Contents contents = Journal::read(folder.journal());
+  if (!contents.records.empty()) return Journal::create(folder.journal());  // says that it is there
+  return Journal::reopen(folder.journal(), contents);
+}
+
+Json conditionOf(const Experiment& experiment, const PlannedTrial& trial) {
+  Json condition = Json::object();
+  for (const Factor& factor : experiment.factors) {
+    for (const Column& column : factor.columns)
+      condition[column.name] = experiment.valueOf(column.name, trial.condition);
+  }
+  return condition;
+}
+
+Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Outcome outcomeOf(const TrialResult& result) {
+  if (result.stopped) return Outcome::kInterrupted;
+  return result.state == Trial::State::kDone ? Outcome::kDone : Outcome::kAborted;
+}
+
+}  // namespace
+
+SubjectSession::SubjectSession(const Experiment& experiment, SessionFolder folder, SessionLog log, Journal journal)
+    : experiment_(experiment),
+      folder_(std::move(folder)),
+      log_(std::move(log)),
+      journal_(std::move(journal)),
+      queue_(planTrials(experiment, log_.start.subject.number, log_.start.session), experiment.retry) {}
+
+SubjectSession SubjectSession::begin(const Experiment& experiment, const SessionStart& start, const std::string& data) {
+  SessionFolder folder = folderOf(data, start.subject.id, start.session);
+  std::error_code error;
+  fs::create_directories(folder.path, error);
+  if (error) refuse(925, folder.path, "the folder cannot be made: " + error.message());
+  Journal journal = createJournal(folder);
+  for (const auto& [name, text] : documentsOf(experiment)) writeFileAtomically(folder.file(name), *text);
+  Json record = toJson(start);
+  record["experiment"] = experiment.name;
+  record["seed"] = experiment.seed;
+  record["presa"] = kVersion;
+  record["utc"] = utcNow();
+  record["machine"] = Json::object();
+  for (const auto& [name, value] : machineFacts()) record["machine"][name] = value;
+  for (const auto& [name, text] : documentsOf(experiment)) record["sha256"][name] = sha256OfFile(folder.file(name));
+  journal.append(record);
+  return {experiment, std::move(folder), {start, {}, false}, std::move(journal)};
+}
+
+SubjectSession SubjectSession::resume(const Experiment& experiment, const SessionFolder& folder) {
+  Journal::Contents contents;
+  Journal journal = Journal::reopen(folder.journal(), contents);
+  for (const auto& [name, text] : documentsOf(experiment)) {
+    if (contentsOf(folder.file(name)) != *text)
+      refuse(926, folder.file(name), "differs from what the files say now",
+             "a session is finished with the files that it began with");
+  }
+  SubjectSession session(experiment, folder, readLog(folder.journal(), contents.records), std::move(journal));
+  Json record{{"event", "resume"}, {"presa", kVersion}, {"utc", utcNow()}, {"torn_bytes", contents.torn_bytes}};
+  session.journal_.append(record);
+  for (LoggedRun& run : session.log_.runs) {
+    if (run.end.is_null()) {
+      run.end = {{"event", "trial_end"}, {"outcome", toString(Outcome::kInterrupted)}, {"reason", "the process ended"}};
+      if (&run == &session.log_.runs.back()) session.journal_.append(run.end);
+    }
+    session.queue_.finish(run.outcome);
+  }
+  session.writeTable();
+  return session;
+}
+
+LoggedRun& SubjectSession::beginRun(const PlannedTrial& trial) {
+  const auto before = std::count_if(log_.runs.begin(), log_.runs.end(), [&](const LoggedRun& run) {
+    return run.number == trial.number && run.practice == trial.practice;
+  });
+  const int run = static_cast<int>(before) + 1;
+  Json record{{"event", "trial_begin"},
+              {"trial", trial.number},
+              {"practice", trial.practice},
+              {"block", trial.block},
+              {"repeat", trial.repeat},
+              {"attempt", trial.attempt},
+              {"run", run},
+              {"condition", conditionOf(experiment_, trial)},
+              {"seed", std::to_string(trial.seed)},
+              {"file", SessionFolder::nameOfRun(trial, run) + ".h5"},
+              {"utc", utcNow()}};
+  journal_.append(record);
+  log_.runs.push_back({trial.number, trial.attempt, run, trial.practice, Outcome::kInterrupted, record, {}});
+  return log_.runs.back();
+}
+
+void SubjectSession::endRun(LoggedRun& run, const TrialResult& result) {
+  run.outcome = outcomeOf(result);
+  run.end = {{"event", "trial_end"},
+             {"outcome", toString(run.outcome)},
+             {"reason", result.reason},
+             {"excluded", result.excluded}};
+  for (std::size_t p = 0; p < result.phases.size(); ++p)
+    run.end["phases"][experiment_.phases[p].name] = {
+        numberOrNull(result.phases[p].begin < 0 ? NAN : result.phases[p].begin),
+        numberOrNull(result.phases[p].end < 0 ? NAN : result.phases[p].end)};
+  const std::vector<std::string>& names = experiment_.names.all();
+  for (std::size_t i = 0; i < names.size(); ++i) run.end["values"][names[i]] = numberOrNull(result.values[i]);
+  run.end["simulated_s"] = result.simulated_seconds;
+  run.end["wall_s"] = result.wall_seconds;
+  run.end["ticks"] = result.ticks;
+  run.end["faults"] = result.faults;
+  run.end["sha256"] = sha256OfFile(folder_.file(run.begin.at("file")));
+  journal_.append(run.end);
+  queue_.finish(run.outcome);
+}
+
+void SubjectSession::writeTable() const {
+  writeFileAtomically(folder_.file("trials.csv"), trialTable(experiment_, log_));
+  writeFileAtomically(folder_.file("trials.json"), tableColumnsJson(experiment_));
+}
+
+SubjectSession::End SubjectSession::run() {
+  terminal::JobProgress progress(queue_.waiting().size());
+  const Span expected = durationOf(experiment_);
+  while (const PlannedTrial* next = queue_.next()) {
+    const PlannedTrial trial = *next;
+    LoggedRun& run = beginRun(trial);
+    TrialSetting setting;
+    setting.record = folder_.file(run.begin.at("file"));
+    setting.realtime = log_.start.realtime;
+    setting.stop = terminal::JobProgress::interrupted;
+    const std::size_t left = queue_.waiting().size();
+    setting.on_time = [&](double time) {
+      if (setting.realtime) progress.expect(static_cast<double>(left) * expected.least - time);
+      progress.show();
+    };
+    const TrialResult result = runTrial(experiment_, trial, setting);
+    endRun(run, result);
+    writeTable();
+    if (result.stopped) return End::kStopped;
+    if (queue_.waiting().size() == left) progress.more(1);  // it comes again
+    progress.done(terminal::format("trial %d", trial.number) + (result.reason.empty() ? "" : ": " + result.reason));
+  }
+  progress.finish();
+  if (!log_.complete) journal_.append({{"event", "end"}, {"utc", utcNow()}});
+  log_.complete = true;
+  return End::kComplete;
+}
+
+}  // namespace presa::experiment

@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "apps/presa/experiment/session_log.h"
+#include "apps/presa/experiment/trial_run.h"
+
+namespace presa::experiment {
+
+/// A session of one subject: its folder, its log, and the trials that are still to come. Everything that a crash must not take away
+/// is on disk before the next step is taken. Thread: main.
+class SubjectSession {
+ public:
+  /// A new one in DATA/sub-ID/ses-N. Throws InputError E920 when it exists, E925 when the folder cannot be made.
+  static SubjectSession begin(const Experiment& experiment, const SessionStart& start, const std::string& data);
+  /// One to go on with: queue and names of files are rebuilt from the log, an interrupted run is marked and comes next.
+  /// Throws InputError E926 when experiment, scene or rig are not what the session began with.
+  static SubjectSession resume(const Experiment& experiment, const SessionFolder& folder);
+
+  enum class End { kComplete, kStopped };
+  /// Runs what is left. kStopped: Ctrl-C; the trial that was going on is marked and comes again after resume.
+  /// Throws std::system_error when the disk fails; what was logged before stays whole.
+  End run();
+
+  const SessionFolder& folder() const noexcept { return folder_; }
+  const TrialQueue& queue() const noexcept { return queue_; }
+  int runsMade() const noexcept { return static_cast<int>(log_.runs.size()); }
+
+ private:
+  SubjectSession(const Experiment& experiment, SessionFolder folder, SessionLog log, Journal journal);
+  LoggedRun& beginRun(const PlannedTrial& trial);
+  void endRun(LoggedRun& run, const TrialResult& result);
+  void writeTable() const;
+
+  const Experiment& experiment_;
+  SessionFolder folder_;
+  SessionLog log_;
+  Journal journal_;
+  TrialQueue queue_;
+};
+
+}  // namespace presa::experiment

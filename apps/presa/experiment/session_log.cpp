@@ -1,0 +1,84 @@
+#include "apps/presa/experiment/session_log.h"
+
+#include <array>
+
+#include "apps/presa/terminal/text.h"
+
+namespace presa::experiment {
+namespace {
+
+constexpr int kFormat = 1;
+constexpr std::array<const char*, 4> kOutcomes{"done", "aborted", "interrupted", "skipped"};
+
+[[noreturn]] void refuse(const std::string& file, const std::string& message) {
+  Diagnostics diagnostics;
+  diagnostics.error(924, {file, 1, 0}, message);
+  throw InputError(std::move(diagnostics));
+}
+
+Outcome outcomeOf(const Json& record) {
+  const auto name = record.at("outcome").get<std::string>();
+  for (std::size_t i = 0; i < kOutcomes.size(); ++i) {
+    if (name == kOutcomes[i]) return static_cast<Outcome>(i);
+  }
+  throw std::out_of_range("no outcome " + name);
+}
+
+void take(const Json& record, SessionLog& log) {
+  const auto event = record.at("event").get<std::string>();
+  if (event == "trial_begin") {
+    log.runs.push_back({record.at("trial"),
+                        record.at("attempt"),
+                        record.at("run"),
+                        record.at("practice"),
+                        Outcome::kInterrupted,
+                        record,
+                        {}});
+  } else if (event == "trial_end") {
+    log.runs.back().outcome = outcomeOf(record);
+    log.runs.back().end = record;
+  } else if (event == "end") {
+    log.complete = true;
+  }
+}
+
+}  // namespace
+
+const char* toString(Outcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
+
+std::string SessionFolder::nameOfRun(const PlannedTrial& trial, int run) {
+  return terminal::format("%s-%03d_run-%d", trial.practice ? "practice" : "trial", trial.number, run);
+}
+
+SessionFolder folderOf(const std::string& data, const std::string& subject, int session) {
+  return {data + "/sub-" + subject + "/ses-" + std::to_string(session)};
+}
+
+Json toJson(const SessionStart& start) {
+  return {{"event", "start"},           {"format", kFormat},           {"experiment_file", start.experiment_file},
+          {"rig_file", start.rig_file}, {"subject", start.subject.id}, {"number", start.subject.number},
+          {"session", start.session},   {"realtime", start.realtime}};
+}
+
+SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
+  if (records.empty()) refuse(file, "holds no record: the session never began, delete the folder and run it anew");
+  SessionLog log;
+  try {
+    const Json& start = records.front();
+    if (start.at("event") != "start") refuse(file, "does not begin with the start of a session");
+    if (start.at("format").get<int>() > kFormat)
+      refuse(file, "is of format " + start.at("format").dump() + ", this version of Presa knows 1");
+    log.start = {start.at("experiment_file"),
+                 start.at("rig_file"),
+                 {start.at("subject"), start.at("number")},
+                 start.at("session"),
+                 start.at("realtime")};
+    for (const Json& record : records) take(record, log);
+  } catch (const std::exception& error) {
+    if (dynamic_cast<const InputError*>(&error) != nullptr) throw;
+    refuse(file, std::string("is not the log of a session: ") + error.what());
+  }
+  return log;
+}
+
+}  // namespace presa::experiment

@@ -1,0 +1,54 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/presa/experiment/journal.h"
+#include "apps/presa/experiment/subject.h"
+#include "framework/experiment/queue.h"
+
+namespace presa::experiment {
+
+/// The folder of a session: DIR/sub-ID/ses-N, with
+///   journal.jsonl                     the write-ahead log, from which everything else can be told
+///   trials.csv, trials.json           one row per run of a trial; what the columns mean
+///   experiment.xml scene.xml rig.xml  as they were read, with every default
+///   trial-007_run-1.h5                every haptic tick of one run
+struct SessionFolder {
+  std::string path;
+  std::string file(const std::string& name) const { return path + "/" + name; }
+  std::string journal() const { return file("journal.jsonl"); }
+  static std::string nameOfRun(const PlannedTrial& trial, int run);
+};
+SessionFolder folderOf(const std::string& data, const std::string& subject, int session);
+
+/// What a session was started with, from the first record of its log.
+struct SessionStart {
+  std::string experiment_file, rig_file;
+  Subject subject;
+  int session = 1;
+  bool realtime = false;
+};
+Json toJson(const SessionStart& start);
+
+/// One run of a trial, as the log has it.
+struct LoggedRun {
+  int number = 0, attempt = 1, run = 1;
+  bool practice = false;
+  Outcome outcome = Outcome::kInterrupted;
+  Json begin, end;  ///< its records; `end` is null when the process died in it
+};
+
+/// A log taken apart.
+struct SessionLog {
+  SessionStart start;
+  std::vector<LoggedRun> runs;
+  bool complete = false;  ///< the last trial is done
+};
+
+/// E924: the log is not one of a session, or of a newer format.
+SessionLog readLog(const std::string& file, const std::vector<Json>& records);
+
+const char* toString(Outcome outcome);
+
+}  // namespace presa::experiment

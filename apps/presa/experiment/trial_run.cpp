@@ -1,0 +1,116 @@
+#include "apps/presa/experiment/trial_run.h"
+
+#include <future>
+
+#include "apps/presa/experiment/trial_tap.h"
+#include "framework/plan/load_world.h"
+#include "framework/plan/session.h"
+
+namespace presa::experiment {
+namespace {
+
+double longestOf(const Experiment& experiment) {
+  double seconds = 0;
+  for (const Phase& phase : experiment.phases) seconds += phase.seconds + 1;
+  return seconds;
+}
+
+/// One trial's session, from its parts to its result.
+class TrialRun {
+ public:
+  TrialRun(const Experiment& experiment, const PlannedTrial& planned, const TrialSetting& setting)
+      : setting_(setting),
+        world_(load(experiment, planned, setting, plan_)),
+        trial_(experiment, planned.condition, 1 / world_->scene.rates.haptic) {
+    Session::Options options;
+    auto tap = std::make_unique<TrialTap>(trial_, world_->scene, control_);
+    tap_ = tap.get();
+    options.more.push_back(std::move(tap));
+    session_ = std::make_unique<Session>(world_, plan_, control_, std::move(options));
+    const RateTable rates(world_->scene.rates);
+    if (setting.realtime)
+      executor_ = std::make_unique<RealtimeExecutor>(session_->graph(), rates, control_);
+    else
+      executor_ = std::make_unique<LockstepExecutor>(session_->graph(), rates, control_);
+    executor_->recordTo(session_->schedule());
+  }
+
+  TrialResult run() {
+    if (setting_.realtime) {
+      auto running = std::async(std::launch::async, [this] { executor_->run(world_->options.duration); });
+      while (running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) poll();
+      running.get();
+    } else {
+      static_cast<LockstepExecutor&>(*executor_).onProgress(100, [this] { poll(); });
+      executor_->run(world_->options.duration);
+    }
+    return result();
+  }
+
+ private:
+  static std::shared_ptr<const World> load(const Experiment& experiment, const PlannedTrial& planned,
+                                           const TrialSetting& setting, Plan& plan) {
+    RunOptions options;
+    options.realtime = setting.realtime;
+    options.duration = longestOf(experiment);
+    options.seed = planned.seed;
+    options.record = setting.record;
+    Diagnostics diagnostics;
+    Loaded loaded =
+        loadWorld({experiment.scene, experiment.rig, experiment.setsOf(planned.condition)}, options, diagnostics);
+    if (diagnostics.hasErrors()) throw InputError(diagnostics);
+    plan = std::move(loaded.plan);
+    return loaded.world;
+  }
+
+  void poll() {
+    if (setting_.on_time) setting_.on_time(control_.time.load(std::memory_order_relaxed));
+    if (stopped_ || !setting_.stop || !setting_.stop()) return;
+    stopped_ = true;
+    control_.stop_requested = true;
+  }
+
+  TrialResult result() {
+    TrialResult result;
+    result.stopped = stopped_ && trial_.state() == Trial::State::kRunning;
+    if (result.stopped) trial_.abort(tap_->time(), "stopped by the operator");
+    trial_.abort(tap_->time(), "the run ended before the trial");
+    const GroupTiming& haptic = executor_->timing(RateGroup::kHaptic);
+    result.ticks = haptic.ticks;
+    result.missed = haptic.missed;
+    const std::vector<double> quality{static_cast<double>(result.missed), tap_->clippedSeconds(), tap_->lostSeconds(),
+                                      tap_->mostForce()};
+    result.state = trial_.state();
+    result.reason = trial_.reason();
+    result.phases = trial_.stretches();
+    result.values = trial_.results(quality);
+    if (result.state == Trial::State::kDone) result.excluded = trial_.exclusion(result.values);
+    result.simulated_seconds = tap_->time();
+    result.wall_seconds = executor_->wallSeconds();
+    if (session_->monitor().objectFaults() != 0) result.faults.emplace_back("fault in the dynamics");
+    if (Recorder* recorder = session_->recorder()) {
+      recorder->finish();
+      if (recorder->status().failed) result.faults.push_back("the recording could not be written: " + setting_.record);
+      if (recorder->status().dropped > 0) result.faults.emplace_back("rows of the recording were dropped");
+    }
+    return result;
+  }
+
+  const TrialSetting& setting_;
+  Plan plan_;
+  std::shared_ptr<const World> world_;
+  Trial trial_;
+  RunControl control_;
+  TrialTap* tap_ = nullptr;  // owned by the session's graph
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<Executor> executor_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+TrialResult runTrial(const Experiment& experiment, const PlannedTrial& planned, const TrialSetting& setting) {
+  return TrialRun(experiment, planned, setting).run();
+}
+
+}  // namespace presa::experiment

@@ -1,0 +1,33 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/experiment/order.h"
+#include "framework/experiment/trial.h"
+
+namespace presa::experiment {
+
+struct TrialSetting {
+  std::string record;  ///< HDF5 file; empty: none
+  bool realtime = false;
+  std::function<bool()> stop{};           ///< asked now and then on the main thread: true ends the trial
+  std::function<void(double)> on_time{};  ///< simulated time reached [s], now and then
+};
+
+struct TrialResult {
+  Trial::State state = Trial::State::kRunning;
+  bool stopped = false;  ///< by TrialSetting::stop
+  std::string reason;    ///< of an abort
+  std::vector<Trial::Stretch> phases;
+  std::vector<double> values;  ///< of Experiment::names
+  std::string excluded;        ///< rule that holds; empty: it counts
+  double simulated_seconds = 0, wall_seconds = 0;
+  std::uint64_t ticks = 0, missed = 0;  ///< of the haptic group
+  std::vector<std::string> faults;      ///< of dynamics and recording
+};
+
+/// Runs one trial in a session of its own, from the scene's start to the end of its last phase. Throws InputError.
+TrialResult runTrial(const Experiment& experiment, const PlannedTrial& planned, const TrialSetting& setting);
+
+}  // namespace presa::experiment

@@ -1,0 +1,20 @@
+#include <openssl/evp.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+
+#include "framework/checksum/checksum.h"
+
+extern "C" __attribute__((visibility("default"))) int presaSha256(const char* file, unsigned char* digest) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file, "rb"), std::fclose);
+  if (!in) return errno;
+  const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) return ENOMEM;
+  std::array<unsigned char, 65536> block;
+  while (const std::size_t read = std::fread(block.data(), 1, block.size(), in.get()))
+    if (EVP_DigestUpdate(context.get(), block.data(), read) != 1) return EIO;
+  if (std::ferror(in.get()) != 0) return EIO;
+  return EVP_DigestFinal_ex(context.get(), digest, nullptr) == 1 ? 0 : EIO;
+}

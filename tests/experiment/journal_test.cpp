@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "apps/presa/experiment/journal.h"
+#include "framework/checksum/checksum.h"
+#include "framework/diagnostics/diagnostics.h"
+#include "tests/experiment/scratch.h"
+
+namespace presa::experiment {
+namespace {
+
+using testing::HasSubstr;
+
+Json record(int i) { return {{"event", "trial"}, {"i", i}, {"x", 0.1 * i}, {"text", "a \"b\"\n"}}; }
+
+template <class Act>
+std::string refusalOf(Act act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.diagnostics().text();
+  }
+  return "accepted";
+}
+
+class JournalTest : public testing::Test {
+ protected:
+  JournalTest() {
+    Journal journal = Journal::create(file);
+    for (int i = 0; i < 5; ++i) journal.append(record(i));
+    text = contentsOf(file);
+  }
+  void write(const std::string& changed) { std::ofstream(file, std::ios::binary) << changed; }
+  Scratch scratch;
+  const std::string file = scratch.file("journal.jsonl");
+  std::string text;
+};
+
+TEST_F(JournalTest, GivesBackWhatWasWritten) {
+  const auto contents = Journal::read(file);
+  ASSERT_EQ(contents.records.size(), 5U);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(contents.records[static_cast<std::size_t>(i)], record(i));
+  EXPECT_EQ(contents.torn_bytes, 0U);
+}
+
+TEST_F(JournalTest, IsNeverOverwritten) {
+  EXPECT_THAT(refusalOf([&] { Journal::create(file); }), HasSubstr("error[E920]"));
+  EXPECT_EQ(contentsOf(file), text);
+}
+
+// Cut anywhere, the log holds the records before the cut, and goes on from there.
+TEST_F(JournalTest, CutAnywhereItGoesOn) {
+  std::size_t whole = 0;
+  for (std::size_t cut = 0; cut <= text.size(); ++cut) {
+    if (cut > 0 && text[cut - 1] == '\n') ++whole;
+    write(text.substr(0, cut));
+    Journal::Contents contents;
+    {
+      Journal journal = Journal::reopen(file, contents);
+      ASSERT_EQ(contents.records.size(), whole) << cut;
+      journal.append(record(77));
+    }
+    const auto after = Journal::read(file);
+    ASSERT_EQ(after.records.size(), whole + 1);
+    ASSERT_EQ(after.torn_bytes, 0U);
+    ASSERT_EQ(after.records.back(), record(77));
+  }
+}
+
+// Every byte before the last line counts, and no line can be taken out.
+TEST_F(JournalTest, AChangeInTheMiddleIsFound) {
+  const std::size_t last_line = text.rfind('\n', text.size() - 2);
+  for (std::size_t at = 0; at < last_line; ++at) {
+    std::string changed = text;
+    changed[at] = static_cast<char>(changed[at] ^ 1);
+    write(changed);
+    ASSERT_THAT(refusalOf([&] { Journal::read(file); }), HasSubstr("error[E923]")) << at;
+  }
+  const std::size_t first = text.find('\n') + 1, second = text.find('\n', first) + 1;
+  write(text.substr(0, first) + text.substr(second));
+  EXPECT_THAT(refusalOf([&] { Journal::read(file); }), HasSubstr("error[E923]"));
+}
+
+TEST_F(JournalTest, OneProcessAtATime) {
+  Journal::Contents contents;
+  const Journal held = Journal::reopen(file, contents);
+  EXPECT_THAT(refusalOf([&] { Journal::reopen(file, contents); }), HasSubstr("error[E921]"));
+}
+
+// A limit on the size of files stops a write half-way, as a full disk does.
+TEST_F(JournalTest, AFullDiskLeavesTheRecordsBefore) {
+  Journal::Contents contents;
+  Journal journal = Journal::reopen(file, contents);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit full{text.size() + 20, before.rlim_max};
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &full);
+  EXPECT_THROW(journal.append(record(1)), std::system_error);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old);
+  EXPECT_EQ(contentsOf(file), text);
+  journal.append(record(2));  // there is room again
+  EXPECT_EQ(Journal::read(file).records.size(), 6U);
+}
+
+TEST(Checksum, IsThatOfTheStandard) {
+  Scratch scratch;
+  std::ofstream(scratch.file("abc")) << "abc";  // FIPS 180-2, example B.1
+  EXPECT_EQ(sha256OfFile(scratch.file("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_THROW(sha256OfFile(scratch.file("none")), std::system_error);
+}
+
+}  // namespace
+}  // namespace presa::experiment

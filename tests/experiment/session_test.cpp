@@ -1,0 +1,194 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "apps/presa/experiment/dataset.h"
+#include "framework/math/random.h"
+#include "tests/experiment/scratch.h"
+
+// Whole sessions through the program: what is on disk after an end of any kind.
+namespace presa::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kProgram = std::string(PRESA_BINARY_DIR) + "/bin/presa";
+const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/lift.xml";
+
+/// The program in a process of its own, its output in a file.
+class Process {
+ public:
+  Process(std::vector<std::string> arguments, const std::string& output) {
+    std::vector<char*> argv{const_cast<char*>(kProgram.c_str())};
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 1, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_adddup2(&actions, 1, 2);
+    posix_spawn(&id_, kProgram.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  void kill(int signal) const { ::kill(id_, signal); }
+  /// Exit status, 128 + signal when one ended it.
+  int wait() const {
+    int status = 0;
+    ::waitpid(id_, &status, 0);
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
+ private:
+  pid_t id_ = 0;
+};
+
+class SessionTest : public testing::Test {
+ protected:
+  std::vector<std::string> runArguments(const std::string& data) const {
+    return {"experiment", "run", kLift, "--subject", "S01", "--lockstep", "--data", data};
+  }
+  int program(std::vector<std::string> arguments) {
+    const int status = Process(std::move(arguments), scratch.file("output")).wait();
+    output = contentsOf(scratch.file("output"));
+    return status;
+  }
+  static SessionLog logOf(const std::string& data) {
+    const SessionFolder folder = folderOf(data, "S01", 1);
+    return readLog(folder.journal(), Journal::read(folder.journal()).records);
+  }
+  /// What has to be the same whatever happened in between: every run that was not cut off, without times and file names.
+  static std::string essence(const SessionLog& log) {
+    std::string text;
+    for (const LoggedRun& run : log.runs) {
+      if (run.outcome == Outcome::kInterrupted) continue;
+      Json all = run.begin;
+      for (const char* name : {"run", "file", "utc"}) all.erase(name);
+      all["outcome"] = toString(run.outcome);
+      for (const char* name : {"reason", "phases", "values", "simulated_s"}) all[name] = run.end.at(name);
+      text += all.dump() + "\n";
+    }
+    return text;
+  }
+  Scratch scratch;
+  std::string output;
+};
+
+TEST_F(SessionTest, LeavesADatasetThatIsComplete) {
+  const std::string data = scratch.file("data");
+  ASSERT_EQ(program(runArguments(data)), 0) << output;
+  EXPECT_THAT(output, HasSubstr("6 trials done, 3 given up, in 12 runs"));
+  EXPECT_EQ(program({"experiment", "validate", data}), 0) << output;
+  const SessionLog log = logOf(data);
+  ASSERT_TRUE(log.complete);
+  // the scripted grip of 6 N cannot lift 0.2 kg at 0.1; it slips where m g / (2 mu) says, 0.5 % is the floor of the study
+  for (const LoggedRun& run : log.runs) {
+    const bool heavy_slippery = run.begin["condition"]["mass"] == "0.2" && run.begin["condition"]["mu_s"] == "0.1";
+    ASSERT_EQ(run.outcome, heavy_slippery ? Outcome::kAborted : Outcome::kDone);
+    if (heavy_slippery) continue;
+    const double slip = run.end["values"]["F_slip"];
+    EXPECT_NEAR(run.end["values"]["F_slip_measured"], slip, 0.005 * slip);
+  }
+}
+
+TEST_F(SessionTest, IsNeverOverwritten) {
+  const std::string data = scratch.file("data");
+  ASSERT_EQ(program(runArguments(data)), 0);
+  const std::string before = contentsOf(folderOf(data, "S01", 1).journal());
+  EXPECT_EQ(program(runArguments(data)), 2);
+  EXPECT_THAT(output, HasSubstr("error[E920]: there is a session already"));
+  EXPECT_EQ(contentsOf(folderOf(data, "S01", 1).journal()), before);
+  EXPECT_EQ(program({"experiment", "resume", data}), 0);
+  EXPECT_THAT(output, HasSubstr("no session is left to finish"));
+}
+
+// Two sessions give the same numbers; and killed at random moments, resumed each time, they still do.
+// PRESA_KILLS: how often (default 12; the figure in the README is of 200).
+TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
+  const std::string whole = scratch.file("whole");
+  ASSERT_EQ(program(runArguments(whole)), 0);
+  const std::string expected = essence(logOf(whole));
+  const char* wanted = std::getenv("PRESA_KILLS");
+  const int kills = wanted != nullptr ? std::atoi(wanted) : 12;
+  RandomStream random(1, "kills");
+  int killed = 0, interrupted = 0;
+  for (int session = 0; killed < kills; ++session) {
+    const std::string data = scratch.file("data" + std::to_string(session));
+    std::vector<std::string> arguments = runArguments(data);
+    for (bool ended = false; !ended;) {
+      const Process process(arguments, scratch.file("output"));
+      ::usleep(static_cast<useconds_t>(random.uniform(20e3, 700e3)));
+      if (killed < kills) process.kill(SIGKILL);
+      const int status = process.wait();
+      ended = status == 0;
+      ASSERT_TRUE(ended || status == 128 + SIGKILL) << status << contentsOf(scratch.file("output"));
+      if (ended) break;
+      ++killed;
+      // before its first record there is nothing to resume
+      const std::string journal = folderOf(data, "S01", 1).journal();
+      if (fs::exists(journal) && !Journal::read(journal).records.empty()) arguments = {"experiment", "resume", data};
+    }
+    const SessionLog log = logOf(data);
+    ASSERT_EQ(essence(log), expected) << "after " << killed << " kills";
+    for (const LoggedRun& run : log.runs) {
+      if (run.outcome != Outcome::kInterrupted) continue;
+      ++interrupted;
+      ASSERT_EQ(run.end.at("reason"), "the process ended");
+    }
+    ASSERT_THAT(validate(folderOf(data, "S01", 1)).findings, IsEmpty());
+    fs::remove_all(data);
+  }
+  RecordProperty("kills", killed);
+  RecordProperty("interrupted_trials", interrupted);
+  EXPECT_GT(interrupted, kills / 4);  // or it would have been killed between trials only
+}
+
+TEST_F(SessionTest, ControlCKeepsWhatIsThere) {
+  const std::string data = scratch.file("data");
+  const Process process(runArguments(data), scratch.file("output"));
+  for (int i = 0; i < 1000 && !fs::exists(folderOf(data, "S01", 1).file("trials.csv")); ++i) ::usleep(10000);
+  process.kill(SIGINT);
+  EXPECT_EQ(process.wait(), 130);
+  EXPECT_THAT(contentsOf(scratch.file("output")), HasSubstr("go on with: presa experiment resume"));
+  EXPECT_FALSE(logOf(data).complete);
+  EXPECT_EQ(program({"experiment", "resume", data}), 0) << output;
+  EXPECT_TRUE(logOf(data).complete);
+}
+
+TEST_F(SessionTest, ValidateFindsWhatWasTouched) {
+  const std::string data = scratch.file("data");
+  ASSERT_EQ(program(runArguments(data)), 0);
+  const SessionFolder folder = folderOf(data, "S01", 1);
+  std::fstream file(folder.file("trial-002_run-1.h5"), std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(100000);
+  file.put('x');
+  file.close();
+  fs::remove(folder.file("trial-004_run-1.h5"));
+  std::ofstream(folder.file("notes.txt")) << "mine";
+  EXPECT_EQ(program({"experiment", "validate", data}), 1);
+  EXPECT_THAT(output, HasSubstr("trial-002_run-1.h5: was changed"));
+  EXPECT_THAT(output, HasSubstr("trial-004_run-1.h5: is missing"));
+  EXPECT_THAT(output, HasSubstr("notes.txt: is not in the log"));
+}
+
+TEST_F(SessionTest, AFolderThatCannotBeMade) {
+  std::ofstream(scratch.file("data")) << "a file";
+  EXPECT_EQ(program(runArguments(scratch.file("data"))), 2);
+  EXPECT_THAT(output, HasSubstr("error[E925]"));
+}
+
+TEST_F(SessionTest, NotAPseudonym) {
+  EXPECT_EQ(program({"experiment", "dry-run", kLift, "--subject", "Anna Rossi"}), 2);
+  EXPECT_THAT(output, HasSubstr("error[E910]"));
+  EXPECT_EQ(program({"experiment", "dry-run", kLift, "--subject", "Anna"}), 2);
+  EXPECT_THAT(output, HasSubstr("error[E911]"));
+}
+
+}  // namespace
+}  // namespace presa::experiment
