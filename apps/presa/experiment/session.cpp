@@ -56,6 +56,17 @@ Journal createJournal(const SessionFolder& folder) {
   return Journal::reopen(folder.journal(), contents);
 }
 
+/// What writeFileAtomically leaves when the process dies in it: NAME.XXXXXX beside NAME.
+void removeHalfWritten(const SessionFolder& folder) {
+  for (const auto& entry : fs::directory_iterator(folder.path)) {
+    const fs::path name = entry.path().filename();
+    const std::string stem = name.stem().string();
+    if (name.extension().string().size() == 7 &&
+        (stem.ends_with(".csv") || stem.ends_with(".json") || stem.ends_with(".xml")))
+      fs::remove(entry.path());
+  }
+}
+
 Json conditionOf(const Experiment& experiment, const PlannedTrial& trial) {
   Json condition = Json::object();
   for (const Factor& factor : experiment.factors) {
@@ -87,6 +98,7 @@ SubjectSession SubjectSession::begin(const Experiment& experiment, const Session
   fs::create_directories(folder.path, error);
   if (error) refuse(925, folder.path, "the folder cannot be made: " + error.message());
   Journal journal = createJournal(folder);
+  removeHalfWritten(folder);
   for (const auto& [name, text] : documentsOf(experiment)) writeFileAtomically(folder.file(name), *text);
   Json record = toJson(start);
   record["experiment"] = experiment.name;
@@ -118,6 +130,7 @@ SubjectSession SubjectSession::resume(const Experiment& experiment, const Sessio
     }
     session.queue_.finish(run.outcome);
   }
+  removeHalfWritten(folder);
   session.writeTable();
   return session;
 }
