@@ -177,6 +177,24 @@ TEST_F(SessionTest, ValidateFindsWhatWasTouched) {
   EXPECT_THAT(output, HasSubstr("notes.txt: is not in the log"));
 }
 
+TEST_F(SessionTest, ForgetRemovesOneSubjectAndNoOther) {
+  const std::string data = scratch.file("data");
+  ASSERT_EQ(program(runArguments(data)), 0);
+  std::vector<std::string> other = runArguments(data);
+  other[4] = "S011";
+  ASSERT_EQ(program(other), 0) << output;
+  fs::create_directories(data + "/bids/sub-S01/beh");
+  std::ofstream(data + "/bids/participants.tsv") << "participant_id\tage\nsub-S01\t30\nsub-S011\t40\n";
+  EXPECT_EQ(program({"experiment", "forget", "--subject", "S01", "--data", data}), 2);
+  EXPECT_TRUE(fs::exists(data + "/sub-S01"));
+  EXPECT_EQ(program({"experiment", "forget", "--subject", "S01", "--data", data, "--yes"}), 0);
+  EXPECT_THAT(output, HasSubstr("in 2 folders, rows in 1 tables"));
+  EXPECT_FALSE(fs::exists(data + "/sub-S01"));
+  EXPECT_FALSE(fs::exists(data + "/bids/sub-S01"));
+  EXPECT_TRUE(fs::exists(data + "/sub-S011/ses-1/trials.csv"));
+  EXPECT_EQ(contentsOf(data + "/bids/participants.tsv"), "participant_id\tage\nsub-S011\t40\n");
+}
+
 TEST_F(SessionTest, AFolderThatCannotBeMade) {
   std::ofstream(scratch.file("data")) << "a file";
   EXPECT_EQ(program(runArguments(scratch.file("data"))), 2);

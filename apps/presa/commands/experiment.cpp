@@ -1,10 +1,14 @@
+#include <unistd.h>
+
 #include <cstdio>
+#include <iostream>
 #include <memory>
 #include <system_error>
 
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/experiment/dataset.h"
 #include "apps/presa/experiment/dry_run.h"
+#include "apps/presa/experiment/forget.h"
 #include "apps/presa/experiment/session.h"
 #include "framework/experiment/read.h"
 
@@ -107,6 +111,45 @@ int validateAll(const std::string& data) {
   return good ? kExitOk : kExitFault;
 }
 
+struct ForgetArguments {
+  std::string subject, data = ".";
+  bool yes = false;
+};
+
+/// Asks on a terminal; elsewhere only --yes will do.
+bool confirmed(const ForgetArguments& a) {
+  if (a.yes) return true;
+  if (::isatty(STDIN_FILENO) == 0) {
+    std::fputs("nothing was removed: this cannot be undone, add --yes\n", stderr);
+    return false;
+  }
+  std::printf("This cannot be undone. Type %s to remove all of it: ", a.subject.c_str());
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == a.subject;
+}
+
+int forgetSubject(const ForgetArguments& a) {
+  Diagnostics diagnostics;
+  subjectOf(a.subject, 1, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+  const Traces traces = tracesOf(a.data, a.subject);
+  if (traces.empty()) {
+    std::printf("%s holds nothing of %s\n", a.data.c_str(), a.subject.c_str());
+    return kExitOk;
+  }
+  for (const std::string& folder : traces.folders) std::printf("%s\n", folder.c_str());
+  for (const std::string& table : traces.tables) std::printf("%s: rows of the subject\n", table.c_str());
+  if (!confirmed(a)) return kExitBadInput;
+  forget(traces, a.subject);
+  std::printf(
+      "removed: %zu files in %zu folders, rows in %zu tables. Reports that were made with them have to be made anew.\n",
+      traces.files, traces.folders.size(), traces.tables.size());
+  return kExitOk;
+}
+
 void addWho(CLI::App& command, Arguments& a) {
   command.add_option("EXPERIMENT", a.file, "experiment file")->required();
   command.add_option("--subject", a.subject, "pseudonym that ends in the subject's number")->capture_default_str();
@@ -149,6 +192,19 @@ void addFolderCommand(CLI::App& app, int& status, const char* name, const char* 
   command->callback([folder, act, &status] { status = act(*folder); });
 }
 
+void addForget(CLI::App& app, int& status) {
+  auto a = std::make_shared<ForgetArguments>();
+  CLI::App* command =
+      app.add_subcommand("forget", "Remove a subject from a dataset for good, and say what was removed");
+  command->add_option("--subject", a->subject, "pseudonym")->required();
+  command->add_option("--data", a->data, "folder of the dataset, exports below it included")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
+  command->add_flag("--yes", a->yes, "do not ask");
+  command->footer("Exit status: 0 removed or nothing there, 2 not confirmed.");
+  command->callback([a, &status] { status = forgetSubject(*a); });
+}
+
 }  // namespace
 
 void addExperiment(CLI::App& app, int& status) {
@@ -158,6 +214,7 @@ void addExperiment(CLI::App& app, int& status) {
   addRunSession(*command, status);
   addFolderCommand(*command, status, "resume", "Finish a session that was stopped or killed", resume);
   addFolderCommand(*command, status, "validate", "Prove that a dataset is complete and unaltered", validateAll);
+  addForget(*command, status);
 }
 
 }  // namespace presa

@@ -23,8 +23,8 @@ class TrialTap final : public Module {
 
   void step(const Tick& tick) noexcept override {
     if (trial_.state() != Trial::State::kRunning) return;
-    reader_.read(tick.time, device_.value(), contact_.value(), command_.value(), objects_.hasValue() ? &objects_.value() : nullptr,
-                 trial_.samples());
+    reader_.read(tick.time, device_.value(), contact_.value(), command_.value(),
+                 objects_.hasValue() ? &objects_.value() : nullptr, trial_.samples());
     judge(tick);
     if (trial_.step(tick.time) != Trial::State::kRunning)
       control_.stop_requested.store(true, std::memory_order_relaxed);
