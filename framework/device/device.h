@@ -6,6 +6,7 @@
 #include "framework/scene/world.h"
 #include "framework/schedule/tick.h"
 #include "framework/state/device_state.h"
+#include "framework/state/object_state.h"
 
 namespace presa {
 
@@ -23,6 +24,10 @@ class Device {
   virtual FingerInput read(const Tick& tick) noexcept = 0;
   /// Sends the force on the finger, held until the next write [N, world frame].
   virtual void write(const Vec3& f_H_W, const Tick& tick) noexcept = 0;
+
+  /// A simulated hand that looks: asks for the bodies' poses in see(), called before read. No hardware does.
+  virtual bool looks() const { return false; }
+  virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}
 
   /// Names of the phases that FingerInput::phase counts; empty for a real hand.
   virtual std::vector<std::string> phases() const { return {}; }

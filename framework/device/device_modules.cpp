@@ -1,17 +1,25 @@
 #include "framework/device/device_modules.h"
 
+#include <algorithm>
+
 #include "framework/schedule/clock.h"
 
 namespace presa {
 
 DeviceInput::DeviceInput(DeviceList& devices, const RunControl& control)
-    : Module("device_input", RateGroup::kHaptic), devices_(devices), control_(control) {}
+    : Module("device_input", RateGroup::kHaptic), devices_(devices), control_(control) {
+  if (std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device->looks(); }))
+    seen_.emplace(*this, "object_state", In<ObjectState>::Optional{});
+}
 
 void DeviceInput::step(const Tick& tick) noexcept {
   DeviceState& state = state_.value;
   state.time = tick.time;
   state.count = static_cast<std::int32_t>(devices_.size());
   state.stop_requested = control_.stop_requested.load(std::memory_order_relaxed);
+  if (seen_ && seen_->hasValue()) {
+    for (const auto& device : devices_) device->see(seen_->value(), tick);
+  }
   for (std::size_t f = 0; f < devices_.size(); ++f) state.fingers[f] = devices_[f]->read(tick);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/device/device.h"
@@ -35,6 +36,7 @@ class DeviceInput final : public Module {
  private:
   DeviceList& devices_;
   const RunControl& control_;
+  std::optional<In<ObjectState>> seen_;  // only when a device looks
   Out<DeviceState> state_{*this, "device_state"};
 };
 

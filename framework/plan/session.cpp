@@ -98,7 +98,8 @@ double Session::phaseStart(const std::string& phase) const {
     const auto names = device->phases();
     const auto times = device->phaseTimes();
     const auto found = std::find(names.begin(), names.end(), phase);
-    if (found != names.end()) return times[static_cast<std::size_t>(found - names.begin())];
+    const auto phase_index = static_cast<std::size_t>(found - names.begin());
+    if (phase_index < std::min(names.size(), times.size())) return times[phase_index];
   }
   return std::numeric_limits<double>::infinity();
 }

@@ -12,6 +12,7 @@ namespace {
 // times of the lift [s]
 constexpr double kReachTime = 0.5, kPreloadTime = 0.25, kLiftTime = 0.8, kLoadTime = 1.6;
 constexpr double kSettleTime = 0.8, kSettleLimit = 4, kWaitLimit = 4, kRegraspTime = 1, kAdjustTime = 0.5;
+constexpr double kFallTime = 1, kSqueezeTime = 0.5;
 constexpr double kBlindTime = 0.3;  // after a change of plan, in which no slip is looked for
 
 constexpr double kFirstGrip = 1;                   // [N]
@@ -135,7 +136,24 @@ void Brain::loosen() noexcept {
 }
 
 void Brain::regrasp() noexcept {
+  if (task_.from_table) return regraspFromTable();
   if (time_ < kRegraspTime) return;
+  perception_.rest();
+  enter(Phase::kAdjust);
+}
+
+// Opens, waits until the object has come to rest, goes down to it, closes, squeezes firmly, lifts, settles.
+void Brain::regraspFromTable() noexcept {
+  const double open = time_ / kReachTime, down = (time_ - kFallTime) / kReachTime, close = down - 1;
+  const double squeeze = (time_ - kFallTime - 2 * kReachTime) / kSqueezeTime;
+  const double lift = (time_ - kFallTime - 2 * kReachTime - kSqueezeTime) / kLiftTime;
+  intent_.reaching = squeeze <= 0;
+  intent_.reach = task_.reach * (minimumJerk(close) - minimumJerk(open));
+  if (down <= 0) low_ = perception_.seenHeight().value_or(0);
+  intent_.height = task_.height + (low_ - task_.height) * (minimumJerk(down) - minimumJerk(lift));
+  intent_.grip = firm_ * std::clamp(squeeze, 0.0, 1.0);
+  if (squeeze > 0) intent_.height_rate = lift < 1 ? kLiftRate : kPostureRate;
+  if (lift < 1 + kLoadTime / kLiftTime || !(perception_.still() || lift > kSettleLimit / kLiftTime)) return;
   perception_.rest();
   enter(Phase::kAdjust);
 }
@@ -179,8 +197,10 @@ double Brain::gripFromMemory() const noexcept {
 }
 
 void Brain::takeUpAgain() noexcept {
-  intent_.grip = std::max(1.5 * wanted_, kSafeRatio * felt_weight_) + 1;
+  firm_ = std::max(1.5 * wanted_, kSafeRatio * felt_weight_) + kFirstGrip;
+  intent_.grip = task_.from_table ? 0 : firm_;
   intent_.take_up_again = true;
+  if (task_.from_table) perception_.letGo();
   reaction_ = kNever;
   enter(Phase::kRegrasp);
 }

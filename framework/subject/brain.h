@@ -9,7 +9,9 @@ namespace presa::subject {
 
 /// What is asked of the subject, and where its hand begins.
 struct Task {
-  double reach = 0;              ///< way of each digit to the object [m]; 0: begins in touch
+  double reach = 0;  ///< way of each digit to the object [m]; 0: begins in touch
+  /// Lets an object that slipped go, and takes it up from where it is seen to lie; else it is handed back in the air.
+  bool from_table = false;
   double height = 0.04;          ///< to lift it [m]
   double hold = 10;              ///< to hold it still with the least grip it thinks necessary [s]
   double device_resolution = 0;  ///< position steps of the device, which the subject has learnt to allow for [m]
@@ -44,6 +46,7 @@ class Brain {
   void settle() noexcept;
   void loosen() noexcept;
   void regrasp() noexcept;
+  void regraspFromTable() noexcept;
   void adjust() noexcept;
   void hold() noexcept;
   void release() noexcept;
@@ -66,7 +69,8 @@ class Brain {
   double effort_ = 0;
   Phase phase_ = Phase::kPreload;
   double time_ = 0, waited_ = 0;
-  double reaction_;  // left until it reacts; infinite: to nothing
+  double low_ = 0, firm_ = 0;  // where the object lies [m], grip to take it up with [N]
+  double reaction_;            // left until it reacts; infinite: to nothing
   double felt_weight_ = 0;
   double slip_grip_ = 0, wanted_ = 0;
   int drops_ = 0, regrips_ = 0;

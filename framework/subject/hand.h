@@ -1,11 +1,15 @@
 #pragma once
 #include <array>
+#include <cmath>
 
 #include "framework/math/random.h"
 #include "framework/subject/senses.h"
 #include "framework/subject/traits.h"
 
 namespace presa::subject {
+
+/// What a device with position steps of this size reports; 0: no steps.
+inline double quantised(double x, double step) noexcept { return step > 0 ? step * std::nearbyint(x / step) : x; }
 
 /// Force noise of the two digits: slow (partly common) and 10 Hz tremor, and noise of the muscle springs' length.
 class MotorNoise {

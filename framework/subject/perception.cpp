@@ -46,6 +46,11 @@ double Perception::stiffness() const noexcept {
 
 bool Perception::still() const noexcept { return std::abs(drift_) < kStill && !seenSliding(); }
 
+std::optional<double> Perception::seenHeight() const noexcept {
+  if (!senses_.sight.object) return std::nullopt;
+  return height_ + senses_.sight.height;
+}
+
 double Perception::fallen() const noexcept {
   if (!senses_.sight.object || std::isnan(place_)) return 0;
   return place_ - senses_.sight.height - load_ / stiffness();

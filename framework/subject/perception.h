@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <optional>
 
 #include "framework/subject/senses.h"
 
@@ -28,8 +29,12 @@ class Perception {
   bool seenSliding() const noexcept { return senses_.sight.object && senses_.sight.sliding; }
   /// How far the object is seen below where it was first touched, less the give of the fingers [m].
   double fallen() const noexcept;
+  /// Height of the object in the hand's coordinates [m].
+  std::optional<double> seenHeight() const noexcept;
+  /// What comes next is another grasp: the object will be touched elsewhere.
+  void letGo() noexcept { place_ = std::numeric_limits<double>::quiet_NaN(); }
   /// It has left the fingers, as they feel or as is seen.
-  bool lost() const noexcept { return !touching(0) && !touching(1) ? true : fallen() > kGone; }
+  bool lost() const noexcept { return (!touching(0) && !touching(1)) || fallen() > kGone; }
 
  private:
   static constexpr double kGone = 0.03;  // [m]

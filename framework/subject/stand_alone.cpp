@@ -6,21 +6,11 @@
 namespace presa::subject {
 namespace {
 
-/// One number for a trial of a subject.
-std::uint64_t itemOf(std::uint64_t subject, std::uint64_t trial) { return (subject << 32) + trial; }
-
-double quantised(double x, double step) noexcept { return step > 0 ? step * std::nearbyint(x / step) : x; }
-
 Task taskOf(const Trial& trial) {
   return {.reach = trial.reach, .hold = trial.hold, .device_resolution = trial.resolution};
 }
 
 }  // namespace
-
-double drawResolution(std::uint64_t seed, std::uint64_t subject, std::uint64_t trial) {
-  RandomStream stream(seed, "device resolution", itemOf(subject, trial));
-  return kDeviceResolution.draw(stream);
-}
 
 void DigitContact::step(const Cube& cube, double force_limit, double depth, double height) noexcept {
   slip_began_ = false;

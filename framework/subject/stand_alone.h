@@ -29,8 +29,6 @@ struct Trial {
   double reach = 0;         ///< way of each digit to the cube [m]; 0: begins in touch
   double time_limit = 120;  ///< the trial is given up [s]
 };
-/// The resolution of this trial's device, from its own stream.
-double drawResolution(std::uint64_t seed, std::uint64_t subject, std::uint64_t trial);
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kContinuousForce = 4;  ///< of the device in its worst pose [N] [Bergamasco et al., section 2.1]

@@ -75,6 +75,11 @@ double Spread::draw(RandomStream& stream) const {
   return a;
 }
 
+double drawResolution(std::uint64_t seed, std::uint64_t subject, std::uint64_t trial) {
+  RandomStream stream(seed, "device resolution", itemOf(subject, trial));
+  return kDeviceResolution.draw(stream);
+}
+
 Population::Population(Level level) : traits_(kPopulation) {
   if (level == Level::kL0) return;
   for (Trait& trait : traits_) {

@@ -45,6 +45,8 @@ struct Traits {
   double finger_resolution = 0;            ///< own position resolution that counts as such uncertainty [m]
   double extra_grip = 0;                   ///< constant [N]
   double trial_sd = 0;                     ///< scatter of the logarithm of the wanted grip from trial to trial
+
+  bool operator==(const Traits&) const = default;
 };
 
 /// How a quantity is spread over a population.
@@ -67,8 +69,14 @@ struct Trait {
   std::string_view source;  ///< where the spread is from; begins with GUESS where nothing is
 };
 
+/// One number for a trial of a subject, to name its random streams with.
+constexpr std::uint64_t itemOf(std::uint64_t subject, std::uint64_t trial) { return (subject << 32) + trial; }
+
 /// Fingertip resolution of the device, drawn anew for each trial [m]: 55 to 130 um [Bergamasco et al., section 2.2].
 inline constexpr Spread kDeviceResolution = uniform(55e-6, 130e-6);
+
+/// The resolution of this trial's device, from its own stream.
+double drawResolution(std::uint64_t seed, std::uint64_t subject, std::uint64_t trial);
 
 class Population {
  public:

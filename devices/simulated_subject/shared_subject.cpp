@@ -1,0 +1,78 @@
+#include "devices/simulated_subject/shared_subject.h"
+
+#include <cmath>
+
+namespace presa {
+namespace {
+
+using subject::kDigits;
+
+constexpr double kSeenSliding = 0.02;  // [m/s]: the object's give under its weight stays below
+constexpr double kSeeingTime = 0.02;   // [s]
+
+RandomStream streamOf(const SubjectSettings& settings, const char* name) {
+  return {settings.seed, name, subject::itemOf(settings.subject, settings.trial)};
+}
+
+}  // namespace
+
+SharedSubject::SharedSubject(const Grasp& grasp, const SubjectSettings& settings, double period)
+    : grasp_(grasp),
+      settings_(settings),
+      hand_(settings.traits, streamOf(settings, "motor noise"), period, -settings.reach),
+      brain_(settings.traits,
+             {.reach = settings.reach,
+              .from_table = true,
+              .hold = settings.hold,
+              .device_resolution = settings.resolution},
+             streamOf(settings, "perception"), period) {}
+
+void SharedSubject::see(const ObjectState& objects, const Tick& tick) noexcept {
+  if (grasp_.body >= objects.count) return;
+  seen_height_ = objects.poseAt(grasp_.body, tick.time).p.z() - grasp_.p_WB.z();
+  senses_.sight.object = true;
+}
+
+FingerInput SharedSubject::read(int digit, const Tick& tick) noexcept {
+  advance(tick);
+  const Vec3 inward = inwardOf(digit);
+  const Vec3 face = grasp_.p_WB - (grasp_.width / 2 + grasp_.radius[static_cast<std::size_t>(digit)]) * inward;
+  FingerInput input;
+  input.p_WH = face + subject::quantised(hand_.q(digit), settings_.resolution) * inward +
+               subject::quantised(hand_.y(digit), settings_.resolution) * Vec3::UnitZ();
+  input.v_WH = hand_.vQ(digit) * inward + hand_.vY(digit) * Vec3::UnitZ();
+  input.phase = static_cast<std::int32_t>(brain_.phase());
+  input.valid = true;
+  return input;
+}
+
+void SharedSubject::write(int digit, const Vec3& f_H_W, const Tick& tick) noexcept {
+  advance(tick);
+  subject::DigitSenses& felt = senses_.digits[static_cast<std::size_t>(digit)];
+  felt.normal = std::max(0.0, -f_H_W.dot(inwardOf(digit)));
+  felt.load = -f_H_W.z();
+}
+
+void SharedSubject::advance(const Tick& tick) noexcept {
+  for (; at_.index < tick.index; ++at_.index) live(tick.period);
+  at_ = tick;
+}
+
+void SharedSubject::live(double period) noexcept {
+  hand_.step(brain_.intent(), senses_.digits);
+  for (int i = 0; i < kDigits; ++i) {
+    subject::DigitSenses& digit = senses_.digits[static_cast<std::size_t>(i)];
+    digit.q = hand_.q(i);
+    digit.y = hand_.y(i);
+    digit.v_y = hand_.vY(i);
+  }
+  senses_.effort = hand_.effort(brain_.intent());
+  senses_.sight.height = seen_height_ - hand_.meanHeight();
+  const double rate = (senses_.sight.height - seen_before_) / period;
+  seen_before_ = senses_.sight.height;
+  staying_behind_ += period * (rate - staying_behind_) / kSeeingTime;
+  senses_.sight.sliding = std::abs(staying_behind_) > kSeenSliding;
+  brain_.step(senses_);
+}
+
+}  // namespace presa

@@ -1,0 +1,82 @@
+#include <cstdio>
+#include <map>
+#include <mutex>
+
+#include "devices/simulated_subject/settings.h"
+#include "framework/plan/plugin.h"
+#include "framework/schedule/rates.h"
+
+namespace presa {
+namespace {
+
+/// One digit of a simulated person.
+class SimulatedDigit final : public Device {
+ public:
+  SimulatedDigit(std::shared_ptr<SharedSubject> subject, int digit) : subject_(std::move(subject)), digit_(digit) {}
+
+  bool looks() const override { return digit_ == 0; }
+  void see(const ObjectState& objects, const Tick& tick) noexcept override { subject_->see(objects, tick); }
+  FingerInput read(const Tick& tick) noexcept override { return subject_->read(digit_, tick); }
+  void write(const Vec3& f_H_W, const Tick& tick) noexcept override { subject_->write(digit_, f_H_W, tick); }
+
+  std::vector<std::string> phases() const override {
+    return {subject::kPhaseNames.begin(), subject::kPhaseNames.end()};
+  }
+  double damping() const override { return subject_->settings().traits.grip_damping; }
+  std::vector<std::string> notes() const override {
+    if (digit_ != 0) return {};
+    const SubjectSettings& settings = subject_->settings();
+    std::array<char, 200> text;
+    std::snprintf(text.data(), text.size(),
+                  "simulated subject %llu of seed %llu, level %s, device steps %.0f um: a model, not a person",
+                  static_cast<unsigned long long>(settings.subject), static_cast<unsigned long long>(settings.seed),
+                  subject::nameOf(settings.level).data(), settings.resolution * 1e6);
+    return {text.data()};
+  }
+
+ private:
+  std::shared_ptr<SharedSubject> subject_;
+  int digit_;
+};
+
+/// The second device of a world joins the first. Held by the devices alone: gone with them, so that runs do not meet.
+std::shared_ptr<SharedSubject> join(const World& world, int digit, const Grasp& grasp,
+                                    const SubjectSettings& settings) {
+  static std::mutex mutex;
+  static std::map<const World*, std::weak_ptr<SharedSubject>> subjects;
+  const std::lock_guard lock(mutex);
+  std::erase_if(subjects, [](const auto& entry) { return entry.second.expired(); });
+  std::shared_ptr<SharedSubject> subject = subjects[&world].lock();
+  if (subject && subject->settings() != settings) return nullptr;
+  if (!subject || !subject->take(digit)) {
+    subject = std::make_shared<SharedSubject>(grasp, settings, RateTable(world.scene.rates).period(RateGroup::kHaptic));
+    subject->take(digit);
+    subjects[&world] = subject;
+  }
+  return subject;
+}
+
+std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  const int digit = readDigit(binding, diagnostics);
+  const SubjectSettings settings = readSettings(binding, world, diagnostics);
+  const Grasp grasp = readGrasp(binding, world, diagnostics);
+  if (diagnostics.errorCount() > before) return nullptr;
+  auto subject = join(world, digit, grasp, settings);
+  if (!subject) {
+    diagnostics.error(
+        436, binding.where, "role '" + binding.role + "' has other settings than the other digit",
+        "both digits are one person: give them the same level, seed, subject, reach, hold and resolution");
+    return nullptr;
+  }
+  return std::make_unique<SimulatedDigit>(std::move(subject), digit);
+}
+
+const DevicePlugin kPlugin{.name = "simulated_subject",
+                           .summary = "a model of a person who grips, lifts, loosens and holds with thumb and index",
+                           .create = create};
+
+}  // namespace
+}  // namespace presa
+
+PRESA_DEVICE_PLUGIN(presa::kPlugin)
