@@ -8,8 +8,8 @@
 namespace presa {
 namespace {
 
-const std::vector<std::string> kKeys{"level", "seed",  "subject", "digit",     "object",
-                                     "width", "reach", "hold",    "resolution"};
+const std::vector<std::string> kKeys{"level", "seed", "subject", "digit",     "object",    "width",
+                                     "reach", "hold", "noise",   "loosening", "resolution"};
 
 const DeviceBinding::Setting* settingOf(const DeviceBinding& binding, const std::string& key) {
   const auto found = binding.settings.find(key);
@@ -59,9 +59,9 @@ std::int32_t bodyOf(const DeviceBinding& binding, const World& world, Diagnostic
 SubjectSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   for (const auto& [key, setting] : binding.settings) {
     if (std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end()) continue;
-    diagnostics.error(430, setting.where,
-                      "driver 'simulated_subject' has no setting '" + key + "'" + didYouMean(key, kKeys),
-                      "settings: level, seed, subject, digit, object, width, reach, hold, resolution");
+    diagnostics.error(
+        430, setting.where, "driver 'simulated_subject' has no setting '" + key + "'" + didYouMean(key, kKeys),
+        "settings: level, seed, subject, digit, object, width, reach, hold, noise, loosening, resolution");
   }
   SubjectSettings settings;
   if (const DeviceBinding::Setting* level = settingOf(binding, "level")) {
@@ -75,11 +75,23 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
   settings.seed = numberOf<std::uint64_t>(binding, "seed", 1, 0, diagnostics);
   settings.subject = numberOf<std::uint64_t>(binding, "subject", 0, 0, diagnostics);
   settings.trial = world.options.seed;
+  // grip and load together must stay below what the device gives, or the fingers run through the object
+  for (const DeviceRole& role : world.scene.devices) {
+    if (role.role == binding.role) settings.most_grip = 0.9 * role.limits.force;
+  }
   settings.reach = numberOf(binding, "reach", settings.reach, 1e-3, diagnostics);
   settings.hold = numberOf(binding, "hold", settings.hold, 0.0, diagnostics);
   const double drawn = subject::drawResolution(settings.seed, settings.subject, settings.trial);
   settings.resolution = numberOf(binding, "resolution", drawn, 0.0, diagnostics);
-  settings.traits = subject::Population(settings.level).draw(settings.seed, settings.subject);
+  subject::Population population(settings.level);
+  if (const DeviceBinding::Setting* noise = settingOf(binding, "noise")) {
+    if (noise->value == "off") population.silence();
+    if (noise->value != "off" && noise->value != "on")
+      diagnostics.error(437, noise->where, "noise must be on or off, found '" + noise->value + "'");
+  }
+  if (settingOf(binding, "loosening") != nullptr)
+    population.set("loosening", subject::constant(numberOf(binding, "loosening", 0.4, 1e-3, diagnostics)));
+  settings.traits = population.draw(settings.seed, settings.subject);
   return settings;
 }
 

@@ -24,6 +24,7 @@ SharedSubject::SharedSubject(const Grasp& grasp, const SubjectSettings& settings
              {.reach = settings.reach,
               .from_table = true,
               .hold = settings.hold,
+              .most_grip = settings.most_grip,
               .device_resolution = settings.resolution},
              streamOf(settings, "perception"), period) {}
 

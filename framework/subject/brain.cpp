@@ -82,6 +82,7 @@ const Intent& Brain::step(const Senses& senses) noexcept {
     case Phase::kDone:
       break;
   }
+  intent_.grip = std::min(intent_.grip, task_.most_grip);
   if (traits_.muscle_time <= 0) intent_.gain = 1 + traits_.grip_stiffness / perception_.stiffness();
   return intent_;
 }
@@ -174,6 +175,12 @@ void Brain::release() noexcept {
   if (!perception_.lost()) return;
   intent_.grip = 0;
   enter(Phase::kDone);
+}
+
+void Brain::open() noexcept {
+  if (!task_.from_table) return;
+  intent_.reaching = true;
+  intent_.reach = -task_.reach * minimumJerk(time_ / kReachTime);
 }
 
 bool Brain::slipFelt() const noexcept { return perception_.kick() > slip_threshold_ && time_ > kBlindTime; }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 
 #include "framework/math/random.h"
 #include "framework/subject/perception.h"
@@ -12,8 +13,9 @@ struct Task {
   double reach = 0;  ///< way of each digit to the object [m]; 0: begins in touch
   /// Lets an object that slipped go, and takes it up from where it is seen to lie; else it is handed back in the air.
   bool from_table = false;
-  double height = 0.04;          ///< to lift it [m]
-  double hold = 10;              ///< to hold it still with the least grip it thinks necessary [s]
+  double height = 0.04;  ///< to lift it [m]
+  double hold = 10;      ///< to hold it still with the least grip it thinks necessary [s]
+  double most_grip = std::numeric_limits<double>::infinity();  ///< beyond it the device yields [N]
   double device_resolution = 0;  ///< position steps of the device, which the subject has learnt to allow for [m]
 };
 
@@ -50,6 +52,7 @@ class Brain {
   void adjust() noexcept;
   void hold() noexcept;
   void release() noexcept;
+  void open() noexcept;
 
   bool slipFelt() const noexcept;
   bool slipSeen() const noexcept;

@@ -98,6 +98,11 @@ bool Population::set(std::string_view name, Spread spread) noexcept {
   return true;
 }
 
+void Population::silence() noexcept {
+  for (const char* name : {"force_cv", "force_noise", "tremor", "position_noise", "force_weber", "clearance"})
+    set(name, constant(0));
+}
+
 Traits Population::draw(std::uint64_t seed, std::uint64_t subject) const {
   // a stream for each trait: a changed, new or constant one leaves the others as they were
   const std::uint64_t person = RandomStream(seed, "traits", subject).bits();

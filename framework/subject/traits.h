@@ -84,6 +84,8 @@ class Population {
   std::span<const Trait> traits() const noexcept { return traits_; }
   /// Another spread for the trait of this name; false when there is none.
   bool set(std::string_view name, Spread spread) noexcept;
+  /// Motor noise and misjudgement off, and no allowance for them: the mechanics alone.
+  void silence() noexcept;
   /// The same seed and subject give the same person at every level.
   Traits draw(std::uint64_t seed, std::uint64_t subject) const;
 

@@ -20,8 +20,7 @@ std::vector<Cube> studyCubes() {
 
 Population withoutNoise(Level level) {
   Population population(level);
-  for (const char* name : {"force_cv", "force_noise", "tremor", "position_noise", "force_weber", "clearance"})
-    population.set(name, constant(0));
+  population.silence();
   return population;
 }
 
