@@ -38,7 +38,7 @@ class Objects final : public Module {
   Objects() : Module("objects", RateGroup::kDynamics) {}
   void step(const Tick& tick) noexcept override {
     out.value.time_begin = tick.time;
-    out.value.faults = fault ? kFaultBodyFrozen : 0;
+    out.value.faults = fault ? std::uint32_t{kFaultBodyFrozen} : 0U;
   }
   bool fault = false;
   Out<ObjectState> out{*this, "object_state"};
