@@ -45,10 +45,14 @@ std::optional<Expression> readExpression(const Element& element, const std::stri
   return Expression::compile(element.attribute(attribute), names, element.where(attribute), diagnostics);
 }
 
-Factor readFactor(const Element& element, OneEach& columns, Diagnostics& diagnostics) {
+Factor readFactor(const Element& element, const Names& taken, OneEach& columns, Diagnostics& diagnostics) {
   Factor factor{element.attribute("name"), element.boolean("between", false), {}, {}};
   for (const Element& column : element.children("column")) {
     columns.add(column);
+    const std::string name = column.attribute("name");
+    if (taken.find(name) || std::find(kQualityNames.begin(), kQualityNames.end(), name) != kQualityNames.end())
+      diagnostics.error(kDuplicateName, column.where("name"),
+                        quote(name) + " is a number of every sample or trial already");
     factor.columns.push_back({column.attribute("name"), column.attribute("unit"), words(column.attribute("path"))});
   }
   for (const Element& level : element.children("level")) {
@@ -90,7 +94,7 @@ void readFactors(const Element& root, Experiment& experiment, Diagnostics& diagn
   OneEach factors("factor", diagnostics), columns("column", diagnostics);
   for (const Element& element : root.children("factor")) {
     factors.add(element);
-    experiment.factors.push_back(readFactor(element, columns, diagnostics));
+    experiment.factors.push_back(readFactor(element, experiment.samples, columns, diagnostics));
     for (const Column& column : experiment.factors.back().columns) experiment.names.add(column.name);
   }
   for (const std::string& name : kQualityNames) experiment.names.add(name);

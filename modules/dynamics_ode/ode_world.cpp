@@ -110,6 +110,7 @@ void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
 }
 
 bool OdeWorld::Impl::anyLarge() const {
+  if (options.method.solver == DynamicsSettings::Solver::kDirect) return false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (islands[i].contacts > options.direct_limit) return true;
   }

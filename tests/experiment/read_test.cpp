@@ -81,6 +81,11 @@ TEST_F(Changed, MeasureThatUsesALaterOne) {
   EXPECT_THAT(findings("mass * 9.81 / (2 * mu_s)", "RSM * 2"), HasSubstr("there is no number 'RSM'"));
 }
 
+TEST_F(Changed, ColumnThatHidesASample) {
+  EXPECT_THAT(findings("<column name=\"stiffness\"", "<column name=\"signal\""),
+              HasSubstr("error[E903]: 'signal' is a number of every sample or trial already"));
+}
+
 TEST_F(Changed, UnknownFactorInBlocks) {
   EXPECT_THAT(findings("repeats=\"2\"", "repeats=\"2\" block_by=\"fricton\""), HasSubstr("did you mean 'friction'"));
 }

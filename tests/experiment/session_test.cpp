@@ -108,6 +108,22 @@ TEST_F(SessionTest, IsNeverOverwritten) {
   EXPECT_THAT(output, HasSubstr("no session is left to finish"));
 }
 
+// A folder as the shell completes it, and from another folder than the session was begun in.
+TEST_F(SessionTest, ResumesFromAnywhere) {
+  const std::string data = scratch.file("data");
+  const Process process(runArguments(data), scratch.file("output"));
+  for (int i = 0; i < 1000 && !fs::exists(folderOf(data, "S01", 1).file("trials.csv")); ++i) ::usleep(10000);
+  process.kill(SIGKILL);
+  process.wait();
+  std::ofstream(folderOf(data, "S01", 1).file("trials.csv.backup")) << "mine";
+  fs::create_directories(data + "/sub-S02/ses-1");
+  std::ofstream(folderOf(data, "S02", 1).journal());  // one that never began is in nobody's way
+  EXPECT_EQ(program({"experiment", "resume", folderOf(data, "S01", 1).path + "/"}), 0) << output;
+  EXPECT_TRUE(logOf(data).complete);
+  EXPECT_TRUE(fs::exists(folderOf(data, "S01", 1).file("trials.csv.backup")));
+  EXPECT_EQ(program({"experiment", "resume", data}), 0) << output;
+}
+
 // Two sessions give the same numbers; and killed at random moments, resumed each time, they still do.
 // PRESA_KILLS: how often (default 12; the figure in the README is of 200).
 TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
@@ -171,10 +187,12 @@ TEST_F(SessionTest, ValidateFindsWhatWasTouched) {
   file.close();
   fs::remove(folder.file("trial-004_run-1.h5"));
   std::ofstream(folder.file("notes.txt")) << "mine";
+  std::ofstream(folder.file("trials.csv"), std::ios::app) << " ";
   EXPECT_EQ(program({"experiment", "validate", data}), 1);
   EXPECT_THAT(output, HasSubstr("trial-002_run-1.h5: was changed"));
   EXPECT_THAT(output, HasSubstr("trial-004_run-1.h5: is missing"));
   EXPECT_THAT(output, HasSubstr("notes.txt: is not in the log"));
+  EXPECT_THAT(output, HasSubstr("trials.csv: was changed"));
 }
 
 TEST_F(SessionTest, ForgetRemovesOneSubjectAndNoOther) {

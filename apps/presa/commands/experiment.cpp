@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <system_error>
@@ -42,6 +43,10 @@ int runToEnd(SubjectSession& session) {
   SubjectSession::End end = SubjectSession::End::kStopped;
   try {
     end = session.run();
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s%s is whole up to there; when that is mended: presa experiment resume %s\n",
+                 error.diagnostics().text().c_str(), session.folder().journal().c_str(), session.folder().path.c_str());
+    return kExitFault;
   } catch (const std::system_error& error) {
     std::fprintf(stderr,
                  "presa: error: %s\n%s is whole up to there; when the disk is in order: presa experiment resume %s\n",
@@ -49,6 +54,11 @@ int runToEnd(SubjectSession& session) {
     return kExitFault;
   }
   const TrialQueue& queue = session.queue();
+  if (end == SubjectSession::End::kFault) {
+    std::fprintf(stderr, "presa: error: %s\nthe trial is marked and comes again: presa experiment resume %s\n",
+                 session.fault().c_str(), session.folder().path.c_str());
+    return kExitFault;
+  }
   if (end == SubjectSession::End::kStopped) {
     std::fprintf(stderr, "stopped; %zu trials are left, go on with: presa experiment resume %s\n",
                  queue.waiting().size(), session.folder().path.c_str());
@@ -59,13 +69,17 @@ int runToEnd(SubjectSession& session) {
   return kExitOk;
 }
 
+/// So that a session can be finished from any folder.
+std::string absolute(const std::string& file) { return file.empty() ? file : std::filesystem::absolute(file).string(); }
+
 int run(const Arguments& a) {
+  const std::string file = absolute(a.file), rig = absolute(a.rig);
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
-  const auto experiment = readExperiment(a.file, a.rig, diagnostics);
+  const auto experiment = readExperiment(file, rig, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
-  auto session = SubjectSession::begin(*experiment, {a.file, a.rig, subject, a.session, !a.lockstep}, a.data);
+  auto session = SubjectSession::begin(*experiment, {file, rig, subject, a.session, !a.lockstep}, a.data);
   return runToEnd(session);
 }
 
@@ -73,7 +87,13 @@ int run(const Arguments& a) {
 int resume(const std::string& data) {
   std::vector<SessionFolder> open;
   for (const SessionFolder& folder : sessionsIn(data)) {
-    if (!readLog(folder.journal(), Journal::read(folder.journal()).records).complete) open.push_back(folder);
+    try {
+      const Journal::Contents contents = Journal::read(folder.journal());
+      if (contents.records.empty()) continue;  // it never began: run begins it
+      if (!readLog(folder.journal(), contents.records).complete) open.push_back(folder);
+    } catch (const InputError& error) {
+      std::fputs(error.diagnostics().text().c_str(), stderr);  // the others can go on
+    }
   }
   if (open.empty()) {
     std::printf("%s: no session is left to finish\n", data.c_str());
@@ -178,7 +198,8 @@ void addRunSession(CLI::App& app, int& status) {
   command->add_option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N")->required();
   command->add_flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
   command->footer(
-      "Exit status: 0 complete, 1 the disk failed, 2 bad input (nothing was run), 130 Ctrl-C (go on with resume).\n"
+      "Exit status: 0 complete, 1 disk, device or dynamics failed, 2 bad input (nothing was run), 130 Ctrl-C (after 1 "
+      "and 130 go on with resume).\n"
       "Example:  presa experiment run experiments/grip_slip/experiment.xml --subject S01 --data data");
   command->callback([a, &status] { status = run(*a); });
 }

@@ -1,8 +1,6 @@
 #include "apps/presa/experiment/dataset.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "framework/checksum/checksum.h"
@@ -12,6 +10,8 @@ namespace presa::experiment {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kJournal = "journal.jsonl";
 
 /// Findings of one session, collected file by file.
 class Validation {
@@ -33,7 +33,10 @@ class Validation {
     for (const auto& [name, sum] : contents.records.front().at("sha256").items()) checkSum(name, sum);
     for (const LoggedRun& run : log_.runs) checkRun(run);
     if (!log_.complete) find("the session is not finished: presa experiment resume goes on with it");
-    checkTable();
+    const Json& end = contents.records.back();
+    if (log_.complete && end.contains("sha256")) {
+      for (const auto& [name, sum] : end.at("sha256").items()) checkSum(name, sum);
+    }
     checkStrangers();
     return verdict_;
   }
@@ -55,15 +58,6 @@ class Validation {
     if (run.end.is_object() && run.end.contains("sha256")) checkSum(file, run.end.at("sha256"));
   }
 
-  // one row per run and the heading
-  void checkTable() {
-    std::ifstream in(folder_.file("trials.csv"));
-    if (!in) return find("trials.csv: is missing");
-    const auto lines = std::count(std::istreambuf_iterator<char>(in), {}, '\n');
-    if (static_cast<std::size_t>(lines) != log_.runs.size() + 1)
-      find("trials.csv: has " + std::to_string(lines - 1) + " rows, the log " + std::to_string(log_.runs.size()));
-  }
-
   void checkStrangers() {
     for (const auto& entry : fs::directory_iterator(folder_.path)) {
       const std::string name = entry.path().filename().string();
@@ -80,15 +74,22 @@ class Validation {
 }  // namespace
 
 std::vector<SessionFolder> sessionsIn(const std::string& data) {
-  std::vector<SessionFolder> found;
+  std::set<fs::path> found;  // each once, however the folder is written
   std::error_code error;
-  if (fs::exists(data + "/journal.jsonl")) found.push_back({data});
-  for (const auto& entry : fs::recursive_directory_iterator(data, error)) {
-    if (entry.path().filename() == "journal.jsonl" && entry.path().parent_path() != fs::path(data))
-      found.push_back({entry.path().parent_path().string()});
+  const fs::path top = fs::canonical(data, error);
+  if (error) return {};
+  if (fs::exists(top / kJournal)) found.insert(top);
+  for (const auto& entry : fs::recursive_directory_iterator(top, error)) {
+    if (entry.path().filename() == kJournal) found.insert(entry.path().parent_path());
   }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
-  return found;
+  const fs::path here = fs::current_path(error);
+  std::vector<SessionFolder> sessions;
+  for (const fs::path& folder : found) {
+    const fs::path near = folder.lexically_relative(here);
+    const bool below = !near.empty() && *near.begin() != "..";
+    sessions.push_back({below ? near.string() : folder.string()});
+  }
+  return sessions;
 }
 
 Verdict validate(const SessionFolder& folder) { return Validation(folder).run(); }

@@ -1,11 +1,16 @@
 #include "apps/presa/experiment/session.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <system_error>
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/experiment/dry_run.h"
@@ -51,19 +56,28 @@ std::string contentsOf(const std::string& file) {
 /// A process that died before its first record leaves an empty log: nothing to overwrite.
 Journal createJournal(const SessionFolder& folder) {
   if (!fs::exists(folder.journal())) return Journal::create(folder.journal());
-  Journal::Contents contents = Journal::read(folder.journal());
+  Journal::Contents contents;
+  Journal journal = Journal::reopen(folder.journal(), contents);
   if (!contents.records.empty()) return Journal::create(folder.journal());  // says that it is there
-  return Journal::reopen(folder.journal(), contents);
+  return journal;
 }
+
+/// On the disk, and under its name: what the log says of a file must hold after a power cut too.
+void syncFile(const std::string& path, int flags = 0) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
+  if (file >= 0) ::close(file);
+  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot write " + path);
+}
+void syncFolder(const fs::path& folder) { syncFile(folder.string(), O_DIRECTORY); }
 
 /// What writeFileAtomically leaves when the process dies in it: NAME.XXXXXX beside NAME.
 void removeHalfWritten(const SessionFolder& folder) {
+  static const std::regex kOurs("(trials\\.(csv|json)|(experiment|scene|rig)\\.xml)\\.[A-Za-z0-9]{6}");
   for (const auto& entry : fs::directory_iterator(folder.path)) {
-    const fs::path name = entry.path().filename();
-    const std::string stem = name.stem().string();
-    if (name.extension().string().size() == 7 &&
-        (stem.ends_with(".csv") || stem.ends_with(".json") || stem.ends_with(".xml")))
-      fs::remove(entry.path());
+    const std::string name = entry.path().filename().string();
+    // a copy named "trials.csv.backup" is somebody's own
+    if (std::regex_match(name, kOurs) && !name.ends_with(".backup")) fs::remove(entry.path());
   }
 }
 
@@ -79,7 +93,7 @@ Json conditionOf(const Experiment& experiment, const PlannedTrial& trial) {
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Outcome outcomeOf(const TrialResult& result) {
-  if (result.stopped) return Outcome::kInterrupted;
+  if (result.stopped || !result.faults.empty()) return Outcome::kInterrupted;
   return result.state == Trial::State::kDone ? Outcome::kDone : Outcome::kAborted;
 }
 
@@ -100,6 +114,8 @@ SubjectSession SubjectSession::begin(const Experiment& experiment, const Session
   Journal journal = createJournal(folder);
   removeHalfWritten(folder);
   for (const auto& [name, text] : documentsOf(experiment)) writeFileAtomically(folder.file(name), *text);
+  syncFolder(folder.path);
+  syncFolder(fs::path(folder.path).parent_path());
   Json record = toJson(start);
   record["experiment"] = experiment.name;
   record["seed"] = experiment.seed;
@@ -128,6 +144,13 @@ SubjectSession SubjectSession::resume(const Experiment& experiment, const Sessio
       run.end = {{"event", "trial_end"}, {"outcome", toString(Outcome::kInterrupted)}, {"reason", "the process ended"}};
       if (&run == &session.log_.runs.back()) session.journal_.append(run.end);
     }
+    const PlannedTrial* planned = session.queue_.next();
+    if (planned == nullptr || planned->number != run.number || planned->practice != run.practice ||
+        planned->attempt != run.attempt || run.begin.value("seed", "") != std::to_string(planned->seed))
+      refuse(927, folder.journal(),
+             "run " + std::to_string(run.run) + " of trial " + std::to_string(run.number) +
+                 " is not what this version of Presa would have run there",
+             "finish the session with the version that began it: it is named in the first line");
     session.queue_.finish(run.outcome);
   }
   removeHalfWritten(folder);
@@ -160,7 +183,7 @@ void SubjectSession::endRun(LoggedRun& run, const TrialResult& result) {
   run.outcome = outcomeOf(result);
   run.end = {{"event", "trial_end"},
              {"outcome", toString(run.outcome)},
-             {"reason", result.reason},
+             {"reason", result.faults.empty() ? result.reason : result.faults.front()},
              {"excluded", result.excluded}};
   for (std::size_t p = 0; p < result.phases.size(); ++p)
     run.end["phases"][experiment_.phases[p].name] = {
@@ -172,7 +195,10 @@ void SubjectSession::endRun(LoggedRun& run, const TrialResult& result) {
   run.end["wall_s"] = result.wall_seconds;
   run.end["ticks"] = result.ticks;
   run.end["faults"] = result.faults;
-  run.end["sha256"] = sha256OfFile(folder_.file(run.begin.at("file")));
+  const std::string file = folder_.file(run.begin.at("file"));
+  syncFile(file);
+  syncFolder(folder_.path);
+  run.end["sha256"] = sha256OfFile(file);
   journal_.append(run.end);
   queue_.finish(run.outcome);
 }
@@ -200,12 +226,17 @@ SubjectSession::End SubjectSession::run() {
     const TrialResult result = runTrial(experiment_, trial, setting);
     endRun(run, result);
     writeTable();
+    if (!result.faults.empty()) return End::kFault;
     if (result.stopped) return End::kStopped;
     if (queue_.waiting().size() == left) progress.more(1);  // it comes again
     progress.done(terminal::format("trial %d", trial.number) + (result.reason.empty() ? "" : ": " + result.reason));
   }
   progress.finish();
-  if (!log_.complete) journal_.append({{"event", "end"}, {"utc", utcNow()}});
+  if (!log_.complete) {
+    Json record{{"event", "end"}, {"utc", utcNow()}};
+    for (const char* name : {"trials.csv", "trials.json"}) record["sha256"][name] = sha256OfFile(folder_.file(name));
+    journal_.append(record);
+  }
   log_.complete = true;
   return End::kComplete;
 }

@@ -17,13 +17,16 @@ class SubjectSession {
   /// Throws InputError E926 when experiment, scene or rig are not what the session began with.
   static SubjectSession resume(const Experiment& experiment, const SessionFolder& folder);
 
-  enum class End { kComplete, kStopped };
-  /// Runs what is left. kStopped: Ctrl-C; the trial that was going on is marked and comes again after resume.
+  enum class End { kComplete, kStopped, kFault };
+  /// Runs what is left. kStopped: Ctrl-C; kFault: dynamics or recording failed, see fault(). The trial that was going on is marked
+  /// and comes again after resume.
   /// Throws std::system_error when the disk fails; what was logged before stays whole.
   End run();
 
   const SessionFolder& folder() const noexcept { return folder_; }
   const TrialQueue& queue() const noexcept { return queue_; }
+  /// Why run() ended with kFault.
+  std::string fault() const { return log_.runs.empty() ? "" : log_.runs.back().end.value("reason", ""); }
   int runsMade() const noexcept { return static_cast<int>(log_.runs.size()); }
 
  private:
