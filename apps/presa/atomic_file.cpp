@@ -6,10 +6,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <system_error>
 
 namespace presa {
 namespace {
+
+const std::string kHalfWritten = ".presa-";
 
 [[noreturn]] void fail(int error, const std::string& path) {
   throw std::system_error(error, std::generic_category(), "cannot write " + path);
@@ -30,7 +33,8 @@ int writeAll(int file, const std::string& text) {
 }  // namespace
 
 void writeFileAtomically(const std::string& path, const std::string& text) {
-  std::string temporary = path + ".XXXXXX";
+  const std::filesystem::path target(path);
+  std::string temporary = (target.parent_path() / (kHalfWritten + target.filename().string() + ".XXXXXX")).string();
   const int file = ::mkstemp(temporary.data());
   if (file < 0) fail(errno, path);
   const mode_t mask = ::umask(0);
@@ -42,6 +46,12 @@ void writeFileAtomically(const std::string& path, const std::string& text) {
   if (error == 0) return;
   ::unlink(temporary.c_str());
   fail(error, path);
+}
+
+void removeHalfWritten(const std::string& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with(kHalfWritten)) std::filesystem::remove(entry.path());
+  }
 }
 
 }  // namespace presa

@@ -7,4 +7,7 @@ namespace presa {
 /// Throws std::system_error with the path when that fails; nothing is left behind then.
 void writeFileAtomically(const std::string& path, const std::string& text);
 
+/// Removes what writeFileAtomically left in a folder when its process died half-way: hidden files under a name of its own.
+void removeHalfWritten(const std::string& folder);
+
 }  // namespace presa

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <future>
 
 #include "apps/presa/live_tap.h"
 #include "apps/presa/terminal/status_line.h"
@@ -95,11 +94,8 @@ Run::Run(const Loaded& loaded, Settings settings)
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
   session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
   const RateTable rates(loaded_.world->scene.rates);
-  if (options.realtime) {
-    executor_ = std::make_unique<RealtimeExecutor>(session_->graph(), rates, control_);
-  } else {
-    executor_ = std::make_unique<LockstepExecutor>(session_->graph(), rates, control_);
-  }
+  executor_ = makeExecutor(options.realtime, session_->graph(), rates, control_);
+  executor_->onPoll([this] { poll(); });
   executor_->recordTo(session_->schedule());
   if (View* view = session_->view()) {
     std::array<const GroupTiming*, kRateGroupCount> timings{};
@@ -120,25 +116,9 @@ void Run::execute() {
   const SignalGuard guard(control_);
   live_->start_ns = monotonicNs();
   for (const std::string& note : result_.notes) live_->line.note(note);
-  if (loaded_.world->options.realtime) {
-    executeRealtime();
-  } else {
-    executeLockstep();
-  }
+  executor_->run(loaded_.world->options.duration);
   live_->line.finish();
   finish();
-}
-
-void Run::executeLockstep() {
-  auto& executor = static_cast<LockstepExecutor&>(*executor_);
-  executor.onProgress(100, [this] { poll(); });
-  executor.run(loaded_.world->options.duration);
-}
-
-void Run::executeRealtime() {
-  auto running = std::async(std::launch::async, [this] { executor_->run(loaded_.world->options.duration); });
-  while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) poll();
-  running.get();
 }
 
 // Main thread, between other things: faults, a closed window, the status line.

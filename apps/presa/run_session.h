@@ -27,8 +27,6 @@ class Run {
   const RunResult& result() const noexcept { return result_; }
 
  private:
-  void executeLockstep();
-  void executeRealtime();
   void poll();
   void showStatus();
   void finish();

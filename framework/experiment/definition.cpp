@@ -2,6 +2,28 @@
 
 namespace presa::experiment {
 
+std::string headingOf(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : name + " [" + unit + "]";
+}
+
+std::vector<bool> Experiment::askedSamples() const {
+  std::vector<bool> asked(samples.size(), false);
+  const auto mark = [&](const std::optional<Expression>& expression) {
+    if (expression) expression->markSlots(asked);
+  };
+  for (const Phase& phase : phases) {
+    mark(phase.until);
+    mark(phase.abort);
+  }
+  for (const Measure& measure : measures) {
+    for (const Aggregate& aggregate : measure.aggregates) {
+      mark(aggregate.condition);
+      mark(aggregate.value);
+    }
+  }
+  return asked;
+}
+
 std::vector<std::string> Experiment::phaseNames() const {
   std::vector<std::string> all;
   for (const Phase& phase : phases) all.push_back(phase.name);

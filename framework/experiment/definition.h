@@ -16,6 +16,9 @@ struct Column {
   std::vector<std::string> paths;  ///< as after --set; may be empty
 };
 
+/// "mass [kg]": how a table heads a column; a plain number has no unit.
+std::string headingOf(const std::string& name, const std::string& unit);
+
 /// What is varied on purpose. Its columns change together: static with dynamic friction.
 struct Factor {
   std::string name;
@@ -102,6 +105,8 @@ struct Experiment {
   std::string resolved_xml, scene_xml,
       rig_xml;  ///< the three documents with every default, scene and rig before any level
 
+  /// By slot of `samples`: what guards and measures ask for.
+  std::vector<bool> askedSamples() const;
   /// Names of all phases, in order.
   std::vector<std::string> phaseNames() const;
   /// The value of a column in a condition; empty when there is no such column.

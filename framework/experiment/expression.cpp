@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace presa::experiment {
+namespace {
+
+bool truth(double x) noexcept { return x == x && x != 0; }
+
+}  // namespace
 
 std::size_t Names::add(const std::string& name) {
   if (const auto known = find(name)) return *known;
@@ -15,6 +20,12 @@ std::optional<std::size_t> Names::find(const std::string& name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found == names_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names_.begin());
+}
+
+void Expression::markSlots(std::vector<bool>& slots) const {
+  for (const Instruction& now : program_) {
+    if (now.code == Code::kSlot && now.slot < slots.size()) slots[now.slot] = true;
+  }
 }
 
 double Expression::evaluate(std::span<const double> values) const noexcept {
@@ -32,7 +43,7 @@ double Expression::evaluate(std::span<const double> values) const noexcept {
     double& b = stack[top - 1];
     switch (now.code) {
       case Code::kNot:
-        b = b == 0 ? 1 : 0;
+        b = truth(b) ? 0 : 1;
         continue;
       case Code::kNegate:
         b = -b;
@@ -55,10 +66,10 @@ double Expression::evaluate(std::span<const double> values) const noexcept {
     double& a = stack[top - 2];
     switch (now.code) {
       case Code::kOr:
-        a = a != 0 || b != 0;
+        a = truth(a) || truth(b);
         break;
       case Code::kAnd:
-        a = a != 0 && b != 0;
+        a = truth(a) && truth(b);
         break;
       case Code::kLess:
         a = a < b;

@@ -40,12 +40,15 @@ class Expression {
                                            const Names* samples = nullptr,
                                            const std::vector<std::string>* phases = nullptr);
 
-  /// `values` by slot. A division by zero gives infinity or NaN, and a comparison with NaN is false.
+  /// `values` by slot. A division by zero gives infinity or NaN; NaN and a comparison with it are false.
   double evaluate(std::span<const double> values) const noexcept;
   bool holds(std::span<const double> values) const noexcept {
     const double value = evaluate(values);
     return value == value && value != 0;
   }
+
+  /// Sets those of `slots` that it reads.
+  void markSlots(std::vector<bool>& slots) const;
 
   static constexpr std::size_t kMaxDepth = 32;
 

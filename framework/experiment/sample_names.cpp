@@ -1,6 +1,13 @@
 #include "framework/experiment/sample_names.h"
 
+#include <algorithm>
+
 namespace presa::experiment {
+namespace {
+
+constexpr std::size_t kPerRole = 13, kPerBody = 8;  // slots, as sampleNames() lists them
+
+}  // namespace
 
 Names sampleNames(const Scene& scene) {
   Names names({"t", "t_phase", "signal"});
@@ -15,9 +22,14 @@ Names sampleNames(const Scene& scene) {
   return names;
 }
 
-SampleReader::SampleReader(const Scene& scene) : roles_(scene.devices.size()) {
+SampleReader::SampleReader(const Scene& scene, const std::vector<bool>& asked) : roles_(scene.devices.size()) {
+  std::size_t slot = kSignal + 1 + roles_ * kPerRole;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (!scene.bodies[i].fixed) bodies_.push_back({i, scene.bodies[i].X_WB.p.z()});
+    if (scene.bodies[i].fixed) continue;
+    const auto first = asked.begin() + static_cast<std::ptrdiff_t>(slot);
+    if (std::find(first, first + kPerBody, true) != first + kPerBody)
+      bodies_.push_back({i, slot, scene.bodies[i].X_WB.p.z()});
+    slot += kPerBody;
   }
 }
 
@@ -43,6 +55,7 @@ void SampleReader::read(double time, const DeviceState& device, const ContactExc
   for (const FreeBody& body : bodies_) {
     const Vec3 p =
         objects == nullptr ? Vec3(Vec3::Zero()) : objects->poseAt(static_cast<std::int32_t>(body.index), time).p;
+    slot = body.slot;
     const Vec3 v = objects == nullptr ? Vec3(Vec3::Zero()) : objects->bodies[body.index].v_WB;
     put(p);
     put(v);

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "framework/experiment/expression.h"
 #include "framework/scene/scene.h"
@@ -20,7 +21,8 @@ Names sampleNames(const Scene& scene);
 /// Fills one sample; `values` has the size of sampleNames(scene). Thread: haptic; nonblocking.
 class SampleReader {
  public:
-  explicit SampleReader(const Scene& scene);
+  /// `asked`, by slot: a free body of which nothing is asked is not read (and its slots stay as they were).
+  SampleReader(const Scene& scene, const std::vector<bool>& asked);
   void read(double time, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
             const ObjectState* objects, std::span<double> values) const noexcept;
 
@@ -28,7 +30,7 @@ class SampleReader {
 
  private:
   struct FreeBody {
-    std::size_t index;
+    std::size_t index, slot;
     double start_z;
   };
   std::vector<FreeBody> bodies_;

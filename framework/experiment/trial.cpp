@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "framework/experiment/sample_names.h"
@@ -113,6 +114,13 @@ std::vector<double> Trial::results(std::span<const double> quality) const {
 std::string Trial::exclusion(std::span<const double> results) const {
   for (const Exclusion& rule : experiment_.exclusions) {
     if (rule.when->holds(results)) return rule.reason;
+    // what cannot be judged does not count
+    std::vector<bool> asked(results.size(), false);
+    rule.when->markSlots(asked);
+    for (std::size_t slot = columns_.size(); slot < results.size(); ++slot) {
+      if (asked[slot] && std::isnan(results[slot]))
+        return rule.reason + ": " + experiment_.names.all()[slot] + " is not there";
+    }
   }
   return {};
 }

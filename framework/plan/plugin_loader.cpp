@@ -9,18 +9,12 @@
 #include <sstream>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/diagnostics/refuse.h"
 
 namespace presa {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(int code, const std::string& message, const std::string& help) {
-  Diagnostics diagnostics;
-  diagnostics.error(code, {}, message, help);
-  throw InputError(std::move(diagnostics));
-}
 
 /// Folder of the shared object that contains this very function.
 fs::path frameworkFolder() {
@@ -48,8 +42,8 @@ bool isPluginName(const std::string& name) {
 
 void* openPlugin(const std::string& name) {
   if (!isPluginName(name)) {
-    fail(590, "'" + name + "' is not the name of a plug-in",
-         "a name consists of lower-case letters, digits and underscores");
+    refuse(590, "", "'" + name + "' is not the name of a plug-in",
+           "a name consists of lower-case letters, digits and underscores");
   }
   const std::string file = "presa_" + name + ".so";
   std::string tried;
@@ -63,11 +57,11 @@ void* openPlugin(const std::string& name) {
     // A plug-in that lacks a library must fail here, not at its first call in a running haptic loop: RTLD_NOW.
     if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     const char* reason = dlerror();
-    fail(591, "plug-in " + path.string() + " does not load: " + (reason ? reason : "unknown reason"),
-         "install the library it needs, or build it again with this version of Presa");
+    refuse(591, "", "plug-in " + path.string() + " does not load: " + (reason ? reason : "unknown reason"),
+           "install the library it needs, or build it again with this version of Presa");
   }
-  fail(590, "there is no plug-in '" + name + "' (tried " + tried + ")",
-       "build it, or name its folder in the environment variable PRESA_PLUGIN_PATH");
+  refuse(590, "", "there is no plug-in '" + name + "' (tried " + tried + ")",
+         "build it, or name its folder in the environment variable PRESA_PLUGIN_PATH");
 }
 
 }  // namespace
@@ -79,7 +73,7 @@ void* pluginSymbol(const std::string& name, const char* symbol) {
   auto found = handles.find(name);
   if (found == handles.end()) found = handles.emplace(name, openPlugin(name)).first;
   if (void* address = dlsym(found->second, symbol)) return address;
-  fail(592, "plug-in '" + name + "' has no symbol '" + symbol + "'", "build it again with this version of Presa");
+  refuse(592, "", "plug-in '" + name + "' has no symbol '" + symbol + "'", "build it again with this version of Presa");
 }
 
 }  // namespace presa

@@ -18,4 +18,9 @@ void Executor::stepTimed(RateGroup group, std::uint64_t index, bool made_up) noe
   timing.ticks.fetch_add(1, std::memory_order_relaxed);
 }
 
+std::unique_ptr<Executor> makeExecutor(bool realtime, Graph& graph, const RateTable& rates, RunControl& control) {
+  if (realtime) return std::make_unique<RealtimeExecutor>(graph, rates, control);
+  return std::make_unique<LockstepExecutor>(graph, rates, control);
+}
+
 }  // namespace presa

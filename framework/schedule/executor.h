@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Executor {
   /// every group has stopped. Rethrows what a module threw in start().
   virtual void run(double duration) = 0;
 
+  /// Called between ticks on the thread that called run(): every 100 haptic ticks in lockstep, every 20 ms in real time.
+  void onPoll(std::function<void()> poll) { poll_ = std::move(poll); }
   void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }
   /// Reads execution times from another clock [ns], such as threadCpuNs for studies of cost. Before run().
   void timeBy(std::int64_t (*clock)() noexcept) noexcept { clock_ = clock; }
@@ -54,6 +57,7 @@ class Executor {
   RateTable rates_;
   RunControl& control_;
   ScheduleLog* schedule_ = nullptr;
+  std::function<void()> poll_ = [] {};
   std::int64_t (*clock_)() noexcept = monotonicNs;
   std::array<GroupTiming, kRateGroupCount> timings_;
   std::vector<std::string> notes_;
@@ -66,8 +70,6 @@ class LockstepExecutor final : public Executor {
  public:
   using Executor::Executor;
   void run(double duration) override;
-  /// Called on the running thread every `every` haptic ticks.
-  void onProgress(std::uint64_t every, std::function<void()> callback);
   /// Stalls, for studies: asked at every instant at which a group is due, with the simulated time. While it says true the
   /// group's ticks wait; then they run at once, as in real time, those older than kCatchUpLimit are given up and counted.
   void delay(std::function<bool(RateGroup, double)> held_up) { held_up_ = std::move(held_up); }
@@ -77,8 +79,6 @@ class LockstepExecutor final : public Executor {
 
   std::function<bool(RateGroup, double)> held_up_;
   std::array<std::uint64_t, kRateGroupCount> done_{};  // ticks run or given up, by group
-  std::uint64_t progress_every_ = 0;
-  std::function<void()> progress_;
 };
 
 /// One thread per rate group with absolute deadlines; SCHED_FIFO and locked memory where the system allows it.
@@ -92,5 +92,7 @@ class RealtimeExecutor final : public Executor {
   void runGroup(RateGroup group, double duration, Shared& shared);
   void loop(RateGroup group, double duration, Shared& shared);
 };
+
+std::unique_ptr<Executor> makeExecutor(bool realtime, Graph& graph, const RateTable& rates, RunControl& control);
 
 }  // namespace presa

@@ -5,11 +5,11 @@
 #include "framework/schedule/executor.h"
 
 namespace presa {
+namespace {
 
-void LockstepExecutor::onProgress(std::uint64_t every, std::function<void()> callback) {
-  progress_every_ = every;
-  progress_ = std::move(callback);
-}
+constexpr std::uint64_t kPollTicks = 100;
+
+}  // namespace
 
 void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double now) noexcept {
   if (held_up_(group, now)) return;
@@ -46,7 +46,7 @@ void LockstepExecutor::run(double duration) {
       stopping = true;
       end = std::min(end, i + 1 + fade);
     }
-    if (progress_every_ > 0 && i % progress_every_ == 0) progress_();
+    if (i % kPollTicks == 0) poll_();
   }
   wall_seconds_ = static_cast<double>(monotonicNs() - begin) * 1e-9;
   for (auto group = kOrder.rbegin(); group != kOrder.rend(); ++group) graph_.stop(*group);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <barrier>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <exception>
 #include <mutex>
@@ -44,8 +45,9 @@ void prefaultStack() noexcept {
 }  // namespace
 
 struct RealtimeExecutor::Shared {
-  explicit Shared(std::ptrdiff_t threads) : ready(threads) {}
+  explicit Shared(std::ptrdiff_t threads) : ready(threads), running(threads) {}
   std::barrier<> ready;
+  std::atomic<std::ptrdiff_t> running;  // threads that have not ended
   std::atomic<std::int64_t> start_ns{0};
   std::atomic<bool> failed{false};
   std::mutex mutex;
@@ -65,6 +67,10 @@ void RealtimeExecutor::run(double duration) {
   Shared shared(static_cast<std::ptrdiff_t>(groups.size()));
   std::vector<std::thread> threads;
   for (RateGroup group : groups) threads.emplace_back([&, group] { runGroup(group, duration, shared); });
+  while (shared.running.load() > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    poll_();
+  }
   for (std::thread& thread : threads) thread.join();
   munlockall();
   notes_.insert(notes_.end(), shared.notes.begin(), shared.notes.end());
@@ -101,6 +107,7 @@ void RealtimeExecutor::runGroup(RateGroup group, double duration, Shared& shared
     const std::scoped_lock lock(shared.mutex);
     if (!shared.error) shared.error = std::current_exception();
   }
+  --shared.running;
 }
 
 void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {

@@ -5,17 +5,12 @@
 #include <cstdlib>
 #include <osg/Notify>
 
+#include "framework/diagnostics/refuse.h"
 #include "framework/plan/plugin.h"
 #include "modules/view_osg/frame_image.h"
 
 namespace presa::view {
 namespace {
-
-[[noreturn]] void refuse(int code, const std::string& what, const std::string& help) {
-  Diagnostics diagnostics;
-  diagnostics.error(code, {"command line", 0, 0}, what, help);
-  throw InputError(std::move(diagnostics));
-}
 
 std::string timeStamp(double time) {
   std::array<char, 32> text;
@@ -48,9 +43,9 @@ void ViewModule::start() {
                            : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
-      refuse(701, std::string("cannot show the run: ") + error.what(),
+      refuse(701, "command line", std::string("cannot show the run: ") + error.what(),
              "set DISPLAY to a running X server, or use the off-screen view");
-    refuse(702, std::string("cannot draw off-screen: ") + error.what(),
+    refuse(702, "command line", std::string("cannot draw off-screen: ") + error.what(),
            "install Mesa's EGL and software renderer (Debian: libegl1 libegl-mesa0 libgl1-mesa-dri)");
   }
 }

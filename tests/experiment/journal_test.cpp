@@ -5,9 +5,10 @@
 #include <csignal>
 
 #include "apps/presa/experiment/journal.h"
+#include "apps/presa/scratch_folder.h"
 #include "framework/checksum/checksum.h"
 #include "framework/diagnostics/diagnostics.h"
-#include "tests/experiment/scratch.h"
+#include "tests/experiment/contents.h"
 
 namespace presa::experiment {
 namespace {
@@ -34,7 +35,7 @@ class JournalTest : public testing::Test {
     text = contentsOf(file);
   }
   void write(const std::string& changed) { std::ofstream(file, std::ios::binary) << changed; }
-  Scratch scratch;
+  ScratchFolder scratch;
   const std::string file = scratch.file("journal.jsonl");
   std::string text;
 };
@@ -108,7 +109,7 @@ TEST_F(JournalTest, AFullDiskLeavesTheRecordsBefore) {
 }
 
 TEST(Checksum, IsThatOfTheStandard) {
-  Scratch scratch;
+  ScratchFolder scratch;
   std::ofstream(scratch.file("abc")) << "abc";  // FIPS 180-2, example B.1
   EXPECT_EQ(sha256OfFile(scratch.file("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_THROW(sha256OfFile(scratch.file("none")), std::system_error);

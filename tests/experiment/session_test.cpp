@@ -6,11 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 
 #include "apps/presa/experiment/dataset.h"
+#include "apps/presa/scratch_folder.h"
 #include "framework/math/random.h"
-#include "tests/experiment/scratch.h"
+#include "tests/experiment/contents.h"
 
 // Whole sessions through the program: what is on disk after an end of any kind.
 namespace presa::experiment {
@@ -59,6 +61,11 @@ class SessionTest : public testing::Test {
     output = contentsOf(scratch.file("output"));
     return status;
   }
+  static void awaitFirstTrial(const std::string& data) {
+    const std::string table = folderOf(data, "S01", 1).file("trials.csv");
+    for (int i = 0; i < 6000 && !fs::exists(table); ++i) ::usleep(10000);
+    ASSERT_TRUE(fs::exists(table));
+  }
   static SessionLog logOf(const std::string& data) {
     const SessionFolder folder = folderOf(data, "S01", 1);
     return readLog(folder.journal(), Journal::read(folder.journal()).records);
@@ -76,7 +83,7 @@ class SessionTest : public testing::Test {
     }
     return text;
   }
-  Scratch scratch;
+  ScratchFolder scratch;
   std::string output;
 };
 
@@ -112,7 +119,7 @@ TEST_F(SessionTest, IsNeverOverwritten) {
 TEST_F(SessionTest, ResumesFromAnywhere) {
   const std::string data = scratch.file("data");
   const Process process(runArguments(data), scratch.file("output"));
-  for (int i = 0; i < 1000 && !fs::exists(folderOf(data, "S01", 1).file("trials.csv")); ++i) ::usleep(10000);
+  awaitFirstTrial(data);
   process.kill(SIGKILL);
   process.wait();
   std::ofstream(folderOf(data, "S01", 1).file("trials.csv.backup")) << "mine";
@@ -128,7 +135,10 @@ TEST_F(SessionTest, ResumesFromAnywhere) {
 // PRESA_KILLS: how often (default 12; the figure in the README is of 200).
 TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
   const std::string whole = scratch.file("whole");
+  const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(program(runArguments(whole)), 0);
+  // the unbroken run measures this machine, so that kills fall into a run on any
+  const double whole_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
   const std::string expected = essence(logOf(whole));
   const char* wanted = std::getenv("PRESA_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 12;
@@ -139,7 +149,7 @@ TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
     std::vector<std::string> arguments = runArguments(data);
     for (bool ended = false; !ended;) {
       const Process process(arguments, scratch.file("output"));
-      ::usleep(static_cast<useconds_t>(random.uniform(20e3, 700e3)));
+      ::usleep(static_cast<useconds_t>(random.uniform(0.02, 0.7) * whole_us));
       if (killed < kills) process.kill(SIGKILL);
       const int status = process.wait();
       ended = status == 0;
@@ -168,7 +178,7 @@ TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
 TEST_F(SessionTest, ControlCKeepsWhatIsThere) {
   const std::string data = scratch.file("data");
   const Process process(runArguments(data), scratch.file("output"));
-  for (int i = 0; i < 1000 && !fs::exists(folderOf(data, "S01", 1).file("trials.csv")); ++i) ::usleep(10000);
+  awaitFirstTrial(data);
   process.kill(SIGINT);
   EXPECT_EQ(process.wait(), 130);
   EXPECT_THAT(contentsOf(scratch.file("output")), HasSubstr("go on with: presa experiment resume"));

@@ -202,7 +202,7 @@ TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
 TEST(Recorder, RefusesWhatCannotBeWritten) {
   const ScratchFolder folder;
   EXPECT_EQ(codeOf([&] { FileRecorder recorder(recordedWorld(folder.file("none/run.h5"), false)); }), 602);
-  const auto world = recordedWorld(folder.path.string(), false);
+  const auto world = recordedWorld(folder.path().string(), false);
   world->options.overwrite = true;
   EXPECT_EQ(codeOf([&] { FileRecorder recorder(world); }), 602);
 }
@@ -229,7 +229,7 @@ TEST(Reader, RefusesEveryWrongFileWithItsReason) {
   const std::string bytes = bytesOf(good);
 
   EXPECT_EQ(readCode(folder.file("none.h5")), 603);
-  EXPECT_EQ(readCode(folder.path.string()), 604);
+  EXPECT_EQ(readCode(folder.path().string()), 604);
   writeBytes(bad, "time,x,y,z\n0,1,2,3\n");
   EXPECT_EQ(readCode(bad), 604);
 

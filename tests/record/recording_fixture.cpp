@@ -119,16 +119,6 @@ void RecordedRun::step(std::uint64_t ticks) {
   }
 }
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "presa-record-XXXXXX").string();
-  path = mkdtemp(name.data());
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path, ignored);
-}
-
 std::string differenceFromPrefix(const Recording& recording) {
   const std::size_t ticks = recording.time.size();
   if (recording.device.size() != ticks || recording.command.size() != ticks) return "lists of different length";

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/presa/scratch_folder.h"
 #include "framework/graph/graph_builder.h"
 #include "framework/record/record_plugin/recorder.h"
 #include "framework/schedule/rates.h"
@@ -53,14 +54,6 @@ struct RecordedRun {
   FileRecorder* recorder;
   Graph graph;
   std::uint64_t next = 0;
-};
-
-/// A folder of its own, gone with the object.
-struct ScratchFolder {
-  ScratchFolder();
-  ~ScratchFolder();
-  std::string file(const std::string& name) const { return (path / name).string(); }
-  std::filesystem::path path;
 };
 
 /// "" when the recording is the first recording.time.size() ticks of a RecordedRun, bit by bit, else the difference.

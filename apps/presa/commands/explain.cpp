@@ -5,7 +5,7 @@
 #include "apps/presa/explain/cost.h"
 #include "apps/presa/explain/description.h"
 #include "apps/presa/explain/printout.h"
-#include "apps/presa/explain/scratch_folder.h"
+#include "apps/presa/scratch_folder.h"
 
 namespace presa {
 namespace {
@@ -22,13 +22,13 @@ struct Arguments {
 RunOptions optionsOf(const Arguments& arguments, const ScratchFolder& scratch) {
   RunOptions options;
   if (arguments.record) {
-    options.record = scratch / "run.h5";
+    options.record = scratch.file("run.h5");
     options.realtime = true;  // a recorder that waits for the disk would hide what it costs a haptic tick
   }
   if (arguments.view == "window") options.view = RunOptions::View::kWindow;
   if (arguments.view == "offscreen") {
     options.view = RunOptions::View::kOffscreen;
-    options.screenshot = scratch / "picture.png";
+    options.screenshot = scratch.file("picture.png");
     options.screenshot_time = 0;
   }
   return options;

@@ -18,10 +18,6 @@ std::vector<const Column*> columnsOf(const Experiment& experiment) {
   return all;
 }
 
-std::string titleOf(const Column& column) {
-  return column.unit.empty() || column.unit == "1" ? column.name : column.name + " [" + column.unit + "]";
-}
-
 std::string minutes(double seconds) {
   if (seconds < 90) return format("%.0f s", seconds);
   if (seconds < 5400) return format("%.0f min", seconds / 60);
@@ -71,7 +67,7 @@ std::string dryRunText(const Experiment& experiment, const Subject& subject, int
                        const std::vector<PlannedTrial>& trials) {
   const std::vector<const Column*> columns = columnsOf(experiment);
   std::string text = headOf(experiment, subject, session, trials) + "\ntrial  block  repeat";
-  for (const Column* column : columns) text += format("  %14s", titleOf(*column).c_str());
+  for (const Column* column : columns) text += format("  %14s", headingOf(column->name, column->unit).c_str());
   text += "  seed\n";
   for (const PlannedTrial& trial : trials) {
     text += trial.practice ? format("%4dp  %5s  %6s", trial.number, "-", "-")
@@ -86,7 +82,7 @@ std::string dryRunText(const Experiment& experiment, const Subject& subject, int
 std::string dryRunCsv(const Experiment& experiment, const std::vector<PlannedTrial>& trials) {
   const std::vector<const Column*> columns = columnsOf(experiment);
   std::string text = "trial,practice,block,repeat";
-  for (const Column* column : columns) text += ",\"" + titleOf(*column) + "\"";
+  for (const Column* column : columns) text += ",\"" + headingOf(column->name, column->unit) + "\"";
   text += ",seed\n";
   for (const PlannedTrial& trial : trials) {
     text += format("%d,%d,%d,%d", trial.number, trial.practice ? 1 : 0, trial.block, trial.repeat);

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/diagnostics/refuse.h"
 
 namespace presa::experiment {
 namespace {
@@ -34,12 +34,6 @@ std::string hex(std::uint64_t sum) {
   std::array<char, kDigits + 1> text{};
   std::snprintf(text.data(), text.size(), "%016" PRIx64, sum);
   return text.data();
-}
-
-[[noreturn]] void refuse(int code, const std::string& file, const std::string& message, const std::string& help = {}) {
-  Diagnostics diagnostics;
-  diagnostics.error(code, {file, 0, 0}, message, help);
-  throw InputError(std::move(diagnostics));
 }
 
 int openLocked(const std::string& file, int flags) {

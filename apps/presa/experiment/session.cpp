@@ -9,7 +9,6 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <system_error>
 
 #include "apps/presa/atomic_file.h"
@@ -20,6 +19,7 @@
 #include "apps/presa/terminal/text.h"
 #include "apps/presa/version.h"
 #include "framework/checksum/checksum.h"
+#include "framework/diagnostics/refuse.h"
 
 namespace presa::experiment {
 namespace {
@@ -34,12 +34,6 @@ std::string utcNow() {
   std::array<char, 32> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text.data();
-}
-
-[[noreturn]] void refuse(int code, const std::string& file, const std::string& message, const std::string& help = {}) {
-  Diagnostics diagnostics;
-  diagnostics.error(code, {file, 0, 0}, message, help);
-  throw InputError(std::move(diagnostics));
 }
 
 std::vector<std::pair<const char*, const std::string*>> documentsOf(const Experiment& experiment) {
@@ -70,16 +64,6 @@ void syncFile(const std::string& path, int flags = 0) {
   if (error != 0) throw std::system_error(error, std::generic_category(), "cannot write " + path);
 }
 void syncFolder(const fs::path& folder) { syncFile(folder.string(), O_DIRECTORY); }
-
-/// What writeFileAtomically leaves when the process dies in it: NAME.XXXXXX beside NAME.
-void removeHalfWritten(const SessionFolder& folder) {
-  static const std::regex kOurs("(trials\\.(csv|json)|(experiment|scene|rig)\\.xml)\\.[A-Za-z0-9]{6}");
-  for (const auto& entry : fs::directory_iterator(folder.path)) {
-    const std::string name = entry.path().filename().string();
-    // a copy named "trials.csv.backup" is somebody's own
-    if (std::regex_match(name, kOurs) && !name.ends_with(".backup")) fs::remove(entry.path());
-  }
-}
 
 Json conditionOf(const Experiment& experiment, const PlannedTrial& trial) {
   Json condition = Json::object();
@@ -112,7 +96,7 @@ SubjectSession SubjectSession::begin(const Experiment& experiment, const Session
   fs::create_directories(folder.path, error);
   if (error) refuse(925, folder.path, "the folder cannot be made: " + error.message());
   Journal journal = createJournal(folder);
-  removeHalfWritten(folder);
+  removeHalfWritten(folder.path);
   for (const auto& [name, text] : documentsOf(experiment)) writeFileAtomically(folder.file(name), *text);
   syncFolder(folder.path);
   syncFolder(fs::path(folder.path).parent_path());
@@ -153,7 +137,7 @@ SubjectSession SubjectSession::resume(const Experiment& experiment, const Sessio
              "finish the session with the version that began it: it is named in the first line");
     session.queue_.finish(run.outcome);
   }
-  removeHalfWritten(folder);
+  removeHalfWritten(folder.path);
   session.writeTable();
   return session;
 }

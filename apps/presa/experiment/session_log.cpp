@@ -3,18 +3,13 @@
 #include <array>
 
 #include "apps/presa/terminal/text.h"
+#include "framework/diagnostics/refuse.h"
 
 namespace presa::experiment {
 namespace {
 
 constexpr int kFormat = 1;
 constexpr std::array<const char*, 4> kOutcomes{"done", "aborted", "interrupted", "skipped"};
-
-[[noreturn]] void refuse(const std::string& file, const std::string& message) {
-  Diagnostics diagnostics;
-  diagnostics.error(924, {file, 1, 0}, message);
-  throw InputError(std::move(diagnostics));
-}
 
 Outcome outcomeOf(const Json& record) {
   const auto name = record.at("outcome").get<std::string>();
@@ -35,6 +30,7 @@ void take(const Json& record, SessionLog& log) {
                         record,
                         {}});
   } else if (event == "trial_end") {
+    if (log.runs.empty()) throw std::out_of_range("a trial ends before one began");
     log.runs.back().outcome = outcomeOf(record);
     log.runs.back().end = record;
   } else if (event == "end") {
@@ -61,13 +57,13 @@ Json toJson(const SessionStart& start) {
 }
 
 SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
-  if (records.empty()) refuse(file, "holds no record: the session never began, delete the folder and run it anew");
+  if (records.empty()) refuse(924, file, "holds no record: the session never began, delete the folder and run it anew");
   SessionLog log;
   try {
     const Json& start = records.front();
-    if (start.at("event") != "start") refuse(file, "does not begin with the start of a session");
+    if (start.at("event") != "start") refuse(924, file, "does not begin with the start of a session");
     if (start.at("format").get<int>() > kFormat)
-      refuse(file, "is of format " + start.at("format").dump() + ", this version of Presa knows 1");
+      refuse(924, file, "is of format " + start.at("format").dump() + ", this version of Presa knows 1");
     log.start = {start.at("experiment_file"),
                  start.at("rig_file"),
                  {start.at("subject"), start.at("number")},
@@ -76,7 +72,7 @@ SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
     for (const Json& record : records) take(record, log);
   } catch (const std::exception& error) {
     if (dynamic_cast<const InputError*>(&error) != nullptr) throw;
-    refuse(file, std::string("is not the log of a session: ") + error.what());
+    refuse(924, file, std::string("is not the log of a session: ") + error.what());
   }
   return log;
 }

@@ -1,7 +1,5 @@
 #include "apps/presa/experiment/trial_run.h"
 
-#include <future>
-
 #include "apps/presa/experiment/trial_tap.h"
 #include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
@@ -23,27 +21,18 @@ class TrialRun {
         world_(load(experiment, planned, setting, plan_)),
         trial_(experiment, planned.condition, 1 / world_->scene.rates.haptic) {
     Session::Options options;
-    auto tap = std::make_unique<TrialTap>(trial_, world_->scene, control_);
+    auto tap = std::make_unique<TrialTap>(trial_, experiment, world_->scene, control_);
     tap_ = tap.get();
     options.more.push_back(std::move(tap));
     session_ = std::make_unique<Session>(world_, plan_, control_, std::move(options));
     const RateTable rates(world_->scene.rates);
-    if (setting.realtime)
-      executor_ = std::make_unique<RealtimeExecutor>(session_->graph(), rates, control_);
-    else
-      executor_ = std::make_unique<LockstepExecutor>(session_->graph(), rates, control_);
+    executor_ = makeExecutor(setting.realtime, session_->graph(), rates, control_);
+    executor_->onPoll([this] { poll(); });
     executor_->recordTo(session_->schedule());
   }
 
   TrialResult run() {
-    if (setting_.realtime) {
-      auto running = std::async(std::launch::async, [this] { executor_->run(world_->options.duration); });
-      while (running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) poll();
-      running.get();
-    } else {
-      static_cast<LockstepExecutor&>(*executor_).onProgress(100, [this] { poll(); });
-      executor_->run(world_->options.duration);
-    }
+    executor_->run(world_->options.duration);
     return result();
   }
 

@@ -71,16 +71,12 @@ std::vector<TableColumn> columnsOf(const Experiment& experiment) {
   return columns;
 }
 
-std::string headingOf(const TableColumn& column) {
-  return column.unit.empty() || column.unit == "1" ? column.name : column.name + " [" + column.unit + "]";
-}
-
 }  // namespace
 
 std::string trialTable(const Experiment& experiment, const SessionLog& log) {
   const std::vector<TableColumn> columns = columnsOf(experiment);
   std::string text;
-  for (const TableColumn& column : columns) text += (text.empty() ? "" : ",") + headingOf(column);
+  for (const TableColumn& column : columns) text += (text.empty() ? "" : ",") + headingOf(column.name, column.unit);
   text += "\n";
   for (const LoggedRun& run : log.runs) {
     std::string row;
@@ -96,7 +92,7 @@ std::string trialTable(const Experiment& experiment, const SessionLog& log) {
 std::string tableColumnsJson(const Experiment& experiment) {
   Json all = Json::object();
   for (const TableColumn& column : columnsOf(experiment)) {
-    Json& one = all[headingOf(column)];
+    Json& one = all[headingOf(column.name, column.unit)];
     one = {{"Description", column.description}};
     if (!column.unit.empty()) one["Units"] = column.unit;
   }

@@ -14,11 +14,11 @@ namespace presa::experiment {
 /// trial has ended. Forces fade then, as at every stop. Thread: haptic; nonblocking.
 class TrialTap final : public Module {
  public:
-  TrialTap(Trial& trial, const Scene& scene, RunControl& control)
+  TrialTap(Trial& trial, const Experiment& experiment, const Scene& scene, RunControl& control)
       : Module("trial", RateGroup::kHaptic),
         trial_(trial),
         control_(control),
-        reader_(scene),
+        reader_(scene, experiment.askedSamples()),
         fingers_(scene.devices.size()) {}
 
   void step(const Tick& tick) noexcept override {

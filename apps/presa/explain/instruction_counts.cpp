@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/presa/explain/scratch_folder.h"
+#include "apps/presa/scratch_folder.h"
 
 namespace presa {
 namespace {
@@ -50,7 +50,7 @@ std::string textOf(const fs::path& file) {
 std::optional<std::map<std::string, FunctionCost>> countInstructions(const Inputs& inputs, double duration,
                                                                      bool recorded) {
   const ScratchFolder scratch;
-  const fs::path counts = scratch / "callgrind", log = scratch / "log";
+  const fs::path counts = scratch.file("callgrind"), log = scratch.file("log");
   std::vector<std::string> words{"valgrind",
                                  "--tool=callgrind",
                                  "--callgrind-out-file=" + counts.string(),
@@ -63,7 +63,7 @@ std::optional<std::map<std::string, FunctionCost>> countInstructions(const Input
                                  "none",
                                  "--for",
                                  std::to_string(duration)};
-  if (recorded) words.insert(words.end(), {"--record", (scratch / "run.h5").string()});
+  if (recorded) words.insert(words.end(), {"--record", scratch.file("run.h5")});
   if (!inputs.rig.empty()) words.insert(words.end(), {"--rig", inputs.rig});
   for (const std::string& set : inputs.sets) words.insert(words.end(), {"--set", set});
   const int status = runProgram(words, log);

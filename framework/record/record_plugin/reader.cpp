@@ -8,17 +8,11 @@
 #include <cerrno>
 #include <cstring>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/diagnostics/refuse.h"
 #include "framework/record/record_plugin/recording_file.h"
 
 namespace presa::record {
 namespace {
-
-[[noreturn]] void refuse(int code, const std::string& file, const std::string& message, const std::string& help) {
-  Diagnostics diagnostics;
-  diagnostics.error(code, {file, 0, 0}, message, help);
-  throw InputError(std::move(diagnostics));
-}
 
 /// The system's own reason when a file cannot be read; HDF5 keeps none.
 void checkReadable(const std::string& file) {

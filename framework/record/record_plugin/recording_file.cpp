@@ -12,32 +12,28 @@
 #include <ctime>
 #include <filesystem>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/diagnostics/refuse.h"
 #include "framework/schedule/rates.h"
 
 namespace presa::record {
 namespace {
-
-[[noreturn]] void refuse(int code, const std::string& message, const std::string& help) {
-  Diagnostics diagnostics;
-  diagnostics.error(code, {"--record", 0, 0}, message, help);
-  throw InputError(std::move(diagnostics));
-}
 
 /// Makes sure that the file may be written, with the system's own reason when not, and that nothing is lost.
 void claim(const std::string& file, bool overwrite) {
   const int exclusive = overwrite ? 0 : O_EXCL;
   const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC | exclusive, 0666);
   if (fd < 0 && errno == EEXIST) {
-    refuse(601, "'" + file + "' exists already", "choose another name, or add --overwrite to replace it");
+    refuse(601, "--record", "'" + file + "' exists already", "choose another name, or add --overwrite to replace it");
   }
-  if (fd < 0) refuse(602, "'" + file + "' cannot be written: " + std::strerror(errno), "choose another name or folder");
+  if (fd < 0)
+    refuse(602, "--record", "'" + file + "' cannot be written: " + std::strerror(errno),
+           "choose another name or folder");
   struct stat info {};
   const bool regular = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
   const bool busy = flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(fd);
-  if (!regular) refuse(602, "'" + file + "' is not a regular file", "choose another name");
-  if (busy) refuse(602, "'" + file + "' is being written by another run", "choose another name");
+  if (!regular) refuse(602, "--record", "'" + file + "' is not a regular file", "choose another name");
+  if (busy) refuse(602, "--record", "'" + file + "' is being written by another run", "choose another name");
 }
 
 h5::Handle createFile(const std::string& name) {
@@ -91,7 +87,8 @@ RecordingFile::RecordingFile(const World& world) {
     file_.reset();
     std::error_code ignored;
     std::filesystem::remove(name, ignored);  // it holds nothing yet
-    refuse(602, "'" + name + "' cannot be written: " + failure.what(), "make room, or choose another folder");
+    refuse(602, "--record", "'" + name + "' cannot be written: " + failure.what(),
+           "make room, or choose another folder");
   }
 }
 

@@ -1,15 +1,11 @@
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <system_error>
 
-#include "apps/presa/commands/commands.h"
+#include "apps/presa/commands/experiment/experiment_commands.h"
 #include "apps/presa/experiment/dataset.h"
 #include "apps/presa/experiment/dry_run.h"
-#include "apps/presa/experiment/forget.h"
 #include "apps/presa/experiment/session.h"
 #include "framework/experiment/read.h"
 
@@ -85,12 +81,17 @@ int run(const Arguments& a) {
 
 /// The one session below a folder that is not finished.
 int resume(const std::string& data) {
-  std::vector<SessionFolder> open;
+  struct Open {
+    SessionFolder folder;
+    SessionStart start;
+  };
+  std::vector<Open> open;
   for (const SessionFolder& folder : sessionsIn(data)) {
     try {
       const Journal::Contents contents = Journal::read(folder.journal());
       if (contents.records.empty()) continue;  // it never began: run begins it
-      if (!readLog(folder.journal(), contents.records).complete) open.push_back(folder);
+      const SessionLog log = readLog(folder.journal(), contents.records);
+      if (!log.complete) open.push_back({folder, log.start});
     } catch (const InputError& error) {
       std::fputs(error.diagnostics().text().c_str(), stderr);  // the others can go on
     }
@@ -101,73 +102,15 @@ int resume(const std::string& data) {
   }
   if (open.size() > 1) {
     std::fprintf(stderr, "%zu sessions are not finished, name one:\n", open.size());
-    for (const SessionFolder& folder : open)
-      std::fprintf(stderr, "  presa experiment resume %s\n", folder.path.c_str());
+    for (const Open& one : open) std::fprintf(stderr, "  presa experiment resume %s\n", one.folder.path.c_str());
     return kExitBadInput;
   }
-  const SessionStart start = readLog(open[0].journal(), Journal::read(open[0].journal()).records).start;
   Diagnostics diagnostics;
-  const auto experiment = readExperiment(start.experiment_file, start.rig_file, diagnostics);
+  const auto experiment = readExperiment(open[0].start.experiment_file, open[0].start.rig_file, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!experiment) return kExitBadInput;
-  auto session = SubjectSession::resume(*experiment, open[0]);
+  auto session = SubjectSession::resume(*experiment, open[0].folder);
   return runToEnd(session);
-}
-
-int validateAll(const std::string& data) {
-  const std::vector<SessionFolder> sessions = sessionsIn(data);
-  if (sessions.empty()) {
-    std::fprintf(stderr, "%s: holds no session\n", data.c_str());
-    return kExitBadInput;
-  }
-  bool good = true;
-  for (const SessionFolder& folder : sessions) {
-    const Verdict verdict = validate(folder);
-    good = good && verdict.findings.empty();
-    std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(),
-                verdict.findings.empty() ? "complete and unaltered" : "NOT in order", verdict.trials, verdict.runs);
-    for (const std::string& finding : verdict.findings) std::printf("  %s\n", finding.c_str());
-  }
-  return good ? kExitOk : kExitFault;
-}
-
-struct ForgetArguments {
-  std::string subject, data = ".";
-  bool yes = false;
-};
-
-/// Asks on a terminal; elsewhere only --yes will do.
-bool confirmed(const ForgetArguments& a) {
-  if (a.yes) return true;
-  if (::isatty(STDIN_FILENO) == 0) {
-    std::fputs("nothing was removed: this cannot be undone, add --yes\n", stderr);
-    return false;
-  }
-  std::printf("This cannot be undone. Type %s to remove all of it: ", a.subject.c_str());
-  std::fflush(stdout);
-  std::string answer;
-  std::getline(std::cin, answer);
-  return answer == a.subject;
-}
-
-int forgetSubject(const ForgetArguments& a) {
-  Diagnostics diagnostics;
-  subjectOf(a.subject, 1, diagnostics);
-  std::fputs(diagnostics.text().c_str(), stderr);
-  if (diagnostics.hasErrors()) return kExitBadInput;
-  const Traces traces = tracesOf(a.data, a.subject);
-  if (traces.empty()) {
-    std::printf("%s holds nothing of %s\n", a.data.c_str(), a.subject.c_str());
-    return kExitOk;
-  }
-  for (const std::string& folder : traces.folders) std::printf("%s\n", folder.c_str());
-  for (const std::string& table : traces.tables) std::printf("%s: rows of the subject\n", table.c_str());
-  if (!confirmed(a)) return kExitBadInput;
-  forget(traces, a.subject);
-  std::printf(
-      "removed: %zu files in %zu folders, rows in %zu tables. Reports that were made with them have to be made anew.\n",
-      traces.files, traces.folders.size(), traces.tables.size());
-  return kExitOk;
 }
 
 void addWho(CLI::App& command, Arguments& a) {
@@ -204,38 +147,12 @@ void addRunSession(CLI::App& app, int& status) {
   command->callback([a, &status] { status = run(*a); });
 }
 
-void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&)) {
-  auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand(name, what);
-  command->add_option("DIR", *folder, "folder of a dataset, or of one session in it")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  command->callback([folder, act, &status] { status = act(*folder); });
-}
-
-void addForget(CLI::App& app, int& status) {
-  auto a = std::make_shared<ForgetArguments>();
-  CLI::App* command =
-      app.add_subcommand("forget", "Remove a subject from a dataset for good, and say what was removed");
-  command->add_option("--subject", a->subject, "pseudonym")->required();
-  command->add_option("--data", a->data, "folder of the dataset, exports below it included")
-      ->check(CLI::ExistingDirectory)
-      ->capture_default_str();
-  command->add_flag("--yes", a->yes, "do not ask");
-  command->footer("Exit status: 0 removed or nothing there, 2 not confirmed.");
-  command->callback([a, &status] { status = forgetSubject(*a); });
-}
-
 }  // namespace
 
-void addExperiment(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("experiment", "Psychophysics: from an experiment's definition to its data");
-  command->require_subcommand(1);
-  addDryRun(*command, status);
-  addRunSession(*command, status);
-  addFolderCommand(*command, status, "resume", "Finish a session that was stopped or killed", resume);
-  addFolderCommand(*command, status, "validate", "Prove that a dataset is complete and unaltered", validateAll);
-  addForget(*command, status);
+void addSessionCommands(CLI::App& app, int& status) {
+  addDryRun(app, status);
+  addRunSession(app, status);
+  addFolderCommand(app, status, "resume", "Finish a session that was stopped or killed", resume);
 }
 
 }  // namespace presa

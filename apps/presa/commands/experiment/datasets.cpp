@@ -1,0 +1,93 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "apps/presa/commands/experiment/experiment_commands.h"
+#include "apps/presa/experiment/dataset.h"
+#include "apps/presa/experiment/forget.h"
+#include "apps/presa/experiment/subject.h"
+
+namespace presa {
+namespace {
+
+using namespace experiment;
+
+int validateAll(const std::string& data) {
+  const std::vector<SessionFolder> sessions = sessionsIn(data);
+  if (sessions.empty()) {
+    std::fprintf(stderr, "%s: holds no session\n", data.c_str());
+    return kExitBadInput;
+  }
+  bool good = true;
+  for (const SessionFolder& folder : sessions) {
+    const Verdict verdict = validate(folder);
+    good = good && verdict.findings.empty();
+    std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(),
+                verdict.findings.empty() ? "complete and unaltered" : "NOT in order", verdict.trials, verdict.runs);
+    for (const std::string& finding : verdict.findings) std::printf("  %s\n", finding.c_str());
+  }
+  return good ? kExitOk : kExitFault;
+}
+
+struct ForgetArguments {
+  std::string subject, data = ".";
+  bool yes = false;
+};
+
+/// Asks on a terminal; elsewhere only --yes will do.
+bool confirmed(const ForgetArguments& a) {
+  if (a.yes) return true;
+  if (::isatty(STDIN_FILENO) == 0) {
+    std::fputs("nothing was removed: this cannot be undone, add --yes\n", stderr);
+    return false;
+  }
+  std::printf("This cannot be undone. Type %s to remove all of it: ", a.subject.c_str());
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == a.subject;
+}
+
+int forgetSubject(const ForgetArguments& a) {
+  Diagnostics diagnostics;
+  subjectOf(a.subject, 1, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+  const Traces traces = tracesOf(a.data, a.subject);
+  if (traces.empty()) {
+    std::printf("%s holds nothing of %s\n", a.data.c_str(), a.subject.c_str());
+    return kExitOk;
+  }
+  for (const std::string& folder : traces.folders) std::printf("%s\n", folder.c_str());
+  for (const std::string& table : traces.tables) std::printf("%s: rows of the subject\n", table.c_str());
+  if (!confirmed(a)) return kExitBadInput;
+  forget(traces, a.subject);
+  std::printf(
+      "removed: %zu files in %zu folders, rows in %zu tables. Reports that were made with them have to be made anew.\n",
+      traces.files, traces.folders.size(), traces.tables.size());
+  return kExitOk;
+}
+
+void addForget(CLI::App& app, int& status) {
+  auto a = std::make_shared<ForgetArguments>();
+  CLI::App* command =
+      app.add_subcommand("forget", "Remove a subject from a dataset for good, and say what was removed");
+  command->add_option("--subject", a->subject, "pseudonym")->required();
+  command->add_option("--data", a->data, "folder of the dataset, exports below it included")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
+  command->add_flag("--yes", a->yes, "do not ask");
+  command->footer("Exit status: 0 removed or nothing there, 2 not confirmed.");
+  command->callback([a, &status] { status = forgetSubject(*a); });
+}
+
+}  // namespace
+
+void addDatasetCommands(CLI::App& app, int& status) {
+  addFolderCommand(app, status, "validate", "Prove that a dataset is complete and unaltered", validateAll);
+  addForget(app, status);
+}
+
+}  // namespace presa

@@ -1,0 +1,23 @@
+#include "apps/presa/commands/experiment/experiment_commands.h"
+
+#include <memory>
+
+namespace presa {
+
+void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&)) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("DIR", *folder, "folder of a dataset, or of one session in it")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->callback([folder, act, &status] { status = act(*folder); });
+}
+
+void addExperiment(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("experiment", "Psychophysics: from an experiment's definition to its data");
+  command->require_subcommand(1);
+  addSessionCommands(*command, status);
+  addDatasetCommands(*command, status);
+}
+
+}  // namespace presa

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "apps/presa/commands/commands.h"
+
+namespace presa {
+
+/// `presa experiment …`, by what it works on.
+void addSessionCommands(CLI::App& app, int& status);  ///< dry-run, run, resume
+void addDatasetCommands(CLI::App& app, int& status);  ///< validate, forget
+
+/// A subcommand whose one argument is the folder of a dataset or of one session in it.
+void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&));
+
+}  // namespace presa
