@@ -11,7 +11,13 @@ namespace {
 using Square = std::vector<std::vector<std::size_t>>;
 
 std::uint64_t itemOf(int subject_number, int session) {
-  return static_cast<std::uint64_t>(subject_number) * 1000 + static_cast<std::uint64_t>(session);
+  return (static_cast<std::uint64_t>(subject_number) << 32) + static_cast<std::uint64_t>(session);
+}
+
+/// The row of a square: subjects of one cell take one after the other, and each goes on by one in the next session, so
+/// that neither group nor session goes with a row.
+std::size_t rowOf(const Experiment& experiment, int subject_number, int session) {
+  return static_cast<std::size_t>(subject_number - 1) / cellsOf(experiment) + static_cast<std::size_t>(session - 1);
 }
 
 /// Swaps a trial that repeats its forerunner with a later or earlier one where neither then repeats; within `from` … end, so that
@@ -36,8 +42,7 @@ bool partNeighbours(std::vector<Condition>& all, std::size_t from, std::size_t t
 /// Indices into the conditions of one block, in the order of the design.
 class Orderer {
  public:
-  Orderer(const Design& design, int subject_number, RandomStream& random)
-      : design_(design), row_(static_cast<std::size_t>(subject_number - 1)), random_(random) {}
+  Orderer(const Design& design, std::size_t row, RandomStream& random) : design_(design), row_(row), random_(random) {}
 
   std::vector<std::size_t> once(std::size_t n) {
     std::vector<std::size_t> order(n);
@@ -46,9 +51,9 @@ class Orderer {
       case Design::Order::kListed:
         return order;
       case Design::Order::kLatinSquare:
-        return rowOf(latinSquare(n));
+        return fromRow(latinSquare(n));
       case Design::Order::kBalancedSquare:
-        return rowOf(balancedSquare(n));
+        return fromRow(balancedSquare(n));
       default:
         random_.shuffle(std::span<std::size_t>(order));
         return order;
@@ -74,7 +79,7 @@ class Orderer {
  private:
   static constexpr int kMostTries = 1000;  // three conditions need a second one now and then
 
-  std::vector<std::size_t> rowOf(const Square& square) const { return square[row_ % square.size()]; }
+  std::vector<std::size_t> fromRow(const Square& square) const { return square[row_ % square.size()]; }
 
   const Design& design_;
   std::size_t row_;
@@ -135,6 +140,12 @@ std::vector<Placed> placeAll(const Experiment& experiment, const std::vector<Con
 
 }  // namespace
 
+std::size_t cellsOf(const Experiment& experiment) {
+  std::size_t cells = 1;
+  for (const Factor& factor : experiment.factors) cells *= factor.between ? factor.levels.size() : 1;
+  return cells;
+}
+
 Square latinSquare(std::size_t n) {
   Square square(n, std::vector<std::size_t>(n));
   for (std::size_t row = 0; row < n; ++row) {
@@ -179,11 +190,12 @@ std::vector<PlannedTrial> planTrials(const Experiment& experiment, int subject_n
   const std::uint64_t item = itemOf(subject_number, session);
   const std::vector<Condition> conditions = conditionsOf(experiment, subject_number);
   RandomStream seeds(experiment.seed, "trial seeds", item), practice(experiment.seed, "practice", item);
+  RandomStream practice_seeds(experiment.seed, "practice seeds", item);
   RandomStream random(experiment.seed, "order", item);
   std::vector<PlannedTrial> trials;
   for (int i = 1; i <= experiment.design.practice; ++i)
-    trials.push_back({i, 0, true, 1, 1, conditions[practice.below(conditions.size())], seeds.bits()});
-  Orderer orderer(experiment.design, subject_number, random);
+    trials.push_back({i, 0, true, 1, 1, conditions[practice.below(conditions.size())], practice_seeds.bits()});
+  Orderer orderer(experiment.design, rowOf(experiment, subject_number, session), random);
   int number = 0;
   for (const Placed& placed : placeAll(experiment, conditions, orderer)) {
     const auto before = std::count_if(trials.begin(), trials.end(), [&](const PlannedTrial& trial) {

@@ -20,8 +20,12 @@ struct PlannedTrial {
 /// Every condition of a subject: all combinations of the factors, between-subject ones at the subject's level.
 std::vector<Condition> conditionsOf(const Experiment& experiment, int subject_number);
 
+/// How many combinations of between-subject levels there are; subjects fill them in turn.
+std::size_t cellsOf(const Experiment& experiment);
+
 /// All trials of a subject's session in the order in which they are to be run; the same for the same arguments on every
-/// machine. Subjects are counted from 1: the number picks the row of a square and the level of a between-subject factor.
+/// machine. Subjects are counted from 1: the number picks the level of a between-subject factor and, within
+/// it, with the session, the row of a square.
 std::vector<PlannedTrial> planTrials(const Experiment& experiment, int subject_number, int session);
 
 /// Rows of a Latin square over n items: each item once in each row and each column. The balanced one has n rows for even n, 2n

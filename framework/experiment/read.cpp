@@ -50,8 +50,7 @@ void readSampleNames(Experiment& experiment, Diagnostics& diagnostics) {
 
 /// Every condition of the first subjects that differ, once; the same finding is told once.
 void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
-  std::size_t cells = 1;
-  for (const Factor& factor : experiment.factors) cells *= factor.between ? factor.levels.size() : 1;
+  const std::size_t cells = cellsOf(experiment);
   std::set<std::string> told;
   for (std::size_t subject = 1; subject <= cells; ++subject) {
     for (const Condition& condition : conditionsOf(experiment, static_cast<int>(subject))) {

@@ -76,7 +76,7 @@ class SessionTest : public testing::Test {
     for (const LoggedRun& run : log.runs) {
       if (run.outcome == Outcome::kInterrupted) continue;
       Json all = run.begin;
-      for (const char* name : {"run", "file", "utc"}) all.erase(name);
+      for (const char* name : {"run", "files", "utc"}) all.erase(name);
       all["outcome"] = toString(run.outcome);
       for (const char* name : {"reason", "phases", "values", "simulated_s"}) all[name] = run.end.at(name);
       text += all.dump() + "\n";

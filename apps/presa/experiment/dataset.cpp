@@ -52,10 +52,10 @@ class Validation {
 
   void checkRun(const LoggedRun& run) {
     ++verdict_.runs;
-    const auto file = run.begin.at("file").get<std::string>();
-    known_.insert(file);
+    for (const std::string& file : run.files()) known_.insert(file);
     if (run.outcome == Outcome::kDone && !run.practice && run.end.value("excluded", "").empty()) ++verdict_.trials;
-    if (run.end.is_object() && run.end.contains("sha256")) checkSum(file, run.end.at("sha256"));
+    if (!run.end.is_object() || !run.end.contains("sha256")) return;
+    for (const auto& [name, sum] : run.end.at("sha256").items()) checkSum(name, sum);
   }
 
   void checkStrangers() {

@@ -156,7 +156,7 @@ LoggedRun& SubjectSession::beginRun(const PlannedTrial& trial) {
               {"run", run},
               {"condition", conditionOf(experiment_, trial)},
               {"seed", std::to_string(trial.seed)},
-              {"file", SessionFolder::nameOfRun(trial, run) + ".h5"},
+              {"files", SessionFolder::filesOf(trial, run, 1)},
               {"utc", utcNow()}};
   journal_.append(record);
   log_.runs.push_back({trial.number, trial.attempt, run, trial.practice, Outcome::kInterrupted, record, {}});
@@ -179,10 +179,12 @@ void SubjectSession::endRun(LoggedRun& run, const TrialResult& result) {
   run.end["wall_s"] = result.wall_seconds;
   run.end["ticks"] = result.ticks;
   run.end["faults"] = result.faults;
-  const std::string file = folder_.file(run.begin.at("file"));
-  syncFile(file);
+  for (const std::string& name : run.files()) {
+    if (!fs::exists(folder_.file(name))) continue;
+    syncFile(folder_.file(name));
+    run.end["sha256"][name] = sha256OfFile(folder_.file(name));
+  }
   syncFolder(folder_.path);
-  run.end["sha256"] = sha256OfFile(file);
   journal_.append(run.end);
   queue_.finish(run.outcome);
 }
@@ -199,7 +201,7 @@ SubjectSession::End SubjectSession::run() {
     const PlannedTrial trial = *next;
     LoggedRun& run = beginRun(trial);
     TrialSetting setting;
-    setting.record = folder_.file(run.begin.at("file"));
+    setting.record = folder_.file(run.files().front());
     setting.realtime = log_.start.realtime;
     setting.stop = terminal::JobProgress::interrupted;
     const std::size_t left = queue_.waiting().size();

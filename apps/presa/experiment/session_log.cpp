@@ -42,8 +42,12 @@ void take(const Json& record, SessionLog& log) {
 
 const char* toString(Outcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
 
-std::string SessionFolder::nameOfRun(const PlannedTrial& trial, int run) {
-  return terminal::format("%s-%03d_run-%d", trial.practice ? "practice" : "trial", trial.number, run);
+std::vector<std::string> SessionFolder::filesOf(const PlannedTrial& trial, int run, std::size_t presentations) {
+  const std::string name = terminal::format("%s-%03d_run-%d", trial.practice ? "practice" : "trial", trial.number, run);
+  if (presentations == 1) return {name + ".h5"};
+  std::vector<std::string> files;
+  for (std::size_t i = 1; i <= presentations; ++i) files.push_back(name + "_interval-" + std::to_string(i) + ".h5");
+  return files;
 }
 
 SessionFolder folderOf(const std::string& data, const std::string& subject, int session) {

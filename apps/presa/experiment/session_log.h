@@ -12,12 +12,13 @@ namespace presa::experiment {
 ///   journal.jsonl                     the write-ahead log, from which everything else can be told
 ///   trials.csv, trials.json           one row per run of a trial; what the columns mean
 ///   experiment.xml scene.xml rig.xml  as they were read, with every default
-///   trial-007_run-1.h5                every haptic tick of one run
+///   trial-007_run-1.h5                every haptic tick of one run (trial-007_run-1_interval-2.h5: of its second interval)
 struct SessionFolder {
   std::string path;
   std::string file(const std::string& name) const { return path + "/" + name; }
   std::string journal() const { return file("journal.jsonl"); }
-  static std::string nameOfRun(const PlannedTrial& trial, int run);
+  /// Of the recordings of one run of a trial.
+  static std::vector<std::string> filesOf(const PlannedTrial& trial, int run, std::size_t presentations);
 };
 SessionFolder folderOf(const std::string& data, const std::string& subject, int session);
 
@@ -36,6 +37,9 @@ struct LoggedRun {
   bool practice = false;
   Outcome outcome = Outcome::kInterrupted;
   Json begin, end;  ///< its records; `end` is null when the process died in it
+
+  /// Recordings of the run, one for each presentation, in their order; not all are there when it ended early.
+  std::vector<std::string> files() const { return begin.at("files").get<std::vector<std::string>>(); }
 };
 
 /// A log taken apart.

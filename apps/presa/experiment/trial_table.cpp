@@ -67,7 +67,8 @@ std::vector<TableColumn> columnsOf(const Experiment& experiment) {
     columns.push_back({kQualityNames[i], quality[i][0], quality[i][1], value(kQualityNames[i])});
   columns.push_back({"simulated", "s", "length of the trial", from_end("simulated_s")});
   columns.push_back({"wall", "s", "time that it took", from_end("wall_s")});
-  columns.push_back({"file", "", "every haptic tick", from_begin("file")});
+  columns.push_back(
+      {"file", "", "every haptic tick; a second interval is beside it", [](S, R run) { return run.files().front(); }});
   return columns;
 }
 
