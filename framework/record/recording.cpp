@@ -1,5 +1,7 @@
 #include "framework/record/recording.h"
 
+#include <stdexcept>
+
 #include "framework/plan/plugin.h"
 #include "framework/plan/plugin_loader.h"
 #include "framework/record/record_plugin.h"
@@ -22,6 +24,13 @@ ScheduleLog::ScheduleLog() {
     while (ring->pop(row)) {
     }
   }
+}
+
+const std::vector<double>& RecordedTable::values(const std::string& column) const {
+  for (const Column& one : columns) {
+    if (one.name == column) return one.values;
+  }
+  throw std::out_of_range(name + " has no column " + column);
 }
 
 const RecordPlugin& recordPlugin() {

@@ -66,6 +66,28 @@ struct Recording {
   std::array<std::vector<ScheduleRow>, kRateGroupCount> schedule;
 };
 
+/// A table of a recording by column, one value per haptic tick. What the columns hold: README.md, or their own description.
+struct RecordedTable {
+  struct Column {
+    std::string name, unit, description;
+    std::vector<double> values;
+  };
+  std::string name;  ///< role of a finger, name of a body
+  std::vector<Column> columns;
+  /// Throws std::out_of_range when there is no such column.
+  const std::vector<double>& values(const std::string& column) const;
+};
+
+/// What was felt and what moved, to be looked at: every table of the haptic ticks.
+struct RecordedSamples {
+  double haptic_period = 0;  ///< [s]
+  bool complete = false;     ///< false: the run was killed; everything up to its last flush is here
+  std::uint64_t dropped = 0;
+  std::vector<double> time;            ///< one entry per haptic tick
+  std::vector<RecordedTable> fingers;  ///< in the order of the scene's roles
+  std::vector<RecordedTable> bodies;   ///< that can move, in the order of the scene
+};
+
 /// The record plug-in (HDF5), loaded when a run is recorded or replayed.
 struct RecordPlugin {
   int abi;
@@ -75,6 +97,8 @@ struct RecordPlugin {
   /// Throws InputError: E603 cannot be read, E604 not HDF5, E605 not a recording, E606 newer format, E607 holds no
   /// tick, E608 damaged. The file of a killed run is read up to its last flush.
   Recording (*read)(const std::string& file);
+  /// The same file by column, for people; throws the same.
+  RecordedSamples (*samples)(const std::string& file);
 };
 
 }  // namespace presa

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "framework/record/record_plugin/samples.h"
 #include "tests/record/recording_fixture.h"
 
 namespace presa::record {
@@ -81,6 +82,36 @@ TEST_F(RecordingTables, HoldThePoseAtTheTick) {
   EXPECT_NEAR(row[5], std::cos(eighth), kTolerance);
   EXPECT_NEAR(row[8], std::sin(eighth), kTolerance);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(row[9 + i], static_cast<double>(i + 1));
+}
+
+std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+// Columns are what was recorded, bit by bit, fingers in the order of the roles; bodies as HDF5's own tool reads them.
+TEST_F(RecordingTables, ComeBackByColumn) {
+  const RecordedSamples samples = readSamples(folder_.file("run.h5"));
+  ASSERT_EQ(samples.time.size(), 20U);
+  ASSERT_EQ(samples.fingers.size(), 2U);
+  ASSERT_EQ(samples.bodies.size(), 1U);
+  EXPECT_TRUE(samples.complete);
+  for (std::size_t f = 0; f < 2; ++f) {
+    EXPECT_EQ(samples.fingers[f].name, recordedWorld("", false)->scene.devices[f].role);
+    const auto& x = samples.fingers[f].values("p_WH_x");
+    const auto& force_z = samples.fingers[f].values("f_command_W_z");
+    for (std::size_t i = 0; i < 20; ++i) {
+      ASSERT_EQ(bitsOf(x.at(i)), bitsOf(deviceAt(i).fingers[f].p_WH.x())) << i;
+      ASSERT_EQ(bitsOf(force_z.at(i)), bitsOf(commandAt(i).f_H_W[f].z())) << i;
+    }
+  }
+  const auto numbers = dataNumbers(dump("-y -d /haptic/bodies/cube -m %.17g"));
+  const RecordedTable& cube = samples.bodies.front();
+  EXPECT_EQ(cube.name, "cube");
+  ASSERT_EQ(cube.columns.size(), 13U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(samples.time[i], numbers.at(i * 15 + 1));
+    for (std::size_t c = 0; c < 13; ++c) ASSERT_EQ(cube.columns[c].values.at(i), numbers.at(i * 15 + 2 + c));
+  }
+  EXPECT_EQ(cube.columns[1].unit, "m");
+  EXPECT_THROW(cube.values("none"), std::out_of_range);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "framework/record/record_plugin.h"
 #include "framework/record/record_plugin/reader.h"
 #include "framework/record/record_plugin/recorder.h"
+#include "framework/record/record_plugin/samples.h"
 
 namespace {
 
@@ -11,6 +12,7 @@ const presa::RecordPlugin kPlugin{
       return std::make_unique<presa::record::FileRecorder>(std::move(world));
     },
     presa::record::readRecording,
+    presa::record::readSamples,
 };
 
 }  // namespace

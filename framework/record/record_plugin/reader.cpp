@@ -1,102 +1,19 @@
 #include "framework/record/record_plugin/reader.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 #include "framework/diagnostics/refuse.h"
-#include "framework/record/record_plugin/recording_file.h"
+#include "framework/record/record_plugin/table_reader.h"
 
 namespace presa::record {
 namespace {
 
-/// The system's own reason when a file cannot be read; HDF5 keeps none.
-void checkReadable(const std::string& file) {
-  const int fd = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0) refuse(603, file, std::string("cannot be read: ") + std::strerror(errno), "check the name");
-  const bool busy = flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  close(fd);
-  if (busy) refuse(603, file, "is still being written by a run", "wait until that run has ended");
-}
-
-h5::Handle openRecording(const std::string& file) {
-  checkReadable(file);
-  if (H5Fis_hdf5(file.c_str()) <= 0) refuse(604, file, "is not an HDF5 file", "recordings are made with --record");
-  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id < 0) refuse(608, file, "is damaged: HDF5 cannot open it", "was it copied completely?");
-  h5::Handle handle(id, H5Fclose, "file");
-  if (!h5::hasAttribute(handle, "format") || h5::readStringAttribute(handle, "format") != kFormatName) {
-    refuse(605, file, "is an HDF5 file but not a Presa recording", "recordings are made with --record");
-  }
-  const std::uint64_t version = h5::readCountAttribute(handle, "format_version");
-  if (version > kFormatVersion) {
-    refuse(606, file,
-           "has format version " + std::to_string(version) + "; this program reads up to " +
-               std::to_string(kFormatVersion),
-           "read it with the version of Presa that recorded it: " + h5::readStringAttribute(handle, "program_version"));
-  }
-  return handle;
-}
-
-/// The rows of a table that can be read, in order. In the file of a killed run the newest chunk may be unreadable
-/// (its flush was cut short): the table ends before it, and before the first row whose index does not grow.
-template <class Row>
-std::vector<Row> readRows(hid_t dataset, const Table& columns) {
-  const h5::Handle type = h5::compoundType(columns, h5::Side::kMemory);
-  const h5::Handle stored(H5Dget_type(dataset), H5Tclose, "row type");
-  for (const Column& column : columns.columns) {
-    if (H5Tget_class(stored) != H5T_COMPOUND || H5Tget_member_index(stored, column.name.c_str()) < 0) {
-      throw h5::Failure("column " + column.name + " is missing");
-    }
-  }
-  const h5::Handle space(H5Dget_space(dataset), H5Sclose, "table space");
-  const hssize_t total = H5Sget_simple_extent_npoints(space);
-  if (H5Sget_simple_extent_ndims(space) != 1 || total < 0) throw h5::Failure("a table is not a list of rows");
-
-  std::vector<Row> rows;
-  rows.reserve(static_cast<std::size_t>(total));
-  for (hsize_t begin = 0; begin < static_cast<hsize_t>(total);) {
-    const hsize_t length = std::min<hsize_t>(kBlockRows, static_cast<hsize_t>(total) - begin);
-    h5::check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &begin, nullptr, &length, nullptr), "table selection");
-    const h5::Handle memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "row space");
-    rows.resize(begin + length);
-    if (H5Dread(dataset, type, memory, space, H5P_DEFAULT, &rows[begin]) < 0) {
-      rows.resize(begin);
-      break;
-    }
-    begin += length;
-  }
-  const auto out_of_order = [](const Row& a, const Row& b) { return a.index >= b.index; };
-  const auto last = std::adjacent_find(rows.begin(), rows.end(), out_of_order);
-  if (last != rows.end()) rows.erase(last + 1, rows.end());
-  return rows;
-}
-
-template <class Row>
-std::vector<Row> readTable(hid_t parent, const std::string& name, const Table& columns) {
-  const h5::Handle dataset(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, "table " + name);
-  return readRows<Row>(dataset, columns);
-}
-
-/// Finger tables in the order of the device roles.
 std::vector<std::vector<FingerRow>> readFingers(hid_t file) {
-  const h5::Handle group(H5Gopen2(file, "haptic/fingers", H5P_DEFAULT), H5Gclose, "group haptic/fingers");
   const Table columns = subset(fingerTable(), {"index", "p_WH", "v_WH", "phase", "valid", "f_command_W"});
-  const std::vector<std::string> names = h5::members(group);
-  if (names.size() > kMaxFingers) throw h5::Failure("too many fingers");
-  std::vector<std::vector<FingerRow>> fingers(names.size());
-  std::vector<bool> present(names.size(), false);
-  for (const std::string& name : names) {
-    const h5::Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "table " + name);
-    const std::uint64_t finger = h5::readCountAttribute(dataset, "finger");
-    if (finger >= names.size() || present[finger]) throw h5::Failure("the fingers are not numbered from 0");
-    present[finger] = true;
-    fingers[finger] = readRows<FingerRow>(dataset, columns);
-  }
+  std::vector<std::vector<FingerRow>> fingers;
+  for (const HapticTable& table : hapticTables(file, "fingers", "finger"))
+    fingers.push_back(readRows<FingerRow>(table.dataset, columns));
+  if (fingers.size() > kMaxFingers) throw h5::Failure("too many fingers");
   return fingers;
 }
 
