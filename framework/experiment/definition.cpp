@@ -6,6 +6,14 @@ std::string headingOf(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : name + " [" + unit + "]";
 }
 
+std::vector<Column> Experiment::columns() const {
+  std::vector<Column> all;
+  for (const Factor& factor : factors) all.insert(all.end(), factor.columns.begin(), factor.columns.end());
+  for (const Vary& vary : varied) all.push_back(vary.column);
+  if (procedure) all.push_back(procedure->stimulus.column);
+  return all;
+}
+
 std::vector<bool> Experiment::askedSamples() const {
   std::vector<bool> asked(samples.size(), false);
   const auto mark = [&](const std::optional<Expression>& expression) {

@@ -4,17 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "framework/experiment/expression.h"
+#include "framework/experiment/procedure.h"
 
 /// An experiment as its file states it: what varies, in which order, what a trial consists of, what is measured. Immutable
 /// after reading; SI units. Thread: any.
 namespace presa::experiment {
-
-/// One number or word of a factor's level, and the values of the scene that it sets.
-struct Column {
-  std::string name, unit;
-  std::vector<std::string> paths;  ///< as after --set; may be empty
-};
 
 /// "mass [kg]": how a table heads a column; a plain number has no unit.
 std::string headingOf(const std::string& name, const std::string& unit);
@@ -93,6 +87,8 @@ struct Experiment {
   std::vector<std::string> sets{};
   std::uint64_t seed = 1;
   std::vector<Factor> factors;
+  std::vector<Vary> varied{};
+  std::optional<Procedure> procedure{};  ///< a method that chooses the stimuli; none: the factors alone
   Design design;
   Retry retry;
   Rest rest;
@@ -101,10 +97,12 @@ struct Experiment {
   std::vector<Measure> measures;
   std::vector<Exclusion> exclusions;
   Names samples;  ///< what a phase can ask at haptic rate: see sample_names.h
-  Names names;    ///< of a trial: columns, quality figures, measures in order
+  Names names;    ///< of a presentation: columns (factors, varied, stimulus), quality figures, measures in order
   std::string resolved_xml, scene_xml,
       rig_xml;  ///< the three documents with every default, scene and rig before any level
 
+  /// Columns of a presentation, in the order of `names`.
+  std::vector<Column> columns() const;
   /// By slot of `samples`: what guards and measures ask for.
   std::vector<bool> askedSamples() const;
   /// Names of all phases, in order.

@@ -14,7 +14,8 @@ struct PlannedTrial {
   int repeat = 0;  ///< from 1: how often the subject meets this condition with this trial
   int attempt = 1;
   Condition condition;
-  std::uint64_t seed = 0;  ///< of every random stream within the trial
+  std::uint64_t seed = 0;                             ///< of every random stream within the trial
+  std::optional<psychophysics::Stimulus> stimulus{};  ///< what a method asks for
 };
 
 /// Every condition of a subject: all combinations of the factors, between-subject ones at the subject's level.

@@ -8,9 +8,9 @@
 namespace presa::experiment {
 
 TrialQueue::TrialQueue(std::vector<PlannedTrial> planned, const Retry& retry)
-    : waiting_(planned.begin(), planned.end()), retry_(retry), planned_(planned.size()) {}
+    : waiting_(planned.begin(), planned.end()), retry_(retry) {}
 
-void TrialQueue::finish(Outcome outcome) {
+void TrialQueue::finish(Outcome outcome, const std::optional<psychophysics::Response>&) {
   if (outcome == Outcome::kInterrupted) return;  // it stays where it is
   PlannedTrial trial = waiting_.front();
   waiting_.pop_front();

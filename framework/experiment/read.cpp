@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "framework/experiment/order.h"
+#include "framework/experiment/presentation.h"
 #include "framework/experiment/read_parts.h"
 #include "framework/plan/load_world.h"
 #include "framework/scene/schemas.h"
@@ -54,11 +54,16 @@ void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
   std::set<std::string> told;
   for (std::size_t subject = 1; subject <= cells; ++subject) {
     for (const Condition& condition : conditionsOf(experiment, static_cast<int>(subject))) {
-      Diagnostics found;
-      loadWorld({experiment.scene, experiment.rig, experiment.setsOf(condition)}, {}, found);
-      for (const Diagnostic& one : found.all()) {
-        if (one.severity != Diagnostic::Severity::kError || !told.insert(format(one)).second) continue;
-        diagnostics.error(one.code, one.where, one.message, one.help);
+      PlannedTrial trial;
+      trial.condition = condition;
+      if (experiment.procedure) trial.stimulus = makeMethod(*experiment.procedure, experiment.seed)->next();
+      for (const Presentation& presentation : presentationsOf(experiment, trial)) {
+        Diagnostics found;
+        loadWorld({experiment.scene, experiment.rig, presentation.sets}, {}, found);
+        for (const Diagnostic& one : found.all()) {
+          if (one.severity != Diagnostic::Severity::kError || !told.insert(format(one)).second) continue;
+          diagnostics.error(one.code, one.where, one.message, one.help);
+        }
       }
     }
   }
@@ -76,10 +81,14 @@ std::optional<Experiment> readExperiment(const std::string& file, const std::str
   readSampleNames(experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;  // nothing below could be told apart from what follows from it
   readFactors(root, experiment, diagnostics);
+  readVaried(root, experiment, diagnostics);
+  readProcedure(root, experiment, diagnostics);
+  readQualityNames(experiment);
   readDesign(root, experiment, diagnostics);
   readPhases(root, experiment, diagnostics);
   readTexts(root, experiment, diagnostics);
   readMeasures(root, experiment, diagnostics);
+  readObserver(root, experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;
   checkConditions(experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "framework/experiment/read.h"
+#include "framework/experiment/row.h"
 
 namespace presa::experiment {
 namespace {
@@ -13,13 +14,6 @@ namespace {
 using xml::Element;
 
 enum Code { kDuplicateName = 903, kWrongCount = 904, kNoSuchFactor = 905, kNoSuchMoment = 906, kImpossibleOrder = 907 };
-
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> all;
-  for (std::string word; in >> word;) all.push_back(word);
-  return all;
-}
 
 /// Tells a name that is there already.
 class OneEach {
@@ -45,14 +39,10 @@ std::optional<Expression> readExpression(const Element& element, const std::stri
   return Expression::compile(element.attribute(attribute), names, element.where(attribute), diagnostics);
 }
 
-Factor readFactor(const Element& element, const Names& taken, OneEach& columns, Diagnostics& diagnostics) {
+Factor readFactor(const Element& element, Experiment& experiment, Diagnostics& diagnostics) {
   Factor factor{element.attribute("name"), element.boolean("between", false), {}, {}};
   for (const Element& column : element.children("column")) {
-    columns.add(column);
-    const std::string name = column.attribute("name");
-    if (taken.find(name) || std::find(kQualityNames.begin(), kQualityNames.end(), name) != kQualityNames.end())
-      diagnostics.error(kDuplicateName, column.where("name"),
-                        quote(name) + " is a number of every sample or trial already");
+    claimName(column, experiment, diagnostics);
     factor.columns.push_back({column.attribute("name"), column.attribute("unit"), words(column.attribute("path"))});
   }
   for (const Element& level : element.children("level")) {
@@ -90,13 +80,33 @@ void checkRepeats(const Element& element, const Experiment& experiment, Diagnost
 
 }  // namespace
 
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> all;
+  for (std::string word; in >> word;) all.push_back(word);
+  return all;
+}
+
+void claimName(const Element& element, Experiment& experiment, Diagnostics& diagnostics) {
+  const std::string name = element.attribute("name");
+  const bool taken = experiment.names.find(name) || experiment.samples.find(name) ||
+                     std::find(kQualityNames.begin(), kQualityNames.end(), name) != kQualityNames.end() ||
+                     std::find(kAnswerNames.begin(), kAnswerNames.end(), name) != kAnswerNames.end();
+  if (taken)
+    diagnostics.error(kDuplicateName, element.where("name"),
+                      quote(name) + " is a number of every sample or trial already, or a column's name");
+  experiment.names.add(name);
+}
+
 void readFactors(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
-  OneEach factors("factor", diagnostics), columns("column", diagnostics);
+  OneEach factors("factor", diagnostics);
   for (const Element& element : root.children("factor")) {
     factors.add(element);
-    experiment.factors.push_back(readFactor(element, experiment.samples, columns, diagnostics));
-    for (const Column& column : experiment.factors.back().columns) experiment.names.add(column.name);
+    experiment.factors.push_back(readFactor(element, experiment, diagnostics));
   }
+}
+
+void readQualityNames(Experiment& experiment) {
   for (const std::string& name : kQualityNames) experiment.names.add(name);
 }
 
@@ -127,9 +137,7 @@ void readDesign(const Element& root, Experiment& experiment, Diagnostics& diagno
 void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   OneEach names("phase", diagnostics);
   Names seen = experiment.samples;  // guards may ask for the condition too
-  for (const Factor& factor : experiment.factors) {
-    for (const Column& column : factor.columns) seen.add(column.name);
-  }
+  for (const Column& column : experiment.columns()) seen.add(column.name);
   for (const Element& element : root.children("phase")) {
     names.add(element);
     Phase phase;
@@ -148,13 +156,13 @@ void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagno
 
 void readTexts(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   std::vector<std::string> moments = experiment.phaseNames();
-  moments.insert(moments.end(), {"start", "rest", "end"});
+  moments.insert(moments.end(), {"start", "rest", "question", "end"});
   for (const Element& element : root.children("text")) {
     const std::string when = element.attribute("when");
     if (std::find(moments.begin(), moments.end(), when) == moments.end())
       diagnostics.error(kNoSuchMoment, element.where("when"),
                         "there is no phase " + quote(when) + didYouMean(when, moments),
-                        "start, rest, end, or the name of a phase");
+                        "start, rest, question, end, or the name of a phase");
     experiment.texts.push_back({when, element.attribute("language"), element.attribute("text")});
   }
 }

@@ -7,10 +7,20 @@
 namespace presa::experiment {
 
 void readFactors(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+void readVaried(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+/// The method with its stimulus and task; who answers in simulation asks for measures and comes after them.
+void readProcedure(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+void readObserver(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+void readQualityNames(Experiment& experiment);
 void readDesign(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readPhases(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 /// Measures and rules of exclusion.
 void readMeasures(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+
+/// Parted at blanks.
+std::vector<std::string> words(const std::string& text);
+/// The attribute `name` of a column becomes a name of a trial; E903 when it is one already.
+void claimName(const xml::Element& element, Experiment& experiment, Diagnostics& diagnostics);
 
 }  // namespace presa::experiment

@@ -1,33 +1,18 @@
 #include "framework/experiment/trial.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "framework/experiment/sample_names.h"
 
 namespace presa::experiment {
-namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-double numberOf(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : kNothing;
-}
-
-}  // namespace
-
-Trial::Trial(const Experiment& experiment, const Condition& condition, double period)
+Trial::Trial(const Experiment& experiment, std::vector<double> columns, double period)
     : experiment_(experiment),
       period_(period),
       values_(experiment.samples.size(), 0),
+      columns_(std::move(columns)),
       stretches_(experiment.phases.size()) {
-  for (std::size_t f = 0; f < experiment.factors.size(); ++f) {
-    for (const std::string& text : experiment.factors[f].levels[condition[f]]) columns_.push_back(numberOf(text));
-  }
   values_.insert(values_.end(), columns_.begin(), columns_.end());
   for (const Measure& measure : experiment.measures) {
     aggregates_.emplace_back();

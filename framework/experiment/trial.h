@@ -17,8 +17,8 @@ class Trial {
     double begin = -1, end = -1;  ///< [s] since the trial began; -1: never reached
   };
 
-  /// `experiment` outlives the trial. `period` of the haptic tick [s].
-  Trial(const Experiment& experiment, const Condition& condition, double period);
+  /// `experiment` outlives the trial. `columns` as Experiment::columns() lists them, NaN for a word. `period` of the haptic tick [s].
+  Trial(const Experiment& experiment, std::vector<double> columns, double period);
 
   /// Slots of Experiment::samples, to be filled before each step.
   std::span<double> samples() noexcept { return {values_.data(), experiment_.samples.size()}; }
@@ -47,7 +47,7 @@ class Trial {
   const Experiment& experiment_;
   double period_;
   std::vector<double> values_;                             // samples, then the columns that guards may ask for
-  std::vector<double> columns_;                            // numbers of the condition
+  std::vector<double> columns_;                            // numbers of the presentation
   std::vector<std::vector<RunningAggregate>> aggregates_;  // by measure
   std::vector<Stretch> stretches_;
   State state_ = State::kRunning;

@@ -58,7 +58,7 @@ class TrialTest : public testing::Test {
 };
 
 TEST_F(TrialTest, GoesThroughItsPhasesAndMeasures) {
-  Trial trial(experiment, {0}, kPeriod);
+  Trial trial(experiment, {0.2}, kPeriod);
   // above 0.2 from tick 5: held 10 ms at tick 15; hold is ticks 16 to 115 with x = 1 + 0.0001 (n - 16); end at once, x = 0 in tick 120
   run(
       trial,
@@ -83,7 +83,7 @@ TEST_F(TrialTest, GoesThroughItsPhasesAndMeasures) {
 }
 
 TEST_F(TrialTest, AGuardThatFlickersDoesNotHold) {
-  Trial trial(experiment, {0}, kPeriod);
+  Trial trial(experiment, {0.2}, kPeriod);
   run(
       trial, [](int n) { return n % 8 == 0 ? 0.0 : 1.0; }, 2000);
   EXPECT_EQ(trial.state(), Trial::State::kAborted);
@@ -92,7 +92,7 @@ TEST_F(TrialTest, AGuardThatFlickersDoesNotHold) {
 }
 
 TEST_F(TrialTest, AbortsWithItsReason) {
-  Trial trial(experiment, {0}, kPeriod);
+  Trial trial(experiment, {0.2}, kPeriod);
   run(
       trial, [](int n) { return n < 50 ? 1.0 : -1.0; }, 1000);
   EXPECT_EQ(trial.state(), Trial::State::kAborted);
@@ -105,7 +105,7 @@ TEST_F(TrialTest, AbortsWithItsReason) {
 }
 
 TEST_F(TrialTest, FromOutside) {
-  Trial trial(experiment, {0}, kPeriod);
+  Trial trial(experiment, {0.2}, kPeriod);
   run(
       trial, [](int) { return 1.0; }, 30);
   trial.abort(0.03, "device lost");
@@ -122,7 +122,7 @@ TEST_F(TrialTest, AWordIsNoNumber) {
 }
 
 TEST_F(TrialTest, AStepTakesNoMemory) {
-  Trial trial(experiment, {0}, kPeriod);
+  Trial trial(experiment, {0.2}, kPeriod);
   const RealTimeGuard guard;
   run(
       trial, [](int n) { return n < 116 ? 1.0 : 0.0; }, 1000);

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "apps/presa/atomic_file.h"
+#include "apps/presa/experiment/conduct.h"
 #include "apps/presa/experiment/dry_run.h"
 #include "apps/presa/experiment/trial_table.h"
 #include "apps/presa/machine.h"
@@ -20,6 +21,7 @@
 #include "apps/presa/version.h"
 #include "framework/checksum/checksum.h"
 #include "framework/diagnostics/refuse.h"
+#include "framework/experiment/row.h"
 
 namespace presa::experiment {
 namespace {
@@ -76,9 +78,25 @@ Json conditionOf(const Experiment& experiment, const PlannedTrial& trial) {
 
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Outcome outcomeOf(const TrialResult& result) {
-  if (result.stopped || !result.faults.empty()) return Outcome::kInterrupted;
-  return result.state == Trial::State::kDone ? Outcome::kDone : Outcome::kAborted;
+std::size_t presentationsPerTrial(const Experiment& experiment) {
+  return experiment.procedure ? experiment.procedure->presentations() : 1;
+}
+
+Json stimulusOf(const psychophysics::Stimulus& stimulus) {
+  return {{"level", stimulus.level},
+          {"track", stimulus.track},
+          {"standard_place", stimulus.standard_place},
+          {"catch_trial", stimulus.kind == psychophysics::TrialKind::kCatch}};
+}
+
+Json phasesOf(const Experiment& experiment, const TrialResult& result) {
+  Json phases = Json::object();
+  for (std::size_t p = 0; p < result.phases.size(); ++p) {
+    const Trial::Stretch& stretch = result.phases[p];
+    phases[experiment.phases[p].name] = {numberOrNull(stretch.begin < 0 ? NAN : stretch.begin),
+                                         numberOrNull(stretch.end < 0 ? NAN : stretch.end)};
+  }
+  return phases;
 }
 
 }  // namespace
@@ -88,7 +106,11 @@ SubjectSession::SubjectSession(const Experiment& experiment, SessionFolder folde
       folder_(std::move(folder)),
       log_(std::move(log)),
       journal_(std::move(journal)),
-      queue_(planTrials(experiment, log_.start.subject.number, log_.start.session), experiment.retry) {}
+      trials_(makeTrialSource(experiment, log_.start.subject.number, log_.start.session)) {
+  if (!experiment.procedure) return;
+  if (log_.start.realtime || !experiment.procedure->observer) refuse(928, experiment.file, "nobody can answer");
+  respondent_ = simulatedRespondent(experiment, log_.start.subject.number);
+}
 
 SubjectSession SubjectSession::begin(const Experiment& experiment, const SessionStart& start, const std::string& data) {
   SessionFolder folder = folderOf(data, start.subject.id, start.session);
@@ -128,14 +150,15 @@ SubjectSession SubjectSession::resume(const Experiment& experiment, const Sessio
       run.end = {{"event", "trial_end"}, {"outcome", toString(Outcome::kInterrupted)}, {"reason", "the process ended"}};
       if (&run == &session.log_.runs.back()) session.journal_.append(run.end);
     }
-    const PlannedTrial* planned = session.queue_.next();
+    const PlannedTrial* planned = session.trials_->next();
     if (planned == nullptr || planned->number != run.number || planned->practice != run.practice ||
-        planned->attempt != run.attempt || run.begin.value("seed", "") != std::to_string(planned->seed))
+        planned->attempt != run.attempt || run.begin.value("seed", "") != std::to_string(planned->seed) ||
+        (planned->stimulus && run.begin.at("stimulus") != stimulusOf(*planned->stimulus)))
       refuse(927, folder.journal(),
              "run " + std::to_string(run.run) + " of trial " + std::to_string(run.number) +
                  " is not what this version of Presa would have run there",
              "finish the session with the version that began it: it is named in the first line");
-    session.queue_.finish(run.outcome);
+    session.trials_->finish(run.outcome, run.response());
   }
   removeHalfWritten(folder.path);
   session.writeTable();
@@ -156,29 +179,38 @@ LoggedRun& SubjectSession::beginRun(const PlannedTrial& trial) {
               {"run", run},
               {"condition", conditionOf(experiment_, trial)},
               {"seed", std::to_string(trial.seed)},
-              {"files", SessionFolder::filesOf(trial, run, 1)},
+              {"files", SessionFolder::filesOf(trial, run, presentationsPerTrial(experiment_))},
               {"utc", utcNow()}};
+  if (trial.stimulus) record["stimulus"] = stimulusOf(*trial.stimulus);
   journal_.append(record);
   log_.runs.push_back({trial.number, trial.attempt, run, trial.practice, Outcome::kInterrupted, record, {}});
   return log_.runs.back();
 }
 
-void SubjectSession::endRun(LoggedRun& run, const TrialResult& result) {
-  run.outcome = outcomeOf(result);
+void SubjectSession::endRun(LoggedRun& run, const PlannedTrial& trial, const Conducted& result) {
+  run.outcome = result.outcome;
   run.end = {{"event", "trial_end"},
              {"outcome", toString(run.outcome)},
-             {"reason", result.faults.empty() ? result.reason : result.faults.front()},
+             {"reason", result.reason},
              {"excluded", result.excluded}};
-  for (std::size_t p = 0; p < result.phases.size(); ++p)
-    run.end["phases"][experiment_.phases[p].name] = {
-        numberOrNull(result.phases[p].begin < 0 ? NAN : result.phases[p].begin),
-        numberOrNull(result.phases[p].end < 0 ? NAN : result.phases[p].end)};
-  const std::vector<std::string>& names = experiment_.names.all();
-  for (std::size_t i = 0; i < names.size(); ++i) run.end["values"][names[i]] = numberOrNull(result.values[i]);
-  run.end["simulated_s"] = result.simulated_seconds;
-  run.end["wall_s"] = result.wall_seconds;
-  run.end["ticks"] = result.ticks;
-  run.end["faults"] = result.faults;
+  std::vector<std::vector<double>> values;
+  double simulated = 0, wall = 0;
+  std::uint64_t ticks = 0;
+  for (const TrialResult& shown : result.presented) {
+    run.end["phases"].push_back(phasesOf(experiment_, shown));
+    values.push_back(shown.values);
+    simulated += shown.simulated_seconds;
+    wall += shown.wall_seconds;
+    ticks += shown.ticks;
+  }
+  const std::vector<RowColumn> columns = rowColumns(experiment_);
+  const std::vector<double> row = rowValues(experiment_, trial, values, result.response);
+  for (std::size_t i = 0; i < columns.size(); ++i) run.end["values"][columns[i].name] = numberOrNull(row[i]);
+  if (result.response) run.end["response"] = {{"chosen", result.response->chosen}, {"value", result.response->value}};
+  run.end["simulated_s"] = simulated;
+  run.end["wall_s"] = wall;
+  run.end["ticks"] = ticks;
+  run.end["faults"] = result.presented.back().faults;
   for (const std::string& name : run.files()) {
     if (!fs::exists(folder_.file(name))) continue;
     syncFile(folder_.file(name));
@@ -186,7 +218,7 @@ void SubjectSession::endRun(LoggedRun& run, const TrialResult& result) {
   }
   syncFolder(folder_.path);
   journal_.append(run.end);
-  queue_.finish(run.outcome);
+  trials_->finish(run.outcome, run.response());
 }
 
 void SubjectSession::writeTable() const {
@@ -195,26 +227,31 @@ void SubjectSession::writeTable() const {
 }
 
 SubjectSession::End SubjectSession::run() {
-  terminal::JobProgress progress(queue_.waiting().size());
+  terminal::JobProgress progress(trials_->left());
   const Span expected = durationOf(experiment_);
-  while (const PlannedTrial* next = queue_.next()) {
+  int in_vain = 0;  // aborts in a row
+  while (const PlannedTrial* next = trials_->next()) {
     const PlannedTrial trial = *next;
     LoggedRun& run = beginRun(trial);
+    std::vector<std::string> files;
+    for (const std::string& name : run.files()) files.push_back(folder_.file(name));
     TrialSetting setting;
-    setting.record = folder_.file(run.files().front());
     setting.realtime = log_.start.realtime;
     setting.stop = terminal::JobProgress::interrupted;
-    const std::size_t left = queue_.waiting().size();
+    const std::size_t left = trials_->left();
     setting.on_time = [&](double time) {
       if (setting.realtime) progress.expect(static_cast<double>(left) * expected.least - time);
       progress.show();
     };
-    const TrialResult result = runTrial(experiment_, trial, setting);
-    endRun(run, result);
+    const Conducted result = conduct(experiment_, trial, files, setting, respondent_.get());
+    endRun(run, trial, result);
     writeTable();
-    if (!result.faults.empty()) return End::kFault;
-    if (result.stopped) return End::kStopped;
-    if (queue_.waiting().size() == left) progress.more(1);  // it comes again
+    if (!result.presented.back().faults.empty()) return End::kFault;
+    if (result.outcome == Outcome::kInterrupted) return End::kStopped;
+    in_vain = result.outcome == Outcome::kAborted ? in_vain + 1 : 0;
+    // a method cannot go on without an answer
+    if (experiment_.procedure && in_vain >= experiment_.retry.attempts) return End::kFault;
+    if (trials_->left() == left) progress.more(1);  // it comes again
     progress.done(terminal::format("trial %d", trial.number) + (result.reason.empty() ? "" : ": " + result.reason));
   }
   progress.finish();

@@ -2,8 +2,8 @@
 #include <memory>
 #include <string>
 
+#include "apps/presa/experiment/conduct.h"
 #include "apps/presa/experiment/session_log.h"
-#include "apps/presa/experiment/trial_run.h"
 
 namespace presa::experiment {
 
@@ -24,7 +24,7 @@ class SubjectSession {
   End run();
 
   const SessionFolder& folder() const noexcept { return folder_; }
-  const TrialQueue& queue() const noexcept { return queue_; }
+  const TrialSource& trials() const noexcept { return *trials_; }
   /// Why run() ended with kFault.
   std::string fault() const { return log_.runs.empty() ? "" : log_.runs.back().end.value("reason", ""); }
   int runsMade() const noexcept { return static_cast<int>(log_.runs.size()); }
@@ -32,14 +32,15 @@ class SubjectSession {
  private:
   SubjectSession(const Experiment& experiment, SessionFolder folder, SessionLog log, Journal journal);
   LoggedRun& beginRun(const PlannedTrial& trial);
-  void endRun(LoggedRun& run, const TrialResult& result);
+  void endRun(LoggedRun& run, const PlannedTrial& trial, const Conducted& result);
   void writeTable() const;
 
   const Experiment& experiment_;
   SessionFolder folder_;
   SessionLog log_;
   Journal journal_;
-  TrialQueue queue_;
+  std::unique_ptr<TrialSource> trials_;
+  std::unique_ptr<Respondent> respondent_;  // null without a procedure
 };
 
 }  // namespace presa::experiment

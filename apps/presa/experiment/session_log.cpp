@@ -50,6 +50,11 @@ std::vector<std::string> SessionFolder::filesOf(const PlannedTrial& trial, int r
   return files;
 }
 
+std::optional<psychophysics::Response> LoggedRun::response() const {
+  if (!end.is_object() || !end.contains("response")) return std::nullopt;
+  return psychophysics::Response{.chosen = end.at("response").at("chosen"), .value = end.at("response").at("value")};
+}
+
 SessionFolder folderOf(const std::string& data, const std::string& subject, int session) {
   return {data + "/sub-" + subject + "/ses-" + std::to_string(session)};
 }

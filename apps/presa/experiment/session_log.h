@@ -4,7 +4,7 @@
 
 #include "apps/presa/experiment/journal.h"
 #include "apps/presa/experiment/subject.h"
-#include "framework/experiment/queue.h"
+#include "framework/experiment/trial_source.h"
 
 namespace presa::experiment {
 
@@ -38,6 +38,8 @@ struct LoggedRun {
   Outcome outcome = Outcome::kInterrupted;
   Json begin, end;  ///< its records; `end` is null when the process died in it
 
+  /// The answer; none where nothing was asked or nobody answered.
+  std::optional<psychophysics::Response> response() const;
   /// Recordings of the run, one for each presentation, in their order; not all are there when it ended early.
   std::vector<std::string> files() const { return begin.at("files").get<std::vector<std::string>>(); }
 };

@@ -16,10 +16,11 @@ double longestOf(const Experiment& experiment) {
 /// One trial's session, from its parts to its result.
 class TrialRun {
  public:
-  TrialRun(const Experiment& experiment, const PlannedTrial& planned, const TrialSetting& setting)
+  TrialRun(const Experiment& experiment, const Presentation& presentation, std::uint64_t seed,
+           const TrialSetting& setting)
       : setting_(setting),
-        world_(load(experiment, planned, setting, plan_)),
-        trial_(experiment, planned.condition, 1 / world_->scene.rates.haptic) {
+        world_(load(experiment, presentation, seed, setting, plan_)),
+        trial_(experiment, presentation.columns, 1 / world_->scene.rates.haptic) {
     Session::Options options;
     auto tap = std::make_unique<TrialTap>(trial_, experiment, world_->scene, control_);
     tap_ = tap.get();
@@ -37,16 +38,15 @@ class TrialRun {
   }
 
  private:
-  static std::shared_ptr<const World> load(const Experiment& experiment, const PlannedTrial& planned,
-                                           const TrialSetting& setting, Plan& plan) {
+  static std::shared_ptr<const World> load(const Experiment& experiment, const Presentation& presentation,
+                                           std::uint64_t seed, const TrialSetting& setting, Plan& plan) {
     RunOptions options;
     options.realtime = setting.realtime;
     options.duration = longestOf(experiment);
-    options.seed = planned.seed;
+    options.seed = seed;
     options.record = setting.record;
     Diagnostics diagnostics;
-    Loaded loaded =
-        loadWorld({experiment.scene, experiment.rig, experiment.setsOf(planned.condition)}, options, diagnostics);
+    Loaded loaded = loadWorld({experiment.scene, experiment.rig, presentation.sets}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     plan = std::move(loaded.plan);
     return loaded.world;
@@ -98,8 +98,9 @@ class TrialRun {
 
 }  // namespace
 
-TrialResult runTrial(const Experiment& experiment, const PlannedTrial& planned, const TrialSetting& setting) {
-  return TrialRun(experiment, planned, setting).run();
+TrialResult present(const Experiment& experiment, const Presentation& presentation, std::uint64_t seed,
+                    const TrialSetting& setting) {
+  return TrialRun(experiment, presentation, seed, setting).run();
 }
 
 }  // namespace presa::experiment

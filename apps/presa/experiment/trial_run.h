@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/experiment/order.h"
+#include "framework/experiment/presentation.h"
 #include "framework/experiment/trial.h"
 
 namespace presa::experiment {
@@ -27,7 +27,9 @@ struct TrialResult {
   std::vector<std::string> faults;      ///< of dynamics and recording
 };
 
-/// Runs one trial in a session of its own, from the scene's start to the end of its last phase. Throws InputError.
-TrialResult runTrial(const Experiment& experiment, const PlannedTrial& planned, const TrialSetting& setting);
+/// Runs one presentation of a trial in a session of its own, from the scene's start to the end of its last phase. `seed`: of the
+/// trial. Throws InputError.
+TrialResult present(const Experiment& experiment, const Presentation& presentation, std::uint64_t seed,
+                    const TrialSetting& setting);
 
 }  // namespace presa::experiment

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "framework/experiment/read.h"
+#include "framework/experiment/row.h"
 
 namespace presa::experiment {
 namespace {
@@ -38,7 +38,13 @@ std::vector<TableColumn> columnsOf(const Experiment& experiment) {
   using R = const LoggedRun&;
   const auto from_begin = [](const std::string& name) { return [name](S, R run) { return at(run.begin, name); }; };
   const auto from_end = [](const std::string& name) { return [name](S, R run) { return at(run.end, name); }; };
-  const auto value = [](const std::string& name) { return [name](S, R run) { return at(run.end, "values", name); }; };
+  // the condition's own text where there is one: a word is no number, and 0.4 stays 0.4
+  const auto value = [](const std::string& name) {
+    return [name](S, R run) {
+      const std::string given = at(run.begin, "condition", name);
+      return given != kNothing ? given : at(run.end, "values", name);
+    };
+  };
   std::vector<TableColumn> columns{
       {"subject", "", "pseudonym", [](S start, R) { return start.subject.id; }},
       {"session", "", "", [](S start, R) { return std::to_string(start.session); }},
@@ -52,19 +58,8 @@ std::vector<TableColumn> columnsOf(const Experiment& experiment) {
        [](S, R run) { return std::string(toString(run.outcome)); }},
       {"reason", "", "of an abort or interruption", from_end("reason")},
       {"excluded", "", "rule of the experiment by which the trial does not count", from_end("excluded")}};
-  for (const Factor& factor : experiment.factors) {
-    for (const Column& column : factor.columns)
-      columns.push_back({column.name, column.unit, "factor " + factor.name,
-                         [name = column.name](S, R run) { return at(run.begin, "condition", name); }});
-  }
-  for (const Measure& measure : experiment.measures)
-    columns.push_back({measure.name, measure.unit, measure.description, value(measure.name)});
-  const char* const quality[][2] = {{"", "haptic ticks that began more than a period late"},
-                                    {"s", "time at the force limit"},
-                                    {"s", "time in which a device gave no sample"},
-                                    {"N", "largest force on a finger"}};
-  for (std::size_t i = 0; i < kQualityNames.size(); ++i)
-    columns.push_back({kQualityNames[i], quality[i][0], quality[i][1], value(kQualityNames[i])});
+  for (const RowColumn& column : rowColumns(experiment))
+    columns.push_back({column.name, column.unit, column.description, value(column.name)});
   columns.push_back({"simulated", "s", "length of the trial", from_end("simulated_s")});
   columns.push_back({"wall", "s", "time that it took", from_end("wall_s")});
   columns.push_back(

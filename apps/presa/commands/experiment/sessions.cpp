@@ -49,18 +49,18 @@ int runToEnd(SubjectSession& session) {
                  error.what(), session.folder().journal().c_str(), session.folder().path.c_str());
     return kExitFault;
   }
-  const TrialQueue& queue = session.queue();
+  const TrialSource& trials = session.trials();
   if (end == SubjectSession::End::kFault) {
     std::fprintf(stderr, "presa: error: %s\nthe trial is marked and comes again: presa experiment resume %s\n",
                  session.fault().c_str(), session.folder().path.c_str());
     return kExitFault;
   }
   if (end == SubjectSession::End::kStopped) {
-    std::fprintf(stderr, "stopped; %zu trials are left, go on with: presa experiment resume %s\n",
-                 queue.waiting().size(), session.folder().path.c_str());
+    std::fprintf(stderr, "stopped; %zu trials are left, go on with: presa experiment resume %s\n", trials.left(),
+                 session.folder().path.c_str());
     return kExitInterrupted;
   }
-  std::printf("%zu trials done, %zu given up, in %d runs: %s\n", queue.done(), queue.missing(), session.runsMade(),
+  std::printf("%zu trials done, %zu given up, in %d runs: %s\n", trials.done(), trials.missing(), session.runsMade(),
               session.folder().file("trials.csv").c_str());
   return kExitOk;
 }
