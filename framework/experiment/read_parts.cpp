@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <sstream>
 
 #include "framework/experiment/read.h"
 #include "framework/experiment/row.h"
+#include "framework/xml/value_rule.h"
 
 namespace presa::experiment {
 namespace {
@@ -43,10 +43,11 @@ Factor readFactor(const Element& element, Experiment& experiment, Diagnostics& d
   Factor factor{element.attribute("name"), element.boolean("between", false), {}, {}};
   for (const Element& column : element.children("column")) {
     claimName(column, experiment, diagnostics);
-    factor.columns.push_back({column.attribute("name"), column.attribute("unit"), words(column.attribute("path"))});
+    factor.columns.push_back(
+        {column.attribute("name"), column.attribute("unit"), xml::splitWords(column.attribute("path"))});
   }
   for (const Element& level : element.children("level")) {
-    factor.levels.push_back(words(level.attribute("values")));
+    factor.levels.push_back(xml::splitWords(level.attribute("values")));
     if (factor.levels.back().size() == factor.columns.size()) continue;
     diagnostics.error(kWrongCount, level.where("values"),
                       "factor " + quote(factor.name) + " has " + std::to_string(factor.columns.size()) +
@@ -79,13 +80,6 @@ void checkRepeats(const Element& element, const Experiment& experiment, Diagnost
 }
 
 }  // namespace
-
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> all;
-  for (std::string word; in >> word;) all.push_back(word);
-  return all;
-}
 
 void claimName(const Element& element, Experiment& experiment, Diagnostics& diagnostics) {
   const std::string name = element.attribute("name");

@@ -18,8 +18,6 @@ void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& di
 /// Measures and rules of exclusion.
 void readMeasures(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 
-/// Parted at blanks.
-std::vector<std::string> words(const std::string& text);
 /// The attribute `name` of a column becomes a name of a trial; E903 when it is one already.
 void claimName(const xml::Element& element, Experiment& experiment, Diagnostics& diagnostics);
 

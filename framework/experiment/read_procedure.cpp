@@ -1,6 +1,7 @@
 #include <array>
 
 #include "framework/experiment/read_parts.h"
+#include "framework/xml/value_rule.h"
 
 namespace presa::experiment {
 namespace {
@@ -102,8 +103,8 @@ void readMethod(const Element& element, Procedure& procedure, Diagnostics& diagn
 
 void readStimulus(const Element& element, Procedure& procedure, Diagnostics& diagnostics) {
   StimulusAxis& stimulus = procedure.stimulus;
-  stimulus.column = {element.attribute("name"), element.attribute("unit"), words(element.attribute("path"))};
-  stimulus.second_paths = words(element.attribute("second_path"));
+  stimulus.column = {element.attribute("name"), element.attribute("unit"), xml::splitWords(element.attribute("path"))};
+  stimulus.second_paths = xml::splitWords(element.attribute("second_path"));
   const std::string axis = element.attribute("axis", "linear");
   stimulus.axis = {axis == "ln_ratio"  ? psychophysics::Unit::kLnRatio
                    : axis == "decibel" ? psychophysics::Unit::kDecibel
@@ -119,10 +120,10 @@ void readStimulus(const Element& element, Procedure& procedure, Diagnostics& dia
   for (const Element& with : element.children("with")) {
     auto value =
         Expression::compile(with.attribute("value"), Names({stimulus.column.name}), with.where("value"), diagnostics);
-    checkPlaces(with, words(with.attribute("second_path")).size());
+    checkPlaces(with, xml::splitWords(with.attribute("second_path")).size());
     if (value)
       stimulus.coupled.push_back(
-          {words(with.attribute("path")), words(with.attribute("second_path")), std::move(*value)});
+          {xml::splitWords(with.attribute("path")), xml::splitWords(with.attribute("second_path")), std::move(*value)});
   }
 }
 
@@ -137,7 +138,7 @@ Task taskOf(const std::string& name) {
 
 void readVaried(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   for (const Element& element : root.children("vary")) {
-    Vary vary{{element.attribute("name"), element.attribute("unit"), words(element.attribute("path"))},
+    Vary vary{{element.attribute("name"), element.attribute("unit"), xml::splitWords(element.attribute("path"))},
               element.number("least", 0),
               element.number("most", 0)};
     if (!(vary.most > vary.least))
@@ -168,7 +169,7 @@ void readProcedure(const Element& root, Experiment& experiment, Diagnostics& dia
 void readObserver(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   for (const Element& procedure : root.children("procedure")) {
     for (const Element& element : procedure.children("simulated_observer")) {
-      SimulatedObserver observer{words(element.attribute("percept")), element.number("weber", 0.1),
+      SimulatedObserver observer{xml::splitWords(element.attribute("percept")), element.number("weber", 0.1),
                                  element.number("spread", 0), element.number("lapse", 0),
                                  element.number("criterion", 0)};
       const std::size_t wanted = experiment.procedure->task == Task::kTwoAlternatives ? 2 : 1;

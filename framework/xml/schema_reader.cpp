@@ -165,6 +165,7 @@ ValueRule SchemaReader::readSimpleType(const xmlNode* node) {
       rule = readRestriction(child);
     } else if (kind == "list") {
       rule = readType(attributeOf(child, "itemType").value_or(""));
+      rule.count = 0;  // until a restriction gives its length
     } else if (kind == "union") {
       rule = readUnion(child);
     } else {

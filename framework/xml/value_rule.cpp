@@ -73,7 +73,7 @@ std::string numberHelp(const std::string& word) {
 std::optional<ValueProblem> numberProblem(const ValueRule& rule, const std::string& value) {
   const std::vector<std::string> words = splitWords(value);
   const std::string must = "must be " + describe(rule) + ", found ";
-  const std::string within = rule.count > 1 ? " in " + quote(value) : "";
+  const std::string within = rule.count != 1 ? " in " + quote(value) : "";
   for (const std::string& word : words) {
     double number = 0;
     const NumberKind kind = readNumber(word, number);
@@ -83,7 +83,7 @@ std::optional<ValueProblem> numberProblem(const ValueRule& rule, const std::stri
     }
     if (!inRange(rule, number)) return ValueProblem{kOutOfRange, must + quote(word) + within, {}};
   }
-  if (words.size() == rule.count) return std::nullopt;
+  if (rule.count == 0 ? !words.empty() : words.size() == rule.count) return std::nullopt;
   if (rule.count == 1) return ValueProblem{kWrongKind, must + quote(value), {}};
   return ValueProblem{kWrongCount, must + std::to_string(words.size()) + within, {}};
 }
@@ -155,7 +155,10 @@ std::string describe(const ValueRule& rule) {
     case ValueRule::Kind::kBoolean:
       return "'true' or 'false'";
     case ValueRule::Kind::kNumber:
-      return (rule.count > 1 ? std::to_string(rule.count) + " numbers" : "a number") + rangeText(rule);
+      return (rule.count == 1   ? "a number"
+              : rule.count == 0 ? "one or more numbers"
+                                : std::to_string(rule.count) + " numbers") +
+             rangeText(rule);
     case ValueRule::Kind::kWord: {
       std::vector<std::string> parts;
       for (const std::string& word : rule.words) parts.push_back(quote(word));

@@ -15,7 +15,7 @@ struct ValueRule {
   };
   Kind kind = Kind::kText;
   std::optional<Bound> min, max;        ///< of a number
-  std::size_t count = 1;                ///< numbers in the value, separated by spaces
+  std::size_t count = 1;                ///< numbers in the value, separated by spaces; 0: any, at least one
   std::size_t min_length = 0;           ///< of a text
   std::vector<std::string> words;       ///< of kWord: all that is allowed
   std::string pattern;                  ///< of kPattern

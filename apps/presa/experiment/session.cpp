@@ -243,7 +243,9 @@ SubjectSession::End SubjectSession::run() {
       if (setting.realtime) progress.expect(static_cast<double>(left) * expected.least - time);
       progress.show();
     };
-    const Conducted result = conduct(experiment_, trial, files, setting, respondent_.get());
+    Conducted result = conduct(experiment_, trial, files, setting, respondent_.get());
+    if (const auto* method = trials_->method(); method != nullptr && result.response)
+      result.response->positive = result.response->chosen == method->responseFor(true).chosen;
     endRun(run, trial, result);
     writeTable();
     if (!result.presented.back().faults.empty()) return End::kFault;
