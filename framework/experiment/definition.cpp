@@ -23,6 +23,7 @@ std::vector<bool> Experiment::askedSamples() const {
     mark(phase.until);
     mark(phase.abort);
   }
+  if (watch) watch->value.markSlots(asked);
   for (const Measure& measure : measures) {
     for (const Aggregate& aggregate : measure.aggregates) {
       mark(aggregate.condition);

@@ -75,6 +75,14 @@ struct Measure {
   std::size_t names = 0;  ///< how many of Experiment::names it may see; its aggregates take the slots after them
 };
 
+/// The number that the operator watches while a trial goes on.
+struct Watch {
+  std::string name, unit;
+  Expression value;                ///< over samples
+  std::optional<Expression> line;  ///< over the columns: what the value is to be compared with
+  double most = 1;                 ///< end of the scale
+};
+
 /// A rule written before the run: a trial for which it holds does not count.
 struct Exclusion {
   std::optional<Expression> when;  ///< over Experiment::names
@@ -96,6 +104,7 @@ struct Experiment {
   std::vector<Text> texts;
   std::vector<Measure> measures;
   std::vector<Exclusion> exclusions;
+  std::optional<Watch> watch{};
   Names samples;  ///< what a phase can ask at haptic rate: see sample_names.h
   Names names;    ///< of a presentation: columns (factors, varied, stimulus), quality figures, measures in order
   std::string resolved_xml, scene_xml,

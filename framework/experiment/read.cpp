@@ -87,6 +87,7 @@ std::optional<Experiment> readExperiment(const std::string& file, const std::str
   readDesign(root, experiment, diagnostics);
   readPhases(root, experiment, diagnostics);
   readTexts(root, experiment, diagnostics);
+  readWatch(root, experiment, diagnostics);
   readMeasures(root, experiment, diagnostics);
   readObserver(root, experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;

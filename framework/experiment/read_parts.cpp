@@ -161,6 +161,18 @@ void readTexts(const Element& root, Experiment& experiment, Diagnostics& diagnos
   }
 }
 
+void readWatch(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
+  Names columns;
+  for (const Column& column : experiment.columns()) columns.add(column.name);
+  for (const Element& element : root.children("watch")) {
+    auto value = readExpression(element, "value", experiment.samples, diagnostics);
+    auto line = readExpression(element, "line", columns, diagnostics);
+    if (value)
+      experiment.watch = Watch{element.attribute("name"), element.attribute("unit"), std::move(*value), std::move(line),
+                               element.number("most", 1)};
+  }
+}
+
 void readMeasures(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   OneEach names("measure", diagnostics);
   const std::vector<std::string> phases = experiment.phaseNames();

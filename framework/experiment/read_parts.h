@@ -15,6 +15,7 @@ void readQualityNames(Experiment& experiment);
 void readDesign(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readPhases(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+void readWatch(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 /// Measures and rules of exclusion.
 void readMeasures(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 

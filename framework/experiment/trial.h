@@ -22,6 +22,7 @@ class Trial {
 
   /// Slots of Experiment::samples, to be filled before each step.
   std::span<double> samples() noexcept { return {values_.data(), experiment_.samples.size()}; }
+  std::span<const double> samples() const noexcept { return {values_.data(), experiment_.samples.size()}; }
   /// One tick at `time` [s] since the trial began. Sets t and t_phase itself. Once not running, it stays as it is.
   State step(double time) noexcept;
   /// From outside: the operator, a lost device, the end of the program.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "apps/presa/experiment/operator/operator.h"
 #include "apps/presa/experiment/trial_run.h"
 
 namespace presa::experiment {
@@ -21,5 +22,9 @@ class Respondent {
 /// The experiment's simulated observer, which is a model and not a person: compares the measure it is told to, with noise of its own
 /// for every trial. Needs Experiment::procedure with an observer.
 std::unique_ptr<Respondent> simulatedRespondent(const Experiment& experiment, int subject_number);
+
+/// The participant, whose answer is typed in: at the operator's terminal, after the text "question" of the experiment.
+std::unique_ptr<Respondent> keyboardRespondent(const Experiment& experiment, Operator& person,
+                                               const std::string& language);
 
 }  // namespace presa::experiment

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 
 #include "apps/presa/terminal/text.h"
@@ -12,9 +11,6 @@
 namespace presa::terminal {
 namespace {
 
-volatile std::sig_atomic_t signal_came = 0;
-extern "C" void noteSignal(int) { signal_came = 1; }
-
 std::string clockText(double seconds) {
   const int whole = static_cast<int>(seconds + 0.5);
   return whole < 60 ? format("%d s", whole) : format("%d min %02d s", whole / 60, whole % 60);
@@ -22,26 +18,9 @@ std::string clockText(double seconds) {
 
 }  // namespace
 
-struct JobProgress::Signals {
-  struct sigaction old_int {
-  }, old_term{};
-};
-
 JobProgress::JobProgress(std::size_t jobs)
-    : jobs_(jobs), terminal_(::isatty(STDERR_FILENO) != 0), start_ns_(monotonicNs()), signals_(new Signals) {
-  signal_came = 0;
+    : jobs_(jobs), terminal_(::isatty(STDERR_FILENO) != 0), start_ns_(monotonicNs()) {
   next_ns_ = start_ns_ + 2'000'000'000;
-  struct sigaction action {};
-  action.sa_handler = noteSignal;
-  sigaction(SIGINT, &action, &signals_->old_int);
-  sigaction(SIGTERM, &action, &signals_->old_term);
-}
-
-JobProgress::~JobProgress() {
-  finish();
-  sigaction(SIGINT, &signals_->old_int, nullptr);
-  sigaction(SIGTERM, &signals_->old_term, nullptr);
-  delete signals_;
 }
 
 void JobProgress::done(const std::string& what) {
@@ -74,7 +53,5 @@ void JobProgress::finish() {
   if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
   shown_ = false;
 }
-
-bool JobProgress::interrupted() noexcept { return signal_came != 0; }
 
 }  // namespace presa::terminal

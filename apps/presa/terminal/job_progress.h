@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "apps/presa/terminal/interruption.h"
+
 namespace presa::terminal {
 
 /// Progress of many jobs on stderr: one refreshed line on a terminal, a plain line every two seconds elsewhere; says how much
@@ -10,7 +12,7 @@ namespace presa::terminal {
 class JobProgress {
  public:
   explicit JobProgress(std::size_t jobs);
-  ~JobProgress();
+  ~JobProgress() { finish(); }
   JobProgress(const JobProgress&) = delete;
   JobProgress& operator=(const JobProgress&) = delete;
 
@@ -20,16 +22,15 @@ class JobProgress {
   void expect(double seconds_left);
   void show();
   void finish();
-  static bool interrupted() noexcept;
+  static bool interrupted() noexcept { return Interruption::came(); }
 
  private:
-  struct Signals;
   std::size_t jobs_, done_ = 0;
   std::string last_;
   bool terminal_, shown_ = false;
   std::int64_t start_ns_, next_ns_ = 0;
   double expected_end_ = -1;  ///< [s] since the start; negative: unknown
-  Signals* signals_;
+  Interruption interruption_;
 };
 
 }  // namespace presa::terminal
