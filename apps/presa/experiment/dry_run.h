@@ -14,7 +14,10 @@ struct Span {
 };
 Span durationOf(const Experiment& experiment);
 
-/// Every trial of a session, as people read it, as a table (CSV) and as JSON.
+/// All trials of a session, those of a method as somebody meets them who is right three times in four.
+std::vector<PlannedTrial> previewTrials(const Experiment& experiment, int subject_number, int session);
+
+/// The same as people read it, as a table (CSV) and as JSON.
 std::string dryRunText(const Experiment& experiment, const Subject& subject, int session,
                        const std::vector<PlannedTrial>& trials);
 std::string dryRunCsv(const Experiment& experiment, const std::vector<PlannedTrial>& trials);

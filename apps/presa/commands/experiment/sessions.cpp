@@ -26,7 +26,7 @@ int dryRun(const Arguments& a) {
   const auto experiment = readExperiment(a.file, a.rig, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
-  const auto trials = planTrials(*experiment, subject.number, a.session);
+  const auto trials = previewTrials(*experiment, subject.number, a.session);
   const std::string text = a.format == "json"  ? dryRunJson(*experiment, subject, a.session, trials)
                            : a.format == "csv" ? dryRunCsv(*experiment, trials)
                                                : dryRunText(*experiment, subject, a.session, trials);
