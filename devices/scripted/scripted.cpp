@@ -38,6 +38,7 @@ class ScriptedFinger final : public Device {
 
   std::vector<std::string> phases() const override { return motion_->phase_names; }
   std::vector<double> phaseTimes() const override { return motion_->phase_times; }
+  std::string model() const override { return "scripted fingers: no person"; }
   double damping() const override { return impedance_.damping; }
   std::vector<std::string> notes() const override { return notes_; }
 

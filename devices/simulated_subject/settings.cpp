@@ -74,6 +74,11 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
   }
   settings.seed = numberOf<std::uint64_t>(binding, "seed", 1, 0, diagnostics);
   settings.subject = numberOf<std::uint64_t>(binding, "subject", 0, 0, diagnostics);
+  if (const auto& person = world.options.person) {
+    settings.seed = person->seed;
+    settings.subject = person->subject;
+    settings.level = subject::levelNamed(person->level).value_or(settings.level);
+  }
   settings.trial = world.options.seed;
   // grip and load together must stay below what the device gives, or the fingers run through the object
   for (const DeviceRole& role : world.scene.devices) {

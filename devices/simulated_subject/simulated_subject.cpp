@@ -9,6 +9,20 @@
 namespace presa {
 namespace {
 
+/// Everything that was drawn, for the person and for this run.
+std::vector<DeviceFact> factsOf(const SharedSubject& subject) {
+  const SubjectSettings& settings = subject.settings();
+  std::vector<DeviceFact> facts;
+  for (const subject::Trait& trait : subject::Population(settings.level).traits())
+    facts.push_back({std::string(trait.name), std::string(trait.unit), settings.traits.*trait.value});
+  const subject::Brain& brain = subject.brain();
+  facts.push_back({"device_resolution", "m", settings.resolution, true});
+  facts.push_back({"slip_threshold_of_trial", "m", brain.slipThreshold(), true});
+  facts.push_back({"misjudgement_of_trial", "1", brain.misjudgement(), true});
+  facts.push_back({"scatter_of_trial", "1", brain.scatter(), true});
+  return facts;
+}
+
 /// One digit of a simulated person.
 class SimulatedDigit final : public Device {
  public:
@@ -23,6 +37,13 @@ class SimulatedDigit final : public Device {
     return {subject::kPhaseNames.begin(), subject::kPhaseNames.end()};
   }
   double damping() const override { return subject_->settings().traits.grip_damping; }
+  std::string model() const override {
+    return "simulated subject, level " + std::string(subject::nameOf(subject_->settings().level)) +
+           ": a model, not a person";
+  }
+  std::vector<DeviceFact> facts() const override {
+    return digit_ == 0 ? factsOf(*subject_) : std::vector<DeviceFact>{};
+  }
   std::vector<std::string> notes() const override {
     if (digit_ != 0) return {};
     const SubjectSettings& settings = subject_->settings();

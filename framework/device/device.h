@@ -10,6 +10,13 @@
 
 namespace presa {
 
+/// A number that a device would have the data say of it.
+struct DeviceFact {
+  std::string name, unit;
+  double value = 0;
+  bool of_run = false;  ///< drawn anew for each run; else the same whenever seed and person are
+};
+
 /// A haptic device of one finger: position out, force in. read and write run on the haptic thread and
 /// neither allocate nor block longer than the device exchange; open and close may do anything.
 class Device {
@@ -29,6 +36,11 @@ class Device {
   virtual bool looks() const { return false; }
   virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}
 
+  /// What moves the finger where no person does, to be shown with every number that comes of it: "simulated subject, level
+  /// L1: a model, not a person"; empty: a person.
+  virtual std::string model() const { return {}; }
+  /// What there is to know of that model: its traits.
+  virtual std::vector<DeviceFact> facts() const { return {}; }
   /// Names of the phases that FingerInput::phase counts; empty for a real hand.
   virtual std::vector<std::string> phases() const { return {}; }
   /// Start times of those phases [s], one more for the end; empty for a real hand.

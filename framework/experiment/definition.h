@@ -92,6 +92,8 @@ struct Exclusion {
 struct Experiment {
   std::string file, name, title, description;
   std::string scene, rig;  ///< files
+  std::string level{};     ///< of the simulated subject, where it was asked for one; empty: as the rig says
+  std::string model{};     ///< what holds the rig's devices, if no person does: see Device::model
   std::vector<std::string> sets{};
   std::uint64_t seed = 1;
   std::vector<Factor> factors;

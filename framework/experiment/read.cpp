@@ -9,6 +9,7 @@
 #include "framework/experiment/presentation.h"
 #include "framework/experiment/read_parts.h"
 #include "framework/plan/load_world.h"
+#include "framework/plan/session.h"
 #include "framework/scene/schemas.h"
 #include "framework/xml/schema.h"
 
@@ -27,24 +28,47 @@ std::string beside(const std::string& file, const std::string& path) {
   return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
 
-void readHead(const Element& root, const std::string& file, const std::string& rig, Experiment& experiment) {
+/// The rig asked for: by name, for a simulated subject, or none in particular.
+std::string rigOf(const Element& root, const std::string& rig, const std::string& simulated, Diagnostics& diagnostics) {
+  if (!rig.empty()) return rig;
+  if (simulated.empty()) return beside(root.where().file, root.attribute("rig"));
+  if (!root.hasAttribute("simulated_rig"))
+    diagnostics.error(912, root.where(), "a simulated subject is asked for, and the experiment names no rig for one",
+                      "add simulated_rig=\"FILE\" to <experiment>, a rig with driver simulated_subject");
+  return beside(root.where().file, root.attribute("simulated_rig"));
+}
+
+void readHead(const Element& root, const std::string& file, Experiment& experiment) {
   experiment.file = file;
   experiment.name = root.attribute("name");
   experiment.title = root.attribute("title");
   experiment.description = root.attribute("description");
   experiment.scene = beside(file, root.attribute("scene"));
-  experiment.rig = rig.empty() ? beside(file, root.attribute("rig")) : rig;
   experiment.seed = static_cast<std::uint64_t>(root.number("seed", 1));
   for (const Element& set : root.children("set"))
     experiment.sets.push_back(set.attribute("path") + "=" + set.attribute("value"));
 }
 
+/// What holds the devices if no person does; several kinds are all told.
+std::string modelOf(const Loaded& loaded) {
+  Diagnostics told_already;
+  std::string all;
+  for (const auto& device : createDevices(*loaded.world, loaded.plan, told_already)) {
+    const std::string model = device->model();
+    if (all.find(model) == std::string::npos) all += (all.empty() ? "" : "; ") + model;
+  }
+  return all;
+}
+
 /// Scene and rig with the file's own sets: what names there are to ask for.
 void readSampleNames(Experiment& experiment, Diagnostics& diagnostics) {
-  const Loaded loaded = loadWorld({experiment.scene, experiment.rig, experiment.sets}, {}, diagnostics);
+  RunOptions options;
+  options.person = SimulatedPerson{.level = experiment.level};
+  const Loaded loaded = loadWorld({experiment.scene, experiment.rig, experiment.sets}, options, diagnostics);
   if (!loaded.world || diagnostics.hasErrors()) return;
   experiment.samples = sampleNames(loaded.world->scene);
   experiment.scene_xml = loaded.world->scene.resolved_xml;
+  experiment.model = modelOf(loaded);
   experiment.rig_xml = loaded.world->rig.resolved_xml;
 }
 
@@ -71,13 +95,16 @@ void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics) {
+std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics,
+                                         const std::string& simulated) {
   const auto document = xml::Document::load(file, diagnostics);
   if (!document || !document->validate(schema(), diagnostics)) return std::nullopt;
   document->writeDefaults(schema());
   const Element root = document->root();
   Experiment experiment;
-  readHead(root, file, rig, experiment);
+  readHead(root, file, experiment);
+  experiment.rig = rigOf(root, rig, simulated, diagnostics);
+  experiment.level = simulated;
   readSampleNames(experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;  // nothing below could be told apart from what follows from it
   readFactors(root, experiment, diagnostics);

@@ -10,7 +10,9 @@ namespace presa::experiment {
 inline const std::vector<std::string> kQualityNames{"missed_ticks", "clipped_s", "device_lost_s", "most_force"};
 
 /// Reads an experiment file with its scene and rig: names, expressions and paths are resolved, and every condition's scene is
-/// loaded once. `rig`: instead of the file's own; may be empty. All findings go to `diagnostics` (E9xx, and those of scene and rig); null when there are errors.
-std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics);
+/// loaded once. `rig`: instead of the file's own; may be empty. `simulated`: level of a simulated subject, who holds the rig that the
+/// file names for it. All findings go to `diagnostics` (E9xx, and those of scene and rig); null when there are errors.
+std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics,
+                                         const std::string& simulated = {});
 
 }  // namespace presa::experiment

@@ -10,7 +10,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 2;
+inline constexpr int kPluginAbi = 3;
 
 struct ModulePlugin {
   int abi = kPluginAbi;

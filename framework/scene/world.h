@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "framework/scene/scene.h"
 
 namespace presa {
+
+/// Who holds fingers that are simulated. What is set here goes before the settings of the rig.
+struct SimulatedPerson {
+  std::uint64_t seed = 1, subject = 0;  ///< the same pair is the same person, in every run
+  std::string level;                    ///< of the model; empty: the rig's
+};
 
 /// What the user asked of this run, beyond the scene.
 struct RunOptions {
@@ -20,6 +27,7 @@ struct RunOptions {
   double screenshot_time = -1;  ///< [s]; -1: at the end
   std::string record;           ///< HDF5 path, may be empty
   bool overwrite = false;       ///< `record` may replace an existing file
+  std::optional<SimulatedPerson> person{};
 };
 
 /// Meshes of one body; null where the geometry is a primitive or absent.

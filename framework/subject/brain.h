@@ -38,6 +38,10 @@ class Brain {
   double wanted() const noexcept { return wanted_; }       ///< grip aimed at [N]
   int drops() const noexcept { return drops_; }            ///< lost although it meant to hold
   int regrips() const noexcept { return regrips_; }        ///< squeezed harder after a slip noticed
+  /// Drawn for this trial: kick noticed as slip [m], factors on the slip force remembered and on the grip wanted.
+  double slipThreshold() const noexcept { return slip_threshold_; }
+  double misjudgement() const noexcept { return misjudgement_; }
+  double scatter() const noexcept { return scatter_; }
   const Perception& perception() const noexcept { return perception_; }
 
  private:

@@ -68,6 +68,7 @@ std::string headOf(const Experiment& experiment, const Subject& subject, int ses
   std::string text = experiment.title.empty() ? experiment.name : experiment.title;
   text += format("\nsubject %s (number %d), session %d, seed %llu\n", subject.id.c_str(), subject.number, session,
                  static_cast<unsigned long long>(experiment.seed));
+  if (!experiment.model.empty()) text += experiment.model + "\n";
   const std::size_t counted = trials.size() - static_cast<std::size_t>(practice);
   if (experiment.procedure)
     text += format("the method chooses: %zu trials here, %zu at most, after %zu for practice, in %d block%s; ", counted,
@@ -163,6 +164,7 @@ std::string dryRunJson(const Experiment& experiment, const Subject& subject, int
                                    {"subject", subject.id},
                                    {"number", subject.number},
                                    {"session", session},
+                                   {"model", experiment.model},
                                    {"seed", experiment.seed},
                                    {"seconds_least", n * trial.least + pause},
                                    {"seconds_most", n * trial.most + pause},

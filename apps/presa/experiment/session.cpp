@@ -78,6 +78,12 @@ Json conditionOf(const Experiment& experiment, const PlannedTrial& trial) {
 
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json factsJson(const std::vector<DeviceFact>& facts) {
+  Json all = Json::object();
+  for (const DeviceFact& fact : facts) all[fact.name] = {{"value", fact.value}, {"unit", fact.unit}};
+  return all;
+}
+
 std::size_t presentationsPerTrial(const Experiment& experiment) {
   return experiment.procedure ? experiment.procedure->presentations() : 1;
 }
@@ -125,6 +131,7 @@ SubjectSession SubjectSession::begin(const Experiment& experiment, const Session
   Json record = toJson(start);
   record["experiment"] = experiment.name;
   record["seed"] = experiment.seed;
+  if (!start.model.empty()) record["traits"] = factsJson(traitsOf(experiment, start.subject.number));
   record["presa"] = kVersion;
   record["utc"] = utcNow();
   record["machine"] = Json::object();
@@ -198,6 +205,7 @@ void SubjectSession::endRun(LoggedRun& run, const PlannedTrial& trial, const Con
   std::uint64_t ticks = 0;
   for (const TrialResult& shown : result.presented) {
     run.end["phases"].push_back(phasesOf(experiment_, shown));
+    if (!shown.facts.empty()) run.end["model"].push_back(factsJson(shown.facts));
     values.push_back(shown.values);
     simulated += shown.simulated_seconds;
     wall += shown.wall_seconds;
@@ -237,6 +245,7 @@ SubjectSession::End SubjectSession::run() {
     for (const std::string& name : run.files()) files.push_back(folder_.file(name));
     TrialSetting setting;
     setting.realtime = log_.start.realtime;
+    setting.subject = log_.start.subject.number;
     setting.stop = terminal::JobProgress::interrupted;
     const std::size_t left = trials_->left();
     setting.on_time = [&](double time) {

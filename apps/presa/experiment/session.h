@@ -27,6 +27,7 @@ class SubjectSession {
   const TrialSource& trials() const noexcept { return *trials_; }
   /// Why run() ended with kFault.
   std::string fault() const { return log_.runs.empty() ? "" : log_.runs.back().end.value("reason", ""); }
+  const SessionStart& start() const noexcept { return log_.start; }
   int runsMade() const noexcept { return static_cast<int>(log_.runs.size()); }
 
  private:

@@ -62,7 +62,8 @@ SessionFolder folderOf(const std::string& data, const std::string& subject, int 
 Json toJson(const SessionStart& start) {
   return {{"event", "start"},           {"format", kFormat},           {"experiment_file", start.experiment_file},
           {"rig_file", start.rig_file}, {"subject", start.subject.id}, {"number", start.subject.number},
-          {"session", start.session},   {"realtime", start.realtime}};
+          {"session", start.session},   {"realtime", start.realtime},  {"simulated", start.simulated},
+          {"model", start.model}};
 }
 
 SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
@@ -77,7 +78,9 @@ SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
                  start.at("rig_file"),
                  {start.at("subject"), start.at("number")},
                  start.at("session"),
-                 start.at("realtime")};
+                 start.at("realtime"),
+                 start.at("simulated"),
+                 start.at("model")};
     for (const Json& record : records) take(record, log);
   } catch (const std::exception& error) {
     if (dynamic_cast<const InputError*>(&error) != nullptr) throw;

@@ -24,10 +24,14 @@ SessionFolder folderOf(const std::string& data, const std::string& subject, int 
 
 /// What a session was started with, from the first record of its log.
 struct SessionStart {
-  std::string experiment_file, rig_file;
-  Subject subject;
+  std::string experiment_file{}, rig_file{};
+  Subject subject{};
   int session = 1;
   bool realtime = false;
+  std::string simulated{};  ///< level of the simulated subject that was asked for; empty: none was, or the rig's own
+  /// What held the devices if no person did: "simulated subject, level L1: a model, not a person". Whatever shows numbers of
+  /// this session says so.
+  std::string model{};
 };
 Json toJson(const SessionStart& start);
 

@@ -13,6 +13,22 @@ double longestOf(const Experiment& experiment) {
   return seconds;
 }
 
+/// A simulated subject is drawn from the experiment's seed and its own number: one person in every trial.
+SimulatedPerson personOf(const Experiment& experiment, int subject) {
+  return {experiment.seed, static_cast<std::uint64_t>(subject), experiment.level};
+}
+
+/// What the devices say of themselves, that of a run or that of all runs.
+std::vector<DeviceFact> factsOf(const DeviceList& devices, bool of_run) {
+  std::vector<DeviceFact> facts;
+  for (const auto& device : devices) {
+    for (DeviceFact& fact : device->facts()) {
+      if (fact.of_run == of_run) facts.push_back(std::move(fact));
+    }
+  }
+  return facts;
+}
+
 /// One trial's session, from its parts to its result.
 class TrialRun {
  public:
@@ -45,6 +61,7 @@ class TrialRun {
     options.duration = longestOf(experiment);
     options.seed = seed;
     options.record = setting.record;
+    options.person = personOf(experiment, setting.subject);
     Diagnostics diagnostics;
     Loaded loaded = loadWorld({experiment.scene, experiment.rig, presentation.sets}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
@@ -76,6 +93,7 @@ class TrialRun {
     if (result.state == Trial::State::kDone) result.excluded = trial_.exclusion(result.values);
     result.simulated_seconds = tap_->time();
     result.wall_seconds = executor_->wallSeconds();
+    result.facts = factsOf(session_->devices(), true);
     if (session_->monitor().objectFaults() != 0) result.faults.emplace_back("fault in the dynamics");
     if (Recorder* recorder = session_->recorder()) {
       recorder->finish();
@@ -97,6 +115,16 @@ class TrialRun {
 };
 
 }  // namespace
+
+std::vector<DeviceFact> traitsOf(const Experiment& experiment, int subject) {
+  RunOptions options;
+  options.person = personOf(experiment, subject);
+  Diagnostics diagnostics;
+  const Loaded loaded = loadWorld({experiment.scene, experiment.rig, experiment.sets}, options, diagnostics);
+  const DeviceList devices = createDevices(*loaded.world, loaded.plan, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  return factsOf(devices, false);
+}
 
 TrialResult present(const Experiment& experiment, const Presentation& presentation, std::uint64_t seed,
                     const TrialSetting& setting) {

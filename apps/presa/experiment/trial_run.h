@@ -3,14 +3,16 @@
 #include <string>
 #include <vector>
 
+#include "framework/device/device.h"
 #include "framework/experiment/presentation.h"
 #include "framework/experiment/trial.h"
 
 namespace presa::experiment {
 
 struct TrialSetting {
-  std::string record;  ///< HDF5 file; empty: none
+  std::string record{};  ///< HDF5 file; empty: none
   bool realtime = false;
+  int subject = 1;                        ///< its number: which person a simulated subject is
   std::function<bool()> stop{};           ///< asked now and then on the main thread: true ends the trial
   std::function<void(double)> on_time{};  ///< simulated time reached [s], now and then
 };
@@ -25,11 +27,15 @@ struct TrialResult {
   double simulated_seconds = 0, wall_seconds = 0;
   std::uint64_t ticks = 0, missed = 0;  ///< of the haptic group
   std::vector<std::string> faults;      ///< of dynamics and recording
+  std::vector<DeviceFact> facts;        ///< of a simulated subject, drawn for this run
 };
 
 /// Runs one presentation of a trial in a session of its own, from the scene's start to the end of its last phase. `seed`: of the
 /// trial. Throws InputError.
 TrialResult present(const Experiment& experiment, const Presentation& presentation, std::uint64_t seed,
                     const TrialSetting& setting);
+
+/// The traits of the simulated subject that takes part under this number: the same in all its runs; none for a person.
+std::vector<DeviceFact> traitsOf(const Experiment& experiment, int subject);
 
 }  // namespace presa::experiment

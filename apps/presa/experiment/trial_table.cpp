@@ -48,6 +48,9 @@ std::vector<TableColumn> columnsOf(const Experiment& experiment) {
   std::vector<TableColumn> columns{
       {"subject", "", "pseudonym", [](S start, R) { return start.subject.id; }},
       {"session", "", "", [](S start, R) { return std::to_string(start.session); }},
+      {"model", "",
+       "what held the devices if no person did" + (experiment.model.empty() ? "" : ": " + experiment.model),
+       [](S start, R) { return start.model.empty() ? kNothing : textOf(start.model); }},
       {"trial", "", "number in the planned order; practice trials count by themselves", from_begin("trial")},
       {"practice", "", "1: does not count", from_begin("practice")},
       {"block", "", "", from_begin("block")},

@@ -15,7 +15,7 @@ namespace {
 using namespace experiment;
 
 struct Arguments {
-  std::string file, rig, data, subject = "S01", format = "text";
+  std::string file, rig, simulated, data, subject = "S01", format = "text";
   int number = 0, session = 1;
   bool lockstep = false;
 };
@@ -23,7 +23,7 @@ struct Arguments {
 int dryRun(const Arguments& a) {
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
-  const auto experiment = readExperiment(a.file, a.rig, diagnostics);
+  const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
   const auto trials = previewTrials(*experiment, subject.number, a.session);
@@ -62,6 +62,7 @@ int runToEnd(SubjectSession& session) {
   }
   std::printf("%zu trials done, %zu given up, in %d runs: %s\n", trials.done(), trials.missing(), session.runsMade(),
               session.folder().file("trials.csv").c_str());
+  if (!session.start().model.empty()) std::printf("%s\n", session.start().model.c_str());
   return kExitOk;
 }
 
@@ -72,10 +73,11 @@ int run(const Arguments& a) {
   const std::string file = absolute(a.file), rig = absolute(a.rig);
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
-  const auto experiment = readExperiment(file, rig, diagnostics);
+  const auto experiment = readExperiment(file, rig, diagnostics, a.simulated);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
-  auto session = SubjectSession::begin(*experiment, {file, rig, subject, a.session, !a.lockstep}, a.data);
+  auto session = SubjectSession::begin(
+      *experiment, {file, rig, subject, a.session, !a.lockstep, a.simulated, experiment->model}, a.data);
   return runToEnd(session);
 }
 
@@ -106,7 +108,8 @@ int resume(const std::string& data) {
     return kExitBadInput;
   }
   Diagnostics diagnostics;
-  const auto experiment = readExperiment(open[0].start.experiment_file, open[0].start.rig_file, diagnostics);
+  const SessionStart& start = open[0].start;
+  const auto experiment = readExperiment(start.experiment_file, start.rig_file, diagnostics, start.simulated);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!experiment) return kExitBadInput;
   auto session = SubjectSession::resume(*experiment, open[0].folder);
@@ -119,7 +122,10 @@ void addWho(CLI::App& command, Arguments& a) {
   command.add_option("--number", a.number, "number of the subject, from 1 (default: the pseudonym's digits)")
       ->check(CLI::PositiveNumber);
   command.add_option("--session", a.session, "from 1")->check(CLI::PositiveNumber)->capture_default_str();
-  command.add_option("--rig", a.rig, "rig file instead of the experiment's");
+  auto* rig = command.add_option("--rig", a.rig, "rig file instead of the experiment's");
+  command.add_option("--simulated", a.simulated, "a model instead of a person, at level L0, L1 or L2")
+      ->check(CLI::IsMember({"L0", "L1", "L2"}))
+      ->excludes(rig);
 }
 
 void addDryRun(CLI::App& app, int& status) {
