@@ -6,12 +6,16 @@
 #include "framework/plan/plugin_loader.h"
 
 namespace presa {
+namespace {
 
-std::string sha256OfFile(const std::string& file) {
-  static const auto digestOf = reinterpret_cast<Sha256Function>(pluginSymbol("checksum", kSha256Symbol));
-  std::array<unsigned char, 32> digest{};
-  if (const int error = digestOf(file.c_str(), digest.data()); error != 0)
-    throw std::system_error(error, std::generic_category(), "cannot read " + file);
+using Digest = std::array<unsigned char, 32>;
+
+const ChecksumPlugin& plugin() {
+  static const auto* const loaded = reinterpret_cast<const ChecksumPlugin*>(pluginSymbol("checksum", kChecksumSymbol));
+  return *loaded;
+}
+
+std::string hexOf(const Digest& digest) {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string text;
   for (const unsigned char byte : digest) {
@@ -19,6 +23,22 @@ std::string sha256OfFile(const std::string& file) {
     text += kDigits[byte & 15U];
   }
   return text;
+}
+
+}  // namespace
+
+std::string sha256OfFile(const std::string& file) {
+  Digest digest{};
+  if (const int error = plugin().file(file.c_str(), digest.data()); error != 0)
+    throw std::system_error(error, std::generic_category(), "cannot read " + file);
+  return hexOf(digest);
+}
+
+std::string sha256OfText(std::string_view text) {
+  Digest digest{};
+  if (const int error = plugin().bytes(text.data(), text.size(), digest.data()); error != 0)
+    throw std::system_error(error, std::generic_category(), "cannot compute a checksum");
+  return hexOf(digest);
 }
 
 }  // namespace presa

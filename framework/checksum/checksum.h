@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace presa {
 
@@ -7,8 +9,14 @@ namespace presa {
 /// pluginSymbol throws. Thread: any but the haptic one.
 std::string sha256OfFile(const std::string& file);
 
+/// The same of bytes in memory.
+std::string sha256OfText(std::string_view text);
+
 /// What the plug-in exports: digest 32 bytes; 0 or an errno.
-using Sha256Function = int (*)(const char* file, unsigned char* digest);
-inline constexpr const char* kSha256Symbol = "presaSha256";
+struct ChecksumPlugin {
+  int (*file)(const char* file, unsigned char* digest);
+  int (*bytes)(const void* bytes, std::size_t count, unsigned char* digest);
+};
+inline constexpr const char* kChecksumSymbol = "presaChecksum";
 
 }  // namespace presa

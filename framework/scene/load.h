@@ -22,4 +22,8 @@ Scene parseScene(const std::string& xml, const std::string& name, const std::str
 Rig loadRig(const std::string& file, Diagnostics& diagnostics);
 Rig parseRig(const std::string& xml, const std::string& name, const std::string& directory, Diagnostics& diagnostics);
 
+/// Files that they name, as resolved: meshes; settings that are paths.
+std::vector<std::string> filesNamedBy(const Scene& scene);
+std::vector<std::string> filesNamedBy(const Rig& rig);
+
 }  // namespace presa

@@ -107,4 +107,14 @@ Rig parseRig(const std::string& xml, const std::string& name, const std::string&
   return readDocument(*document, directory, diagnostics);
 }
 
+std::vector<std::string> filesNamedBy(const Rig& rig) {
+  std::vector<std::string> files;
+  for (const DeviceBinding& device : rig.devices) {
+    for (const auto& [key, setting] : device.settings) {
+      if (isPath(key)) files.push_back(setting.value);
+    }
+  }
+  return files;
+}
+
 }  // namespace presa

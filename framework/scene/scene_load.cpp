@@ -90,4 +90,15 @@ Scene parseScene(const std::string& xml, const std::string& name, const std::str
   return loadDocument(*document, directory, overrides, diagnostics);
 }
 
+std::vector<std::string> filesNamedBy(const Scene& scene) {
+  std::vector<std::string> files;
+  for (const Body& body : scene.bodies) {
+    for (const auto* geometry : {&body.visual, &body.haptic, &body.physics}) {
+      if (!geometry->has_value()) continue;
+      if (const auto* mesh = std::get_if<MeshRef>(&(*geometry)->shape)) files.push_back(mesh->file);
+    }
+  }
+  return files;
+}
+
 }  // namespace presa

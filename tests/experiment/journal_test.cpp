@@ -71,10 +71,9 @@ TEST_F(JournalTest, CutAnywhereItGoesOn) {
   }
 }
 
-// Every byte before the last line counts, and no line can be taken out.
-TEST_F(JournalTest, AChangeInTheMiddleIsFound) {
-  const std::size_t last_line = text.rfind('\n', text.size() - 2);
-  for (std::size_t at = 0; at < last_line; ++at) {
+// Every byte of every whole line counts, that of the last too, and no line can be taken out.
+TEST_F(JournalTest, AChangeInAWholeLineIsFound) {
+  for (std::size_t at = 0; at + 1 < text.size(); ++at) {
     std::string changed = text;
     changed[at] = static_cast<char>(changed[at] ^ 1);
     write(changed);
@@ -83,6 +82,32 @@ TEST_F(JournalTest, AChangeInTheMiddleIsFound) {
   const std::size_t first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   write(text.substr(0, first) + text.substr(second));
   EXPECT_THAT(refusalOf([&] { Journal::read(file); }), HasSubstr("error[E923]"));
+}
+
+// Only a line without its end is what a crash leaves: one that was damaged is evidence, and stays.
+TEST_F(JournalTest, ADamagedLastLineIsNotCutOff) {
+  std::string changed = text;
+  changed[text.size() - 3] = ' ';
+  write(changed);
+  Journal::Contents contents;
+  EXPECT_THAT(refusalOf([&] { Journal::reopen(file, contents); }), HasSubstr("line 5 was changed"));
+  EXPECT_EQ(contentsOf(file), changed);
+}
+
+// The chain by hand: each sum is that of the sum before and the record, as sha256sum would give it.
+TEST_F(JournalTest, IsAChainOfSha256) {
+  std::string sum;
+  for (int i = 0; i < 5; ++i) {
+    std::ofstream(scratch.file("link"), std::ios::binary) << sum << record(i).dump();
+    sum = sha256OfFile(scratch.file("link"));
+    EXPECT_THAT(text, HasSubstr("{\"sha256\":\"" + sum + "\",\"record\":" + record(i).dump() + "}\n"));
+  }
+  EXPECT_EQ(Journal::read(file).sum, sum);
+}
+
+TEST_F(JournalTest, TheFormatBeforeIsNamed) {
+  write("{\"sum\":\"cbf29ce484222325\",\"record\":{}}\n");
+  EXPECT_THAT(refusalOf([&] { Journal::read(file); }), HasSubstr("whose sums prove too little"));
 }
 
 TEST_F(JournalTest, OneProcessAtATime) {
@@ -112,6 +137,7 @@ TEST(Checksum, IsThatOfTheStandard) {
   ScratchFolder scratch;
   std::ofstream(scratch.file("abc")) << "abc";  // FIPS 180-2, example B.1
   EXPECT_EQ(sha256OfFile(scratch.file("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256OfText("abc"), sha256OfFile(scratch.file("abc")));
   EXPECT_THROW(sha256OfFile(scratch.file("none")), std::system_error);
 }
 

@@ -211,15 +211,17 @@ TEST_F(SessionTest, ForgetRemovesOneSubjectAndNoOther) {
   std::vector<std::string> other = runArguments(data);
   other[4] = "S011";
   ASSERT_EQ(program(other), 0) << output;
+  const auto before = allBytesOf(data + "/sub-S011");
   fs::create_directories(data + "/bids/sub-S01/beh");
   std::ofstream(data + "/bids/participants.tsv") << "participant_id\tage\nsub-S01\t30\nsub-S011\t40\n";
   EXPECT_EQ(program({"experiment", "forget", "--subject", "S01", "--data", data}), 2);
   EXPECT_TRUE(fs::exists(data + "/sub-S01"));
   EXPECT_EQ(program({"experiment", "forget", "--subject", "S01", "--data", data, "--yes"}), 0);
-  EXPECT_THAT(output, HasSubstr("in 2 folders, rows in 1 tables"));
+  EXPECT_THAT(output, HasSubstr("removed: 2 folders with"));
   EXPECT_FALSE(fs::exists(data + "/sub-S01"));
   EXPECT_FALSE(fs::exists(data + "/bids/sub-S01"));
-  EXPECT_TRUE(fs::exists(data + "/sub-S011/ses-1/trials.csv"));
+  EXPECT_EQ(allBytesOf(data + "/sub-S011"), before);
+  EXPECT_EQ(program({"experiment", "validate", data}), 0) << output;
   EXPECT_EQ(contentsOf(data + "/bids/participants.tsv"), "participant_id\tage\nsub-S011\t40\n");
 }
 

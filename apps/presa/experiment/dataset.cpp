@@ -1,6 +1,7 @@
 #include "apps/presa/experiment/dataset.h"
 
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "framework/checksum/checksum.h"
@@ -24,9 +25,10 @@ class Validation {
       contents = Journal::read(folder_.journal());
       log_ = readLog(folder_.journal(), contents.records);
     } catch (const InputError& error) {
-      for (const Diagnostic& one : error.diagnostics().all()) find(format(one));
+      for (const Diagnostic& one : error.diagnostics().all()) alter(format(one));
       return verdict_;
     }
+    verdict_.seal = contents.sum;
     known_.insert({"journal.jsonl", "trials.csv", "trials.json"});
     if (contents.torn_bytes > 0)
       find("journal.jsonl: " + std::to_string(contents.torn_bytes) + " bytes of a record that was never finished");
@@ -38,16 +40,21 @@ class Validation {
       for (const auto& [name, sum] : end.at("sha256").items()) checkSum(name, sum);
     }
     checkStrangers();
+    noteTrials();
     return verdict_;
   }
 
  private:
   void find(const std::string& finding) { verdict_.findings.push_back(finding); }
+  void alter(const std::string& finding) {
+    verdict_.altered = true;
+    find(finding);
+  }
 
   void checkSum(const std::string& name, const std::string& sum) {
     known_.insert(name);
-    if (!fs::exists(folder_.file(name))) return find(name + ": is missing");
-    if (sha256OfFile(folder_.file(name)) != sum) find(name + ": was changed, its SHA-256 is not that of the log");
+    if (!fs::exists(folder_.file(name))) return alter(name + ": is missing");
+    if (sha256OfFile(folder_.file(name)) != sum) alter(name + ": was changed, its SHA-256 is not that of the log");
   }
 
   void checkRun(const LoggedRun& run) {
@@ -62,6 +69,27 @@ class Validation {
     for (const auto& entry : fs::directory_iterator(folder_.path)) {
       const std::string name = entry.path().filename().string();
       if (!known_.contains(name)) find(name + ": is not in the log");
+    }
+  }
+
+  /// What became of each trial that counts: the outcome of its last run, why it is excluded.
+  void noteTrials() {
+    std::map<int, const LoggedRun*> last;
+    for (const LoggedRun& run : log_.runs) {
+      if (!run.practice) last[run.number] = &run;
+    }
+    std::map<std::string, std::vector<int>> told;
+    for (const auto& [number, run] : last) {
+      const std::string excluded = run->end.is_object() ? run->end.value("excluded", "") : "";
+      if (!excluded.empty()) told["excluded, " + excluded].push_back(number);
+      if (run->outcome == Outcome::kSkipped) told["skipped"].push_back(number);
+      if (run->outcome == Outcome::kAborted && log_.complete)
+        told["given up, " + run->end.value("reason", "")].push_back(number);
+    }
+    for (const auto& [what, numbers] : told) {
+      std::string note = what + ": trial";
+      for (const int number : numbers) note += " " + std::to_string(number);
+      verdict_.notes.push_back(note);
     }
   }
 

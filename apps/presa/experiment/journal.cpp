@@ -4,10 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cinttypes>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -15,25 +12,18 @@
 #include <system_error>
 #include <utility>
 
+#include "framework/checksum/checksum.h"
 #include "framework/diagnostics/refuse.h"
 
 namespace presa::experiment {
 namespace {
 
-constexpr std::uint64_t kStart = 0xcbf29ce484222325;
-constexpr std::string_view kHead = "{\"sum\":\"", kMiddle = "\",\"record\":";
-constexpr std::size_t kDigits = 16;
+constexpr std::string_view kHead = "{\"sha256\":\"", kMiddle = "\",\"record\":", kOldHead = "{\"sum\":\"";
+constexpr std::size_t kDigits = 64;
 
-/// FNV-1a, begun with the sum of the line before.
-std::uint64_t sumOf(std::uint64_t before, std::string_view text) {
-  for (const char c : text) before = (before ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return before;
-}
-
-std::string hex(std::uint64_t sum) {
-  std::array<char, kDigits + 1> text{};
-  std::snprintf(text.data(), text.size(), "%016" PRIx64, sum);
-  return text.data();
+/// Before the first record there is no sum.
+std::string sumOf(const std::string& before, std::string_view record) {
+  return sha256OfText(before + std::string(record));
 }
 
 int openLocked(const std::string& file, int flags) {
@@ -51,13 +41,15 @@ int openLocked(const std::string& file, int flags) {
   return descriptor;
 }
 
-/// The record of a line, when its sum is right.
-std::optional<std::string_view> recordOf(std::string_view line, std::uint64_t before) {
+/// The record of a line, when its sum is right; `sum` goes on to it.
+std::optional<std::string_view> recordOf(std::string_view line, std::string& sum) {
   const std::size_t start = kHead.size() + kDigits + kMiddle.size();
   if (line.size() <= start || !line.starts_with(kHead) || line.back() != '}') return std::nullopt;
   if (line.substr(kHead.size() + kDigits, kMiddle.size()) != kMiddle) return std::nullopt;
   const std::string_view record = line.substr(start, line.size() - start - 1);
-  if (line.substr(kHead.size(), kDigits) != hex(sumOf(before, record))) return std::nullopt;
+  std::string wanted = sumOf(sum, record);
+  if (line.substr(kHead.size(), kDigits) != wanted) return std::nullopt;
+  sum = std::move(wanted);
   return record;
 }
 
@@ -67,34 +59,32 @@ Journal::Contents Journal::read(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) refuse(922, file, std::string("cannot be read: ") + std::strerror(errno));
   const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.starts_with(kOldHead)) refuse(923, file, "was begun by a version of Presa whose sums prove too little");
   Contents contents;
-  contents.sum = kStart;
   int line_number = 0;
   for (std::size_t at = 0; at < text.size();) {
     ++line_number;
     const std::size_t end = text.find('\n', at);
-    const auto record =
-        end == std::string::npos ? std::nullopt : recordOf(std::string_view(text).substr(at, end - at), contents.sum);
-    if (!record) {
-      // a crash tears only the last line
-      if (end != std::string::npos && end + 1 < text.size())
-        refuse(923, file, "line " + std::to_string(line_number) + " was changed, or one before it is missing");
+    if (end == std::string::npos) {
       contents.torn_bytes = text.size() - at;
       break;
     }
+    const auto record = recordOf(std::string_view(text).substr(at, end - at), contents.sum);
+    if (!record) refuse(923, file, "line " + std::to_string(line_number) + " was changed, or one before it is missing");
     contents.records.push_back(Json::parse(*record));
-    contents.sum = sumOf(contents.sum, *record);
     at = contents.good_bytes = end + 1;
   }
   return contents;
 }
 
-Journal Journal::create(const std::string& file) { return {file, openLocked(file, O_CREAT | O_EXCL), 0, kStart}; }
+Journal Journal::create(const std::string& file) { return {file, openLocked(file, O_CREAT | O_EXCL), 0, {}}; }
+
+Journal Journal::hold(const std::string& file) { return {file, openLocked(file, 0), 0, {}}; }
 
 Journal Journal::reopen(const std::string& file, Contents& contents) {
   const int descriptor = openLocked(file, 0);
-  Journal journal(file, descriptor, 0, kStart);  // closes it if reading throws
-  contents = read(file);                         // again, now that nobody else writes
+  Journal journal(file, descriptor, 0, {});  // closes it if reading throws
+  contents = read(file);                     // again, now that nobody else writes
   if (contents.torn_bytes > 0 && ::ftruncate(descriptor, static_cast<off_t>(contents.good_bytes)) != 0)
     refuse(922, file, std::string("cannot be written: ") + std::strerror(errno));
   journal.size_ = contents.good_bytes;
@@ -106,7 +96,7 @@ Journal::Journal(Journal&& other) noexcept
     : file_(std::move(other.file_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
       size_(other.size_),
-      sum_(other.sum_) {}
+      sum_(std::move(other.sum_)) {}
 
 Journal::~Journal() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -114,8 +104,8 @@ Journal::~Journal() {
 
 void Journal::append(const Json& record) {
   const std::string text = record.dump();
-  const std::uint64_t sum = sumOf(sum_, text);
-  const std::string line = std::string(kHead) + hex(sum) + std::string(kMiddle) + text + "}\n";
+  std::string sum = sumOf(sum_, text);
+  const std::string line = std::string(kHead) + sum + std::string(kMiddle) + text + "}\n";
   int error = 0;
   for (std::size_t written = 0; written < line.size() && error == 0;) {
     const ssize_t step = ::write(descriptor_, line.data() + written, line.size() - written);
@@ -131,7 +121,7 @@ void Journal::append(const Json& record) {
     throw std::system_error(error, std::generic_category(), "cannot write " + file_);
   }
   size_ += line.size();
-  sum_ = sum;
+  sum_ = std::move(sum);
 }
 
 }  // namespace presa::experiment

@@ -7,17 +7,18 @@ namespace presa::experiment {
 
 using Json = nlohmann::ordered_json;
 
-/// The write-ahead log of a session: one record per line, on disk before append() returns. Each line carries a sum over itself
-/// and the line before, so that a torn tail is told from a whole record, and a changed or missing line from a good log.
+/// The write-ahead log of a session: one record per line, on disk before append() returns. Each line carries the SHA-256 of the
+/// sum before it and of its own record, so that a changed, missing or added line is told from a good log; a line without its end
+/// is what a crash tears. Whoever notes the last sum can prove the whole log later, and with the sums in it every file.
 /// Held under a lock: a session is run by one process at a time. Thread: main.
 class Journal {
  public:
-  /// What a log holds, read without touching it. E923: a line in the middle is damaged; the tail after the last whole line is
-  /// what a crash leaves, and only counted. Throws InputError (E922: cannot be read).
+  /// What a log holds, read without touching it. Throws InputError: E922 cannot be read; E923 a whole line is damaged, or of
+  /// the format before SHA-256. A last line without its end is only counted.
   struct Contents {
     std::vector<Json> records;
     std::size_t good_bytes = 0, torn_bytes = 0;
-    std::uint64_t sum = 0;
+    std::string sum;  ///< of the last record: the seal of all before it
   };
   static Contents read(const std::string& file);
 
@@ -26,6 +27,8 @@ class Journal {
   /// A log to go on with: what a crash left behind the last whole record is cut off. Throws InputError E921 when another
   /// process runs the session.
   static Journal reopen(const std::string& file, Contents& contents);
+  /// Only keeps others from running the session while it lives; the log may be damaged. Throws InputError E921, E922.
+  static Journal hold(const std::string& file);
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&&) = delete;
   ~Journal();
@@ -34,12 +37,12 @@ class Journal {
   void append(const Json& record);
 
  private:
-  Journal(std::string file, int descriptor, std::size_t size, std::uint64_t sum)
-      : file_(std::move(file)), descriptor_(descriptor), size_(size), sum_(sum) {}
+  Journal(std::string file, int descriptor, std::size_t size, std::string sum)
+      : file_(std::move(file)), descriptor_(descriptor), size_(size), sum_(std::move(sum)) {}
   std::string file_;
   int descriptor_;
   std::size_t size_;
-  std::uint64_t sum_;
+  std::string sum_;
 };
 
 }  // namespace presa::experiment

@@ -14,6 +14,7 @@
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/experiment/conduct.h"
 #include "apps/presa/experiment/dry_run.h"
+#include "apps/presa/experiment/inputs.h"
 #include "apps/presa/experiment/trial_table.h"
 #include "apps/presa/machine.h"
 #include "apps/presa/terminal/job_progress.h"
@@ -137,6 +138,7 @@ SubjectSession SubjectSession::begin(const Experiment& experiment, const Session
   record["machine"] = Json::object();
   for (const auto& [name, value] : machineFacts()) record["machine"][name] = value;
   for (const auto& [name, text] : documentsOf(experiment)) record["sha256"][name] = sha256OfFile(folder.file(name));
+  record["inputs"] = inputSums(experiment, start.subject.number);
   journal.append(record);
   return {experiment, std::move(folder), {start, {}, false}, std::move(journal)};
 }
@@ -150,6 +152,7 @@ SubjectSession SubjectSession::resume(const Experiment& experiment, const Sessio
              "a session is finished with the files that it began with");
   }
   SubjectSession session(experiment, folder, readLog(folder.journal(), contents.records), std::move(journal));
+  checkInputs(experiment, session.log_.start.subject.number, contents.records.front().at("inputs"));
   Json record{{"event", "resume"}, {"presa", kVersion}, {"utc", utcNow()}, {"torn_bytes", contents.torn_bytes}};
   session.journal_.append(record);
   for (LoggedRun& run : session.log_.runs) {

@@ -7,7 +7,9 @@
 
 #include "framework/checksum/checksum.h"
 
-extern "C" __attribute__((visibility("default"))) int presaSha256(const char* file, unsigned char* digest) {
+namespace {
+
+int ofFile(const char* file, unsigned char* digest) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file, "rb"), std::fclose);
   if (!in) return errno;
   const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
@@ -18,3 +20,11 @@ extern "C" __attribute__((visibility("default"))) int presaSha256(const char* fi
   if (std::ferror(in.get()) != 0) return EIO;
   return EVP_DigestFinal_ex(context.get(), digest, nullptr) == 1 ? 0 : EIO;
 }
+
+int ofBytes(const void* bytes, std::size_t count, unsigned char* digest) {
+  return EVP_Digest(bytes, count, digest, nullptr, EVP_sha256(), nullptr) == 1 ? 0 : EIO;
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const presa::ChecksumPlugin presaChecksum{ofFile, ofBytes};

@@ -27,6 +27,8 @@ int validateAll(const std::string& data) {
     std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(),
                 verdict.findings.empty() ? "complete and unaltered" : "NOT in order", verdict.trials, verdict.runs);
     for (const std::string& finding : verdict.findings) std::printf("  %s\n", finding.c_str());
+    for (const std::string& note : verdict.notes) std::printf("  %s\n", note.c_str());
+    if (verdict.findings.empty()) std::printf("  seal %s\n", verdict.seal.c_str());
   }
   return good ? kExitOk : kExitFault;
 }
@@ -60,13 +62,19 @@ int forgetSubject(const ForgetArguments& a) {
     std::printf("%s holds nothing of %s\n", a.data.c_str(), a.subject.c_str());
     return kExitOk;
   }
-  for (const std::string& folder : traces.folders) std::printf("%s\n", folder.c_str());
-  for (const std::string& table : traces.tables) std::printf("%s: rows of the subject\n", table.c_str());
+  const auto list = [](const std::vector<std::string>& paths, const char* what) {
+    for (const std::string& path : paths) std::printf("  %s%s\n", path.c_str(), what);
+  };
+  list(traces.folders, "/");
+  list(traces.files, "");
+  list(traces.links, ": the link, not what it points to");
+  list(traces.tables, ": rows of the subject");
   if (!confirmed(a)) return kExitBadInput;
   forget(traces, a.subject);
-  std::printf(
-      "removed: %zu files in %zu folders, rows in %zu tables. Reports that were made with them have to be made anew.\n",
-      traces.files, traces.folders.size(), traces.tables.size());
+  std::printf("removed: %zu folders with %zu files, %zu files, %zu links, rows in %zu tables\n", traces.folders.size(),
+              traces.files_in_folders, traces.files.size(), traces.links.size(), traces.tables.size());
+  if (!traces.mentions.empty()) std::puts("left, but they name the subject; make them anew or remove them:");
+  list(traces.mentions, "");
   return kExitOk;
 }
 
