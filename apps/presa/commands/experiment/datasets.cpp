@@ -24,8 +24,10 @@ int validateAll(const std::string& data) {
   for (const SessionFolder& folder : sessions) {
     const Verdict verdict = validate(folder);
     good = good && verdict.findings.empty();
-    std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(),
-                verdict.findings.empty() ? "complete and unaltered" : "NOT in order", verdict.trials, verdict.runs);
+    const char* const word = verdict.altered            ? "ALTERED"
+                             : verdict.findings.empty() ? "complete and unaltered"
+                                                        : "unaltered, NOT in order";
+    std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(), word, verdict.trials, verdict.runs);
     for (const std::string& finding : verdict.findings) std::printf("  %s\n", finding.c_str());
     for (const std::string& note : verdict.notes) std::printf("  %s\n", note.c_str());
     if (verdict.findings.empty()) std::printf("  seal %s\n", verdict.seal.c_str());

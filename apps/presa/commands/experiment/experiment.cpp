@@ -18,6 +18,7 @@ void addExperiment(CLI::App& app, int& status) {
   command->require_subcommand(1);
   addSessionCommands(*command, status);
   addDatasetCommands(*command, status);
+  addExport(*command, status);
 }
 
 }  // namespace presa

@@ -8,6 +8,7 @@ namespace presa {
 /// `presa experiment …`, by what it works on.
 void addSessionCommands(CLI::App& app, int& status);  ///< dry-run, run, resume
 void addDatasetCommands(CLI::App& app, int& status);  ///< validate, forget
+void addExport(CLI::App& app, int& status);
 
 /// A subcommand whose one argument is the folder of a dataset or of one session in it.
 void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&));

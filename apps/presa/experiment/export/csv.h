@@ -1,0 +1,11 @@
+#pragma once
+#include "apps/presa/experiment/export/bids.h"
+
+namespace presa::experiment {
+
+/// Writes the sessions as plain CSV into a new folder: trials.csv, one row for each run of a trial of all sessions, with
+/// units in the header, and trials.json, what the columns mean; timeseries/sub-S01_ses-1_trial-001_run-1.csv for each recording of
+/// a run that ended, `rate` rows a second. Errors and result as exportBids.
+bool exportCsv(const std::vector<SourceSession>& sessions, const std::string& out, double rate, const Continue& more);
+
+}  // namespace presa::experiment
