@@ -96,11 +96,12 @@ void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
 }  // namespace
 
 std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics,
-                                         const std::string& simulated) {
+                                         const std::string& simulated, std::uint64_t seed) {
   const auto document = xml::Document::load(file, diagnostics);
   if (!document || !document->validate(schema(), diagnostics)) return std::nullopt;
   document->writeDefaults(schema());
-  const Element root = document->root();
+  Element root = document->root();
+  if (seed != 0) root.setAttribute("seed", std::to_string(seed));
   Experiment experiment;
   readHead(root, file, experiment);
   experiment.rig = rigOf(root, rig, simulated, diagnostics);

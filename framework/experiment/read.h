@@ -11,8 +11,8 @@ inline const std::vector<std::string> kQualityNames{"missed_ticks", "clipped_s",
 
 /// Reads an experiment file with its scene and rig: names, expressions and paths are resolved, and every condition's scene is
 /// loaded once. `rig`: instead of the file's own; may be empty. `simulated`: level of a simulated subject, who holds the rig that the
-/// file names for it. All findings go to `diagnostics` (E9xx, and those of scene and rig); null when there are errors.
+/// file names for it. `seed`: instead of the file's own; 0: that. All findings go to `diagnostics` (E9xx, and those of scene and rig); null when there are errors.
 std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics,
-                                         const std::string& simulated = {});
+                                         const std::string& simulated = {}, std::uint64_t seed = 0);
 
 }  // namespace presa::experiment

@@ -4,40 +4,25 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
 #include "apps/presa/atomic_file.h"
-#include "apps/presa/experiment/conduct.h"
-#include "apps/presa/experiment/dry_run.h"
 #include "apps/presa/experiment/inputs.h"
+#include "apps/presa/experiment/operator/desk.h"
+#include "apps/presa/experiment/session_records.h"
 #include "apps/presa/experiment/trial_table.h"
 #include "apps/presa/machine.h"
-#include "apps/presa/terminal/job_progress.h"
 #include "apps/presa/terminal/text.h"
 #include "apps/presa/version.h"
 #include "framework/checksum/checksum.h"
 #include "framework/diagnostics/refuse.h"
-#include "framework/experiment/row.h"
 
 namespace presa::experiment {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// For people only: nothing is computed from it, so that a clock that jumps does no harm.
-std::string utcNow() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
-}
 
 std::vector<std::pair<const char*, const std::string*>> documentsOf(const Experiment& experiment) {
   return {{"experiment.xml", &experiment.resolved_xml},
@@ -68,44 +53,6 @@ void syncFile(const std::string& path, int flags = 0) {
 }
 void syncFolder(const fs::path& folder) { syncFile(folder.string(), O_DIRECTORY); }
 
-Json conditionOf(const Experiment& experiment, const PlannedTrial& trial) {
-  Json condition = Json::object();
-  for (const Factor& factor : experiment.factors) {
-    for (const Column& column : factor.columns)
-      condition[column.name] = experiment.valueOf(column.name, trial.condition);
-  }
-  return condition;
-}
-
-Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json factsJson(const std::vector<DeviceFact>& facts) {
-  Json all = Json::object();
-  for (const DeviceFact& fact : facts) all[fact.name] = {{"value", fact.value}, {"unit", fact.unit}};
-  return all;
-}
-
-std::size_t presentationsPerTrial(const Experiment& experiment) {
-  return experiment.procedure ? experiment.procedure->presentations() : 1;
-}
-
-Json stimulusOf(const psychophysics::Stimulus& stimulus) {
-  return {{"level", stimulus.level},
-          {"track", stimulus.track},
-          {"standard_place", stimulus.standard_place},
-          {"catch_trial", stimulus.kind == psychophysics::TrialKind::kCatch}};
-}
-
-Json phasesOf(const Experiment& experiment, const TrialResult& result) {
-  Json phases = Json::object();
-  for (std::size_t p = 0; p < result.phases.size(); ++p) {
-    const Trial::Stretch& stretch = result.phases[p];
-    phases[experiment.phases[p].name] = {numberOrNull(stretch.begin < 0 ? NAN : stretch.begin),
-                                         numberOrNull(stretch.end < 0 ? NAN : stretch.end)};
-  }
-  return phases;
-}
-
 }  // namespace
 
 SubjectSession::SubjectSession(const Experiment& experiment, SessionFolder folder, SessionLog log, Journal journal)
@@ -113,11 +60,7 @@ SubjectSession::SubjectSession(const Experiment& experiment, SessionFolder folde
       folder_(std::move(folder)),
       log_(std::move(log)),
       journal_(std::move(journal)),
-      trials_(makeTrialSource(experiment, log_.start.subject.number, log_.start.session)) {
-  if (!experiment.procedure) return;
-  if (log_.start.realtime || !experiment.procedure->observer) refuse(928, experiment.file, "nobody can answer");
-  respondent_ = simulatedRespondent(experiment, log_.start.subject.number);
-}
+      trials_(makeTrialSource(experiment, log_.start.subject.number, log_.start.session)) {}
 
 SubjectSession SubjectSession::begin(const Experiment& experiment, const SessionStart& start, const std::string& data) {
   SessionFolder folder = folderOf(data, start.subject.id, start.session);
@@ -131,7 +74,6 @@ SubjectSession SubjectSession::begin(const Experiment& experiment, const Session
   syncFolder(fs::path(folder.path).parent_path());
   Json record = toJson(start);
   record["experiment"] = experiment.name;
-  record["seed"] = experiment.seed;
   if (!start.model.empty()) record["traits"] = factsJson(traitsOf(experiment, start.subject.number));
   record["presa"] = kVersion;
   record["utc"] = utcNow();
@@ -163,7 +105,7 @@ SubjectSession SubjectSession::resume(const Experiment& experiment, const Sessio
     const PlannedTrial* planned = session.trials_->next();
     if (planned == nullptr || planned->number != run.number || planned->practice != run.practice ||
         planned->attempt != run.attempt || run.begin.value("seed", "") != std::to_string(planned->seed) ||
-        (planned->stimulus && run.begin.at("stimulus") != stimulusOf(*planned->stimulus)))
+        (planned->stimulus && run.begin.at("stimulus") != stimulusJson(*planned->stimulus)))
       refuse(927, folder.journal(),
              "run " + std::to_string(run.run) + " of trial " + std::to_string(run.number) +
                  " is not what this version of Presa would have run there",
@@ -180,18 +122,7 @@ LoggedRun& SubjectSession::beginRun(const PlannedTrial& trial) {
     return run.number == trial.number && run.practice == trial.practice;
   });
   const int run = static_cast<int>(before) + 1;
-  Json record{{"event", "trial_begin"},
-              {"trial", trial.number},
-              {"practice", trial.practice},
-              {"block", trial.block},
-              {"repeat", trial.repeat},
-              {"attempt", trial.attempt},
-              {"run", run},
-              {"condition", conditionOf(experiment_, trial)},
-              {"seed", std::to_string(trial.seed)},
-              {"files", SessionFolder::filesOf(trial, run, presentationsPerTrial(experiment_))},
-              {"utc", utcNow()}};
-  if (trial.stimulus) record["stimulus"] = stimulusOf(*trial.stimulus);
+  const Json record = trialBegin(experiment_, trial, run, log_.start.recording);
   journal_.append(record);
   log_.runs.push_back({trial.number, trial.attempt, run, trial.practice, Outcome::kInterrupted, record, {}});
   return log_.runs.back();
@@ -199,29 +130,7 @@ LoggedRun& SubjectSession::beginRun(const PlannedTrial& trial) {
 
 void SubjectSession::endRun(LoggedRun& run, const PlannedTrial& trial, const Conducted& result) {
   run.outcome = result.outcome;
-  run.end = {{"event", "trial_end"},
-             {"outcome", toString(run.outcome)},
-             {"reason", result.reason},
-             {"excluded", result.excluded}};
-  std::vector<std::vector<double>> values;
-  double simulated = 0, wall = 0;
-  std::uint64_t ticks = 0;
-  for (const TrialResult& shown : result.presented) {
-    run.end["phases"].push_back(phasesOf(experiment_, shown));
-    if (!shown.facts.empty()) run.end["model"].push_back(factsJson(shown.facts));
-    values.push_back(shown.values);
-    simulated += shown.simulated_seconds;
-    wall += shown.wall_seconds;
-    ticks += shown.ticks;
-  }
-  const std::vector<RowColumn> columns = rowColumns(experiment_);
-  const std::vector<double> row = rowValues(experiment_, trial, values, result.response);
-  for (std::size_t i = 0; i < columns.size(); ++i) run.end["values"][columns[i].name] = numberOrNull(row[i]);
-  if (result.response) run.end["response"] = {{"chosen", result.response->chosen}, {"value", result.response->value}};
-  run.end["simulated_s"] = simulated;
-  run.end["wall_s"] = wall;
-  run.end["ticks"] = ticks;
-  run.end["faults"] = result.presented.back().faults;
+  run.end = trialEnd(experiment_, trial, result);
   for (const std::string& name : run.files()) {
     if (!fs::exists(folder_.file(name))) continue;
     syncFile(folder_.file(name));
@@ -237,38 +146,61 @@ void SubjectSession::writeTable() const {
   writeFileAtomically(folder_.file("trials.json"), tableColumnsJson(experiment_));
 }
 
-SubjectSession::End SubjectSession::run() {
-  terminal::JobProgress progress(trials_->left());
-  const Span expected = durationOf(experiment_);
+std::unique_ptr<Respondent> SubjectSession::respondentFor(Desk& desk) const {
+  if (!experiment_.procedure) return nullptr;
+  if (!log_.start.model.empty() && experiment_.procedure->observer)
+    return simulatedRespondent(experiment_, log_.start.subject.number);
+  if (desk.person().silent())
+    refuse(928, experiment_.file, "its trials ask a question, and nobody is there to answer",
+           log_.start.model.empty() ? "--operator terminal" : "a <simulated_observer> in its <procedure>");
+  return keyboardRespondent(experiment_, desk.person(), desk.language());
+}
+
+Conducted SubjectSession::conductOne(const PlannedTrial& trial, const LoggedRun& run, Desk& desk,
+                                     Respondent* respondent) const {
+  std::vector<std::string> files;
+  for (const std::string& name : run.files()) files.push_back(folder_.file(name));
+  TrialSetting setting;
+  setting.realtime = log_.start.realtime;
+  setting.subject = log_.start.subject.number;
+  setting.live = desk.live();
+  setting.stop = [&] { return desk.ending() != Operator::Wish::kNone; };
+  setting.on_time = [&](double time) { desk.look(time); };
+  Conducted result = conduct(experiment_, trial, files, setting, respondent);
+  if (const auto* method = trials_->method(); method != nullptr && result.response)
+    result.response->positive = result.response->chosen == method->responseFor(true).chosen;
+  if (result.outcome == Outcome::kInterrupted && desk.ending() == Operator::Wish::kSkip) {
+    result.outcome = Outcome::kSkipped;
+    result.reason = "skipped by the operator";
+  }
+  if (result.outcome == Outcome::kInterrupted && desk.ending() == Operator::Wish::kRepeat)
+    result.reason = "the operator repeats it";
+  return result;
+}
+
+SubjectSession::End SubjectSession::run(Operator& person, const std::string& language) {
+  Desk desk(experiment_, log_.start, language, person, [&](const std::string& text) {
+    journal_.append({{"event", "note"}, {"text", text}, {"utc", utcNow()}});
+  });
+  const std::unique_ptr<Respondent> respondent = respondentFor(desk);
   int in_vain = 0;  // aborts in a row
   while (const PlannedTrial* next = trials_->next()) {
     const PlannedTrial trial = *next;
+    desk.begin(trial, *trials_);
     LoggedRun& run = beginRun(trial);
-    std::vector<std::string> files;
-    for (const std::string& name : run.files()) files.push_back(folder_.file(name));
-    TrialSetting setting;
-    setting.realtime = log_.start.realtime;
-    setting.subject = log_.start.subject.number;
-    setting.stop = terminal::JobProgress::interrupted;
-    const std::size_t left = trials_->left();
-    setting.on_time = [&](double time) {
-      if (setting.realtime) progress.expect(static_cast<double>(left) * expected.least - time);
-      progress.show();
-    };
-    Conducted result = conduct(experiment_, trial, files, setting, respondent_.get());
-    if (const auto* method = trials_->method(); method != nullptr && result.response)
-      result.response->positive = result.response->chosen == method->responseFor(true).chosen;
+    const Conducted result = conductOne(trial, run, desk, respondent.get());
     endRun(run, trial, result);
     writeTable();
     if (!result.presented.back().faults.empty()) return End::kFault;
-    if (result.outcome == Outcome::kInterrupted) return End::kStopped;
+    const bool again = result.outcome == Outcome::kInterrupted && desk.ending() == Operator::Wish::kRepeat;
+    if (result.outcome == Outcome::kInterrupted && !again) return End::kStopped;
     in_vain = result.outcome == Outcome::kAborted ? in_vain + 1 : 0;
     // a method cannot go on without an answer
     if (experiment_.procedure && in_vain >= experiment_.retry.attempts) return End::kFault;
-    if (trials_->left() == left) progress.more(1);  // it comes again
-    progress.done(terminal::format("trial %d", trial.number) + (result.reason.empty() ? "" : ": " + result.reason));
+    const std::string what =
+        terminal::format("trial %d", trial.number) + (result.reason.empty() ? "" : ": " + result.reason);
+    if (!desk.between(what, *trials_)) return End::kStopped;
   }
-  progress.finish();
   if (!log_.complete) {
     Json record{{"event", "end"}, {"utc", utcNow()}};
     for (const char* name : {"trials.csv", "trials.json"}) record["sha256"][name] = sha256OfFile(folder_.file(name));

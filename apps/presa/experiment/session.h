@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/presa/experiment/conduct.h"
+#include "apps/presa/experiment/operator/desk.h"
 #include "apps/presa/experiment/session_log.h"
 
 namespace presa::experiment {
@@ -20,8 +21,9 @@ class SubjectSession {
   enum class End { kComplete, kStopped, kFault };
   /// Runs what is left. kStopped: Ctrl-C; kFault: dynamics or recording failed, see fault(). The trial that was going on is marked
   /// and comes again after resume.
-  /// Throws std::system_error when the disk fails; what was logged before stays whole.
-  End run();
+  /// Throws std::system_error when the disk fails, what was logged before stays whole; InputError E928 when trials ask a question that
+  /// nobody can answer. `language`: of the texts that are shown.
+  End run(Operator& person, const std::string& language);
 
   const SessionFolder& folder() const noexcept { return folder_; }
   const TrialSource& trials() const noexcept { return *trials_; }
@@ -32,6 +34,9 @@ class SubjectSession {
 
  private:
   SubjectSession(const Experiment& experiment, SessionFolder folder, SessionLog log, Journal journal);
+  /// Null without a procedure.
+  std::unique_ptr<Respondent> respondentFor(Desk& desk) const;
+  Conducted conductOne(const PlannedTrial& trial, const LoggedRun& run, Desk& desk, Respondent* respondent) const;
   LoggedRun& beginRun(const PlannedTrial& trial);
   void endRun(LoggedRun& run, const PlannedTrial& trial, const Conducted& result);
   void writeTable() const;
@@ -41,7 +46,6 @@ class SubjectSession {
   SessionLog log_;
   Journal journal_;
   std::unique_ptr<TrialSource> trials_;
-  std::unique_ptr<Respondent> respondent_;  // null without a procedure
 };
 
 }  // namespace presa::experiment

@@ -32,6 +32,8 @@ struct SessionStart {
   /// What held the devices if no person did: "simulated subject, level L1: a model, not a person". Whatever shows numbers of
   /// this session says so.
   std::string model{};
+  std::uint64_t seed = 0;  ///< of the experiment: its own, or another one that was asked for
+  bool recording = true;   ///< every haptic tick is kept
 };
 Json toJson(const SessionStart& start);
 

@@ -41,6 +41,11 @@ class TrialRun {
     auto tap = std::make_unique<TrialTap>(trial_, experiment, world_->scene, control_);
     tap_ = tap.get();
     options.more.push_back(std::move(tap));
+    if (setting.live != nullptr) {
+      setting.live->roles.clear();
+      for (const DeviceRole& role : world_->scene.devices) setting.live->roles.push_back(role.role);
+      options.more.push_back(std::make_unique<OperatorTap>(trial_, experiment, *setting.live));
+    }
     session_ = std::make_unique<Session>(world_, plan_, control_, std::move(options));
     const RateTable rates(world_->scene.rates);
     executor_ = makeExecutor(setting.realtime, session_->graph(), rates, control_);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/presa/experiment/operator/operator_tap.h"
 #include "framework/device/device.h"
 #include "framework/experiment/presentation.h"
 #include "framework/experiment/trial.h"
@@ -13,6 +14,7 @@ struct TrialSetting {
   std::string record{};  ///< HDF5 file; empty: none
   bool realtime = false;
   int subject = 1;                        ///< its number: which person a simulated subject is
+  TrialLive* live = nullptr;              ///< what an operator sees; null: nobody looks
   std::function<bool()> stop{};           ///< asked now and then on the main thread: true ends the trial
   std::function<void(double)> on_time{};  ///< simulated time reached [s], now and then
 };

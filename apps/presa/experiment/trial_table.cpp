@@ -65,8 +65,8 @@ std::vector<TableColumn> columnsOf(const Experiment& experiment) {
     columns.push_back({column.name, column.unit, column.description, value(column.name)});
   columns.push_back({"simulated", "s", "length of the trial", from_end("simulated_s")});
   columns.push_back({"wall", "s", "time that it took", from_end("wall_s")});
-  columns.push_back(
-      {"file", "", "every haptic tick; a second interval is beside it", [](S, R run) { return run.files().front(); }});
+  columns.push_back({"file", "", "every haptic tick; a second interval is beside it",
+                     [](S, R run) { return run.files().empty() ? std::string(kNothing) : run.files().front(); }});
   return columns;
 }
 

@@ -10,6 +10,8 @@ void addSessionCommands(CLI::App& app, int& status);  ///< dry-run, run, resume
 void addDatasetCommands(CLI::App& app, int& status);  ///< validate, forget
 void addExport(CLI::App& app, int& status);
 
+/// The argument DIR.
+void addFolder(CLI::App& command, std::string& folder);
 /// A subcommand whose one argument is the folder of a dataset or of one session in it.
 void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&));
 

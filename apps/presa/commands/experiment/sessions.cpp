@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,16 +16,23 @@ namespace {
 
 using namespace experiment;
 
+/// Who looks, and in which language the texts are.
+struct OperatorChoice {
+  std::string kind = "auto", language = "en";
+};
+
 struct Arguments {
   std::string file, rig, simulated, data, subject = "S01", format = "text";
   int number = 0, session = 1;
-  bool lockstep = false;
+  bool lockstep = false, no_recording = false;
+  std::uint64_t seed = 0;
+  OperatorChoice operator_choice;
 };
 
 int dryRun(const Arguments& a) {
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
-  const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated);
+  const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated, a.seed);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
   const auto trials = previewTrials(*experiment, subject.number, a.session);
@@ -34,11 +43,19 @@ int dryRun(const Arguments& a) {
   return kExitOk;
 }
 
+/// On a terminal a session in real time is watched, and one that nobody has to answer runs by itself elsewhere.
+std::unique_ptr<Operator> operatorFor(const SubjectSession& session, const std::string& kind) {
+  const bool watched = kind == "terminal" || (kind == "auto" && session.start().realtime &&
+                                              ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0);
+  return watched ? terminalOperator() : silentOperator(session.trials().left());
+}
+
 /// Runs what is left of a session and says how it ended.
-int runToEnd(SubjectSession& session) {
+int runToEnd(SubjectSession& session, const OperatorChoice& choice) {
   SubjectSession::End end = SubjectSession::End::kStopped;
   try {
-    end = session.run();
+    const auto person = operatorFor(session, choice.kind);
+    end = session.run(*person, choice.language);
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s%s is whole up to there; when that is mended: presa experiment resume %s\n",
                  error.diagnostics().text().c_str(), session.folder().journal().c_str(), session.folder().path.c_str());
@@ -73,16 +90,18 @@ int run(const Arguments& a) {
   const std::string file = absolute(a.file), rig = absolute(a.rig);
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
-  const auto experiment = readExperiment(file, rig, diagnostics, a.simulated);
+  const auto experiment = readExperiment(file, rig, diagnostics, a.simulated, a.seed);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
   auto session = SubjectSession::begin(
-      *experiment, {file, rig, subject, a.session, !a.lockstep, a.simulated, experiment->model}, a.data);
-  return runToEnd(session);
+      *experiment,
+      {file, rig, subject, a.session, !a.lockstep, a.simulated, experiment->model, experiment->seed, !a.no_recording},
+      a.data);
+  return runToEnd(session, a.operator_choice);
 }
 
 /// The one session below a folder that is not finished.
-int resume(const std::string& data) {
+int resume(const std::string& data, const OperatorChoice& choice) {
   struct Open {
     SessionFolder folder;
     SessionStart start;
@@ -109,11 +128,12 @@ int resume(const std::string& data) {
   }
   Diagnostics diagnostics;
   const SessionStart& start = open[0].start;
-  const auto experiment = readExperiment(start.experiment_file, start.rig_file, diagnostics, start.simulated);
+  const auto experiment =
+      readExperiment(start.experiment_file, start.rig_file, diagnostics, start.simulated, start.seed);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!experiment) return kExitBadInput;
   auto session = SubjectSession::resume(*experiment, open[0].folder);
-  return runToEnd(session);
+  return runToEnd(session, choice);
 }
 
 void addWho(CLI::App& command, Arguments& a) {
@@ -122,10 +142,18 @@ void addWho(CLI::App& command, Arguments& a) {
   command.add_option("--number", a.number, "number of the subject, from 1 (default: the pseudonym's digits)")
       ->check(CLI::PositiveNumber);
   command.add_option("--session", a.session, "from 1")->check(CLI::PositiveNumber)->capture_default_str();
+  command.add_option("--seed", a.seed, "instead of the experiment's own")->check(CLI::PositiveNumber);
   auto* rig = command.add_option("--rig", a.rig, "rig file instead of the experiment's");
   command.add_option("--simulated", a.simulated, "a model instead of a person, at level L0, L1 or L2")
       ->check(CLI::IsMember({"L0", "L1", "L2"}))
       ->excludes(rig);
+}
+
+void addOperator(CLI::App& command, OperatorChoice& choice) {
+  command.add_option("--operator", choice.kind, "what the operator sees: auto, terminal or none")
+      ->check(CLI::IsMember({"auto", "terminal", "none"}))
+      ->capture_default_str();
+  command.add_option("--language", choice.language, "of the texts for the participant")->capture_default_str();
 }
 
 void addDryRun(CLI::App& app, int& status) {
@@ -146,6 +174,8 @@ void addRunSession(CLI::App& app, int& status) {
   command->get_option("--subject")->required();
   command->add_option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N")->required();
   command->add_flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
+  command->add_flag("--no-recording", a->no_recording, "keep the row of each trial, not every haptic tick");
+  addOperator(*command, a->operator_choice);
   command->footer(
       "Exit status: 0 complete, 1 disk, device or dynamics failed, 2 bad input (nothing was run), 130 Ctrl-C (after 1 "
       "and 130 go on with resume).\n"
@@ -153,12 +183,21 @@ void addRunSession(CLI::App& app, int& status) {
   command->callback([a, &status] { status = run(*a); });
 }
 
+void addResume(CLI::App& app, int& status) {
+  auto folder = std::make_shared<std::string>();
+  auto choice = std::make_shared<OperatorChoice>();
+  CLI::App* command = app.add_subcommand("resume", "Finish a session that was stopped or killed");
+  addFolder(*command, *folder);
+  addOperator(*command, *choice);
+  command->callback([folder, choice, &status] { status = resume(*folder, *choice); });
+}
+
 }  // namespace
 
 void addSessionCommands(CLI::App& app, int& status) {
   addDryRun(app, status);
   addRunSession(app, status);
-  addFolderCommand(app, status, "resume", "Finish a session that was stopped or killed", resume);
+  addResume(app, status);
 }
 
 }  // namespace presa

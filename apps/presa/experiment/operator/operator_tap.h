@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <atomic>
+#include <string>
+#include <vector>
 
 #include "framework/device/output_stage.h"
 #include "framework/experiment/trial.h"
@@ -13,6 +15,7 @@ namespace presa::experiment {
 /// What the operator sees of a trial that goes on. Written by the haptic thread, read by the main thread; each value is whole, the set
 /// may mix two ticks.
 struct TrialLive {
+  std::vector<std::string> roles;                                     ///< of the fingers, written before the run
   std::atomic<double> time{0}, phase_begin{0}, watch{0}, clipped{0};  // [s], but for watch
   std::atomic<std::size_t> phase{0};
   std::atomic<bool> device_lost{false};

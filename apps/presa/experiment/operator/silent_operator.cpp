@@ -11,7 +11,7 @@ class SilentOperator final : public Operator {
   void show(const SessionView& view) override {
     if (view.left > left_) progress_.more(view.left - left_);  // a trial comes again
     left_ = view.left;
-    progress_.expect(view.seconds_left);
+    if (view.seconds_left >= 0) progress_.expect(view.seconds_left);
     progress_.show();
   }
   Wish wish() override { return terminal::JobProgress::interrupted() ? Wish::kStop : Wish::kNone; }

@@ -1,0 +1,17 @@
+#pragma once
+#include "apps/presa/experiment/conduct.h"
+#include "apps/presa/experiment/session_log.h"
+
+/// Records of a session's log, from what they tell of.
+namespace presa::experiment {
+
+/// `run`: how often this trial has been begun, from 1.
+Json trialBegin(const Experiment& experiment, const PlannedTrial& trial, int run, bool recording);
+/// Without the sums of the files, which are known once they are on the disk.
+Json trialEnd(const Experiment& experiment, const PlannedTrial& trial, const Conducted& result);
+Json stimulusJson(const psychophysics::Stimulus& stimulus);
+Json factsJson(const std::vector<DeviceFact>& facts);
+/// For people only: nothing is computed from it, so that a clock that jumps does no harm.
+std::string utcNow();
+
+}  // namespace presa::experiment
