@@ -40,13 +40,20 @@ struct Geometry {
   bool smooth = false;  ///< haptic mesh: felt with normals interpolated over its facets
 };
 
+struct FrictionCoefficients {
+  double mu_static = 0;   ///< [-], >= dynamic
+  double mu_dynamic = 0;  ///< [-]
+};
+
 struct Material {
   std::string name;
   double stiffness = 0;         ///< [N/m], > 0
   double damping = 0;           ///< [N s/m], >= 0
   double friction_static = 0;   ///< [-], >= dynamic
   double friction_dynamic = 0;  ///< [-]
-  Vec3 color{0.7, 0.7, 0.7};    ///< linear RGB in [0, 1]
+  std::optional<FrictionCoefficients>
+      changed_friction;       ///< under a finger after the surfaces have changed; none: as before
+  Vec3 color{0.7, 0.7, 0.7};  ///< linear RGB in [0, 1]
   SourceLocation where;
 };
 
@@ -134,6 +141,8 @@ struct Scene {
   std::string resolved_xml;  ///< the document after --set and defaults, as saved with recordings
 
   const Material& materialOf(const Body& body) const { return materials[body.material]; }
+  /// Something that fingers touch has friction to change to, and a renderer that has friction.
+  bool surfacesChange() const;
 };
 
 /// One role bound to a driver, with the driver's own settings.

@@ -136,13 +136,19 @@ class SceneCheck {
 
   void checkFriction(const Element& material) {
     for (const Element& friction : material.children("friction")) {
-      const bool has_both = friction.hasAttribute("static") && friction.hasAttribute("dynamic");
-      if (!has_both || friction.flawed("static") || friction.flawed("dynamic")) continue;
-      if (friction.number("dynamic", 0) <= friction.number("static", 0)) continue;
-      diagnostics_.error(kFriction, friction.where("dynamic"),
-                         "dynamic friction of " + material.label() + " must not be above static friction, found " +
-                             friction.attribute("dynamic") + " > " + friction.attribute("static"));
+      checkCoefficients(friction, material.label());
+      for (const Element& changed : friction.children("changed"))
+        checkCoefficients(changed, material.label() + " after its change");
     }
+  }
+
+  void checkCoefficients(const Element& friction, const std::string& whose) {
+    const bool has_both = friction.hasAttribute("static") && friction.hasAttribute("dynamic");
+    if (!has_both || friction.flawed("static") || friction.flawed("dynamic")) return;
+    if (friction.number("dynamic", 0) <= friction.number("static", 0)) return;
+    diagnostics_.error(kFriction, friction.where("dynamic"),
+                       "dynamic friction of " + whose + " must not be above static friction, found " +
+                           friction.attribute("dynamic") + " > " + friction.attribute("static"));
   }
 
   void checkBody(const Element& body) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -82,6 +83,8 @@ Material readMaterial(const Element& element) {
   for (const Element& friction : element.children("friction")) {
     material.friction_static = friction.number("static", 0);
     material.friction_dynamic = friction.number("dynamic", 0);
+    for (const Element& changed : friction.children("changed"))
+      material.changed_friction = {changed.number("static", 0), changed.number("dynamic", 0)};
   }
   material.where = element.where();
   return material;
@@ -173,6 +176,12 @@ DynamicsSettings readDynamics(const Element& element) {
 }
 
 }  // namespace
+
+bool Scene::surfacesChange() const {
+  return haptics.renderer == HapticSettings::Renderer::kGodObject &&
+         std::any_of(bodies.begin(), bodies.end(),
+                     [&](const Body& body) { return body.haptic && materialOf(body).changed_friction; });
+}
 
 Scene readScene(const Element& root, const std::string& file, const std::string& directory) {
   Scene scene;

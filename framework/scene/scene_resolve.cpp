@@ -11,6 +11,7 @@ void resolveFriction(Element friction) {
   for (const char* attribute : {"static", "dynamic"}) {
     if (!friction.hasAttribute(attribute)) friction.setAttribute(attribute, only, friction.where());
   }
+  for (const Element& changed : friction.children("changed")) resolveFriction(changed);
 }
 
 void resolveOrientation(Element element) {

@@ -17,8 +17,10 @@ HapticEffects effectsOf(const World& world) {
                                                                          : HapticEffects::Poses::kInterpolate;
   }
   const bool god_object = effects.renderer == HapticSettings::Renderer::kGodObject;
+  effects.surface_change = scene.surfacesChange();
   effects.friction =
-      god_object && any_touchable([&](const Body& body) { return scene.materialOf(body).friction_static > 0; });
+      effects.surface_change ||
+      (god_object && any_touchable([&](const Body& body) { return scene.materialOf(body).friction_static > 0; }));
   effects.shading = god_object && any_touchable([](const Body& body) {
                       return body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape);
                     });
@@ -33,6 +35,10 @@ std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
   if (!effects.friction) {
     left_out.push_back({"friction", god_object ? "no touchable material has friction"
                                                : "the penalty renderer keeps no point to hold on to"});
+  }
+  if (!effects.surface_change) {
+    left_out.push_back({"friction that changes", god_object ? "no touchable material has <changed> friction"
+                                                            : "the penalty renderer has no friction"});
   }
   if (!effects.shading) {
     left_out.push_back({"force shading", god_object ? "no touchable mesh says shading=\"smooth\""

@@ -13,6 +13,7 @@ struct HapticEffects {
   Poses poses = Poses::kNone;
   HapticSettings::Renderer renderer = HapticSettings::Renderer::kGodObject;
   bool friction = false;
+  bool surface_change = false;  ///< friction that can change during a run
   bool shading = false;
   bool damping = false;
 };

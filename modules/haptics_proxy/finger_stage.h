@@ -1,9 +1,11 @@
 #pragma once
 #include <memory>
 
+#include "framework/graph/port.h"
 #include "framework/scene/world.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/device_state.h"
+#include "framework/state/surface_change.h"
 #include "modules/haptics_proxy/god_object.h"
 
 namespace presa {
@@ -49,6 +51,8 @@ class FingerStage {
 std::unique_ptr<FingerStage> makeGodObject();
 std::unique_ptr<FingerStage> makePenalty();
 std::unique_ptr<FingerStage> makeFriction(const World& world);
+/// `change` outlives it.
+std::unique_ptr<FingerStage> makeChangingFriction(const World& world, const In<SurfaceChange>& change);
 std::unique_ptr<FingerStage> makeShading(const World& world);
 /// Writes contact and spring force; counts what should not happen.
 std::unique_ptr<FingerStage> makeSpring(const World& world);

@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "modules/haptics_proxy/finger_stage.h"
 #include "modules/haptics_proxy/god_object.h"
@@ -41,16 +43,20 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
 
 namespace {
 
+void applyFriction(FingerTick& tick, const FrictionCone& cone) noexcept {
+  holdByFriction(tick.contact, tick.finger.tip, tick.g, tick.r, cone, *tick.finger.near);
+  tick.out.friction_static = cone.mu_static;
+  tick.out.friction_dynamic = cone.mu_dynamic;
+}
+
+FrictionCone coneOf(const Material& material) { return {material.friction_static, material.friction_dynamic}; }
+
 class Friction final : public FingerStage {
  public:
   explicit Friction(const Scene& scene) : scene_(scene) {}
   void apply(FingerTick& tick) noexcept override {
     if (!tick.contact.state.touching) return;
-    const Material& material = scene_.materialOf(scene_.bodies[static_cast<std::size_t>(tick.contact.body)]);
-    holdByFriction(tick.contact, tick.finger.tip, tick.g, tick.r, {material.friction_static, material.friction_dynamic},
-                   *tick.finger.near);
-    tick.out.friction_static = material.friction_static;
-    tick.out.friction_dynamic = material.friction_dynamic;
+    applyFriction(tick, coneOf(scene_.materialOf(scene_.bodies[static_cast<std::size_t>(tick.contact.body)])));
   }
   const char* what() const override { return "friction: two-state cone"; }
 
@@ -58,8 +64,32 @@ class Friction final : public FingerStage {
   const Scene& scene_;
 };
 
+/// A finger that sticks is judged by the other cone in the tick after the change: it slips then as it would anyhow.
+class ChangingFriction final : public FingerStage {
+ public:
+  ChangingFriction(const Scene& scene, const In<SurfaceChange>& change) : change_(change) {
+    for (const Body& body : scene.bodies) {
+      const FrictionCone before = coneOf(scene.materialOf(body));
+      const auto& after = scene.materialOf(body).changed_friction;
+      cones_.push_back({before, after ? FrictionCone{after->mu_static, after->mu_dynamic} : before});
+    }
+  }
+  void apply(FingerTick& tick) noexcept override {
+    if (!tick.contact.state.touching) return;
+    applyFriction(tick, cones_[static_cast<std::size_t>(tick.contact.body)][change_->happened ? 1 : 0]);
+  }
+  const char* what() const override { return "friction: two-state cone, another after the surfaces have changed"; }
+
+ private:
+  std::vector<std::array<FrictionCone, 2>> cones_;  // by body: before and after
+  const In<SurfaceChange>& change_;
+};
+
 }  // namespace
 
 std::unique_ptr<FingerStage> makeFriction(const World& world) { return std::make_unique<Friction>(world.scene); }
+std::unique_ptr<FingerStage> makeChangingFriction(const World& world, const In<SurfaceChange>& change) {
+  return std::make_unique<ChangingFriction>(world.scene, change);
+}
 
 }  // namespace presa

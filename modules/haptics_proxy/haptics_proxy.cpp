@@ -38,10 +38,15 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
     place_bodies_.push_back({"take the bodies where the last dynamics step left them", holdBodies});
   }
   finger_stages_.push_back(effects.renderer == HapticSettings::Renderer::kPenalty ? makePenalty() : makeGodObject());
-  if (effects.friction) finger_stages_.push_back(makeFriction(*world_));
+  if (effects.friction) finger_stages_.push_back(frictionOf(effects));
   if (effects.shading) finger_stages_.push_back(makeShading(*world_));
   finger_stages_.push_back(makeSpring(*world_));
   if (effects.damping) finger_stages_.push_back(makeDamping(*world_));
+}
+
+std::unique_ptr<FingerStage> HapticsProxy::frictionOf(const HapticEffects& effects) {
+  if (!effects.surface_change) return makeFriction(*world_);
+  return makeChangingFriction(*world_, surface_change_.emplace(*this, "surface_change", In<SurfaceChange>::Optional{}));
 }
 
 void HapticsProxy::step(const Tick& tick) noexcept {

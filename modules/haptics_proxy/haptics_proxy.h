@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/graph/port.h"
@@ -30,6 +31,7 @@ class HapticsProxy final : public Module, public WatchedStages {
     const char* what;
     void (*apply)(Touchables& touchables, const ObjectState& objects, double time) noexcept;
   };
+  std::unique_ptr<FingerStage> frictionOf(const HapticEffects& effects);
   template <class Watch>
   void run(const Tick& tick, Watch& watch) noexcept;
   template <class Watch>
@@ -45,6 +47,7 @@ class HapticsProxy final : public Module, public WatchedStages {
   In<DeviceState> device_{*this, "device_state"};
   In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kHold};
+  std::optional<In<SurfaceChange>> surface_change_;  // only where friction can change
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };
 

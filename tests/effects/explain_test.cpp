@@ -45,6 +45,9 @@ TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
   EXPECT_FALSE(hasStage(full, "shading"));
   EXPECT_NE(whyLeftOut(full, "force shading").find("smooth"), std::string::npos);
   EXPECT_EQ(whyLeftOut(full, "friction"), "not left out");
+  EXPECT_NE(whyLeftOut(full, "friction that changes").find("<changed>"), std::string::npos);
+  EXPECT_TRUE(hasStage(explain(cube + " --set material/rubber/friction/changed/static=0.2"),
+                       "another after the surfaces have changed"));
 
   const json bare = explain(cube +
                             " --set material/rubber/friction/static=0 --set material/rubber/friction/dynamic=0"

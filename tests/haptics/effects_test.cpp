@@ -55,6 +55,38 @@ TEST(Damping, ActsAgainstTheVelocityAlongTheNormal) {
   EXPECT_EQ(finger.tick(pressed, {0, 0, 1}).normal_force, 0);
 }
 
+// ---- surfaces that change ------------------------------------------------------------------------------------------
+
+// A finger that sticks with T = k x inside the old cone and outside the new one: in the tick of the change it slips, with the
+// force that slip has, mu_d N of the new surface. In the old cone nothing steps, and in free air nothing happens.
+TEST(SurfaceChange, LetsAFingerSlipThatTheNewConeDoesNotHold) {
+  World world = test::worldOf(Box{{0.1, 0.1, 0.1}});
+  Material& material = world.scene.materials[0];
+  material.friction_static = 1.2;
+  material.friction_dynamic = 1.1;
+  EXPECT_THAT(OneFinger(world).stages(), testing::Not(testing::Contains(HasSubstr("changed"))));
+  material.changed_friction = {.mu_static = 0.4, .mu_dynamic = 0.3};
+  const double height = 0.05 + kR, depth = 0.002, normal = kStiffness * depth;
+  for (const double way : {0.7e-3, 1e-3}) {  // 0.35 N and 0.5 N of the normal force
+    OneFinger finger(world);
+    EXPECT_THAT(finger.stages(), testing::Contains(HasSubstr("another after the surfaces have changed")));
+    finger.tick({0, 0, height + 0.001});
+    finger.tick({0, 0, height - depth});
+    const FingerContact before = finger.tick({way, 0, height - depth});
+    EXPECT_EQ(before.mode, ContactMode::kStick);
+    EXPECT_NEAR(before.tangential_force_W.norm(), kStiffness * way, 1e-9);
+    EXPECT_EQ(before.friction_static, 1.2);
+    finger.surfaces().happened = true;
+    const FingerContact after = finger.tick({way, 0, height - depth});
+    const bool slips = kStiffness * way > 0.4 * normal;
+    EXPECT_EQ(after.mode, slips ? ContactMode::kSlip : ContactMode::kStick);
+    EXPECT_NEAR(after.tangential_force_W.norm(), slips ? 0.3 * normal : kStiffness * way, 1e-6 * normal);
+    EXPECT_NEAR(after.normal_force, before.normal_force, 1e-6 * normal);
+    EXPECT_EQ(after.friction_static, 0.4);
+    EXPECT_EQ(after.friction_dynamic, 0.3);
+  }
+}
+
 // ---- pose ----------------------------------------------------------------------------------------------------------
 
 // A box that rises by 1 mm during a dynamics step, felt in the middle of it: half-way, or already where it will be.

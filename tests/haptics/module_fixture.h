@@ -37,6 +37,7 @@ class OneFinger {
     return sink_->contact->fingers[0];
   }
   ContactPatches& patches() { return patches_->out.value; }
+  SurfaceChange& surfaces() { return surfaces_->out.value; }
   ObjectState& objects() { return objects_->out.value; }
   const ContactExchange& all() const { return sink_->contact.value(); }
   std::vector<std::string> stages() const { return graph_.find("haptics_proxy")->stages(); }
@@ -46,6 +47,7 @@ class OneFinger {
     GraphBuilder builder;
     device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
     patches_ = &builder.add(std::make_unique<Source<ContactPatches>>("contact_patches"));
+    surfaces_ = &builder.add(std::make_unique<Source<SurfaceChange>>("surface_change"));
     objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));
     objects_->out.value.count = static_cast<std::int32_t>(world_->scene.bodies.size());
     for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
@@ -61,6 +63,7 @@ class OneFinger {
   Graph graph_;
   Source<DeviceState>* device_ = nullptr;
   Source<ContactPatches>* patches_ = nullptr;
+  Source<SurfaceChange>* surfaces_ = nullptr;
   Source<ObjectState>* objects_ = nullptr;
   Sink* sink_ = nullptr;
   std::uint64_t index_ = 0;

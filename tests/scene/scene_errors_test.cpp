@@ -114,6 +114,8 @@ const Slip kMeaning[] = {
      "@<body name=\"new\" material=\"wood\"/><body name=\"cube\" material=\"rubber\">", "no <physics>"},
     {"NeitherMassNorDensity", 207, "<physics mass=\"0.2\">", "@<physics>", "found neither"},
     {"BothMassAndDensity", 207, "<physics mass=\"0.2\">", "<physics mass=\"0.2\" @density=\"500\">", "found both"},
+    {"ChangedFriction", 208, "dynamic=\"0.6\"/>",
+     "dynamic=\"0.6\"><changed static=\"0.4\" @dynamic=\"0.5\"/></friction>", "0.5 > 0.4"},
     {"Friction", 208, "dynamic=\"0.6\"", "@dynamic=\"0.9\"", "0.9 > 0.8"},
     {"DynamicsRate", 209, "dynamics=\"200\"", "@dynamics=\"300\"", "250, 500"},
     {"CollisionRate", 209, "collision=\"100\"", "@collision=\"2000\"", "1000"},

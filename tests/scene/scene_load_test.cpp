@@ -52,7 +52,8 @@ std::string contentOf(const Scene& scene) {
        << scene.collision.margin << " " << scene.collision.max_triangles << "\n";
   for (const Material& m : scene.materials) {
     text << m.name << " " << m.stiffness << " " << m.damping << " " << m.friction_static << " " << m.friction_dynamic
-         << " " << m.color.transpose() << "\n";
+         << " " << (m.changed_friction ? m.changed_friction->mu_static : -1) << " "
+         << (m.changed_friction ? m.changed_friction->mu_dynamic : -1) << " " << m.color.transpose() << "\n";
   }
   for (const Body& b : scene.bodies) {
     text << b.name << " " << b.fixed << " " << b.material << " " << b.mass.value_or(-1) << " " << b.density.value_or(-1)
@@ -163,6 +164,11 @@ TEST(SceneLoad, OneFrictionCoefficientIsBoth) {
   EXPECT_EQ(with("<friction static=\"0.5\"/>").friction_dynamic, 0.5);
   EXPECT_EQ(with("<friction dynamic=\"0.4\"/>").friction_static, 0.4);
   EXPECT_EQ(with("<friction/>").friction_static, 0);
+  EXPECT_FALSE(with("<friction static=\"0.5\"/>").changed_friction);
+  const auto changed = with("<friction static=\"0.5\"><changed static=\"0.3\"/></friction>").changed_friction;
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(changed->mu_static, 0.3);
+  EXPECT_EQ(changed->mu_dynamic, 0.3);
 }
 
 // Intrinsic x-y-z: R = Rx Ry Rz, compared with the product of the three textbook matrices.
