@@ -1,5 +1,7 @@
 #include "framework/experiment/definition.h"
 
+#include <algorithm>
+
 namespace presa::experiment {
 
 std::string headingOf(const std::string& name, const std::string& unit) {
@@ -22,6 +24,7 @@ std::vector<bool> Experiment::askedSamples() const {
   for (const Phase& phase : phases) {
     mark(phase.until);
     mark(phase.abort);
+    mark(phase.event_when);
   }
   if (watch) watch->value.markSlots(asked);
   for (const Measure& measure : measures) {
@@ -29,8 +32,13 @@ std::vector<bool> Experiment::askedSamples() const {
       mark(aggregate.condition);
       mark(aggregate.value);
     }
+    if (measure.reaction) measure.reaction->value.markSlots(asked);
   }
   return asked;
+}
+
+bool Experiment::changesFriction() const {
+  return std::any_of(phases.begin(), phases.end(), [](const Phase& phase) { return phase.changes_friction; });
 }
 
 std::vector<std::string> Experiment::phaseNames() const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/experiment/procedure.h"
+#include "framework/experiment/reaction.h"
 
 /// An experiment as its file states it: what varies, in which order, what a trial consists of, what is measured. Immutable
 /// after reading; SI units. Thread: any.
@@ -48,6 +49,8 @@ struct Phase {
   double seconds = 0;  ///< longest [s], with kNext its duration
   OnTimeout on_timeout = OnTimeout::kAbort;
   std::string abort_reason{};
+  bool changes_friction = false;           ///< when it begins, surfaces take on their changed friction; once in a trial
+  std::optional<Expression> event_when{};  ///< over the same names as `until`; without it: always
 };
 
 /// What to do with a trial that was aborted.
@@ -67,12 +70,13 @@ struct Text {
   std::string language, text;
 };
 
-/// One number per trial, from its samples, its condition and the measures above it.
+/// One number per trial, from its samples, its condition and the measures above it; or the time of a reaction.
 struct Measure {
   std::string name, unit, description;
-  std::optional<Expression> value;
+  std::optional<Expression> value;  ///< none: a reaction
   std::vector<Aggregate> aggregates;
   std::size_t names = 0;  ///< how many of Experiment::names it may see; its aggregates take the slots after them
+  std::optional<Reaction> reaction{};
 };
 
 /// The number that the operator watches while a trial goes on.
@@ -107,8 +111,9 @@ struct Experiment {
   std::vector<Measure> measures;
   std::vector<Exclusion> exclusions;
   std::optional<Watch> watch{};
-  Names samples;  ///< what a phase can ask at haptic rate: see sample_names.h
-  Names names;    ///< of a presentation: columns (factors, varied, stimulus), quality figures, measures in order
+  bool surfaces_change = false;  ///< the scene has friction to change to
+  Names samples;                 ///< what a phase can ask at haptic rate: see sample_names.h
+  Names names;  ///< of a presentation: columns (factors, varied, stimulus), quality figures, measures in order
   std::string resolved_xml, scene_xml,
       rig_xml;  ///< the three documents with every default, scene and rig before any level
 
@@ -116,6 +121,8 @@ struct Experiment {
   std::vector<Column> columns() const;
   /// By slot of `samples`: what guards and measures ask for.
   std::vector<bool> askedSamples() const;
+  /// A phase changes the friction of surfaces.
+  bool changesFriction() const;
   /// Names of all phases, in order.
   std::vector<std::string> phaseNames() const;
   /// The value of a column in a condition; empty when there is no such column.

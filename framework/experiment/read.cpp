@@ -67,6 +67,7 @@ void readSampleNames(Experiment& experiment, Diagnostics& diagnostics) {
   const Loaded loaded = loadWorld({experiment.scene, experiment.rig, experiment.sets}, options, diagnostics);
   if (!loaded.world || diagnostics.hasErrors()) return;
   experiment.samples = sampleNames(loaded.world->scene);
+  experiment.surfaces_change = loaded.world->scene.surfacesChange();
   experiment.scene_xml = loaded.world->scene.resolved_xml;
   experiment.model = modelOf(loaded);
   experiment.rig_xml = loaded.world->rig.resolved_xml;
@@ -116,6 +117,7 @@ std::optional<Experiment> readExperiment(const std::string& file, const std::str
   readPhases(root, experiment, diagnostics);
   readTexts(root, experiment, diagnostics);
   readWatch(root, experiment, diagnostics);
+  readReactions(root, experiment, diagnostics);
   readMeasures(root, experiment, diagnostics);
   readObserver(root, experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;

@@ -144,6 +144,7 @@ void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagno
     phase.on_timeout =
         element.attribute("on_timeout", fallback) == "abort" ? Phase::OnTimeout::kAbort : Phase::OnTimeout::kNext;
     phase.abort_reason = element.attribute("reason");
+    readEvent(element, seen, experiment, phase, diagnostics);
     experiment.phases.push_back(std::move(phase));
   }
 }

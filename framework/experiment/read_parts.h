@@ -16,6 +16,11 @@ void readDesign(const xml::Element& root, Experiment& experiment, Diagnostics& d
 void readPhases(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readWatch(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+/// What happens when a phase begins, over the names that its guards see; E916 when nothing in the scene can change.
+void readEvent(const xml::Element& element, const Names& seen, const Experiment& experiment, Phase& phase,
+               Diagnostics& diagnostics);
+/// Become measures, before all others.
+void readReactions(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 /// Measures and rules of exclusion.
 void readMeasures(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 

@@ -17,6 +17,7 @@ Trial::Trial(const Experiment& experiment, std::vector<double> columns, double p
   for (const Measure& measure : experiment.measures) {
     aggregates_.emplace_back();
     for (const Aggregate& aggregate : measure.aggregates) aggregates_.back().emplace_back(aggregate);
+    if (measure.reaction) reactions_.emplace_back(*measure.reaction, period);
   }
 }
 
@@ -25,6 +26,8 @@ void Trial::enter(double time, std::size_t phase) noexcept {
   phase_ = phase;
   held_since_ = -1;
   stretches_[phase].begin = time;
+  const Phase& begun = experiment_.phases[phase];
+  if (begun.changes_friction && (!begun.event_when || begun.event_when->holds(values_))) friction_changed_ = true;
 }
 
 void Trial::end(double time, State state, Cause cause) noexcept {
@@ -39,10 +42,13 @@ Trial::State Trial::step(double time) noexcept {
   const Phase& phase = experiment_.phases[phase_];
   const double begin = stretches_[phase_].begin;
   values_[SampleReader::kTime] = time;
-  values_[SampleReader::kPhaseTime] = time - begin;
+  // a phase begins with its first tick: what rounding puts before it is not
+  const double phase_time = std::max(0.0, time - begin);
+  values_[SampleReader::kPhaseTime] = phase_time;
   for (auto& measure : aggregates_) {
     for (RunningAggregate& aggregate : measure) aggregate.add(phase_, samples(), begin);
   }
+  for (ReactionClock& reaction : reactions_) reaction.add(phase_, samples(), phase_time);
   if (phase.abort && phase.abort->holds(values_)) {
     end(time, State::kAborted, Cause::kGuard);
     return state_;
@@ -87,8 +93,13 @@ std::string Trial::reason() const {
 std::vector<double> Trial::results(std::span<const double> quality) const {
   std::vector<double> all = columns_;
   all.insert(all.end(), quality.begin(), quality.end());
+  auto reaction = reactions_.begin();
   for (std::size_t m = 0; m < experiment_.measures.size(); ++m) {
     const Measure& measure = experiment_.measures[m];
+    if (measure.reaction) {
+      all.push_back((reaction++)->onset());
+      continue;
+    }
     std::vector<double> seen(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(measure.names));
     for (const RunningAggregate& aggregate : aggregates_[m]) seen.push_back(aggregate.result(period_));
     all.push_back(measure.value->evaluate(seen));

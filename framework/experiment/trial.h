@@ -32,6 +32,8 @@ class Trial {
   /// Index of the phase going on, or in which the trial ended.
   std::size_t phase() const noexcept { return phase_; }
   const std::vector<Stretch>& stretches() const noexcept { return stretches_; }
+  /// A phase that changes the friction of surfaces has begun, and its condition held: from that phase's first tick on.
+  bool frictionChanged() const noexcept { return friction_changed_; }
   /// Why it was aborted, in words; empty otherwise.
   std::string reason() const;
   /// Values of Experiment::names: columns (NaN for a word), `quality` (order of kQualityNames), measures (NaN where a phase
@@ -50,12 +52,14 @@ class Trial {
   std::vector<double> values_;                             // samples, then the columns that guards may ask for
   std::vector<double> columns_;                            // numbers of the presentation
   std::vector<std::vector<RunningAggregate>> aggregates_;  // by measure
+  std::vector<ReactionClock> reactions_;                   // in the order of the measures that are one
   std::vector<Stretch> stretches_;
   State state_ = State::kRunning;
   Cause cause_ = Cause::kNone;
   std::string outside_reason_;
   std::size_t phase_ = 0;
   double held_since_ = -1;
+  bool friction_changed_ = false;
 };
 
 }  // namespace presa::experiment

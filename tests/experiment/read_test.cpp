@@ -99,6 +99,23 @@ TEST_F(Changed, SecondMeasureOfAName) {
   EXPECT_THAT(findings("name=\"F_index\"", "name=\"F_thumb\""), HasSubstr("error[E903]"));
 }
 
+TEST_F(Changed, EventThatTheSceneDoesNotHave) {
+  EXPECT_THAT(findings("<phase name=\"hold\"", "<phase name=\"hold\" event=\"change_friction\""),
+              HasSubstr("error[E916]: phase 'hold' changes the friction of surfaces, but no touchable material of"));
+  EXPECT_THAT(findings("<phase name=\"hold\"", "<phase name=\"hold\" event_when=\"mass == 0.1\""),
+              HasSubstr("says when its event happens, but names no event"));
+}
+
+TEST_F(Changed, ReactionOfNoPhase) {
+  const auto with = [&](const std::string& phases) {
+    return findings("<measure name=\"F_thumb\"",
+                    "<reaction name=\"R\" value=\"thumb.fn\" " + phases + "/><measure name=\"F_thumb\"");
+  };
+  EXPECT_THAT(with("baseline=\"hold\" phase=\"relese\""),
+              HasSubstr("error[E917]: there is no phase 'relese' (did you mean 'release'?)"));
+  EXPECT_THAT(with("baseline=\"release\" phase=\"hold\""), HasSubstr("does not come before phase 'hold'"));
+}
+
 TEST_F(Changed, EverythingAtOnce) {
   std::string text = textOf(kGrip);
   const std::string all = findings("until=\"signal\"", "until=\"signl\" abort=\"cube.lft &lt; 0\"");

@@ -121,6 +121,28 @@ TEST_F(TrialTest, AWordIsNoNumber) {
   EXPECT_EQ(trial.reason(), "no end of lift");
 }
 
+// From the first tick of its phase on, and only in trials for which its condition holds.
+TEST_F(TrialTest, ChangesTheFrictionWithItsPhase) {
+  experiment.phases[1].changes_friction = true;
+  Trial always(experiment, {0.2}, kPeriod);
+  run(
+      always, [](int) { return 1.0; }, 10);
+  EXPECT_EQ(always.phase(), 0U);
+  EXPECT_FALSE(always.frictionChanged());
+  run(
+      always, [](int) { return 1.0; }, 11);  // held 10 ms in the last of them: the next is the phase's first
+  EXPECT_EQ(always.phase(), 1U);
+  EXPECT_TRUE(always.frictionChanged());
+  Names seen = experiment.samples;
+  seen.add("mass");
+  experiment.phases[1].event_when = Expression::compile("mass == 0.1", seen, {}, diagnostics);
+  Trial never(experiment, {0.2}, kPeriod);
+  run(
+      never, [](int) { return 1.0; }, 200);
+  EXPECT_GT(never.phase(), 0U);
+  EXPECT_FALSE(never.frictionChanged());
+}
+
 TEST_F(TrialTest, AStepTakesNoMemory) {
   Trial trial(experiment, {0.2}, kPeriod);
   const RealTimeGuard guard;

@@ -1,5 +1,6 @@
 #include "apps/presa/experiment/trial_run.h"
 
+#include "apps/presa/experiment/surface_switch.h"
 #include "apps/presa/experiment/trial_tap.h"
 #include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
@@ -46,6 +47,7 @@ class TrialRun {
       for (const DeviceRole& role : world_->scene.devices) setting.live->roles.push_back(role.role);
       options.more.push_back(std::make_unique<OperatorTap>(trial_, experiment, *setting.live));
     }
+    if (experiment.changesFriction()) options.more.push_back(std::make_unique<SurfaceSwitch>(trial_));
     session_ = std::make_unique<Session>(world_, plan_, control_, std::move(options));
     const RateTable rates(world_->scene.rates);
     executor_ = makeExecutor(setting.realtime, session_->graph(), rates, control_);

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/experiment/reaction.h"
+#include "framework/math/random.h"
+#include "tests/support/alloc_lock_guard.h"
+
+// The time of a reaction, in signals whose beginning is known.
+namespace presa::experiment {
+namespace {
+
+constexpr double kPeriod = 0.001;
+constexpr std::size_t kWait = 0, kReact = 1;
+
+class ReactionTest : public testing::Test {
+ protected:
+  Reaction rule(double threshold, double sds) {
+    return {*Expression::compile("x", Names({"x"}), {}, diagnostics), kWait, kReact, threshold, sds, 0.2};
+  }
+  /// The whole of both phases through the clock.
+  static double onsetOf(const Reaction& rule, const std::vector<double>& wait, const std::vector<double>& react) {
+    ReactionClock clock(rule, kPeriod);
+    for (const double x : wait) clock.add(kWait, {&x, 1}, 0);
+    for (std::size_t n = 0; n < react.size(); ++n) clock.add(kReact, {&react[n], 1}, static_cast<double>(n) * kPeriod);
+    return clock.onset();
+  }
+  Diagnostics diagnostics;
+};
+
+struct Lines {
+  double left, response;
+};
+Lines linesOf(const std::vector<double>& wait, double threshold, double sds) {
+  const std::vector<double> window(wait.end() - 200, wait.end());
+  double mean = 0, squares = 0;
+  for (const double x : window) mean += x / 200;
+  for (const double x : window) squares += (x - mean) * (x - mean);
+  const double sd = std::sqrt(squares / 199), response = mean + std::max(threshold, sds * sd);
+  return {std::min(mean + 2 * sd, response), response};
+}
+/// The rule as it is written down, on samples that were all kept.
+double searchedBackwards(const std::vector<double>& react, const Lines& lines) {
+  const auto response = std::find_if(react.begin(), react.end(), [&](double x) { return x > lines.response; });
+  if (response == react.end()) return std::numeric_limits<double>::quiet_NaN();
+  auto onset = response;
+  while (onset != react.begin() && *(onset - 1) > lines.left) --onset;
+  return static_cast<double>(onset - react.begin()) * kPeriod;
+}
+
+/// A grip of 2 N in white noise, which rises from sample 150 of the reaction on.
+struct Rise {
+  static constexpr double kSd = 0.02, kSlope = 4;  // [N], [N/s]: a fifth of the noise in each sample
+  static constexpr int kDelay = 150;
+  static double height(int n) { return std::max(0, n - kDelay) * kPeriod * kSlope; }
+  explicit Rise(std::uint64_t seed) {
+    RandomStream noise(seed, "noise");
+    for (int n = 0; n < 700; ++n) wait.push_back(2 + kSd * noise.normal());
+    for (int n = 0; n < 600; ++n) react.push_back(2 + height(n) + kSd * noise.normal());
+  }
+  std::vector<double> wait, react;
+};
+
+// Online and without keeping samples it is what a search in all of them finds, to the bit.
+TEST_F(ReactionTest, IsTheSearchBackwardsWithoutTheSamples) {
+  for (const double threshold : {0.0, 0.2}) {
+    const Reaction what = rule(threshold, 5);
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+      const Rise rise(seed);
+      ASSERT_EQ(onsetOf(what, rise.wait, rise.react), searchedBackwards(rise.react, linesOf(rise.wait, threshold, 5)));
+    }
+  }
+}
+
+// White noise under a ramp: sample n is below the lower line, m + 2 s, with p(n) = Phi(2 - height / s), and the onset comes after
+// the last such. Its mean is the sum over n of P(onset > n) = 1 - product over k >= n of (1 - p(k)). m and s are known from 200
+// samples only, to s / sqrt(200) and s / sqrt(400): that shifts the line by less than 0.1 s + 0.1 s, half a sample, either way, and
+// on the average of 2000 runs by nothing that counts; 4 standard errors of that average are the tolerance.
+TEST_F(ReactionTest, OnAverageFindsTheBeginningOfARampInNoise) {
+  const auto below = [](int n) { return 0.5 * std::erfc((Rise::height(n) / Rise::kSd - 2) / std::sqrt(2)); };
+  double expected = Rise::kDelay, never_again = 1;
+  std::vector<double> later;
+  for (int n = 599; n >= Rise::kDelay; --n) later.push_back(1 - (never_again *= 1 - below(n)));
+  for (const double p : later) expected += p;
+  const Reaction what = rule(0.2, 5);
+  constexpr int kRuns = 2000;
+  double mean = 0, squares = 0;
+  for (int run = 1; run <= kRuns; ++run) {
+    const Rise rise(static_cast<std::uint64_t>(run));
+    const double change = onsetOf(what, rise.wait, rise.react) / kPeriod - mean;
+    mean += change / run;
+    squares += change * (onsetOf(what, rise.wait, rise.react) / kPeriod - mean);
+  }
+  const double error = std::sqrt(squares / (kRuns - 1) / kRuns);
+  EXPECT_LT(error, 0.15);  // samples: or the comparison would say little
+  EXPECT_NEAR(mean, expected, 4 * error);
+  EXPECT_LT(expected - Rise::kDelay, 25);  // 2 s are 10 samples of the ramp, the noise adds as many again
+}
+
+// Without noise: the sample after the ramp began, whatever the threshold.
+TEST_F(ReactionTest, FindsAQuietRampToTheSample) {
+  std::vector<double> react(600, 2.0);
+  for (int n = 150; n < 600; ++n) react[static_cast<std::size_t>(n)] += 0.004 * (n - 150);
+  EXPECT_EQ(onsetOf(rule(0.2, 5), std::vector<double>(300, 2.0), react), 0.151);
+  EXPECT_EQ(onsetOf(rule(1.5, 5), std::vector<double>(300, 2.0), react), 0.151);
+}
+
+TEST_F(ReactionTest, IsNothingWhereNothingRises) {
+  EXPECT_TRUE(std::isnan(onsetOf(rule(0.2, 5), std::vector<double>(300, 2.0), std::vector<double>(600, 2.19))));
+  EXPECT_TRUE(std::isnan(onsetOf(rule(0.2, 5), {2.0}, std::vector<double>(600, 9.0)))) << "no baseline";
+  EXPECT_TRUE(std::isnan(onsetOf(rule(0.2, 5), std::vector<double>(300, 2.0), {}))) << "the phase never came";
+}
+
+// 0.2 N is not enough where the grip is unsteady: sd 0.1 N asks for 0.5 N.
+TEST_F(ReactionTest, TakesTheLargerOfTheThresholds) {
+  std::vector<double> wait;
+  for (int n = 0; n < 300; ++n) wait.push_back(n % 2 == 0 ? 1.9 : 2.1);
+  EXPECT_TRUE(std::isnan(onsetOf(rule(0.2, 5), wait, std::vector<double>(600, 2.45))));
+  EXPECT_EQ(onsetOf(rule(0.2, 4), wait, std::vector<double>(600, 2.45)), 0);
+}
+
+// Only the end of the baseline counts; what rose before the event began at 0, to be thrown out as an anticipation.
+TEST_F(ReactionTest, LooksAtTheLastOfTheBaselineAndNotBeforeTheEvent) {
+  std::vector<double> wait(1000, 7.0);
+  std::fill(wait.end() - 200, wait.end(), 2.0);
+  EXPECT_EQ(onsetOf(rule(0.2, 5), wait, {2.0, 2.1, 2.3}), 0.001);
+  EXPECT_EQ(onsetOf(rule(0.2, 5), wait, {2.1, 2.3}), 0);
+}
+
+TEST_F(ReactionTest, TakesNoMemory) {
+  const Reaction what = rule(0.2, 5);
+  const Rise rise(1);
+  ReactionClock clock(what, kPeriod);
+  const RealTimeGuard guard;
+  for (const double& x : rise.wait) clock.add(kWait, {&x, 1}, 0);
+  for (const double& x : rise.react) clock.add(kReact, {&x, 1}, 0.1);
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+  EXPECT_EQ(clock.onset(), 0.1);
+}
+
+}  // namespace
+}  // namespace presa::experiment
