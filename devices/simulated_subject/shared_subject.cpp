@@ -30,7 +30,9 @@ SharedSubject::SharedSubject(const Grasp& grasp, const SubjectSettings& settings
 
 void SharedSubject::see(const ObjectState& objects, const Tick& tick) noexcept {
   if (grasp_.body >= objects.count) return;
-  seen_height_ = objects.poseAt(grasp_.body, tick.time).p.z() - grasp_.p_WB.z();
+  const Vec3 moved = objects.poseAt(grasp_.body, tick.time).p - grasp_.p_WB;
+  seen_height_ = moved.z();
+  senses_.sight.aside = moved.dot(grasp_.inward_W);
   senses_.sight.object = true;
 }
 

@@ -20,6 +20,10 @@ std::vector<DeviceFact> factsOf(const SharedSubject& subject) {
   facts.push_back({"slip_threshold_of_trial", "m", brain.slipThreshold(), true});
   facts.push_back({"misjudgement_of_trial", "1", brain.misjudgement(), true});
   facts.push_back({"scatter_of_trial", "1", brain.scatter(), true});
+  facts.push_back({"slip_force_remembered", "N", brain.slipGrip(), true});
+  facts.push_back({"grip_wanted", "N", brain.wanted(), true});
+  facts.push_back({"drops", "1", static_cast<double>(brain.drops()), true});
+  facts.push_back({"grips_raised", "1", static_cast<double>(brain.regrips()), true});
   return facts;
 }
 
@@ -61,17 +65,14 @@ class SimulatedDigit final : public Device {
 };
 
 /// The second device of a world joins the first. Held by the devices alone: gone with them, so that runs do not meet.
-std::shared_ptr<SharedSubject> join(const World& world, int digit, const Grasp& grasp,
-                                    const SubjectSettings& settings) {
+std::shared_ptr<SharedSubject> join(const World& world, const Grasp& grasp, const SubjectSettings& settings) {
   static std::mutex mutex;
   static std::map<const World*, std::weak_ptr<SharedSubject>> subjects;
   const std::lock_guard lock(mutex);
   std::erase_if(subjects, [](const auto& entry) { return entry.second.expired(); });
   std::shared_ptr<SharedSubject> subject = subjects[&world].lock();
-  if (subject && subject->settings() != settings) return nullptr;
-  if (!subject || !subject->take(digit)) {
+  if (!subject) {
     subject = std::make_shared<SharedSubject>(grasp, settings, RateTable(world.scene.rates).period(RateGroup::kHaptic));
-    subject->take(digit);
     subjects[&world] = subject;
   }
   return subject;
@@ -83,13 +84,15 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   const SubjectSettings settings = readSettings(binding, world, diagnostics);
   const Grasp grasp = readGrasp(binding, world, diagnostics);
   if (diagnostics.errorCount() > before) return nullptr;
-  auto subject = join(world, digit, grasp, settings);
-  if (!subject) {
+  auto subject = join(world, grasp, settings);
+  if (subject->settings() != settings)
     diagnostics.error(
         436, binding.where, "role '" + binding.role + "' has other settings than the other digit",
         "both digits are one person: give them the same level, seed, subject, reach, hold and resolution");
-    return nullptr;
-  }
+  else if (!subject->take(digit))
+    diagnostics.error(438, binding.where, "role '" + binding.role + "' is a digit that another role is already",
+                      "a simulated subject has one thumb and one index finger");
+  if (diagnostics.errorCount() > before) return nullptr;
   return std::make_unique<SimulatedDigit>(std::move(subject), digit);
 }
 

@@ -18,6 +18,7 @@ constexpr double kBlindTime = 0.3;  // after a change of plan, in which no slip 
 constexpr double kFirstGrip = 1;                   // [N]
 constexpr double kSafeRatio = 3.25;                // grip over load that is safe for friction 0.4: 1.3 / 0.4
 constexpr double kSlightLoad = 0.05;               // [N]
+constexpr double kFirmly = 1.2, kTouch = 0.5;      // of the grip wanted, to take it up; [N] to close with
 constexpr double kSqueezeRate = 6;                 // [N/s] while it is seen to stay behind
 constexpr double kCouplingTime = 0.02;             // [s] of grip to the lift force
 constexpr double kHarder = 1.25;                   // after a slip
@@ -143,18 +144,33 @@ void Brain::regrasp() noexcept {
   enter(Phase::kAdjust);
 }
 
-// Opens, waits until the object has come to rest, goes down to it, closes, squeezes firmly, lifts, settles.
+// Opens, waits until the object has come to rest, goes to where it is seen, closes until both digits touch, squeezes, lifts,
+// settles. What is still not held is picked up once more, harder.
 void Brain::regraspFromTable() noexcept {
   const double open = time_ / kReachTime, down = (time_ - kFallTime) / kReachTime, close = down - 1;
   const double squeeze = (time_ - kFallTime - 2 * kReachTime) / kSqueezeTime;
   const double lift = (time_ - kFallTime - 2 * kReachTime - kSqueezeTime) / kLiftTime;
   intent_.reaching = squeeze <= 0;
   intent_.reach = task_.reach * (minimumJerk(close) - minimumJerk(open));
-  if (down <= 0) low_ = perception_.seenHeight().value_or(0);
+  if (down <= 0) {
+    low_ = perception_.seenHeight().value_or(0);
+    aside_ = perception_.seenAside().value_or(0);
+  }
+  intent_.aside += (aside_ - intent_.aside) * minimumJerk(down);
   intent_.height = task_.height + (low_ - task_.height) * (minimumJerk(down) - minimumJerk(lift));
   intent_.grip = firm_ * std::clamp(squeeze, 0.0, 1.0);
   if (squeeze > 0) intent_.height_rate = lift < 1 ? kLiftRate : kPostureRate;
+  const bool slides = lift > 0 && perception_.seenSliding() && perception_.load() > kSlightLoad;
+  if (slides) firm_ += period_ * kSqueezeRate;
+  if ((slides || (intent_.grip > kTouch && lift < 0 && !perception_.touchesBoth())) && waited_ < kWaitLimit) {
+    waited_ += period_;
+    time_ -= period_;
+  }
   if (lift < 1 + kLoadTime / kLiftTime || !(perception_.still() || lift > kSettleLimit / kLiftTime)) return;
+  if (perception_.lost()) {
+    firmness_ *= kHarder;
+    return takeUpAgain();
+  }
   perception_.rest();
   enter(Phase::kAdjust);
 }
@@ -204,8 +220,10 @@ double Brain::gripFromMemory() const noexcept {
 }
 
 void Brain::takeUpAgain() noexcept {
-  firm_ = std::max(1.5 * wanted_, kSafeRatio * felt_weight_) + kFirstGrip;
+  firm_ = task_.from_table ? firmness_ * (kFirmly * wanted_ + kTouch)
+                           : std::max(1.5 * wanted_, kSafeRatio * felt_weight_) + kFirstGrip;
   intent_.grip = task_.from_table ? 0 : firm_;
+  waited_ = 0;
   intent_.take_up_again = true;
   if (task_.from_table) perception_.letGo();
   reaction_ = kNever;
@@ -225,7 +243,7 @@ bool Brain::keepHold() noexcept {
   if (reaction_ > 0) return false;
   ++regrips_;
   wanted_ *= kHarder;
-  intent_.grip = wanted_;
+  intent_.grip = std::max(intent_.grip, wanted_);  // it may still be on its way down
   reaction_ = kNever;
   perception_.rest();
   return false;

@@ -76,8 +76,9 @@ class Brain {
   double effort_ = 0;
   Phase phase_ = Phase::kPreload;
   double time_ = 0, waited_ = 0;
-  double low_ = 0, firm_ = 0;  // where the object lies [m], grip to take it up with [N]
-  double reaction_;            // left until it reacts; infinite: to nothing
+  double low_ = 0, aside_ = 0;      // where the object lies [m]
+  double firm_ = 0, firmness_ = 1;  // grip to take it up with [N], and more of it after a failure
+  double reaction_;                 // left until it reacts; infinite: to nothing
   double felt_weight_ = 0;
   double slip_grip_ = 0, wanted_ = 0;
   int drops_ = 0, regrips_ = 0;

@@ -53,17 +53,19 @@ Hand::Hand(const Traits& traits, RandomStream noise, double period, double q)
 
 void Hand::step(const Intent& intent, const std::array<DigitSenses, kDigits>& felt) noexcept {
   noise_.step(intent.grip);
-  const double arm = traits_.arm_stiffness * sway();
+  const double arm = traits_.arm_stiffness * (sway() - intent.aside);
+  const double level = -traits_.level_stiffness * 0.5 * (digits_[0].y - digits_[1].y);
   for (int i = 0; i < kDigits; ++i) {
     Digit& digit = digits_[i];
-    if (intent.reaching) digit.anchor = intent.reach;
+    const double side = i == 0 ? 1 : -1;
+    if (intent.reaching) digit.anchor = intent.reach + side * intent.aside;
     const double along = (intent.grip + noise_.force(i)) * intent.gain +
                          traits_.grip_stiffness * (digit.anchor + noise_.position(i) - digit.q) -
-                         traits_.grip_damping * digit.v_q - felt[i].normal - (i == 0 ? arm : -arm);
+                         traits_.grip_damping * digit.v_q - felt[i].normal - side * arm;
     digit.v_q += period_ * along / mass_;
     digit.q += period_ * digit.v_q;
     if (traits_.muscle_time > 0) digit.anchor += period_ * (digit.q - digit.anchor) / traits_.muscle_time;
-    const double up = traits_.posture_stiffness * (intent.height - digit.y) + lift_ -
+    const double up = traits_.posture_stiffness * (intent.height - digit.y) + lift_ + side * level -
                       traits_.posture_damping * digit.v_y - felt[i].load;
     digit.v_y += period_ * up / mass_;
     digit.y += period_ * digit.v_y;

@@ -39,7 +39,9 @@ class MotorNoise {
 
 /// Two digits, each a mass on muscle impedance, on one arm:
 ///   M q'' = gain (U + noise) + k_h (q_a + w - q) - b_h q' - N -+ k_arm (q_1 - q_2) / 2,   q_a' = (q - q_a) / tau_a
-///   M y'' = k_y (y_ref - y) + u_y - b_y y' - T,   u_y' = rate k_y (y_ref - mean y)
+///   M y'' = k_y (y_ref - y) + u_y - b_y y' - T -+ k_level (y_1 - y_2) / 2,   u_y' = rate k_y (y_ref - mean y)
+/// anchors and sway taken about where the hand's middle is wanted. k_level keeps the digits level: an object of width 2 a turns
+/// between them when squeezed harder than a k (k_y + k_level) / (k + k_y + k_level).
 /// semi-implicit Euler. Thread: any, haptic included (nothing allocates).
 class Hand {
  public:

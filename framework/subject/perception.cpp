@@ -23,9 +23,10 @@ void Perception::step(const Senses& senses) noexcept {
   kick_ = height_ - usual_height_;
   usual_height_ += period_ * kick_ / kHabitTime;
   drift_ += period_ * (0.5 * (thumb.v_y + index.v_y) - drift_) / kDriftTime;
-  if (touching(0) && touching(1)) {
+  opening_ = opening_ && (touching(0) || touching(1));
+  if (touchesBoth()) {
     if (learning_ && std::max(thumb.normal, index.normal) < kLightGrip) learnStiffness();
-    if (std::isnan(place_) && senses.sight.object) place_ = senses.sight.height;
+    if (std::isnan(place_) && !opening_ && senses.sight.object) place_ = senses.sight.height;
   }
 }
 
@@ -49,6 +50,11 @@ bool Perception::still() const noexcept { return std::abs(drift_) < kStill && !s
 std::optional<double> Perception::seenHeight() const noexcept {
   if (!senses_.sight.object) return std::nullopt;
   return height_ + senses_.sight.height;
+}
+
+std::optional<double> Perception::seenAside() const noexcept {
+  if (!senses_.sight.object) return std::nullopt;
+  return senses_.sight.aside;
 }
 
 double Perception::fallen() const noexcept {

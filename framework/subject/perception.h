@@ -32,7 +32,13 @@ class Perception {
   /// Height of the object in the hand's coordinates [m].
   std::optional<double> seenHeight() const noexcept;
   /// What comes next is another grasp: the object will be touched elsewhere.
-  void letGo() noexcept { place_ = std::numeric_limits<double>::quiet_NaN(); }
+  void letGo() noexcept {
+    place_ = std::numeric_limits<double>::quiet_NaN();
+    opening_ = true;
+  }
+  bool touchesBoth() const noexcept { return touching(0) && touching(1); }
+  /// Where the object is seen along the grip, in the thumb's direction [m].
+  std::optional<double> seenAside() const noexcept;
   /// It has left the fingers, as they feel or as is seen.
   bool lost() const noexcept { return (!touching(0) && !touching(1)) || fallen() > kGone; }
 
@@ -45,7 +51,7 @@ class Perception {
   Senses senses_;
   double grip_ = 0, load_ = 0, height_ = 0, usual_height_ = 0, kick_ = 0, drift_ = 0;
   double place_ = std::numeric_limits<double>::quiet_NaN();  // seen height of the object at the first touch
-  bool learning_ = true;
+  bool learning_ = true, opening_ = false;                   // opening: what is still touched is the grasp before
   // running means of closing and grip of both digits, and their sums of products about them
   double count_ = 0, mean_q_ = 0, mean_n_ = 0, qq_ = 0, qn_ = 0;
 };

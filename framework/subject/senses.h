@@ -22,6 +22,7 @@ struct DigitSenses {
 struct Sight {
   bool object = false;   ///< the object is in view; the rest holds only then
   double height = 0;     ///< of the object above the mean height of the digits [m]
+  double aside = 0;      ///< of the object along the grip, in the thumb's direction, in the hand's coordinates [m]
   bool sliding = false;  ///< it moves against a digit that touches it
 };
 
@@ -40,6 +41,7 @@ struct Intent {
   double height_rate = 0;      ///< at which a wrong height is corrected by force; 0: as it is [1/s]
   bool reaching = false;       ///< position instead of force along the grip: q goes to `reach`
   double reach = 0;            ///< [m]
+  double aside = 0;            ///< middle of the hand along the grip, in the thumb's direction [m]
   bool take_up_again = false;  ///< this tick the object is picked up anew
 };
 

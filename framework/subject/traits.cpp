@@ -23,6 +23,7 @@ constexpr std::array<Trait, Population::kCount> kPopulation{{
     {"clearance", "1", &Traits::clearance, absNormal(2, 0.5), "GUESS: 2.5 % one-sided"},
     {"device_mass", "kg", &Traits::device_mass, constant(0.10), "GUESS: Bergamasco et al. give none"},
     {"arm_stiffness", "N/m", &Traits::arm_stiffness, constant(50), "GUESS"},
+    {"level_stiffness", "N/m", &Traits::level_stiffness, constant(1000), "GUESS: the digits are one hand"},
     {"muscle_time", "s", &Traits::muscle_time, constant(0.3), "GUESS: a force source at rest, a spring above 0.5 Hz"},
     {"force_noise", "N", &Traits::force_noise, constant(0.02), "GUESS"},
     {"noise_time", "s", &Traits::noise_time, constant(0.15), "GUESS"},

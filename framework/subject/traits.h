@@ -26,6 +26,7 @@ struct Traits {
   double grip_stiffness = 0, grip_damping = 0;        ///< of a finger along the grip [N/m, N s/m]
   double arm_stiffness = 0;                           ///< that keeps the hand in place along the grip [N/m]
   double posture_stiffness = 0, posture_damping = 0;  ///< of a finger along the vertical [N/m, N s/m]
+  double level_stiffness = 0;                         ///< that keeps the digits level [N/m]
   double muscle_time = 0;        ///< in which the muscle spring takes on a new length [s]; 0: never (equilibrium point)
   double force_cv = 0;           ///< slow force noise, standard deviation over mean
   double force_noise = 0;        ///< additive slow force noise [N]
@@ -89,7 +90,7 @@ class Population {
   /// The same seed and subject give the same person at every level.
   Traits draw(std::uint64_t seed, std::uint64_t subject) const;
 
-  static constexpr std::size_t kCount = 27;
+  static constexpr std::size_t kCount = 28;
 
  private:
   std::array<Trait, kCount> traits_;

@@ -80,6 +80,25 @@ TEST(Traps, StiffnessAndWeightAreFelt) {
   }
 }
 
+// Fingers that open still touch what they held: that is not the next grasp.
+TEST(Traps, LettingGoForgetsWhereTheObjectWasUntilItIsTouchedAnew) {
+  Perception perception(1e-3);
+  const auto live = [&](const Senses& senses) {
+    for (int i = 0; i < 500; ++i) perception.step(senses);
+  };
+  live(holding(0.04, 0));
+  perception.letGo();
+  live(holding(0.04, -0.04));
+  EXPECT_EQ(perception.fallen(), 0);
+  Senses open = holding(0.04, -0.04);
+  for (DigitSenses& digit : open.digits) digit.normal = digit.load = 0;
+  live(open);
+  live(holding(0, 0));
+  EXPECT_FALSE(perception.lost());
+  live(holding(0.04, -0.04));
+  EXPECT_TRUE(perception.lost());
+}
+
 TEST(Traps, WithEyesClosedTheCubeIsLostWhenNothingIsTouched) {
   Perception perception(1e-3);
   Senses senses = holding(0.04, -0.04);
