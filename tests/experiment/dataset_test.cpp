@@ -25,17 +25,11 @@ class VerdictTest : public testing::Test {
  protected:
   VerdictTest() {
     write(folder.file("experiment.xml"), "<experiment/>");
-    journal.append({{"event", "start"},
-                    {"format", 1},
-                    {"experiment_file", "e.xml"},
-                    {"rig_file", ""},
-                    {"subject", "S01"},
-                    {"number", 1},
-                    {"session", 1},
-                    {"realtime", false},
-                    {"simulated", ""},
-                    {"model", ""},
-                    {"sha256", {{"experiment.xml", sha256OfFile(folder.file("experiment.xml"))}}}});
+    SessionStart start;
+    start.subject = {"S01", 1};
+    Json record = toJson(start);
+    record["sha256"]["experiment.xml"] = sha256OfFile(folder.file("experiment.xml"));
+    journal.append(record);
   }
   void trial(int number, int attempt, const char* outcome, const char* reason = "", const char* excluded = "") {
     const std::string file = "trial-" + std::to_string(number) + "_run-" + std::to_string(attempt) + ".h5";
@@ -146,8 +140,8 @@ TEST_F(InputsTest, ASessionGoesOnWithTheFilesItBeganWith) {
   write(scratch.file("pinch.xml"), motion + "<!-- -->");
   std::ofstream(scratch.file("other.obj"), std::ios::app) << "# scratched\n";
   const std::string refusal = resumed(folder);
-  EXPECT_THAT(refusal, HasSubstr(scratch.file("pinch.xml") + ": error[E929]"));
-  EXPECT_THAT(refusal, HasSubstr(scratch.file("other.obj") + ": error[E929]"));
+  EXPECT_THAT(refusal, HasSubstr(scratch.file("pinch.xml") + ": error[E936]"));
+  EXPECT_THAT(refusal, HasSubstr(scratch.file("other.obj") + ": error[E936]"));
   EXPECT_THAT(refusal, testing::Not(HasSubstr("amphora")));
 }
 

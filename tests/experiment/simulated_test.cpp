@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/presa/experiment/operator/operator.h"
 #include "apps/presa/experiment/session.h"
 #include "apps/presa/scratch_folder.h"
 #include "framework/experiment/read.h"
@@ -101,7 +102,7 @@ TEST(Simulated, TheSessionSaysSoAndKeepsItsLevel) {
   EXPECT_EQ(logged().start.model, kModel);
   SubjectSession session = SubjectSession::resume(experiment, folder);
   EXPECT_EQ(session.start().model, kModel);
-  ASSERT_EQ(session.run(), SubjectSession::End::kComplete);
+  ASSERT_EQ(session.run(*silentOperator(1), "en"), SubjectSession::End::kComplete);
 
   const auto records = Journal::read(folder.journal()).records;
   const double margin = factOf(traitsOf(experiment, 3), "safety_margin");

@@ -61,7 +61,7 @@ void checkInputs(const Experiment& experiment, int subject_number, const Json& s
   const char* const help = "a session is finished with the files that it began with";
   for (const std::string& file : filesOf(experiment, subject_number)) {
     if (sums.value(nameOf(file, experiment), "") != sumNow(file))
-      diagnostics.error(929, {file, 0, 0}, "is not the file that the session began with", help);
+      diagnostics.error(936, {file, 0, 0}, "is not the file that the session began with", help);
   }
   if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
 }

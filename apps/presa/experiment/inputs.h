@@ -8,7 +8,7 @@ namespace presa::experiment {
 /// from the experiment's folder. Throws std::system_error when one cannot be read.
 Json inputSums(const Experiment& experiment, int subject_number);
 
-/// Throws InputError E929 with every file that is not what `sums` say, or is new since.
+/// Throws InputError E936 with every file that is not what `sums` say, or is new since.
 void checkInputs(const Experiment& experiment, int subject_number, const Json& sums);
 
 }  // namespace presa::experiment

@@ -15,7 +15,7 @@ class SubjectSession {
   /// A new one in DATA/sub-ID/ses-N. Throws InputError E920 when it exists, E925 when the folder cannot be made.
   static SubjectSession begin(const Experiment& experiment, const SessionStart& start, const std::string& data);
   /// One to go on with: queue and names of files are rebuilt from the log, an interrupted run is marked and comes next.
-  /// Throws InputError E926 when experiment, scene or rig are not what the session began with, E929 when a file they name is not.
+  /// Throws InputError E926 when experiment, scene or rig are not what the session began with, E936 when a file they name is not.
   static SubjectSession resume(const Experiment& experiment, const SessionFolder& folder);
 
   enum class End { kComplete, kStopped, kFault };

@@ -14,7 +14,7 @@ using namespace experiment;
 
 struct ExportArguments {
   std::string data, bids, csv;
-  double rate = 1000;
+  double rate = 0;
   BidsOptions options;
 };
 
@@ -66,9 +66,10 @@ void addExport(CLI::App& app, int& status) {
       ->check(CLI::ExistingDirectory);
   command->add_option("--bids", a->bids, "new folder for a BIDS dataset (beh, motion)");
   command->add_option("--csv", a->csv, "new folder for trials.csv and a time series for each recording");
-  command->add_option("--rate", a->rate, "rows per second of the time series in CSV, at most the haptic rate")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command
+      ->add_option("--rate", a->rate,
+                   "rows per second of the time series in CSV (default: 1000, at most the haptic rate)")
+      ->check(CLI::PositiveNumber);
   command->add_option("--license", a->options.license, "of the BIDS dataset, for example CC0");
   command->add_option("--author", a->options.authors, "of the BIDS dataset; one --author for each");
   command->footer(

@@ -6,6 +6,8 @@
 #include "apps/presa/experiment/delimited.h"
 #include "apps/presa/experiment/export/motion.h"
 #include "apps/presa/experiment/export/staging.h"
+#include "apps/presa/terminal/text.h"
+#include "framework/diagnostics/refuse.h"
 #include "framework/experiment/definition.h"
 #include "framework/record/record_plugin.h"
 
@@ -73,6 +75,15 @@ std::string columnsJson(const std::vector<SourceColumn>& columns) {
   return json.dump(2) + "\n";
 }
 
+/// Zero: what people ask for most, or all there is.
+double rateOf(const Motion& motion, double asked) {
+  constexpr double kUsual = 1000;
+  if (asked > motion.nominalRate() * (1 + 1e-9))
+    refuse(935, "--rate",
+           terminal::format("%g rows a second were not recorded: there are %g", asked, motion.nominalRate()));
+  return asked > 0 ? asked : std::min(kUsual, motion.nominalRate());
+}
+
 std::string seriesCsv(const std::string& file, double rate) {
   const RecordedSamples samples = recordPlugin().samples(file);
   const Motion motion(samples);
@@ -80,7 +91,7 @@ std::string seriesCsv(const std::string& file, double rate) {
   for (const Channel& channel : motion.channels())
     header.push_back(experiment::headingOf(channel.name, channel.units == kNothing ? "" : channel.units));
   header.front() = "time [s]";
-  return lineOf(header) + motion.rows(',', motion.ticksAt(rate));
+  return lineOf(header) + motion.rows(',', motion.ticksAt(rateOf(motion, rate)));
 }
 
 }  // namespace
