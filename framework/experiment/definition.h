@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/experiment/analysis.h"
 #include "framework/experiment/procedure.h"
 #include "framework/experiment/reaction.h"
 
@@ -111,6 +112,7 @@ struct Experiment {
   std::vector<Measure> measures;
   std::vector<Exclusion> exclusions;
   std::optional<Watch> watch{};
+  Analysis analysis;
   bool surfaces_change = false;  ///< the scene has friction to change to
   Names samples;                 ///< what a phase can ask at haptic rate: see sample_names.h
   Names names;  ///< of a presentation: columns (factors, varied, stimulus), quality figures, measures in order

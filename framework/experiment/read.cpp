@@ -18,11 +18,6 @@ namespace {
 
 using xml::Element;
 
-const xml::Schema& schema() {
-  static const xml::Schema compiled(schemas::experiment);
-  return compiled;
-}
-
 std::string beside(const std::string& file, const std::string& path) {
   if (path.empty()) return {};
   return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
@@ -96,11 +91,16 @@ void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
 
 }  // namespace
 
+const xml::Schema& experimentSchema() {
+  static const xml::Schema compiled(schemas::experiment);
+  return compiled;
+}
+
 std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics,
                                          const std::string& simulated, std::uint64_t seed) {
   const auto document = xml::Document::load(file, diagnostics);
-  if (!document || !document->validate(schema(), diagnostics)) return std::nullopt;
-  document->writeDefaults(schema());
+  if (!document || !document->validate(experimentSchema(), diagnostics)) return std::nullopt;
+  document->writeDefaults(experimentSchema());
   Element root = document->root();
   if (seed != 0) root.setAttribute("seed", std::to_string(seed));
   Experiment experiment;
@@ -120,6 +120,7 @@ std::optional<Experiment> readExperiment(const std::string& file, const std::str
   readReactions(root, experiment, diagnostics);
   readMeasures(root, experiment, diagnostics);
   readObserver(root, experiment, diagnostics);
+  readAnalysis(root, experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;
   checkConditions(experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;

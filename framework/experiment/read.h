@@ -15,4 +15,8 @@ inline const std::vector<std::string> kQualityNames{"missed_ticks", "clipped_s",
 std::optional<Experiment> readExperiment(const std::string& file, const std::string& rig, Diagnostics& diagnostics,
                                          const std::string& simulated = {}, std::uint64_t seed = 0);
 
+/// For data that are there already: what a file says of its trials without their scene. Factors, method, design, names and
+/// units of measures (no expressions), analysis. All findings go to `diagnostics`; null when there are errors.
+std::optional<Experiment> readRecorded(const std::string& file, Diagnostics& diagnostics);
+
 }  // namespace presa::experiment

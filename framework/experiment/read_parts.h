@@ -1,6 +1,7 @@
 #pragma once
 #include "framework/experiment/definition.h"
 #include "framework/experiment/sample_names.h"
+#include "framework/xml/schema.h"
 #include "framework/xml/xml.h"
 
 /// The steps of reading an experiment, in their order; each adds its findings and goes on with what is left.
@@ -23,6 +24,10 @@ void readEvent(const xml::Element& element, const Names& seen, const Experiment&
 void readReactions(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 /// Measures and rules of exclusion.
 void readMeasures(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+/// After everything that gives a trial its numbers.
+void readAnalysis(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+
+const xml::Schema& experimentSchema();
 
 /// The attribute `name` of a column becomes a name of a trial; E903 when it is one already.
 void claimName(const xml::Element& element, Experiment& experiment, Diagnostics& diagnostics);

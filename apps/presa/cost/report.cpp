@@ -6,6 +6,7 @@
 #include "apps/presa/cost/analysis.h"
 #include "apps/presa/cost/metrics.h"
 #include "apps/presa/cost/work_plots.h"
+#include "apps/presa/report/html.h"
 #include "apps/presa/report/page.h"
 #include "apps/presa/report/svg_plot.h"
 #include "apps/presa/terminal/text.h"
@@ -13,18 +14,10 @@
 namespace presa::cost {
 namespace {
 
+using html::row;
+using html::table;
 using svg::escape;
 using terminal::format;
-
-std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string out = "<tr>";
-  for (const std::string& cell : cells) out += std::string("<") + tag + ">" + cell + "</" + tag + ">";
-  return out + "</tr>\n";
-}
-std::string table(const std::vector<std::string>& head, const std::string& rows) {
-  return "<div class=\"scroll\"><table><thead>" + row(head, "th") + "</thead><tbody>\n" + rows +
-         "</tbody></table></div>\n";
-}
 
 std::string setOptions(const std::vector<std::string>& sets) {
   std::string out;

@@ -11,12 +11,12 @@ const char* const kStyle = R"CSS(
   --bg: #ffffff; --card: #f6f7f9; --ink: #1b1f24; --soft: #5b6570; --rule: #dde1e6; --grid: #e7eaee;
   --band0: #eef3f8; --band1: #ffffff; --good: #0b7a53; --bad: #b3261e; --neutral: #44546a;
   --finger: #1a936f; --proxy: #7fcfb2; --object: #c8451b; --force: #1f6fb5; --tangential: #8aa5bd; --state: #1b1f24;
-  --limit: #a0522d; }
+  --limit: #a0522d; --s0: #e8a33d; --s1: #1f8a8c; --s2: #3d2f86; --s3: #b0416e; --s4: #6a7d2c; --s5: #555f6b; }
 @media screen and (prefers-color-scheme: dark) { :root {
   --bg: #14171b; --card: #1d2127; --ink: #e6e9ed; --soft: #9aa5b1; --rule: #343b44; --grid: #2a3038;
   --band0: #1c232b; --band1: #14171b; --good: #4cc38a; --bad: #ff8a80; --neutral: #a9b8cc;
   --finger: #3ddc97; --proxy: #2f9a78; --object: #ff8552; --force: #5aa9e6; --tangential: #7d9db8; --state: #e6e9ed;
-  --limit: #d9a066; } }
+  --limit: #d9a066; --s0: #ffd48a; --s1: #3fbfb6; --s2: #8a7cf0; --s3: #e57ba4; --s4: #b4c86a; --s5: #a3adb8; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--bg); color: var(--ink); font: 15px/1.5 system-ui, "Liberation Sans", sans-serif; }
 main { max-width: 1120px; margin: 0 auto; padding: 28px 20px 60px; }
@@ -33,7 +33,7 @@ p { margin: 6px 0; }
 .tile { background: var(--card); border-radius: 4px; padding: 10px 14px; }
 .tile span { display: block; color: var(--soft); font-size: 13px; }
 .tile strong { font-size: 20px; font-variant-numeric: tabular-nums; }
-.scroll { overflow-x: auto; }
+.scroll { overflow-x: auto; } .scroll + .scroll { margin-top: 14px; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; font-size: 14px; }
 th, td { padding: 5px 10px; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
 th { color: var(--soft); font-weight: 600; white-space: normal; vertical-align: bottom; line-height: 1.25; }
@@ -51,7 +51,8 @@ pre { background: var(--card); border-radius: 4px; padding: 10px 14px; white-spa
 img { max-width: 100%; border-radius: 4px; display: block; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 16px; }
 .plot { position: relative; overflow-x: auto; }
-.plot > svg { width: 100%; height: auto; display: block; }
+.plot > svg { width: 100%; height: auto; display: block; } .plot.single { max-width: 800px; }
+details { margin: 8px 0; } summary { cursor: pointer; color: var(--soft); font-size: 14px; }
 svg text { font: 12px system-ui, "Liberation Sans", sans-serif; fill: var(--ink); }
 svg .tick { fill: var(--soft); font-variant-numeric: tabular-nums; } svg .ytick { text-anchor: end; } svg .xtick, svg .phase { text-anchor: middle; }
 svg .phase { fill: var(--soft); font-weight: 600; } svg .panel-title { font-weight: 600; font-size: 13px; }
@@ -71,6 +72,10 @@ svg .point { fill: var(--tangential); stroke: var(--bg); stroke-width: 1; cursor
 svg .point.usual { fill: var(--object); stroke: var(--ink); stroke-width: 1.5; } svg .point.empty { fill: var(--bg); stroke: var(--tangential); stroke-width: 1.5; }
 svg .cross { stroke: var(--bad); stroke-width: 2; fill: none; } svg .whisker { stroke: var(--tangential); }
 svg .pareto { fill: none; stroke: var(--force); stroke-width: 1.5; } svg .floor { fill: var(--band0); } svg .known { fill: var(--limit); }
+svg .s0 { stroke: var(--s0); --fill: var(--s0); } svg .s1 { stroke: var(--s1); --fill: var(--s1); } svg .s2 { stroke: var(--s2); --fill: var(--s2); }
+svg .s3 { stroke: var(--s3); --fill: var(--s3); } svg .s4 { stroke: var(--s4); --fill: var(--s4); } svg .s5 { stroke: var(--s5); --fill: var(--s5); }
+svg .ink { stroke: var(--ink); --fill: var(--ink); } svg .bar { fill: var(--fill); stroke: none; } svg .symbol { fill: var(--fill); fill-opacity: .55; }
+svg .area { fill: var(--fill); fill-opacity: .18; stroke: none; } svg .error { stroke: var(--ink); stroke-width: 1.1; fill: none; } svg .dashed { stroke-dasharray: 6 4; }
 svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }
 .readout { position: absolute; top: 50px; pointer-events: none; background: var(--bg); border: 1px solid var(--rule); border-radius: 4px;
   padding: 6px 10px; font-size: 13px; font-variant-numeric: tabular-nums; white-space: nowrap; }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "apps/presa/report/html.h"
 #include "apps/presa/report/svg_plot.h"
 #include "apps/presa/summary.h"
 
@@ -20,18 +21,6 @@ std::string fixed(double value, int decimals) {
 }
 
 std::string count(std::uint64_t value) { return std::to_string(value); }
-
-/// Cells are HTML already.
-std::string row(const std::vector<std::string>& cells, const std::string& tag = "td") {
-  std::string out = "<tr>";
-  for (const std::string& cell : cells) out += "<" + tag + ">" + cell + "</" + tag + ">";
-  return out + "</tr>\n";
-}
-
-std::string table(const std::vector<std::string>& head, const std::string& rows) {
-  return "<div class=\"scroll\"><table><thead>" + row(head, "th") + "</thead><tbody>\n" + rows +
-         "</tbody></table></div>\n";
-}
 
 std::string tile(const std::string& label, const std::string& value) {
   return "<div class=\"tile\"><span>" + label + "</span><strong>" + value + "</strong></div>\n";

@@ -23,6 +23,7 @@ void addExperiment(CLI::App& app, int& status) {
   addSessionCommands(*command, status);
   addDatasetCommands(*command, status);
   addExport(*command, status);
+  addAnalyse(*command, status);
 }
 
 }  // namespace presa

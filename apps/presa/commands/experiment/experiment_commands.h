@@ -9,6 +9,7 @@ namespace presa {
 void addSessionCommands(CLI::App& app, int& status);  ///< dry-run, run, resume
 void addDatasetCommands(CLI::App& app, int& status);  ///< validate, forget
 void addExport(CLI::App& app, int& status);
+void addAnalyse(CLI::App& app, int& status);
 
 /// The argument DIR.
 void addFolder(CLI::App& command, std::string& folder);

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+/// Tables of a page. Cells are HTML already.
+namespace presa::html {
+
+inline std::string row(const std::vector<std::string>& cells, const std::string& tag = "td") {
+  std::string out = "<tr>";
+  for (const std::string& cell : cells) out += "<" + tag + ">" + cell + "</" + tag + ">";
+  return out + "</tr>\n";
+}
+
+inline std::string table(const std::vector<std::string>& head, const std::string& rows) {
+  return "<div class=\"scroll\"><table><thead>" + row(head, "th") + "</thead><tbody>\n" + rows +
+         "</tbody></table></div>\n";
+}
+
+}  // namespace presa::html
