@@ -8,8 +8,8 @@
 namespace presa {
 namespace {
 
-const std::vector<std::string> kKeys{"level", "seed", "subject", "digit",     "object",    "width",
-                                     "reach", "hold", "noise",   "loosening", "resolution"};
+const std::vector<std::string> kKeys{"level", "seed", "subject", "digit",     "object",     "width",
+                                     "reach", "hold", "noise",   "loosening", "resolution", "eyes"};
 
 const DeviceBinding::Setting* settingOf(const DeviceBinding& binding, const std::string& key) {
   const auto found = binding.settings.find(key);
@@ -61,7 +61,7 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
     if (std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end()) continue;
     diagnostics.error(
         430, setting.where, "driver 'simulated_subject' has no setting '" + key + "'" + didYouMean(key, kKeys),
-        "settings: level, seed, subject, digit, object, width, reach, hold, noise, loosening, resolution");
+        "settings: level, seed, subject, digit, object, width, reach, hold, noise, loosening, resolution, eyes");
   }
   SubjectSettings settings;
   if (const DeviceBinding::Setting* level = settingOf(binding, "level")) {
@@ -93,6 +93,12 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
     if (noise->value == "off") population.silence();
     if (noise->value != "off" && noise->value != "on")
       diagnostics.error(437, noise->where, "noise must be on or off, found '" + noise->value + "'");
+  }
+  if (const DeviceBinding::Setting* eyes = settingOf(binding, "eyes")) {
+    settings.eyes_closed = eyes->value == "closed";
+    if (eyes->value != "closed" && eyes->value != "open")
+      diagnostics.error(439, eyes->where, "eyes must be open or closed, found '" + eyes->value + "'",
+                        "closed: it does not see the object while it holds it");
   }
   if (settingOf(binding, "loosening") != nullptr)
     population.set("loosening", subject::constant(numberOf(binding, "loosening", 0.4, 1e-3, diagnostics)));

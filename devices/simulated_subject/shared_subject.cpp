@@ -33,7 +33,7 @@ void SharedSubject::see(const ObjectState& objects, const Tick& tick) noexcept {
   const Vec3 moved = objects.poseAt(grasp_.body, tick.time).p - grasp_.p_WB;
   seen_height_ = moved.z();
   senses_.sight.aside = moved.dot(grasp_.inward_W);
-  senses_.sight.object = true;
+  senses_.sight.object = !(settings_.eyes_closed && brain_.phase() == subject::Phase::kHold);
 }
 
 FingerInput SharedSubject::read(int digit, const Tick& tick) noexcept {

@@ -27,6 +27,7 @@ struct SubjectSettings {
   std::uint64_t trial = 0;              ///< names the noise of this run
   double resolution = 0;                ///< of the device [m]
   double hold = 11;                     ///< [s]: a trial that asks for 10 s first waits until the object is still
+  bool eyes_closed = false;             ///< while it holds: what it notices then it has felt
   double most_grip = 9;                 ///< of what the device can push against [N]
   double reach = 0.02;                  ///< way to the object at the start, and when the hand opens [m]
   subject::Traits traits{};

@@ -88,7 +88,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   if (subject->settings() != settings)
     diagnostics.error(
         436, binding.where, "role '" + binding.role + "' has other settings than the other digit",
-        "both digits are one person: give them the same level, seed, subject, reach, hold and resolution");
+        "both digits are one person: give them the same level, seed, subject, reach, hold, resolution and eyes");
   else if (!subject->take(digit))
     diagnostics.error(438, binding.where, "role '" + binding.role + "' is a digit that another role is already",
                       "a simulated subject has one thumb and one index finger");
