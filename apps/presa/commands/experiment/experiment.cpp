@@ -21,6 +21,7 @@ void addExperiment(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("experiment", "Psychophysics: from an experiment's definition to its data");
   command->require_subcommand(1);
   addSessionCommands(*command, status);
+  addSimulate(*command, status);
   addDatasetCommands(*command, status);
   addExport(*command, status);
   addAnalyse(*command, status);

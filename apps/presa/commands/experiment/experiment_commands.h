@@ -11,6 +11,8 @@ void addDatasetCommands(CLI::App& app, int& status);  ///< validate, forget
 void addExport(CLI::App& app, int& status);
 void addAnalyse(CLI::App& app, int& status);
 
+void addSimulate(CLI::App& app, int& status);  ///< simulate
+
 /// The argument DIR.
 void addFolder(CLI::App& command, std::string& folder);
 /// A subcommand whose one argument is the folder of a dataset or of one session in it.
