@@ -164,6 +164,7 @@ Conducted SubjectSession::conductOne(const PlannedTrial& trial, const LoggedRun&
   setting.realtime = log_.start.realtime;
   setting.subject = log_.start.subject.number;
   setting.live = desk.live();
+  setting.window = log_.start.window;
   setting.stop = [&] { return desk.ending() != Operator::Wish::kNone; };
   setting.on_time = [&](double time) { desk.look(time); };
   Conducted result = conduct(experiment_, trial, files, setting, respondent);
@@ -183,6 +184,7 @@ SubjectSession::End SubjectSession::run(Operator& person, const std::string& lan
     journal_.append({{"event", "note"}, {"text", text}, {"utc", utcNow()}});
   });
   const std::unique_ptr<Respondent> respondent = respondentFor(desk);
+  if (trials_->next() != nullptr && !desk.welcome()) return End::kStopped;
   int in_vain = 0;  // aborts in a row
   while (const PlannedTrial* next = trials_->next()) {
     const PlannedTrial trial = *next;

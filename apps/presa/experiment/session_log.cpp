@@ -63,7 +63,8 @@ Json toJson(const SessionStart& start) {
   return {{"event", "start"},           {"format", kFormat},           {"experiment_file", start.experiment_file},
           {"rig_file", start.rig_file}, {"subject", start.subject.id}, {"number", start.subject.number},
           {"session", start.session},   {"realtime", start.realtime},  {"simulated", start.simulated},
-          {"model", start.model},       {"seed", start.seed},          {"recording", start.recording}};
+          {"model", start.model},       {"seed", start.seed},          {"recording", start.recording},
+          {"window", start.window}};
 }
 
 SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
@@ -76,7 +77,8 @@ SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
       refuse(924, file, "is of format " + start.at("format").dump() + ", this version of Presa knows 1");
     log.start = {start.at("experiment_file"), start.at("rig_file"), {start.at("subject"), start.at("number")},
                  start.at("session"),         start.at("realtime"), start.at("simulated"),
-                 start.at("model"),           start.at("seed"),     start.at("recording")};
+                 start.at("model"),           start.at("seed"),     start.at("recording"),
+                 start.at("window")};
     for (const Json& record : records) take(record, log);
   } catch (const std::exception& error) {
     if (dynamic_cast<const InputError*>(&error) != nullptr) throw;

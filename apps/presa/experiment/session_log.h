@@ -34,6 +34,7 @@ struct SessionStart {
   std::string model{};
   std::uint64_t seed = 0;  ///< of the experiment: its own, or another one that was asked for
   bool recording = true;   ///< every haptic tick is kept
+  bool window = false;     ///< the participant sees the scene in a window
 };
 Json toJson(const SessionStart& start);
 

@@ -4,6 +4,7 @@
 #include "apps/presa/experiment/trial_tap.h"
 #include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
+#include "framework/plan/view.h"
 
 namespace presa::experiment {
 namespace {
@@ -65,6 +66,7 @@ class TrialRun {
                                            std::uint64_t seed, const TrialSetting& setting, Plan& plan) {
     RunOptions options;
     options.realtime = setting.realtime;
+    if (setting.window) options.view = RunOptions::View::kWindow;
     options.duration = longestOf(experiment);
     options.seed = seed;
     options.record = setting.record;
@@ -78,7 +80,8 @@ class TrialRun {
 
   void poll() {
     if (setting_.on_time) setting_.on_time(control_.time.load(std::memory_order_relaxed));
-    if (stopped_ || !setting_.stop || !setting_.stop()) return;
+    const bool closed = session_->view() != nullptr && session_->view()->wantsStop();
+    if (stopped_ || (!closed && (!setting_.stop || !setting_.stop()))) return;
     stopped_ = true;
     control_.stop_requested = true;
   }

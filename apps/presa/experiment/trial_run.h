@@ -13,6 +13,7 @@ namespace presa::experiment {
 struct TrialSetting {
   std::string record{};  ///< HDF5 file; empty: none
   bool realtime = false;
+  bool window = false;                    ///< the participant sees the scene
   int subject = 1;                        ///< its number: which person a simulated subject is
   TrialLive* live = nullptr;              ///< what an operator sees; null: nobody looks
   std::function<bool()> stop{};           ///< asked now and then on the main thread: true ends the trial

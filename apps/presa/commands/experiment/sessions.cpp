@@ -24,7 +24,7 @@ struct OperatorChoice {
 struct Arguments {
   std::string file, rig, simulated, data, subject = "S01", format = "text";
   int number = 0, session = 1;
-  bool lockstep = false, no_recording = false;
+  bool lockstep = false, no_recording = false, window = false;
   std::uint64_t seed = 0;
   OperatorChoice operator_choice;
 };
@@ -93,10 +93,10 @@ int run(const Arguments& a) {
   const auto experiment = readExperiment(file, rig, diagnostics, a.simulated, a.seed);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
-  auto session = SubjectSession::begin(
-      *experiment,
-      {file, rig, subject, a.session, !a.lockstep, a.simulated, experiment->model, experiment->seed, !a.no_recording},
-      a.data);
+  auto session = SubjectSession::begin(*experiment,
+                                       {file, rig, subject, a.session, !a.lockstep, a.simulated, experiment->model,
+                                        experiment->seed, !a.no_recording, a.window},
+                                       a.data);
   return runToEnd(session, a.operator_choice);
 }
 
@@ -175,6 +175,8 @@ void addRunSession(CLI::App& app, int& status) {
   command->add_option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N")->required();
   command->add_flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
   command->add_flag("--no-recording", a->no_recording, "keep the row of each trial, not every haptic tick");
+  command->add_flag("--window", a->window,
+                    "the participant sees the scene in a window; the operator's view stays in the terminal");
   addOperator(*command, a->operator_choice);
   command->footer(
       "Exit status: 0 complete, 1 disk, device or dynamics failed, 2 bad input (nothing was run), 130 Ctrl-C (after 1 "

@@ -113,7 +113,7 @@ Board boardOf(const SessionView& view, std::size_t columns, std::size_t rows) {
   addWatch(view.watch, columns, board);
   board.push_back({fingersOf(view)});
   board.push_back(safetyOf(view));
-  board.push_back({"before     " + view.last, Style::kDim});
+  board.push_back({"last       " + view.last, Style::kDim});
   board.push_back({view.asked.empty() ? "p pause   r repeat   s skip   n note   q stop" : view.asked,
                    view.asked.empty() ? Style::kDim : Style::kWarning});
   const std::size_t room = rows > board.size() + 1 ? std::min<std::size_t>(rows - board.size() - 1, 12) : 0;

@@ -46,6 +46,12 @@ double Desk::secondsLeft(double time) const {
   return static_cast<double>(monotonicNs() - begin_ns_) * 1e-9 / static_cast<double>(ended_) * left;
 }
 
+bool Desk::welcome() {
+  const std::string told = experiment_.textFor("start", language_);
+  if (person_.silent() || !start_.model.empty() || told.empty()) return true;
+  return person_.await("\"" + told + "\"", 0) != Wish::kStop;
+}
+
 void Desk::begin(const PlannedTrial& trial, const TrialSource& source) {
   view_.trial = trial.number;
   view_.block = trial.block;

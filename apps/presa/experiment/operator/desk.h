@@ -16,6 +16,8 @@ class Desk {
   Desk(const Experiment& experiment, const SessionStart& start, std::string language, Operator& person,
        std::function<void(const std::string&)> note);
 
+  /// Before the first trial: what the participant is told. False: the session is to stop.
+  bool welcome();
   /// A trial begins; `source` offers it.
   void begin(const PlannedTrial& trial, const TrialSource& source);
   /// Now and then while it goes on, at its time [s].
