@@ -24,10 +24,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::pair<const char*, const std::string*>> documentsOf(const Experiment& experiment) {
-  return {{"experiment.xml", &experiment.resolved_xml},
-          {"scene.xml", &experiment.scene_xml},
-          {"rig.xml", &experiment.rig_xml}};
+/// Files that a document names, from `folder` on: a dataset names no machine.
+std::string withoutRoot(std::string xml, const fs::path& folder) {
+  const std::string mark = "=\"/";
+  for (std::size_t at = xml.find(mark); at != std::string::npos; at = xml.find(mark, at + 1)) {
+    const std::size_t begin = at + 2, end = xml.find('"', begin);
+    if (end == std::string::npos) break;
+    xml.replace(begin, end - begin, fs::path(xml.substr(begin, end - begin)).lexically_relative(folder).string());
+  }
+  return xml;
+}
+
+fs::path absolute(const std::string& path) { return fs::absolute(path).lexically_normal(); }
+
+/// What the session was run with, as it is kept.
+std::vector<std::pair<const char*, std::string>> documentsOf(const Experiment& experiment) {
+  const fs::path folder = absolute(experiment.file).parent_path();
+  return {{"experiment.xml", withoutRoot(experiment.resolved_xml, folder)},
+          {"scene.xml", withoutRoot(experiment.scene_xml, folder)},
+          {"rig.xml", withoutRoot(experiment.rig_xml, folder)}};
 }
 
 std::string contentsOf(const std::string& file) {
@@ -62,14 +77,17 @@ SubjectSession::SubjectSession(const Experiment& experiment, SessionFolder folde
       journal_(std::move(journal)),
       trials_(makeTrialSource(experiment, log_.start.subject.number, log_.start.session)) {}
 
-SubjectSession SubjectSession::begin(const Experiment& experiment, const SessionStart& start, const std::string& data) {
+SubjectSession SubjectSession::begin(const Experiment& experiment, SessionStart start, const std::string& data) {
   SessionFolder folder = folderOf(data, start.subject.id, start.session);
+  for (std::string* file : {&start.experiment_file, &start.rig_file}) {
+    if (!file->empty()) *file = absolute(*file).lexically_relative(absolute(folder.path)).string();
+  }
   std::error_code error;
   fs::create_directories(folder.path, error);
   if (error) refuse(925, folder.path, "the folder cannot be made: " + error.message());
   Journal journal = createJournal(folder);
   removeHalfWritten(folder.path);
-  for (const auto& [name, text] : documentsOf(experiment)) writeFileAtomically(folder.file(name), *text);
+  for (const auto& [name, text] : documentsOf(experiment)) writeFileAtomically(folder.file(name), text);
   syncFolder(folder.path);
   syncFolder(fs::path(folder.path).parent_path());
   Json record = toJson(start);
@@ -89,7 +107,7 @@ SubjectSession SubjectSession::resume(const Experiment& experiment, const Sessio
   Journal::Contents contents;
   Journal journal = Journal::reopen(folder.journal(), contents);
   for (const auto& [name, text] : documentsOf(experiment)) {
-    if (contentsOf(folder.file(name)) != *text)
+    if (contentsOf(folder.file(name)) != text)
       refuse(926, folder.file(name), "differs from what the files say now",
              "a session is finished with the files that it began with");
   }

@@ -12,8 +12,8 @@ namespace presa::experiment {
 /// is on disk before the next step is taken. Thread: main.
 class SubjectSession {
  public:
-  /// A new one in DATA/sub-ID/ses-N. Throws InputError E920 when it exists, E925 when the folder cannot be made.
-  static SubjectSession begin(const Experiment& experiment, const SessionStart& start, const std::string& data);
+  /// A new one in DATA/sub-ID/ses-N; the log names files from that folder on. Throws InputError E920 when it exists, E925 when the folder cannot be made.
+  static SubjectSession begin(const Experiment& experiment, SessionStart start, const std::string& data);
   /// One to go on with: queue and names of files are rebuilt from the log, an interrupted run is marked and comes next.
   /// Throws InputError E926 when experiment, scene or rig are not what the session began with, E936 when a file they name is not.
   static SubjectSession resume(const Experiment& experiment, const SessionFolder& folder);

@@ -1,6 +1,7 @@
 #include "apps/presa/experiment/session_log.h"
 
 #include <array>
+#include <filesystem>
 
 #include "apps/presa/terminal/text.h"
 #include "framework/diagnostics/refuse.h"
@@ -55,6 +56,11 @@ std::optional<psychophysics::Response> LoggedRun::response() const {
   return psychophysics::Response{.chosen = end.at("response").at("chosen"), .value = end.at("response").at("value")};
 }
 
+std::string SessionFolder::named(const std::string& relative) const {
+  if (relative.empty()) return {};
+  return (std::filesystem::absolute(path) / relative).lexically_normal().string();
+}
+
 SessionFolder folderOf(const std::string& data, const std::string& subject, int session) {
   return {data + "/sub-" + subject + "/ses-" + std::to_string(session)};
 }
@@ -75,10 +81,16 @@ SessionLog readLog(const std::string& file, const std::vector<Json>& records) {
     if (start.at("event") != "start") refuse(924, file, "does not begin with the start of a session");
     if (start.at("format").get<int>() > kFormat)
       refuse(924, file, "is of format " + start.at("format").dump() + ", this version of Presa knows 1");
-    log.start = {start.at("experiment_file"), start.at("rig_file"), {start.at("subject"), start.at("number")},
-                 start.at("session"),         start.at("realtime"), start.at("simulated"),
-                 start.at("model"),           start.at("seed"),     start.at("recording"),
-                 start.at("window")};
+    log.start = {start.at("experiment_file"),
+                 start.at("rig_file"),
+                 {start.at("subject"), start.at("number")},
+                 start.at("session"),
+                 start.at("realtime"),
+                 start.at("simulated"),
+                 start.at("model"),
+                 start.value("seed", std::uint64_t{0}),
+                 start.value("recording", true),
+                 start.value("window", false)};
     for (const Json& record : records) take(record, log);
   } catch (const std::exception& error) {
     if (dynamic_cast<const InputError*>(&error) != nullptr) throw;

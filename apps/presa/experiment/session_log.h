@@ -17,6 +17,8 @@ struct SessionFolder {
   std::string path;
   std::string file(const std::string& name) const { return path + "/" + name; }
   std::string journal() const { return file("journal.jsonl"); }
+  /// A file that the log names; empty stays empty.
+  std::string named(const std::string& relative) const;
   /// Of the recordings of one run of a trial.
   static std::vector<std::string> filesOf(const PlannedTrial& trial, int run, std::size_t presentations);
 };
@@ -24,7 +26,7 @@ SessionFolder folderOf(const std::string& data, const std::string& subject, int 
 
 /// What a session was started with, from the first record of its log.
 struct SessionStart {
-  std::string experiment_file{}, rig_file{};
+  std::string experiment_file{}, rig_file{};  ///< in the log from the session's folder on: see SessionFolder::named
   Subject subject{};
   int session = 1;
   bool realtime = false;

@@ -127,9 +127,9 @@ int resume(const std::string& data, const OperatorChoice& choice) {
     return kExitBadInput;
   }
   Diagnostics diagnostics;
-  const SessionStart& start = open[0].start;
-  const auto experiment =
-      readExperiment(start.experiment_file, start.rig_file, diagnostics, start.simulated, start.seed);
+  const auto& [folder, start] = open[0];
+  const auto experiment = readExperiment(folder.named(start.experiment_file), folder.named(start.rig_file), diagnostics,
+                                         start.simulated, start.seed);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!experiment) return kExitBadInput;
   auto session = SubjectSession::resume(*experiment, open[0].folder);

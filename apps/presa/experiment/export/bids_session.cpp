@@ -29,17 +29,6 @@ bool leftOut(const SourceColumn& column) {
   return kNames.contains(column.name);
 }
 
-/// Files of the session name others from the experiment's folder, not from the root of a machine.
-std::string withoutRoot(std::string xml, const fs::path& folder) {
-  const std::string mark = "=\"/";
-  for (std::size_t at = xml.find(mark); at != std::string::npos; at = xml.find(mark, at + 1)) {
-    const std::size_t begin = at + 2, end = xml.find('"', begin);
-    if (end == std::string::npos) break;
-    xml.replace(begin, end - begin, fs::path(xml.substr(begin, end - begin)).lexically_relative(folder).string());
-  }
-  return xml;
-}
-
 }  // namespace
 
 void Tsv::add(const std::vector<std::string>& cells) {
@@ -220,11 +209,9 @@ void BidsSession::writeDictionaries() const {
 }
 
 void BidsSession::writeSourceData() const {
-  const fs::path experiment = fs::path(source_.log.start.experiment_file).lexically_normal().parent_path();
   for (const char* name : {"experiment.xml", "scene.xml", "rig.xml"}) {
     std::ifstream in(source_.folder.file(name), std::ios::binary);
-    const std::string xml{std::istreambuf_iterator<char>(in), {}};
-    out_.write("sourcedata/" + folder_ + name, withoutRoot(xml, experiment));
+    out_.write("sourcedata/" + folder_ + name, {std::istreambuf_iterator<char>(in), {}});
   }
 }
 
