@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <system_error>
 
@@ -83,18 +82,14 @@ int runToEnd(SubjectSession& session, const OperatorChoice& choice) {
   return kExitOk;
 }
 
-/// So that a session can be finished from any folder.
-std::string absolute(const std::string& file) { return file.empty() ? file : std::filesystem::absolute(file).string(); }
-
 int run(const Arguments& a) {
-  const std::string file = absolute(a.file), rig = absolute(a.rig);
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
-  const auto experiment = readExperiment(file, rig, diagnostics, a.simulated, a.seed);
+  const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated, a.seed);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
   auto session = SubjectSession::begin(*experiment,
-                                       {file, rig, subject, a.session, !a.lockstep, a.simulated, experiment->model,
+                                       {a.file, a.rig, subject, a.session, !a.lockstep, a.simulated, experiment->model,
                                         experiment->seed, !a.no_recording, a.window},
                                        a.data);
   return runToEnd(session, a.operator_choice);
