@@ -22,7 +22,7 @@ void takeShard(const std::string& text, StudiesPlan& plan) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%d/%d%c", &plan.shard, &plan.shards, &rest) != 2 || plan.shard < 1 ||
       plan.shard > plan.shards)
-    refuse(930, "--shard", "must be i/N with 1 <= i <= N, found " + quote(text),
+    refuse(950, "--shard", "must be i/N with 1 <= i <= N, found " + quote(text),
            "--shard 1/4 on the first of four machines");
 }
 
@@ -33,11 +33,11 @@ void claimFolder(const StudiesPlan& plan, const Experiment& experiment) {
                            plan.level + "\n" + experiment.resolved_xml + experiment.scene_xml + experiment.rig_xml;
   std::error_code error;
   fs::create_directories(plan.out, error);
-  if (error) refuse(931, plan.out, "the folder cannot be made: " + error.message());
+  if (error) refuse(951, plan.out, "the folder cannot be made: " + error.message());
   if (!fs::exists(file)) return writeFileAtomically(file, text);
   std::ifstream in(file, std::ios::binary);
   if (std::string(std::istreambuf_iterator<char>(in), {}) != text)
-    refuse(931, plan.out, "holds studies of another experiment, level or seed", "give another --out");
+    refuse(951, plan.out, "holds studies of another experiment, level or seed", "give another --out");
 }
 
 int simulate(StudiesPlan plan, const std::string& shard) {
@@ -49,7 +49,7 @@ int simulate(StudiesPlan plan, const std::string& shard) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!experiment) return kExitBadInput;
   if (experiment->model.empty())
-    refuse(932, plan.experiment_file, "its rig waits for a person",
+    refuse(952, plan.experiment_file, "its rig waits for a person",
            "--simulated L0, L1 or L2, or a --rig with simulated devices");
   claimFolder(plan, *experiment);
   const StudiesOutcome outcome = runStudies(plan, sessionsOf(plan, experiment->seed));

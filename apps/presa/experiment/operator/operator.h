@@ -35,7 +35,7 @@ class Operator {
 
 /// One line of progress; nothing is asked, Ctrl-C stops. `jobs`: trials to come.
 std::unique_ptr<Operator> silentOperator(std::size_t jobs);
-/// The whole screen of a terminal, with keys. E934 when there is none.
+/// The whole screen of a terminal, with keys. E953 when there is none.
 std::unique_ptr<Operator> terminalOperator();
 
 }  // namespace presa::experiment

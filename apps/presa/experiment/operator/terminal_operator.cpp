@@ -24,7 +24,7 @@ class Screen {
  public:
   Screen() : color_(wantsColor(stderr)) {
     if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDERR_FILENO) == 0)
-      refuse(934, "", "the operator's view needs a terminal", "without one: --operator none");
+      refuse(953, "", "the operator's view needs a terminal", "without one: --operator none");
     ::tcgetattr(STDIN_FILENO, &old_);
     termios raw = old_;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // signals stay: Ctrl-C stops cleanly
