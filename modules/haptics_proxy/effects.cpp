@@ -37,7 +37,7 @@ std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
                                                : "the penalty renderer keeps no point to hold on to"});
   }
   if (!effects.surface_change) {
-    left_out.push_back({"friction that changes", god_object ? "no touchable material has <changed> friction"
+    left_out.push_back({"changing friction", god_object ? "no touchable material has <changed> friction"
                                                             : "the penalty renderer has no friction"});
   }
   if (!effects.shading) {
