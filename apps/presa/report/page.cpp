@@ -27,7 +27,7 @@ p { margin: 6px 0; }
 .lead { color: var(--soft); margin: 0 0 18px; }
 .verdict { background: var(--card); border-left: 5px solid var(--neutral); border-radius: 4px; padding: 14px 18px; }
 .verdict.good { border-color: var(--good); } .verdict.bad { border-color: var(--bad); }
-.verdict b { font-size: 18px; }
+.verdict b { font-size: 18px; } .verdict + .verdict { margin-top: 12px; }
 .verdict.good b { color: var(--good); } .verdict.bad b { color: var(--bad); }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(165px, 1fr)); gap: 10px; margin: 14px 0; }
 .tile { background: var(--card); border-radius: 4px; padding: 10px 14px; }

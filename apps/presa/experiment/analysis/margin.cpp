@@ -68,6 +68,7 @@ Section section(const wanted::Margin& what, const Context& context) {
   std::string id = "margin_" + what.grip;
   for (const std::string& name : what.by) {
     id += "_" + name;
+    section.title += (name == what.by.front() ? " by " : " and ") + name;
     table.columns.push_back({name, context.unitOf(name)});
   }
   table.id = id;
