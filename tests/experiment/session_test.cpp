@@ -25,6 +25,8 @@ using testing::IsEmpty;
 const std::string kProgram = std::string(PRESA_BINARY_DIR) + "/bin/presa";
 const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/lift.xml";
 
+const std::string kRub = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/rub.xml";
+
 /// The program in a process of its own, its output in a file.
 class Process {
  public:
@@ -53,8 +55,8 @@ class Process {
 
 class SessionTest : public testing::Test {
  protected:
-  std::vector<std::string> runArguments(const std::string& data) const {
-    return {"experiment", "run", kLift, "--subject", "S01", "--lockstep", "--data", data};
+  static std::vector<std::string> runArguments(const std::string& data, const std::string& file = kLift) {
+    return {"experiment", "run", file, "--subject", "S01", "--lockstep", "--data", data};
   }
   int program(std::vector<std::string> arguments) {
     const int status = Process(std::move(arguments), scratch.file("output")).wait();
@@ -173,6 +175,37 @@ TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
   RecordProperty("kills", killed);
   RecordProperty("interrupted_trials", interrupted);
   EXPECT_GT(interrupted, kills / 4);  // or it would have been killed between trials only
+}
+
+// Staircases, places of the standard and answers come back from the log.
+TEST_F(SessionTest, AMethodGoesOnAsIfItHadNotBeenKilled) {
+  const std::string whole = scratch.file("whole"), data = scratch.file("data");
+  ASSERT_EQ(program(runArguments(whole, kRub)), 0) << output;
+  const Process process(runArguments(data, kRub), scratch.file("output"));
+  awaitFirstTrial(data);
+  process.kill(SIGKILL);
+  process.wait();
+  ASSERT_FALSE(logOf(data).complete);
+  EXPECT_EQ(program({"experiment", "resume", data}), 0) << output;
+  EXPECT_EQ(essence(logOf(data)), essence(logOf(whole)));
+  EXPECT_THAT(validate(folderOf(data, "S01", 1)).findings, IsEmpty());
+}
+
+// Two studies of two subjects; the same command again finds them all there, another experiment does not mix with them.
+TEST_F(SessionTest, SimulatedStudiesGoOnWithWhatIsThere) {
+  const std::string out = scratch.file("studies");
+  std::vector<std::string> arguments{"experiment", "simulate", kRub, "--subjects", "2", "--seeds", "2", "--out", out};
+  ASSERT_EQ(program(arguments), 0) << output;
+  EXPECT_THAT(output, HasSubstr("4 sessions complete, 0 of them before, 0 failed"));
+  EXPECT_THAT(output, HasSubstr("scripted fingers: no person"));
+  EXPECT_NE(essence(logOf(out + "/study-001")), essence(logOf(out + "/study-002")));
+  EXPECT_THAT(contentsOf(out + "/power.csv"), HasSubstr("spearman_mu_felt_1"));
+  fs::remove_all(out + "/study-002/sub-S02");
+  ASSERT_EQ(program(arguments), 0) << output;
+  EXPECT_THAT(output, HasSubstr("4 sessions complete, 3 of them before, 0 failed"));
+  arguments[2] = kLift;
+  EXPECT_EQ(program(arguments), 2);
+  EXPECT_THAT(output, HasSubstr("error[E951]"));
 }
 
 TEST_F(SessionTest, ControlCKeepsWhatIsThere) {
