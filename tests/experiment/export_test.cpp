@@ -18,6 +18,7 @@
 #include "tests/experiment/bids_files.h"
 #include "tests/experiment/bids_rules.h"
 #include "tests/experiment/contents.h"
+#include "tests/experiment/refusal.h"
 
 namespace presa::experiment {
 namespace {
@@ -29,16 +30,6 @@ using testing::IsEmpty;
 
 const std::string kSource = PRESA_SOURCE_DIR;
 bool goOn(const std::string&) { return true; }
-
-template <class Act>
-std::string refusalOf(Act act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.diagnostics().text();
-  }
-  return "accepted";
-}
 
 /// Two sessions of scripted fingers, run once, and their exports.
 class ExportTest : public testing::Test {

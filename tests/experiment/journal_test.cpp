@@ -9,6 +9,7 @@
 #include "framework/checksum/checksum.h"
 #include "framework/diagnostics/diagnostics.h"
 #include "tests/experiment/contents.h"
+#include "tests/experiment/refusal.h"
 
 namespace presa::experiment {
 namespace {
@@ -16,16 +17,6 @@ namespace {
 using testing::HasSubstr;
 
 Json record(int i) { return {{"event", "trial"}, {"i", i}, {"x", 0.1 * i}, {"text", "a \"b\"\n"}}; }
-
-template <class Act>
-std::string refusalOf(Act act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.diagnostics().text();
-  }
-  return "accepted";
-}
 
 class JournalTest : public testing::Test {
  protected:

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/experiment/delimited.h"
 #include "apps/presa/experiment/journal.h"
+#include "apps/presa/file_text.h"
 
 namespace presa::experiment {
 namespace {
@@ -16,11 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kJournal = "journal.jsonl";
-
-std::string contentsOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 bool isTable(const fs::path& file) { return file.extension() == ".csv" || file.extension() == ".tsv"; }
 char separatorOf(const fs::path& file) { return file.extension() == ".csv" ? ',' : '\t'; }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 #include "apps/presa/atomic_file.h"
@@ -13,6 +12,7 @@
 #include "apps/presa/experiment/operator/desk.h"
 #include "apps/presa/experiment/session_records.h"
 #include "apps/presa/experiment/trial_table.h"
+#include "apps/presa/file_text.h"
 #include "apps/presa/machine.h"
 #include "apps/presa/terminal/text.h"
 #include "apps/presa/version.h"
@@ -43,11 +43,6 @@ std::vector<std::pair<const char*, std::string>> documentsOf(const Experiment& e
   return {{"experiment.xml", withoutRoot(experiment.resolved_xml, folder)},
           {"scene.xml", withoutRoot(experiment.scene_xml, folder)},
           {"rig.xml", withoutRoot(experiment.rig_xml, folder)}};
-}
-
-std::string contentsOf(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// A process that died before its first record leaves an empty log: nothing to overwrite.

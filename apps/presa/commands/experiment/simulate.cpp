@@ -1,12 +1,12 @@
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/experiment/experiment_commands.h"
 #include "apps/presa/experiment/simulate/power.h"
 #include "apps/presa/experiment/simulate/studies.h"
+#include "apps/presa/file_text.h"
 #include "framework/diagnostics/refuse.h"
 #include "framework/experiment/read.h"
 
@@ -35,8 +35,7 @@ void claimFolder(const StudiesPlan& plan, const Experiment& experiment) {
   fs::create_directories(plan.out, error);
   if (error) refuse(951, plan.out, "the folder cannot be made: " + error.message());
   if (!fs::exists(file)) return writeFileAtomically(file, text);
-  std::ifstream in(file, std::ios::binary);
-  if (std::string(std::istreambuf_iterator<char>(in), {}) != text)
+  if (contentsOf(file) != text)
     refuse(951, plan.out, "holds studies of another experiment, level or seed", "give another --out");
 }
 

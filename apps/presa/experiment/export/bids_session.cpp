@@ -8,6 +8,7 @@
 #include <set>
 
 #include "apps/presa/experiment/delimited.h"
+#include "apps/presa/file_text.h"
 #include "apps/presa/terminal/text.h"
 #include "framework/record/record_plugin.h"
 
@@ -210,8 +211,7 @@ void BidsSession::writeDictionaries() const {
 
 void BidsSession::writeSourceData() const {
   for (const char* name : {"experiment.xml", "scene.xml", "rig.xml"}) {
-    std::ifstream in(source_.folder.file(name), std::ios::binary);
-    out_.write("sourcedata/" + folder_ + name, {std::istreambuf_iterator<char>(in), {}});
+    out_.write("sourcedata/" + folder_ + name, contentsOf(source_.folder.file(name)));
   }
 }
 

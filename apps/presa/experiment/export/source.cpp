@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "apps/presa/experiment/dataset.h"
 #include "apps/presa/experiment/delimited.h"
+#include "apps/presa/file_text.h"
 #include "framework/checksum/checksum.h"
 #include "framework/diagnostics/refuse.h"
 #include "framework/xml/xml.h"
 
 namespace presa::experiment {
 namespace {
-
-std::string contentsOf(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
