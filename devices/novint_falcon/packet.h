@@ -1,0 +1,65 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+/// The operating packets of a Novint Falcon, 16 bytes each way. Every 16-bit value is four bytes, least significant nibble
+/// first, each 0x41 + nibble.
+/// Thread: any; nonblocking, nothing is allocated.
+namespace presa::falcon {
+
+inline constexpr std::size_t kPacketSize = 16;
+inline constexpr int kMaxCounts = 4095;  ///< of a motor command, either sign
+
+using Counts = std::array<std::int32_t, 3>;  ///< one per motor or encoder
+
+enum Light : std::uint8_t { kLightsOff = 0, kGreen = 0x2, kBlue = 0x4, kRed = 0x8 };
+enum Button : std::uint8_t { kButtonPlus = 0x1, kButtonForward = 0x2, kButtonCentre = 0x4, kButtonMinus = 0x8 };
+inline constexpr std::uint8_t kAllHomed = 0x7;
+
+struct Request {
+  Counts force{};                   ///< each within +-kMaxCounts
+  std::uint8_t light = kLightsOff;  ///< Light bits
+  bool homing = true;               ///< must stay set in every packet
+};
+
+struct Reply {
+  Counts encoders{};         ///< in -32768..32767
+  std::uint8_t buttons = 0;  ///< Button bits
+  std::uint8_t homed = 0;    ///< bit i: encoder i has passed its reference; kAllHomed: all
+};
+
+using Packet = std::array<std::uint8_t, kPacketSize>;
+
+/// A count outside its range sends no force at all: what is too large must never come out as its low bits.
+Packet encode(const Request& request) noexcept;
+
+/// Finds replies in a stream of bytes that may begin, break off and restart anywhere. A reply is `<`, twelve bytes in
+/// 0x41..0x50, one in 0x41..0xC0, one that is not checked, `>`; whatever breaks this costs one byte and a new look at the
+/// rest. Memory is fixed: when more arrives than fits, the oldest bytes go.
+class PacketParser {
+ public:
+  /// Forgets what has not become a reply: after a purge or a change of baud rate.
+  void reset() noexcept;
+  void push(std::span<const std::uint8_t> bytes) noexcept;
+  /// The oldest complete reply; false when there is none.
+  bool next(Reply& reply) noexcept;
+
+  std::uint64_t accepted() const noexcept { return accepted_; }
+  std::uint64_t dropped() const noexcept { return dropped_; }  ///< bytes that belonged to no reply
+
+  static constexpr std::size_t kCapacity = 512;
+
+ private:
+  std::uint8_t at(std::size_t i) const noexcept { return ring_[(first_ + i) % kCapacity]; }
+  /// How many of the bytes at the front, up to a whole packet, could be one.
+  std::size_t plausible() const noexcept;
+  void drop(std::size_t count) noexcept;
+
+  std::array<std::uint8_t, kCapacity> ring_{};
+  std::size_t first_ = 0, size_ = 0;
+  std::uint64_t accepted_ = 0, dropped_ = 0;
+};
+
+}  // namespace presa::falcon
