@@ -1,0 +1,58 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "devices/percro_arm/kinematics.h"
+
+namespace presa::percro {
+
+/// What the arm knows of itself: whole counts of three motor encoders, and their rates. A rate is the slope over the longest
+/// past that a straight line tells to within one count [JanabiSharifi2000: first-order adaptive windowing]: quiet when
+/// slow, quick when fast. Thread: haptic; nothing allocates.
+class Encoders {
+ public:
+  explicit Encoders(const Parameters& parameters)
+      : count_(parameters.motors.count()),
+        to_motors_(transmission(parameters.geometry)),
+        to_joints_(transmissionInverse(parameters.geometry)) {}
+
+  /// Starts anew, at rest.
+  void reset(const Joints& q) noexcept {
+    used_ = 0;
+    sample(q);
+  }
+  /// Once a period.
+  void sample(const Joints& q) noexcept {
+    newest_ = (newest_ + 1) % kWindow;
+    const Vec3 motors = to_motors_ * q / count_;
+    for (int i = 0; i < 3; ++i) past_[newest_][i] = std::nearbyint(motors[i]);
+    used_ = std::min(used_ + 1, kWindow);
+  }
+  Joints joints() const noexcept { return to_joints_ * (count_ * past_[newest_]); }
+  Vec3 jointRates(double period) const noexcept {
+    return to_joints_ * (count_ / period * Vec3(slope(0), slope(1), slope(2)));
+  }
+
+ private:
+  static constexpr int kWindow = 16;
+  double at(int motor, int ago) const noexcept { return past_[(newest_ + kWindow - ago) % kWindow][motor]; }
+  double slope(int motor) const noexcept {
+    double best = 0;
+    for (int n = 1; n < used_; ++n) {
+      const double candidate = (at(motor, 0) - at(motor, n)) / n;
+      for (int i = 1; i < n; ++i) {
+        if (std::abs(at(motor, 0) - candidate * i - at(motor, i)) > 1) return best;
+      }
+      best = candidate;
+    }
+    return best;
+  }
+
+  double count_;
+  Mat3 to_motors_, to_joints_;
+  std::array<Vec3, kWindow> past_{};
+  int newest_ = 0, used_ = 0;
+};
+
+}  // namespace presa::percro
