@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "devices/scripted/finger_plant.h"
-#include "devices/scripted/motion.h"
+#include "framework/hand/finger_plant.h"
+#include "framework/hand/motion.h"
 
 namespace presa {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-#include "devices/scripted/motion.h"
+#include "framework/hand/motion.h"
 #include "framework/math/spatial.h"
 
 namespace presa {

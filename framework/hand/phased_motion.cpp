@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "devices/scripted/motion.h"
+#include "framework/hand/motion.h"
 #include "framework/scene/schemas.h"
 #include "framework/xml/xml.h"
 

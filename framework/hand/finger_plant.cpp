@@ -1,4 +1,4 @@
-#include "devices/scripted/finger_plant.h"
+#include "framework/hand/finger_plant.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "devices/scripted/motion.h"
+#include "framework/hand/motion.h"
 
 namespace presa {
 namespace {

@@ -1,0 +1,27 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/hand/motion.h"
+#include "framework/scene/world.h"
+
+namespace presa {
+
+/// The settings by which a rig describes a simulated hand: motion, side, mass, stiffness, damping.
+const std::vector<std::string>& handKeys();
+
+/// A setting that the driver does not know is an error E401.
+void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::string>& known,
+                           Diagnostics& diagnostics);
+
+struct HandSettings {
+  std::unique_ptr<Motion> motion;
+  FingerImpedance impedance;       ///< damping chosen
+  std::vector<std::string> notes;  ///< the damping, and what the contacts ask for
+};
+/// Reads them; all findings go to `diagnostics` (E402 to E404 and those of the motion's file), motion is null when any is an
+/// error. `carried`: mass of a device that moves with the fingertip, for the damping that contacts ask for [kg].
+HandSettings readHand(const DeviceBinding& binding, const World& world, double carried, Diagnostics& diagnostics);
+
+}  // namespace presa
