@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "framework/math/random.h"
+#include "tests/falcon/hand_written_falcon.h"
 
 namespace presa::falcon {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 /// "41*12" is twelve times 0x41.
 Bytes bytesOf(std::initializer_list<std::pair<int, int>> runs) {
@@ -22,19 +21,6 @@ Bytes bytesOf(std::initializer_list<std::pair<int, int>> runs) {
 Bytes sent(const Request& request) {
   const Packet packet = encode(request);
   return {packet.begin(), packet.end()};
-}
-
-/// A reply put together here, nibble by nibble, apart from the encoder under test.
-Bytes replyOf(const Counts& encoders, int status, int unspecified = 0x41) {
-  Bytes bytes{'<'};
-  for (const std::int32_t count : encoders) {
-    for (int nibble = 0, rest = count & 0xFFFF; nibble < 4; ++nibble, rest /= 16)
-      bytes.push_back(static_cast<std::uint8_t>('A' + rest % 16));
-  }
-  bytes.push_back(static_cast<std::uint8_t>(status));
-  bytes.push_back(static_cast<std::uint8_t>(unspecified));
-  bytes.push_back('>');
-  return bytes;
 }
 
 std::vector<Reply> parsed(PacketParser& parser, const Bytes& bytes) {
