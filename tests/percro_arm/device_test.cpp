@@ -1,0 +1,137 @@
+// The arms in the rest of Presa: lockstep, shipped scene and rig.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "apps/presa/grasp_figures.h"
+#include "apps/presa/run_session.h"
+#include "devices/percro_arm/kinematics.h"
+#include "framework/plan/plugin.h"
+#include "framework/plan/plugin_loader.h"
+#include "tests/support/alloc_lock_guard.h"
+
+namespace presa {
+namespace {
+
+const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
+const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_percro.xml";
+
+std::unique_ptr<Run> lift(const std::vector<std::string>& sets = {}) {
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.duration = 0;  // to the end of the script
+  const Loaded loaded = loadWorld({kScene, kRig, sets}, options, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = 1000, .quiet = true, .command = ""});
+  run->execute();
+  return run;
+}
+
+// Bounds: rendered forces come in steps of stiffness times the barrel's 60 um (0.06 N), the hand feels 0.2 N of the joints'
+// friction besides, and the grip loosens by 3 N/s.
+TEST(PercroDevice, TwoArmsLiftTheCube) {
+  const auto run = lift();
+  const auto grasp = graspFigures(run->result());
+  ASSERT_TRUE(grasp);
+  EXPECT_NEAR(grasp->lift_height, 0.10, 0.001);
+  EXPECT_NEAR(grasp->held_in_stick, 4.0, 0.002);
+  ASSERT_EQ(grasp->fingers.size(), 2u);
+  for (const FingerGrasp& finger : grasp->fingers) {
+    EXPECT_NEAR(finger.mean_normal_force, 6, 0.2 + 0.06);
+    EXPECT_NEAR(finger.weight_share, 1, 0.1);
+    ASSERT_TRUE(finger.slip);
+    EXPECT_NEAR(finger.slip->normal_force, 0.2 * 9.81 / (2 * 0.8), 0.06);
+  }
+  const ObjectSummary& cube = run->result().objects.at(0).summary;
+  EXPECT_FALSE(cube.dropped);
+  EXPECT_GT(cube.lost_at, 7.0);
+  EXPECT_TRUE(run->result().faults.empty());
+}
+
+TEST(PercroDevice, StiffAndLightCubesAreHeldToo) {
+  for (const double mass : {0.02, 0.4}) {
+    for (const double stiffness : {500.0, 2000.0, 5000.0}) {
+      const auto run = lift(
+          {"body/cube/physics/mass=" + std::to_string(mass), "material/rubber/stiffness=" + std::to_string(stiffness)});
+      const auto grasp = graspFigures(run->result());
+      ASSERT_TRUE(grasp);
+      EXPECT_NEAR(grasp->held_in_stick, 4.0, 0.002) << mass << " kg, " << stiffness << " N/m";
+      for (const FingerGrasp& finger : grasp->fingers) EXPECT_LT(finger.grip_ripple.value_or(1), 0.05);
+    }
+  }
+}
+
+TEST(PercroDevice, TheSameInputGivesTheSameBits) {
+  EXPECT_EQ(lift()->result().state_hash, lift()->result().state_hash);
+}
+
+/// The thumb's device of the shipped rig, after `change`; null with findings when it refuses.
+std::unique_ptr<Device> thumb(
+    Diagnostics& diagnostics, const std::function<void(DeviceBinding&)>& change = [](DeviceBinding&) {}) {
+  const Loaded loaded = loadWorld({kScene, kRig, {}}, {}, diagnostics);
+  DeviceBinding binding = loaded.world->rig.devices.at(0);
+  change(binding);
+  using Table = const DevicePlugin* (*)();
+  const auto table = reinterpret_cast<Table>(pluginSymbol("percro_arm", "presaDevicePlugin"));
+  return table()->create(binding, *loaded.world, diagnostics);
+}
+
+// What is read are whole counts, seen from the base that the rig says.
+TEST(PercroDevice, ReportsWholeCountsThroughTheBasePose) {
+  Diagnostics diagnostics;
+  const auto device = thumb(diagnostics);
+  ASSERT_TRUE(device) << diagnostics.text();
+  const percro::Parameters arm = percro::paperArm();
+  const double half = std::sqrt(0.5);
+  const Pose X_WD{{-0.75, 0, 0.1}, Quat(half, half, 0, 0)};
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
+    const FingerInput input = device->read(tick);
+    device->write(Vec3::Zero(), tick);
+    ASSERT_TRUE(input.valid);
+    const Vec3 counts = percro::transmission(arm.geometry) *
+                        percro::jointsAt(arm.geometry, X_WD.inverseTimes(input.p_WH)) / arm.motors.count();
+    ASSERT_LT((counts - Vec3(counts.array().round())).cwiseAbs().maxCoeff(), 1e-4) << i;  // the rig's 8 digits
+  }
+}
+
+TEST(PercroDevice, ItsTickNeitherAllocatesNorLocks) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  Diagnostics diagnostics;
+  const auto device = thumb(diagnostics);
+  ASSERT_TRUE(device) << diagnostics.text();
+  const RealTimeGuard guard;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
+    device->read(tick);
+    device->write({0.1, 0, 20.0 * static_cast<double>(i % 2)}, tick);
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+}
+
+TEST(PercroDevice, RefusesABaseFromWhichTheMotionIsOutOfReach) {
+  Diagnostics diagnostics;
+  const auto device = thumb(diagnostics, [](DeviceBinding& b) { b.settings.at("pos").value = "-1.3 0 0.1"; });
+  EXPECT_EQ(device, nullptr);
+  ASSERT_EQ(diagnostics.errorCount(), 1u) << diagnostics.text();
+  EXPECT_EQ(diagnostics.all()[0].code, 462);
+}
+
+TEST(PercroDevice, NamesEverySettingThatIsWrong) {
+  Diagnostics diagnostics;
+  const auto device = thumb(diagnostics, [](DeviceBinding& b) {
+    b.settings.at("pos").value = "0 0";
+    b.settings.at("quat").value = "0 0 0 0";
+    b.settings["pose"] = {"1", {}};
+  });
+  EXPECT_EQ(device, nullptr);
+  EXPECT_EQ(diagnostics.errorCount(), 3u) << diagnostics.text();
+  EXPECT_NE(diagnostics.text().find("did you mean 'pos'"), std::string::npos) << diagnostics.text();
+  Diagnostics missing;
+  EXPECT_EQ(thumb(missing, [](DeviceBinding& b) { b.settings.erase("pos"); }), nullptr);
+  EXPECT_EQ(missing.all().at(0).code, 460);
+}
+
+}  // namespace
+}  // namespace presa

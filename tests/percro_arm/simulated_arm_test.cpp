@@ -1,0 +1,99 @@
+#include "devices/percro_arm/simulated_arm.h"
+
+#include <gtest/gtest.h>
+
+#include "framework/math/random.h"
+
+namespace presa::percro {
+namespace {
+
+const Vec3 kGravity{0, -9.81, 0};
+constexpr double kPeriod = 1e-3;
+
+Parameters withoutDryFriction() {
+  Parameters p = paperArm();
+  p.friction.coulomb[0] = p.friction.coulomb[1] = p.friction.coulomb[2] = 0;
+  return p;
+}
+
+void settle(SimulatedArm& arm, const Vec3& force, double time = 2) {
+  const TipLoad bolted{.held = true};
+  for (int i = 0; i < time / kPeriod; ++i) {
+    arm.command(force);
+    arm.advance(bolted);
+  }
+}
+
+// A bolted tip feels what was commanded, in every place and direction: J^T, K, gravity and springs agree. 1 %: the Jacobian is
+// that of the joints, which the force has bent away from the tip by up to 3 mm of 441.
+TEST(PercroArm, TheTipFeelsTheCommandedForce) {
+  RandomStream stream(1, "force");
+  for (int i = 0; i < 20; ++i) {
+    SimulatedArm arm(withoutDryFriction(), kGravity, kPeriod);
+    arm.place({stream.uniform(0.5, 0.95), stream.uniform(-0.2, 0.2), stream.uniform(-0.2, 0.2)});
+    const Vec3 force{stream.uniform(-2, 2), stream.uniform(-2, 2), stream.uniform(-2, 2)};
+    settle(arm, force);
+    EXPECT_LT((arm.tipForce() - force).norm(), 0.01 * force.norm());
+  }
+}
+
+// As the paper measured its figure 6: tip bolted, motors push across, encoders tell how far the joints go. Steps: one of the
+// encoders' 60 to 130 um.
+TEST(PercroArm, EncodersSeeTheComplianceThatTheTipDoesNot) {
+  for (const double length : {0.5, 0.75, 1.0}) {
+    SimulatedArm arm(withoutDryFriction(), Vec3::Zero(), kPeriod);
+    arm.place({length, 0, 0});
+    const Vec3 start = arm.reportedPosition();
+    settle(arm, {0, 3, 0});
+    const double bent = (arm.reportedPosition() - start).y(), expected = 3 * paperArm().structure.compliance(length);
+    EXPECT_NEAR(bent, expected, transverseStep(paperArm(), length) + 0.01 * expected);
+    EXPECT_EQ(arm.state().x, Vec3(length, 0, 0));
+  }
+}
+
+// With nothing pushing, what is reported lies within the encoders' steps of where the tip is.
+TEST(PercroArm, ReportsTheTipToWithinAStep) {
+  RandomStream stream(2, "report");
+  for (int i = 0; i < 500; ++i) {
+    SimulatedArm arm(paperArm(), Vec3::Zero(), kPeriod);
+    arm.place({stream.uniform(0.5, 0.95), stream.uniform(-0.2, 0.2), stream.uniform(-0.2, 0.2)});
+    const Vec3 off = arm.reportedPosition() - arm.state().x;
+    const double across = transverseStep(paperArm(), arm.state().x.norm()), along = axialStep(paperArm());
+    EXPECT_LT(off.norm(), 0.5001 * std::hypot(across, along));
+    EXPECT_EQ(arm.reportedVelocity(), Vec3::Zero());
+  }
+}
+
+// The paper's continuous force is held for ever, the peak force for a while, in the worst place.
+TEST(PercroArm, GivesThePrintedForcesInTheWorstPlace) {
+  const double length = 1.069, diagonal = 1 / std::numbers::sqrt2;
+  SimulatedArm arm(withoutDryFriction(), Vec3::Zero(), kPeriod);
+  arm.place({length, 0, 0});
+  settle(arm, {0, 4 * diagonal, 4 * diagonal}, 200);
+  EXPECT_NEAR(arm.tipForce().norm(), 4, 0.04);
+  EXPECT_LE(arm.mostHeat(), 1);
+  settle(arm, {0, 10 * diagonal, 10 * diagonal}, 0.1);
+  EXPECT_LT(arm.tipForce().norm(), 5);  // hot: no peak is left
+  SimulatedArm cold(withoutDryFriction(), Vec3::Zero(), kPeriod);
+  cold.place({length, 0, 0});
+  settle(cold, {0, 10 * diagonal, 10 * diagonal}, 2);
+  EXPECT_NEAR(cold.tipForce().norm(), 10, 0.1);
+  EXPECT_GT(cold.leastShare(), 0.99);
+}
+
+// A free arm in the controller's hands neither sinks nor rises: its weight is carried.
+TEST(PercroArm, CarriesItsOwnWeight) {
+  SimulatedArm arm(paperArm(), kGravity, kPeriod);
+  for (const double length : {0.45, 0.75, 1.05}) {
+    arm.place({length, 0.1, -0.1});
+    const Vec3 start = arm.state().x;
+    for (int i = 0; i < 2000; ++i) {
+      arm.command(Vec3::Zero());
+      arm.advance({.mass = 1e-3});
+    }
+    EXPECT_LT((arm.state().x - start).norm(), 5e-5) << length;  // until the current has come up
+  }
+}
+
+}  // namespace
+}  // namespace presa::percro
