@@ -39,50 +39,45 @@ Packet encode(const Request& request) noexcept {
   return packet;
 }
 
-void PacketParser::reset() noexcept {
-  dropped_ += size_;
-  first_ = size_ = 0;
-}
+void PacketParser::reset() noexcept { drop(ring_.size()); }
 
 void PacketParser::push(std::span<const std::uint8_t> bytes) noexcept {
   for (const std::uint8_t byte : bytes) {
-    if (size_ == kCapacity) drop(1);
-    ring_[(first_ + size_++) % kCapacity] = byte;
+    dropped_ += ring_.size() == kCapacity ? 1 : 0;
+    ring_.push(byte);
   }
 }
 
 std::size_t PacketParser::plausible() const noexcept {
-  const std::size_t present = std::min(size_, kPacketSize);
+  const std::size_t present = std::min(ring_.size(), kPacketSize);
   std::size_t good = 0;
-  while (good < present && mayStandAt(good, at(good))) ++good;
+  while (good < present && mayStandAt(good, ring_[good])) ++good;
   return good;
 }
 
 void PacketParser::drop(std::size_t count) noexcept {
-  first_ = (first_ + count) % kCapacity;
-  size_ -= count;
+  ring_.drop(count);
   dropped_ += count;
 }
 
 bool PacketParser::next(Reply& reply) noexcept {
-  while (size_ > 0) {
+  while (ring_.size() > 0) {
     const std::size_t good = plausible();
     if (good == kPacketSize) break;
-    if (good == size_) return false;  // so far so good: the rest is on its way
+    if (good == ring_.size()) return false;  // so far so good: the rest is on its way
     drop(1);
   }
-  if (size_ == 0) return false;
+  if (ring_.size() == 0) return false;
   for (std::size_t encoder = 0; encoder < reply.encoders.size(); ++encoder) {
     std::uint16_t bits = 0;
     for (std::size_t nibble = 0; nibble < 4; ++nibble)
-      bits = static_cast<std::uint16_t>(bits | (at(kValues + 4 * encoder + nibble) - kZero) << (4 * nibble));
+      bits = static_cast<std::uint16_t>(bits | (ring_[kValues + 4 * encoder + nibble] - kZero) << (4 * nibble));
     reply.encoders[encoder] = static_cast<std::int16_t>(bits);
   }
-  const auto status = static_cast<std::uint8_t>(at(kStatus) - kZero);
+  const auto status = static_cast<std::uint8_t>(ring_[kStatus] - kZero);
   reply.buttons = status & 0xFU;
   reply.homed = (status >> 4U) & kAllHomed;
-  first_ = (first_ + kPacketSize) % kCapacity;
-  size_ -= kPacketSize;
+  ring_.drop(kPacketSize);
   ++accepted_;
   return true;
 }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "devices/novint_falcon/byte_ring.h"
+
 /// The operating packets of a Novint Falcon, 16 bytes each way. Every 16-bit value is four bytes, least significant nibble
 /// first, each 0x41 + nibble.
 /// Thread: any; nonblocking, nothing is allocated.
@@ -52,13 +54,11 @@ class PacketParser {
   static constexpr std::size_t kCapacity = 512;
 
  private:
-  std::uint8_t at(std::size_t i) const noexcept { return ring_[(first_ + i) % kCapacity]; }
   /// How many of the bytes at the front, up to a whole packet, could be one.
   std::size_t plausible() const noexcept;
   void drop(std::size_t count) noexcept;
 
-  std::array<std::uint8_t, kCapacity> ring_{};
-  std::size_t first_ = 0, size_ = 0;
+  ByteRing<kCapacity> ring_;
   std::uint64_t accepted_ = 0, dropped_ = 0;
 };
 

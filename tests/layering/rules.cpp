@@ -28,6 +28,7 @@ constexpr std::array kLibraries{
     Library{"(hdf5|H5).*", "framework/record/record_plugin/"},
     Library{"openssl/.*", "framework/checksum/checksum_plugin/"},
     Library{"libxml/.*", "framework/xml/"},
+    Library{"(libusb-1.0/)?libusb\\.h", "devices/novint_falcon/"},
     Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},
     Library{"meshoptimizer.*", "framework/geometry/mesh_decimate_plugin/"},
     Library{"(CLI|nlohmann)/.*", "apps/"},
