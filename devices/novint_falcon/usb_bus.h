@@ -27,18 +27,18 @@ enum class UsbProblem : std::uint8_t {
 
 /// A Falcon on the bus, and what keeps it from being opened.
 struct UsbFalcon {
-  std::string node;    ///< "/dev/bus/usb/001/002"
-  std::string port;    ///< where it is plugged in: "1-2.3"
-  std::string serial;  ///< "" when it cannot be read
-  std::string product;
+  std::string node{};    ///< "/dev/bus/usb/001/002"
+  std::string port{};    ///< where it is plugged in: "1-2.3"
+  std::string serial{};  ///< "" when it cannot be read
+  std::string product{};
   UsbProblem problem = UsbProblem::kNone;
-  std::string detail;  ///< libusb's words
+  std::string detail{};  ///< libusb's words
 };
 
 struct UsbFailure {
   UsbProblem problem = UsbProblem::kNone;
-  std::string node, detail;
-  std::vector<UsbFalcon> present;
+  std::string node{}, detail{};
+  std::vector<UsbFalcon> present{};
 };
 
 /// An open and claimed device, with the libusb context it belongs to; closes both.

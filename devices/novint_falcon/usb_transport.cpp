@@ -113,7 +113,7 @@ bool UsbTransport::control(Control control, double) noexcept {
 
 bool UsbTransport::write(std::span<const std::uint8_t> bytes, double) noexcept {
   if (bytes.empty() || bytes.size() > kMaxWrite || lost_) return false;
-  handleEvents();
+  if (out_->on_its_way) handleEvents();
   if (out_->on_its_way || lost_) return false;
   if (out_->halted && libusb_clear_halt(handle_.get(), kOut) == LIBUSB_ERROR_NO_DEVICE) lost_ = true;
   out_->halted = false;
