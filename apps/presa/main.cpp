@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   presa::addStability(app, status);
   presa::addCost(app, status);
   presa::addExperiment(app, status);
+  presa::addDevice(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 
+#include "devices/percro_arm/characterise.h"
 #include "devices/percro_arm/simulated_arm.h"
 #include "framework/hand/hand_settings.h"
 #include "framework/hand/scripted_hand.h"
@@ -142,7 +143,10 @@ const DevicePlugin kPlugin{.name = "percro_arm",
                            .summary = "model of an arm of the PERCRO interface, moved by a scripted hand",
                            .create = create};
 
+const CharacterisationPlugin kCharacterisation{.make = [] { return percro::characterise(percro::paperArm()); }};
+
 }  // namespace
 }  // namespace presa
 
 PRESA_DEVICE_PLUGIN(presa::kPlugin)
+PRESA_DEVICE_CHARACTERISATION(presa::kCharacterisation)

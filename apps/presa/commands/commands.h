@@ -19,5 +19,6 @@ void addReplay(CLI::App& app, int& status);
 void addStability(CLI::App& app, int& status);
 void addCost(CLI::App& app, int& status);
 void addExperiment(CLI::App& app, int& status);
+void addDevice(CLI::App& app, int& status);
 
 }  // namespace presa

@@ -34,7 +34,17 @@ struct Axes {
   std::vector<double> x_ticks, y_ticks;
 };
 
-Axes axesOf(const FacetFigure& figure, double height) {
+/// Widens one range, so that a unit is as long on both axes.
+void equalise(Range& x, Range& y, double width, double height) {
+  const double unit = std::max((x.high - x.low) / width, (y.high - y.low) / height);
+  const auto widen = [](Range& range, double to) {
+    const double more = 0.5 * (to - (range.high - range.low));
+    range = {range.low - more, range.high + more};
+  };
+  widen(x, unit * width), widen(y, unit * height);
+}
+
+Axes axesOf(const FacetFigure& figure, double width, double height) {
   Axes axes;
   for (const Facet& facet : figure.facets) {
     for (const Layer& layer : facet.layers) {
@@ -57,6 +67,7 @@ Axes axesOf(const FacetFigure& figure, double height) {
     axes.x = {0, axes.x.widened(0.05).high};
   else
     axes.x = axes.x.widened(0.1);
+  if (figure.equal_scales) equalise(axes.x, axes.y, width, height);
   axes.y_ticks = niceTicks(axes.y.low, axes.y.high, static_cast<int>(std::max(3.0, height / 45)));
   axes.x_ticks = figure.x_ticks;
   for (std::size_t i = 0; i < figure.x_names.size(); ++i) axes.x_ticks.push_back(static_cast<double>(i));
@@ -207,13 +218,14 @@ std::string facetAt(const FacetFigure& figure, const Axes& axes, std::size_t row
 
 std::string render(const FacetFigure& figure) {
   const bool single = figure.columns.size() * figure.rows.size() == 1;
-  const double width = single ? 760 : 1080, height = single ? 360 : 148;  // of the figure, of one facet
+  const double width = single ? 760 : 1080;                                                  // of the figure
+  const double height = figure.facet_height > 0 ? figure.facet_height : single ? 360 : 148;  // of one facet
   const double right = kRight + (figure.rows.front().empty() ? 0 : 16);
   const double columns = static_cast<double>(figure.columns.size()), rows = static_cast<double>(figure.rows.size());
   const double facet_width = (width - kLeft - right - (columns - 1) * kGap) / columns;
   const double first_top = kLegend + (figure.columns.front().empty() ? 4 : kHead);
   const double bottom = first_top + rows * height + (rows - 1) * kGap;
-  const Axes axes = axesOf(figure, height);
+  const Axes axes = axesOf(figure, facet_width, height);
   std::string out = "<div class=\"plot" + std::string(single ? " single" : "") + "\"><svg viewBox=\"0 0 " + px(width) +
                     " " + px(bottom + kAxis) + "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" +
                     legendOf(figure);

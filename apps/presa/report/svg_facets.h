@@ -51,6 +51,8 @@ struct FacetFigure {
   std::vector<Entry> legend{};
   bool y_from_zero = true, x_from_zero = false;
   double y_most = FacetPoint::kNone;  ///< where the y axis must reach at least
+  double facet_height = 0;            ///< [px]; 0: the usual
+  bool equal_scales = false;          ///< a circle is round: one axis reaches further than its data
 };
 
 std::string render(const FacetFigure& figure);

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "devices/percro_arm/bench.h"
+#include "devices/percro_arm/characterise.h"
+#include "devices/percro_arm/reach.h"
+
+namespace presa::percro {
+namespace {
+
+using Basis = Characteristic::Basis;
+using Figures = std::vector<Characteristic>;
+
+constexpr double kApart = 1.5;  // of two arms that face each other, as in the shipped rig [m]
+
+/// A figure with one printed number.
+Characteristic printedAs(const std::string& name, const std::string& unit, double printed, double here,
+                         double tolerance, Basis basis, const std::string& note) {
+  return {name, unit, printed, printed, here, tolerance, basis, note};
+}
+
+/// A figure without a unit that must reach something, on assumptions.
+Characteristic atLeast(const std::string& name, double least, double here, const std::string& note) {
+  return {name, "1", least, std::numeric_limits<double>::infinity(), here, 0, Basis::kAssumed, note};
+}
+
+Characteristic unprinted(const std::string& name, const std::string& unit, double here, Basis basis,
+                         const std::string& note) {
+  return {.name = name, .unit = unit, .here = here, .basis = basis, .note = note};
+}
+
+void addResolution(const Parameters& p, Figures& out) {
+  const Geometry& g = p.geometry;
+  const std::string note =
+      "2.2; both encoders of the differential step at once. 55 to 130 is not 441 to 1070: either is off";
+  out.push_back(printedAs("position step across, L = 441 mm", "um", printed::kStepShort * 1e6,
+                          measuredStep(p, g.length_min) * 1e6, 0.02, Basis::kFitted, note));
+  out.push_back(printedAs("position step across, L = 1070 mm", "um", printed::kStepLong * 1e6,
+                          measuredStep(p, g.length_max) * 1e6, 0.02, Basis::kFitted, note));
+  out.push_back(unprinted("position step along the barrel", "um", axialStep(p) * 1e6, Basis::kFollows,
+                          "from the drum that makes the conditioning best"));
+}
+
+void addWorkspace(const Parameters& p, Figures& out) {
+  const Geometry& g = p.geometry;
+  const Vec3 deep{printed::kBoxDepth, printed::kBoxHeight, printed::kBoxWidth};
+  const Vec3 wide{printed::kBoxHeight, printed::kBoxWidth, printed::kBoxDepth};
+  out.push_back(printedAs("box of 300 x 400 mm: its depth along the barrel", "mm", printed::kBoxDepth * 1e3,
+                          largestScale(g, deep) * printed::kBoxDepth * 1e3, 0.002, Basis::kFollows,
+                          "2.1.1; from L = 441 to 1070 mm alone, which are printed to 1 mm"));
+  out.push_back(atLeast("box of 300 x 400 x 600 mm, 600 across: scale that fits", 1, largestScale(g, wide),
+                        "2.1.1; with tilt to 45 and yaw to 40 degrees"));
+  out.push_back(
+      atLeast("the same in the reach of both arms, 1.5 m apart", 1, largestCommonScale(g, wide, kApart), "fig. 3"));
+  double worst = 0;
+  for (double x = g.length_min; x <= g.length_max; x += 0.01) {
+    for (double y = 0; y <= 0.15; y += 0.01) {
+      for (double z = 0; z <= 0.2; z += 0.01) {
+        const Joints q = jointsAt(g, {x, y, z});
+        if (withinReach(g, q, 1e-9)) worst = std::max(worst, conditionNumber(g, q));
+      }
+    }
+  }
+  out.push_back(unprinted("condition number of J K^-1, worst in that box", "1", worst, Basis::kFollows,
+                          "2.1: \"optimal\", fig. 2; the best that any drum can do between L = 441 and 1070 mm"));
+}
+
+void addForces(const Parameters& p, Figures& out) {
+  const ReachBox box{{largestScale(p.geometry, {0.6, 0.3, 0.4}) * 0.6, 0.3, 0.4}, p.geometry.length_min};
+  out.push_back(printedAs("continuous force, worst place and direction", "N", printed::kContinuousForce,
+                          leastForce(p, box, p.motors.continuous_torque), 0.02, Basis::kFitted,
+                          "2.1; over the box, beside carrying the arm"));
+  out.push_back(printedAs("peak force, worst place and direction", "N", printed::kPeakForce,
+                          leastForce(p, box, p.motors.peak_torque), 0.02, Basis::kFitted, "2.1"));
+  const double ratio = p.motors.peak_torque / p.motors.continuous_torque;
+  out.push_back(unprinted("peak force lasts, from cold", "s",
+                          -p.motors.thermal_time * std::log(1 - 0.9 / (ratio * ratio)), Basis::kAssumed,
+                          "with a winding of 30 s"));
+}
+
+void addStructure(const Parameters& p, Figures& out) {
+  const Push along = push(p, 0.75, Vec3::UnitX(), printed::kPeakForce);
+  out.push_back(printedAs("stiffness along the barrel", "N/mm", 23.74, along.stiffness * 1e-3, 0.03, Basis::kFitted,
+                          "2.1.2; pushed to 10 N, displacement by the encoder"));
+  out.push_back(printedAs("R^2 of that line", "1", 0.994, along.r_squared, 0.02, Basis::kFollows,
+                          "2.1.2; 10 N bend 420 um, seven steps of the encoder"));
+  out.push_back(printedAs("stiffness across, L = 1070 mm", "N/mm", printed::kStiffLong * 1e-3,
+                          push(p, p.geometry.length_max - 1e-3, Vec3::UnitY(), 4).stiffness * 1e-3, 0.05,
+                          Basis::kFitted, "2.1.2, fig. 6"));
+  out.push_back(printedAs("stiffness across, L = 441 mm", "N/mm", printed::kStiffShort * 1e-3,
+                          push(p, p.geometry.length_min + 1e-3, Vec3::UnitY(), 4).stiffness * 1e-3, 0.05,
+                          Basis::kFitted, "2.1.2, fig. 6; 4 N bend 300 um, five steps of the encoders"));
+}
+
+void addDynamics(const Parameters& p, Figures& out) {
+  std::vector<double> frequencies;
+  for (double f = 2; f <= 120; f += 2) frequencies.push_back(f);
+  const ForceResponse response = forceResponse(p, frequencies);
+  out.push_back({"force bandwidth along the barrel (-3 dB)", "Hz", printed::kBandwidthLow, printed::kBandwidthHigh,
+                 response.bandwidth, 0, Basis::kFitted, "2.1.2, fig. 5; the moving mass is chosen for it"});
+  out.push_back(unprinted("resonance on the way", "Hz", response.resonance, Basis::kAssumed,
+                          "damping 0.1 of critical; the paper's text names none"));
+  const ArmDynamics arm(p, Vec3::Zero());
+  const Joints in = Joints::Zero(), drawn_out{0, 0, p.geometry.length_max - p.geometry.length_min};
+  const double low = p.geometry.length_min, high = p.geometry.length_max;
+  const double mass = arm.inertia(drawn_out)[1] / (high * high);
+  out.push_back(unprinted("mass felt along the barrel", "kg", arm.inertia(in)[2], Basis::kFitted, "by the bandwidth"));
+  out.push_back(unprinted("mass felt across, L = 441 mm", "kg", arm.inertia(in)[1] / (low * low), Basis::kAssumed, ""));
+  out.push_back(unprinted("mass felt across, L = 1070 mm", "kg", mass, Basis::kAssumed, ""));
+  out.push_back(unprinted("first mode across, L = 1070 mm, tip bolted", "Hz",
+                          std::sqrt(printed::kStiffLong / mass) / (2 * std::numbers::pi), Basis::kAssumed,
+                          "the paper shows the dynamics along the barrel only"));
+}
+
+}  // namespace
+
+double measuredStep(const Parameters& p, double length) {
+  // motors turned against each other in hundredths of a count: the jump where both are rounded up
+  Encoders encoders(p);
+  const Mat3 to_joints = transmissionInverse(p.geometry);
+  const Joints middle = {0, 0, length - p.geometry.length_min};
+  double most = 0;
+  Vec3 before = Vec3::Zero();
+  for (int i = 0; i <= 300; ++i) {
+    const double turn = 0.01 * i * p.motors.count();
+    encoders.sample(middle + to_joints * Vec3(-turn, turn, 0));
+    const Vec3 now = tipPosition(p.geometry, encoders.joints());
+    if (i > 0) most = std::max(most, (now - before).norm());
+    before = now;
+  }
+  return most;
+}
+
+std::vector<Characteristic> figures(const Parameters& parameters) {
+  Figures out;
+  addResolution(parameters, out);
+  addWorkspace(parameters, out);
+  addForces(parameters, out);
+  addStructure(parameters, out);
+  addDynamics(parameters, out);
+  return out;
+}
+
+}  // namespace presa::percro
