@@ -1,6 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "framework/device/device.h"
 #include "framework/graph/module.h"
@@ -10,7 +12,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 3;
+inline constexpr int kPluginAbi = 4;
 
 struct ModulePlugin {
   int abi = kPluginAbi;
@@ -20,12 +22,25 @@ struct ModulePlugin {
   std::string (*library)() = nullptr;  ///< what does its work: "ODE 0.16.2"; null: nothing but Presa
 };
 
+/// What a driver finds when it is asked how its devices are: one line each, good news too.
+struct DeviceFinding {
+  enum class Verdict : std::uint8_t { kFine, kWarning, kProblem };
+  Verdict verdict = Verdict::kFine;
+  int code = 0;         ///< as in Diagnostic; 0: none
+  std::string device;   ///< which one: a serial number, a port; empty: the computer, or the rig
+  std::string message;  ///< one line
+  std::string help;     ///< what to do; may be empty
+};
+
 struct DevicePlugin {
   int abi = kPluginAbi;
   const char* name;
   const char* summary;
   /// Checks binding.settings (all findings to `diagnostics`); null when something is wrong.
   std::unique_ptr<Device> (*create)(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
+  /// Looks for its hardware and at what may be wrong with it; moves nothing. The binding may be empty: then at every device.
+  /// Thread: main; may take a second a device. Null: no hardware.
+  std::vector<DeviceFinding> (*diagnose)(const DeviceBinding& binding) = nullptr;
 };
 
 }  // namespace presa

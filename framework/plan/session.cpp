@@ -27,6 +27,11 @@ const Table& tableOf(const std::string& plugin, const char* symbol) {
 
 }  // namespace
 
+std::vector<DeviceFinding> diagnoseDevices(const DeviceBinding& binding) {
+  const auto& driver = tableOf<DevicePlugin>(binding.driver, "presaDevicePlugin");
+  return driver.diagnose != nullptr ? driver.diagnose(binding) : std::vector<DeviceFinding>{};
+}
+
 DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics) {
   DeviceList devices;
   for (const PlannedDevice& planned : plan.devices) {

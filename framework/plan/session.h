@@ -6,6 +6,7 @@
 #include "framework/graph/graph.h"
 #include "framework/monitor/monitor.h"
 #include "framework/plan/plan.h"
+#include "framework/plan/plugin.h"
 #include "framework/plan/view.h"
 #include "framework/record/recording.h"
 
@@ -53,6 +54,10 @@ class Session {
   Recorder* recorder_ = nullptr;
   View* view_ = nullptr;
 };
+
+/// What that driver finds out about its hardware; empty for a driver that has none. Loads its plug-in and throws InputError when
+/// that cannot be done.
+std::vector<DeviceFinding> diagnoseDevices(const DeviceBinding& binding);
 
 /// The drivers of a rig, checked but not opened, in the order of the plan. Findings go to `diagnostics`.
 DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics);

@@ -16,7 +16,7 @@ const xml::Schema& rigSchema() {
   return schema;
 }
 
-bool isPath(const std::string& key) { return key == "motion" || key == "file"; }
+bool isPath(const std::string& key) { return key == "motion" || key == "file" || key == "firmware"; }
 
 void addSetting(DeviceBinding& binding, const std::string& key, const DeviceBinding::Setting& setting,
                 const SourceLocation& where, Diagnostics& diagnostics) {

@@ -1,0 +1,105 @@
+#include "devices/novint_falcon/falcon_device.h"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+
+#include "devices/novint_falcon/codes.h"
+#include "devices/novint_falcon/usb_transport.h"
+#include "framework/schedule/clock.h"
+
+namespace presa::falcon {
+namespace {
+
+[[noreturn]] void refuseAt(Code code, const SourceLocation& where, const std::string& message,
+                           const std::string& help) {
+  Diagnostics diagnostics;
+  diagnostics.error(code, where, message, help);
+  throw InputError(diagnostics);
+}
+
+/// With what is known of a loading that failed.
+std::string wordsOf(const LinkStatus& status, std::size_t firmware_size) {
+  std::string words = describe(status.fault);
+  std::array<char, 120> detail{};
+  if (status.fault == LinkFault::kEchoMismatch) {
+    std::snprintf(detail.data(), detail.size(), " (byte %zu of %zu: sent %02x, echoed %02x)", status.load.bytes,
+                  firmware_size, status.load.expected, status.load.found);
+  } else if (status.fault == LinkFault::kEchoMissing) {
+    std::snprintf(detail.data(), detail.size(), " (after %zu of %zu bytes)", status.load.bytes, firmware_size);
+  }
+  words += detail.data();
+  if (status.load.attempts > 0) words += ", in " + std::to_string(status.load.attempts) + " attempts";
+  return words;
+}
+
+std::uint32_t fingerButtons(std::uint8_t buttons) noexcept {
+  const auto bit = [buttons](Button button, unsigned to) { return (buttons & button) != 0 ? 1U << to : 0U; };
+  return bit(kButtonCentre, 0) | bit(kButtonForward, 1) | bit(kButtonPlus, 2) | bit(kButtonMinus, 3);
+}
+
+}  // namespace
+
+FingerInput fingerOf(const LinkSample& sample, const Pose& X_WD, double scale) noexcept {
+  FingerInput finger;
+  finger.p_WH = X_WD * Vec3(scale * sample.p_DH);
+  finger.v_WH = X_WD.q * Vec3(scale * sample.v_DH);
+  finger.valid = sample.valid;
+  finger.buttons = fingerButtons(sample.buttons);
+  return finger;
+}
+
+std::unique_ptr<FalconTransport> connectOverUsb(const std::string& serial, const SourceLocation& where) {
+  UsbFailure failure;
+  UsbHandle handle = openFalcon(serial, failure);
+  if (!handle) refuseAt(codeOf(failure.problem), where, describe(failure, serial), remedy(failure));
+  return std::make_unique<UsbTransport>(std::move(handle));
+}
+
+void FalconDevice::open() {
+  const std::string who = "role '" + settings_.role + "': ";
+  if (!settings_.realtime)
+    refuseAt(kNeedsRealTime, settings_.where, who + "a real device cannot be driven in virtual time", "add --realtime");
+  io_ = std::make_unique<FalconIo>(connect_(), settings_.firmware, settings_.link);
+  std::int64_t homing_since = 0;
+  for (;; sleepUntilNs(monotonicNs() + 5'000'000)) {
+    const LinkStatus status = io_->status();
+    if (status.state == LinkState::kOperating) return;
+    if (status.state == LinkState::kDead) {
+      io_.reset();
+      refuseAt(codeOf(status.fault), settings_.where, who + wordsOf(status, settings_.firmware.size()),
+               remedy(status.fault));
+    }
+    if (status.state != LinkState::kHoming) continue;
+    if (homing_since == 0) homing_since = monotonicNs();
+    if (static_cast<double>(monotonicNs() - homing_since) * 1e-9 < settings_.homing_wait) continue;
+    io_.reset();
+    std::string missing;
+    for (int i = 0; i < 3; ++i)
+      if ((status.homed & (1 << i)) == 0) missing += (missing.empty() ? "" : ", ") + std::to_string(i + 1);
+    refuseAt(
+        kNotHomed, settings_.where,
+        who + "the grip was not homed" + (missing.empty() ? "" : " (no reference seen by encoder " + missing + ")"),
+        "while its light is blue, pull the grip all the way out, then push it in; homing_wait sets how long there is");
+  }
+}
+
+FingerInput FalconDevice::read(const Tick& tick) noexcept {
+  if (!io_) return {};
+  return fingerOf(io_->latest(tick), settings_.X_WD, settings_.scale);
+}
+
+void FalconDevice::write(const Vec3& f_H_W, const Tick&) noexcept {
+  if (io_) io_->push(settings_.X_WD.q.conjugate() * f_H_W);
+}
+
+std::vector<std::string> FalconDevice::notes() const {
+  if (!io_) return {};
+  std::vector<std::string> notes{settings_.role + ": Novint Falcon; its newtons are uncalibrated (10 to 20 % at best)"};
+  if (const int refused = io_->priorityRefused(); refused > 0)
+    notes.push_back(settings_.role + ": the USB thread runs without SCHED_FIFO (" + std::strerror(refused) +
+                    "): other programs may delay it");
+  return notes;
+}
+
+}  // namespace presa::falcon

@@ -1,0 +1,45 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "devices/novint_falcon/io_thread.h"
+#include "devices/novint_falcon/settings.h"
+#include "framework/device/device.h"
+
+namespace presa::falcon {
+
+/// The grip of a Falcon as a finger of the world. Buttons: bit 0 the middle one (ready, answer), 1 forward, 2 plus, 3 minus.
+class FalconDevice final : public Device {
+ public:
+  /// Finds and claims the device; throws InputError when it cannot.
+  using Connect = std::function<std::unique_ptr<FalconTransport>()>;
+  FalconDevice(FalconSettings settings, Connect connect)
+      : settings_(std::move(settings)), connect_(std::move(connect)) {}
+
+  /// Connects, loads firmware where there is none, waits until the grip is homed. Throws InputError (codes.h).
+  void open() override;
+  void close() noexcept override { io_.reset(); }
+  FingerInput read(const Tick& tick) noexcept override;
+  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  std::vector<std::string> notes() const override;
+
+  /// Main thread: what the link is in.
+  LinkStatus status() { return io_ ? io_->status() : LinkStatus{}; }
+  /// Main thread: out of a latched fault, once the user has been told.
+  void rearm() {
+    if (io_) io_->rearm();
+  }
+
+ private:
+  FalconSettings settings_;
+  Connect connect_;
+  std::unique_ptr<FalconIo> io_;
+};
+
+/// From the grip in frame D to a finger in the world, and a force back.
+FingerInput fingerOf(const LinkSample& sample, const Pose& X_WD, double scale) noexcept;
+
+/// Over USB: throws with E477..E481.
+std::unique_ptr<FalconTransport> connectOverUsb(const std::string& serial, const SourceLocation& where);
+
+}  // namespace presa::falcon

@@ -1,0 +1,23 @@
+#include "framework/plan/plugin.h"
+
+#include "devices/novint_falcon/diagnose.h"
+#include "devices/novint_falcon/falcon_device.h"
+
+namespace presa {
+namespace {
+
+std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  falcon::FalconSettings settings = falcon::readSettings(binding, world, diagnostics);
+  if (diagnostics.errorCount() > before) return nullptr;
+  auto connect = [serial = settings.serial, where = settings.where] { return falcon::connectOverUsb(serial, where); };
+  return std::make_unique<falcon::FalconDevice>(std::move(settings), std::move(connect));
+}
+
+const DevicePlugin kPlugin{
+    .name = "novint_falcon", .summary = "Novint Falcon over USB", .create = create, .diagnose = falcon::diagnose};
+
+}  // namespace
+}  // namespace presa
+
+PRESA_DEVICE_PLUGIN(presa::kPlugin)

@@ -1,0 +1,83 @@
+#include "devices/novint_falcon/settings.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "devices/novint_falcon/codes.h"
+#include "devices/novint_falcon/firmware.h"
+#include "framework/hand/hand_settings.h"
+#include "framework/xml/value_rule.h"
+
+namespace presa::falcon {
+namespace {
+
+const std::vector<std::string> kKeys{"serial", "firmware",          "pos",       "quat",
+                                     "scale",  "counts_per_torque", "max_speed", "homing_wait"};
+
+struct NumberRule {
+  std::size_t count = 1;
+  double least = 0;  ///< each must be more than that
+  const char* words = "";
+};
+
+/// The setting as numbers that obey the rule; nothing when it is not given or wrong, which is said.
+std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const std::string& key,
+                                             const NumberRule& rule, Diagnostics& diagnostics) {
+  const auto found = binding.settings.find(key);
+  if (found == binding.settings.end()) return {};
+  std::vector<double> numbers;
+  bool good = true;
+  for (const std::string& word : xml::splitWords(found->second.value)) {
+    double& number = numbers.emplace_back();
+    good = good && xml::readNumber(word, number) == xml::NumberKind::kFinite && number > rule.least;
+  }
+  if (good && numbers.size() == rule.count) return numbers;
+  diagnostics.error(kBadNumber, found->second.where,
+                    key + " must be " + rule.words + ", found " + quote(found->second.value));
+  return {};
+}
+
+void readPositive(const DeviceBinding& binding, const std::string& key, double& value, Diagnostics& diagnostics) {
+  if (const auto number = numbersOf(binding, key, {1, 0, "a number above 0"}, diagnostics)) value = (*number)[0];
+}
+
+Pose readBase(const DeviceBinding& binding, Diagnostics& diagnostics) {
+  constexpr double kAny = std::numeric_limits<double>::lowest();
+  Pose X_WD;
+  if (const auto p = numbersOf(binding, "pos", {3, kAny, "3 numbers"}, diagnostics))
+    X_WD.p = {(*p)[0], (*p)[1], (*p)[2]};
+  if (const auto q = numbersOf(binding, "quat", {4, kAny, "4 numbers, w x y z"}, diagnostics)) {
+    const Quat turn((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+    const double norm = turn.norm();
+    if (norm > 1e-6 && std::isfinite(norm))
+      X_WD.q = turn.normalized();
+    else
+      diagnostics.error(kBadNumber, binding.settings.at("quat").where, "quat must not be zero");
+  }
+  return X_WD;
+}
+
+}  // namespace
+
+FalconSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  refuseUnknownSettings(binding, kKeys, diagnostics);
+  FalconSettings settings;
+  settings.role = binding.role;
+  settings.where = binding.where;
+  settings.realtime = world.options.realtime;
+  settings.X_WD = readBase(binding, diagnostics);
+  readPositive(binding, "scale", settings.scale, diagnostics);
+  readPositive(binding, "counts_per_torque", settings.link.counts_per_torque, diagnostics);
+  readPositive(binding, "max_speed", settings.link.max_speed, diagnostics);
+  readPositive(binding, "homing_wait", settings.homing_wait, diagnostics);
+  for (const DeviceRole& role : world.scene.devices)
+    if (role.role == binding.role) settings.link.force_rate = role.limits.force_rate;
+  if (const auto serial = binding.settings.find("serial"); serial != binding.settings.end())
+    settings.serial = serial->second.value;
+  if (const auto firmware = binding.settings.find("firmware"); firmware != binding.settings.end())
+    settings.firmware = readFirmware(firmware->second.value, firmware->second.where, diagnostics);
+  return settings;
+}
+
+}  // namespace presa::falcon
