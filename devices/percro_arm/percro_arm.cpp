@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "devices/percro_arm/characterise.h"
+#include "devices/percro_arm/linked_arms.h"
 #include "devices/percro_arm/simulated_arm.h"
+#include "framework/calibration/calibration_plugin.h"
 #include "framework/hand/hand_settings.h"
 #include "framework/hand/scripted_hand.h"
 #include "framework/plan/plugin.h"
@@ -143,6 +145,19 @@ const DevicePlugin kPlugin{.name = "percro_arm",
                            .summary = "model of an arm of the PERCRO interface, moved by a scripted hand",
                            .create = create};
 
+/// The arms are led about the middle between them, 8 cm to each side.
+std::vector<LinkedSample> rehearse(const Pose& X_WA, const Pose& X_AB, double link, std::uint64_t seed) {
+  constexpr double kSize = 0.08;  // [m]
+  const percro::Parameters parameters = percro::paperArm();
+  RandomStream stream(seed, "path of the link");
+  percro::LinkPath path = percro::randomPath(stream, kSize);
+  path.middle = 0.5 * X_AB.p;
+  if (!percro::meetAlong(parameters.geometry, X_AB, path, link)) return {};
+  return percro::moveLinked(parameters, X_WA.q.conjugate() * kGravity_W, X_AB, path, link);
+}
+
+const CalibrationPlugin kCalibration{.centre = percro::linkCentre, .rehearse = rehearse};
+
 const CharacterisationPlugin kCharacterisation{.make = [] { return percro::characterise(percro::paperArm()); }};
 
 }  // namespace
@@ -150,3 +165,4 @@ const CharacterisationPlugin kCharacterisation{.make = [] { return percro::chara
 
 PRESA_DEVICE_PLUGIN(presa::kPlugin)
 PRESA_DEVICE_CHARACTERISATION(presa::kCharacterisation)
+PRESA_DEVICE_CALIBRATION(presa::kCalibration)

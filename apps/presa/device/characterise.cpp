@@ -7,34 +7,11 @@
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/device/driver_symbol.h"
 #include "apps/presa/terminal/status_line.h"
-#include "framework/diagnostics/refuse.h"
-#include "framework/plan/plugin_loader.h"
 
 namespace presa::device {
 namespace {
-
-constexpr const char* kWhere = "presa device characterise";
-
-/// The plug-in's symbol, or a refusal in the user's words; an empty help: the loader's.
-void* symbolOf(const std::string& driver, const char* symbol, int code, const std::string& what,
-               const std::string& help) {
-  try {
-    return pluginSymbol(driver, symbol);
-  } catch (const InputError& error) {
-    refuse(code, kWhere, what, help.empty() ? error.diagnostics().all().at(0).help : help);
-  }
-}
-
-const CharacterisationPlugin& figuresOf(const std::string& driver) {
-  symbolOf(driver, "presaDevicePlugin", 470, "there is no driver " + quote(driver), "");
-  using Table = const CharacterisationPlugin* (*)();
-  const auto table =
-      reinterpret_cast<Table>(symbolOf(driver, kCharacterisationSymbol, 471,
-                                       "driver " + quote(driver) + " has no figures of its own", "percro_arm has"));
-  if (table()->abi != kPluginAbi) refuse(471, kWhere, "driver " + quote(driver) + " is of another build of Presa");
-  return *table();
-}
 
 void claim(const std::string& folder) {
   std::error_code failed;
@@ -47,7 +24,8 @@ void claim(const std::string& folder) {
 }  // namespace
 
 int characterise(const CharacteriseOptions& options) {
-  const CharacterisationPlugin& driver = figuresOf(options.driver);
+  const auto& driver = driverTable<CharacterisationPlugin>("presa device characterise", options.driver,
+                                                           kCharacterisationSymbol, "has no figures of its own");
   if (!options.out.empty()) claim(options.out);
   const Characterisation found = driver.make();
   if (!options.out.empty()) {

@@ -6,6 +6,7 @@ void addDevice(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("device", "Haptic devices: what they are and what they can do");
   command->require_subcommand(1);
   addCharacterise(*command, status);
+  addCalibrate(*command, status);
 }
 
 }  // namespace presa

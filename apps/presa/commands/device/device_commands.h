@@ -5,5 +5,6 @@ namespace presa {
 
 /// `presa device …`, one per subcommand.
 void addCharacterise(CLI::App& app, int& status);
+void addCalibrate(CLI::App& app, int& status);
 
 }  // namespace presa

@@ -1,0 +1,88 @@
+#include "apps/presa/device/calibrate.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "apps/presa/atomic_file.h"
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/device/driver_symbol.h"
+#include "apps/presa/device/rig_bases.h"
+#include "apps/presa/device/samples_file.h"
+#include "framework/calibration/calibration_plugin.h"
+#include "framework/math/random.h"
+
+namespace presa::device {
+namespace {
+
+constexpr const char* kWhere = "presa device calibrate";
+constexpr double kAstray = 0.1, kTwist = 0.15;  // how far a rehearsal misplaces the second device [m], [rad]
+
+double distance(const Pose& a, const Pose& b) { return (a.p - b.p).norm(); }
+double degrees(const Pose& a, const Pose& b) {
+  return 2 * std::atan2((a.q.conjugate() * b.q).vec().norm(), std::abs((a.q.conjugate() * b.q).w())) * 180 /
+         std::numbers::pi;
+}
+
+/// Somewhere else, as people place things.
+Pose astray(const Pose& X_AB, std::uint64_t seed) {
+  RandomStream stream(seed, "where the second device stands");
+  const auto any = [&](double most) {
+    const double x = stream.uniform(-most, most), y = stream.uniform(-most, most);
+    return Vec3(x, y, stream.uniform(-most, most));
+  };
+  const Vec3 turn = any(kTwist);
+  const Quat twist(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  return {X_AB.p + any(kAstray), (twist * X_AB.q).normalized()};
+}
+
+void tell(const RigBases& rig, const LinkedBases& fit, std::size_t samples) {
+  const Pose nominal = rig.base(0).inverse() * rig.base(1);
+  std::printf("%s stands %.2f mm and %.3f deg from where the rig says, seen from %s\n", rig.role(1).c_str(),
+              distance(fit.X_AB, nominal) * 1e3, degrees(fit.X_AB, nominal), rig.role(0).c_str());
+  std::printf("  %zu samples, spread %.0f, %.0f and %.0f mm, condition of the normal equations %.1f\n", samples,
+              fit.spread[0] * 1e3, fit.spread[1] * 1e3, fit.spread[2] * 1e3, fit.condition);
+  std::printf("  %.3f mm remain between the two; expected error %.3f mm, %.4f deg\n", fit.residual * 1e3,
+              fit.position_error * 1e3, fit.angle_error * 180 / std::numbers::pi);
+}
+
+}  // namespace
+
+int calibrate(const CalibrateOptions& options) {
+  const RigBases rig(options.rig);
+  const auto& driver =
+      driverTable<CalibrationPlugin>(kWhere, rig.driver(), kCalibrationSymbol, "cannot be calibrated by a link");
+  const bool rehearsal = options.samples.empty();
+  const Pose truth = astray(rig.base(0).inverse() * rig.base(1), options.seed);
+  std::vector<LinkedSample> samples;
+  if (rehearsal) {
+    if (driver.rehearse == nullptr)
+      refuse(471, kWhere, "driver " + quote(rig.driver()) + " has no model to rehearse with");
+    samples = driver.rehearse(rig.base(0), truth, options.link, options.seed);
+    if (samples.empty())
+      refuse(476, options.rig, "the two devices cannot meet in the middle between them", "move their bases in the rig");
+  } else {
+    samples = readSamples(options.samples);
+    for (LinkedSample& s : samples) s = {driver.centre(s.p_A, options.link), driver.centre(s.p_B, options.link)};
+  }
+  const LinkedBases fit = fitBases(samples);
+  if (!fit.refusal.empty()) {
+    std::fprintf(stderr, "%s: refused: %s\n", kWhere, fit.refusal.c_str());
+    return kExitFault;
+  }
+  tell(rig, fit, samples.size());
+  if (rehearsal)
+    std::printf("  rehearsal with modelled devices: missed where it really stands by %.4f mm and %.5f deg\n",
+                distance(fit.X_AB, truth) * 1e3, degrees(fit.X_AB, truth));
+  if (options.out.empty()) return kExitOk;
+  const std::string folder = std::filesystem::absolute(options.out).parent_path().string();
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) refuse(472, "--out " + options.out, "nothing can be written there", failed.message());
+  writeFileAtomically(options.out, rig.withSecondAt(rig.base(0) * fit.X_AB, folder));
+  std::printf("Rig: %s\n", options.out.c_str());
+  return kExitOk;
+}
+
+}  // namespace presa::device
