@@ -17,6 +17,11 @@ class Encoders {
         to_motors_(transmission(parameters.geometry)),
         to_joints_(transmissionInverse(parameters.geometry)) {}
 
+  /// Power-up: the counters start anywhere. What they show at q = 0 is not known until setZero.
+  void powerUp(const Vec3& counts_at_zero) noexcept { true_zero_ = counts_at_zero; }
+  /// The counts, not necessarily whole, that belong to q = 0 (homing.h).
+  void setZero(const Vec3& counts) noexcept { zero_ = counts; }
+
   /// Starts anew, at rest.
   void reset(const Joints& q) noexcept {
     used_ = 0;
@@ -26,10 +31,10 @@ class Encoders {
   void sample(const Joints& q) noexcept {
     newest_ = (newest_ + 1) % kWindow;
     const Vec3 motors = to_motors_ * q / count_;
-    for (int i = 0; i < 3; ++i) past_[newest_][i] = std::nearbyint(motors[i]);
+    for (int i = 0; i < 3; ++i) past_[newest_][i] = std::nearbyint(motors[i]) + true_zero_[i];
     used_ = std::min(used_ + 1, kWindow);
   }
-  Joints joints() const noexcept { return to_joints_ * (count_ * past_[newest_]); }
+  Joints joints() const noexcept { return to_joints_ * (count_ * (past_[newest_] - zero_)); }
   Vec3 jointRates(double period) const noexcept {
     return to_joints_ * (count_ / period * Vec3(slope(0), slope(1), slope(2)));
   }
@@ -51,6 +56,7 @@ class Encoders {
 
   double count_;
   Mat3 to_motors_, to_joints_;
+  Vec3 true_zero_ = Vec3::Zero(), zero_ = Vec3::Zero();
   std::array<Vec3, kWindow> past_{};
   int newest_ = 0, used_ = 0;
 };

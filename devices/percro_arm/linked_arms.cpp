@@ -1,6 +1,5 @@
 #include "devices/percro_arm/linked_arms.h"
 
-#include <array>
 #include <cmath>
 
 namespace presa::percro {
@@ -42,12 +41,15 @@ bool meetAlong(const Geometry& geometry, const Pose& X_AB, const LinkPath& path,
 }
 
 std::vector<LinkedSample> moveLinked(const Parameters& parameters, const Vec3& gravity_A, const Pose& X_AB,
-                                     const LinkPath& path, double link) {
+                                     const LinkPath& path, double link, const std::array<Vec3, 2>& zero_errors) {
   const std::array<Pose, 2> base{Pose{}, X_AB};  // in A
   std::array<SimulatedArm, 2> arms{SimulatedArm(parameters, gravity_A, kPeriod),
                                    SimulatedArm(parameters, X_AB.q.conjugate() * gravity_A, kPeriod)};
   const auto tipAt = [&](std::size_t i, double time) { return tipOf(base[i].inverseTimes(path.at(time)), link); };
-  for (std::size_t i = 0; i < 2; ++i) arms[i].place(tipAt(i, 0));
+  for (std::size_t i = 0; i < 2; ++i) {
+    arms[i].encoders().setZero(zero_errors[i]);
+    arms[i].place(tipAt(i, 0));
+  }
   std::vector<LinkedSample> samples;
   const int ticks = static_cast<int>(std::lround(path.duration / kPeriod));
   for (int tick = 1; tick <= ticks; ++tick) {

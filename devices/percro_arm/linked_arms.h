@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "devices/percro_arm/simulated_arm.h"
@@ -30,8 +31,9 @@ Vec3 tipOf(const Vec3& p_DC, double link);
 bool meetAlong(const Geometry& geometry, const Pose& X_AB, const LinkPath& path, double link);
 
 /// Every 10 ms what both arms' encoders say of the centre. The arms are the whole model: friction, weight, bending.
-/// X_AB: how they really stand. `gravity_A`: acceleration in A [m/s^2].
+/// X_AB: how they really stand. `gravity_A`: acceleration in A [m/s^2]. `zero_errors`: what homing left, in counts.
 std::vector<LinkedSample> moveLinked(const Parameters& parameters, const Vec3& gravity_A, const Pose& X_AB,
-                                     const LinkPath& path, double link);
+                                     const LinkPath& path, double link,
+                                     const std::array<Vec3, 2>& zero_errors = {Vec3::Zero(), Vec3::Zero()});
 
 }  // namespace presa::percro

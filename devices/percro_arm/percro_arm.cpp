@@ -6,7 +6,7 @@
 
 #include "devices/percro_arm/characterise.h"
 #include "devices/percro_arm/linked_arms.h"
-#include "devices/percro_arm/simulated_arm.h"
+#include "devices/percro_arm/switched_on.h"
 #include "framework/calibration/calibration_plugin.h"
 #include "framework/hand/hand_settings.h"
 #include "framework/hand/scripted_hand.h"
@@ -145,15 +145,24 @@ const DevicePlugin kPlugin{.name = "percro_arm",
                            .summary = "model of an arm of the PERCRO interface, moved by a scripted hand",
                            .create = create};
 
-/// The arms are led about the middle between them, 8 cm to each side.
+/// Both arms are switched on and homed; then, linked, they are led about the middle between them, 8 cm to each side.
 std::vector<LinkedSample> rehearse(const Pose& X_WA, const Pose& X_AB, double link, std::uint64_t seed) {
-  constexpr double kSize = 0.08;  // [m]
+  constexpr double kSize = 0.08;                      // [m]
+  const percro::TipLoad kEmptyThimble{.mass = 0.02};  // [kg]
   const percro::Parameters parameters = percro::paperArm();
   RandomStream stream(seed, "path of the link");
   percro::LinkPath path = percro::randomPath(stream, kSize);
   path.middle = 0.5 * X_AB.p;
   if (!percro::meetAlong(parameters.geometry, X_AB, path, link)) return {};
-  return percro::moveLinked(parameters, X_WA.q.conjugate() * kGravity_W, X_AB, path, link);
+  const Vec3 gravity_A = X_WA.q.conjugate() * kGravity_W;
+  std::array<Vec3, 2> zero_errors;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3 gravity = i == 0 ? gravity_A : Vec3(X_AB.q.conjugate() * gravity_A);
+    percro::SwitchedOn arm(parameters, gravity, {}, stream);
+    if (!arm.home(kEmptyThimble).done()) return {};
+    zero_errors[i] = arm.zeroError();
+  }
+  return percro::moveLinked(parameters, gravity_A, X_AB, path, link, zero_errors);
 }
 
 const CalibrationPlugin kCalibration{.centre = percro::linkCentre, .rehearse = rehearse};

@@ -18,11 +18,14 @@ class SimulatedArm {
   void place(const Vec3& p_DT) noexcept;
   /// The force wanted on the finger from now on [N]. Through J^T and K^-T to the motors, which may give less.
   void command(const Vec3& f_D) noexcept;
+  /// Joint torques instead, weight and all: for homing, while the arm does not know how it stands.
+  void commandJoints(const Vec3& torque) noexcept { drive_.command(to_motor_torque_ * torque, Vec3::Zero()); }
   /// One period with this at the tip.
   void advance(const TipLoad& load) noexcept;
 
   Vec3 reportedPosition() const noexcept;
   Vec3 reportedVelocity() const noexcept;
+  Encoders& encoders() noexcept { return encoders_; }
   /// The truth, which no encoder knows.
   const ArmState& state() const noexcept { return state_; }
   Vec3 tipForce() const noexcept { return dynamics_.tipForce(state_); }

@@ -73,8 +73,9 @@ int calibrate(const CalibrateOptions& options) {
   }
   tell(rig, fit, samples.size());
   if (rehearsal)
-    std::printf("  rehearsal with modelled devices: missed where it really stands by %.4f mm and %.5f deg\n",
-                distance(fit.X_AB, truth) * 1e3, degrees(fit.X_AB, truth));
+    std::printf(
+        "  rehearsal with modelled devices, homed first: missed where it really stands by %.4f mm and %.5f deg\n",
+        distance(fit.X_AB, truth) * 1e3, degrees(fit.X_AB, truth));
   if (options.out.empty()) return kExitOk;
   const std::string folder = std::filesystem::absolute(options.out).parent_path().string();
   std::error_code failed;
