@@ -6,24 +6,24 @@ namespace presa::falcon {
 
 /// Numbers of the findings about a Falcon (E4xx: rigs and devices).
 enum Code : int {
-  kBadNumber = 470,
-  kFirmwareUnreadable = 471,
-  kFirmwareEmpty = 472,
-  kFirmwareTooLarge = 473,
-  kFirmwareForeign = 474,  ///< does not begin as firmware does
-  kFirmwareUnknown = 475,  ///< W: begins right, but is none of the known files
-  kNeedsRealTime = 476,
-  kNoFalcon = 477,
-  kWhichFalcon = 478,
-  kMayNotOpen = 479,
-  kHeld = 480,
-  kUsbFails = 481,
-  kNoFirmwareNamed = 482,
-  kLoaderSilent = 483,
-  kEchoWrong = 484,
-  kFirmwareDead = 485,
-  kNotHomed = 486,
-  kGone = 487,
+  kBadNumber = 480,
+  kFirmwareUnreadable = 481,
+  kFirmwareEmpty = 482,
+  kFirmwareTooLarge = 483,
+  kFirmwareForeign = 484,  ///< does not begin as firmware does
+  kFirmwareUnknown = 485,  ///< W: begins right, but is none of the known files
+  kNeedsRealTime = 486,
+  kNoFalcon = 487,
+  kWhichFalcon = 488,
+  kMayNotOpen = 489,
+  kHeld = 490,
+  kUsbFails = 491,
+  kNoFirmwareNamed = 492,
+  kLoaderSilent = 493,
+  kEchoWrong = 494,
+  kFirmwareDead = 495,
+  kNotHomed = 496,
+  kGone = 497,
 };
 
 Code codeOf(UsbProblem problem);

@@ -70,8 +70,10 @@ std::vector<DeviceFinding> diagnose(const DeviceBinding& binding) {
   UsbFailure failure;
   failure.present = listFalcons(failure);
   if (failure.problem == UsbProblem::kNone && failure.present.empty()) failure.problem = UsbProblem::kNoDevice;
+  // where no rig asks for one, none is no problem
   if (failure.problem != UsbProblem::kNone)
-    findings.push_back({Verdict::kProblem, codeOf(failure.problem), "", describe(failure, wanted), remedy(failure)});
+    findings.push_back({binding.role.empty() ? Verdict::kWarning : Verdict::kProblem, codeOf(failure.problem), "",
+                        describe(failure, wanted), remedy(failure)});
   bool found = wanted.empty() || failure.present.empty();
   for (const UsbFalcon& falcon : failure.present) {
     if (!wanted.empty() && falcon.serial != wanted && falcon.port != wanted && !falcon.serial.empty()) continue;

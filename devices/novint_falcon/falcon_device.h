@@ -39,7 +39,7 @@ class FalconDevice final : public Device {
 /// From the grip in frame D to a finger in the world, and a force back.
 FingerInput fingerOf(const LinkSample& sample, const Pose& X_WD, double scale) noexcept;
 
-/// Over USB: throws with E477..E481.
+/// Over USB: throws with E487..E491.
 std::unique_ptr<FalconTransport> connectOverUsb(const std::string& serial, const SourceLocation& where);
 
 }  // namespace presa::falcon

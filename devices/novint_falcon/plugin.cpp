@@ -2,6 +2,7 @@
 
 #include "devices/novint_falcon/diagnose.h"
 #include "devices/novint_falcon/falcon_device.h"
+#include "devices/novint_falcon/usb_bus.h"
 
 namespace presa {
 namespace {
@@ -14,8 +15,11 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   return std::make_unique<falcon::FalconDevice>(std::move(settings), std::move(connect));
 }
 
-const DevicePlugin kPlugin{
-    .name = "novint_falcon", .summary = "Novint Falcon over USB", .create = create, .diagnose = falcon::diagnose};
+const DevicePlugin kPlugin{.name = "novint_falcon",
+                           .summary = "Novint Falcon over USB",
+                           .create = create,
+                           .diagnose = falcon::diagnose,
+                           .udev_rule = falcon::kUdevRule};
 
 }  // namespace
 }  // namespace presa

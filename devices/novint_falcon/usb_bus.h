@@ -72,7 +72,7 @@ UsbHandle openFalcon(const std::string& serial, UsbFailure& failure);
 std::string describe(const UsbFailure& failure, const std::string& serial);
 std::string remedy(const UsbFailure& failure);
 
-inline constexpr const char* kUdevFile = "/etc/udev/rules.d/60-presa-falcon.rules";
+inline constexpr const char* kUdevFile = "/etc/udev/rules.d/60-presa-novint_falcon.rules";
 inline constexpr const char* kUdevRule =
     R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", MODE="0664", GROUP="plugdev")";
 

@@ -12,7 +12,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 4;
+inline constexpr int kPluginAbi = 5;
 
 struct ModulePlugin {
   int abi = kPluginAbi;
@@ -41,6 +41,8 @@ struct DevicePlugin {
   /// Looks for its hardware and at what may be wrong with it; moves nothing. The binding may be empty: then at every device.
   /// Thread: main; may take a second a device. Null: no hardware.
   std::vector<DeviceFinding> (*diagnose)(const DeviceBinding& binding) = nullptr;
+  /// The line of a udev rule that lets a user open its hardware; null: none needed.
+  const char* udev_rule = nullptr;
 };
 
 }  // namespace presa

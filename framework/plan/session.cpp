@@ -27,9 +27,8 @@ const Table& tableOf(const std::string& plugin, const char* symbol) {
 
 }  // namespace
 
-std::vector<DeviceFinding> diagnoseDevices(const DeviceBinding& binding) {
-  const auto& driver = tableOf<DevicePlugin>(binding.driver, "presaDevicePlugin");
-  return driver.diagnose != nullptr ? driver.diagnose(binding) : std::vector<DeviceFinding>{};
+const DevicePlugin& devicePlugin(const std::string& driver) {
+  return tableOf<DevicePlugin>(driver, "presaDevicePlugin");
 }
 
 DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics) {
@@ -38,7 +37,7 @@ DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diag
     const auto binding = std::find_if(world.rig.devices.begin(), world.rig.devices.end(),
                                       [&](const DeviceBinding& b) { return b.role == planned.role; });
     try {
-      const auto& driver = tableOf<DevicePlugin>(planned.driver, "presaDevicePlugin");
+      const DevicePlugin& driver = devicePlugin(planned.driver);
       if (auto device = driver.create(*binding, world, diagnostics)) devices.push_back(std::move(device));
     } catch (const InputError& error) {
       diagnostics.error(406, binding->where,

@@ -6,11 +6,12 @@
 #include "framework/graph/graph.h"
 #include "framework/monitor/monitor.h"
 #include "framework/plan/plan.h"
-#include "framework/plan/plugin.h"
 #include "framework/plan/view.h"
 #include "framework/record/recording.h"
 
 namespace presa {
+
+struct DevicePlugin;
 
 /// Names and versions of the libraries that the plan's modules work with: "ODE 0.16.2". Loads the plug-ins.
 std::vector<std::string> engineVersions(const Plan& plan);
@@ -55,9 +56,8 @@ class Session {
   View* view_ = nullptr;
 };
 
-/// What that driver finds out about its hardware; empty for a driver that has none. Loads its plug-in and throws InputError when
-/// that cannot be done.
-std::vector<DeviceFinding> diagnoseDevices(const DeviceBinding& binding);
+/// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
+const DevicePlugin& devicePlugin(const std::string& driver);
 
 /// The drivers of a rig, checked but not opened, in the order of the plan. Findings go to `diagnostics`.
 DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics);

@@ -208,7 +208,7 @@ TEST(FalconDevice, RefusesVirtualTime) {
   FalconDevice device(settings, desk.connect());
   const auto [code, text] = refusal(device);
   EXPECT_EQ(code, kNeedsRealTime);
-  EXPECT_NE(text.find("desk.xml:3:1: error[E476]"), std::string::npos) << text;
+  EXPECT_NE(text.find("desk.xml:3:1: error[E486]"), std::string::npos) << text;
   EXPECT_TRUE(desk.falcon.controls.empty());
 }
 

@@ -8,6 +8,7 @@
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/diagnose.h"
 #include "devices/novint_falcon/firmware.h"
+#include "framework/plan/plugin.h"
 #include "framework/plan/session.h"
 #include "framework/scene/load.h"
 
@@ -113,7 +114,7 @@ TEST(FalconDiagnose, EveryProblemComesWithItsRemedy) {
   DeviceBinding binding;
   binding.driver = "novint_falcon";
   binding.settings["firmware"] = {"/nowhere/falcon.bin", {"desk.xml", 2, 5}};
-  const auto findings = diagnoseDevices(binding);
+  const auto findings = devicePlugin("novint_falcon").diagnose(binding);
   ASSERT_GE(findings.size(), 2U);
   EXPECT_EQ(findings[0].code, kFirmwareUnreadable);
   for (const DeviceFinding& finding : findings) {
@@ -124,10 +125,11 @@ TEST(FalconDiagnose, EveryProblemComesWithItsRemedy) {
   }
 }
 
-TEST(FalconDiagnose, ADriverWithoutHardwareHasNothingToSay) {
-  DeviceBinding binding;
-  binding.driver = "scripted";
-  EXPECT_TRUE(diagnoseDevices(binding).empty());
+TEST(FalconDiagnose, ADriverWithoutHardwareIsNotAsked) {
+  EXPECT_EQ(devicePlugin("scripted").diagnose, nullptr);
+  EXPECT_EQ(devicePlugin("scripted").udev_rule, nullptr);
+  EXPECT_STREQ(devicePlugin("novint_falcon").udev_rule,
+               R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", MODE="0664", GROUP="plugdev")");
 }
 
 TEST(FalconPlugin, MakesADeviceFromARig) {

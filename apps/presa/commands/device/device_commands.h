@@ -4,6 +4,9 @@
 namespace presa {
 
 /// `presa device …`, one per subcommand.
+void addDeviceList(CLI::App& app, int& status);
+void addDeviceCheck(CLI::App& app, int& status);
+void addDeviceDoctor(CLI::App& app, int& status);
 void addCharacterise(CLI::App& app, int& status);
 void addCalibrate(CLI::App& app, int& status);
 

@@ -1,0 +1,49 @@
+#include "apps/presa/device/doctor.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/presa/commands/device/device_commands.h"
+#include "apps/presa/terminal/status_line.h"
+
+namespace presa {
+namespace {
+
+struct Arguments {
+  bool install = false;
+  std::string udev = "/etc/udev/rules.d", format = "text";
+};
+
+int doctor(const Arguments& arguments) {
+  const std::vector<std::string> drivers = device::drivers();
+  if (arguments.install) {
+    for (const std::string& file : device::installUdevRules(drivers, arguments.udev))
+      std::fprintf(stderr, "written: %s; plug the device in again\n", file.c_str());
+  }
+  std::vector<device::Report> reports{device::computer(drivers, arguments.udev)};
+  for (const std::string& name : drivers) {
+    DeviceBinding binding;
+    binding.driver = name;
+    reports.push_back(device::ask(binding));
+  }
+  std::fputs((arguments.format == "json" ? device::json(reports) : device::text(reports, wantsColor(stdout))).c_str(),
+             stdout);
+  return device::hasProblem(reports) ? kExitFault : kExitOk;
+}
+
+}  // namespace
+
+void addDeviceDoctor(CLI::App& app, int& status) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("doctor", "What this computer and its devices lack for real time, and how to get it");
+  command->add_flag("--install-udev", arguments->install, "write the rules that let users open devices (as root)");
+  command->add_option("--udev-folder", arguments->udev, "where these rules stand")->capture_default_str();
+  command->add_option("--format", arguments->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command->footer(
+      "Exit status: 0 no problem (there may be warnings), 1 a problem, 2 the rules cannot be written.\n"
+      "Example:  sudo presa device doctor --install-udev");
+  command->callback([arguments, &status] { status = doctor(*arguments); });
+}
+
+}  // namespace presa

@@ -1,0 +1,34 @@
+#include <cstdio>
+#include <memory>
+
+#include "apps/presa/commands/device/device_commands.h"
+#include "apps/presa/device/findings.h"
+#include "apps/presa/terminal/status_line.h"
+
+namespace presa {
+namespace {
+
+int list(const std::vector<std::string>& names, const std::string& format) {
+  std::vector<device::Report> reports;
+  for (const std::string& name : names.empty() ? device::drivers() : names) {
+    DeviceBinding binding;
+    binding.driver = name;
+    reports.push_back(device::ask(binding));
+  }
+  std::fputs((format == "json" ? device::json(reports) : device::text(reports, wantsColor(stdout))).c_str(), stdout);
+  return kExitOk;
+}
+
+}  // namespace
+
+void addDeviceList(CLI::App& app, int& status) {
+  auto names = std::make_shared<std::vector<std::string>>();
+  auto format = std::make_shared<std::string>("text");
+  CLI::App* command = app.add_subcommand("list", "Drivers, and the devices of each that are plugged in");
+  command->add_option("DRIVER", *names, "only these");
+  command->add_option("--format", *format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command->footer("Exit status: 0.\nExample:  presa device list novint_falcon");
+  command->callback([names, format, &status] { status = list(*names, *format); });
+}
+
+}  // namespace presa

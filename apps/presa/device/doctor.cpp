@@ -1,0 +1,113 @@
+#include "apps/presa/device/doctor.h"
+
+#include <grp.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <thread>
+
+#include "apps/presa/atomic_file.h"
+#include "apps/presa/file_text.h"
+#include "framework/diagnostics/refuse.h"
+#include "framework/plan/session.h"
+
+namespace presa::device {
+namespace {
+
+using Verdict = DeviceFinding::Verdict;
+
+constexpr const char* kLimits =
+    "write '@plugdev - rtprio 95' and '@plugdev - memlock unlimited' to "
+    "/etc/security/limits.d/presa.conf, then log in again";
+constexpr const char* kGroup = "plugdev";  // may open USB devices on Debian; the drivers' rules name it
+
+/// On a thread of its own, which it would stay on.
+int priorityRefused() {
+  int refused = 0;
+  std::thread([&refused] {
+    const sched_param param{.sched_priority = 80};
+    refused = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+  }).join();
+  return refused;
+}
+
+int lockRefused() {
+  if (mlockall(MCL_CURRENT) != 0) return errno;
+  munlockall();
+  return 0;
+}
+
+DeviceFinding findingOf(int refused, const std::string& what, const std::string& consequence) {
+  if (refused == 0) return {Verdict::kFine, 0, "", what + " is allowed", ""};
+  return {Verdict::kWarning, 0, "", what + " is refused (" + std::strerror(refused) + "): " + consequence, kLimits};
+}
+
+bool inGroup(const char* name) {
+  const group* wanted = getgrnam(name);
+  if (wanted == nullptr) return false;
+  std::vector<gid_t> groups(static_cast<std::size_t>(std::max(0, getgroups(0, nullptr))));
+  groups.resize(static_cast<std::size_t>(std::max(0, getgroups(static_cast<int>(groups.size()), groups.data()))));
+  return getegid() == wanted->gr_gid || std::find(groups.begin(), groups.end(), wanted->gr_gid) != groups.end();
+}
+
+struct Rule {
+  std::string driver, file, line;
+};
+
+/// Of the drivers that have one and can be loaded.
+std::vector<Rule> rulesOf(const std::vector<std::string>& of_drivers, const std::string& folder) {
+  std::vector<Rule> rules;
+  for (const std::string& name : of_drivers) {
+    try {
+      if (const char* line = devicePlugin(name).udev_rule)
+        rules.push_back({name, folder + "/60-presa-" + name + ".rules", line});
+    } catch (const InputError&) {  // said where the driver itself is reported
+    }
+  }
+  return rules;
+}
+
+}  // namespace
+
+Report computer(const std::vector<std::string>& of_drivers, const std::string& udev_folder) {
+  Report report{"this computer", "", {}};
+  report.findings.push_back(
+      findingOf(priorityRefused(), "real-time priority (SCHED_FIFO)", "other programs may delay the haptic thread"));
+  report.findings.push_back(findingOf(lockRefused(), "locked memory", "a page fault may delay a tick"));
+  const std::vector<Rule> rules = rulesOf(of_drivers, udev_folder);
+  if (!rules.empty() && geteuid() != 0 && !inGroup(kGroup))
+    report.findings.push_back({Verdict::kWarning, 0, "", std::string("you are not in the group ") + kGroup,
+                               std::string("sudo usermod -aG ") + kGroup + " $USER, then log in again"});
+  for (const Rule& rule : rules) {
+    if (contentsOf(rule.file).find(rule.line) != std::string::npos)
+      report.findings.push_back({Verdict::kFine, 0, "", "the udev rule of " + rule.driver + " is installed", ""});
+    else
+      report.findings.push_back({Verdict::kWarning, 0, "",
+                                 "there is no udev rule of " + rule.driver + " in " + udev_folder,
+                                 "sudo presa device doctor --install-udev"});
+  }
+  return report;
+}
+
+std::vector<std::string> installUdevRules(const std::vector<std::string>& of_drivers, const std::string& udev_folder) {
+  std::vector<std::string> files;
+  for (const Rule& rule : rulesOf(of_drivers, udev_folder)) {
+    try {
+      writeFileAtomically(rule.file, "# lets the group " + std::string(kGroup) +
+                                         " open it; written by presa device doctor\n" + rule.line + "\n");
+    } catch (const std::system_error& error) {
+      refuse(477, rule.file, std::string("the udev rule cannot be written: ") + error.what(),
+             "sudo presa device doctor --install-udev");
+    }
+    files.push_back(rule.file);
+  }
+  return files;
+}
+
+}  // namespace presa::device

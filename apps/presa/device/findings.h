@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/plan/plugin.h"
+
+namespace presa::device {
+
+/// What is known of one driver and its hardware.
+struct Report {
+  std::string name;     ///< of the driver; "this computer"
+  std::string summary;  ///< of the driver; for a device of a rig, its role
+  std::vector<DeviceFinding> findings;
+};
+
+/// Drivers that came with this program.
+std::vector<std::string> drivers();
+
+/// Asks the binding's driver how its hardware is. A driver that cannot be loaded is a finding too.
+Report ask(const DeviceBinding& binding);
+
+bool hasProblem(const std::vector<Report>& reports);
+std::string text(const std::vector<Report>& reports, bool color);
+std::string json(const std::vector<Report>& reports);
+
+}  // namespace presa::device
