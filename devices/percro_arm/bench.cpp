@@ -86,4 +86,23 @@ Push push(const Parameters& parameters, double length, const Vec3& direction, do
   return push;
 }
 
+double wallShake(const Parameters& parameters, double length, const Vec3& direction, double stiffness,
+                 double hand_damping) {
+  constexpr double kLean = 3, kSettle = 3, kWatch = 1;  // [N], [s], [s]
+  SimulatedArm arm(parameters, Vec3::Zero(), kPeriod);
+  arm.place({length, 0, 0});
+  const Vec3 wall = arm.reportedPosition();
+  const TipLoad hand{
+      .mass = 0.1, .stiffness = 300, .damping = hand_damping, .target = wall, .force = kLean * direction};
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int i = 0; i < (kSettle + kWatch) / kPeriod; ++i) {
+    const double depth = std::max(0.0, (arm.reportedPosition() - wall).dot(direction));
+    arm.command(-std::min(stiffness * depth, printed::kPeakForce) * direction);
+    arm.advance(hand);
+    const double at = arm.state().x.dot(direction);
+    if (i * kPeriod >= kSettle) low = std::min(low, at), high = std::max(high, at);
+  }
+  return high - low;
+}
+
 }  // namespace presa::percro

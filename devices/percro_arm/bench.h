@@ -26,4 +26,9 @@ struct Push {
 /// `direction`: in D, unit length.
 Push push(const Parameters& parameters, double length, const Vec3& direction, double most_force);
 
+/// A hand (0.1 kg, 300 N/m) leans with 3 N on a virtual wall of this stiffness, rendered from the encoders at 1 kHz: by how
+/// much the tip still moves to and fro after 3 s [m]. 0: the wall stands.
+double wallShake(const Parameters& parameters, double length, const Vec3& direction, double stiffness,
+                 double hand_damping);
+
 }  // namespace presa::percro

@@ -5,6 +5,7 @@
 #include "devices/percro_arm/bench.h"
 #include "devices/percro_arm/characterise.h"
 #include "devices/percro_arm/reach.h"
+#include "devices/percro_arm/steps.h"
 
 namespace presa::percro {
 namespace {
@@ -54,9 +55,9 @@ void addWorkspace(const Parameters& p, Figures& out) {
   out.push_back(
       atLeast("the same in the reach of both arms, 1.5 m apart", 1, largestCommonScale(g, wide, kApart), "fig. 3"));
   double worst = 0;
-  for (double x = g.length_min; x <= g.length_max; x += 0.01) {
-    for (double y = 0; y <= 0.15; y += 0.01) {
-      for (double z = 0; z <= 0.2; z += 0.01) {
+  for (const double x : steps(g.length_min, g.length_max, 60)) {
+    for (const double y : steps(0, 0.15, 15)) {
+      for (const double z : steps(0, 0.2, 20)) {
         const Joints q = jointsAt(g, {x, y, z});
         if (withinReach(g, q, 1e-9)) worst = std::max(worst, conditionNumber(g, q));
       }
@@ -94,9 +95,7 @@ void addStructure(const Parameters& p, Figures& out) {
 }
 
 void addDynamics(const Parameters& p, Figures& out) {
-  std::vector<double> frequencies;
-  for (double f = 2; f <= 120; f += 2) frequencies.push_back(f);
-  const ForceResponse response = forceResponse(p, frequencies);
+  const ForceResponse response = forceResponse(p, steps(2, 120, 59));
   out.push_back({"force bandwidth along the barrel (-3 dB)", "Hz", printed::kBandwidthLow, printed::kBandwidthHigh,
                  response.bandwidth, 0, Basis::kFitted, "2.1.2, fig. 5; the moving mass is chosen for it"});
   out.push_back(unprinted("resonance on the way", "Hz", response.resonance, Basis::kAssumed,

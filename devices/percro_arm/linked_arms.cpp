@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "devices/percro_arm/steps.h"
+
 namespace presa::percro {
 namespace {
 
@@ -31,7 +33,7 @@ Vec3 linkCentre(const Vec3& p_DT, double link) { return p_DT + link * p_DT.norma
 Vec3 tipOf(const Vec3& p_DC, double link) { return p_DC - link * p_DC.normalized(); }
 
 bool meetAlong(const Geometry& geometry, const Pose& X_AB, const LinkPath& path, double link) {
-  for (double time = 0; time <= path.duration; time += 0.02) {
+  for (const double time : steps(0, path.duration, 1000)) {
     const Vec3 centre = path.at(time);
     for (const Vec3& p_DC : {centre, X_AB.inverseTimes(centre)}) {
       if (!withinReach(geometry, jointsAt(geometry, tipOf(p_DC, link)))) return false;

@@ -6,6 +6,7 @@
 
 #include "devices/percro_arm/characterise.h"
 #include "devices/percro_arm/linked_arms.h"
+#include "devices/percro_arm/steps.h"
 #include "devices/percro_arm/switched_on.h"
 #include "framework/calibration/calibration_plugin.h"
 #include "framework/hand/hand_settings.h"
@@ -110,9 +111,9 @@ std::optional<Pose> readBase(const DeviceBinding& binding, Diagnostics& diagnost
 /// The arm must be able to go where the hand will.
 void checkReach(const DeviceBinding& binding, const Pose& X_WD, const Motion& motion, const percro::Geometry& geometry,
                 Diagnostics& diagnostics) {
-  constexpr double kStep = 0.01;
+  constexpr double kStep = 0.01;  // [s]
   const double end = motion.phase_times.empty() ? 0 : motion.phase_times.back();
-  for (double t = 0; t <= end; t += kStep) {
+  for (const double t : percro::steps(0, end, static_cast<int>(std::ceil(end / kStep)) + 1)) {
     const percro::Joints q = percro::jointsAt(geometry, X_WD.inverseTimes(motion.at(t).p_WT));
     if (percro::withinReach(geometry, q)) continue;
     std::array<char, 200> text;

@@ -3,18 +3,13 @@
 #include "devices/percro_arm/bench.h"
 #include "devices/percro_arm/characterise.h"
 #include "devices/percro_arm/reach.h"
+#include "devices/percro_arm/steps.h"
 
 namespace presa::percro {
 namespace {
 
 constexpr double kMm = 1e3;
 constexpr double kApart = 1.5;  // [m]
-
-std::vector<double> steps(double from, double to, int count) {
-  std::vector<double> values;
-  for (int i = 0; i <= count; ++i) values.push_back(from + (to - from) * i / count);
-  return values;
-}
 
 /// Edge of what an arm reaches in the plane of x and one angle of this range; its axes at x0, facing `side`. In mm.
 PlotLine edgeOf(const Geometry& g, double range, double x0, double side, int color, const std::string& label) {
@@ -188,10 +183,39 @@ DevicePlot force(const Parameters& p) {
           .y_from_zero = true};
 }
 
+DevicePlot wall(const Parameters& p) {
+  constexpr double kHand = 5;  // [N s/m]
+  std::vector<PlotLine> lines;
+  const auto add = [&](const std::string& label, double length, const Vec3& direction) {
+    PlotLine line{.label = label, .color = static_cast<int>(lines.size())};
+    for (const double stiffness : steps(1, 20, 19)) {
+      line.x.push_back(stiffness);
+      line.y.push_back(kMm * wallShake(p, length, direction, 1e3 * stiffness, kHand));
+    }
+    lines.push_back(line);
+  };
+  add("along", 0.75, Vec3::UnitX());
+  for (const double length : {0.5, 0.75, 1.0}) {
+    const std::string millimetres = std::to_string(static_cast<int>(kMm * length));
+    add("across, L = " + millimetres, length, Vec3::UnitY());
+  }
+  return {
+      .name = "wall",
+      .title = "How a virtual wall shakes",
+      .caption =
+          "A hand (0.1 kg, 300 N/m, 5 N s/m: a guess) leans on it with 3 N; motion of the tip from 3 to 4 s. Nothing "
+          "of the kind is printed. The paper's study goes up to 2 N/mm. Drawn out, the bending barrel limits.",
+      .x_label = "stiffness of the wall [N/mm]",
+      .y_label = "to and fro [mm]",
+      .panels = {{"", lines}},
+      .y_from_zero = true};
+}
+
 }  // namespace
 
 std::vector<DevicePlot> plots(const Parameters& p) {
-  return {conditioning(p.geometry), workspace(p.geometry), bandwidth(p), compliance(p), resolution(p), force(p)};
+  return {
+      conditioning(p.geometry), workspace(p.geometry), bandwidth(p), compliance(p), resolution(p), force(p), wall(p)};
 }
 
 }  // namespace presa::percro

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "devices/percro_arm/dynamics.h"
+#include "devices/percro_arm/steps.h"
 
 namespace presa::percro {
 namespace {
@@ -42,7 +43,7 @@ bool reaches(const Geometry& geometry, const ReachBox& box) {
 
 double largestScale(const Geometry& geometry, const Vec3& size) {
   return largest([&](double scale) {
-    for (double near = geometry.length_min; near < geometry.length_max; near += 2e-3) {
+    for (const double near : steps(geometry.length_min, geometry.length_max, 300)) {
       if (reaches(geometry, {scale * size, near})) return true;
     }
     return false;

@@ -9,6 +9,7 @@
 #include "apps/presa/device/characterise.h"
 #include "devices/percro_arm/bench.h"
 #include "devices/percro_arm/reach.h"
+#include "devices/percro_arm/steps.h"
 #include "framework/math/random.h"
 #include "tests/app/support.h"
 
@@ -29,12 +30,24 @@ TEST(PercroBench, ForceResponseIsThatOfTheLinearModel) {
 
 // Twice the moving mass: the band shrinks by the root of two, in the model as in the closed form of a mass on a spring.
 TEST(PercroBench, BandwidthFallsWithTheMovingMass) {
-  std::vector<double> frequencies;
-  for (double f = 2; f <= 120; f += 2) frequencies.push_back(f);
+  const std::vector<double> frequencies = steps(2, 120, 59);
   Parameters heavy = kArm;
   heavy.masses.barrel *= 2;
   const double ratio = forceResponse(kArm, frequencies).bandwidth / forceResponse(heavy, frequencies).bandwidth;
   EXPECT_NEAR(ratio, std::numbers::sqrt2, 0.08);  // damping does not scale with it
+}
+
+// A stiff structure without friction, with fine encoders and quick motors is a mass on a sampled wall: stable below
+// K = 2 b / T [Colgate1997]. At 0.7 of it what the impact left dies as exp(-2.1 t), at 1.3 it grows as fast.
+TEST(PercroBench, AWallOfARigidArmShakesBeyondColgatesBound) {
+  Parameters p = kArm;
+  p.friction = {{0, 0, 0}, {0, 0, 0}};
+  p.structure.axial_stiffness *= 1000;
+  p.motors.counts = 40'000'000;
+  p.motors.current_bandwidth = 1e6;
+  const double hand = 5, bound = 2 * hand / 1e-3;
+  EXPECT_LT(wallShake(p, 0.75, Vec3::UnitX(), 0.7 * bound, hand), 5e-6);
+  EXPECT_GT(wallShake(p, 0.75, Vec3::UnitX(), 1.3 * bound, hand), 100e-6);
 }
 
 // Oracle: the box of 300 x 400 mm whose near face touches L = 441 mm and whose far corners lie at L = 1070 mm.
@@ -106,7 +119,7 @@ TEST(CharacteriseCommand, WritesTableFiguresAndPlots) {
   EXPECT_NE(outcome.out.find("force bandwidth"), std::string::npos);
   const auto json = nlohmann::json::parse(test::shell("cat " + out + "/characteristics.json").out);
   EXPECT_EQ(json["figures"].size(), figures(kArm).size());
-  EXPECT_EQ(json["plots"].size(), 6u);
+  EXPECT_EQ(json["plots"].size(), 7u);
   const std::string page = test::shell("cat " + out + "/report.html").out;
   for (const auto& plot : json["plots"])
     EXPECT_NE(page.find("aria-label=\"" + plot["title"].get<std::string>()), std::string::npos);

@@ -59,25 +59,34 @@ svg::FacetFigure figureOf(const DevicePlot& plot) {
   return figure;
 }
 
+std::string cell(const std::string& text, const std::string& css = {}) {
+  return "<td class=\"" + css + "\">" + escape(text) + "</td>";
+}
+
 std::string figureTable(const Characterisation& c) {
   std::string rows;
   for (const Characteristic& f : c.figures) {
-    const std::string css = !f.compared() ? "words" : f.agrees() ? "words good" : "words bad";
     const std::string unit = f.unit == "1" ? "" : " " + f.unit;
-    rows += "<tr><td class=\"words\">" + escape(f.name) + "</td><td>" +
-            escape(f.compared() ? printedText(f) + unit : "–") + "</td><td>" + escape(numberText(f.here) + unit) +
-            "</td><td class=\"" + css + "\">" + escape(verdictText(f)) + "</td><td class=\"words\">" + escape(f.note) +
-            "</td></tr>\n";
+    rows += "<tr>";
+    rows += cell(f.name, "words");
+    rows += cell(f.compared() ? printedText(f) + unit : "–");
+    rows += cell(numberText(f.here) + unit);
+    rows += cell(verdictText(f), !f.compared() ? "words" : f.agrees() ? "words good" : "words bad");
+    rows += cell(f.note, "words");
+    rows += "</tr>\n";
   }
   return html::table({"figure", "printed", "here", "", "where, and how"}, rows);
 }
 
 std::string assumptionTable(const Characterisation& c) {
   std::string rows;
-  for (const Assumption& a : c.assumptions)
-    rows += "<tr><td class=\"words\">" + escape(a.name) + "</td><td>" +
-            escape(terminal::format("%.4g", a.value) + (a.unit == "1" ? "" : " " + a.unit)) +
-            "</td><td class=\"words\">" + escape(a.origin) + "</td></tr>\n";
+  for (const Assumption& a : c.assumptions) {
+    rows += "<tr>";
+    rows += cell(a.name, "words");
+    rows += cell(terminal::format("%.4g", a.value) + (a.unit == "1" ? "" : " " + a.unit));
+    rows += cell(a.origin, "words");
+    rows += "</tr>\n";
+  }
   return html::table({"number", "value", "where from"}, rows);
 }
 

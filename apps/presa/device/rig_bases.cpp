@@ -25,7 +25,7 @@ Element settingOf(const Element& device, const std::string& key) {
 
 std::vector<double> numbersOf(const Element& device, const std::string& key, std::size_t count) {
   const Element set = settingOf(device, key);
-  const std::vector<double> numbers = set.numbers("value");
+  std::vector<double> numbers = set.numbers("value");
   double size = 0;
   for (const double value : numbers) size += value * value;
   if (numbers.size() == count && (count != 4 || size > 0)) return numbers;

@@ -6,8 +6,13 @@
 namespace presa::html {
 
 inline std::string row(const std::vector<std::string>& cells, const std::string& tag = "td") {
+  const std::string open = "<" + tag + ">", close = "</" + tag + ">";
   std::string out = "<tr>";
-  for (const std::string& cell : cells) out += "<" + tag + ">" + cell + "</" + tag + ">";
+  for (const std::string& cell : cells) {
+    out += open;
+    out += cell;
+    out += close;
+  }
   return out + "</tr>\n";
 }
 
