@@ -11,8 +11,8 @@ namespace {
 
 using Verdict = DeviceFinding::Verdict;
 
-constexpr double kPatience = 1.0;  // [s] for an answer; asking for firmware takes half of it at most
-constexpr std::int64_t kStep_ns = 500'000;
+constexpr double kPatience = 1.0;        // [s] for an answer; asking for firmware takes half of it at most
+constexpr std::int64_t kStep = 500'000;  // [ns]
 
 /// Asks a device how it is, with packets of zero force.
 LinkStatus ask(FalconTransport& transport) {
@@ -25,7 +25,7 @@ LinkStatus ask(FalconTransport& transport) {
     return status.state == LinkState::kDead || status.replies >= FalconLink::kHomedInARow;
   };
   for (std::int64_t wake = start; now < kPatience && !settled();) {
-    sleepUntilNs(wake += kStep_ns);
+    sleepUntilNs(wake += kStep);
     now = static_cast<double>(monotonicNs() - start) * 1e-9;
     link.step(now, {});
   }

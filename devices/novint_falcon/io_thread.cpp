@@ -9,7 +9,7 @@
 namespace presa::falcon {
 namespace {
 
-constexpr std::int64_t kWake_ns = 250'000;
+constexpr std::int64_t kWake = 250'000;  // [ns]
 constexpr int kPriority = 82;        // above the haptic thread (80), which waits for nothing but would run beside it
 constexpr double kFarewell = 20e-3;  // [s] of zero force at the end
 
@@ -52,10 +52,10 @@ void FalconIo::run() noexcept {
   link_.open(0);
   double end = 0;
   for (std::int64_t wake = start;;) {
-    wake += kWake_ns;
+    wake += kWake;
     sleepUntilNs(wake);
     const std::int64_t now = monotonicNs();
-    if (now - wake > kWake_ns) wake = now;  // too late for the next one too: no hurry to catch up
+    if (now - wake > kWake) wake = now;  // too late for the next one too: no hurry to catch up
     if (end == 0 && stop_.load(std::memory_order_relaxed)) {
       link_.release();
       end = seconds(now) + kFarewell;

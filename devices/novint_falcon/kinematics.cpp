@@ -19,7 +19,7 @@ constexpr double kBaseRadius = 0.0400;     // r
 constexpr double kBaseSide = -0.02309;     // s
 
 constexpr double kRadian = std::numbers::pi / 180;
-constexpr std::array<double, 3> kAzimuth_deg{105, -15, -135};
+constexpr std::array<double, 3> kAzimuths{105 * kRadian, -15 * kRadian, -135 * kRadian};
 
 // 320 slots in quadrature per turn of the motor, whose capstan drives a sector
 constexpr double kAnglePerCount = 2 * std::numbers::pi / (320 * 4) * (0.01425 / 0.110);
@@ -32,8 +32,7 @@ constexpr int kMaxHalvings = 12;
 /// The turn from the device's frame into each leg's.
 const std::array<Mat3, 3> kToLeg = [] {
   std::array<Mat3, 3> turns;
-  for (std::size_t i = 0; i < 3; ++i)
-    turns[i] = Eigen::AngleAxisd(-kAzimuth_deg[i] * kRadian, Vec3::UnitZ()).toRotationMatrix();
+  for (std::size_t i = 0; i < 3; ++i) turns[i] = Eigen::AngleAxisd(-kAzimuths[i], Vec3::UnitZ()).toRotationMatrix();
   return turns;
 }();
 
@@ -138,7 +137,7 @@ std::optional<Mat3> inverseJacobian(const Vec3& p_DH) noexcept {
 std::optional<Vec3> direct(const ThighAngles& angles, const Vec3& start) noexcept {
   if (!angles.allFinite()) return {};
   if (start.allFinite()) {
-    if (const auto found = search(angles, start)) return found;
+    if (auto found = search(angles, start)) return found;
   }
   return search(angles, kCentre);
 }

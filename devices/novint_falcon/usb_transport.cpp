@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::uint8_t kIn = 0x81, kOut = 0x02;
 constexpr std::uint8_t kVendorOut = 0x40;
-constexpr unsigned kControlTimeout_ms = 100, kWriteTimeout_ms = 100;
-constexpr int kMaxClosingRounds = 100;  // of 10 ms
+constexpr unsigned kControlTimeout = 100, kWriteTimeout = 100;  // [ms]
+constexpr int kMaxClosingRounds = 100;                          // of 10 ms
 
 }  // namespace
 
 UsbTransport::UsbTransport(UsbHandle handle) : handle_(std::move(handle)) {
   for (auto& slot : in_) slot = makeSlot(kIn, 0);
-  out_ = makeSlot(kOut, kWriteTimeout_ms);
+  out_ = makeSlot(kOut, kWriteTimeout);
   watchForUnplugging();
   keepReading();
 }
@@ -28,14 +28,14 @@ UsbTransport::~UsbTransport() {
   const std::array slots{&in_[0], &in_[1], &out_};
   for (auto* slot : slots)
     if ((*slot)->on_its_way) libusb_cancel_transfer((*slot)->transfer);
-  const auto underWay = [](auto* slot) { return (*slot)->on_its_way; };
-  for (int round = 0; round < kMaxClosingRounds && std::any_of(slots.begin(), slots.end(), underWay); ++round) {
+  const auto under_way = [](auto* slot) { return (*slot)->on_its_way; };
+  for (int round = 0; round < kMaxClosingRounds && std::any_of(slots.begin(), slots.end(), under_way); ++round) {
     timeval wait{.tv_sec = 0, .tv_usec = 10'000};
     libusb_handle_events_timeout_completed(handle_.context(), &wait, nullptr);
   }
   for (auto* slot : slots) {
-    if (underWay(slot))
-      slot->release();  // the bus may still write to it
+    if (under_way(slot))
+      static_cast<void>(slot->release());  // the bus may still write to it
     else
       libusb_free_transfer((*slot)->transfer);
   }
@@ -102,7 +102,7 @@ bool UsbTransport::control(Control control, double) noexcept {
   if (lost_) return false;
   const FtdiRequest request = ftdiRequestOf(control);
   const int result = libusb_control_transfer(handle_.get(), kVendorOut, request.request, request.value, 0, nullptr, 0,
-                                             kControlTimeout_ms);
+                                             kControlTimeout);
   if (result == LIBUSB_ERROR_NO_DEVICE) lost_ = true;
   if (control == Control::kPurgeReceive) {
     handleEvents();

@@ -181,16 +181,16 @@ TEST(FalconDevice, StandsInTheWorldWhereTheRigPutsIt) {
 }
 
 TEST(FalconDevice, TheMiddleButtonIsTheParticipants) {
-  const auto fingerWith = [](int buttons) {
+  const auto finger_with = [](int buttons) {
     LinkSample sample;
     sample.buttons = static_cast<std::uint8_t>(buttons);
     return fingerOf(sample, {}, 1).buttons;
   };
-  EXPECT_EQ(fingerWith(kButtonCentre), 1U);
-  EXPECT_EQ(fingerWith(kButtonForward), 2U);
-  EXPECT_EQ(fingerWith(kButtonPlus), 4U);
-  EXPECT_EQ(fingerWith(kButtonMinus), 8U);
-  EXPECT_EQ(fingerWith(0), 0U);
+  EXPECT_EQ(finger_with(kButtonCentre), 1U);
+  EXPECT_EQ(finger_with(kButtonForward), 2U);
+  EXPECT_EQ(finger_with(kButtonPlus), 4U);
+  EXPECT_EQ(finger_with(kButtonMinus), 8U);
+  EXPECT_EQ(finger_with(0), 0U);
 }
 
 TEST(FalconDevice, VelocityTurnsAndScalesWithThePosition) {

@@ -33,7 +33,7 @@ class HandWrittenFalcon final : public FalconTransport {
     double time = 0;
     Counts force{};
     int light_and_homing = 0;
-    bool wellFormed = false;
+    bool well_formed = false;
     bool zero() const { return force == Counts{}; }
   };
 
@@ -102,9 +102,9 @@ class HandWrittenFalcon final : public FalconTransport {
 
   void onPacket(const Bytes& bytes, double now) {
     Sent packet{.time = now};
-    packet.wellFormed = bytes.size() == 16 && bytes[0] == '<' && bytes[15] == '>' && bytes[14] == 'A' &&
-                        std::all_of(bytes.begin() + 1, bytes.begin() + 14, [](int b) { return b >= 'A' && b <= 'P'; });
-    if (packet.wellFormed) {
+    packet.well_formed = bytes.size() == 16 && bytes[0] == '<' && bytes[15] == '>' && bytes[14] == 'A' &&
+                         std::all_of(bytes.begin() + 1, bytes.begin() + 14, [](int b) { return b >= 'A' && b <= 'P'; });
+    if (packet.well_formed) {
       packet.force = {valueAt(bytes, 1), valueAt(bytes, 5), valueAt(bytes, 9)};
       packet.light_and_homing = bytes[13] - 'A';
     }

@@ -91,7 +91,7 @@ TEST(FalconLink, EveryRequestAsksForHoming) {
   bench.link.release();
   bench.ticks(5);
   for (const auto& sent : bench.falcon.sent) {
-    ASSERT_TRUE(sent.wellFormed);
+    ASSERT_TRUE(sent.well_formed);
     ASSERT_TRUE(sent.light_and_homing & kHomingBit);
   }
 }
@@ -431,7 +431,7 @@ TEST(FalconLink, AtTheWireTheInvariantsHoldWhateverGoesWrong) {
     bench.tick();
     const LinkState state = bench.link.status().state;
     for (const auto& sent : bench.falcon.sent) {
-      ASSERT_TRUE(sent.wellFormed && (sent.light_and_homing & kHomingBit));
+      ASSERT_TRUE(sent.well_formed && (sent.light_and_homing & kHomingBit));
       for (const std::int32_t counts : sent.force) ASSERT_LE(std::abs(counts), kMaxCounts);
       ASSERT_TRUE(state == LinkState::kOperating || sent.zero()) << i;
       pushed += sent.zero() ? 0 : 1;

@@ -38,7 +38,7 @@ struct Started {
 };
 
 bool allZero(const HandWrittenFalcon& falcon) {
-  return std::all_of(falcon.sent.begin(), falcon.sent.end(), [](const auto& s) { return s.wellFormed && s.zero(); });
+  return std::all_of(falcon.sent.begin(), falcon.sent.end(), [](const auto& s) { return s.well_formed && s.zero(); });
 }
 
 // The numbers of the converter's requests; bmRequestType 0x40 and wIndex 0 belong to all of them.

@@ -14,6 +14,7 @@
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/file_text.h"
+#include "apps/presa/terminal/text.h"
 #include "framework/diagnostics/refuse.h"
 #include "framework/plan/session.h"
 
@@ -66,7 +67,7 @@ std::vector<Rule> rulesOf(const std::vector<std::string>& of_drivers, const std:
   for (const std::string& name : of_drivers) {
     try {
       if (const char* line = devicePlugin(name).udev_rule)
-        rules.push_back({name, folder + "/60-presa-" + name + ".rules", line});
+        rules.push_back({name, terminal::format("%s/60-presa-%s.rules", folder.c_str(), name.c_str()), line});
     } catch (const InputError&) {  // said where the driver itself is reported
     }
   }
