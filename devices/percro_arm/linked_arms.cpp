@@ -47,17 +47,17 @@ std::vector<LinkedSample> moveLinked(const Parameters& parameters, const Vec3& g
   const std::array<Pose, 2> base{Pose{}, X_AB};  // in A
   std::array<SimulatedArm, 2> arms{SimulatedArm(parameters, gravity_A, kPeriod),
                                    SimulatedArm(parameters, X_AB.q.conjugate() * gravity_A, kPeriod)};
-  const auto tipAt = [&](std::size_t i, double time) { return tipOf(base[i].inverseTimes(path.at(time)), link); };
+  const auto tip_at = [&](std::size_t i, double time) { return tipOf(base[i].inverseTimes(path.at(time)), link); };
   for (std::size_t i = 0; i < 2; ++i) {
     arms[i].encoders().setZero(zero_errors[i]);
-    arms[i].place(tipAt(i, 0));
+    arms[i].place(tip_at(i, 0));
   }
   std::vector<LinkedSample> samples;
   const int ticks = static_cast<int>(std::lround(path.duration / kPeriod));
   for (int tick = 1; tick <= ticks; ++tick) {
     const double time = tick * kPeriod;
     for (std::size_t i = 0; i < 2; ++i) {
-      const Vec3 target = tipAt(i, time), before = tipAt(i, time - kPeriod);
+      const Vec3 target = tip_at(i, time), before = tip_at(i, time - kPeriod);
       arms[i].command(Vec3::Zero());
       arms[i].advance({.mass = kMass,
                        .stiffness = kStiffness,

@@ -32,7 +32,7 @@ double MotorDrive::command(const Vec3& carried, const Vec3& wanted) noexcept {
 Vec3 MotorDrive::step(double h) noexcept {
   const double turns = 2 * std::numbers::pi * motors_.current_bandwidth * h;
   const double keep = std::exp(-turns), mean_of_rest = (1 - keep) / turns;
-  const Vec3 mean = command_ + mean_of_rest * (torque_ - command_);
+  Vec3 mean = command_ + mean_of_rest * (torque_ - command_);
   torque_ = command_ + keep * (torque_ - command_);
   const double warm = 1 - std::exp(-h / motors_.thermal_time);
   heat_ += warm * ((mean / motors_.continuous_torque).cwiseAbs2() - heat_);

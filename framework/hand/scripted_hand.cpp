@@ -13,8 +13,8 @@ constexpr double kMaxCorrection = 20;  // [N] either may reach
 
 MotionTarget ScriptedHand::live(double time, double period, const Vec3& p_WH, const Vec3& felt, Vec3& force) noexcept {
   // the target in the middle of the coming period: second-order accurate under zero-order hold
-  const MotionTarget target = motion_->at(time + period / 2);
-  const Vec3& inward = target.inward_W;
+  MotionTarget target = motion_->at(time + period / 2);
+  const Vec3 inward = target.inward_W;
   const bool gripping = inward.squaredNorm() > 0;
 
   Vec3 lag = target.p_WT - p_WH;

@@ -8,6 +8,7 @@
 #include "apps/presa/device/samples_file.h"
 #include "devices/percro_arm/encoders.h"
 #include "devices/percro_arm/linked_arms.h"
+#include "devices/percro_arm/steps.h"
 #include "framework/scene/load.h"
 #include "tests/app/support.h"
 
@@ -40,7 +41,7 @@ std::vector<LinkedSample> counted(const Pose& X_AB, const LinkPath& path) {
     encoders.sample(jointsAt(kArm.geometry, tipOf(p_DC, kLink)));
     return linkCentre(tipPosition(kArm.geometry, encoders.joints()), kLink);
   };
-  for (double t = 0; t < path.duration; t += 0.02)
+  for (const double t : steps(0, path.duration, 1000))
     samples.push_back({report(a, path.at(t)), report(b, X_AB.inverseTimes(path.at(t)))});
   return samples;
 }
