@@ -137,6 +137,21 @@ TEST(FalconLoader, AnEchoOfAnotherLengthIsWrong) {
   }
 }
 
+// Even the very byte that would come next is no echo before it was sent.
+TEST(FalconLoader, AnEchoOfWhatWasNotSentYetIsWrong) {
+  HandWrittenFalcon falcon;
+  falcon.loaded = false;
+  const Bytes firmware = someFirmware(300);
+  falcon.garble = [&](int, std::size_t at, Bytes echo) {
+    if (at == 62) echo.push_back(firmware[124]);
+    return echo;
+  };
+  Started start(falcon, firmware);
+  EXPECT_EQ(start.run(), Result::kFailed);
+  EXPECT_EQ(start.loader.fault(), LinkFault::kEchoMismatch);
+  EXPECT_EQ(start.loader.report().bytes, 124U);
+}
+
 TEST(FalconLoader, ADeafLoaderIsGreetedAHundredTimes) {
   for (const int deaf : {99, 100}) {
     HandWrittenFalcon falcon;
