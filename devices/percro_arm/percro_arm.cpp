@@ -26,6 +26,7 @@ class PercroArm final : public Device {
       : X_WD_(X_WD),
         hand_(std::move(settings.motion), settings.impedance.stiffness),
         impedance_(settings.impedance),
+        lost_at_(settings.lost_at),
         arm_(parameters, X_WD.q.conjugate() * kGravity_W, period),
         notes_(std::move(settings.notes)) {
     arm_.place(X_WD_.inverseTimes(hand_.motion().at(0).p_WT));
@@ -34,7 +35,7 @@ class PercroArm final : public Device {
   FingerInput read(const Tick& tick) noexcept override {
     advance(tick);
     return {X_WD_ * arm_.reportedPosition(), X_WD_.q * arm_.reportedVelocity(), hand_.motion().at(tick.time).phase,
-            true};
+            tick.time < lost_at_};
   }
 
   void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
@@ -73,6 +74,7 @@ class PercroArm final : public Device {
   Pose X_WD_;
   ScriptedHand hand_;
   FingerImpedance impedance_;
+  double lost_at_;
   percro::SimulatedArm arm_;
   std::vector<std::string> notes_;
   Tick at_;  // where the arm is

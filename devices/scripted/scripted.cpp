@@ -15,13 +15,14 @@ class ScriptedFinger final : public Device {
       : hand_(std::move(settings.motion), settings.impedance.stiffness),
         damping_(settings.impedance.damping),
         plant_(settings.impedance, period),
+        lost_at_(settings.lost_at),
         notes_(std::move(settings.notes)) {
     plant_.reset(hand_.motion().at(0).p_WT);
   }
 
   FingerInput read(const Tick& tick) noexcept override {
     advance(tick);
-    return {plant_.position(), plant_.velocity(), hand_.motion().at(tick.time).phase, true};
+    return {plant_.position(), plant_.velocity(), hand_.motion().at(tick.time).phase, tick.time < lost_at_};
   }
 
   void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
@@ -49,6 +50,7 @@ class ScriptedFinger final : public Device {
   ScriptedHand hand_;
   double damping_;
   FingerPlant plant_;
+  double lost_at_;
   std::vector<std::string> notes_;
   Tick at_;                    // where the plant is
   Vec3 force_ = Vec3::Zero();  // [N] held by the device since the last write

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "framework/hand/finger_plant.h"
 #include "framework/schedule/rates.h"
@@ -78,7 +79,7 @@ std::string settleDamping(const std::string& role, const World& world, double ca
 }  // namespace
 
 const std::vector<std::string>& handKeys() {
-  static const std::vector<std::string> keys{"motion", "side", "mass", "stiffness", "damping"};
+  static const std::vector<std::string> keys{"motion", "side", "mass", "stiffness", "damping", "lost_at"};
   return keys;
 }
 
@@ -102,6 +103,7 @@ HandSettings readHand(const DeviceBinding& binding, const World& world, double c
   hand.impedance.mass = positive(binding.settings, "mass", hand.impedance.mass, diagnostics);
   hand.impedance.stiffness = positive(binding.settings, "stiffness", hand.impedance.stiffness, diagnostics);
   hand.impedance.damping = positive(binding.settings, "damping", hand.impedance.damping, diagnostics);
+  hand.lost_at = positive(binding.settings, "lost_at", std::numeric_limits<double>::infinity(), diagnostics);
   if (diagnostics.errorCount() > before)
     hand.motion = nullptr;
   else

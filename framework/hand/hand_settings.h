@@ -8,7 +8,7 @@
 
 namespace presa {
 
-/// The settings by which a rig describes a simulated hand: motion, side, mass, stiffness, damping.
+/// The settings by which a rig describes a simulated hand: motion, side, mass, stiffness, damping, lost_at.
 const std::vector<std::string>& handKeys();
 
 /// A setting that the driver does not know is an error E401.
@@ -18,6 +18,7 @@ void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::
 struct HandSettings {
   std::unique_ptr<Motion> motion;
   FingerImpedance impedance;       ///< damping chosen
+  double lost_at = 0;              ///< from then on the device gives no sample [s]; infinity: never
   std::vector<std::string> notes;  ///< the damping, and what the contacts ask for
 };
 /// Reads them; all findings go to `diagnostics` (E402 to E404 and those of the motion's file), motion is null when any is an

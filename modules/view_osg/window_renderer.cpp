@@ -1,14 +1,13 @@
 #include <cmath>
-#include <cstdlib>
 #include <osgGA/GUIEventHandler>
 #include <osgGA/OrbitManipulator>
 #include <osgViewer/Viewer>
 #include <stdexcept>
-#include <string_view>
 
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/renderer.h"
+#include "modules/view_osg/window_context.h"
 
 namespace presa::view {
 namespace {
@@ -52,64 +51,10 @@ class Keys : public osgGA::GUIEventHandler {
   Picture& picture_;
 };
 
-osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, unsigned samples) {
-  osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
-  traits->readDISPLAY();
-  traits->x = traits->y = 40;
-  traits->width = kWidth;
-  traits->height = kHeight;
-  traits->windowDecoration = true;
-  traits->doubleBuffer = true;
-  traits->depth = 24;
-  traits->samples = samples;
-  traits->windowName = title;
-  const osg::ref_ptr<osg::GraphicsContext> window = osg::GraphicsContext::createGraphicsContext(traits);
-  return window && window->valid() ? window : nullptr;
-}
-
-/// Mesa draws on the processor.
-bool isSoftware(osg::GraphicsContext& window) {
-  if (!window.realize() || !window.makeCurrent()) return false;
-  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string_view renderer = name ? name : "";
-  window.releaseContext();
-  return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
-}
-
-struct Window {
-  osg::ref_ptr<osg::GraphicsContext> context;
-  bool software = false;
-};
-
-std::string whyNoWindow() {
-  const char* display = std::getenv("DISPLAY");
-  if (!display) return "DISPLAY is not set";
-  osg::GraphicsContext::ScreenIdentifier screen;
-  screen.readDISPLAY();
-  auto* system = osg::GraphicsContext::getWindowingSystemInterface();
-  return (system && system->getNumScreens(screen) > 0 ? "no OpenGL window can be opened on display "
-                                                      : "no X server answers on display ") +
-         std::string(display);
-}
-
-/// Smooth edges where a graphics card pays for them and the X server has such a visual.
-/// The plain window stays open until the smooth one is: an X server resets when its last client leaves and drops
-/// whoever connects meanwhile.
-Window openWindow(const std::string& title) {
-  Window plain{createWindow(title, 0)};
-  if (!plain.context) throw std::runtime_error(whyNoWindow());
-  plain.software = isSoftware(*plain.context);
-  if (plain.software) return plain;
-  const osg::ref_ptr<osg::GraphicsContext> smooth = createWindow(title, 4);
-  if (!smooth || !smooth->realize()) return plain;
-  plain.context->close();
-  return {smooth, false};
-}
-
 class WindowRenderer final : public Renderer {
  public:
   WindowRenderer(Picture& picture, const std::string& title) : picture_(picture), keys_(new Keys(picture)) {
-    const Window window = openWindow(title);
+    const WindowContext window = openWindow(title, kWidth, kHeight);
     window_ = window.context;
     if (window.software) picture.lighting().setQuality(kQuickLight);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);

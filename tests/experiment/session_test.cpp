@@ -220,6 +220,29 @@ TEST_F(SessionTest, ControlCKeepsWhatIsThere) {
   EXPECT_TRUE(logOf(data).complete);
 }
 
+// A finger's device falls silent while it lifts: the trial is marked and comes again, the message says which finger.
+TEST_F(SessionTest, ALostDeviceEndsTheTrial) {
+  const std::string rig = scratch.file("rig.xml"), data = scratch.file("data");
+  const std::string motion = std::string(PRESA_SOURCE_DIR) + "/config/motions/pinch_cube.xml";
+  std::ofstream(rig) << "<rig version=\"1.0\" name=\"desk\">\n"
+                     << "<device role=\"thumb\" driver=\"scripted\"><set key=\"motion\" value=\"" << motion
+                     << "\"/></device>\n<device role=\"index\" driver=\"scripted\"><set key=\"motion\" value=\""
+                     << motion << "\"/><set key=\"lost_at\" value=\"2.5\"/></device>\n</rig>\n";
+  std::vector<std::string> arguments = runArguments(data);
+  arguments.insert(arguments.end(), {"--rig", rig});
+  EXPECT_EQ(program(arguments), 1);
+  EXPECT_THAT(output, HasSubstr("the device of 'index' gave no sample any more"));
+  EXPECT_THAT(output, HasSubstr("the trial is marked and comes again: presa experiment resume"));
+  const SessionLog log = logOf(data);
+  ASSERT_EQ(log.runs.size(), 1U);
+  EXPECT_EQ(log.runs[0].outcome, Outcome::kInterrupted);
+  EXPECT_NEAR(log.runs[0].end["values"]["device_lost_s"].get<double>(), 0.1, 0.002);
+  EXPECT_FALSE(log.complete);
+  EXPECT_EQ(program({"experiment", "resume", data}), 1);  // nobody has mended it: the same trial, in a second run
+  ASSERT_EQ(logOf(data).runs.size(), 2U);
+  EXPECT_EQ(logOf(data).runs[0].end, log.runs[0].end);
+}
+
 TEST_F(SessionTest, ValidateFindsWhatWasTouched) {
   const std::string data = scratch.file("data");
   ASSERT_EQ(program(runArguments(data)), 0);

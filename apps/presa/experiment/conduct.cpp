@@ -1,7 +1,8 @@
 #include "apps/presa/experiment/conduct.h"
 
-#include <chrono>
-#include <thread>
+#include <algorithm>
+
+#include "framework/schedule/clock.h"
 
 namespace presa::experiment {
 namespace {
@@ -26,7 +27,7 @@ class Conductor {
  private:
   bool presentAll() {
     for (const Presentation& presentation : presentationsOf(experiment_, trial_)) {
-      if (!result_.presented.empty()) pause();
+      if (!result_.presented.empty() && !pause()) return false;
       if (!show(presentation)) return false;
     }
     return true;
@@ -38,8 +39,7 @@ class Conductor {
     psychophysics::Adjuster adjuster(plan, trial_.stimulus->level);
     const Presentation standard = presentationsOf(experiment_, trial_).front();
     for (int round = 1; round <= static_cast<int>(experiment_.procedure->rounds); ++round) {
-      if (!show(standard)) return false;
-      pause();
+      if (!show(standard) || !pause()) return false;
       if (!show(comparisonAt(experiment_, trial_, adjuster.level()))) return false;
       const auto key = respondent_->adjust(trial_, *(result_.presented.end() - 2), result_.presented.back(), round);
       if (!key) {
@@ -66,8 +66,19 @@ class Conductor {
     return shown.state == Trial::State::kDone && shown.faults.empty();
   }
 
-  void pause() const {
-    if (setting_.realtime) std::this_thread::sleep_for(std::chrono::duration<double>(experiment_.procedure->gap));
+  /// The gap between two presentations. False: the operator ended the trial in it.
+  bool pause() {
+    if (!setting_.realtime) return true;
+    const std::int64_t until = monotonicNs() + static_cast<std::int64_t>(experiment_.procedure->gap * 1e9);
+    for (std::int64_t now = monotonicNs(); now < until; now = monotonicNs()) {
+      sleepUntilNs(std::min(until, now + 20'000'000));
+      if (setting_.on_time) setting_.on_time(result_.presented.back().simulated_seconds);
+      if (setting_.stop && setting_.stop()) {
+        result_.unanswered = true;
+        return false;
+      }
+    }
+    return true;
   }
 
   Conducted judged() {

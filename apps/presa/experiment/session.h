@@ -19,7 +19,7 @@ class SubjectSession {
   static SubjectSession resume(const Experiment& experiment, const SessionFolder& folder);
 
   enum class End { kComplete, kStopped, kFault };
-  /// Runs what is left. kStopped: Ctrl-C; kFault: dynamics or recording failed, see fault(). The trial that was going on is marked
+  /// Runs what is left. kStopped: Ctrl-C; kFault: a device, dynamics or recording failed, see fault(). The trial that was going on is marked
   /// and comes again after resume.
   /// Throws std::system_error when the disk fails, what was logged before stays whole; InputError E928 when trials ask a question that
   /// nobody can answer. `language`: of the texts that are shown.

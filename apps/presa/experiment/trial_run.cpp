@@ -90,6 +90,11 @@ class TrialRun {
     TrialResult result;
     result.stopped = stopped_ && trial_.state() == Trial::State::kRunning;
     if (result.stopped) trial_.abort(tap_->time(), "stopped by the operator");
+    if (const int finger = tap_->lostFinger(); finger >= 0 && trial_.state() == Trial::State::kRunning) {
+      result.faults.push_back("the device of '" + world_->scene.devices[static_cast<std::size_t>(finger)].role +
+                              "' gave no sample any more");
+      trial_.abort(tap_->time(), result.faults.back());
+    }
     trial_.abort(tap_->time(), "the run ended before the trial");
     const GroupTiming& haptic = executor_->timing(RateGroup::kHaptic);
     result.ticks = haptic.ticks;

@@ -29,7 +29,7 @@ struct TrialResult {
   std::string excluded;        ///< rule that holds; empty: it counts
   double simulated_seconds = 0, wall_seconds = 0;
   std::uint64_t ticks = 0, missed = 0;  ///< of the haptic group
-  std::vector<std::string> faults;      ///< of dynamics and recording
+  std::vector<std::string> faults;      ///< of devices, dynamics and recording
   std::vector<DeviceFact> facts;        ///< of a simulated subject, drawn for this run
 };
 

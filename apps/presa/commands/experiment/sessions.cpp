@@ -44,6 +44,7 @@ int dryRun(const Arguments& a) {
 
 /// On a terminal a session in real time is watched, and one that nobody has to answer runs by itself elsewhere.
 std::unique_ptr<Operator> operatorFor(const SubjectSession& session, const std::string& kind) {
+  if (kind == "window") return windowOperator();
   const bool watched = kind == "terminal" || (kind == "auto" && session.start().realtime &&
                                               ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0);
   return watched ? terminalOperator() : silentOperator(session.trials().left());
@@ -145,8 +146,8 @@ void addWho(CLI::App& command, Arguments& a) {
 }
 
 void addOperator(CLI::App& command, OperatorChoice& choice) {
-  command.add_option("--operator", choice.kind, "what the operator sees: auto, terminal or none")
-      ->check(CLI::IsMember({"auto", "terminal", "none"}))
+  command.add_option("--operator", choice.kind, "where the operator sees the session: auto, terminal, window or none")
+      ->check(CLI::IsMember({"auto", "terminal", "window", "none"}))
       ->capture_default_str();
   command.add_option("--language", choice.language, "of the texts for the participant")->capture_default_str();
 }

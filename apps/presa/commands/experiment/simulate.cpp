@@ -72,7 +72,7 @@ void addSimulate(CLI::App& app, int& status) {
   CLI::App* command =
       app.add_subcommand("simulate", "Many studies with simulated subjects: what to expect before any person comes");
   command->add_option("EXPERIMENT", plan->experiment_file, "experiment file")->required()->check(CLI::ExistingFile);
-  command->add_option("--subjects", plan->subjects, "in each study")->check(CLI::Range(1, 99))->capture_default_str();
+  command->add_option("--subjects", plan->subjects, "in each study")->check(CLI::Range(1, 999))->capture_default_str();
   command
       ->add_option("--seeds", plan->studies,
                    "studies; the first has the experiment's own seed, the next those after it")

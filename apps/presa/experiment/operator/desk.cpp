@@ -41,9 +41,8 @@ Desk::Desk(const Experiment& experiment, const SessionStart& start, std::string 
 
 double Desk::secondsLeft(double time) const {
   const auto left = static_cast<double>(view_.left);
-  if (start_.realtime) return left * least_ - time;
-  if (ended_ == 0) return -1;
-  return static_cast<double>(monotonicNs() - begin_ns_) * 1e-9 / static_cast<double>(ended_) * left;
+  if (ended_ > 0) return std::max(0.0, left * each_ - (start_.realtime ? time : 0));
+  return start_.realtime ? left * least_ - time : -1;
 }
 
 bool Desk::welcome() {
@@ -104,6 +103,7 @@ void Desk::take() {
 
 bool Desk::between(const std::string& what, const TrialSource& source) {
   ++ended_;
+  each_ = static_cast<double>(monotonicNs() - begin_ns_) * 1e-9 / static_cast<double>(ended_);
   person_.ended(what);
   view_.last = what;
   view_.done = source.done();

@@ -37,5 +37,7 @@ class Operator {
 std::unique_ptr<Operator> silentOperator(std::size_t jobs);
 /// The whole screen of a terminal, with keys. E953 when there is none.
 std::unique_ptr<Operator> terminalOperator();
+/// The same in a window of its own, for a second screen. E703 without a display.
+std::unique_ptr<Operator> windowOperator();
 
 }  // namespace presa::experiment

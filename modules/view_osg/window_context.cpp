@@ -1,0 +1,60 @@
+#include "modules/view_osg/window_context.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+
+namespace presa::view {
+namespace {
+
+osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, int width, int height, unsigned samples) {
+  osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+  traits->readDISPLAY();
+  traits->x = traits->y = 40;
+  traits->width = width;
+  traits->height = height;
+  traits->windowDecoration = true;
+  traits->doubleBuffer = true;
+  traits->depth = 24;
+  traits->samples = samples;
+  traits->windowName = title;
+  const osg::ref_ptr<osg::GraphicsContext> window = osg::GraphicsContext::createGraphicsContext(traits);
+  return window && window->valid() ? window : nullptr;
+}
+
+/// Mesa draws on the processor.
+bool isSoftware(osg::GraphicsContext& window) {
+  if (!window.realize() || !window.makeCurrent()) return false;
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view renderer = name ? name : "";
+  window.releaseContext();
+  return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
+}
+
+std::string whyNoWindow() {
+  const char* display = std::getenv("DISPLAY");
+  if (!display) return "DISPLAY is not set";
+  osg::GraphicsContext::ScreenIdentifier screen;
+  screen.readDISPLAY();
+  auto* system = osg::GraphicsContext::getWindowingSystemInterface();
+  return (system && system->getNumScreens(screen) > 0 ? "no OpenGL window can be opened on display "
+                                                      : "no X server answers on display ") +
+         std::string(display);
+}
+
+}  // namespace
+
+// The plain window stays open until the smooth one is: an X server resets when its last client leaves and drops
+// whoever connects meanwhile.
+WindowContext openWindow(const std::string& title, int width, int height) {
+  WindowContext plain{createWindow(title, width, height, 0)};
+  if (!plain.context) throw std::runtime_error(whyNoWindow());
+  plain.software = isSoftware(*plain.context);
+  if (plain.software) return plain;
+  const osg::ref_ptr<osg::GraphicsContext> smooth = createWindow(title, width, height, 4);
+  if (!smooth || !smooth->realize()) return plain;
+  plain.context->close();
+  return {smooth, false};
+}
+
+}  // namespace presa::view
