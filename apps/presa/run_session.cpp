@@ -105,6 +105,7 @@ Run::Run(const Loaded& loaded, Settings settings)
     }
     view->setTimings(timings);
   }
+  for (const std::string& note : session_->notes()) result_.notes.push_back(note);
   for (const auto& device : session_->devices()) {
     for (const std::string& note : device->notes()) result_.notes.push_back(note);
   }
@@ -126,14 +127,13 @@ void Run::poll() {
   FaultEvent event;
   while (session_->output() != nullptr && session_->output()->nextEvent(event)) {
     const std::string role = loaded_.world->scene.devices[static_cast<std::size_t>(event.finger)].role;
-    if ((event.status & kOutputNotFinite) != 0) {
-      result_.faults.push_back({event.time, role + ": the commanded force was not a number; forces faded to zero"});
-    }
+    if (const char* fault = latchedFault(event.status))
+      result_.faults.push_back({event.time, role + ": " + fault + "; the force went to zero and stays there"});
     if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
       if (++watchdog_trips_ > kTripsTold) continue;
       std::array<char, 160> text;
       std::snprintf(text.data(), text.size(),
-                    "%.3f s: %s: contact information was too old, force faded until it came back", event.time,
+                    "%.3f s: %s: no sample, or contact information too old: force off until it came back", event.time,
                     role.c_str());
       result_.notes.emplace_back(text.data());
     }

@@ -52,5 +52,6 @@ function(presa_test name)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE presa_framework ${ARG_LIBRARIES} GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE PRESA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PRESA_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name})
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name}
+    ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
 endfunction()

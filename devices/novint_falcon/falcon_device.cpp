@@ -45,6 +45,7 @@ FingerInput fingerOf(const LinkSample& sample, const Pose& X_WD, double scale) n
   finger.p_WH = X_WD * Vec3(scale * sample.p_DH);
   finger.v_WH = X_WD.q * Vec3(scale * sample.v_DH);
   finger.valid = sample.valid;
+  finger.lost = sample.lost;
   finger.buttons = fingerButtons(sample.buttons);
   return finger;
 }

@@ -25,8 +25,7 @@ class FalconDevice final : public Device {
 
   /// Main thread: what the link is in.
   LinkStatus status() { return io_ ? io_->status() : LinkStatus{}; }
-  /// Main thread: out of a latched fault, once the user has been told.
-  void rearm() {
+  void rearm() noexcept override {
     if (io_) io_->rearm();
   }
 

@@ -39,6 +39,7 @@ void FalconLink::rearm() noexcept {
   state_ = LinkState::kHoming;
   fault_ = LinkFault::kNone;
   homed_in_a_row_ = 0;
+  sample_.lost = false;
 }
 
 void FalconLink::release() noexcept {
@@ -121,6 +122,7 @@ void FalconLink::latch(LinkFault fault) noexcept {
   fault_ = fault;
   forces_.cut();
   sample_.valid = false;
+  sample_.lost = true;
 }
 
 void FalconLink::die(LinkFault fault) noexcept {

@@ -30,6 +30,7 @@ struct LinkSample {
   Vec3 p_DH = Vec3::Zero(), v_DH = Vec3::Zero();  ///< [m], [m/s]
   std::uint8_t buttons = 0;                       ///< Button bits
   bool valid = false;                             ///< homed, in operation, and young enough
+  bool lost = false;                              ///< a latched fault: nothing comes before a re-arm
 };
 
 /// What is known of the link itself.

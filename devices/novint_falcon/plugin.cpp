@@ -19,7 +19,8 @@ const DevicePlugin kPlugin{.name = "novint_falcon",
                            .summary = "Novint Falcon over USB",
                            .create = create,
                            .diagnose = falcon::diagnose,
-                           .udev_rule = falcon::kUdevRule};
+                           .udev_rule = falcon::kUdevRule,
+                           .rating = {.force = 8, .speed = 1}};  // no continuous rating is known of it
 
 }  // namespace
 }  // namespace presa

@@ -2,26 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
+
+#include "framework/study/experiment_file.h"
 
 namespace presa::stability {
-namespace {
-
-namespace fs = std::filesystem;
-
-std::vector<fs::path> candidates() {
-  std::vector<fs::path> folders;
-  if (const char* named = std::getenv("PRESA_EXPERIMENTS")) folders.emplace_back(named);
-  std::error_code ignored;
-  fs::path up = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (int level = 0; level < 5 && !up.empty(); ++level, up = up.parent_path()) folders.push_back(up / "experiments");
-  folders.push_back(fs::current_path(ignored) / "experiments");
-  return folders;
-}
-
-}  // namespace
-
 const char* toString(Verdict verdict) {
   switch (verdict) {
     case Verdict::kStable:
@@ -65,18 +49,7 @@ std::string number(double value) {
   return text;
 }
 
-std::string sceneFile(const std::string& name) {
-  std::string tried;
-  for (const fs::path& folder : candidates()) {
-    const fs::path file = folder / "stability" / "scenes" / name;
-    if (fs::exists(file)) return file.string();
-    tried += (tried.empty() ? "" : ", ") + folder.string();
-  }
-  Diagnostics diagnostics;
-  diagnostics.error(610, {name, 0, 0}, "this scene of the stability cases is not to be found",
-                    "looked in: " + tried + "; PRESA_EXPERIMENTS may name the folder experiments");
-  throw InputError(diagnostics);
-}
+std::string sceneFile(const std::string& name) { return experimentFile("stability/scenes/" + name); }
 
 StudySpec specOf(const std::string& scene, std::vector<std::string> sets, double duration, double trace_rate) {
   StudySpec spec;

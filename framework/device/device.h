@@ -32,6 +32,9 @@ class Device {
   /// Sends the force on the finger, held until the next write [N, world frame].
   virtual void write(const Vec3& f_H_W, const Tick& tick) noexcept = 0;
 
+  /// Somebody has looked and forgives a latched fault: the device may try again. Called before read.
+  virtual void rearm() noexcept {}
+
   /// A simulated hand that looks: asks for the bodies' poses in see(), called before read. No hardware does.
   virtual bool looks() const { return false; }
   virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}

@@ -7,7 +7,7 @@
 namespace presa {
 
 DeviceInput::DeviceInput(DeviceList& devices, const RunControl& control)
-    : Module("device_input", RateGroup::kHaptic), devices_(devices), control_(control) {
+    : Module("device_input", RateGroup::kHaptic), devices_(devices), control_(control), checks_(devices.size()) {
   if (std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device->looks(); }))
     seen_.emplace(*this, "object_state", In<ObjectState>::Optional{});
 }
@@ -20,26 +20,40 @@ void DeviceInput::step(const Tick& tick) noexcept {
   if (seen_ && seen_->hasValue()) {
     for (const auto& device : devices_) device->see(seen_->value(), tick);
   }
-  for (std::size_t f = 0; f < devices_.size(); ++f) state.fingers[f] = devices_[f]->read(tick);
+  const std::uint32_t rearms = control_.rearms.load(std::memory_order_relaxed);
+  for (std::size_t f = 0; f < devices_.size(); ++f) {
+    if (rearms != rearms_) {
+      checks_[f].rearm();
+      devices_[f]->rearm();
+    }
+    state.fingers[f] = checks_[f].take(devices_[f]->read(tick), tick.period);
+  }
+  rearms_ = rearms;
 }
 
-std::vector<std::string> DeviceInput::stages() const { return {"read every device into the Device State"}; }
+std::vector<std::string> DeviceInput::stages() const {
+  return {"read every device into the Device State, check each sample"};
+}
 
-DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles, bool realtime)
-    : Module("device_output", RateGroup::kHaptic), devices_(devices), reported_(roles.size(), 0), realtime_(realtime) {
-  for (const DeviceRole& role : roles) {
-    stages_.emplace_back(OutputLimits{.force = role.limits.force, .force_rate = role.limits.force_rate});
-    watchdog_.push_back(role.limits.watchdog_ms * 1e-3);
+DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const RunControl& control,
+                           bool realtime)
+    : Module("device_output", RateGroup::kHaptic),
+      devices_(devices),
+      control_(control),
+      reported_(safety.size(), 0),
+      realtime_(realtime) {
+  for (const FingerSafety& finger : safety) {
+    stages_.emplace_back(finger.limits);
+    watchdog_.push_back(finger.watchdog);
   }
 }
 
-bool DeviceOutput::informationOld(std::size_t finger, const Tick& tick) const noexcept {
-  const FingerInput& input = device_->fingers[finger];
-  if (!input.valid) return true;
-  if (contact_->time < tick.time) return true;
-  if (objects_.hasValue() && objects_->faults != 0) return true;
-  if (objects_.connected() && objects_.age(tick) > watchdog_[finger]) return true;
-  return patches_.connected() && patches_.age(tick) > kPatchAge;
+OutputStage::Trust DeviceOutput::trust(std::size_t finger, const Tick& tick) const noexcept {
+  using Trust = OutputStage::Trust;
+  if (!device_->fingers[finger].valid || contact_->time < tick.time) return Trust::kDropped;
+  if (patches_.connected() && patches_.age(tick) > kPatchAge) return Trust::kDropped;
+  if (objects_.hasValue() && objects_->faults != 0) return Trust::kFading;
+  return objects_.connected() && objects_.age(tick) > watchdog_[finger] ? Trust::kFading : Trust::kGood;
 }
 
 void DeviceOutput::step(const Tick& tick) noexcept {
@@ -56,9 +70,20 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
   command.time = tick.time;
   command.count = static_cast<std::int32_t>(devices_.size());
   command.status = 0;
+  const std::uint32_t rearms = control_.rearms.load(std::memory_order_relaxed);
+  // who has lost one finger must not be pushed about by the others
+  bool lost = false;
+  for (std::size_t f = 0; f < devices_.size(); ++f) lost = lost || device_->fingers[f].lost;
   for (std::size_t f = 0; f < devices_.size(); ++f) {
-    const OutputStage::Input input{contact_->fingers[f].f_H_W, informationOld(f, tick), device_->stop_requested,
-                                   tick.made_up};
+    const FingerInput& finger = device_->fingers[f];
+    if (rearms != rearms_) stages_[f].rearm();
+    const OutputStage::Input input{.command = contact_->fingers[f].f_H_W,
+                                   .trust = trust(f, tick),
+                                   .stop = device_->stop_requested,
+                                   .held = tick.made_up,
+                                   .lost = lost,
+                                   .p_WH = finger.p_WH,
+                                   .v_WH = finger.v_WH};
     command.f_H_W[f] = stages_[f].step(input, tick.period);
     command.status |= stages_[f].status();
     report(f, reported_[f], stages_[f].status(), tick.time);
@@ -67,6 +92,7 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
     send(f, tick);
     watch.done(1);
   }
+  rearms_ = rearms;
 }
 
 // A device that gets many forces at one instant feels only the last: as one step, and past the slew limit.
@@ -76,7 +102,7 @@ void DeviceOutput::send(std::size_t finger, const Tick& tick) noexcept {
 
 // One event when a bit comes up, not one per tick.
 void DeviceOutput::report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept {
-  const std::uint32_t risen = now & ~before & (kOutputNotFinite | kOutputWatchdog);
+  const std::uint32_t risen = now & ~before & (kOutputLatches | kOutputWatchdog | kOutputWarm | kOutputOverload);
   if (risen != 0) events_.push({time, static_cast<std::int32_t>(finger), risen});
 }
 
@@ -89,7 +115,7 @@ void DeviceOutput::stop() {
     tick.time += tick.period;
     if (realtime_) sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(tick.period * 1e9));
     for (std::size_t f = 0; f < devices_.size(); ++f) {
-      const Vec3 force = stages_[f].step({Vec3::Zero(), false, true}, tick.period);
+      const Vec3 force = stages_[f].step({.stop = true}, tick.period);
       devices_[f]->write(force, tick);
       moving = moving || force.norm() > 0;
     }
@@ -97,7 +123,7 @@ void DeviceOutput::stop() {
 }
 
 std::vector<std::string> DeviceOutput::stages() const {
-  return {"output stage: finite, magnitude, fade (soft start, watchdog, stop), slew",
+  return {"output stage: finite, magnitude, energy, thermal, fade (soft start, watchdog, stop), slew",
           "write to the device, but for ticks made up after a late wake-up: the force is held"};
 }
 

@@ -6,6 +6,7 @@
 
 #include "framework/device/device.h"
 #include "framework/device/output_stage.h"
+#include "framework/device/sample_check.h"
 #include "framework/exchange/event_ring.h"
 #include "framework/graph/port.h"
 #include "framework/graph/stage_watch.h"
@@ -26,7 +27,7 @@ struct FaultEvent {
   std::uint32_t status = 0;  ///< the OutputStatus bit that came up
 };
 
-/// First module of the haptic group: reads every device into one Device State.
+/// First module of the haptic group: reads every device into one Device State, and believes none of them unchecked.
 class DeviceInput final : public Module {
  public:
   DeviceInput(DeviceList& devices, const RunControl& control);
@@ -36,15 +37,23 @@ class DeviceInput final : public Module {
  private:
   DeviceList& devices_;
   const RunControl& control_;
+  std::vector<SampleCheck> checks_;
+  std::uint32_t rearms_ = 0;
   std::optional<In<ObjectState>> seen_;  // only when a device looks
   Out<DeviceState> state_{*this, "device_state"};
+};
+
+/// What the output stage of one finger keeps to, and when it stops to trust the dynamics.
+struct FingerSafety {
+  OutputLimits limits;
+  double watchdog = 0.020;  ///< age of the Object State at which the force fades [s]
 };
 
 /// The output stages and the devices behind them. Reads the ages of what the command was made from.
 class DeviceOutput final : public Module, public WatchedStages {
  public:
-  /// `realtime`: the last fade, after the run, keeps the pace of the clock.
-  DeviceOutput(DeviceList& devices, const std::vector<DeviceRole>& roles, bool realtime);
+  /// `safety`: as `devices`. `realtime`: the last fade, after the run, keeps the pace of the clock.
+  DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const RunControl& control, bool realtime);
   void step(const Tick& tick) noexcept override;
   void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   /// Takes every force down to zero within the slew limit, then lets go.
@@ -55,17 +64,21 @@ class DeviceOutput final : public Module, public WatchedStages {
   /// Main thread: the next fault or watchdog event; false when there is none.
   bool nextEvent(FaultEvent& event) noexcept { return events_.pop(event); }
 
-  /// A contact patch older than this is no longer trusted [s]: three periods of the collision thread.
-  static constexpr double kPatchAge = 0.030;
+  /// A contact patch older than this is dropped [s]: two periods of the collision thread, so that zero is reached within three.
+  static constexpr double kPatchAge = 0.020;
+  /// A device that gives no sample is at zero force after this [s], where slew allows it.
+  static constexpr double kSilentZero = 0.005;
 
  private:
   template <class Watch>
   void run(const Tick& tick, Watch& watch) noexcept;
-  bool informationOld(std::size_t finger, const Tick& tick) const noexcept;
+  OutputStage::Trust trust(std::size_t finger, const Tick& tick) const noexcept;
   void send(std::size_t finger, const Tick& tick) noexcept;
   void report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept;
 
   DeviceList& devices_;
+  const RunControl& control_;
+  std::uint32_t rearms_ = 0;
   std::vector<OutputStage> stages_;
   std::vector<double> watchdog_;  ///< [s] per finger
   std::vector<std::uint32_t> reported_;

@@ -4,44 +4,87 @@
 #include <cmath>
 
 namespace presa {
+namespace {
+
+// Of a place [m] or a velocity [m/s] with which one can reckon.
+bool plausible(const Vec3& v) { return v.allFinite() && v.cwiseAbs().maxCoeff() < 1e3; }
+
+}  // namespace
+
+OutputStage::OutputStage(const OutputLimits& limits)
+    : limits_(limits), budget_(limits.continuous, limits.heating_time) {}
 
 Vec3 OutputStage::step(const Input& input, double period) noexcept {
   status_ = kOutputClean;
-
-  const Vec3& wanted = input.command;
-  if (std::isfinite(wanted.x()) && std::isfinite(wanted.y()) && std::isfinite(wanted.z())) {
-    if (!latched_) good_ = wanted;
-  } else {
-    latched_ = true;
+  budget_.step(last_.norm(), period);
+  judge(input);
+  Vec3 force = bounded(good_, limits_.force, kOutputMagnitude);
+  if (limits_.passivity && plausible(input.p_WH) && plausible(input.v_WH)) {
+    force = energy_.step(force, input.p_WH, input.v_WH, period);
+    if (energy_.acting()) status_ |= kOutputDamped;
+    force = bounded(force, limits_.force, kOutputMagnitude);
   }
-  if (latched_) status_ |= kOutputNotFinite;
-  Vec3 force = good_;  // after a fault: fade from the last command that made sense
+  force = cooled(force) * fade(input, period);
+  last_ = slewed(force, input.held ? 0 : limits_.force_rate * period);
+  if (limits_.passivity) energy_.sent(last_);
+  return last_;
+}
 
-  // scaled by the largest component first: the square of 1e308 would overflow
-  if (const double largest = force.cwiseAbs().maxCoeff(); largest > limits_.force) {
-    force *= limits_.force / largest;
-    status_ |= kOutputMagnitude;
-  }
-  if (const double norm = force.norm(); norm > limits_.force) {
-    force *= limits_.force / norm;
-    status_ |= kOutputMagnitude;
-  }
+void OutputStage::rearm() noexcept {
+  latches_ = 0;
+  good_.setZero();
+  gain_ = 0;
+  hurrying_ = false;
+}
 
-  if (input.information_old) status_ |= kOutputWatchdog;
-  const bool falling = latched_ || input.stop || input.information_old;
-  gain_ =
-      falling ? std::max(0.0, gain_ - period / limits_.fade_out) : std::min(1.0, gain_ + period / limits_.soft_start);
-  if (gain_ < 1) status_ |= kOutputFading;
-  force *= gain_;
+// What latches. A hand that is fast by itself is nobody's fault: only one that the force drives on.
+void OutputStage::judge(const Input& input) noexcept {
+  if (!input.command.allFinite()) latches_ |= kOutputNotFinite;
+  if (input.lost) latches_ |= kOutputLost;
+  const bool hurries = input.v_WH.norm() > limits_.speed && last_.dot(input.v_WH) > 0;
+  if (hurries && hurrying_) latches_ |= kOutputSpeed;
+  hurrying_ = hurries;
+  if (latches_ == 0) good_ = input.command;
+  status_ |= latches_;
+}
 
-  // last, so that nothing above can make a step
-  const double step = input.held ? 0 : limits_.force_rate * period;
-  if (const Vec3 change = force - last_; change.norm() > step) {
-    force = last_ + change * (step / change.norm());
-    status_ |= kOutputSlew;
+// Scaled by the largest component first: the square of 1e308 would overflow.
+Vec3 OutputStage::bounded(Vec3 force, double most, OutputStatus sign) noexcept {
+  if (const double largest = force.cwiseAbs().maxCoeff(); largest > most) {
+    force *= most / largest;
+    status_ |= sign;
   }
-  last_ = force;
+  if (const double norm = force.norm(); norm > most) {
+    force *= most / norm;
+    status_ |= sign;
+  }
   return force;
+}
+
+Vec3 OutputStage::cooled(const Vec3& force) noexcept {
+  if (!limits_.records_overload) return bounded(force, budget_.most(limits_.force), kOutputWarm);
+  if (last_.norm() > limits_.continuous) status_ |= kOutputOverload;
+  return force;
+}
+
+double OutputStage::fade(const Input& input, double period) noexcept {
+  if (input.trust != Trust::kGood) status_ |= kOutputWatchdog;
+  if (latched() || input.trust == Trust::kDropped)
+    gain_ = 0;
+  else if (input.stop || input.trust == Trust::kFading)
+    gain_ = std::max(0.0, gain_ - period / limits_.fade_out);
+  else
+    gain_ = std::min(1.0, gain_ + period / limits_.soft_start);
+  if (gain_ < 1) status_ |= kOutputFading;
+  return gain_;
+}
+
+Vec3 OutputStage::slewed(const Vec3& force, double most) noexcept {
+  const Vec3 change = force - last_;
+  const double length = change.norm();
+  if (!(length > most)) return force;
+  status_ |= kOutputSlew;
+  return last_ + change * (most / length);
 }
 
 }  // namespace presa

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/device/device.h"
+#include "framework/device/output_limits.h"
 #include "framework/graph/module.h"
 #include "framework/scene/world.h"
 
@@ -43,6 +44,7 @@ struct DevicePlugin {
   std::vector<DeviceFinding> (*diagnose)(const DeviceBinding& binding) = nullptr;
   /// The line of a udev rule that lets a user open its hardware; null: none needed.
   const char* udev_rule = nullptr;
+  DeviceRating rating = {};  ///< of its hardware, or of the hardware that it models
 };
 
 }  // namespace presa

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/device/transport_watch.h"
 #include "framework/graph/graph_builder.h"
 #include "framework/plan/plugin.h"
 #include "framework/plan/plugin_loader.h"
@@ -57,14 +58,38 @@ std::vector<std::string> engineVersions(const Plan& plan) {
   return versions;
 }
 
+namespace {
+
+/// What the output stages keep to. A replay and a study bring devices of their own, and keep to the same.
+std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes) {
+  std::vector<FingerSafety> safety;
+  for (const DeviceRole& role : world.scene.devices) {
+    const auto binding = std::find_if(world.rig.devices.begin(), world.rig.devices.end(),
+                                      [&](const DeviceBinding& b) { return b.role == role.role; });
+    DeviceBinding::Limits allowed;
+    DeviceRating rating;
+    if (binding != world.rig.devices.end()) {
+      allowed = binding->limits;
+      rating = devicePlugin(binding->driver).rating;
+    }
+    safety.push_back({limitsFor(role, allowed, rating, notes), role.limits.watchdog_ms * 1e-3});
+  }
+  return safety;
+}
+
+}  // namespace
+
 Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
     : devices_(std::move(options.devices)) {
   if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);
+  const std::vector<FingerSafety> safety = safetyOf(*world, notes_);
+  for (std::size_t f = 0; f < devices_.size(); ++f)
+    devices_[f] = watched(std::move(devices_[f]), safety[f].limits, control);
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
   for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
   if (!devices_.empty()) {
-    output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, world->scene.devices, world->options.realtime));
+    output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, safety, control, world->options.realtime));
   }
   monitor_ = &builder.add(std::make_unique<Monitor>(world, phaseStart("loosen"), options.trace_rate));
   for (auto& module : options.more) builder.add(std::move(module));

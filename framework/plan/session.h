@@ -34,6 +34,8 @@ class Session {
 
   Graph& graph() noexcept { return graph_; }
   const DeviceList& devices() const noexcept { return devices_; }
+  /// Lines worth telling the user about the limits that hold.
+  const std::vector<std::string>& notes() const noexcept { return notes_; }
   DeviceOutput* output() noexcept { return output_; }  ///< null without devices
   const Monitor& monitor() const noexcept { return *monitor_; }
   Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
@@ -48,6 +50,7 @@ class Session {
   std::unique_ptr<Module> load(const PlannedModule& planned, const std::shared_ptr<const World>& world);
 
   DeviceList devices_;
+  std::vector<std::string> notes_;
   std::unique_ptr<ScheduleLog> schedule_;
   Graph graph_;
   DeviceOutput* output_ = nullptr;

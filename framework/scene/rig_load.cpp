@@ -26,6 +26,20 @@ void addSetting(DeviceBinding& binding, const std::string& key, const DeviceBind
                     "the first is in line " + std::to_string(found->second.where.line));
 }
 
+DeviceBinding::Limits readLimits(const Element& device) {
+  DeviceBinding::Limits limits;
+  for (const Element& element : device.children("limits")) {
+    limits.force = optionalNumber(element, "force");
+    limits.force_rate = optionalNumber(element, "force_rate");
+    limits.soft_start = optionalNumber(element, "soft_start");
+    limits.continuous = optionalNumber(element, "continuous");
+    limits.speed = optionalNumber(element, "speed");
+    limits.records_overload = element.attribute("past_continuous") == "record";
+    limits.passivity = element.boolean("passivity", false);
+  }
+  return limits;
+}
+
 DeviceBinding readBinding(const Element& device, Diagnostics& diagnostics) {
   DeviceBinding binding;
   binding.role = device.attribute("role");
@@ -40,6 +54,7 @@ DeviceBinding readBinding(const Element& device, Diagnostics& diagnostics) {
     addSetting(binding, set.attribute("key"), {set.attribute("value"), set.where("value")}, set.where("key"),
                diagnostics);
   }
+  binding.limits = readLimits(device);
   return binding;
 }
 

@@ -154,6 +154,13 @@ struct DeviceBinding {
   std::string role;
   std::string driver;                       ///< folder name under devices/
   std::map<std::string, Setting> settings;  ///< <set key= value=/>; the driver checks keys and values
+  /// What this desk allows, beside what the scene wants; where nothing is said, the driver's rating holds.
+  struct Limits {
+    std::optional<double> force, force_rate, soft_start, continuous, speed;  ///< [N] [N/s] [s] [N] [m/s]
+    bool records_overload = false;                                           ///< past `continuous` is an event, no limit
+    bool passivity = false;                                                  ///< the hand may get no net energy
+  };
+  Limits limits;
   SourceLocation where;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ inline constexpr int kFormatMajor = 1;
 inline constexpr int kFormatMinor = 0;
 /// Major must be ours; a newer minor is read with a warning. `kind` is "scene" or "rig", `code` the number to report.
 void checkVersion(const xml::Element& root, const std::string& kind, int code, Diagnostics& diagnostics);
+
+/// The number in an attribute; none when it is not there.
+inline std::optional<double> optionalNumber(const xml::Element& element, const std::string& attribute) {
+  if (!element.hasAttribute(attribute)) return std::nullopt;
+  return element.number(attribute, 0);
+}
 
 /// `path` as it stands in a file in `directory`, absolute and without . and ..; "" stays "".
 std::string resolvePath(const std::string& path, const std::string& directory);

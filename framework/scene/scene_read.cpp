@@ -90,11 +90,6 @@ Material readMaterial(const Element& element) {
   return material;
 }
 
-std::optional<double> optionalNumber(const Element& element, const std::string& attribute) {
-  if (!element.hasAttribute(attribute)) return std::nullopt;
-  return element.number(attribute, 0);
-}
-
 Body readBody(const Element& element, const std::vector<Material>& materials, const std::string& directory) {
   Body body;
   body.name = element.attribute("name");

@@ -17,6 +17,7 @@ namespace presa {
 struct RunControl {
   std::atomic<bool> stop_requested{false};  ///< device input sees it at its next tick: forces fade
   std::atomic<bool> abort{false};           ///< leave now
+  std::atomic<std::uint32_t> rearms{0};     ///< counted up by whoever has looked: latched faults are forgiven
   std::atomic<double> time{0};              ///< simulated time reached [s]
 };
 

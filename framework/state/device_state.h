@@ -13,6 +13,8 @@ struct FingerInput {
   Vec3 v_WH = Vec3::Zero();   ///< velocity [m/s]
   std::int32_t phase = -1;    ///< phase of a scripted motion, index into Device::phases(); -1: none
   bool valid = false;         ///< the device delivered a usable sample this tick
+  double age = 0;             ///< of the sample: since the device measured it [s]
+  bool lost = false;          ///< gone, or not to be believed: no force until it is re-armed
   std::uint32_t buttons = 0;  ///< bit 0: the participant's "ready" or answer; others as the device counts them
 };
 

@@ -47,7 +47,10 @@ const char* stateWord(const FingerView& finger) {
 /// What the output stage did, worst first; empty when the forces went out as rendered.
 std::string outputWords(std::uint32_t status) {
   if (status & kOutputNotFinite) return "output: not a number, forces off";
-  if (status & kOutputWatchdog) return "output: contact data too old";
+  if (status & kOutputLost) return "output: device lost, forces off";
+  if (status & kOutputSpeed) return "output: too fast, forces off";
+  if (status & kOutputWatchdog) return "output: data too old, forces off";
+  if (status & kOutputWarm) return "output: motors are warm";
   if (status & kOutputMagnitude) return "output: at force limit";
   if (status & kOutputFading) return "output: fading";
   if (status & kOutputSlew) return "output: at slew limit";

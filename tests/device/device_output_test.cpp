@@ -9,12 +9,13 @@ namespace {
 /// A finger that stands still and remembers what was sent to it.
 class StillFinger final : public Device {
  public:
-  FingerInput read(const Tick&) noexcept override { return {Vec3::Zero(), Vec3::Zero(), -1, true}; }
+  FingerInput read(const Tick&) noexcept override { return {.valid = !silent, .lost = lost}; }
   void write(const Vec3& f_H_W, const Tick&) noexcept override {
     steepest = std::max(steepest, (f_H_W - force).norm());
     force = f_H_W;
     ++writes;
   }
+  bool silent = false, lost = false;
   int writes = 0;
   Vec3 force = Vec3::Zero();
   double steepest = 0;
@@ -52,7 +53,7 @@ struct Rig {
     builder.add(std::make_unique<DeviceInput>(devices, control));
     builder.add(std::make_unique<ConstantForce>());
     objects = &builder.add(std::make_unique<Objects>());
-    output = &builder.add(std::make_unique<DeviceOutput>(devices, std::vector<DeviceRole>{{}}, false));
+    output = &builder.add(std::make_unique<DeviceOutput>(devices, std::vector<FingerSafety>{{}}, control, false));
     builder.connectByName();
     graph = builder.build();
   }
@@ -109,6 +110,43 @@ TEST(DeviceOutput, AStalledDynamicsFadesTheForceUntilItIsBack) {
   EXPECT_TRUE(told);
   rig.run(1000);
   EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9);
+  EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+// A device that gives no sample: the force is held for a tick and is zero at 5 ms, from 4 N at 1 N/ms; softly back with the samples.
+TEST(DeviceOutput, ASilentDeviceIsAtZeroAfterFiveMilliseconds) {
+  Rig rig;
+  rig.run(1000);
+  rig.finger->silent = true;
+  rig.run(1);
+  EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9);
+  rig.run(3);
+  EXPECT_GT(rig.finger->force.x(), 0.5);
+  rig.run(1);
+  EXPECT_NEAR(rig.finger->force.x(), 0, 1e-9);
+  rig.finger->silent = false;
+  rig.run(100);
+  EXPECT_NEAR(rig.finger->force.x(), 4 * 0.1 / 0.5, 1e-9);
+  EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+// A device that is gone and comes back has no force until somebody re-arms it, and starts softly then.
+TEST(DeviceOutput, ALostDeviceAsksForARearm) {
+  Rig rig;
+  rig.run(1000);
+  rig.finger->lost = true;
+  rig.run(30);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  rig.finger->lost = false;
+  rig.run(1000);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  ++rig.control.rearms;
+  rig.run(100);
+  EXPECT_NEAR(rig.finger->force.x(), 4 * 0.1 / 0.5, 1e-9);
+  FaultEvent event;
+  bool told = false;
+  while (rig.output->nextEvent(event)) told = told || (event.status & kOutputLost) != 0;
+  EXPECT_TRUE(told);
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 

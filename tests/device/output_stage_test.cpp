@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -11,51 +12,80 @@ namespace {
 
 constexpr OutputLimits kLimits{.force = 8, .force_rate = 1000, .soft_start = 0.5, .fade_out = 0.02};
 constexpr double kPeriod = 1e-3;
+using Trust = OutputStage::Trust;
 
 // Brings a stage to a steady force.
 Vec3 settle(OutputStage& stage, const Vec3& command) {
   Vec3 f = Vec3::Zero();
-  for (int i = 0; i < 1000; ++i) f = stage.step({command, false, false}, kPeriod);
+  for (int i = 0; i < 1000; ++i) f = stage.step({.command = command}, kPeriod);
   return f;
 }
 
-// The invariants, whatever the graph commands: finite, at most the limit, never faster than the slew limit.
-// Hostile input: NaN, infinities, 1e308, denormals, jumps; watchdog and stop at random. Tolerance: rounding.
+/// Any bits at all as a number: NaN, infinities, denormals, 1e308 among them.
+double anyDouble(std::mt19937_64& random) { return std::bit_cast<double>(random()); }
+
+// The invariants over ten million cycles of hostile input: finite, at most the limit, never faster than the slew limit. Commands are
+// any bit patterns or jumps of a plausible size; positions and velocities too; every verdict of the watchdogs, stops, stalls,
+// lost devices and re-arms come at random; with and without each of the optional stages. Tolerance: rounding.
 TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  const double hostile[] = {std::numeric_limits<double>::quiet_NaN(),
-                            std::numeric_limits<double>::infinity(),
-                            -std::numeric_limits<double>::infinity(),
-                            1e308,
-                            -1e308,
-                            5e-324,
-                            0.0};
-  for (int run = 0; run < 200; ++run) {
-    OutputStage stage(kLimits);
+  const auto vector = [&](double share_of_any, double size) {
+    Vec3 v(size * normal(random), size * normal(random), size * normal(random));
+    if (std::generate_canonical<double, 53>(random) < share_of_any)
+      v[static_cast<int>(random() % 3)] = anyDouble(random);
+    return v;
+  };
+#ifdef __SANITIZE_ADDRESS__
+  constexpr int kRuns = 200;
+#else
+  constexpr int kRuns = 2000;
+#endif
+  constexpr int kTicks = 5000;
+  std::uint64_t latched = 0, moved = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    OutputLimits limits = kLimits;
+    limits.passivity = run % 2 == 0;
+    if (run % 3 != 0) limits.continuous = 4, limits.heating_time = 0.5;
+    limits.records_overload = run % 5 == 0;
+    if (run % 7 == 0) limits.speed = 1;
+    const double hostile = run % 4 == 0 ? 0.5 : 1e-3;
+    OutputStage stage(limits);
     Vec3 before = Vec3::Zero();
-    const bool may_break = run % 2 == 0;
-    for (int tick = 0; tick < 500; ++tick) {
-      Vec3 command(normal(random), normal(random), normal(random));
-      command *= std::exp(6 * normal(random));
-      if (may_break && random() % 200 == 0) command[static_cast<int>(random() % 3)] = hostile[random() % 7];
-      const Vec3 f = stage.step({command, random() % 17 == 0, random() % 400 == 0}, kPeriod);
-      ASSERT_TRUE(f.allFinite());
-      ASSERT_LE(f.norm(), kLimits.force * (1 + 1e-12));
-      ASSERT_LE((f - before).norm(), kLimits.force_rate * kPeriod * (1 + 1e-9));
+    for (int tick = 0; tick < kTicks; ++tick) {
+      if (random() % 50 == 0) stage.rearm();
+      const std::uint64_t dice = random() % 64;
+      const OutputStage::Input input{.command = vector(hostile, 10),
+                                     .trust = dice == 0   ? Trust::kFading
+                                              : dice == 1 ? Trust::kDropped
+                                                          : Trust::kGood,
+                                     .stop = dice == 2,
+                                     .held = dice == 3,
+                                     .lost = random() % 1000 == 0,
+                                     .p_WH = vector(hostile, 0.1),
+                                     .v_WH = vector(hostile, 0.5)};
+      const Vec3 f = stage.step(input, kPeriod);
+      ASSERT_TRUE(f.allFinite()) << run << " " << tick;
+      ASSERT_LE(f.norm(), limits.force * (1 + 1e-12));
+      ASSERT_LE((f - before).norm(), limits.force_rate * kPeriod * (1 + 1e-9));
+      latched += stage.latched() ? 1 : 0;
+      moved += f.norm() > 0 ? 1 : 0;
       before = f;
     }
   }
+  // or nothing was tried
+  EXPECT_GT(latched, 500U * kRuns);
+  EXPECT_GT(moved, 500U * kRuns);
 }
 
-// A command that is no number latches: the force fades to zero within the fade time and stays there, whatever follows.
+// A command that is no number latches: the force goes down at the slew limit and stays at zero, whatever follows.
 TEST(OutputStage, NotANumberLatchesZero) {
   OutputStage stage(kLimits);
   EXPECT_NEAR(settle(stage, {3, 0, 0}).x(), 3, 1e-12);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Vec3 f = stage.step({{nan, 0, 0}, false, false}, kPeriod);
-  EXPECT_GT(f.x(), 2);  // no step
-  for (int i = 0; i < 25; ++i) f = stage.step({{5, 0, 0}, false, false}, kPeriod);
+  Vec3 f = stage.step({.command = {nan, 0, 0}}, kPeriod);
+  EXPECT_NEAR(f.x(), 2, 1e-9);  // no step
+  for (int i = 0; i < 2; ++i) f = stage.step({.command = {5, 0, 0}}, kPeriod);
   EXPECT_EQ(f.norm(), 0);
   EXPECT_TRUE(stage.latched());
   EXPECT_NE(stage.status() & kOutputNotFinite, 0u);
@@ -65,7 +95,7 @@ TEST(OutputStage, NotANumberLatchesZero) {
 TEST(OutputStage, StartsSoftly) {
   OutputStage stage(kLimits);
   Vec3 f = Vec3::Zero();
-  for (int i = 0; i < 250; ++i) f = stage.step({{4, 0, 0}, false, false}, kPeriod);
+  for (int i = 0; i < 250; ++i) f = stage.step({.command = {4, 0, 0}}, kPeriod);
   EXPECT_NEAR(f.x(), 2, 1e-9);
 }
 
@@ -74,10 +104,84 @@ TEST(OutputStage, WatchdogFadesAndComesBack) {
   OutputStage stage(kLimits);
   settle(stage, {4, 0, 0});
   Vec3 f = Vec3::Zero();
-  for (int i = 0; i < 21; ++i) f = stage.step({{4, 0, 0}, true, false}, kPeriod);
+  for (int i = 0; i < 21; ++i) f = stage.step({.command = {4, 0, 0}, .trust = Trust::kFading}, kPeriod);
   EXPECT_EQ(f.norm(), 0);
   EXPECT_NE(stage.status() & kOutputWatchdog, 0u);
   EXPECT_NEAR(settle(stage, {4, 0, 0}).x(), 4, 1e-12);
+}
+
+// No sample, or contacts that are too old: down at the slew limit, 4 N in 4 ticks.
+TEST(OutputStage, WhatIsDroppedGoesDownAsFastAsSlewAllows) {
+  OutputStage stage(kLimits);
+  settle(stage, {4, 0, 0});
+  for (int i = 1; i <= 4; ++i) {
+    EXPECT_NEAR(stage.step({.command = {4, 0, 0}, .trust = Trust::kDropped}, kPeriod).x(), 4 - i, 1e-9);
+  }
+  EXPECT_NEAR(stage.step({.command = {4, 0, 0}}, kPeriod).x(), 4 * kPeriod / kLimits.soft_start, 1e-9);  // softly again
+}
+
+// A lost device: to zero, and nothing but a re-arm brings the force back, softly; if it is still lost, nothing does.
+TEST(OutputStage, ALostDeviceStaysAtZeroUntilRearmed) {
+  OutputStage stage(kLimits);
+  settle(stage, {4, 0, 0});
+  for (int i = 0; i < 25; ++i) stage.step({.command = {4, 0, 0}, .lost = i == 0}, kPeriod);
+  EXPECT_EQ(settle(stage, {4, 0, 0}).norm(), 0);
+  EXPECT_EQ(stage.status() & kOutputLatches, kOutputLost);
+  stage.rearm();
+  EXPECT_NEAR(stage.step({.command = {4, 0, 0}}, kPeriod).x(), 4 * kPeriod / kLimits.soft_start, 1e-9);
+  EXPECT_NEAR(settle(stage, {4, 0, 0}).x(), 4, 1e-12);
+  stage.step({.lost = true}, kPeriod);
+  for (int i = 0; i < 100; ++i) {
+    stage.rearm();
+    stage.step({.command = {4, 0, 0}, .lost = true}, kPeriod);
+  }
+  EXPECT_EQ(stage.last().norm(), 0);
+}
+
+// 1.5 m/s along the force trips at the second sample; against it, where the device brakes the hand, never.
+TEST(OutputStage, AHandThatIsDrivenTooFastTrips) {
+  OutputLimits limits = kLimits;
+  limits.speed = 1;
+  OutputStage driven(limits), braked(limits);
+  settle(driven, {4, 0, 0});
+  settle(braked, {4, 0, 0});
+  driven.step({.command = {4, 0, 0}, .v_WH = {1.5, 0, 0}}, kPeriod);
+  EXPECT_FALSE(driven.latched());  // one sample is noise
+  driven.step({.command = {4, 0, 0}, .v_WH = {1.5, 0, 0}}, kPeriod);
+  EXPECT_EQ(driven.status() & kOutputLatches, kOutputSpeed);
+  for (int i = 0; i < 100; ++i) braked.step({.command = {4, 0, 0}, .v_WH = {-1.5, 0, 0}}, kPeriod);
+  EXPECT_FALSE(braked.latched());
+  EXPECT_NEAR(braked.last().x(), 4, 1e-12);
+}
+
+// 8 N on motors that bear 4 N: heat is 4 (1 - e^(-t/tau)), the limit begins to fall at 0.9 of it, t = -tau ln(1 - 0.9/4), and ends
+// at 4 N. Tolerance: the soft start of 0.5 s, whose heat lacks (1 - 1/3) of 0.5 s.
+TEST(OutputStage, WarmMotorsGiveNoMoreThanTheyBear) {
+  OutputLimits limits = kLimits;
+  limits.continuous = 4;
+  limits.heating_time = 60;
+  OutputStage stage(limits);
+  double falls = 0;
+  for (int i = 0; i < 600'000; ++i) {
+    stage.step({.command = {8, 0, 0}}, kPeriod);
+    if (falls == 0 && (stage.status() & kOutputWarm) != 0) falls = i * kPeriod;
+  }
+  EXPECT_NEAR(falls, -60 * std::log(1 - 0.9 / 4) + 0.5 * 2 / 3, 0.02);
+  EXPECT_NEAR(stage.last().x(), 4, 0.01);  // for e^-10 of the way
+  EXPECT_NEAR(stage.heat(), 1, 0.01);
+}
+
+// Where the rig wants it recorded, nothing is limited, and every tick says so.
+TEST(OutputStage, AnOverloadCanBeAnEventInsteadOfALimit) {
+  OutputLimits limits = kLimits;
+  limits.continuous = 4;
+  limits.heating_time = 0.1;
+  limits.records_overload = true;
+  OutputStage stage(limits);
+  EXPECT_NEAR(settle(stage, {6, 0, 0}).x(), 6, 1e-12);
+  EXPECT_EQ(stage.status(), kOutputOverload);
+  for (int i = 0; i < 100; ++i) stage.step({.command = {3, 0, 0}}, kPeriod);
+  EXPECT_EQ(stage.status(), kOutputClean);
 }
 
 // What is within the limits passes unchanged to the bit.

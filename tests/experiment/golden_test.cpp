@@ -96,7 +96,7 @@ TEST(GoldenSession, MadeAgainHasTheSameRows) {
 
 INSTANTIATE_TEST_SUITE_P(Experiments, GoldenDataset,
                          testing::Values("friction_jnd", "grip_slip", "slip_reaction", "stiffness_2afc", "weight_2ifc"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
 }  // namespace presa::experiment

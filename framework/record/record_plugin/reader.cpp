@@ -36,7 +36,12 @@ DeviceState deviceState(const TickRow& tick, const std::vector<std::vector<Finge
   state.stop_requested = tick.stop_requested != 0;
   for (std::size_t f = 0; f < fingers.size(); ++f) {
     const FingerRow& finger = fingers[f][row];
-    state.fingers[f] = {Vec3(finger.p_WH), Vec3(finger.v_WH), finger.phase, finger.valid != 0};
+    state.fingers[f] = {Vec3(finger.p_WH),
+                        Vec3(finger.v_WH),
+                        finger.phase,
+                        (finger.valid & 1) != 0,
+                        (finger.valid & 1) != 0 ? 0 : 1.0,
+                        (finger.valid & 2) != 0};  // no age: not to be bridged again
   }
   return state;
 }

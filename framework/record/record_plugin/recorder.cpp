@@ -133,7 +133,7 @@ void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
   copy(contact.f_H_W, row.f_rendered_W);
   copy(command_->f_H_W[finger], row.f_command_W);
   row.phase = input.phase;
-  row.valid = input.valid ? 1 : 0;
+  row.valid = (input.valid ? 1 : 0) | (input.lost ? 2 : 0);
   row.mode = static_cast<std::int32_t>(contact.mode);
   row.body = contact.body;
   put(layout_.fingerOffset(finger), row);

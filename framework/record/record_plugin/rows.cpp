@@ -68,7 +68,7 @@ Table fingerTable() {
       .vector("f_rendered_W", offsetof(R, f_rendered_W), "N", "force on the finger before the output stage")
       .vector("f_command_W", offsetof(R, f_command_W), "N", "force on the finger after the output stage")
       .add("phase", offsetof(R, phase), Cell::kI32, "1", "phase of the scripted motion; -1: none")
-      .add("valid", offsetof(R, valid), Cell::kI32, "1", "1: the device delivered a usable sample")
+      .add("valid", offsetof(R, valid), Cell::kI32, "1", "1: the device delivered a usable sample; 2: lost until re-armed")
       .add("mode", offsetof(R, mode), Cell::kI32, "1", "contact: 0 none, 1 sticking, 2 slipping")
       .add("body", offsetof(R, body), Cell::kI32, "1", "touched body, counted from 0 in scene order; -1: none");
   return {sizeof(R), c.take()};

@@ -10,6 +10,7 @@ void addDevice(CLI::App& app, int& status) {
   addDeviceDoctor(*command, status);
   addCharacterise(*command, status);
   addCalibrate(*command, status);
+  addFaults(*command, status);
 }
 
 }  // namespace presa

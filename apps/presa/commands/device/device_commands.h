@@ -9,5 +9,6 @@ void addDeviceCheck(CLI::App& app, int& status);
 void addDeviceDoctor(CLI::App& app, int& status);
 void addCharacterise(CLI::App& app, int& status);
 void addCalibrate(CLI::App& app, int& status);
+void addFaults(CLI::App& app, int& status);
 
 }  // namespace presa

@@ -33,7 +33,7 @@ std::vector<double> lengths(const RecordedTable& table, const std::string& vecto
 /// What a device that gave no sample is said to be is not data.
 std::vector<double> whereValid(std::vector<double> values, const std::vector<double>& valid) {
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (valid[i] == 0) values[i] = NAN;
+    if (valid[i] != 1) values[i] = NAN;
   }
   return values;
 }

@@ -3,8 +3,7 @@
 
 #include "framework/study/prescribed_finger.h"
 
-/// Fingers that give way, and what passes between them and the device.
-namespace presa::stability {
+namespace presa {
 
 struct HandImpedance {
   double mass = 0.1;       ///< fingertip with thimble [kg]
@@ -44,4 +43,4 @@ class YieldingFinger final : public Device {
   Vec3 force_before_ = Vec3::Zero();  // held before this instant
 };
 
-}  // namespace presa::stability
+}  // namespace presa

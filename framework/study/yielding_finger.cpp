@@ -1,9 +1,9 @@
-#include "experiments/stability/yielding_finger.h"
+#include "framework/study/yielding_finger.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace presa::stability {
+namespace presa {
 namespace {
 
 constexpr double kStep = 1e-5;  // [s]
@@ -44,4 +44,4 @@ void YieldingFinger::write(const Vec3& f_H_W, const Tick&) noexcept {
   transport_.largest_step = std::max(transport_.largest_step, (f_H_W - force_before_).norm());
 }
 
-}  // namespace presa::stability
+}  // namespace presa

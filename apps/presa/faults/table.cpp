@@ -1,0 +1,94 @@
+#include "apps/presa/faults/runner.h"
+#include "apps/presa/report/page.h"
+#include "apps/presa/report/svg_plot.h"
+#include "apps/presa/terminal/text.h"
+#include "apps/presa/version.h"
+
+namespace presa::faults {
+namespace {
+
+using terminal::format;
+
+/// "3.0 (3)": worst and bound in milliseconds; "–" where there is nothing to measure.
+std::string milliseconds(double worst, double bound) {
+  if (!(bound > 0)) return "–";
+  return worst < 0 ? "never" : format("%.1f (%.0f)", 1e3 * worst, 1e3 * bound);
+}
+
+std::string energy(const Row& row) {
+  if (!row.fault.bounds.energy) return "–";
+  return row.energy_beyond > 0 ? format("%.3g mJ", 1e3 * row.energy_beyond) : "none";
+}
+
+const char* kColumns[] = {"row",           "fault",     "required",         "runs",
+                          "detected [ms]", "zero [ms]", "largest step [N]", "energy to the hand",
+                          "broke it"};
+
+std::vector<std::string> cellsOf(const Row& row) {
+  return {std::to_string(row.fault.row),
+          row.fault.name,
+          row.fault.required,
+          std::to_string(row.runs),
+          milliseconds(row.worst.detection, row.fault.bounds.detection),
+          milliseconds(row.worst.zero, row.fault.bounds.zero),
+          format("%.4f", row.worst.step),
+          energy(row),
+          row.broken == 0 ? "0" : format("%d: %s", row.broken, row.reason.c_str())};
+}
+
+}  // namespace
+
+nlohmann::ordered_json toJson(const std::vector<Row>& rows) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const Row& row : rows) {
+    all.push_back({{"row", row.fault.row},
+                   {"fault", row.fault.name},
+                   {"required", row.fault.required},
+                   {"runs", row.runs},
+                   {"worst_detection_s", row.worst.detection},
+                   {"detection_bound_s", row.fault.bounds.detection},
+                   {"worst_zero_s", row.worst.zero},
+                   {"zero_bound_s", row.fault.bounds.zero},
+                   {"largest_step_n", row.worst.step},
+                   {"energy_beyond_sampling_j", row.energy_beyond},
+                   {"broken", row.broken},
+                   {"reason", row.reason}});
+  }
+  return {{"format", 1}, {"presa", kVersion}, {"faults", all}};
+}
+
+std::string tableText(const std::vector<Row>& rows) {
+  std::string text = format("%3s  %-46s %5s  %14s %12s %9s  %-12s %s\n", "row", "fault", "runs", "detected [ms]",
+                            "zero [ms]", "step [N]", "energy", "broke it");
+  for (const Row& row : rows) {
+    const auto cells = cellsOf(row);
+    text += format("%3s  %-46s %5s  %14s %12s %9s  %-12s %s\n", cells[0].c_str(), cells[1].c_str(), cells[3].c_str(),
+                   cells[4].c_str(), cells[5].c_str(), cells[6].c_str(), cells[7].c_str(), cells[8].c_str());
+  }
+  return text + "worst of all runs (bound); steps may be 1 N in a tick; energy beyond what sampling a spring may add\n";
+}
+
+std::string pageHtml(const std::vector<Row>& rows, const RunnerOptions& options) {
+  std::string html = page::head("Presa: faults") + "<h1>What goes wrong under a hand, and what happens then</h1>\n";
+  html += format(
+      "<p>Two fingers hold a cube with 3 to 4 N each, in lockstep; each fault comes at %d random moments (seed "
+      "%llu). Judged is what was written to the devices. Worst of all runs, bounds in brackets. The numbers of the "
+      "rows are those of the fault table.</p>\n",
+      options.runs, static_cast<unsigned long long>(options.seed));
+  html += "<div class=\"scroll\"><table><thead><tr>";
+  for (const char* column : kColumns) html += format("<th>%s</th>", column);
+  html += "</tr></thead><tbody>\n";
+  for (const Row& row : rows) {
+    html += "<tr>";
+    const auto cells = cellsOf(row);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const bool verdict = i + 1 == cells.size();
+      html += (verdict ? (row.broken == 0 ? "<td class=\"good\">" : "<td class=\"bad\">") : "<td>") +
+              svg::escape(cells[i]) + "</td>";
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n" + page::tail();
+}
+
+}  // namespace presa::faults

@@ -1,0 +1,41 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/math/random.h"
+
+/// What may go wrong under a hand, and what must happen then. Every run is a whole pipeline in lockstep, two yielding fingers on an
+/// object, one fault at a random moment; forces are judged as they were written to the devices.
+namespace presa::faults {
+
+/// What one run showed. A value that does not apply is 0.
+struct Outcome {
+  double detection = 0;             ///< from the fault to the first force that answers it [s]
+  double zero = 0;                  ///< from the fault to zero force at every device concerned [s]
+  double step = 0;                  ///< largest change of a force from one write to the next [N]
+  double energy = 0;                ///< most given to the hand from the fault until zero, or until the fault's end [J]
+  double energy_allowed = 0;        ///< what the sampling of a spring may add to that [J]
+  std::vector<std::string> broken;  ///< what else was required and did not happen
+};
+
+/// Bounds that hold for every run; 0: none.
+struct Bounds {
+  double detection = 0, zero = 0;  ///< [s]
+  bool energy = false;             ///< none to the hand
+};
+
+struct Fault {
+  int row = 0;  ///< of the fault table
+  std::string name, required;
+  Bounds bounds;
+  std::function<Outcome(RandomStream&)> run;
+};
+
+/// What a run broke; empty: nothing.
+std::string brokenBy(const Fault& fault, const Outcome& outcome);
+
+/// In the order of the table.
+std::vector<Fault> allFaults();
+
+}  // namespace presa::faults

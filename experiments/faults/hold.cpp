@@ -1,0 +1,107 @@
+#include "experiments/faults/hold.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/study/experiment_file.h"
+
+namespace presa::faults {
+namespace {
+
+constexpr double kWidth = 0.08, kRadius = 0.008;  // of the cube, of a fingertip [m]
+constexpr double kStiffness = 1000;               // of its material [N/m]
+constexpr double kGrip = 3;                       // [N]: with the load 4 N at most, down in 4 ms
+constexpr double kOpen = 0.004;                   // gap before the grasp [m]
+constexpr double kLift = 0.05, kLiftBegin = 1.0, kLiftEnd = 1.8;
+
+/// Smooth from 0 to 1: position and velocity continuous.
+std::pair<double, double> ease(double time, double begin, double end) {
+  const double s = std::clamp((time - begin) / (end - begin), 0.0, 1.0);
+  return {s * s * (3 - 2 * s), 6 * s * (1 - s) / (end - begin)};
+}
+
+PrescribedFinger::State handAt(const Hold& hold, const HandImpedance& hand, double side, double time) {
+  const double depth = kGrip / hand.stiffness + kGrip / kStiffness;
+  const auto [closing, closing_rate] = ease(time, 0.3, hold.closed);
+  const auto [lift, lift_rate] = ease(time, kLiftBegin, kLiftEnd);
+  const double far = kWidth / 2 + kRadius + (hold.deep > 0 ? -hold.deep : kOpen);
+  const double near = kWidth / 2 + kRadius - depth;
+  PrescribedFinger::State state;
+  state.p_WH = {side * (far + closing * (near - far)), 0, 0.05 + kLift * lift};
+  state.v_WH = {side * closing_rate * (near - far), 0, kLift * lift_rate};
+  return state;
+}
+
+}  // namespace
+
+void runHold(const Hold& hold, const std::function<void(double, const Traffic&)>& at_tick) {
+  const HandImpedance hand;
+  double clock = 0;
+  std::array<Transport, 2> transports;
+  DeviceList fingers;
+  for (const std::size_t f : {0UL, 1UL}) {
+    const double side = f == 0 ? -1 : 1;
+    auto finger = std::make_unique<YieldingFinger>(
+        hand, [&hold, hand, side](double time) { return handAt(hold, hand, side, time); }, clock, transports[f]);
+    fingers.push_back(
+        std::make_unique<FailingDevice>(std::move(finger), f == 0 ? hold.thumb : FailingDevice::Failure{}));
+  }
+  StudySpec spec;
+  spec.scene = experimentFile("faults/hold.xml");
+  spec.duration = hold.end;
+  StudyRun run(spec, std::move(fingers));
+  Traffic traffic;
+  std::array<Vec3, 2> last{};
+  bool first = true;
+  run.delay([&](RateGroup group, double time) {
+    clock = time;
+    return hold.held_up && hold.held_up(group, time);
+  });
+  run.observe([&](const StudySample& sample) {
+    traffic.slew_energy = 0;
+    for (const std::size_t f : {0UL, 1UL}) {
+      const Vec3& x = sample.device.fingers[f].p_WH;
+      if (!first) traffic.slew_energy += kStiffness / 2 * (x - last[f]).squaredNorm();
+      last[f] = x;
+      traffic.force[f] = transports[f].force;
+      traffic.energy[f] = transports[f].energy;
+    }
+    first = false;
+    traffic.step = std::max(transports[0].largest_step, transports[1].largest_step);
+    at_tick(clock, traffic);
+  });
+  run.run();
+}
+
+double Judge::force(const Traffic& traffic) const {
+  double most = 0;
+  for (const std::size_t f : {0UL, 1UL}) {
+    if ((fingers_ >> f & 1U) != 0) most = std::max(most, traffic.force[f].norm());
+  }
+  return most;
+}
+
+void Judge::see(double time, const Traffic& traffic) {
+  const double now = force(traffic), energy = traffic.energy[0] + traffic.energy[1];
+  outcome_.step = traffic.step;
+  if (time < begin_ - 1e-9) {
+    before_ = now;
+    energy_before_ = energy;
+    return;
+  }
+  if (time > until_ + 1e-9) return;
+  if (answered_ < 0 && now < 0.95 * before_) answered_ = time - begin_;
+  if (now > 0) last_force_ = time - begin_;
+  outcome_.energy = std::max(outcome_.energy, energy - energy_before_);
+  outcome_.energy_allowed += traffic.slew_energy;
+}
+
+Outcome Judge::outcome() const {
+  Outcome result = outcome_;
+  result.detection = answered_;
+  result.zero = last_force_ + 1e-3;  // the write after the last that was not zero
+  if (before_ < 0.5) result.broken.emplace_back("nothing was held when the fault came");
+  return result;
+}
+
+}  // namespace presa::faults

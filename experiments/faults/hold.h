@@ -1,0 +1,69 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "experiments/faults/fault.h"
+#include "framework/study/study_run.h"
+#include "framework/study/yielding_finger.h"
+
+namespace presa::faults {
+
+/// A finger whose device may be made to fail.
+class FailingDevice final : public Device {
+ public:
+  /// Changes the sample that is due at that time [s] before anybody sees it.
+  using Failure = std::function<void(double time, FingerInput& sample)>;
+  FailingDevice(std::unique_ptr<Device> device, Failure failure)
+      : device_(std::move(device)), failure_(std::move(failure)) {}
+  FingerInput read(const Tick& tick) noexcept override {
+    FingerInput sample = device_->read(tick);
+    if (failure_) failure_(tick.time, sample);
+    return sample;
+  }
+  void write(const Vec3& f_H_W, const Tick& tick) noexcept override { device_->write(f_H_W, tick); }
+  double damping() const override { return device_->damping(); }
+
+ private:
+  std::unique_ptr<Device> device_;
+  Failure failure_;
+};
+
+/// What a run holds while the fault comes: thumb and index close on a cube, lift it and hold it.
+struct Hold {
+  double end = 3;                                  ///< [s]
+  double closed = 0.9;                             ///< fingers press from then on [s]
+  double deep = 0;                                 ///< fingers start this deep in the object [m]
+  FailingDevice::Failure thumb;                    ///< on the thumb's device
+  std::function<bool(RateGroup, double)> held_up;  ///< groups that do not run
+};
+
+/// What passed at the devices, tick by tick.
+struct Traffic {
+  std::array<Vec3, 2> force{Vec3::Zero(), Vec3::Zero()};
+  std::array<double, 2> energy{};
+  double step = 0;
+  double slew_energy = 0;  ///< K/2 dx^2 of this tick: what sampling a spring may add [J]
+};
+
+/// Runs it; `at_tick` sees the traffic after every haptic tick.
+void runHold(const Hold& hold, const std::function<void(double time, const Traffic& traffic)>& at_tick);
+
+/// Judges the usual: when the forces answered, when they were zero and stayed so until `until`, the steps, the energy.
+class Judge {
+ public:
+  /// `begin`: of the fault; `until`: of its end, infinity when it stays [s]. `fingers`: bits of those that have to go to zero.
+  Judge(double begin, double until, unsigned fingers = 3) : begin_(begin), until_(until), fingers_(fingers) {}
+  void see(double time, const Traffic& traffic);
+  Outcome outcome() const;
+
+ private:
+  double force(const Traffic& traffic) const;
+  double begin_, until_;
+  unsigned fingers_;
+  double before_ = 0, energy_before_ = 0;
+  double answered_ = -1, last_force_ = -1;
+  Outcome outcome_;
+};
+
+}  // namespace presa::faults

@@ -1,0 +1,79 @@
+#include "framework/device/transport_watch.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace presa {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+class TransportWatch final : public Device {
+ public:
+  TransportWatch(std::unique_ptr<Device> device, const OutputLimits& limits, const RunControl& control)
+      : device_(std::move(device)), limits_(limits), control_(control) {}
+
+  void open() override { device_->open(); }
+  void close() noexcept override { device_->close(); }
+
+  FingerInput read(const Tick& tick) noexcept override {
+    const FingerInput input = device_->read(tick);
+    const std::uint32_t rearms = control_.rearms.load(std::memory_order_relaxed);
+    if (rearms != rearms_) lost_for_ = 0, usable_ = false;
+    rearms_ = rearms;
+    if (input.lost || lost_for_ > 0) lost_for_ += tick.period;
+    usable_ = usable_ || (input.valid && input.p_WH.allFinite());
+    return input;
+  }
+
+  void write(const Vec3& f, const Tick& tick) noexcept override {
+    const double force = std::hypot(f.x(), f.y(), f.z());
+    const double step = std::hypot(f.x() - sent_.x(), f.y() - sent_.y(), f.z() - sent_.z());
+    if (!std::isfinite(force)) fail("is not finite", force, 0, tick);
+    if (force > limits_.force * (1 + kRounding)) fail("is above the limit", force, limits_.force, tick);
+    const double slew = limits_.force_rate * tick.period;
+    if (step > slew * (1 + kRounding) + 1e-12) fail("changed faster than the slew limit", step, slew, tick);
+    if (!usable_ && force > 0) fail("came before any usable sample", force, 0, tick);
+    // what is on its way down may take its time, once
+    const double down = limits_.force / limits_.force_rate + limits_.fade_out + 0.01;
+    if (lost_for_ > down && force > 0) fail("outlived the device", force, 0, tick);
+    sent_ = f;
+    device_->write(f, tick);
+  }
+
+  void rearm() noexcept override { device_->rearm(); }
+  bool looks() const override { return device_->looks(); }
+  void see(const ObjectState& objects, const Tick& tick) noexcept override { device_->see(objects, tick); }
+  std::string model() const override { return device_->model(); }
+  std::vector<DeviceFact> facts() const override { return device_->facts(); }
+  std::vector<std::string> phases() const override { return device_->phases(); }
+  std::vector<double> phaseTimes() const override { return device_->phaseTimes(); }
+  double damping() const override { return device_->damping(); }
+  std::vector<std::string> notes() const override { return device_->notes(); }
+
+ private:
+  [[noreturn]] static void fail(const char* what, double found, double allowed, const Tick& tick) noexcept {
+    std::fprintf(stderr, "transport: the force %s: %.17g N, allowed %.17g N, at %.6f s\n", what, found, allowed,
+                 tick.time);
+    std::abort();
+  }
+
+  std::unique_ptr<Device> device_;
+  OutputLimits limits_;
+  const RunControl& control_;
+  Vec3 sent_ = Vec3::Zero();
+  std::uint32_t rearms_ = 0;
+  double lost_for_ = 0;  // [s]
+  bool usable_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Device> watched(std::unique_ptr<Device> device, const OutputLimits& limits, const RunControl& control) {
+  static const bool wanted = std::getenv("PRESA_WATCH_TRANSPORT") != nullptr;
+  if (!wanted) return device;
+  return std::make_unique<TransportWatch>(std::move(device), limits, control);
+}
+
+}  // namespace presa

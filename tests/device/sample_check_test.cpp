@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "framework/device/sample_check.h"
+
+namespace presa {
+namespace {
+
+constexpr double kPeriod = 1e-3;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+FingerInput at(double x) { return {.p_WH = {x, 0, 0}, .v_WH = {0.1, 0, 0}, .valid = true}; }
+
+TEST(SampleCheck, AGoodSamplePasses) {
+  SampleCheck check;
+  const FingerInput out = check.take(at(0.1), kPeriod);
+  EXPECT_TRUE(out.valid);
+  EXPECT_EQ(out.p_WH.x(), 0.1);
+  EXPECT_EQ(out.v_WH.x(), 0.1);
+}
+
+// One bad sample: the last good place for one tick, at rest. The second in a row: latched, whatever follows, until re-armed.
+TEST(SampleCheck, TheSecondImpossibleSampleLatches) {
+  for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 1e308, 0.1 + 0.03}) {
+    SampleCheck check;
+    check.take(at(0.1), kPeriod);
+    FingerInput out = check.take(at(bad), kPeriod);
+    EXPECT_TRUE(out.valid) << bad;
+    EXPECT_EQ(out.p_WH.x(), 0.1);
+    EXPECT_EQ(out.v_WH.x(), 0);
+    if (bad < 1) continue;  // a jump of 30 mm is possible within two ticks: see below
+    out = check.take(at(bad), kPeriod);
+    EXPECT_TRUE(out.lost);
+    EXPECT_FALSE(check.take(at(0.1), kPeriod).valid);
+    check.rearm();
+    EXPECT_TRUE(check.take(at(0.7), kPeriod).valid);  // wherever it is now
+  }
+}
+
+// 20 m/s is the bound: a jump is judged by the time since the last good sample.
+TEST(SampleCheck, AJumpIsJudgedByTheTimeThatItHad) {
+  SampleCheck check;
+  check.take(at(0), kPeriod);
+  EXPECT_EQ(check.take(at(0.019), kPeriod).p_WH.x(), 0.019);
+  EXPECT_EQ(check.take(at(0.040), kPeriod).p_WH.x(), 0.019);  // 21 m/s
+  EXPECT_EQ(check.take(at(0.040), kPeriod).p_WH.x(), 0.040);  // 10.5 m/s over two ticks
+  EXPECT_FALSE(check.latched());
+}
+
+// A missing sample is bridged for one tick; then the finger is not valid, and its place is the last that was.
+TEST(SampleCheck, ASilentDeviceIsBridgedForOneTick) {
+  SampleCheck check;
+  check.take(at(0.1), kPeriod);
+  const FingerInput nothing;
+  EXPECT_TRUE(check.take(nothing, kPeriod).valid);
+  const FingerInput out = check.take(nothing, kPeriod);
+  EXPECT_FALSE(out.valid);
+  EXPECT_FALSE(out.lost);
+  EXPECT_EQ(out.p_WH.x(), 0.1);
+  EXPECT_TRUE(check.take(at(0.101), kPeriod).valid);  // it is back by itself
+}
+
+// A sample that is old when it comes is as good as none.
+TEST(SampleCheck, AnOldSampleIsNone) {
+  SampleCheck check;
+  check.take(at(0.1), kPeriod);
+  FingerInput old = at(0.1);
+  old.age = 3e-3;
+  EXPECT_TRUE(check.take(old, kPeriod).valid == false);
+}
+
+TEST(SampleCheck, BeforeTheFirstSampleNothingIsValid) {
+  SampleCheck check;
+  EXPECT_FALSE(check.take(FingerInput{}, kPeriod).valid);
+  EXPECT_FALSE(check.take(at(kNan), kPeriod).valid);
+}
+
+TEST(SampleCheck, ADeviceThatSaysItIsLostStaysSo) {
+  SampleCheck check;
+  check.take(at(0.1), kPeriod);
+  FingerInput lost;
+  lost.lost = true;
+  EXPECT_FALSE(check.take(lost, kPeriod).valid);
+  EXPECT_TRUE(check.take(at(0.1), kPeriod).lost);
+}
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+
+#include "framework/device/transport_watch.h"
+
+// The watch that stands before every device in every test: each of its four promises broken on purpose.
+namespace presa {
+namespace {
+
+class Port final : public Device {
+ public:
+  FingerInput read(const Tick&) noexcept override { return input; }
+  void write(const Vec3&, const Tick&) noexcept override {}
+  FingerInput input{.valid = true};
+};
+
+class TransportWatchTest : public testing::Test {
+ protected:
+  TransportWatchTest() {
+    ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);
+    auto port = std::make_unique<Port>();
+    port_ = port.get();
+    device_ = watched(std::move(port), {.force = 2, .force_rate = 1000}, control_);
+    EXPECT_NE(device_.get(), port_);
+  }
+  void tick(double force) {
+    device_->read(tick_);
+    device_->write({force, 0, 0}, tick_);
+    ++tick_.index;
+    tick_.time += tick_.period;
+  }
+  RunControl control_;
+  Port* port_ = nullptr;
+  std::unique_ptr<Device> device_;
+  Tick tick_{0, 0, 1e-3};
+};
+
+TEST_F(TransportWatchTest, WhatKeepsThePromisesPasses) {
+  for (const double force : {0.0, 1.0, 2.0, 1.0, 0.0, -1.0}) tick(force);
+}
+TEST_F(TransportWatchTest, NotFinite) {
+  EXPECT_DEATH(tick(std::numeric_limits<double>::quiet_NaN()), "the force is not finite");
+}
+TEST_F(TransportWatchTest, AboveTheLimit) {
+  tick(1);
+  tick(2);
+  EXPECT_DEATH(tick(2.0001), "the force is above the limit");
+}
+TEST_F(TransportWatchTest, TooFast) { EXPECT_DEATH(tick(1.0001), "changed faster than the slew limit"); }
+TEST_F(TransportWatchTest, BeforeTheFirstSample) {
+  port_->input.valid = false;
+  tick(0);
+  EXPECT_DEATH(tick(0.5), "came before any usable sample");
+}
+TEST_F(TransportWatchTest, AfterTheDeviceWasLost) {
+  tick(1);
+  port_->input.lost = true;
+  tick(1);
+  port_->input.lost = false;
+  EXPECT_DEATH(for (int i = 0; i < 100; ++i) tick(1), "outlived the device");
+}
+TEST_F(TransportWatchTest, ARearmForgivesIt) {
+  port_->input.lost = true;
+  tick(0);
+  port_->input.lost = false;
+  for (int i = 0; i < 100; ++i) tick(0);
+  ++control_.rearms;
+  tick(1);
+}
+
+}  // namespace
+}  // namespace presa

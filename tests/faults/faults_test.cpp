@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+
+#include "experiments/faults/fault.h"
+
+namespace presa::faults {
+namespace {
+
+class Faults : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Faults, KeepTheirBounds) {
+  const Fault fault = allFaults()[GetParam()];
+  for (std::uint64_t run = 0; run < 6; ++run) {
+    RandomStream random(1000, fault.name, run);
+    const Outcome outcome = fault.run(random);
+    EXPECT_EQ(brokenBy(fault, outcome), "")
+        << fault.name << ", run " << run << ": zero at " << outcome.zero << " s, step " << outcome.step << " N";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Faults, testing::Range<std::size_t>(0, allFaults().size()));
+
+// Each kind of offence is seen.
+TEST(FaultJudge, FindsWhatIsBroken) {
+  const Fault fault{0, "", "", {.detection = 0.003, .zero = 0.005, .energy = true}, {}};
+  Outcome good;
+  good.detection = 0.003;
+  good.zero = 0.005;
+  good.step = 1;
+  good.energy = good.energy_allowed = 1e-6;
+  EXPECT_EQ(brokenBy(fault, good), "");
+  Outcome bad = good;
+  bad.step = 1.001;
+  EXPECT_EQ(brokenBy(fault, bad), "force step above the slew limit");
+  bad = good;
+  bad.detection = -1;
+  EXPECT_EQ(brokenBy(fault, bad), "detected too late");
+  bad = good;
+  bad.zero = 0.0051;
+  EXPECT_EQ(brokenBy(fault, bad), "zero too late");
+  bad = good;
+  bad.energy = 2e-6;
+  EXPECT_EQ(brokenBy(fault, bad), "energy given to the hand");
+}
+
+}  // namespace
+}  // namespace presa::faults
