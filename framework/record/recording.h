@@ -63,6 +63,7 @@ struct Recording {
   std::vector<double> time;  ///< one entry per haptic tick
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
+  std::vector<std::uint8_t> surfaces_changed;  ///< 1: they had their other friction
   std::array<std::vector<ScheduleRow>, kRateGroupCount> schedule;
 };
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "framework/graph/port.h"
+#include "framework/state/surface_change.h"
+
 namespace presa {
 namespace {
 
@@ -20,6 +23,19 @@ const ForceCommand* commandOf(const Graph& graph) {
   }
   return nullptr;
 }
+
+class RecordedSurfaces final : public Module {
+ public:
+  explicit RecordedSurfaces(const Recording& recording)
+      : Module("recorded_surfaces", RateGroup::kHaptic), recording_(recording) {}
+  void step(const Tick&) noexcept override { change_.value.happened = recording_.surfaces_changed[row_++] != 0; }
+  std::vector<std::string> stages() const override { return {"change the surfaces where they changed"}; }
+
+ private:
+  const Recording& recording_;
+  std::size_t row_ = 0;
+  Out<SurfaceChange> change_{*this, "surface_change"};
+};
 
 class Replayer {
  public:
@@ -101,6 +117,12 @@ DeviceList recordedDevices(const Recording& recording) {
   for (int f = 0; f < count; ++f)
     devices.push_back(std::make_unique<RecordedFinger>(recording, static_cast<std::size_t>(f)));
   return devices;
+}
+
+std::unique_ptr<Module> recordedSurfaces(const Recording& recording) {
+  const auto& changed = recording.surfaces_changed;
+  if (std::find(changed.begin(), changed.end(), 1) == changed.end()) return nullptr;
+  return std::make_unique<RecordedSurfaces>(recording);
 }
 
 ReplayResult replay(const Recording& recording, Session& session, const RateTable& rates, RunControl& control) {

@@ -26,6 +26,9 @@ class RecordedFinger final : public Device {
 /// One device per recorded finger, for Session::Options::devices.
 DeviceList recordedDevices(const Recording& recording);
 
+/// What changed the surfaces in the recorded run does so again, for Session::Options::more; null where nothing did.
+std::unique_ptr<Module> recordedSurfaces(const Recording& recording);
+
 /// Result of running a recording again.
 struct ReplayResult {
   std::uint64_t ticks = 0;        ///< haptic ticks replayed

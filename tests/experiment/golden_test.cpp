@@ -72,8 +72,8 @@ TEST(GoldenSession, MadeAgainHasTheSameRows) {
   const std::string experiment = std::string(PRESA_SOURCE_DIR) + "/experiments/slip_reaction";
   ScratchFolder scratch;
   ASSERT_EQ(std::system((std::string(PRESA_BINARY_DIR) + "/bin/presa experiment run " + experiment +
-                         "/experiment.xml --subject S01 --simulated L1 --lockstep --no-recording --data " +
-                         scratch.file("data") + " > " + scratch.file("log") + " 2>&1")
+                         "/experiment.xml --subject S01 --simulated L1 --lockstep --data " + scratch.file("data") +
+                         " > " + scratch.file("log") + " 2>&1")
                             .c_str()),
             0)
       << contentsOf(scratch.file("log"));
@@ -92,6 +92,19 @@ TEST(GoldenSession, MadeAgainHasTheSameRows) {
       compare(made.runs[i].end[name], golden.runs[i].end[name], at, differences);
   }
   EXPECT_THAT(differences, IsEmpty());
+  // their recordings run again to the bit, the change of friction included
+  int replayed = 0;
+  for (const LoggedRun& run : made.runs) {
+    if (run.begin["condition"]["slippery"] != "1" || replayed == 2) continue;
+    ++replayed;
+    const std::string file = folderOf(scratch.file("data"), "S01", 1).file(run.files().front());
+    EXPECT_EQ(std::system((std::string(PRESA_BINARY_DIR) + "/bin/presa replay " + file + " --verify > " +
+                           scratch.file("log") + " 2>&1")
+                              .c_str()),
+              0)
+        << contentsOf(scratch.file("log"));
+  }
+  EXPECT_EQ(replayed, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Experiments, GoldenDataset,

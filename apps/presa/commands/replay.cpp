@@ -38,6 +38,7 @@ int runReplay(const Arguments& arguments) {
   RunControl control;
   Session::Options session_options;
   session_options.devices = recordedDevices(recording);
+  if (auto surfaces = recordedSurfaces(recording)) session_options.more.push_back(std::move(surfaces));
   Session session(loaded.world, loaded.plan, control, std::move(session_options));
   const ReplayResult result = replay(recording, session, RateTable(loaded.world->scene.rates), control);
   if (!result.problem.empty()) {

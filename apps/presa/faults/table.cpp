@@ -76,15 +76,15 @@ std::string pageHtml(const std::vector<Row>& rows, const RunnerOptions& options)
       "rows are those of the fault table.</p>\n",
       options.runs, static_cast<unsigned long long>(options.seed));
   html += "<div class=\"scroll\"><table><thead><tr>";
-  for (const char* column : kColumns) html += format("<th>%s</th>", column);
+  for (const char* column : kColumns) html += format("<th style=\"white-space:normal\">%s</th>", column);
   html += "</tr></thead><tbody>\n";
   for (const Row& row : rows) {
     html += "<tr>";
     const auto cells = cellsOf(row);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const bool verdict = i + 1 == cells.size();
-      html += (verdict ? (row.broken == 0 ? "<td class=\"good\">" : "<td class=\"bad\">") : "<td>") +
-              svg::escape(cells[i]) + "</td>";
+      const bool words = i == 1 || i == 2, verdict = i + 1 == cells.size();
+      const char* css = words ? "words" : !verdict ? "" : row.broken == 0 ? "good" : "words bad";
+      html += format("<td class=\"%s\">", css) + svg::escape(cells[i]) + "</td>";
     }
     html += "</tr>\n";
   }

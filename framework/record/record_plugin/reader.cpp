@@ -68,19 +68,18 @@ void readHeader(hid_t file, Recording& recording) {
   recording.haptic_period = h5::readRealAttribute(file, "haptic_period_s");
 }
 
-/// Version 1 had no ticks that were made up without reaching the device.
-Table scheduleTableOf(hid_t file) {
-  Table table = scheduleTable();
-  if (h5::readCountAttribute(file, "format_version") < 2)
-    std::erase_if(table.columns, [](const Column& column) { return column.name == "made_up"; });
+/// A table as the file has it: without a column that came with a later version of the format.
+Table asIn(hid_t file, Table table, const std::string& added, std::uint64_t version) {
+  if (h5::readCountAttribute(file, "format_version") < version)
+    std::erase_if(table.columns, [&](const Column& column) { return column.name == added; });
   return table;
 }
 
 void readTicks(hid_t file, const std::string& name, Recording& recording) {
-  auto ticks = readTable<TickRow>(file, "haptic/ticks", tickTable());
+  auto ticks = readTable<TickRow>(file, "haptic/ticks", asIn(file, tickTable(), "surfaces_changed", 3));
   const auto fingers = readFingers(file);
   std::size_t count = commonPrefix(ticks, fingers);
-  const Table schedule = scheduleTableOf(file);
+  const Table schedule = asIn(file, scheduleTable(), "made_up", 2);
   for (int g = 0; g < kRateGroupCount; ++g) {
     recording.schedule[static_cast<std::size_t>(g)] =
         readTable<ScheduleRow>(file, std::string("schedule/") + toString(static_cast<RateGroup>(g)), schedule);
@@ -95,6 +94,7 @@ void readTicks(hid_t file, const std::string& name, Recording& recording) {
     recording.time.push_back(ticks[i].time);
     recording.device.push_back(deviceState(ticks[i], fingers, i));
     recording.command.push_back(forceCommand(ticks[i], fingers, i));
+    recording.surfaces_changed.push_back(ticks[i].surfaces_changed != 0 ? 1 : 0);
   }
 }
 

@@ -107,6 +107,7 @@ void FileRecorder::fillRow(const Tick& tick) noexcept {
   row.device_count = device_->count;
   row.command_count = command_->count;
   row.stop_requested = device_->stop_requested ? 1 : 0;
+  row.surfaces_changed = surfaces_.hasValue() && surfaces_->happened ? 1 : 0;
   row.output_status = command_->status;
   row.coverage_lost = contact_->coverage_lost;
   row.pop_through = contact_->pop_through;

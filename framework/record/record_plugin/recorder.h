@@ -13,6 +13,7 @@
 #include "framework/record/record_plugin/row_ring.h"
 #include "framework/record/record_plugin/rows.h"
 #include "framework/record/recording.h"
+#include "framework/state/surface_change.h"
 
 namespace presa::record {
 
@@ -70,6 +71,7 @@ class FileRecorder final : public Recorder, public WatchedStages {
   In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+  In<SurfaceChange> surfaces_{*this, "surface_change", In<SurfaceChange>::Optional{}};
 
   std::shared_ptr<const World> world_;
   WriterSettings settings_;

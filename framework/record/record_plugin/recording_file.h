@@ -10,7 +10,7 @@
 namespace presa::record {
 
 /// Version of the layout below; a reader refuses a higher one.
-inline constexpr std::uint64_t kFormatVersion = 2;  // 2: made_up in the schedule
+inline constexpr std::uint64_t kFormatVersion = 3;  // 2: made_up in the schedule; 3: surfaces_changed in the ticks
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows of one chunk in the file and of one write.
 inline constexpr std::size_t kBlockRows = 1024;

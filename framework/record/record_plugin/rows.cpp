@@ -44,6 +44,7 @@ Table tickTable() {
       .add("device_count", offsetof(R, device_count), Cell::kI32, "1", "fingers in the device state")
       .add("command_count", offsetof(R, command_count), Cell::kI32, "1", "fingers in the force command")
       .add("stop_requested", offsetof(R, stop_requested), Cell::kI32, "1", "1: the run is being stopped, forces fade")
+      .add("surfaces_changed", offsetof(R, surfaces_changed), Cell::kU64, "1", "1: surfaces have their other friction")
       .add("output_status", offsetof(R, output_status), Cell::kU32, "1",
            "bits of the output stage, all fingers together")
       .add("coverage_lost", offsetof(R, coverage_lost), Cell::kU32, "1",
@@ -68,7 +69,8 @@ Table fingerTable() {
       .vector("f_rendered_W", offsetof(R, f_rendered_W), "N", "force on the finger before the output stage")
       .vector("f_command_W", offsetof(R, f_command_W), "N", "force on the finger after the output stage")
       .add("phase", offsetof(R, phase), Cell::kI32, "1", "phase of the scripted motion; -1: none")
-      .add("valid", offsetof(R, valid), Cell::kI32, "1", "1: the device delivered a usable sample; 2: lost until re-armed")
+      .add("valid", offsetof(R, valid), Cell::kI32, "1",
+           "1: the device delivered a usable sample; 2: lost until re-armed")
       .add("mode", offsetof(R, mode), Cell::kI32, "1", "contact: 0 none, 1 sticking, 2 slipping")
       .add("body", offsetof(R, body), Cell::kI32, "1", "touched body, counted from 0 in scene order; -1: none");
   return {sizeof(R), c.take()};
