@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,12 +31,16 @@ struct Fault {
   std::string name, required;
   Bounds bounds;
   std::function<Outcome(RandomStream&)> run;
+  int most_runs = std::numeric_limits<int>::max();  ///< where a run takes wall time or says no more than the one before
 };
 
 /// What a run broke; empty: nothing.
 std::string brokenBy(const Fault& fault, const Outcome& outcome);
 
-/// In the order of the table.
+/// Faults under two fingers that hold a cube (hold.h).
+std::vector<Fault> holdFaults();
+
+/// Of every family, in the order of the table.
 std::vector<Fault> allFaults();
 
 }  // namespace presa::faults

@@ -1,126 +1,13 @@
-#include <cmath>
-#include <limits>
+#include <algorithm>
+#include <iterator>
 
-#include "experiments/faults/hold.h"
+#include "experiments/faults/fault.h"
 
 namespace presa::faults {
 namespace {
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSlew = 1000 * 1e-3;  // of the scene [N] a tick
 constexpr double kRounding = 1e-9;
-constexpr double kAfter = 0.7;  // [s] watched after the fault
-
-/// While fingers press: closing, lifting, holding.
-double anyMoment(RandomStream& random) { return random.uniform(0.95, 2.6); }
-
-Outcome judged(Hold hold, Judge judge) {
-  runHold(hold, [&](double time, const Traffic& traffic) { judge.see(time, traffic); });
-  return judge.outcome();
-}
-
-/// The thumb's samples are changed from a moment on, for a while.
-Outcome sampleFails(RandomStream& random, double length, unsigned fingers,
-                    const std::function<void(RandomStream&, FingerInput&)>& change) {
-  const double begin = anyMoment(random);
-  RandomStream bits(random.bits(), "sample");
-  Hold hold;
-  hold.end = begin + kAfter;
-  hold.thumb = [&, begin, length](double time, FingerInput& sample) {
-    if (time >= begin - 1e-9 && time < begin + length - 1e-9) change(bits, sample);
-  };
-  return judged(hold, Judge(begin, begin + length, fingers));
-}
-
-Outcome unplugged(RandomStream& random) {
-  return sampleFails(random, kForever, 3, [](RandomStream&, FingerInput& sample) {
-    sample = {};
-    sample.lost = true;
-  });
-}
-
-/// Not a number, infinite, 1e308, or somewhere else in the room: for good, so that the second in a row comes.
-Outcome impossibleSample(RandomStream& random) {
-  const std::uint64_t kind = random.below(4);
-  return sampleFails(random, kForever, 1, [kind](RandomStream& bits, FingerInput& sample) {
-    const double bad[] = {kNan, kForever, 1e308, 0.1 + bits.uniform()};
-    sample.p_WH[static_cast<int>(bits.below(3))] = (bits.below(2) == 0 ? 1 : -1) * bad[kind];
-  });
-}
-
-/// One impossible sample alone is bridged: nothing is to be felt of it.
-Outcome oneImpossibleSample(RandomStream& random) {
-  Outcome outcome = sampleFails(random, 1e-3, 1, [](RandomStream& bits, FingerInput& sample) {
-    sample.p_WH.x() = bits.below(2) == 0 ? kNan : 1e9;
-  });
-  if (outcome.detection >= 0) outcome.broken.emplace_back("one bad sample took force away");
-  outcome.detection = outcome.zero = 0;
-  return outcome;
-}
-
-Outcome silent(RandomStream& random) {
-  const double length = 1e-3 * static_cast<double>(6 + random.below(200));
-  return sampleFails(random, length, 1, [](RandomStream&, FingerInput& sample) { sample = {}; });
-}
-
-/// Some replies missing here and there, fewer than take the force to zero.
-Outcome stutters(RandomStream& random) {
-  const double begin = anyMoment(random);
-  RandomStream bits(random.bits(), "replies");
-  Hold hold;
-  hold.end = begin + kAfter;
-  hold.thumb = [&](double time, FingerInput& sample) {
-    if (time >= begin && bits.below(4) == 0) sample = {};
-  };
-  Outcome outcome = judged(hold, Judge(begin, kForever, 1));
-  outcome.detection = outcome.zero = 0;  // it need not, and may
-  return outcome;
-}
-
-Outcome held(RandomStream& random, RateGroup group, double length) {
-  const double begin = anyMoment(random);
-  Hold hold;
-  hold.end = begin + std::min(length, 0.5) + kAfter;
-  hold.held_up = [=](RateGroup asked, double time) {
-    return asked == group && time >= begin - 1e-9 && time < begin + length - 1e-9;
-  };
-  return judged(hold, Judge(begin, begin + length));
-}
-
-Outcome dynamicsStalls(RandomStream& random) {
-  return held(random, RateGroup::kDynamics, random.below(2) == 0 ? 0.05 : 0.5);
-}
-Outcome dynamicsDies(RandomStream& random) { return held(random, RateGroup::kDynamics, kForever); }
-Outcome collisionDies(RandomStream& random) { return held(random, RateGroup::kCollision, kForever); }
-
-/// The haptic thread is late by 1.5, 5 or 50 ms. Nothing can be sent meanwhile: what counts is what comes after.
-Outcome overrun(RandomStream& random) {
-  const double lengths[] = {0.0015, 0.005, 0.05};
-  Outcome outcome = held(random, RateGroup::kHaptic, lengths[random.below(3)]);
-  outcome.detection = outcome.zero = 0;
-  return outcome;
-}
-
-/// Fingers that are in the object when the run begins.
-Outcome startsInside(RandomStream& random) {
-  Hold hold;
-  hold.deep = random.uniform(0.001, 0.06);
-  hold.end = 1.0;
-  hold.closed = 5;
-  double most_rise = 0, before = 0, first = -1;
-  Outcome outcome;
-  runHold(hold, [&](double time, const Traffic& traffic) {
-    const double now = std::max(traffic.force[0].norm(), traffic.force[1].norm());
-    most_rise = std::max(most_rise, now - before);
-    if (first < 0) first = now;
-    // 8 N over half a second: the soft start
-    if (now > 8 * (time + 2e-3) / 0.5 + 1e-9) outcome.broken.emplace_back("the force was not ramped up");
-    before = now;
-    outcome.step = traffic.step;
-  });
-  return outcome;
-}
 
 }  // namespace
 
@@ -136,34 +23,10 @@ std::string brokenBy(const Fault& fault, const Outcome& outcome) {
 }
 
 std::vector<Fault> allFaults() {
-  return {
-      {1,
-       "device unplugged in the grasp",
-       "the other device goes to zero; nothing comes back without a re-arm",
-       {0.003, 0.020, false},
-       unplugged},
-      {2,
-       "samples NaN, infinite, 1e308, or a jump, for good",
-       "rejected; zero and latched by the second",
-       {0.003, 0.010, false},
-       impossibleSample},
-      {2, "one such sample alone", "bridged by the last good one", {}, oneImpossibleSample},
-      {4,
-       "replies missing for 6 to 205 ms",
-       "held 2 ms at most, then to zero; softly back",
-       {0.003, 0.005, false},
-       silent},
-      {4, "a quarter of the replies missing", "no step, no burst", {}, stutters},
-      {5,
-       "dynamics stalls 50 or 500 ms",
-       "contact with the frozen pose, faded after 20 ms",
-       {0, 0, true},
-       dynamicsStalls},
-      {5, "dynamics dies", "faded after 20 ms", {0, 0.045, true}, dynamicsDies},
-      {6, "collision dies", "zero within three periods", {0, 0.030, true}, collisionDies},
-      {11, "haptic thread late by 1.5, 5 or 50 ms", "no step", {}, overrun},
-      {16, "fingers start inside the object", "force from zero, no ejection", {}, startsInside},
-  };
+  std::vector<Fault> all;
+  for (auto family : {holdFaults}) std::ranges::move(family(), std::back_inserter(all));
+  std::ranges::stable_sort(all, {}, &Fault::row);
+  return all;
 }
 
 }  // namespace presa::faults

@@ -65,7 +65,8 @@ struct Block {
 std::vector<Block> blocksOf(const std::vector<Fault>& faults, int runs) {
   std::vector<Block> blocks;
   for (std::size_t f = 0; f < faults.size(); ++f) {
-    for (int first = 0; first < runs; first += kBlock) blocks.push_back({f, first, std::min(kBlock, runs - first)});
+    const int wanted = std::min(runs, faults[f].most_runs);
+    for (int first = 0; first < wanted; first += kBlock) blocks.push_back({f, first, std::min(kBlock, wanted - first)});
   }
   return blocks;
 }
