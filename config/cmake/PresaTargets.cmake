@@ -42,9 +42,9 @@ function(presa_add_each folder)
   endforeach()
 endfunction()
 
-# presa_test(NAME LIBRARIES …): one GoogleTest program from every .cpp of the calling folder
+# presa_test(NAME LIBRARIES … LAUNCHER …): one GoogleTest program from every .cpp of the calling folder, run by the launcher
 function(presa_test name)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;LAUNCHER" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   if(NOT sources)
     return()
@@ -52,6 +52,9 @@ function(presa_test name)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE presa_framework ${ARG_LIBRARIES} GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE PRESA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PRESA_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  if(ARG_LAUNCHER)
+    set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${ARG_LAUNCHER}")
+  endif()
   gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name}
     ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
 endfunction()

@@ -28,6 +28,8 @@ TEST(LayeringRules, IncludesFollowTheArrows) {
   EXPECT_TRUE(includesAgainstTheArrows({"modules/a/x.cpp", include("modules/b/y.h")}));
   EXPECT_TRUE(includesAgainstTheArrows({"devices/a/x.cpp", include("modules/b/y.h")}));
   EXPECT_TRUE(includesAgainstTheArrows({"devices/a/x.cpp", include("devices/b/y.h")}));
+  EXPECT_FALSE(includesAgainstTheArrows({"devices/falcon_model/x.h", include("devices/novint_falcon/transport.h")}));
+  EXPECT_TRUE(includesAgainstTheArrows({"devices/falcon_model/x.h", include("devices/novint_falcon/packet.h")}));
   EXPECT_TRUE(includesAgainstTheArrows({"framework/a/x.h", include("modules/b/y.h")}));
   EXPECT_TRUE(includesAgainstTheArrows({"framework/a/x.h", include("tests/support/y.h")}));
   EXPECT_TRUE(includesAgainstTheArrows({"modules/a/x.cpp", include("apps/presa/y.h")}));

@@ -1,0 +1,94 @@
+#include "devices/falcon_model/grip.h"
+
+#include <cmath>
+#include <optional>
+
+#include "devices/falcon_model/legs.h"
+
+namespace presa::falcon_model {
+namespace {
+
+const Vec3 kRest(0, 0, 0.125);        // where a hand first takes it [m]
+constexpr double kInnermost = 0.075;  // of z [m]
+constexpr double kStretched = 60;     // legs are straight where angles change that fast with the place [rad/m]
+
+Vec3 torquesOf(const std::array<int, 3>& counts) { return kTorquePerCount * Vec3(counts[0], counts[1], counts[2]); }
+
+bool withinStops(const Vec3& p_D) {
+  const std::optional<Vec3> thighs = thighsAt(p_D);
+  return thighs && p_D.z() > kInnermost && thighRates(p_D, *thighs).norm() < kStretched;
+}
+
+}  // namespace
+
+Grip::Grip(const GripSettings& settings)
+    : settings_(settings),
+      plant_({settings.mass, settings.hand_stiffness, settings.hand_damping + settings.damping}, kStep),
+      hand_([](double) { return kRest; }),
+      target_(kRest) {
+  plant_.reset(kRest);
+  look();
+}
+
+void Grip::switchOn() {
+  drive_ = {};
+  homed_ = passed_out_ = {};
+  seeking_ = false;
+  offset_ = {};
+  const std::array<int, 3> counts = counters();
+  for (const std::size_t i : {0UL, 1UL, 2UL}) offset_[i] = -counts[i];
+}
+
+void Grip::seekReferences(bool seek) {
+  seeking_ = seek;
+  if (!seek) passed_out_ = {};  // an encoder that was not found yet starts again
+}
+
+void Grip::reference() {
+  homed_ = {true, true, true};
+  offset_ = {};
+}
+
+void Grip::advance(double time) {
+  const auto wanted = static_cast<std::int64_t>(std::floor(time / kStep + 1e-6));
+  while (steps_ < wanted) step();
+}
+
+void Grip::step() {
+  ++steps_;
+  const Vec3 before = target_, start = plant_.position();
+  target_ = hand_(static_cast<double>(steps_) * kStep);
+  // the hand's damper moves with its target, the device's stands still
+  const double share = settings_.hand_damping / (settings_.hand_damping + settings_.damping);
+  plant_.step(target_, share * (target_ - before) / kStep, force());
+  if (!withinStops(plant_.position())) plant_.reset(start);
+  look();
+}
+
+void Grip::look() {
+  thighs_ = *thighsAt(plant_.position());
+  rates_ = thighRates(plant_.position(), thighs_);
+  for (const std::size_t i : {0UL, 1UL, 2UL}) {
+    const double count = counted(i);
+    if (seeking_ && count > kReference[i]) passed_out_[i] = true;
+    if (!seeking_ || homed_[i] || !passed_out_[i] || count > kReference[i]) continue;
+    homed_[i] = true;
+    offset_[i] = 0;
+  }
+}
+
+double Grip::counted(std::size_t encoder) const {
+  return (thighs_[static_cast<int>(encoder)] - kThighAtZero) / kThighPerCount;
+}
+
+std::array<int, 3> Grip::counters() const {
+  std::array<int, 3> counts{};
+  for (const std::size_t i : {0UL, 1UL, 2UL}) counts[i] = static_cast<int>(std::lround(counted(i))) + offset_[i];
+  return counts;
+}
+
+unsigned Grip::homed() const { return (homed_[0] ? 1U : 0U) | (homed_[1] ? 2U : 0U) | (homed_[2] ? 4U : 0U); }
+
+Vec3 Grip::force() const { return rates_.transpose() * torquesOf(drive_); }
+
+}  // namespace presa::falcon_model

@@ -1,0 +1,37 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "framework/math/random.h"
+
+/// What may happen to replies on their way. Thread: any.
+namespace presa::falcon_model {
+
+/// One reply, before it is sent.
+struct ReplyFate {
+  std::vector<std::uint8_t> bytes;
+  std::size_t first = std::numeric_limits<std::size_t>::max();  ///< this many go at once,
+  double pause = 0;                                             ///< the rest this much later [s]
+  bool waits = false;                                           ///< goes with the next one
+};
+
+/// Two bytes fewer, as was seen in the field; anywhere but the closing one.
+inline void shorten(ReplyFate& reply, RandomStream& random) {
+  for (int i = 0; i < 2; ++i) {
+    reply.bytes.erase(reply.bytes.begin() + static_cast<std::ptrdiff_t>(random.below(reply.bytes.size() - 1)));
+  }
+}
+/// In two packets.
+inline void split(ReplyFate& reply, RandomStream& random) {
+  reply.first = 1 + random.below(reply.bytes.size() - 1);
+  reply.pause = 0.0015;
+}
+inline void flipBits(ReplyFate& reply, RandomStream& random, int bits) {
+  for (int i = 0; i < bits; ++i) {
+    reply.bytes[random.below(reply.bytes.size())] ^= static_cast<std::uint8_t>(1U << random.below(8));
+  }
+}
+
+}  // namespace presa::falcon_model
