@@ -48,6 +48,11 @@ bool FalconModel::claim() {
   return true;
 }
 
+void FalconModel::forgive() {
+  knowledge_.lost_homed = false;
+  knowledge_.homed_replies = 0;
+}
+
 bool FalconModel::vendorRequest(std::uint8_t request, std::uint16_t value, double now) {
   if (!plugged_) return false;
   advance(now);
@@ -84,10 +89,11 @@ void FalconModel::hostHasRead(const WireByte& byte, double now) {
   knowledge_.poses = std::min(knowledge_.poses + 1, Knowledge::kPoses);
   if (sent.all_homed) {
     ++knowledge_.homed_replies;
-  } else if (knowledge_.homed_replies > 0) {
+  } else {
+    const bool lost = knowledge_.homed_replies >= ForceWatch::kHomedReplies;  // before that, nothing is lost
     knowledge_.homed_replies = 0;
-    if (!knowledge_.lost_homed) knowledge_.lost_at = now;
-    knowledge_.lost_homed = true;
+    if (lost && !knowledge_.lost_homed) knowledge_.lost_at = now;
+    knowledge_.lost_homed = knowledge_.lost_homed || lost;
   }
   sent_.erase(sent_.begin(), std::next(found));  // those before it will not come any more
 }
@@ -105,7 +111,7 @@ void FalconModel::advance(double now) {
 void FalconModel::obey(const Request& request, const WireByte& last) {
   ++requests_;
   const auto known = writes_.find(last.tag);
-  const Knowledge knowledge = known == writes_.end() ? Knowledge{} : known->second;
+  Knowledge knowledge = known == writes_.end() ? Knowledge{} : known->second;
   received_.time = last.time;
   received_.counts = request.counts;
   received_.force_D = forceOf(request.counts, grip_.rates());
@@ -114,6 +120,7 @@ void FalconModel::obey(const Request& request, const WireByte& last) {
   received_.green = request.green;
   received_.blue = request.blue;
   received_.red = request.red;
+  knowledge.rates[knowledge.poses++] = grip_.rates();
   watch_.see(received_, knowledge);
   writes_.erase(writes_.begin(), known);
   grip_.drive(request.counts);

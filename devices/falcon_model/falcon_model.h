@@ -43,6 +43,8 @@ class FalconModel {
   /// The host's program has taken this byte out of its packet: from now on it can know.
   void hostHasRead(const WireByte& byte, double now);
   bool plugged() const { return plugged_; }
+  /// Somebody has looked and armed the host again: after ten more replies it may push.
+  void forgive();
   /// Counts each time that power came on: who opened an earlier one has lost it.
   int powerUps() const { return power_ups_; }
   /// One program at a time.

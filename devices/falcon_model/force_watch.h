@@ -18,7 +18,9 @@ struct WatchLimits {
 /// What the host could know when it wrote a request: what it had read until then.
 struct Knowledge {
   static constexpr std::size_t kPoses = 4;
-  std::array<Mat3, kPoses> rates{};  ///< d(thighs)/d(position) where it last saw the grip, newest first
+  /// d(thighs)/d(position) where it last saw the grip, newest first, and then where it is: who does not believe what he sees
+  /// may go on with where it was.
+  std::array<Mat3, kPoses + 1> rates{};
   std::size_t poses = 0;
   int homed_replies = 0;    ///< in a row, all three encoders referenced
   bool lost_homed = false;  ///< it was told that a reference was lost, after it had all three

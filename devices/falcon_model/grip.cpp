@@ -14,11 +14,6 @@ constexpr double kStretched = 60;     // legs are straight where angles change t
 
 Vec3 torquesOf(const std::array<int, 3>& counts) { return kTorquePerCount * Vec3(counts[0], counts[1], counts[2]); }
 
-bool withinStops(const Vec3& p_D) {
-  const std::optional<Vec3> thighs = thighsAt(p_D);
-  return thighs && p_D.z() > kInnermost && thighRates(p_D, *thighs).norm() < kStretched;
-}
-
 }  // namespace
 
 Grip::Grip(const GripSettings& settings)
@@ -27,7 +22,7 @@ Grip::Grip(const GripSettings& settings)
       hand_([](double) { return kRest; }),
       target_(kRest) {
   plant_.reset(kRest);
-  look();
+  place(kRest);
 }
 
 void Grip::switchOn() {
@@ -61,13 +56,22 @@ void Grip::step() {
   // the hand's damper moves with its target, the device's stands still
   const double share = settings_.hand_damping / (settings_.hand_damping + settings_.damping);
   plant_.step(target_, share * (target_ - before) / kStep, force());
-  if (!withinStops(plant_.position())) plant_.reset(start);
-  look();
+  if (!place(plant_.position())) plant_.reset(start);
+  findReferences();
 }
 
-void Grip::look() {
-  thighs_ = *thighsAt(plant_.position());
-  rates_ = thighRates(plant_.position(), thighs_);
+/// False beyond the end stops.
+bool Grip::place(const Vec3& p_D) {
+  const std::optional<Vec3> thighs = thighsAt(p_D);
+  if (!thighs || p_D.z() < kInnermost) return false;
+  const Mat3 rates = thighRates(p_D, *thighs);
+  if (rates.norm() > kStretched) return false;
+  thighs_ = *thighs;
+  rates_ = rates;
+  return true;
+}
+
+void Grip::findReferences() {
   for (const std::size_t i : {0UL, 1UL, 2UL}) {
     const double count = counted(i);
     if (seeking_ && count > kReference[i]) passed_out_[i] = true;

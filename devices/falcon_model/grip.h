@@ -50,7 +50,8 @@ class Grip {
 
  private:
   void step();
-  void look();
+  bool place(const Vec3& p_D);
+  void findReferences();
   double counted(std::size_t encoder) const;
 
   GripSettings settings_;

@@ -8,7 +8,7 @@
 
 namespace presa::falcon {
 
-/// The grip of a Falcon as a finger of the world. Buttons: bit 0 the middle one (ready, answer), 1 forward, 2 plus, 3 minus.
+/// The grip of a Falcon as a finger of the world (finger.h).
 class FalconDevice final : public Device {
  public:
   /// Finds and claims the device; throws InputError when it cannot.
@@ -34,9 +34,6 @@ class FalconDevice final : public Device {
   Connect connect_;
   std::unique_ptr<FalconIo> io_;
 };
-
-/// From the grip in frame D to a finger in the world, and a force back.
-FingerInput fingerOf(const LinkSample& sample, const Pose& X_WD, double scale) noexcept;
 
 /// Over USB: throws with E487..E491.
 std::unique_ptr<FalconTransport> connectOverUsb(const std::string& serial, const SourceLocation& where);

@@ -5,48 +5,53 @@
 
 namespace presa::falcon {
 
-/// The last gate before the motors: soft start, slew, fade-out when what the force was made from is old.
+/// The last gate before the motors: soft start, slew, and down to zero when what the force was made from is not to be trusted. Nothing
+/// makes a step that `rate` does not allow, not even a fault: a hand that leans on a force which is gone at once would jump.
 /// Thread: the link's; nonblocking.
 class ForceGate {
  public:
-  /// `rate`: largest change of a force that goes on [N/s].
+  /// `rate`: largest change of a force [N/s].
   explicit ForceGate(double rate) : rate_(rate) {}
 
-  /// Zero at once; the next force starts softly.
+  /// Nothing is in the motors: for the start, and where no force can be worked out any more.
   void cut() noexcept {
     out_.setZero();
-    held_.setZero();
     gain_ = 0;
-    fade_ = 0;
   }
+  /// What comes next starts softly.
+  void soften() noexcept { gain_ = 0; }
+  bool quiet() const noexcept { return out_.isZero(0); }
 
   /// The force to send `elapsed` seconds after the last one. `fresh`: made from a position and by a haptic thread that are
-  /// both alive; otherwise the last force fades out, faster than `rate` where it must.
+  /// both alive; otherwise, or when it is not finite, the force goes to zero. It comes back as softly as far as it went.
   Vec3 step(const Vec3& wanted, bool fresh, double elapsed) noexcept {
-    if (!wanted.allFinite()) {
-      cut();
-    } else if (!fresh) {
-      gain_ = 0;
-      fade_ = std::max(0.0, fade_ - elapsed / kFadeTime);
-      out_ = fade_ > 1e-9 ? Vec3(fade_ * held_) : Vec3(Vec3::Zero());
-    } else {
+    const double before = out_.norm();
+    if (fresh && wanted.allFinite()) {
       gain_ = std::min(1.0, gain_ + elapsed / kSoftStart);
-      const Vec3 way = gain_ * wanted - out_;
-      const double length = way.norm(), reach = rate_ * elapsed;
-      out_ += length > reach ? Vec3(way * (reach / length)) : way;
-      held_ = out_;
-      fade_ = 1;
+      go(gain_ * wanted, elapsed);
+    } else {
+      go(Vec3::Zero(), elapsed);
+      gain_ = before > 0 ? gain_ * out_.norm() / before : 0;
     }
     return out_;
   }
 
   static constexpr double kSoftStart = 0.5;  ///< from nothing to all of the force [s]
-  static constexpr double kFadeTime = 3e-3;  ///< to nothing [s]
 
  private:
+  void go(const Vec3& where, double elapsed) noexcept {
+    const Vec3 way = where - out_;
+    const double length = way.norm(), reach = rate_ * elapsed;
+    if (length > reach) {
+      out_ += way * (reach / length);
+    } else {
+      out_ = where;
+    }
+  }
+
   double rate_;
-  double gain_ = 0, fade_ = 0;
-  Vec3 out_ = Vec3::Zero(), held_ = Vec3::Zero();
+  double gain_ = 0;
+  Vec3 out_ = Vec3::Zero();
 };
 
 }  // namespace presa::falcon

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::int64_t kWake = 250'000;  // [ns]
 constexpr int kPriority = 82;        // above the haptic thread (80), which waits for nothing but would run beside it
-constexpr double kFarewell = 20e-3;  // [s] of zero force at the end
+constexpr double kFarewell = 20e-3;  // [s] at the end, and until the force is zero
+constexpr double kPatience = 1;      // [s] with a device that takes nothing any more
 
 }  // namespace
 
@@ -61,7 +62,8 @@ void FalconIo::run() noexcept {
       end = seconds(now) + kFarewell;
     }
     step(seconds(now));
-    if (end > 0 && (seconds(now) >= end || link_.status().state == LinkState::kDead)) return;
+    if (end > 0 && link_.status().state == LinkState::kDead) return;
+    if (end > 0 && seconds(now) >= (link_.status().quiet ? end : end + kPatience)) return;
   }
 }
 

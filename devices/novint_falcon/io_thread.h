@@ -18,7 +18,7 @@ class FalconIo {
   /// Starts the thread, which begins to bring the device up.
   FalconIo(std::unique_ptr<FalconTransport> transport, std::vector<std::uint8_t> firmware,
            const LinkSettings& settings);
-  /// Sends zero force for a while, then ends.
+  /// Takes the force to zero, sends that for a while, then ends.
   ~FalconIo();
   FalconIo(const FalconIo&) = delete;
   FalconIo& operator=(const FalconIo&) = delete;

@@ -45,7 +45,6 @@ void FalconLink::rearm() noexcept {
 void FalconLink::release() noexcept {
   if (state_ == LinkState::kDead || state_ == LinkState::kClosed) return;
   state_ = state_ == LinkState::kStarting ? LinkState::kDead : LinkState::kReleased;  // half a firmware takes no packet
-  forces_.cut();
   sample_.valid = false;
 }
 
@@ -114,13 +113,12 @@ void FalconLink::take(const Reply& reply, double asked, double now) noexcept {
 void FalconLink::operate() noexcept {
   state_ = LinkState::kOperating;
   samples_.reset();
-  forces_.cut();
+  forces_.soften();
 }
 
 void FalconLink::latch(LinkFault fault) noexcept {
   state_ = LinkState::kLatched;
   fault_ = fault;
-  forces_.cut();
   sample_.valid = false;
   sample_.lost = true;
 }
@@ -145,11 +143,13 @@ void FalconLink::request(double now, const LinkCommand& command) noexcept {
 }
 
 Counts FalconLink::countsFor(double now, const LinkCommand& command, ForceGate& forces) const noexcept {
-  if (state_ != LinkState::kOperating || samples_.empty()) return {};
-  const bool fresh = sample_.valid && now - command.time <= kCommandHold + kTick;
+  const bool operating = state_ == LinkState::kOperating && !samples_.empty();
+  if (!operating && forces.quiet()) return {};
+  const bool fresh =
+      operating && sample_.valid && now - arrived_ <= kForceHold + kTick && now - command.time <= kCommandHold + kTick;
   // never more of a slope than one period allows, however late this request is
-  const double elapsed = std::min(now - last_request_, settings_.period);
-  const Vec3 force = forces.step(command.f_H_D, fresh, fresh ? elapsed : now - last_request_);
+  const Vec3 force = forces.step(command.f_H_D, fresh, std::min(now - last_request_, settings_.period));
+  if (forces.quiet()) return {};
   const auto counts = motorCounts(force, sample_.p_DH, settings_.max_counts, settings_.counts_per_torque);
   if (!counts) forces.cut();
   return counts.value_or(Counts{});
@@ -171,6 +171,7 @@ LinkStatus FalconLink::status() const noexcept {
           .fault = fault_,
           .load = loader_.report(),
           .homed = homed_,
+          .quiet = forces_.quiet(),
           .loading = state_ == LinkState::kStarting && loader_.loading(),
           .requests = requests_,
           .replies = replies_,

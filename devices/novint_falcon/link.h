@@ -39,6 +39,7 @@ struct LinkStatus {
   LinkFault fault = LinkFault::kNone;
   LoadReport load;
   std::uint8_t homed = 0;  ///< of the last reply
+  bool quiet = true;       ///< zero force was sent last
   bool loading = false;    ///< firmware is on its way
   std::uint64_t requests = 0, replies = 0;
   std::uint64_t dropped = 0;   ///< bytes that were part of no reply
@@ -49,9 +50,10 @@ struct LinkStatus {
 /// it says what time it is [s], never backwards, every millisecond or oftener. Requests go out at `period`, each answered by
 /// one reply; what keeps the hand safe:
 ///  - force is exactly zero until all three homed flags came in kHomedInARow replies, and starts softly then;
-///  - a flag that drops later, or a second impossible sample in a row: latched, zero from the next request on;
-///  - no reply for kHold: the sample is invalid and the force fades to zero within ForceGate::kFadeTime;
-///  - no new command for kCommandHold (its maker is dead): the same.
+///  - a flag that drops later, or a second impossible sample in a row: latched, and from the next request on down to zero;
+///  - no reply for kForceHold at the time of a request: down to zero; for kHold: the sample is invalid too;
+///  - no new command for kCommandHold (its maker is dead): down to zero.
+/// Down is as fast as force_rate allows and no faster: from 4 N at 1 N/ms zero is sent 5 ms after the last good reply.
 /// Thread: one, its own in operation; nothing is allocated after construction.
 class FalconLink {
  public:
@@ -63,14 +65,15 @@ class FalconLink {
   void step(double now, const LinkCommand& command) noexcept;
   /// Out of a latched fault: asks for homing again. Nothing else leads out of one.
   void rearm() noexcept;
-  /// From the next request on zero force, whatever is commanded.
+  /// From the next request on down to zero force, whatever is commanded.
   void release() noexcept;
 
   const LinkSample& sample() const noexcept { return sample_; }
   LinkStatus status() const noexcept;
 
   static constexpr int kHomedInARow = 10;
-  static constexpr double kHold = 2e-3;          ///< of a sample [s]
+  static constexpr double kHold = 2e-3;       ///< of a sample [s]
+  static constexpr double kForceHold = 1e-3;  ///< of a force: between requests it grows by a period, so 1 to 2 ms [s]
   static constexpr double kCommandHold = 10e-3;  ///< of a command [s]
   static constexpr double kLateReply = 2e-3;     ///< a request older than this is not waited for any more [s]
 

@@ -9,6 +9,7 @@
 
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/falcon_device.h"
+#include "devices/novint_falcon/finger.h"
 #include "tests/falcon/hand_written_falcon.h"
 #include "tests/support/alloc_lock_guard.h"
 

@@ -144,17 +144,23 @@ TEST(FalconLink, AForceNeverRisesFasterThanTheRate) {
   EXPECT_GE(steps, 30);
 }
 
-TEST(FalconLink, ADroppedFlagIsZeroForceInTheSameCycleAndStaysSo) {
+// Down from the same cycle on, as fast as the slew limit lets it: sqrt(12) N in four requests.
+TEST(FalconLink, AfterADroppedFlagForceGoesToZeroFromTheSameCycleAndStaysThere) {
   for (const int flags : {0, 3, 5, 6}) {
     Bench bench;
     bench.operate({2, 2, 2});
     ASSERT_FALSE(bench.falcon.sent.back().zero());
     bench.falcon.homed = flags;
     bench.tick();  // its request is answered with the dropped flag, which arrives before the next
+    const Vec3 full(2, 2, 2), p_DH = bench.link.sample().p_DH;
+    for (const double left : {1.0, 2.0, 3.0}) {
+      bench.tick();
+      EXPECT_EQ(bench.last(), *motorCounts(full * (1 - left / full.norm()), p_DH)) << left;
+      EXPECT_FALSE(bench.link.sample().valid);
+      EXPECT_EQ(bench.link.status().fault, LinkFault::kHomingLost);
+    }
     bench.tick();
     EXPECT_TRUE(bench.falcon.sent.back().zero());
-    EXPECT_FALSE(bench.link.sample().valid);
-    EXPECT_EQ(bench.link.status().fault, LinkFault::kHomingLost);
     const std::size_t from = bench.falcon.sent.size();
     bench.falcon.homed = 7;  // coming back heals nothing
     bench.ticks(2000);
@@ -168,29 +174,44 @@ TEST(FalconLink, ADroppedFlagIsZeroForceInTheSameCycleAndStaysSo) {
   }
 }
 
-// Hold at most 2 ms after the last reply, zero 3 ms later; the sample is invalid meanwhile, and what follows starts softly.
-TEST(FalconLink, MissingRepliesFadeTheForce) {
+// Held for 1 to 2 ms after the last reply, then down at the slew limit: from 4 N zero is sent at 5 ms. The sample is invalid after
+// 2 ms, and what follows starts softly.
+TEST(FalconLink, MissingRepliesTakeTheForceDown) {
   Bench bench;
   bench.operate({0, 0, 4});
   const Counts full = bench.last();
-  const double last_reply = bench.falcon.sent.back().time;  // its reply was lost to the swallowing below
+  bench.tick();  // the last one that is answered
+  const double last_reply = bench.time + kTick;
   bench.falcon.replies_to_swallow = 20;
   const std::size_t from = bench.falcon.sent.size();
   for (int i = 0; i < 20; ++i) {
     bench.tick();
-    const double age = bench.time - (last_reply + kTick);
-    EXPECT_EQ(bench.link.sample().valid, age <= 2e-3 + 1e-9) << i;
+    EXPECT_EQ(bench.link.sample().valid, bench.time - last_reply <= 2e-3 + 1e-9) << i;
   }
   ASSERT_EQ(bench.falcon.sent.size(), from + 20);  // it keeps asking
   for (std::size_t i = from; i < bench.falcon.sent.size(); ++i) {
-    const double age = bench.falcon.sent[i].time - (last_reply + kTick);
-    const double share = std::clamp(1 - (age - 2e-3) / 3e-3, 0.0, 1.0);
+    const double age = bench.falcon.sent[i].time - last_reply;
+    const double share = std::clamp((5e-3 - age) / 4e-3, 0.0, 1.0);
     EXPECT_NEAR(bench.falcon.sent[i].force[0], full[0] * share, 1) << age;
   }
   bench.ticks(3);
   EXPECT_TRUE(bench.link.sample().valid);
   EXPECT_LT(std::abs(bench.last()[0]), std::abs(full[0]) / 50);
   bench.ticks(600);
+  EXPECT_EQ(bench.last(), full);
+}
+
+// Two replies lost: the force has gone down by 1 N of 4, and takes a quarter of the soft start to come back.
+TEST(FalconLink, ForceComesBackAsSoftlyAsFarAsItWent) {
+  Bench bench;
+  bench.operate({0, 0, 4});
+  const Counts full = bench.last();
+  bench.falcon.replies_to_swallow = 2;
+  bench.ticks(3);
+  EXPECT_NEAR(bench.last()[0], 0.75 * full[0], 1);
+  bench.ticks(60);
+  EXPECT_NEAR(bench.last()[0], (0.75 + 0.060 / 0.5) * full[0], 1 + 0.002 * std::abs(full[0]));
+  bench.ticks(70);
   EXPECT_EQ(bench.last(), full);
 }
 
@@ -219,7 +240,7 @@ TEST(FalconLink, OneImpossibleSampleIsPassedOverTwoAreLatched) {
     }
     EXPECT_EQ(bench.link.status().rejected, static_cast<std::uint64_t>(bad));
     EXPECT_EQ(bench.link.status().state, bad == 1 ? LinkState::kOperating : LinkState::kLatched);
-    EXPECT_EQ(bench.falcon.sent.back().zero(), bad == 2);
+    EXPECT_EQ(bench.falcon.sent.back().zero(), bad == 2);  // 2 N, down in two requests
     if (bad == 2) {
       EXPECT_EQ(bench.link.status().fault, LinkFault::kBadSamples);
     }
@@ -230,7 +251,7 @@ TEST(FalconLink, CountsOfNoPositionAreImpossibleToo) {
   Bench bench;
   bench.operate({0, 0, 2});
   bench.falcon.damage = [](const Bytes&) { return replyOf({32767, -32768, 0}, 0xB1); };
-  bench.ticks(3);
+  bench.ticks(4);
   EXPECT_EQ(bench.link.status().fault, LinkFault::kBadSamples);
   EXPECT_TRUE(bench.falcon.sent.back().zero());
 }
@@ -303,18 +324,18 @@ TEST(FalconLink, ACommandThatIsNotRenewedFades) {
   bench.commanding = false;
   bench.ticks(10);
   EXPECT_FALSE(bench.falcon.sent.back().zero());
-  bench.ticks(4);
+  bench.ticks(4);  // 4 N
   EXPECT_TRUE(bench.falcon.sent.back().zero());
   EXPECT_TRUE(bench.link.sample().valid);
 }
 
-TEST(FalconLink, ACommandThatIsNotFiniteIsZero) {
+TEST(FalconLink, ACommandThatIsNotFiniteTakesTheForceDown) {
   const double bad[]{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
   for (const double value : bad) {
     Bench bench;
     bench.operate({1, 1, 1});
     bench.force.x() = value;
-    bench.tick();
+    bench.ticks(2);  // sqrt(3) N, 1 N a request
     EXPECT_TRUE(bench.falcon.sent.back().zero());
     bench.force.x() = 1;
     bench.tick();
@@ -337,14 +358,15 @@ TEST(FalconLink, UnpluggedNothingIsSentAnyMore) {
   EXPECT_EQ(bench.falcon.sent.size(), sent);
 }
 
-TEST(FalconLink, ReleasedItSendsZeroWhateverIsCommanded) {
+TEST(FalconLink, ReleasedItGoesToZeroWhateverIsCommanded) {
   Bench bench;
   bench.operate({2, 2, 2});
   bench.link.release();
   const std::size_t from = bench.falcon.sent.size();
   bench.ticks(50);
   ASSERT_EQ(bench.falcon.sent.size(), from + 50);
-  for (std::size_t i = from; i < bench.falcon.sent.size(); ++i) EXPECT_TRUE(bench.falcon.sent[i].zero());
+  for (std::size_t i = from; i < bench.falcon.sent.size(); ++i)
+    EXPECT_EQ(bench.falcon.sent[i].zero(), i >= from + 3);  // sqrt(12) N, 1 N a request
   EXPECT_FALSE(bench.link.sample().valid);
 }
 
@@ -419,11 +441,12 @@ void disturb(Bench& bench, RandomStream& random) {
 }
 
 // What holds at the wire in every one of 10^6 disturbed cycles: packets are well formed, counts within their range, the
-// homing bit set, and no force where the link is not in operation.
+// homing bit set, and where the link is not in operation force only goes down.
 TEST(FalconLink, AtTheWireTheInvariantsHoldWhateverGoesWrong) {
   RandomStream random(20262, "falcon link");
   Bench bench;
   std::uint64_t latched = 0, pushed = 0;
+  double before = 0;
   for (int i = 0; i < 1'000'000; ++i) {
     bench.falcon.homed = random.below(4000) == 0 ? static_cast<int>(random.below(7)) : 7;
     disturb(bench, random);
@@ -433,7 +456,9 @@ TEST(FalconLink, AtTheWireTheInvariantsHoldWhateverGoesWrong) {
     for (const auto& sent : bench.falcon.sent) {
       ASSERT_TRUE(sent.well_formed && (sent.light_and_homing & kHomingBit));
       for (const std::int32_t counts : sent.force) ASSERT_LE(std::abs(counts), kMaxCounts);
-      ASSERT_TRUE(state == LinkState::kOperating || sent.zero()) << i;
+      const double counts = Vec3(sent.force[0], sent.force[1], sent.force[2]).norm();
+      ASSERT_TRUE(state == LinkState::kOperating || counts <= before) << i;
+      before = counts;
       pushed += sent.zero() ? 0 : 1;
     }
     ASSERT_TRUE(bench.link.sample().p_DH.allFinite() && bench.link.sample().v_DH.allFinite());
