@@ -45,4 +45,13 @@ std::vector<std::pair<std::string, std::string>> machineFacts() {
           {"Presa", kVersion}};
 }
 
+std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
 }  // namespace presa

@@ -66,7 +66,8 @@ struct RunResult {
   std::vector<std::string> notes;  ///< stiffness bounds, raised damping, skipped parts, …
   std::string screenshot;          ///< PNG path, may be empty
   Recording recording;
-  std::uint64_t solver_fallbacks = 0;  ///< dynamics steps in which the direct solver gave up on an island
+  std::vector<std::string> flight_records;  ///< the seconds around each fault, where nothing was recorded
+  std::uint64_t solver_fallbacks = 0;       ///< dynamics steps in which the direct solver gave up on an island
   std::uint64_t state_hash = 0;
 };
 

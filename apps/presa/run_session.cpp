@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <optional>
 
 #include "apps/presa/live_tap.h"
+#include "apps/presa/terminal/keys.h"
 #include "apps/presa/terminal/status_line.h"
 #include "apps/presa/version.h"
 #include "framework/schedule/clock.h"
@@ -62,6 +64,7 @@ constexpr double kDefaultDuration = 10;  // [s], for scenes without a script
 struct Run::Live {
   LiveValues values;
   StatusLine line;
+  std::optional<terminal::Keys> keys;  // while forces may have to be re-armed
   std::int64_t start_ns = 0;
   explicit Live(bool quiet) : line(quiet) {}
 };
@@ -117,7 +120,9 @@ void Run::execute() {
   const SignalGuard guard(control_);
   live_->start_ns = monotonicNs();
   for (const std::string& note : result_.notes) live_->line.note(note);
+  if (loaded_.world->options.realtime && session_->output() != nullptr) live_->keys.emplace();
   executor_->run(loaded_.world->options.duration);
+  live_->keys.reset();
   live_->line.finish();
   finish();
 }
@@ -127,8 +132,11 @@ void Run::poll() {
   FaultEvent event;
   while (session_->output() != nullptr && session_->output()->nextEvent(event)) {
     const std::string role = loaded_.world->scene.devices[static_cast<std::size_t>(event.finger)].role;
-    if (const char* fault = latchedFault(event.status))
-      result_.faults.push_back({event.time, role + ": " + fault + "; the force went to zero and stays there"});
+    if (const char* fault = latchedFault(event.status)) {
+      fail(event.time, role + ": " + fault + "; the force went to zero and stays there");
+      if (live_->keys && live_->keys->available())
+        live_->line.note(role + ": " + fault + ". Look, then press r to re-arm.");
+    }
     if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
       if (++watchdog_trips_ > kTripsTold) continue;
       std::array<char, 160> text;
@@ -139,7 +147,19 @@ void Run::poll() {
     }
   }
   if (session_->view() != nullptr && session_->view()->wantsStop()) control_.stop_requested = true;
+  noteObjectFaults();
+  if (live_->keys && live_->keys->next(0) == 'r') rearm();
   showStatus();
+}
+
+void Run::rearm() {
+  control_.rearms.fetch_add(1, std::memory_order_relaxed);
+  live_->line.note("re-armed: forces come back softly where the cause is gone");
+}
+
+void Run::fail(double time, std::string what) {
+  if (Recorder* recorder = session_->recorder()) recorder->fault(time, what);
+  result_.faults.push_back({time, std::move(what)});
 }
 
 void Run::showStatus() {
@@ -164,14 +184,16 @@ void Run::showStatus() {
 }
 
 void Run::noteObjectFaults() {
-  const std::uint32_t faults = session_->monitor().objectFaults();
-  const double time = session_->monitor().objectFaultTime();
+  const std::uint32_t all = live_->values.object_faults.load(std::memory_order_acquire);
+  const std::uint32_t faults = all & ~object_faults_told_;
+  const double time = live_->values.object_fault_time.load(std::memory_order_relaxed);
+  object_faults_told_ = all;
   if ((faults & kFaultBodyFrozen) != 0)
-    result_.faults.push_back({time, "a body's motion went beyond reason: it was frozen, forces faded to zero"});
+    fail(time, "a body's motion went beyond reason: it was frozen, forces faded to zero");
   if ((faults & kFaultEngineFailed) != 0)
-    result_.faults.push_back({time, "the dynamics engine failed: all bodies were frozen, forces faded to zero"});
+    fail(time, "the dynamics engine failed: all bodies were frozen, forces faded to zero");
   if ((faults & kFaultBadFinger) != 0)
-    result_.faults.push_back({time, "a finger contact made no sense to the dynamics, forces faded to zero"});
+    fail(time, "a finger contact made no sense to the dynamics, forces faded to zero");
 }
 
 void Run::finish() {
@@ -193,13 +215,17 @@ void Run::finish() {
       result_.rates.push_back({group, executor_->rates().rate(group), &executor_->timing(group)});
   }
   takeMonitor(session_->monitor(), result_);
-  noteObjectFaults();
   if (Recorder* recorder = session_->recorder()) {
     recorder->finish();
     const RecorderStatus status = recorder->status();
-    result_.recording = {options.record, status.rows, status.dropped};
+    if (!options.record.empty())
+      result_.recording = {options.record, status.rows, status.dropped};
+    else
+      result_.flight_records = recorder->files();
     if (status.failed)
-      result_.faults.push_back({result_.simulated_seconds, "the recording could not be written: " + options.record});
+      result_.faults.push_back(
+          {result_.simulated_seconds,
+           "the recording could not be written: " + (options.record.empty() ? options.flight : options.record)});
     if (status.dropped > 0)
       result_.notes.push_back(std::to_string(status.dropped) +
                               " rows of the recording were dropped: the disk was too slow");

@@ -31,6 +31,8 @@ class Run {
   void showStatus();
   void finish();
   void noteObjectFaults();
+  void fail(double time, std::string what);
+  void rearm();
 
   Loaded loaded_;
   Settings settings_;
@@ -41,6 +43,7 @@ class Run {
   std::unique_ptr<Executor> executor_;
   RunResult result_;
   int watchdog_trips_ = 0;
+  std::uint32_t object_faults_told_ = 0;
 };
 
 }  // namespace presa

@@ -20,7 +20,8 @@ const DevicePlugin kPlugin{.name = "novint_falcon",
                            .create = create,
                            .diagnose = falcon::diagnose,
                            .udev_rule = falcon::kUdevRule,
-                           .rating = {.force = 8, .speed = 1}};  // no continuous rating is known of it
+                           .rating = {.force = 8, .speed = 1},  // no continuous rating is known of it
+                           .hardware = true};
 
 }  // namespace
 }  // namespace presa

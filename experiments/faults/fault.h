@@ -40,6 +40,9 @@ std::string brokenBy(const Fault& fault, const Outcome& outcome);
 /// Faults under two fingers that hold a cube (hold.h).
 std::vector<Fault> holdFaults();
 
+/// Faults of the whole program, with a supervisor that outlives it: real processes in real time (press.h).
+std::vector<Fault> processFaults();
+
 /// Of every family, in the order of the table.
 std::vector<Fault> allFaults();
 

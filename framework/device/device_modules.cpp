@@ -1,5 +1,7 @@
 #include "framework/device/device_modules.h"
 
+#include <utility>
+
 #include <algorithm>
 
 #include "framework/schedule/clock.h"
@@ -20,28 +22,22 @@ void DeviceInput::step(const Tick& tick) noexcept {
   if (seen_ && seen_->hasValue()) {
     for (const auto& device : devices_) device->see(seen_->value(), tick);
   }
-  const std::uint32_t rearms = control_.rearms.load(std::memory_order_relaxed);
+  const std::uint32_t before = std::exchange(state.rearms, control_.rearms.load(std::memory_order_relaxed));
   for (std::size_t f = 0; f < devices_.size(); ++f) {
-    if (rearms != rearms_) {
+    if (state.rearms != before) {
       checks_[f].rearm();
       devices_[f]->rearm();
     }
     state.fingers[f] = checks_[f].take(devices_[f]->read(tick), tick.period);
   }
-  rearms_ = rearms;
 }
 
 std::vector<std::string> DeviceInput::stages() const {
   return {"read every device into the Device State, check each sample"};
 }
 
-DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const RunControl& control,
-                           bool realtime)
-    : Module("device_output", RateGroup::kHaptic),
-      devices_(devices),
-      control_(control),
-      reported_(safety.size(), 0),
-      realtime_(realtime) {
+DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, bool realtime)
+    : Module("device_output", RateGroup::kHaptic), devices_(devices), reported_(safety.size(), 0), realtime_(realtime) {
   for (const FingerSafety& finger : safety) {
     stages_.emplace_back(finger.limits);
     watchdog_.push_back(finger.watchdog);
@@ -70,13 +66,12 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
   command.time = tick.time;
   command.count = static_cast<std::int32_t>(devices_.size());
   command.status = 0;
-  const std::uint32_t rearms = control_.rearms.load(std::memory_order_relaxed);
   // who has lost one finger must not be pushed about by the others
   bool lost = false;
   for (std::size_t f = 0; f < devices_.size(); ++f) lost = lost || device_->fingers[f].lost;
   for (std::size_t f = 0; f < devices_.size(); ++f) {
     const FingerInput& finger = device_->fingers[f];
-    if (rearms != rearms_) stages_[f].rearm();
+    if (device_->rearms != rearms_) stages_[f].rearm();
     const OutputStage::Input input{.command = contact_->fingers[f].f_H_W,
                                    .trust = trust(f, tick),
                                    .stop = device_->stop_requested,
@@ -92,7 +87,7 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
     send(f, tick);
     watch.done(1);
   }
-  rearms_ = rearms;
+  rearms_ = device_->rearms;
 }
 
 // A device that gets many forces at one instant feels only the last: as one step, and past the slew limit.

@@ -38,7 +38,6 @@ class DeviceInput final : public Module {
   DeviceList& devices_;
   const RunControl& control_;
   std::vector<SampleCheck> checks_;
-  std::uint32_t rearms_ = 0;
   std::optional<In<ObjectState>> seen_;  // only when a device looks
   Out<DeviceState> state_{*this, "device_state"};
 };
@@ -53,7 +52,7 @@ struct FingerSafety {
 class DeviceOutput final : public Module, public WatchedStages {
  public:
   /// `safety`: as `devices`. `realtime`: the last fade, after the run, keeps the pace of the clock.
-  DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const RunControl& control, bool realtime);
+  DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, bool realtime);
   void step(const Tick& tick) noexcept override;
   void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   /// Takes every force down to zero within the slew limit, then lets go.
@@ -77,7 +76,6 @@ class DeviceOutput final : public Module, public WatchedStages {
   void report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept;
 
   DeviceList& devices_;
-  const RunControl& control_;
   std::uint32_t rearms_ = 0;
   std::vector<OutputStage> stages_;
   std::vector<double> watchdog_;  ///< [s] per finger

@@ -1,5 +1,8 @@
 #include "framework/plan/load_world.h"
 
+#include <algorithm>
+
+#include "framework/plan/plugin.h"
 #include "framework/plan/session.h"
 #include "framework/scene/load.h"
 
@@ -20,7 +23,20 @@ std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostic
   return overrides;
 }
 
+/// Whether the rig names a driver that moves something real. What cannot be loaded is said later.
+bool movesHardware(const Rig& rig) {
+  return std::any_of(rig.devices.begin(), rig.devices.end(), [](const DeviceBinding& binding) {
+    try {
+      return devicePlugin(binding.driver).hardware;
+    } catch (const InputError&) {
+      return false;
+    }
+  });
+}
+
 Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics) {
+  if (options.realtime && options.flight.empty() && !options.hardware_flight.empty() && movesHardware(rig))
+    options.flight = options.hardware_flight;
   Loaded loaded;
   loaded.plan = makePlan(scene, rig, options, diagnostics);
   // meshes are read even when the scene has findings of its own: the user sees all at once

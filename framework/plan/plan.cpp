@@ -83,7 +83,9 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
                       "--lockstep, where finer steps are a reference for coarser ones");
   }
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
-  call(!options.record.empty(), "record", RateGroup::kHaptic, "the run is recorded", "nothing is recorded");
+  call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,
+       options.record.empty() ? "the last two seconds are kept for a fault" : "the run is recorded",
+       "nothing is recorded");
   call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,
        options.view == RunOptions::View::kWindow ? "--view window" : "a picture is wanted", "no view is wanted");
   return plan;

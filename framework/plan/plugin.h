@@ -13,7 +13,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 5;
+inline constexpr int kPluginAbi = 6;
 
 struct ModulePlugin {
   int abi = kPluginAbi;
@@ -45,6 +45,9 @@ struct DevicePlugin {
   /// The line of a udev rule that lets a user open its hardware; null: none needed.
   const char* udev_rule = nullptr;
   DeviceRating rating = {};  ///< of its hardware, or of the hardware that it models
+  /// Moves something real: in real time it lives in a process of its own (framework/supervision), with a world that holds its binding
+  /// and its role, and nothing else.
+  bool hardware = false;
 };
 
 }  // namespace presa

@@ -76,4 +76,6 @@ void* pluginSymbol(const std::string& name, const char* symbol) {
   refuse(592, "", "plug-in '" + name + "' has no symbol '" + symbol + "'", "build it again with this version of Presa");
 }
 
+std::string helperProgram(const std::string& name) { return frameworkFolder() / name; }
+
 }  // namespace presa

@@ -10,4 +10,7 @@ namespace presa {
 /// load, E592 it has no such symbol.
 void* pluginSymbol(const std::string& name, const char* symbol);
 
+/// Path of a program that Presa starts itself; it lies beside the framework library.
+std::string helperProgram(const std::string& name);
+
 }  // namespace presa

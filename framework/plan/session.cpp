@@ -7,6 +7,7 @@
 #include "framework/plan/plugin.h"
 #include "framework/plan/plugin_loader.h"
 #include "framework/record/record_plugin.h"
+#include "framework/supervision/supervised_device.h"
 
 namespace presa {
 namespace {
@@ -32,11 +33,21 @@ const DevicePlugin& devicePlugin(const std::string& driver) {
   return tableOf<DevicePlugin>(driver, "presaDevicePlugin");
 }
 
+namespace {
+
+/// Null where the rig has none for the role.
+const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
+  const auto found = std::find_if(rig.devices.begin(), rig.devices.end(),
+                                  [&](const DeviceBinding& binding) { return binding.role == role; });
+  return found == rig.devices.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
 DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics) {
   DeviceList devices;
   for (const PlannedDevice& planned : plan.devices) {
-    const auto binding = std::find_if(world.rig.devices.begin(), world.rig.devices.end(),
-                                      [&](const DeviceBinding& b) { return b.role == planned.role; });
+    const DeviceBinding* binding = bindingOf(world.rig, planned.role);
     try {
       const DevicePlugin& driver = devicePlugin(planned.driver);
       if (auto device = driver.create(*binding, world, diagnostics)) devices.push_back(std::move(device));
@@ -64,11 +75,10 @@ namespace {
 std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes) {
   std::vector<FingerSafety> safety;
   for (const DeviceRole& role : world.scene.devices) {
-    const auto binding = std::find_if(world.rig.devices.begin(), world.rig.devices.end(),
-                                      [&](const DeviceBinding& b) { return b.role == role.role; });
+    const DeviceBinding* binding = bindingOf(world.rig, role.role);
     DeviceBinding::Limits allowed;
     DeviceRating rating;
-    if (binding != world.rig.devices.end()) {
+    if (binding != nullptr) {
       allowed = binding->limits;
       rating = devicePlugin(binding->driver).rating;
     }
@@ -81,15 +91,15 @@ std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>&
 
 Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
     : devices_(std::move(options.devices)) {
-  if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);
   const std::vector<FingerSafety> safety = safetyOf(*world, notes_);
+  if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices, safety);
   for (std::size_t f = 0; f < devices_.size(); ++f)
     devices_[f] = watched(std::move(devices_[f]), safety[f].limits, control);
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
   for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
   if (!devices_.empty()) {
-    output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, safety, control, world->options.realtime));
+    output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world->options.realtime));
   }
   monitor_ = &builder.add(std::make_unique<Monitor>(world, phaseStart("loosen"), options.trace_rate));
   for (auto& module : options.more) builder.add(std::move(module));
@@ -101,11 +111,16 @@ Session::~Session() {
   for (const auto& device : devices_) device->close();
 }
 
-void Session::bringUpDevices(const World& world, const Plan& plan, bool open) {
+void Session::bringUpDevices(const World& world, const Plan& plan, bool open, const std::vector<FingerSafety>& safety) {
   Diagnostics diagnostics;
   devices_ = createDevices(world, plan, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   if (!open) return;
+  for (std::size_t f = 0; f < devices_.size() && world.options.realtime; ++f) {
+    const DeviceBinding& binding = *bindingOf(world.rig, plan.devices[f].role);
+    if (!devicePlugin(binding.driver).hardware) continue;
+    devices_[f] = std::make_unique<SupervisedDevice>(std::move(devices_[f]), binding, world.rig.file, safety[f].limits);
+  }
   for (const auto& device : devices_) device->open();
 }
 

@@ -46,7 +46,7 @@ class Session {
   double phaseStart(const std::string& phase) const;
 
  private:
-  void bringUpDevices(const World& world, const Plan& plan, bool open);
+  void bringUpDevices(const World& world, const Plan& plan, bool open, const std::vector<FingerSafety>& safety);
   std::unique_ptr<Module> load(const PlannedModule& planned, const std::shared_ptr<const World>& world);
 
   DeviceList devices_;

@@ -44,9 +44,13 @@ class Recorder : public Module {
   using Module::Module;
   /// The graph's schedule; before start().
   virtual void attach(ScheduleLog& schedule) = 0;
+  /// Main thread: something went wrong in the run. A flight recorder writes its file now.
+  virtual void fault(double time, const std::string& what) = 0;
   /// Flushes everything and closes the file; after the executor has stopped.
   virtual void finish() = 0;
   virtual RecorderStatus status() const noexcept = 0;
+  /// Files that were written; after finish().
+  virtual std::vector<std::string> files() const = 0;
 };
 
 /// A recording read back whole.
@@ -59,8 +63,9 @@ struct Recording {
   bool realtime = false;
   bool complete = false;  ///< false: the run was killed; everything up to its last flush is here
   std::uint64_t dropped = 0;
-  double haptic_period = 0;  ///< [s]
-  std::vector<double> time;  ///< one entry per haptic tick
+  double haptic_period = 0;      ///< [s]
+  std::uint64_t first_tick = 0;  ///< not 0: it begins in the middle of a run, and cannot be run again
+  std::vector<double> time;      ///< one entry per haptic tick
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
   std::vector<std::uint8_t> surfaces_changed;  ///< 1: they had their other friction
@@ -84,7 +89,12 @@ struct RecordedSamples {
   double haptic_period = 0;  ///< [s]
   bool complete = false;     ///< false: the run was killed; everything up to its last flush is here
   std::uint64_t dropped = 0;
+  std::string scene_file;              ///< name it had
+  std::string start_utc;               ///< of the run, or of the file of a fault
+  std::vector<std::string> faults;     ///< with their times, in words
+  std::uint64_t first_tick = 0;        ///< not 0: it begins in the middle of a run, and cannot be run again
   std::vector<double> time;            ///< one entry per haptic tick
+  std::vector<std::uint32_t> status;   ///< OutputStatus bits of all fingers together
   std::vector<RecordedTable> fingers;  ///< in the order of the scene's roles
   std::vector<RecordedTable> bodies;   ///< that can move, in the order of the scene
 };
@@ -92,7 +102,8 @@ struct RecordedSamples {
 /// The record plug-in (HDF5), loaded when a run is recorded or replayed.
 struct RecordPlugin {
   int abi;
-  /// Creates the file world.options.record. Throws InputError: E601 it exists (and options.overwrite is not set),
+  /// Creates the file world.options.record or, where that is empty, keeps the last two seconds for a fault, which writes them to
+  /// world.options.flight. Throws InputError: E601 it exists (and options.overwrite is not set),
   /// E602 it cannot be written. Call it from an ordinary thread: the writer inherits priority and CPU set.
   std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world);
   /// Throws InputError: E603 cannot be read, E604 not HDF5, E605 not a recording, E606 newer format, E607 holds no

@@ -77,7 +77,10 @@ class Replayer {
     const auto g = static_cast<std::size_t>(group);
     if (next_[g] >= rows(group)) return false;
     const ScheduleRow& row = recording_.schedule[g][next_[g]];
-    if (group == RateGroup::kHaptic) control_.stop_requested = recording_.device[next_[g]].stop_requested;
+    if (group == RateGroup::kHaptic) {
+      control_.stop_requested = recording_.device[next_[g]].stop_requested;
+      control_.rearms = recording_.device[next_[g]].rearms;
+    }
     Tick tick = rates_.tick(group, row.index);
     tick.made_up = row.made_up != 0;
     if (!session_.graph().replayStep(group, tick, row)) return false;

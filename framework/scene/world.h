@@ -27,6 +27,9 @@ struct RunOptions {
   double screenshot_time = -1;  ///< [s]; -1: at the end
   std::string record;           ///< HDF5 path, may be empty
   bool overwrite = false;       ///< `record` may replace an existing file
+  std::string flight;  ///< HDF5 path for the last seconds before a fault, where nothing is recorded; may be empty
+  /// The same for a run that moves real hardware against the clock.
+  std::string hardware_flight;
   std::optional<SimulatedPerson> person{};
 };
 

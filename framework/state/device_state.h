@@ -24,6 +24,7 @@ struct DeviceState {
   double time = 0;              ///< simulated time of the sample [s]
   std::int32_t count = 0;       ///< fingers in use
   bool stop_requested = false;  ///< the run is being stopped: forces fade
+  std::uint32_t rearms = 0;     ///< how often somebody has looked and forgiven latched faults, since the start
   std::array<FingerInput, kMaxFingers> fingers;
 };
 

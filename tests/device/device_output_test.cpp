@@ -53,7 +53,7 @@ struct Rig {
     builder.add(std::make_unique<DeviceInput>(devices, control));
     builder.add(std::make_unique<ConstantForce>());
     objects = &builder.add(std::make_unique<Objects>());
-    output = &builder.add(std::make_unique<DeviceOutput>(devices, std::vector<FingerSafety>{{}}, control, false));
+    output = &builder.add(std::make_unique<DeviceOutput>(devices, std::vector<FingerSafety>{{}}, false));
     builder.connectByName();
     graph = builder.build();
   }

@@ -13,7 +13,8 @@ bool sameBits(const Vec3& a, const Vec3& b) {
 }
 
 bool same(const DeviceState& a, const DeviceState& b) {
-  bool equal = sameBits(a.time, b.time) && a.count == b.count && a.stop_requested == b.stop_requested;
+  bool equal =
+      sameBits(a.time, b.time) && a.count == b.count && a.stop_requested == b.stop_requested && a.rearms == b.rearms;
   for (std::size_t f = 0; f < 2; ++f) {
     const FingerInput &x = a.fingers[f], &y = b.fingers[f];
     equal = equal && sameBits(x.p_WH, y.p_WH) && sameBits(x.v_WH, y.v_WH) && x.phase == y.phase && x.valid == y.valid;
@@ -33,6 +34,7 @@ DeviceState deviceAt(std::uint64_t tick) {
   state.time = realAt(tick, 0);
   state.count = static_cast<std::int32_t>(bitsAt(tick, 1) % 3);
   state.stop_requested = bitsAt(tick, 2) % 2 == 1;
+  state.rearms = static_cast<std::uint32_t>(bitsAt(tick, 6));
   for (std::size_t f = 0; f < 2; ++f) {
     state.fingers[f] = {vectorAt(tick, 10 + 20 * f), vectorAt(tick, 13 + 20 * f),
                         static_cast<std::int32_t>(bitsAt(tick, 16 + 20 * f)), bitsAt(tick, 17 + 20 * f) % 2 == 1};

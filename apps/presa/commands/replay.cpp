@@ -1,7 +1,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/report/recording_page.h"
 #include "framework/plan/load_world.h"
 #include "framework/record/record_plugin.h"
 #include "framework/record/replay.h"
@@ -10,12 +12,28 @@ namespace presa {
 namespace {
 
 struct Arguments {
-  std::string file;
+  std::string file, page;
   bool verify = false;
 };
 
+/// A recording that begins in the middle of a run, at a fault: to be seen, not to be run again.
+int showFlight(const std::string& file, const RecordedSamples& samples) {
+  std::printf("%s: %.3f to %.3f s of scene %s, around a fault\n", file.c_str(), samples.time.front(),
+              samples.time.back(), samples.scene_file.c_str());
+  for (const std::string& fault : samples.faults) std::printf("  fault at %s\n", fault.c_str());
+  std::printf("output stages of all fingers together\n");
+  for (const std::string& line : statusTimeline(samples)) std::printf("  %s\n", line.c_str());
+  std::printf("forces and motion: presa replay %s --page FILE.html\n", file.c_str());
+  return kExitOk;
+}
+
 int runReplay(const Arguments& arguments) {
   const Recording recording = recordPlugin().read(arguments.file);
+  if (recording.first_tick > 0 || !arguments.page.empty()) {
+    const RecordedSamples samples = recordPlugin().samples(arguments.file);
+    if (!arguments.page.empty()) writeFileAtomically(arguments.page, recordingPage(arguments.file, samples));
+    if (recording.first_tick > 0) return showFlight(arguments.file, samples);
+  }
   std::printf("%s: scene %s, %zu haptic ticks, %.3f s, seed %llu, %s%s\n", arguments.file.c_str(),
               recording.scene_file.c_str(), recording.time.size(),
               recording.time.empty() ? 0.0 : recording.time.back() + recording.haptic_period,
@@ -61,9 +79,15 @@ int runReplay(const Arguments& arguments) {
 
 void addReplay(CLI::App& app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("replay", "Run a recording again from its device input");
-  command->add_option("FILE", arguments->file, "recording made with presa run --record")->required();
+  CLI::App* command =
+      app.add_subcommand("replay", "Run a recording again from its device input, or show the record of a fault");
+  command
+      ->add_option("FILE", arguments->file,
+                   "recording made with presa run --record, or the record of a fault (--flight)")
+      ->required();
   command->add_flag("--verify", arguments->verify, "compare every commanded force with the recorded one, bit by bit");
+  command->add_option("--page", arguments->page,
+                      "forces, penetration, speed and place of every finger as an HTML page");
   command->footer("Exit status: 0 replayed (and, with --verify, equal), 1 different, 2 not a recording.");
   command->callback([arguments, &status] { status = runReplay(*arguments); });
 }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/machine.h"
 #include "apps/presa/report/report.h"
 #include "apps/presa/run_session.h"
 #include "apps/presa/summary.h"
@@ -33,8 +34,8 @@ RunOptions::View chooseView(const Arguments& arguments) {
 }
 
 void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
-  for (const std::string& file :
-       {arguments.options.record, arguments.options.screenshot, arguments.summary, arguments.report}) {
+  for (const std::string& file : {arguments.options.record, arguments.options.flight, arguments.options.screenshot,
+                                  arguments.summary, arguments.report}) {
     if (file.empty()) continue;
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
@@ -65,6 +66,9 @@ std::string commandLine(const Arguments& a) {
 int run(Arguments arguments) {
   arguments.options.realtime = !arguments.lockstep;
   arguments.options.view = chooseView(arguments);
+  std::string now = utcNow();
+  std::erase_if(now, [](char c) { return c == '-' || c == ':'; });
+  arguments.options.hardware_flight = "flight-" + now + ".h5";
 
   Diagnostics diagnostics;
   const Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
@@ -104,6 +108,9 @@ void addRun(CLI::App& app, int& status) {
                    "material/rubber/stiffness=2000, rates/dynamics=400; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--record", a->options.record, "record the run at haptic rate (HDF5)");
+  command->add_option("--flight", a->options.flight,
+                      "keep the last two seconds in memory and write them here when a fault occurs\n"
+                      "(default with real devices: flight-TIME.h5; presa replay opens it)");
   command->add_flag("--overwrite", a->options.overwrite, "let --record replace an existing file");
   command->add_option("--view", a->view, "window, offscreen or none (default: window when there is a display)")
       ->check(CLI::IsMember({"window", "offscreen", "none"}));

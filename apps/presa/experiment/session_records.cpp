@@ -1,9 +1,8 @@
 #include "apps/presa/experiment/session_records.h"
 
-#include <array>
 #include <cmath>
-#include <ctime>
 
+#include "apps/presa/machine.h"
 #include "framework/experiment/row.h"
 
 namespace presa::experiment {
@@ -35,15 +34,6 @@ Json phasesOf(const Experiment& experiment, const TrialResult& result) {
 }
 
 }  // namespace
-
-std::string utcNow() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
-}
 
 Json factsJson(const std::vector<DeviceFact>& facts) {
   Json all = Json::object();

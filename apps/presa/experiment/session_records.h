@@ -11,7 +11,5 @@ Json trialBegin(const Experiment& experiment, const PlannedTrial& trial, int run
 Json trialEnd(const Experiment& experiment, const PlannedTrial& trial, const Conducted& result);
 Json stimulusJson(const psychophysics::Stimulus& stimulus);
 Json factsJson(const std::vector<DeviceFact>& facts);
-/// For people only: nothing is computed from it, so that a clock that jumps does no harm.
-std::string utcNow();
 
 }  // namespace presa::experiment

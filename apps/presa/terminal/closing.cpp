@@ -70,6 +70,8 @@ std::string closingText(const RunResult& result, const std::string& summary_file
     out += "  " + styled(format("%.3f s: ", fault.time) + fault.text, Style::kBad, color) + "\n";
   }
   if (!result.recording.file.empty()) out += "  recording: " + result.recording.file + "\n";
+  for (const std::string& file : result.flight_records)
+    out += "  the seconds around the fault: " + file + " (presa replay " + file + ")\n";
   if (!summary_file.empty()) out += "  summary: " + summary_file + "\n";
   if (!report_file.empty()) out += "  report: " + report_file + "\n";
   return out;

@@ -34,6 +34,7 @@ DeviceState deviceState(const TickRow& tick, const std::vector<std::vector<Finge
   state.time = tick.device_time;
   state.count = tick.device_count;
   state.stop_requested = tick.stop_requested != 0;
+  state.rearms = static_cast<std::uint32_t>(tick.rearms);
   for (std::size_t f = 0; f < fingers.size(); ++f) {
     const FingerRow& finger = fingers[f][row];
     state.fingers[f] = {Vec3(finger.p_WH),
@@ -76,7 +77,8 @@ Table asIn(hid_t file, Table table, const std::string& added, std::uint64_t vers
 }
 
 void readTicks(hid_t file, const std::string& name, Recording& recording) {
-  auto ticks = readTable<TickRow>(file, "haptic/ticks", asIn(file, tickTable(), "surfaces_changed", 3));
+  auto ticks =
+      readTable<TickRow>(file, "haptic/ticks", asIn(file, asIn(file, tickTable(), "surfaces_changed", 3), "rearms", 4));
   const auto fingers = readFingers(file);
   std::size_t count = commonPrefix(ticks, fingers);
   const Table schedule = asIn(file, scheduleTable(), "made_up", 2);
@@ -90,6 +92,7 @@ void readTicks(hid_t file, const std::string& name, Recording& recording) {
     haptic.resize(count);
   }
   if (count == 0) refuse(607, name, "holds no tick", "the run ended before its first flush");
+  recording.first_tick = ticks.front().index;
   for (std::size_t i = 0; i < count; ++i) {
     recording.time.push_back(ticks[i].time);
     recording.device.push_back(deviceState(ticks[i], fingers, i));

@@ -4,9 +4,11 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstring>
 
-#include "framework/record/record_plugin/recording_file.h"
+#include "framework/record/record_plugin/flight_buffer.h"
 #include "framework/schedule/rates.h"
 
 namespace presa::record {
@@ -27,9 +29,10 @@ std::vector<std::int32_t> freeBodies(const Scene& scene) {
   return indices;
 }
 
-std::unique_ptr<RecordingFile> createFile(const World& world) {
+std::unique_ptr<RowSink> createSink(const std::shared_ptr<const World>& world) {
   const h5::Library library;
-  return std::make_unique<RecordingFile>(world);
+  if (world->options.record.empty()) return std::make_unique<FlightBuffer>(world);
+  return std::make_unique<RecordingFile>(*world);
 }
 
 void copy(const Vec3& from, double (&to)[3]) noexcept { std::copy_n(from.data(), 3, to); }
@@ -41,7 +44,7 @@ FileRecorder::FileRecorder(std::shared_ptr<const World> world, WriterSettings se
       world_(std::move(world)),
       settings_(std::move(settings)),
       realtime_(world_->options.realtime),
-      file_(createFile(*world_)),
+      file_(createSink(world_)),
       layout_(file_->layout()),
       free_bodies_(freeBodies(world_->scene)),
       capacity_(ringRows(*world_, layout_.bytes())),
@@ -107,6 +110,7 @@ void FileRecorder::fillRow(const Tick& tick) noexcept {
   row.device_count = device_->count;
   row.command_count = command_->count;
   row.stop_requested = device_->stop_requested ? 1 : 0;
+  row.rearms = device_->rearms;
   row.surfaces_changed = surfaces_.hasValue() && surfaces_->happened ? 1 : 0;
   row.output_status = command_->status;
   row.coverage_lost = contact_->coverage_lost;
@@ -208,6 +212,7 @@ void FileRecorder::drain() {
     drainSchedule();
     flushWhenDue();
   } while (taken > 0);
+  writeFaults();
 }
 
 std::size_t FileRecorder::drainBlock() {
@@ -233,6 +238,16 @@ void FileRecorder::drainSchedule() {
   }
 }
 
+// After the rows: what led to a fault is there before it.
+void FileRecorder::writeFaults() {
+  std::vector<std::string> faults;
+  {
+    const std::scoped_lock lock(mutex_);
+    faults.swap(faults_);
+  }
+  for (const std::string& fault : faults) onFile([&] { file_->addFault(fault); });
+}
+
 void FileRecorder::flushWhenDue() {
   const auto now = std::chrono::steady_clock::now();
   if (now - flushed_at_ < settings_.flush_every) return;
@@ -251,6 +266,7 @@ void FileRecorder::closeFile() {
     if (complete_) file_->finish();
   });
   const h5::Library library;
+  files_ = file_->files();
   file_.reset();
 }
 
@@ -278,6 +294,13 @@ void FileRecorder::joinWriter() {
   }
   wake_.notify_one();
   writer_.join();
+}
+
+void FileRecorder::fault(double time, const std::string& what) {
+  std::array<char, 32> at;
+  std::snprintf(at.data(), at.size(), "%.3f s: ", time);
+  const std::scoped_lock lock(mutex_);
+  faults_.push_back(at.data() + what);
 }
 
 void FileRecorder::finish() {

@@ -11,13 +11,11 @@
 #include "framework/graph/port.h"
 #include "framework/graph/stage_watch.h"
 #include "framework/record/record_plugin/row_ring.h"
-#include "framework/record/record_plugin/rows.h"
+#include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
 #include "framework/state/surface_change.h"
 
 namespace presa::record {
-
-class RecordingFile;
 
 /// How often the writer looks, and what a test may do meanwhile (on the writer's thread).
 struct WriterSettings {
@@ -27,6 +25,7 @@ struct WriterSettings {
   std::function<void(std::uint64_t flushed_ticks)> after_flush;
 };
 
+/// Records into world.options.record, or, where only world.options.flight is named, keeps what a fault will write there.
 /// Two threads: step() belongs to the haptic one and puts rows into a ring; the writer, an ordinary thread, takes
 /// them out and is, between construction and finish(), the only one that touches the file.
 class FileRecorder final : public Recorder, public WatchedStages {
@@ -39,7 +38,9 @@ class FileRecorder final : public Recorder, public WatchedStages {
   std::vector<std::string> stages() const override;
   std::vector<std::string> stageFunctions() const override;
   void attach(ScheduleLog& schedule) override { schedule_.store(&schedule, std::memory_order_release); }
+  void fault(double time, const std::string& what) override;
   void finish() override;
+  std::vector<std::string> files() const override { return files_; }
   RecorderStatus status() const noexcept override;
 
   /// Rows that the ring holds.
@@ -61,6 +62,7 @@ class FileRecorder final : public Recorder, public WatchedStages {
   void drain();
   std::size_t drainBlock();
   void drainSchedule();
+  void writeFaults();
   void flushWhenDue();
   void closeFile();
   template <class Work>
@@ -76,7 +78,7 @@ class FileRecorder final : public Recorder, public WatchedStages {
   std::shared_ptr<const World> world_;
   WriterSettings settings_;
   const bool realtime_;
-  std::unique_ptr<RecordingFile> file_;
+  std::unique_ptr<RowSink> file_;
   RowLayout layout_;
   std::vector<std::int32_t> free_bodies_;  ///< scene indices, as the body tables
   std::size_t capacity_;
@@ -96,8 +98,10 @@ class FileRecorder final : public Recorder, public WatchedStages {
   std::condition_variable wake_;   ///< the writer waits
   std::condition_variable space_;  ///< step() waits, in lockstep only
   std::atomic<bool> hurry_{false};
+  std::vector<std::string> faults_;  ///< to be written
   bool stop_ = false;
   bool complete_ = false;
+  std::vector<std::string> files_;  ///< after finish()
   std::thread writer_;
 };
 

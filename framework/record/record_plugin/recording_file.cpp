@@ -77,8 +77,16 @@ Table scheduleTable() {
   return table;
 }
 
-RecordingFile::RecordingFile(const World& world) {
-  const std::string& name = world.options.record;
+RowLayout layoutOf(const World& world) {
+  RowLayout layout;
+  layout.fingers = std::min<std::size_t>(world.scene.devices.size(), kMaxFingers);
+  layout.bodies = static_cast<std::size_t>(std::count_if(world.scene.bodies.begin(), world.scene.bodies.end(),
+                                                         [](const Body& body) { return !body.fixed; }));
+  return layout;
+}
+
+RecordingFile::RecordingFile(const World& world) : name_(world.options.record), layout_(layoutOf(world)) {
+  const std::string& name = name_;
   claim(name, world.options.overwrite);
   try {
     create(world);
@@ -98,7 +106,6 @@ void RecordingFile::create(const World& world) {
   tables_.push_back(createTable(haptic, "ticks", tickTable()));
 
   const h5::Handle fingers = h5::group(haptic, "fingers");
-  layout_.fingers = std::min<std::size_t>(world.scene.devices.size(), kMaxFingers);
   for (std::size_t f = 0; f < layout_.fingers; ++f) {
     tables_.push_back(createTable(fingers, linkName(world.scene.devices[f].role), fingerTable()));
     h5::writeAttribute(tables_.back().dataset, "finger", std::uint64_t{f});
@@ -107,7 +114,6 @@ void RecordingFile::create(const World& world) {
   const h5::Handle bodies = h5::group(haptic, "bodies");
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
     if (world.scene.bodies[b].fixed) continue;
-    ++layout_.bodies;
     tables_.push_back(createTable(bodies, linkName(world.scene.bodies[b].name), bodyTable()));
     h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
   }
@@ -195,6 +201,10 @@ void RecordingFile::append(const std::uint64_t* rows, std::size_t count) {
 
 void RecordingFile::appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) {
   appendTo(schedule_[static_cast<std::size_t>(group)], rows, count);
+}
+
+void RecordingFile::addFault(const std::string& what) {
+  if (++faults_ <= kMostFaults) h5::writeAttribute(file_, "fault_" + std::to_string(faults_), what);
 }
 
 void RecordingFile::writeDropped(std::uint64_t dropped) { h5::writeAttribute(file_, "dropped", dropped); }

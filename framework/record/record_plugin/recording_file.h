@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "framework/record/record_plugin/h5.h"
+#include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
 #include "framework/scene/world.h"
 
 namespace presa::record {
 
 /// Version of the layout below; a reader refuses a higher one.
-inline constexpr std::uint64_t kFormatVersion = 3;  // 2: made_up in the schedule; 3: surfaces_changed in the ticks
+inline constexpr std::uint64_t kFormatVersion =
+    4;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms in the ticks
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows of one chunk in the file and of one write.
 inline constexpr std::size_t kBlockRows = 1024;
@@ -21,22 +23,23 @@ Table scheduleTable();
 /// moment, the file reads up to its last flush, which is why nothing is compressed (a compressed chunk moves when it
 /// grows) and why library bounds are the default ones (newer ones mark the file as open). See README.md.
 /// Thread: one at a time, holding an h5::Library. Throws h5::Failure.
-class RecordingFile {
+class RecordingFile final : public RowSink {
  public:
   /// Throws InputError E601, E602.
   explicit RecordingFile(const World& world);
 
-  const RowLayout& layout() const noexcept { return layout_; }
-  /// `count` rows of layout().bytes() each.
-  void append(const std::uint64_t* rows, std::size_t count);
-  void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count);
-  void writeDropped(std::uint64_t dropped);
-  void flush();
-  std::uint64_t flushedTicks() const noexcept { return tables_.front().flushed; }
-  /// Marks the run as ended in order, and closes.
-  void finish();
-  /// After a Failure: takes back what was not flushed and closes, so that the rest stays readable.
-  void rollBack() noexcept;
+  const RowLayout& layout() const noexcept override { return layout_; }
+  void append(const std::uint64_t* rows, std::size_t count) override;
+  void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) override;
+  void addFault(const std::string& what) override;
+  void writeDropped(std::uint64_t dropped) override;
+  void flush() override;
+  std::uint64_t flushedTicks() const noexcept override { return tables_.front().flushed; }
+  void finish() override;
+  void rollBack() noexcept override;
+  std::vector<std::string> files() const override { return {name_}; }
+
+  static constexpr std::uint64_t kMostFaults = 1000;  ///< that a file names
 
  private:
   struct TableFile {
@@ -55,7 +58,9 @@ class RecordingFile {
   void reserve();
   void close();
 
+  std::string name_;
   RowLayout layout_;
+  std::uint64_t faults_ = 0;
   h5::Handle file_;
   std::vector<TableFile> tables_;    ///< as RowLayout: the ticks, each finger, each free body
   std::vector<TableFile> schedule_;  ///< by RateGroup

@@ -45,6 +45,7 @@ Table tickTable() {
       .add("command_count", offsetof(R, command_count), Cell::kI32, "1", "fingers in the force command")
       .add("stop_requested", offsetof(R, stop_requested), Cell::kI32, "1", "1: the run is being stopped, forces fade")
       .add("surfaces_changed", offsetof(R, surfaces_changed), Cell::kU64, "1", "1: surfaces have their other friction")
+      .add("rearms", offsetof(R, rearms), Cell::kU64, "1", "latched faults forgiven, since start")
       .add("output_status", offsetof(R, output_status), Cell::kU32, "1",
            "bits of the output stage, all fingers together")
       .add("coverage_lost", offsetof(R, coverage_lost), Cell::kU32, "1",

@@ -61,13 +61,21 @@ RecordedSamples readAll(hid_t file) {
   samples.haptic_period = h5::readRealAttribute(file, "haptic_period_s");
   samples.complete = h5::readCountAttribute(file, "complete") != 0;
   samples.dropped = h5::readCountAttribute(file, "dropped");
-  const auto ticks = readTable<TickRow>(file, "haptic/ticks", subset(tickTable(), {"index", "time"}));
+  samples.scene_file = h5::readStringAttribute(file, "scene_file");
+  samples.start_utc = h5::readStringAttribute(file, "start_utc");
+  for (int i = 1; h5::hasAttribute(file, "fault_" + std::to_string(i)); ++i)
+    samples.faults.push_back(h5::readStringAttribute(file, "fault_" + std::to_string(i)));
+  const auto ticks = readTable<TickRow>(file, "haptic/ticks", subset(tickTable(), {"index", "time", "output_status"}));
   std::size_t count = ticks.size();
   for (const HapticTable& table : hapticTables(file, "fingers", "finger"))
     samples.fingers.push_back(byColumn<FingerRow>(table, fingerTable(), ticks, count));
   for (const HapticTable& table : hapticTables(file, "bodies", "body"))
     samples.bodies.push_back(byColumn<BodyRow>(table, bodyTable(), ticks, count));
-  for (std::size_t i = 0; i < count; ++i) samples.time.push_back(ticks[i].time);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples.time.push_back(ticks[i].time);
+    samples.status.push_back(ticks[i].output_status);
+  }
+  if (count > 0) samples.first_tick = ticks.front().index;
   shorten(samples.fingers, count);
   shorten(samples.bodies, count);
   return samples;

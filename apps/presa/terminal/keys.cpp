@@ -1,0 +1,32 @@
+#include "apps/presa/terminal/keys.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace presa::terminal {
+
+Keys::Keys() {
+  termios now{};
+  // a program in the background that touches the terminal is stopped by it
+  if (::isatty(STDIN_FILENO) == 0 || ::tcgetpgrp(STDIN_FILENO) != ::getpgrp() || ::tcgetattr(STDIN_FILENO, &now) != 0)
+    return;
+  before_ = now;
+  now.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  now.c_cc[VMIN] = 0;
+  now.c_cc[VTIME] = 0;
+  ::tcsetattr(STDIN_FILENO, TCSANOW, &now);
+}
+
+Keys::~Keys() {
+  if (before_) ::tcsetattr(STDIN_FILENO, TCSANOW, &*before_);
+}
+
+char Keys::next(int ms) const {
+  if (!before_) return 0;
+  pollfd waiting{STDIN_FILENO, POLLIN, 0};
+  char pressed = 0;
+  if (::poll(&waiting, 1, ms) <= 0 || ::read(STDIN_FILENO, &pressed, 1) != 1) return 0;
+  return pressed;
+}
+
+}  // namespace presa::terminal

@@ -1,0 +1,106 @@
+#include "experiments/faults/press.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <stdexcept>
+
+#include "framework/plan/load_world.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/clock.h"
+#include "framework/study/experiment_file.h"
+
+namespace presa::faults {
+namespace {
+
+constexpr double kPatience = 5;  // [s]
+
+/// /proc/self/fd of our own log: whoever is a child of ours, or has its number, can open it.
+std::string makeLog(ProbeLog*& log) {
+  const int fd = memfd_create("presa-probe", 0);
+  if (fd < 0 || ftruncate(fd, sizeof(ProbeLog)) != 0) throw std::runtime_error("no memory for the probe's log");
+  void* memory = mmap(nullptr, sizeof(ProbeLog), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  if (memory == MAP_FAILED) throw std::runtime_error("no memory for the probe's log");
+  log = new (memory) ProbeLog;
+  return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(fd);
+}
+
+std::string textOf(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Runs until it is killed.
+[[noreturn]] void runProgram(const std::string& log) {
+  const std::string scene = experimentFile("faults/press.xml");
+  const std::string rig =
+      "<rig version=\"1.0\" name=\"probe\"><device role=\"finger\" driver=\"fault_probe\"><set key=\"log\" value=\"" +
+      log + "\"/><set key=\"pos\" value=\"0 0 0.004\"/></device></rig>";
+  try {
+    RunOptions options;
+    options.realtime = true;
+    Diagnostics diagnostics;
+    const Loaded loaded = loadWorldFromText(textOf(scene), scene, rig, options, diagnostics);
+    if (diagnostics.hasErrors()) throw InputError(diagnostics);
+    RunControl control;
+    Session session(loaded.world, loaded.plan, control, {});
+    const RateTable rates(loaded.world->scene.rates);
+    const auto executor = makeExecutor(true, session.graph(), rates, control);
+    executor->run(3600);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  }
+  _exit(1);
+}
+
+/// Nothing but a zombie, at most, has that number.
+bool isOver(pid_t process) {
+  const std::string stat = textOf("/proc/" + std::to_string(process) + "/stat");
+  const std::size_t name_end = stat.rfind(')');
+  return name_end == std::string::npos || name_end + 2 >= stat.size() || stat[name_end + 2] == 'Z';
+}
+
+void nap() { sleepUntilNs(monotonicNs() + 1'000'000); }
+
+}  // namespace
+
+PressingProgram::PressingProgram() : file_(makeLog(log_)) {
+  program_ = fork();
+  if (program_ < 0) throw std::runtime_error("no process for the pressing program");
+  if (program_ == 0) runProgram(file_);
+  waitUntilPressed();
+}
+
+PressingProgram::~PressingProgram() {
+  kill(program_, SIGKILL);
+  waitpid(program_, nullptr, 0);
+  isReleased();
+  munmap(log_, sizeof(ProbeLog));
+  ::close(std::stoi(file_.substr(file_.rfind('/') + 1)));
+}
+
+void PressingProgram::waitUntilPressed() {
+  for (const std::int64_t begin = monotonicNs(); static_cast<double>(monotonicNs() - begin) * 1e-9 < kPatience; nap()) {
+    const std::uint64_t written = log_->written.load(std::memory_order_acquire);
+    if (written > 0 && log_->entries[written - 1].force > 0.99 * kForce) return;
+    if (int status = 0; waitpid(program_, &status, WNOHANG) != 0) break;
+  }
+  throw std::runtime_error("the program does not press its finger");
+}
+
+bool PressingProgram::isReleased() const {
+  const pid_t supervisor = log_->writer;
+  for (const std::int64_t begin = monotonicNs(); supervisor > 0 && !isOver(supervisor); nap()) {
+    if (monotonicNs() - begin > 2'000'000'000) return false;
+  }
+  return true;
+}
+
+}  // namespace presa::faults

@@ -1,0 +1,36 @@
+#pragma once
+#include <sys/types.h>
+
+#include <string>
+
+#include "experiments/faults/probe/probe_log.h"
+
+namespace presa::faults {
+
+/// A program of its own, as a user would start it, in real time: one finger on a probe leans on a block with 4 N, through the whole
+/// chain, supervisor and all. What reaches the probe is seen from here, whatever becomes of the program.
+/// Thread: main, with no other thread in the process: the program is a fork.
+class PressingProgram {
+ public:
+  /// Starts it and waits until the finger is pressed. Throws std::runtime_error with what the program said.
+  PressingProgram();
+  ~PressingProgram();
+  PressingProgram(const PressingProgram&) = delete;
+  PressingProgram& operator=(const PressingProgram&) = delete;
+
+  pid_t pid() const noexcept { return program_; }
+  const ProbeLog& log() const noexcept { return *log_; }
+  /// The supervisor has let go of the device and ended, within two seconds.
+  bool isReleased() const;
+
+  static constexpr double kForce = 4;  // [N]
+
+ private:
+  void waitUntilPressed();
+
+  ProbeLog* log_ = nullptr;
+  std::string file_;  // of the log, for whoever opens it
+  pid_t program_ = -1;
+};
+
+}  // namespace presa::faults

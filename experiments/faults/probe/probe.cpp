@@ -1,0 +1,74 @@
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "experiments/faults/probe/probe_log.h"
+#include "framework/diagnostics/refuse.h"
+#include "framework/plan/plugin.h"
+#include "framework/schedule/clock.h"
+
+namespace presa::faults {
+namespace {
+
+/// Stands in for a device of real hardware: a finger that stays where it is, and a log of every force that reaches it.
+class Probe final : public Device {
+ public:
+  Probe(std::string file, const Vec3& p_WH) : file_(std::move(file)), p_WH_(p_WH) {}
+  ~Probe() override { close(); }
+
+  void open() override {
+    const int fd = ::open(file_.c_str(), O_RDWR | O_CLOEXEC);
+    if (fd < 0) refuse(478, file_, "cannot be opened");
+    void* memory = mmap(nullptr, sizeof(ProbeLog), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, fd, 0);
+    ::close(fd);
+    if (memory == MAP_FAILED) refuse(478, file_, "cannot be mapped");
+    log_ = static_cast<ProbeLog*>(memory);
+    log_->writer = getpid();
+  }
+  void close() noexcept override {
+    if (log_ != nullptr) munmap(log_, sizeof(ProbeLog));
+    log_ = nullptr;
+  }
+  FingerInput read(const Tick&) noexcept override {
+    FingerInput finger;
+    finger.p_WH = p_WH_;
+    finger.valid = true;
+    return finger;
+  }
+  void write(const Vec3& f_H_W, const Tick&) noexcept override {
+    const std::uint64_t entry = log_->written.load(std::memory_order_relaxed);
+    if (entry < ProbeLog::kEntries) {
+      log_->entries[entry] = {monotonicNs(), f_H_W.norm(), (f_H_W - sent_).norm()};
+      log_->written.store(entry + 1, std::memory_order_release);
+    }
+    sent_ = f_H_W;
+  }
+
+ private:
+  std::string file_;
+  Vec3 p_WH_, sent_ = Vec3::Zero();
+  ProbeLog* log_ = nullptr;
+};
+
+std::unique_ptr<Device> create(const DeviceBinding& binding, const World&, Diagnostics& diagnostics) {
+  const auto log = binding.settings.find("log"), pos = binding.settings.find("pos");
+  Vec3 p = Vec3::Zero();
+  if (log == binding.settings.end() || pos == binding.settings.end() ||
+      std::sscanf(pos->second.value.c_str(), "%lf %lf %lf", &p[0], &p[1], &p[2]) != 3) {
+    diagnostics.error(479, binding.where, "a probe needs log, the file to write to, and pos, three numbers");
+    return nullptr;
+  }
+  return std::make_unique<Probe>(log->second.value, p);
+}
+
+const DevicePlugin kPlugin{.name = "fault_probe",
+                           .summary = "stands in for hardware and logs the forces that reach it",
+                           .create = create,
+                           .hardware = true};
+
+}  // namespace
+}  // namespace presa::faults
+
+PRESA_DEVICE_PLUGIN(presa::faults::kPlugin)

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "framework/record/record_plugin/rows.h"
+#include "framework/record/recording.h"
+
+namespace presa::record {
+
+/// Where a recorder's writer puts the rows.
+/// Thread: one at a time, holding an h5::Library. Throws h5::Failure.
+class RowSink {
+ public:
+  virtual ~RowSink() = default;
+  virtual const RowLayout& layout() const noexcept = 0;
+  /// `count` rows of layout().bytes() each.
+  virtual void append(const std::uint64_t* rows, std::size_t count) = 0;
+  virtual void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) = 0;
+  /// Something went wrong in the run, in words with its time.
+  virtual void addFault(const std::string& what) = 0;
+  virtual void writeDropped(std::uint64_t dropped) = 0;
+  virtual void flush() = 0;
+  virtual std::uint64_t flushedTicks() const noexcept = 0;
+  /// Marks the run as ended in order, and closes.
+  virtual void finish() = 0;
+  /// After a Failure: takes back what was not flushed and closes, so that the rest stays readable.
+  virtual void rollBack() noexcept = 0;
+  /// Files that were written.
+  virtual std::vector<std::string> files() const = 0;
+};
+
+/// What a row of this world consists of.
+RowLayout layoutOf(const World& world);
+
+}  // namespace presa::record

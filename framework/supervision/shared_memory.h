@@ -1,0 +1,58 @@
+#pragma once
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <new>
+#include <system_error>
+#include <utility>
+
+namespace presa {
+
+/// One T in memory that two processes see, freed when both have let go of it. Throws std::system_error.
+template <class T>
+class SharedMemory {
+ public:
+  /// Makes it, with a T in it. fd() is for the other process; it is closed on exec unless handed over.
+  static SharedMemory made(const char* name) {
+    const int fd = memfd_create(name, MFD_CLOEXEC);
+    if (fd < 0 || ftruncate(fd, sizeof(T)) != 0) fail("shared memory");
+    SharedMemory memory(fd);
+    new (memory.mapped_) T;
+    return memory;
+  }
+  /// The other process's.
+  static SharedMemory joined(int fd) { return SharedMemory(fd); }
+
+  SharedMemory() = default;
+  SharedMemory(SharedMemory&& other) noexcept
+      : fd_(std::exchange(other.fd_, -1)), mapped_(std::exchange(other.mapped_, nullptr)) {}
+  SharedMemory& operator=(SharedMemory&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    std::swap(mapped_, other.mapped_);
+    return *this;
+  }
+  ~SharedMemory() {
+    if (mapped_ != nullptr) munmap(mapped_, sizeof(T));
+    if (fd_ >= 0) ::close(fd_);
+  }
+
+  explicit operator bool() const noexcept { return mapped_ != nullptr; }
+  T& operator*() const noexcept { return *mapped_; }
+  T* operator->() const noexcept { return mapped_; }
+  int fd() const noexcept { return fd_; }
+
+ private:
+  explicit SharedMemory(int fd) : fd_(fd) {
+    void* address = mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, fd, 0);
+    if (address == MAP_FAILED) fail("shared memory");
+    mapped_ = static_cast<T*>(address);
+  }
+  [[noreturn]] static void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+  int fd_ = -1;
+  T* mapped_ = nullptr;
+};
+
+}  // namespace presa

@@ -1,0 +1,120 @@
+#include "framework/supervision/command_keeper.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace presa {
+namespace {
+
+constexpr double kPeriod = 0.25e-3;  // [s]
+
+OutputLimits limits() {
+  OutputLimits limits;
+  limits.force = 8;
+  limits.force_rate = 1000;
+  limits.soft_start = 0.5;
+  return limits;
+}
+
+class Keeper : public testing::Test {
+ protected:
+  /// `steps` cycles under a command that is fresh in every fourth; the largest force and the largest change.
+  void command(const Vec3& force, int steps) {
+    for (int i = 0; i < steps; ++i) step({.fresh = i % 4 == 0, .command = force});
+  }
+  void silence(int steps) {
+    for (int i = 0; i < steps; ++i) step({.command = kWanted});
+  }
+  void step(const CommandKeeper::Input& input) {
+    const Vec3 before = keeper_.last();
+    const Vec3 force = keeper_.step(input, kPeriod);
+    EXPECT_LE((force - before).norm(), 1000 * kPeriod * (1 + 1e-12));
+  }
+  double force() const { return keeper_.last().norm(); }
+  /// Pressed with the whole force: first zero, then half a second of soft start.
+  void press() {
+    command(Vec3::Zero(), 4);
+    command(kWanted, 2400);
+    ASSERT_DOUBLE_EQ(force(), 4);
+  }
+
+  static inline const Vec3 kWanted{0, 0, 4};
+  CommandKeeper keeper_{limits()};
+};
+
+TEST_F(Keeper, SendsNothingBeforeACommandOfZero) {
+  command(kWanted, 4000);
+  EXPECT_EQ(force(), 0);
+  EXPECT_TRUE(keeper_.dropped());
+}
+
+TEST_F(Keeper, PassesForcesOnAfterASoftStart) {
+  command(Vec3::Zero(), 4);
+  command(kWanted, 1000);  // half of the soft start
+  EXPECT_NEAR(force(), 2, 0.01);
+  command(kWanted, 1400);
+  EXPECT_DOUBLE_EQ(force(), 4);
+}
+
+TEST_F(Keeper, HoldsThroughALateTick) {
+  press();
+  silence(16);  // the last command is 4.75 ms old then
+  EXPECT_DOUBLE_EQ(force(), 4);
+  command(kWanted, 4);
+  EXPECT_DOUBLE_EQ(force(), 4);
+}
+
+TEST_F(Keeper, IsAtZeroTenMillisecondsAfterTheLastCommand) {
+  press();
+  silence(40);
+  EXPECT_EQ(force(), 0);
+}
+
+TEST_F(Keeper, OpensAgainAtZeroOnly) {
+  press();
+  silence(200);
+  command(kWanted, 4000);  // it comes back as if nothing had been
+  EXPECT_EQ(force(), 0);
+  command(Vec3::Zero(), 4);
+  command(kWanted, 4);
+  EXPECT_GT(force(), 0);
+  EXPECT_LT(force(), 0.05);
+}
+
+TEST_F(Keeper, NeverTrustsADeadProgramAgain) {
+  press();
+  step({.alone = true, .command = kWanted});
+  EXPECT_LT(force(), 4);
+  command(kWanted, 16);
+  EXPECT_EQ(force(), 0);
+  command(Vec3::Zero(), 400);
+  command(kWanted, 400);
+  EXPECT_EQ(force(), 0);
+}
+
+TEST_F(Keeper, DoesNotBelieveEveryCommand) {
+  press();
+  command({0, 0, 1e300}, 40);
+  EXPECT_DOUBLE_EQ(force(), 8);  // the limit
+  command({0, std::numeric_limits<double>::quiet_NaN(), 0}, 40);
+  EXPECT_EQ(force(), 0);  // latched
+  command(Vec3::Zero(), 4);
+  command(kWanted, 400);
+  EXPECT_EQ(force(), 0);
+  keeper_.rearm();
+  command(kWanted, 400);
+  EXPECT_GT(force(), 0);
+}
+
+TEST_F(Keeper, ADeviceThatIsLostLatches) {
+  press();
+  FingerInput gone;
+  gone.lost = true;
+  step({.fresh = true, .command = kWanted, .finger = gone});
+  command(kWanted, 40);
+  EXPECT_EQ(force(), 0);
+}
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,149 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "experiments/faults/press.h"
+#include "framework/plan/plugin.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/clock.h"
+#include "framework/supervision/supervised_device.h"
+#include "tests/support/alloc_lock_guard.h"
+
+namespace presa {
+namespace {
+
+using faults::ProbeLog;
+using testing::HasSubstr;
+
+constexpr double kPeriod = 1e-3;  // [s]
+
+/// A probe in a supervisor's hands, ticked by this thread once a millisecond, or as well as the machine lets it.
+class Supervised : public testing::Test {
+ protected:
+  Supervised() {
+    const int fd = memfd_create("presa-test", 0);
+    EXPECT_EQ(ftruncate(fd, sizeof(ProbeLog)), 0);
+    log_ = new (mmap(nullptr, sizeof(ProbeLog), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0)) ProbeLog;
+    setting("log", "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(fd));
+    setting("pos", "0.1 0.2 0.3");
+    binding_.role = "thumb";
+    binding_.driver = "fault_probe";
+    binding_.where = {"rig.xml", 3, 5};
+  }
+  ~Supervised() override {
+    device_.reset();
+    munmap(log_, sizeof(ProbeLog));
+  }
+  void setting(const std::string& key, const std::string& value) {
+    binding_.settings[key] = {value, {"rig.xml", 4, 7}};
+  }
+  void open() {
+    Diagnostics findings;
+    World world;
+    auto driver = devicePlugin("fault_probe").create(binding_, world, findings);
+    ASSERT_TRUE(driver);
+    device_ = std::make_unique<SupervisedDevice>(std::move(driver), binding_, "rig.xml", OutputLimits{});
+    device_->open();
+  }
+  FingerInput tick(const Vec3& force) {
+    sleepUntilNs(monotonicNs() + 1'000'000);
+    const Tick tick{.index = ticks_, .time = static_cast<double>(ticks_) * kPeriod, .period = kPeriod};
+    ++ticks_;
+    const FingerInput finger = device_->read(tick);
+    // as the output stage does: a machine that pauses this thread makes the supervisor drop the force meanwhile
+    device_->write(finger.valid ? force : Vec3::Zero(), tick);
+    return finger;
+  }
+  /// Until it holds, or five seconds.
+  template <class Holds>
+  bool ticksUntil(const Vec3& force, const Holds& holds) {
+    for (int i = 0; i < 5000; ++i) {
+      if (holds(tick(force))) return true;
+    }
+    return false;
+  }
+  double lastForce() const { return log_->written > 0 ? log_->entries[log_->written - 1].force : -1; }
+  bool press() {
+    tick(Vec3::Zero());
+    return ticksUntil({0, 0, 3}, [&](const FingerInput&) { return std::abs(lastForce() - 3) < 1e-9; });
+  }
+
+  ProbeLog* log_ = nullptr;
+  DeviceBinding binding_;
+  std::unique_ptr<SupervisedDevice> device_;
+  std::uint64_t ticks_ = 0;
+};
+
+TEST_F(Supervised, LivesInAnotherProcessAndTakesNoMemoryThere) {
+  open();
+  EXPECT_EQ(log_->writer, device_->supervisor());
+  EXPECT_NE(log_->writer, getpid());
+  ASSERT_TRUE(press());
+  EXPECT_TRUE(ticksUntil({0, 0, 3}, [](const FingerInput& finger) {
+    return finger.valid && finger.p_WH == Vec3(0.1, 0.2, 0.3) && !finger.lost;
+  }));
+  EXPECT_GT(device_->report().cycles, 1000u);
+  EXPECT_EQ(device_->report().allocated, 0u);
+  EXPECT_THAT(testing::PrintToString(device_->notes()),
+              HasSubstr("takes the force to zero when this one stops or dies"));
+}
+
+TEST_F(Supervised, ExchangesWithoutASystemCall) {
+  if (!syscallTrapWorks()) GTEST_SKIP() << "no filters of system calls here";
+  open();
+  tick(Vec3::Zero());
+  EXPECT_EQ(runUnderSyscallTrap([&] {
+              for (std::uint64_t i = 0; i < 1000; ++i) {
+                const Tick tick{.index = i, .time = static_cast<double>(i) * kPeriod, .period = kPeriod};
+                device_->read(tick);
+                device_->write({0, 0, 1}, tick);
+              }
+            }),
+            "");
+}
+
+TEST_F(Supervised, ClosesAtZeroForceAndLeavesNobody) {
+  open();
+  ASSERT_TRUE(press());
+  const pid_t supervisor = device_->supervisor();
+  device_->close();
+  EXPECT_EQ(lastForce(), 0);
+  EXPECT_EQ(kill(supervisor, 0), -1);
+  for (std::uint64_t i = 0; i < log_->written; ++i) EXPECT_LE(log_->entries[i].step, 0.25 * (1 + 1e-9));
+}
+
+TEST_F(Supervised, SignalsForTheProgramDoNotReachIt) {
+  open();
+  ASSERT_TRUE(press());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGTSTP, SIGQUIT}) kill(device_->supervisor(), signal);
+  const std::uint64_t cycles = device_->report().cycles;
+  EXPECT_TRUE(ticksUntil({0, 0, 3}, [&](const FingerInput&) { return device_->report().cycles > cycles + 400; }));
+  EXPECT_NE(getpgid(device_->supervisor()), getpgid(getpid()));
+}
+
+TEST_F(Supervised, ASupervisorThatDiesIsALostDevice) {
+  open();
+  ASSERT_TRUE(press());
+  kill(device_->supervisor(), SIGKILL);
+  EXPECT_TRUE(ticksUntil({0, 0, 3}, [](const FingerInput& finger) { return finger.lost && !finger.valid; }));
+  device_->close();  // and does not wait for it
+}
+
+TEST_F(Supervised, WhatTheDriverRefusesIsSaidHere) {
+  setting("log", "/nowhere/at/all");
+  try {
+    open();
+    FAIL() << "it opened";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics().text(), "/nowhere/at/all: error[E478]: cannot be opened\n");
+  }
+}
+
+}  // namespace
+}  // namespace presa
