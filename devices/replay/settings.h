@@ -1,0 +1,22 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/replay/recorded_path.h"
+#include "framework/diagnostics/diagnostics.h"
+#include "framework/scene/world.h"
+
+namespace presa {
+
+struct ReplaySettings {
+  std::shared_ptr<const RecordedPath> path;  ///< null when something is wrong
+  double speed = 1;                          ///< of the recorded motion, 1: as it was
+  bool lost_at_end = false;
+  std::vector<std::string> notes;
+};
+
+/// What the rig says, and the recording that it names; all findings go to `diagnostics` (E401, E440 to E445).
+ReplaySettings readReplaySettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
+
+}  // namespace presa

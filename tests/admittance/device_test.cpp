@@ -1,0 +1,118 @@
+// The device in the rest of Presa: lockstep, shipped scene and rig.
+#include <gtest/gtest.h>
+
+#include "apps/presa/grasp_figures.h"
+#include "apps/presa/run_session.h"
+#include "devices/admittance/drive.h"
+#include "framework/plan/plugin.h"
+#include "framework/plan/plugin_loader.h"
+#include "tests/support/alloc_lock_guard.h"
+
+namespace presa {
+namespace {
+
+const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
+const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_admittance.xml";
+
+std::unique_ptr<Run> lift() {
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.duration = 0;  // to the end of the script
+  const Loaded loaded = loadWorld({kScene, kRig, {}}, options, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = 1000, .quiet = true, .command = ""});
+  run->execute();
+  return run;
+}
+
+// Bounds: 6 N of grip wanted, and the force loop follows what the hand feels; weight shared by two equal fingers; the cube slips at
+// m g / (2 mu) = 1.226 N while the grip loosens by 3 N/s. Where one finger has let go the other holds on at less.
+TEST(AdmittanceDevice, TwoOfThemLiftTheCube) {
+  const auto run = lift();
+  const auto grasp = graspFigures(run->result());
+  ASSERT_TRUE(grasp);
+  EXPECT_NEAR(grasp->lift_height, 0.10, 0.001);
+  EXPECT_NEAR(grasp->held_in_stick, 4.0, 0.002);
+  ASSERT_EQ(grasp->fingers.size(), 2u);
+  std::optional<SlipOnset> first;
+  for (const FingerGrasp& finger : grasp->fingers) {
+    EXPECT_NEAR(finger.mean_normal_force, 6, 0.1);
+    EXPECT_NEAR(finger.weight_share, 1, 0.1);
+    ASSERT_TRUE(finger.slip);
+    if (!first || finger.slip->time < first->time) first = finger.slip;
+  }
+  EXPECT_NEAR(first->normal_force, 0.2 * 9.81 / (2 * 0.8), 0.06);
+  const ObjectSummary& cube = run->result().objects.at(0).summary;
+  EXPECT_FALSE(cube.dropped);
+  EXPECT_GT(cube.lost_at, 7.0);
+  EXPECT_TRUE(run->result().faults.empty());
+}
+
+TEST(AdmittanceDevice, TheSameInputGivesTheSameBits) {
+  EXPECT_EQ(lift()->result().state_hash, lift()->result().state_hash);
+}
+
+std::unique_ptr<Device> thumb(
+    Diagnostics& diagnostics, const std::function<void(DeviceBinding&)>& change = [](DeviceBinding&) {}) {
+  const Loaded loaded = loadWorld({kScene, kRig, {}}, {}, diagnostics);
+  DeviceBinding binding = loaded.world->rig.devices.at(0);
+  change(binding);
+  using Table = const DevicePlugin* (*)();
+  const auto table = reinterpret_cast<Table>(pluginSymbol("admittance", "presaDevicePlugin"));
+  return table()->create(binding, *loaded.world, diagnostics);
+}
+
+TEST(AdmittanceDevice, ItsTickNeitherAllocatesNorLocks) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  Diagnostics diagnostics;
+  const auto device = thumb(diagnostics);
+  ASSERT_TRUE(device) << diagnostics.text();
+  const RealTimeGuard guard;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
+    device->read(tick);
+    device->write({0.1, 0, 20.0 * static_cast<double>(i % 2)}, tick);
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+}
+
+// The damping it claims is that of the loop's stiffest wall at K = 2 b / T.
+TEST(AdmittanceDevice, ClaimsTheDampingOfItsStiffestWall) {
+  Diagnostics diagnostics;
+  const auto device = thumb(diagnostics, [](DeviceBinding& b) { b.settings["damping"] = {"40", {}}; });
+  ASSERT_TRUE(device) << diagnostics.text();
+  admittance::Parameters p;
+  p.inertia = 1;
+  EXPECT_DOUBLE_EQ(2 * device->damping() / 1e-3,
+                   admittance::stiffestWall(p, {.mass = 0.1, .stiffness = 300, .damping = 40}, 1e-3));
+}
+
+TEST(AdmittanceDevice, NamesEverySettingThatIsWrong) {
+  Diagnostics diagnostics;
+  EXPECT_EQ(thumb(diagnostics,
+                  [](DeviceBinding& b) {
+                    b.settings["inertia"] = {"0", {}};
+                    b.settings["noise"] = {"-1", {}};
+                    b.settings["centre"] = {"0 0", {}};
+                    b.settings["half_travel"] = {"0.2 0.2 0", {}};
+                    b.settings["bandwith"] = {"50", {}};
+                  }),
+            nullptr);
+  EXPECT_EQ(diagnostics.errorCount(), 5u) << diagnostics.text();
+  EXPECT_NE(diagnostics.text().find("did you mean 'bandwidth'"), std::string::npos) << diagnostics.text();
+  Diagnostics reach;
+  EXPECT_EQ(thumb(reach, [](DeviceBinding& b) { b.settings["centre"] = {"0 0.5 0", {}}; }), nullptr);
+  EXPECT_EQ(reach.all().at(0).code, 453) << reach.text();
+  Diagnostics shaking;
+  EXPECT_EQ(thumb(shaking,
+                  [](DeviceBinding& b) {
+                    b.settings["inertia"] = {"0.001", {}};
+                    b.settings["mass"] = {"1", {}};
+                    b.settings["bandwidth"] = {"1000", {}};
+                  }),
+            nullptr);
+  EXPECT_EQ(shaking.all().at(0).code, 452) << shaking.text();
+}
+
+}  // namespace
+}  // namespace presa
