@@ -66,9 +66,8 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
   command.time = tick.time;
   command.count = static_cast<std::int32_t>(devices_.size());
   command.status = 0;
-  // who has lost one finger must not be pushed about by the others
-  bool lost = false;
-  for (std::size_t f = 0; f < devices_.size(); ++f) lost = lost || device_->fingers[f].lost;
+  int lost = 0;
+  for (std::size_t f = 0; f < devices_.size(); ++f) lost += device_->fingers[f].lost ? 1 : 0;
   for (std::size_t f = 0; f < devices_.size(); ++f) {
     const FingerInput& finger = device_->fingers[f];
     if (device_->rearms != rearms_) stages_[f].rearm();
@@ -76,7 +75,8 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
                                    .trust = trust(f, tick),
                                    .stop = device_->stop_requested,
                                    .held = tick.made_up,
-                                   .lost = lost,
+                                   .lost = finger.lost,
+                                   .other_lost = lost > (finger.lost ? 1 : 0),
                                    .p_WH = finger.p_WH,
                                    .v_WH = finger.v_WH};
     command.f_H_W[f] = stages_[f].step(input, tick.period);

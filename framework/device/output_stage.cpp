@@ -41,6 +41,7 @@ void OutputStage::rearm() noexcept {
 void OutputStage::judge(const Input& input) noexcept {
   if (!input.command.allFinite()) latches_ |= kOutputNotFinite;
   if (input.lost) latches_ |= kOutputLost;
+  if (input.other_lost) latches_ |= kOutputOther;
   const bool hurries = input.v_WH.norm() > limits_.speed && last_.dot(input.v_WH) > 0;
   if (hurries && hurrying_) latches_ |= kOutputSpeed;
   hurrying_ = hurries;

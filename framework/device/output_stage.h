@@ -21,15 +21,17 @@ enum OutputStatus : std::uint32_t {
   kOutputWarm = 1u << 7,       ///< held below the wish: the motors are warm
   kOutputOverload = 1u << 8,   ///< past the continuous rating where the rig wants that recorded, not limited
   kOutputDamped = 1u << 9,     ///< the passivity controller took energy back
+  kOutputOther = 1u << 10,     ///< another finger's device is lost: latched
 };
 /// Each takes the force to zero, and only a re-arm lets it come back.
-inline constexpr std::uint32_t kOutputLatches = kOutputNotFinite | kOutputLost | kOutputSpeed;
+inline constexpr std::uint32_t kOutputLatches = kOutputNotFinite | kOutputLost | kOutputSpeed | kOutputOther;
 
 /// What latched, in words; null: nothing.
 inline const char* latchedFault(std::uint32_t status) noexcept {
   if ((status & kOutputNotFinite) != 0) return "the commanded force was not a number";
   if ((status & kOutputLost) != 0) return "its device is gone, or says what cannot be";
   if ((status & kOutputSpeed) != 0) return "its device pushed a hand on that was too fast already";
+  if ((status & kOutputOther) != 0) return "another finger's device is lost";
   return nullptr;
 }
 
@@ -52,9 +54,10 @@ class OutputStage {
   struct Input {
     Vec3 command = Vec3::Zero();  ///< wanted force on the finger [N]
     Trust trust = Trust::kGood;
-    bool stop = false;         ///< the run is ending
-    bool held = false;         ///< nothing can be sent at this tick: time goes on, the force stays
-    bool lost = false;         ///< the device is gone or not to be believed
+    bool stop = false;        ///< the run is ending
+    bool held = false;        ///< nothing can be sent at this tick: time goes on, the force stays
+    bool lost = false;        ///< the device is gone or not to be believed
+    bool other_lost = false;  ///< that of another finger is: who lost one finger must not be pushed about by the others
     Vec3 p_WH = Vec3::Zero();  ///< of the finger [m]
     Vec3 v_WH = Vec3::Zero();  ///< [m/s]
   };

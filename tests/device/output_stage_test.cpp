@@ -138,6 +138,16 @@ TEST(OutputStage, ALostDeviceStaysAtZeroUntilRearmed) {
   EXPECT_EQ(stage.last().norm(), 0);
 }
 
+// The others let go with it, and say that it was not theirs.
+TEST(OutputStage, AnotherFingersLostDeviceLatchesToo) {
+  OutputStage stage(kLimits);
+  settle(stage, {4, 0, 0});
+  stage.step({.command = {4, 0, 0}, .other_lost = true}, kPeriod);
+  EXPECT_EQ(settle(stage, {4, 0, 0}).norm(), 0);
+  EXPECT_EQ(stage.status() & kOutputLatches, kOutputOther);
+  EXPECT_STREQ(latchedFault(stage.status()), "another finger's device is lost");
+}
+
 // 1.5 m/s along the force trips at the second sample; against it, where the device brakes the hand, never.
 TEST(OutputStage, AHandThatIsDrivenTooFastTrips) {
   OutputLimits limits = kLimits;

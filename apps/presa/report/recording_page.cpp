@@ -17,10 +17,14 @@ struct Bit {
   const char* name;
 };
 // clipping, slew and damping come and go all the time; these are the ones that tell a story
-constexpr Bit kBits[] = {
-    {kOutputNotFinite, "force not a number"},       {kOutputLost, "device lost"}, {kOutputSpeed, "hand too fast"},
-    {kOutputWatchdog, "information too old"},       {kOutputFading, "fading"},    {kOutputWarm, "motors warm"},
-    {kOutputOverload, "past the continuous rating"}};
+constexpr Bit kBits[] = {{kOutputNotFinite, "force not a number"},
+                         {kOutputLost, "device lost"},
+                         {kOutputSpeed, "hand too fast"},
+                         {kOutputOther, "forces of the other fingers off"},
+                         {kOutputWatchdog, "information too old"},
+                         {kOutputFading, "fading"},
+                         {kOutputWarm, "motors warm"},
+                         {kOutputOverload, "past the continuous rating"}};
 
 std::string wordsOf(std::uint32_t status) {
   std::string words;
