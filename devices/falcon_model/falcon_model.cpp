@@ -27,6 +27,7 @@ void FalconModel::plug(double now) {
   processor_.switchOn(settings_.has_firmware && power_ups_ == 0);  // firmware goes with the power
   ++power_ups_;
   grip_.switchOn();
+  received_ = {};
   watch_.forget();
   knowledge_ = {};
   writes_.clear();

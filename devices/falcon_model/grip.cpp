@@ -55,8 +55,10 @@ void Grip::step() {
   target_ = hand_(static_cast<double>(steps_) * kStep);
   // the hand's damper moves with its target, the device's stands still
   const double share = settings_.hand_damping / (settings_.hand_damping + settings_.damping);
-  plant_.step(target_, share * (target_ - before) / kStep, force());
+  const Vec3 pushed = force();
+  plant_.step(target_, share * (target_ - before) / kStep, pushed);
   if (!place(plant_.position())) plant_.reset(start);
+  energy_ += pushed.dot(plant_.position() - start);
   findReferences();
 }
 

@@ -42,6 +42,8 @@ class Grip {
   const Vec3& velocity() const { return plant_.velocity(); }  ///< [m/s]
   /// Of the motors on the grip, in D [N].
   Vec3 force() const;
+  /// What they gave the hand so far: sum of f . dx over the steps, f held over each [J].
+  double energy() const { return energy_; }
   const Mat3& rates() const { return rates_; }  ///< d(thighs)/d(position) [rad/m]
 
   static constexpr double kStep = 1e-4;  ///< [s]
@@ -63,6 +65,7 @@ class Grip {
   std::array<int, 3> drive_{}, offset_{};
   std::array<bool, 3> homed_{}, passed_out_{};
   bool seeking_ = false;
+  double energy_ = 0;
 };
 
 }  // namespace presa::falcon_model

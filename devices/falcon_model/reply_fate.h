@@ -25,6 +25,7 @@ inline void shorten(ReplyFate& reply, RandomStream& random) {
 }
 /// In two packets.
 inline void split(ReplyFate& reply, RandomStream& random) {
+  if (reply.bytes.size() < 2) return;
   reply.first = 1 + random.below(reply.bytes.size() - 1);
   reply.pause = 0.0015;
 }

@@ -23,20 +23,23 @@ class ForceGate {
   bool quiet() const noexcept { return out_.isZero(0); }
 
   /// The force to send `elapsed` seconds after the last one. `fresh`: made from a position and by a haptic thread that are
-  /// both alive; otherwise, or when it is not finite, the force goes to zero. It comes back as softly as far as it went.
+  /// both alive; otherwise, or when it is not finite, the force goes to zero. After a short gap it comes back at the slew limit, for
+  /// a reply that is late is nothing unusual; after a longer one softly.
   Vec3 step(const Vec3& wanted, bool fresh, double elapsed) noexcept {
-    const double before = out_.norm();
     if (fresh && wanted.allFinite()) {
+      gap_ = 0;
       gain_ = std::min(1.0, gain_ + elapsed / kSoftStart);
       go(gain_ * wanted, elapsed);
     } else {
+      gap_ += elapsed;
+      if (gap_ > kShortGap || fresh) gain_ = 0;
       go(Vec3::Zero(), elapsed);
-      gain_ = before > 0 ? gain_ * out_.norm() / before : 0;
     }
     return out_;
   }
 
-  static constexpr double kSoftStart = 0.5;  ///< from nothing to all of the force [s]
+  static constexpr double kSoftStart = 0.5;    ///< from nothing to all of the force [s]
+  static constexpr double kShortGap = 3.5e-3;  ///< [s]
 
  private:
   void go(const Vec3& where, double elapsed) noexcept {
@@ -50,7 +53,7 @@ class ForceGate {
   }
 
   double rate_;
-  double gain_ = 0;
+  double gain_ = 0, gap_ = 0;
   Vec3 out_ = Vec3::Zero();
 };
 

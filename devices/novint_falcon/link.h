@@ -53,7 +53,7 @@ struct LinkStatus {
 ///  - a flag that drops later, or a second impossible sample in a row: latched, and from the next request on down to zero;
 ///  - no reply for kForceHold at the time of a request: down to zero; for kHold: the sample is invalid too;
 ///  - no new command for kCommandHold (its maker is dead): down to zero.
-/// Down is as fast as force_rate allows and no faster: from 4 N at 1 N/ms zero is sent 5 ms after the last good reply.
+/// What comes back after a short gap rises as fast, after a longer one softly. Down is as fast as force_rate allows and no faster: from 4 N at 1 N/ms zero is sent 5 ms after the last good reply.
 /// Thread: one, its own in operation; nothing is allocated after construction.
 class FalconLink {
  public:

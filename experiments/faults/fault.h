@@ -43,6 +43,9 @@ std::vector<Fault> holdFaults();
 /// Faults of the whole program, with a supervisor that outlives it: real processes in real time (press.h).
 std::vector<Fault> processFaults();
 
+/// Faults of a Novint Falcon, its driver on a model of the device (devices/falcon_model); forces are those that the model received.
+std::vector<Fault> falconFaults();
+
 /// Of every family, in the order of the table.
 std::vector<Fault> allFaults();
 

@@ -20,6 +20,8 @@ std::pair<double, double> ease(double time, double begin, double end) {
   return {s * s * (3 - 2 * s), 6 * s * (1 - s) / (end - begin)};
 }
 
+}  // namespace
+
 PrescribedFinger::State handAt(const Hold& hold, const HandImpedance& hand, double side, double time) {
   const double depth = kGrip / hand.stiffness + kGrip / kStiffness;
   const auto [closing, closing_rate] = ease(time, 0.3, hold.closed);
@@ -32,9 +34,7 @@ PrescribedFinger::State handAt(const Hold& hold, const HandImpedance& hand, doub
   return state;
 }
 
-}  // namespace
-
-void runHold(const Hold& hold, const std::function<void(double, const Traffic&)>& at_tick) {
+void runHold(const Hold& hold, const AtTick& at_tick) {
   const HandImpedance hand;
   double clock = 0;
   std::array<Transport, 2> transports;
@@ -46,15 +46,19 @@ void runHold(const Hold& hold, const std::function<void(double, const Traffic&)>
     fingers.push_back(
         std::make_unique<FailingDevice>(std::move(finger), f == 0 ? hold.thumb : FailingDevice::Failure{}));
   }
+  runHold(hold, {std::move(fingers), transports, clock}, at_tick);
+}
+
+void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick) {
   StudySpec spec;
   spec.scene = experimentFile("faults/hold.xml");
   spec.duration = hold.end;
-  StudyRun run(spec, std::move(fingers));
+  StudyRun run(spec, std::move(devices.fingers));
   Traffic traffic;
   std::array<Vec3, 2> last{};
   bool first = true;
   run.delay([&](RateGroup group, double time) {
-    clock = time;
+    devices.clock = time;
     return hold.held_up && hold.held_up(group, time);
   });
   run.observe([&](const StudySample& sample) {
@@ -63,12 +67,12 @@ void runHold(const Hold& hold, const std::function<void(double, const Traffic&)>
       const Vec3& x = sample.device.fingers[f].p_WH;
       if (!first) traffic.slew_energy += kStiffness / 2 * (x - last[f]).squaredNorm();
       last[f] = x;
-      traffic.force[f] = transports[f].force;
-      traffic.energy[f] = transports[f].energy;
+      traffic.force[f] = devices.transports[f].force;
+      traffic.energy[f] = devices.transports[f].energy;
     }
     first = false;
-    traffic.step = std::max(transports[0].largest_step, transports[1].largest_step);
-    at_tick(clock, traffic);
+    traffic.step = std::max(devices.transports[0].largest_step, devices.transports[1].largest_step);
+    at_tick(devices.clock, traffic);
   });
   run.run();
 }

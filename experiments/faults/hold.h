@@ -46,8 +46,22 @@ struct Traffic {
   double slew_energy = 0;  ///< K/2 dx^2 of this tick: what sampling a spring may add [J]
 };
 
+using AtTick = std::function<void(double time, const Traffic& traffic)>;
+
 /// Runs it; `at_tick` sees the traffic after every haptic tick.
-void runHold(const Hold& hold, const std::function<void(double time, const Traffic& traffic)>& at_tick);
+void runHold(const Hold& hold, const AtTick& at_tick);
+
+/// What carries the fingers in its place: `fingers` fill in their `transports`; `clock` is the time in the world. Both outlive
+/// the fingers.
+struct HoldDevices {
+  DeviceList fingers;
+  std::array<Transport, 2>& transports;
+  double& clock;
+};
+void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick);
+
+/// Where the hand of a finger goes; `side`: -1 thumb, 1 index.
+PrescribedFinger::State handAt(const Hold& hold, const HandImpedance& hand, double side, double time);
 
 /// Judges the usual: when the forces answered, when they were zero and stayed so until `until`, the steps, the energy.
 class Judge {

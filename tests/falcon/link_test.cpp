@@ -201,17 +201,15 @@ TEST(FalconLink, MissingRepliesTakeTheForceDown) {
   EXPECT_EQ(bench.last(), full);
 }
 
-// Two replies lost: the force has gone down by 1 N of 4, and takes a quarter of the soft start to come back.
-TEST(FalconLink, ForceComesBackAsSoftlyAsFarAsItWent) {
+// A reply or two that are late are nothing unusual: 1 N less for a request, and back at the slew limit.
+TEST(FalconLink, AShortGapIsADip) {
   Bench bench;
   bench.operate({0, 0, 4});
   const Counts full = bench.last();
   bench.falcon.replies_to_swallow = 2;
   bench.ticks(3);
   EXPECT_NEAR(bench.last()[0], 0.75 * full[0], 1);
-  bench.ticks(60);
-  EXPECT_NEAR(bench.last()[0], (0.75 + 0.060 / 0.5) * full[0], 1 + 0.002 * std::abs(full[0]));
-  bench.ticks(70);
+  bench.ticks(1);
   EXPECT_EQ(bench.last(), full);
 }
 

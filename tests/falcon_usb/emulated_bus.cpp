@@ -136,6 +136,7 @@ bool EmulatedFalcon::ioctl(UMockdevIoctlClient* client) {
       return true;
     }
     case USBDEVFS_CLAIMINTERFACE:
+    case USBDEVFS_DISCONNECT_CLAIM:  // there is no driver of the kernel to be disconnected
       claim(client);
       return true;
     case USBDEVFS_RELEASEINTERFACE:

@@ -1,0 +1,55 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/falcon_model/falcon_model.h"
+#include "devices/falcon_model/model_transport.h"
+#include "devices/novint_falcon/link.h"
+#include "experiments/faults/hold.h"
+
+namespace presa::faults {
+
+/// Made up, as long as the real ones; begins as they do.
+std::vector<std::uint8_t> madeUpFirmware();
+
+/// A Falcon in the hand of the hold scenario: the driver's link over the model of the device, in one virtual time which begins kPrelude
+/// before the run: then the device has been brought up and the hand is at its start. The link is stepped as by its thread,
+/// every quarter of a millisecond. Thread: one.
+class FalconFinger final : public Device {
+ public:
+  /// `side`: -1 thumb, 1 index; the device stands so that its z is the axis of the grasp, towards the object. `transport`: filled
+  /// with what the model received; outlives the finger, as `hold` does.
+  FalconFinger(const Hold& hold, double side, std::uint64_t seed, Transport& transport);
+
+  FingerInput read(const Tick& tick) noexcept override;
+  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  void rearm() noexcept override;
+  double damping() const override { return HandImpedance{}.damping; }
+
+  falcon_model::FalconModel& model() { return model_; }
+  const falcon::FalconLink& link() const { return *link_; }
+  /// The model's time at a time of the run [s].
+  static double timeOf(double time) { return time + kPrelude; }
+  /// Called after every step of the link.
+  std::function<void()> at_step;
+
+  static constexpr double kPrelude = 0.5;  ///< [s]
+
+ private:
+  void stepUntil(double time) noexcept;
+  double now() const { return static_cast<double>(steps_) * kStep; }
+
+  static constexpr double kStep = 0.25e-3;  // of the link's thread [s]
+
+  Transport& transport_;
+  Pose X_WD_;
+  falcon_model::FalconModel model_;
+  std::vector<std::uint8_t> firmware_;
+  std::unique_ptr<falcon_model::ModelTransport> usb_;
+  std::unique_ptr<falcon::FalconLink> link_;
+  falcon::LinkCommand command_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace presa::faults

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "devices/novint_falcon/falcon_device.h"
+#include "tests/falcon_usb/emulated_bus.h"
+
+/// Drivers for the tests of the emulated bus.
+namespace presa::falcon_model::test {
+
+/// Made up; begins as the real ones do.
+inline std::vector<std::uint8_t> firmware() {
+  std::vector<std::uint8_t> bytes(700);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 7);
+  bytes[0] = 0xAA, bytes[1] = 0x08, bytes[2] = bytes[3] = 0;
+  return bytes;
+}
+
+inline ModelSettings ready() {
+  ModelSettings settings;
+  settings.has_firmware = settings.homed = true;
+  settings.loader.firmware = firmware();
+  return settings;
+}
+
+inline falcon::FalconSettings settingsOf(const std::string& serial) {
+  falcon::FalconSettings settings;
+  settings.role = "thumb";
+  settings.serial = serial;
+  settings.firmware = firmware();
+  settings.where = {"desk.xml", 3, 1};
+  settings.realtime = true;
+  return settings;
+}
+
+inline falcon::FalconDevice driverOf(const std::string& serial) {
+  return {settingsOf(serial), [serial] { return falcon::connectOverUsb(serial, {"desk.xml", 3, 1}); }};
+}
+
+}  // namespace presa::falcon_model::test
