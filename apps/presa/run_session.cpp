@@ -95,6 +95,8 @@ Run::Run(const Loaded& loaded, Settings settings)
   Session::Options session_options;
   session_options.trace_rate = settings_.trace_rate;
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
+  if (options.realtime)
+    for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
   session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
   const RateTable rates(loaded_.world->scene.rates);
   executor_ = makeExecutor(options.realtime, session_->graph(), rates, control_);

@@ -21,7 +21,8 @@ const DevicePlugin kPlugin{.name = "novint_falcon",
                            .diagnose = falcon::diagnose,
                            .udev_rule = falcon::kUdevRule,
                            .rating = {.force = 8, .speed = 1},  // no continuous rating is known of it
-                           .hardware = true};
+                           .hardware = true,
+                           .while_opening = "while its light is blue, pull the grip all the way out, then push it in"};
 
 }  // namespace
 }  // namespace presa

@@ -13,7 +13,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 6;
+inline constexpr int kPluginAbi = 7;
 
 struct ModulePlugin {
   int abi = kPluginAbi;
@@ -48,6 +48,8 @@ struct DevicePlugin {
   /// Moves something real: in real time it lives in a process of its own (framework/supervision), with a world that holds its binding
   /// and its role, and nothing else.
   bool hardware = false;
+  /// What somebody has to do while it opens, in one sentence; null: nothing.
+  const char* while_opening = nullptr;
 };
 
 }  // namespace presa

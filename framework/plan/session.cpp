@@ -59,6 +59,15 @@ DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diag
   return devices;
 }
 
+std::vector<std::string> whileOpening(const Plan& plan) {
+  std::vector<std::string> lines;
+  for (const PlannedDevice& planned : plan.devices) {
+    if (const char* what = devicePlugin(planned.driver).while_opening)
+      lines.push_back(planned.role + " (" + planned.driver + "): " + what);
+  }
+  return lines;
+}
+
 std::vector<std::string> engineVersions(const Plan& plan) {
   std::vector<std::string> versions;
   for (const PlannedModule& planned : plan.modules) {

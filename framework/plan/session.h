@@ -62,6 +62,9 @@ class Session {
 /// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
 const DevicePlugin& devicePlugin(const std::string& driver);
 
+/// What somebody has to do while the devices of a run open, a line for each.
+std::vector<std::string> whileOpening(const Plan& plan);
+
 /// The drivers of a rig, checked but not opened, in the order of the plan. Findings go to `diagnostics`.
 DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics);
 

@@ -1,0 +1,135 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "framework/plan/load_world.h"
+#include "framework/record/record_plugin.h"
+#include "tests/app/support.h"
+
+namespace presa {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A program with a terminal of its own.
+class OnTerminal {
+ public:
+  explicit OnTerminal(std::vector<std::string> command) {
+    std::vector<char*> arguments;
+    for (std::string& word : command) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    child_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
+    if (child_ == 0) {
+      execv(arguments[0], arguments.data());
+      _exit(127);
+    }
+  }
+  ~OnTerminal() {
+    close(terminal_);
+    if (child_ > 0) waitpid(child_, nullptr, 0);
+  }
+  OnTerminal(const OnTerminal&) = delete;
+  OnTerminal& operator=(const OnTerminal&) = delete;
+
+  /// Reads until it has been said; false when the program ended, or said nothing for ten seconds.
+  bool says(const std::string& text) {
+    for (char bytes[4096]; seen_.find(text) == std::string::npos;) {
+      pollfd waiting{terminal_, POLLIN, 0};
+      if (poll(&waiting, 1, 10'000) <= 0) return false;
+      const ssize_t read = ::read(terminal_, bytes, sizeof bytes);
+      if (read <= 0) return false;
+      seen_.append(bytes, static_cast<std::size_t>(read));
+    }
+    return true;
+  }
+  void press(char key) { ASSERT_EQ(write(terminal_, &key, 1), 1); }
+  int status() {
+    while (says("\1never")) {
+    }
+    int status = -1;
+    waitpid(std::exchange(child_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  const std::string& seen() const { return seen_; }
+
+ private:
+  int terminal_ = -1;
+  pid_t child_ = -1;
+  std::string seen_;
+};
+
+/// A thumb that is suddenly somewhere else, which no hand can be.
+std::string jumpingRig(const std::string& folder) {
+  std::ofstream(folder + "/jump.csv") << "time_s,role,x_m,y_m,z_m,phase\n"
+                                         "0,thumb,-0.1,0,0.03,press\n0,index,0.1,0,0.03,press\n"
+                                         "0.3,thumb,-0.1,0,0.006,press\n0.3,index,0.1,0,0.006,press\n"
+                                         "1.2,thumb,-0.1,0,0.006,press\n"
+                                         "1.201,thumb,-0.2,0,0.006,press\n"
+                                         "6,thumb,-0.2,0,0.006,press\n6,index,0.1,0,0.006,press\n";
+  std::ofstream(folder + "/rig.xml")
+      << "<rig version=\"1.0\" name=\"jump\">"
+         "<device role=\"thumb\" driver=\"scripted\"><set key=\"motion\" value=\"jump.csv\"/></device>"
+         "<device role=\"index\" driver=\"scripted\"><set key=\"motion\" value=\"jump.csv\"/></device></rig>";
+  return folder + "/rig.xml";
+}
+
+/// Largest commanded force of the table's ticks in which no output stage had latched anything, from `begin` on [s].
+double forceAfter(const RecordedSamples& samples, const RecordedTable& finger, double begin) {
+  double most = 0;
+  for (std::size_t i = 0; i < samples.time.size(); ++i) {
+    if (samples.time[i] >= begin) most = std::max(most, std::abs(finger.values("f_command_W_z")[i]));
+  }
+  return most;
+}
+
+// What a user sees and does: the force goes, the terminal says why, r brings it back softly, and the run can be replayed to the bit.
+TEST(Rearm, AKeyForgivesALatchedFault) {
+  const std::string folder = test::scratch("rearm"), recording = folder + "/run.h5";
+  OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--rig",
+                    jumpingRig(folder), "--realtime", "--view", "none", "--for", "6", "--record", recording});
+  ASSERT_TRUE(presa.says("Look, then press r to re-arm.")) << presa.seen();
+  EXPECT_THAT(presa.seen(), HasSubstr("thumb: its device is gone, or says what cannot be"));
+  EXPECT_THAT(presa.seen(), HasSubstr("index: another finger's device is lost"));
+  presa.press('r');
+  EXPECT_TRUE(presa.says("re-armed: forces come back softly")) << presa.seen();
+  EXPECT_EQ(presa.status(), 1) << presa.seen();  // there was a fault
+
+  const RecordedSamples samples = recordPlugin().samples(recording);
+  ASSERT_EQ(samples.faults.size(), 2u);
+  const Recording run = recordPlugin().read(recording);
+  double rearmed = -1;
+  for (std::size_t i = 0; i < run.time.size() && rearmed < 0; ++i)
+    if (run.device[i].rearms > 0) rearmed = run.time[i];
+  ASSERT_GT(rearmed, 1.2);
+  EXPECT_GT(forceAfter(samples, samples.fingers[1], rearmed + 0.1), 0.1);  // the index presses again
+  const test::Outcome replayed = test::presa("replay " + recording + " --verify");
+  EXPECT_EQ(replayed.status, 0) << replayed.out << replayed.err;
+}
+
+// Nothing was recorded, and yet there is what led to the fault.
+TEST(FlightRecord, IsWrittenAtAFaultAndShown) {
+  const std::string folder = test::scratch("flight"), flight = folder + "/flight.h5", page = folder + "/flight.html";
+  const test::Outcome run = test::presa("run " + test::source("config/scenes/cube.xml") + " --rig " +
+                                        jumpingRig(folder) + " --lockstep --view none --for 4 --flight " + flight);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.out, HasSubstr("the seconds around the fault: " + flight));
+  const RecordedSamples samples = recordPlugin().samples(flight);
+  EXPECT_TRUE(samples.complete);
+  EXPECT_LE(samples.time.front(), 1.2);
+  EXPECT_GE(samples.time.back(), 1.5);
+  const test::Outcome shown = test::presa("replay " + flight + " --page " + page);
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("thumb: its device is gone, or says what cannot be"));
+  EXPECT_GT(std::filesystem::file_size(page), 50'000u);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/flight-2.h5"));
+}
+
+}  // namespace
+}  // namespace presa
