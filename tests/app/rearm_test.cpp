@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "framework/plan/load_world.h"
 #include "framework/record/record_plugin.h"
@@ -67,12 +69,13 @@ class OnTerminal {
 
 /// A thumb that is suddenly somewhere else, which no hand can be.
 std::string jumpingRig(const std::string& folder) {
+  std::filesystem::create_directories(folder);
   std::ofstream(folder + "/jump.csv") << "time_s,role,x_m,y_m,z_m,phase\n"
                                          "0,thumb,-0.1,0,0.03,press\n0,index,0.1,0,0.03,press\n"
                                          "0.3,thumb,-0.1,0,0.006,press\n0.3,index,0.1,0,0.006,press\n"
                                          "1.2,thumb,-0.1,0,0.006,press\n"
-                                         "1.201,thumb,-0.2,0,0.006,press\n"
-                                         "6,thumb,-0.2,0,0.006,press\n6,index,0.1,0,0.006,press\n";
+                                         "1.201,thumb,0.5,0,0.006,press\n1.202,thumb,1.5,0,0.006,press\n"
+                                         "6,thumb,1.5,0,0.006,press\n6,index,0.1,0,0.006,press\n";
   std::ofstream(folder + "/rig.xml")
       << "<rig version=\"1.0\" name=\"jump\">"
          "<device role=\"thumb\" driver=\"scripted\"><set key=\"motion\" value=\"jump.csv\"/></device>"
@@ -97,6 +100,7 @@ TEST(Rearm, AKeyForgivesALatchedFault) {
   ASSERT_TRUE(presa.says("Look, then press r to re-arm.")) << presa.seen();
   EXPECT_THAT(presa.seen(), HasSubstr("thumb: its device is gone, or says what cannot be"));
   EXPECT_THAT(presa.seen(), HasSubstr("index: another finger's device is lost"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // the finger has swung out
   presa.press('r');
   EXPECT_TRUE(presa.says("re-armed: forces come back softly")) << presa.seen();
   EXPECT_EQ(presa.status(), 1) << presa.seen();  // there was a fault
