@@ -1,5 +1,6 @@
 #include <libxml/xmlschemastypes.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -40,7 +41,7 @@ void collectError(void* context, xmlErrorPtr error) {
 
 /// True when the bytes can be XML in an encoding we read; else says why not.
 bool isText(const std::string& text, const std::string& name, Diagnostics& diagnostics) {
-  const SourceLocation where{name, 0, 0};
+  const SourceLocation where{name, 1, 1};
   if (text.size() > Document::kMaxBytes) {
     diagnostics.error(kTooLarge, where,
                       "the file has " + std::to_string(text.size()) + " bytes, at most " +
@@ -59,7 +60,11 @@ bool isText(const std::string& text, const std::string& name, Diagnostics& diagn
   }
   const auto zero = text.find('\0');
   if (zero != std::string::npos) {
-    diagnostics.error(kNotText, where, "this is no text file: byte " + std::to_string(zero + 1) + " is zero",
+    const std::string before = text.substr(0, zero);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = zero - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+    const SourceLocation there{where.file, static_cast<int>(line), static_cast<int>(column)};
+    diagnostics.error(kNotText, there, "this is no text file: byte " + std::to_string(zero + 1) + " is zero",
                       "the file may be damaged, or a mesh or recording instead of XML");
     return false;
   }

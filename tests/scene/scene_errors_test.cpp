@@ -216,6 +216,15 @@ TEST(SceneErrors, EntityBombIsRefused) {
   EXPECT_EQ(findings.all()[0].where.column, 1);
 }
 
+// A file that is no text says where it stops to be one; an empty one has a place too.
+TEST(SceneErrors, WhatIsNoTextHasAPlace) {
+  const Diagnostics zero = findingsOf(std::string("<scene>\n <a\0/>", 14));
+  ASSERT_EQ(codesOf(zero), std::vector<int>{103}) << zero.text();
+  EXPECT_EQ(zero.all()[0].where.line, 2);
+  EXPECT_EQ(zero.all()[0].where.column, 4);
+  for (const char* text : {"", "\xFF\xFE<"}) EXPECT_EQ(findingsOf(text).all().at(0).where.line, 1);
+}
+
 TEST(SceneErrors, DepthIsLimited) {
   std::string deep = "<scene>";
   for (int i = 0; i < 100000; ++i) deep += "<a>";
