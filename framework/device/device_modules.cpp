@@ -61,6 +61,8 @@ void DeviceOutput::stepWatched(const Tick& tick, StageWatch& watch) noexcept { r
 
 template <class Watch>
 void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
+  // the machine's sleep is not in the tick's time
+  const double elapsed = tick.resumed ? std::max(tick.time - last_tick_.time, Executor::kGap) : tick.period;
   last_tick_ = tick;
   ForceCommand& command = command_.value;
   command.time = tick.time;
@@ -77,9 +79,10 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
                                    .held = tick.made_up,
                                    .lost = finger.lost,
                                    .other_lost = lost > (finger.lost ? 1 : 0),
+                                   .resumed = tick.resumed,
                                    .p_WH = finger.p_WH,
                                    .v_WH = finger.v_WH};
-    command.f_H_W[f] = stages_[f].step(input, tick.period);
+    command.f_H_W[f] = stages_[f].step(input, elapsed);
     command.status |= stages_[f].status();
     report(f, reported_[f], stages_[f].status(), tick.time);
     reported_[f] = stages_[f].status();

@@ -42,6 +42,7 @@ void OutputStage::judge(const Input& input) noexcept {
   if (!input.command.allFinite()) latches_ |= kOutputNotFinite;
   if (input.lost) latches_ |= kOutputLost;
   if (input.other_lost) latches_ |= kOutputOther;
+  if (input.resumed) latches_ |= kOutputGap;
   const bool hurries = input.v_WH.norm() > limits_.speed && last_.dot(input.v_WH) > 0;
   if (hurries && hurrying_) latches_ |= kOutputSpeed;
   hurrying_ = hurries;

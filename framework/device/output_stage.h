@@ -22,9 +22,11 @@ enum OutputStatus : std::uint32_t {
   kOutputOverload = 1u << 8,   ///< past the continuous rating where the rig wants that recorded, not limited
   kOutputDamped = 1u << 9,     ///< the passivity controller took energy back
   kOutputOther = 1u << 10,     ///< another finger's device is lost: latched
+  kOutputGap = 1u << 11,       ///< no tick ran for longer than a hand can be left alone: latched
 };
 /// Each takes the force to zero, and only a re-arm lets it come back.
-inline constexpr std::uint32_t kOutputLatches = kOutputNotFinite | kOutputLost | kOutputSpeed | kOutputOther;
+inline constexpr std::uint32_t kOutputLatches =
+    kOutputNotFinite | kOutputLost | kOutputSpeed | kOutputOther | kOutputGap;
 
 /// What latched, in words; null: nothing.
 inline const char* latchedFault(std::uint32_t status) noexcept {
@@ -32,6 +34,7 @@ inline const char* latchedFault(std::uint32_t status) noexcept {
   if ((status & kOutputLost) != 0) return "its device is gone, or says what cannot be";
   if ((status & kOutputSpeed) != 0) return "its device pushed a hand on that was too fast already";
   if ((status & kOutputOther) != 0) return "another finger's device is lost";
+  if ((status & kOutputGap) != 0) return "the program or the whole machine stood still";
   return nullptr;
 }
 
@@ -58,9 +61,11 @@ class OutputStage {
     bool held = false;        ///< nothing can be sent at this tick: time goes on, the force stays
     bool lost = false;        ///< the device is gone or not to be believed
     bool other_lost = false;  ///< that of another finger is: who lost one finger must not be pushed about by the others
+    bool resumed = false;     ///< the first tick after a gap (Tick::resumed)
     Vec3 p_WH = Vec3::Zero();  ///< of the finger [m]
     Vec3 v_WH = Vec3::Zero();  ///< [m/s]
   };
+  /// `period`: since the step before [s]; after a gap that is all of it.
   Vec3 step(const Input& input, double period) noexcept;
 
   /// Out of every latched fault, from zero force and softly. A cause that is still there latches again at once.

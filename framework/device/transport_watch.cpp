@@ -32,11 +32,12 @@ class TransportWatch final : public Device {
     const double step = std::hypot(f.x() - sent_.x(), f.y() - sent_.y(), f.z() - sent_.z());
     if (!std::isfinite(force)) fail("is not finite", force, 0, tick);
     if (force > limits_.force * (1 + kRounding)) fail("is above the limit", force, limits_.force, tick);
-    const double slew = limits_.force_rate * tick.period;
+    const double slew = limits_.force_rate * (tick.resumed ? Executor::kGap : tick.period);
     if (step > slew * (1 + kRounding) + 1e-12) fail("changed faster than the slew limit", step, slew, tick);
     if (!usable_ && force > 0) fail("came before any usable sample", force, 0, tick);
     // what is on its way down may take its time, once
     const double down = limits_.force / limits_.force_rate + limits_.fade_out + 0.01;
+    if (tick.resumed && force > 0) fail("came right after a gap", force, 0, tick);
     if (lost_for_ > down && force > 0) fail("outlived the device", force, 0, tick);
     sent_ = f;
     device_->write(f, tick);

@@ -11,6 +11,13 @@ inline std::int64_t monotonicNs() noexcept {
   return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
 }
 
+/// How long the machine has slept since it was started [ns]: CLOCK_MONOTONIC does not count that.
+inline std::int64_t sleptNs() noexcept {
+  timespec boot{};
+  clock_gettime(CLOCK_BOOTTIME, &boot);
+  return static_cast<std::int64_t>(boot.tv_sec) * 1'000'000'000 + boot.tv_nsec - monotonicNs();
+}
+
 /// Processor time of the calling thread [ns]: stands still while others run. A read costs a system call.
 inline std::int64_t threadCpuNs() noexcept {
   timespec now{};

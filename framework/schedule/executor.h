@@ -49,10 +49,12 @@ class Executor {
   /// A group that is late runs its missed ticks at once (Tick::made_up, all but the newest), so that simulated time
   /// follows the clock; after a stall longer than this it gives them up and counts them [s].
   static constexpr double kCatchUpLimit = 0.1;
+  /// A group that has not run for longer than this is told so (Tick::resumed) [s].
+  static constexpr double kGap = 1;
 
  protected:
   /// One tick of one group with its timing and its row in the schedule.
-  void stepTimed(RateGroup group, std::uint64_t index, bool made_up = false) noexcept;
+  void stepTimed(RateGroup group, std::uint64_t index, bool made_up = false, bool resumed = false) noexcept;
 
   Graph& graph_;
   RateTable rates_;

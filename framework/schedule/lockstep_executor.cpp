@@ -15,12 +15,14 @@ void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double 
   if (held_up_(group, now)) return;
   GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
   std::uint64_t& done = done_[static_cast<std::size_t>(group)];
-  if (const std::uint64_t late = index - done; late > rates_.ticksWithin(group, kCatchUpLimit)) {
+  const std::uint64_t late = index - done;
+  if (late > rates_.ticksWithin(group, kCatchUpLimit)) {
     timing.skipped.fetch_add(late, std::memory_order_relaxed);
     done = index;
   }
   timing.missed.fetch_add(index - done, std::memory_order_relaxed);
-  for (; done <= index; ++done) stepTimed(group, done, done < index);
+  const bool resumed = late > rates_.ticksWithin(group, kGap);  // then only the newest is left
+  for (; done <= index; ++done) stepTimed(group, done, done < index, resumed);
 }
 
 void LockstepExecutor::run(double duration) {

@@ -15,15 +15,15 @@
 #include "framework/schedule/catch_up.h"
 #include "framework/schedule/clock.h"
 #include "framework/schedule/executor.h"
+#include "framework/schedule/realtime_rights.h"
 
 namespace presa {
 namespace {
 
-// Above ordinary work and interrupts' soft part, below the kernel's watchdog threads (99).
 int priorityOf(RateGroup group) noexcept {
   switch (group) {
     case RateGroup::kHaptic:
-      return 80;
+      return kHapticPriority;
     case RateGroup::kDynamics:
       return 60;
     case RateGroup::kCollision:
@@ -114,12 +114,13 @@ void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {
   GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
   const std::int64_t start = shared.start_ns;
   const std::int64_t period = rates_.periodNs(group);
-  const auto limit = static_cast<std::int64_t>(kCatchUpLimit * 1e9);
+  const auto limit = static_cast<std::int64_t>(kCatchUpLimit * 1e9), gap = static_cast<std::int64_t>(kGap * 1e9);
   std::uint64_t end = rates_.ticksWithin(group, duration);
   const std::uint64_t fade = rates_.ticksWithin(group, kFadeTime);
   bool stopping = false;
   std::int64_t previous = 0;
   CatchUp catch_up(period);
+  std::int64_t slept = sleptNs();
 
   for (std::uint64_t i = 0; i < end && !control_.abort.load(std::memory_order_relaxed); ++i) {
     sleepUntilNs(start + static_cast<std::int64_t>(i) * period);
@@ -127,6 +128,9 @@ void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {
     std::int64_t late = now - (start + static_cast<std::int64_t>(i) * period);
     timing.lateness.add(late);
     if (late > period) timing.missed.fetch_add(1, std::memory_order_relaxed);
+    const std::int64_t slept_now = sleptNs();
+    const bool resumed = late > gap || slept_now - slept > gap;
+    slept = slept_now;
     if (late > limit) {
       const auto skip = std::min<std::uint64_t>(static_cast<std::uint64_t>(late / period), end - 1 - i);
       i += skip;
@@ -135,7 +139,7 @@ void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {
     }
     if (previous != 0) timing.period.add(now - previous);
     previous = now;
-    stepTimed(group, i, catch_up.madeUp(now, late));
+    stepTimed(group, i, catch_up.madeUp(now, late) && !resumed, resumed);
     if (group == RateGroup::kHaptic) {
       control_.time.store(rates_.tick(group, i + 1).time, std::memory_order_relaxed);
     }

@@ -17,6 +17,9 @@ struct Tick {
   /// Run late, when a newer tick of its group was due already: state goes on, nothing leaves for the world outside, which
   /// would see all of them at one instant.
   bool made_up = false;
+  /// The first after a gap: for longer than Executor::kGap no tick ran, and whatever was at the devices was held. The process stood
+  /// still, or the whole machine slept.
+  bool resumed = false;
 };
 
 }  // namespace presa

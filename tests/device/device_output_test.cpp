@@ -166,6 +166,27 @@ TEST(DeviceOutput, TicksMadeUpAtOneInstantAreOneStepOfTheForce) {
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 
+// Nothing ran for ten seconds and the hand was held by whatever was at the device: the first force after it is zero, at once and not
+// along the slew limit of one tick, and stays so until somebody re-arms.
+TEST(DeviceOutput, TheFirstForceAfterAGapIsZero) {
+  Rig rig;
+  rig.run(1000);
+  rig.i += 10'000;
+  Tick tick = rig.rates.tick(RateGroup::kHaptic, rig.i++);
+  tick.resumed = true;
+  rig.graph.step(RateGroup::kHaptic, tick);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  rig.run(1000);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  FaultEvent event;
+  bool told = false;
+  while (rig.output->nextEvent(event)) told = told || (event.status & kOutputGap) != 0;
+  EXPECT_TRUE(told);
+  ++rig.control.rearms;
+  rig.run(100);
+  EXPECT_NEAR(rig.finger->force.x(), 4 * 0.1 / 0.5, 1e-9);
+}
+
 // The end of a run leaves no force on the finger, however it was a moment before.
 TEST(DeviceOutput, StopTakesTheForceDown) {
   Rig rig;
