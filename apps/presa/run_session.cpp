@@ -10,6 +10,7 @@
 #include "apps/presa/terminal/keys.h"
 #include "apps/presa/terminal/status_line.h"
 #include "apps/presa/version.h"
+#include "framework/plan/realtime_policy.h"
 #include "framework/schedule/clock.h"
 
 namespace presa {
@@ -93,6 +94,7 @@ Run::Run(const Loaded& loaded, Settings settings)
   loaded_.world = std::make_shared<const World>(std::move(world));
 
   Session::Options session_options;
+  session_options.force_share = forceShare(drivesHardware(loaded_.plan), options, settings_.rights, result_.notes);
   session_options.trace_rate = settings_.trace_rate;
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
   if (options.realtime)

@@ -5,6 +5,7 @@
 #include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
 #include "framework/schedule/executor.h"
+#include "framework/schedule/realtime_rights.h"
 
 namespace presa {
 
@@ -16,6 +17,7 @@ class Run {
     double trace_rate = 0;  ///< samples per second kept for plots
     bool quiet = false;     ///< no status line
     std::string command;    ///< command line, for the report
+    RealtimeProbe rights = realtimeRights;
   };
   /// Builds the session. Throws InputError; nothing has been written then.
   Run(const Loaded& loaded, Settings settings);

@@ -4,6 +4,7 @@
 
 #include "framework/plan/plugin.h"
 #include "framework/plan/session.h"
+#include "framework/plan/stiffness_bound.h"
 #include "framework/scene/load.h"
 
 namespace presa {
@@ -34,6 +35,16 @@ bool movesHardware(const Rig& rig) {
   });
 }
 
+/// The scene with softer materials, as if --set had asked for them: a recording holds what was felt.
+void boundStiffness(Loaded& loaded, const DeviceList& devices, Diagnostics& diagnostics) {
+  World world = *loaded.world;
+  const auto lowered = boundedMaterials(world.scene, stiffnessBound(devices, loaded.plan, world.scene), diagnostics);
+  if (lowered.empty()) return;
+  const std::string name = world.scene.file;
+  world.scene = parseScene(world.scene.resolved_xml, name, ".", lowered, diagnostics);
+  loaded.world = std::make_shared<const World>(std::move(world));
+}
+
 Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics) {
   if (options.realtime && options.flight.empty() && !options.hardware_flight.empty() && movesHardware(rig))
     options.flight = options.hardware_flight;
@@ -42,7 +53,9 @@ Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics
   // meshes are read even when the scene has findings of its own: the user sees all at once
   loaded.world =
       std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
-  if (!diagnostics.hasErrors()) createDevices(*loaded.world, loaded.plan, diagnostics);
+  if (diagnostics.hasErrors()) return loaded;
+  const DeviceList devices = createDevices(*loaded.world, loaded.plan, diagnostics);
+  if (!diagnostics.hasErrors() && loaded.world->options.bound_stiffness) boundStiffness(loaded, devices, diagnostics);
   return loaded;
 }
 

@@ -23,6 +23,7 @@ class Session {
   struct Options {
     double trace_rate = 0;                      ///< samples per second for plots; 0: none
     DeviceList devices;                         ///< replay: used instead of the rig's drivers
+    double force_share = 1;                     ///< of the force limits that this run may use
     bool open_devices = true;                   ///< explain: looks at the drivers without touching hardware
     std::vector<std::unique_ptr<Module>> more;  ///< the program's own taps
   };

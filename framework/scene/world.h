@@ -30,6 +30,9 @@ struct RunOptions {
   std::string flight;  ///< HDF5 path for the last seconds before a fault, where nothing is recorded; may be empty
   /// The same for a run that moves real hardware against the clock.
   std::string hardware_flight;
+  bool allow_no_rt = false;  ///< hardware may run without real-time scheduling, with half the force
+  bool bound_stiffness =
+      false;  ///< materials too stiff for the devices are brought down; else they are as the scene has them
   std::optional<SimulatedPerson> person{};
 };
 

@@ -57,6 +57,7 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices) {
   Session::Options session_options;
   session_options.trace_rate = spec.trace_rate;
   session_options.devices = std::move(devices);
+  session_options.force_share = spec.force_share;
   auto probe = std::make_unique<Probe>();
   probe_ = probe.get();
   session_options.more.push_back(std::move(probe));

@@ -16,7 +16,8 @@ struct StudySpec {
   std::vector<std::string> sets{};  ///< PATH=VALUE
   double duration = 0;              ///< simulated seconds; 0: to the end of the script (10 s without one)
   std::uint64_t seed = 1;
-  double trace_rate = 0;  ///< samples per second in monitor().trace(); 0: none
+  double trace_rate = 0;   ///< samples per second in monitor().trace(); 0: none
+  double force_share = 1;  ///< of the force limits
 };
 
 /// The states at one haptic tick, after the output stage. References hold during the call only.
@@ -48,6 +49,8 @@ class StudyRun {
   void delay(std::function<bool(RateGroup, double)> held_up);
   /// Execution times in timing() become processor time of this thread. Before run().
   void timeProcessor() { executor_->timeBy(threadCpuNs); }
+  /// Latched faults are forgiven; from an observer.
+  void rearm() noexcept { ++control_.rearms; }
   void run();
 
   const Monitor& monitor() const noexcept { return session_->monitor(); }

@@ -21,6 +21,7 @@ struct Arguments {
 /// What it leaves goes to `scratch`: nobody asked for it.
 RunOptions optionsOf(const Arguments& arguments, const ScratchFolder& scratch) {
   RunOptions options;
+  options.bound_stiffness = true;
   if (arguments.record) {
     options.record = scratch.file("run.h5");
     options.realtime = true;  // a recorder that waits for the disk would hide what it costs a haptic tick

@@ -65,6 +65,7 @@ std::string commandLine(const Arguments& a) {
 
 int run(Arguments arguments) {
   arguments.options.realtime = !arguments.lockstep;
+  arguments.options.bound_stiffness = true;
   arguments.options.view = chooseView(arguments);
   std::string now = utcNow();
   std::erase_if(now, [](char c) { return c == '-' || c == ':'; });
@@ -101,6 +102,8 @@ void addRun(CLI::App& app, int& status) {
       ->add_option("--for", a->options.duration,
                    "simulated seconds (default: to the end of the scripted motion, else 10)")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--allow-no-rt", a->options.allow_no_rt,
+                    "let hardware run where the system refuses real-time scheduling: with half the force");
   command->add_option("--seed", a->options.seed, "seed of every random stream");
   command
       ->add_option("--set", a->inputs.sets,

@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/plan/plan.h"
+#include "framework/schedule/realtime_rights.h"
+
+namespace presa {
+
+/// A driver of the plan moves hardware. Loads the plug-ins.
+bool drivesHardware(const Plan& plan);
+
+/// Share of the force limits that a run may use. Hardware must not hold a force for as long as other programs please: where the clock
+/// runs it and the system refuses SCHED_FIFO or locked memory, this throws InputError E463, or, where the user allows it, gives
+/// kShareWithoutRights and says so in `notes`. Models, and lockstep, are not concerned: the probe is not asked.
+double forceShare(bool hardware, const RunOptions& options, const RealtimeProbe& probe,
+                  std::vector<std::string>& notes);
+
+inline constexpr double kShareWithoutRights = 0.5;
+
+}  // namespace presa
