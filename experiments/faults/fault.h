@@ -46,6 +46,9 @@ std::vector<Fault> processFaults();
 /// Faults of a Novint Falcon, its driver on a model of the device (devices/falcon_model); forces are those that the model received.
 std::vector<Fault> falconFaults();
 
+/// Faults of what a scene is made from, of the machine and of the rig (scene_faults.h).
+std::vector<Fault> sceneFaults();
+
 /// Of every family, in the order of the table.
 std::vector<Fault> allFaults();
 

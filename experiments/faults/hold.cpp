@@ -34,7 +34,7 @@ PrescribedFinger::State handAt(const Hold& hold, const HandImpedance& hand, doub
   return state;
 }
 
-void runHold(const Hold& hold, const AtTick& at_tick) {
+void runHold(const Hold& hold, const AtTick& at_tick, const AfterRun& after) {
   const HandImpedance hand;
   double clock = 0;
   std::array<Transport, 2> transports;
@@ -46,12 +46,14 @@ void runHold(const Hold& hold, const AtTick& at_tick) {
     fingers.push_back(
         std::make_unique<FailingDevice>(std::move(finger), f == 0 ? hold.thumb : FailingDevice::Failure{}));
   }
-  runHold(hold, {std::move(fingers), transports, clock}, at_tick);
+  runHold(hold, {std::move(fingers), transports, clock}, at_tick, after);
 }
 
-void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick) {
+void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick, const AfterRun& after) {
   StudySpec spec;
-  spec.scene = experimentFile("faults/hold.xml");
+  spec.scene = hold.scene.starts_with('/') ? hold.scene : experimentFile(hold.scene);
+  spec.sets = hold.sets;
+  spec.force_share = hold.force_share;
   spec.duration = hold.end;
   StudyRun run(spec, std::move(devices.fingers));
   Traffic traffic;
@@ -61,7 +63,10 @@ void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick) {
     devices.clock = time;
     return hold.held_up && hold.held_up(group, time);
   });
+  bool armed = false;
   run.observe([&](const StudySample& sample) {
+    if (!armed && devices.clock >= hold.rearm) run.rearm();
+    armed = devices.clock >= hold.rearm;
     traffic.slew_energy = 0;
     for (const std::size_t f : {0UL, 1UL}) {
       const Vec3& x = sample.device.fingers[f].p_WH;
@@ -75,6 +80,15 @@ void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick) {
     at_tick(devices.clock, traffic);
   });
   run.run();
+  if (after) after(run);
+}
+
+void requireBounded(const Traffic& traffic, double limit, Outcome& outcome) {
+  if (!outcome.broken.empty()) return;
+  for (const Vec3& force : traffic.force) {
+    if (!force.allFinite()) outcome.broken.emplace_back("a force that is no number");
+    if (force.norm() > limit * (1 + 1e-9)) outcome.broken.emplace_back("a force above the limit");
+  }
 }
 
 double Judge::force(const Traffic& traffic) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "experiments/faults/fault.h"
@@ -31,11 +32,15 @@ class FailingDevice final : public Device {
 
 /// What a run holds while the fault comes: thumb and index close on a cube, lift it and hold it.
 struct Hold {
-  double end = 3;                                  ///< [s]
-  double closed = 0.9;                             ///< fingers press from then on [s]
-  double deep = 0;                                 ///< fingers start this deep in the object [m]
-  FailingDevice::Failure thumb;                    ///< on the thumb's device
-  std::function<bool(RateGroup, double)> held_up;  ///< groups that do not run
+  std::string scene = "faults/hold.xml";                   ///< below experiments, or a path of its own
+  std::vector<std::string> sets{};                         ///< PATH=VALUE
+  double force_share = 1;                                  ///< of the limits
+  double end = 3;                                          ///< [s]
+  double closed = 0.9;                                     ///< fingers press from then on [s]
+  double deep = 0;                                         ///< fingers start this deep in the object [m]
+  FailingDevice::Failure thumb;                            ///< on the thumb's device
+  std::function<bool(RateGroup, double)> held_up;          ///< groups that do not run
+  double rearm = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
 /// What passed at the devices, tick by tick.
@@ -48,8 +53,11 @@ struct Traffic {
 
 using AtTick = std::function<void(double time, const Traffic& traffic)>;
 
-/// Runs it; `at_tick` sees the traffic after every haptic tick.
-void runHold(const Hold& hold, const AtTick& at_tick);
+using AfterRun = std::function<void(StudyRun& run)>;
+
+/// Runs it; `at_tick` sees the traffic after every haptic tick, `after` the run when it is over. Throws InputError for a scene that
+/// cannot be used.
+void runHold(const Hold& hold, const AtTick& at_tick, const AfterRun& after = {});
 
 /// What carries the fingers in its place: `fingers` fill in their `transports`; `clock` is the time in the world. Both outlive
 /// the fingers.
@@ -58,10 +66,13 @@ struct HoldDevices {
   std::array<Transport, 2>& transports;
   double& clock;
 };
-void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick);
+void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick, const AfterRun& after = {});
 
 /// Where the hand of a finger goes; `side`: -1 thumb, 1 index.
 PrescribedFinger::State handAt(const Hold& hold, const HandImpedance& hand, double side, double time);
+
+/// What must hold of every force that is written, whatever fails: finite, at most the limit.
+void requireBounded(const Traffic& traffic, double limit, Outcome& outcome);
 
 /// Judges the usual: when the forces answered, when they were zero and stayed so until `until`, the steps, the energy.
 class Judge {

@@ -48,6 +48,9 @@ TEST(Layering, FilesStayShortEnoughToRead) { EXPECT_THAT(offenders(isTooLong), I
 // What works in one checkout only breaks for the next person.
 TEST(Layering, NoFileNamesAPathOfOneMachine) { EXPECT_THAT(offenders(namesPathOfOneMachine), IsEmpty()); }
 
+// Summer time or a corrected clock must not be felt.
+TEST(Layering, NothingThatRunsReadsTheWallClock) { EXPECT_THAT(offenders(readsTheWallClock), IsEmpty()); }
+
 TEST(Layering, EveryFolderSaysWhatItIsFor) {
   std::vector<std::string> silent;
   for (const std::string& folder : folders()) {

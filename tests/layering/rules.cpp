@@ -113,4 +113,15 @@ Finding namesPathOfOneMachine(const SourceFile& file) {
   return "names a path of one machine: " + match[1].str() + "…";
 }
 
+Finding readsTheWallClock(const SourceFile& file) {
+  static const std::regex kClock(R"(CLOCK_REALTIME|system_clock|gettimeofday|\b(std::|::)?time\((nullptr|NULL|0\)|&))");
+  const std::string top = file.topFolder();
+  const bool runs = top == "framework" || top == "modules" || top == "devices";
+  // a recording says when it was begun
+  if (!runs || !file.isCpp() || file.path == "framework/record/record_plugin/recording_file.cpp") return {};
+  std::smatch match;
+  if (!std::regex_search(file.text, match, kClock)) return {};
+  return "reads the wall clock: " + match[0].str();
+}
+
 }  // namespace presa::layering

@@ -14,5 +14,7 @@ Finding includesAgainstTheArrows(const SourceFile& file);
 Finding lacksPragmaOnce(const SourceFile& file);
 Finding isTooLong(const SourceFile& file);
 Finding namesPathOfOneMachine(const SourceFile& file);
+/// What runs goes by the clock that never jumps.
+Finding readsTheWallClock(const SourceFile& file);
 
 }  // namespace presa::layering

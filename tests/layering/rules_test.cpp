@@ -66,5 +66,16 @@ TEST(LayeringRules, PathsOfOneMachineAreFound) {
   EXPECT_FALSE(namesPathOfOneMachine({"apps/README.md", "the frame" + std::string("/wo") + "rk/flow of devices"}));
 }
 
+TEST(LayeringRules, ReadersOfTheWallClockAreFound) {
+  for (const char* read : {"clock_gettime(CLOCK_REALTIME, &t)", "std::chrono::system_clock::now()",
+                           "std::time(nullptr)", "gettimeofday(&t, 0)", "time(&now)"}) {
+    EXPECT_TRUE(readsTheWallClock({"framework/a.cpp", read})) << read;
+    EXPECT_TRUE(readsTheWallClock({"devices/b/a.h", read})) << read;
+    EXPECT_FALSE(readsTheWallClock({"apps/presa/a.cpp", read})) << read;
+  }
+  EXPECT_FALSE(
+      readsTheWallClock({"framework/a.cpp", "clock_gettime(CLOCK_MONOTONIC, &t); sample.time(0.1); motion.at(time)"}));
+}
+
 }  // namespace
 }  // namespace presa::layering

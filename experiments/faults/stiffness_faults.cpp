@@ -1,0 +1,109 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "experiments/faults/metered_devices.h"
+#include "experiments/faults/scene_faults.h"
+#include "experiments/faults/temporary_file.h"
+#include "framework/plan/load_world.h"
+#include "framework/plan/session.h"
+#include "framework/study/experiment_file.h"
+
+namespace presa::faults {
+namespace {
+
+constexpr double kMass = 0.1, kHand = 300;  // of a fingertip [kg], of the hand behind it [N/m]
+
+/// A finger of mass m and damping b against a wall sampled at T, its force held: grows when the larger of the two eigenvalues of one
+/// exact step is beyond 1. m x'' + b x' = -K x[k].
+bool grows(double stiffness, double damping, double period) {
+  const double decay = std::exp(-damping * period / kMass), travel = (1 - decay) * kMass / damping;
+  const double push = (period - travel) / damping, kick = (1 - decay) / damping;  // of 1 N on x, on v
+  const double trace = 1 - stiffness * push + decay;
+  const double determinant = (1 - stiffness * push) * decay + stiffness * kick * travel;
+  // both eigenvalues inside the unit circle [Jury]
+  return !(std::abs(determinant) < 1 && std::abs(trace) < 1 + determinant);
+}
+
+double oracle(double damping, double period) {
+  double low = 0, high = 1;
+  while (!grows(high, damping, period)) high *= 2;
+  while (high - low > 1e-9 * high) (grows((low + high) / 2, damping, period) ? high : low) = (low + high) / 2;
+  return low;
+}
+
+std::string rigWith(double damping) {
+  const std::string motion = experimentFile("../config/motions/pinch_cube.xml");
+  std::string rig = "<?xml version=\"1.0\"?>\n<rig version=\"1.0\" name=\"soft\">\n";
+  for (const char* role : {"thumb", "index"}) {
+    std::array<char, 1024> text;
+    std::snprintf(text.data(), text.size(),
+                  "<device role=\"%s\" driver=\"scripted\"><set key=\"motion\" value=\"%s\"/>"
+                  "<set key=\"damping\" value=\"%.6f\"/></device>\n",
+                  role, motion.c_str(), damping);
+    rig += text.data();
+  }
+  return rig + "</rig>\n";
+}
+
+void requireClamped(const Loaded& loaded, const Diagnostics& findings, double asked, double most, Outcome& outcome) {
+  bool warned = false;
+  for (const Diagnostic& finding : findings.all())
+    warned = warned || (finding.code == 454 && finding.message.find("K_max") != std::string::npos);
+  for (const Body& body : loaded.world->scene.bodies) {
+    const Material& material = loaded.world->scene.materialOf(body);
+    if (material.name != "rubber") continue;
+    if (material.stiffness > 0.5 * most) outcome.broken.emplace_back("stiffer than half of the stable stiffness");
+    if (asked < 0.49 * most && (material.stiffness != asked)) outcome.broken.emplace_back("changed without need");
+    if (asked > 0.5 * most && !warned) outcome.broken.emplace_back("no warning that names the bound");
+  }
+}
+
+/// The rig's own drivers, metered.
+void grasp(const Loaded& loaded, Outcome& outcome) {
+  Diagnostics findings;
+  DeviceList devices = createDevices(*loaded.world, loaded.plan, findings);
+  std::array<Meter, 2> meters;
+  for (std::size_t f = 0; f < devices.size(); ++f)
+    devices[f] = std::make_unique<MeteredDevice>(std::move(devices[f]), meters[f]);
+  RunControl control;
+  Session::Options options;
+  options.devices = std::move(devices);
+  Session session(loaded.world, loaded.plan, control, std::move(options));
+  const RateTable rates(loaded.world->scene.rates);
+  LockstepExecutor(session.graph(), rates, control).run(2);
+  const double slew = loaded.world->scene.devices[0].limits.force_rate * rates.period(RateGroup::kHaptic);
+  for (const Meter& meter : meters) {
+    if (!(meter.largest <= loaded.world->scene.devices[0].limits.force * (1 + 1e-9)))
+      outcome.broken.emplace_back("a force above the limit");
+    if (!(meter.largest > 0)) outcome.broken.emplace_back("nothing was touched");
+    outcome.step = std::max(outcome.step, meter.largest_step / slew);  // 1: all that the slew limit allows
+  }
+}
+
+}  // namespace
+
+Outcome tooStiff(RandomStream& random) {
+  static constexpr std::array kRates{600.0, 1000.0, 2000.0, 4000.0};
+  const double rate = kRates[random.below(4)], damping = std::round(random.logNormal(3, 0.7) * 1e3) / 1e3;
+  const double asked = std::round(random.logNormal(2 * damping * rate, 1));
+  const TemporaryFile rig(rigWith(damping), ".xml");
+  Diagnostics findings;
+  RunOptions options;
+  options.bound_stiffness = true;
+  std::array<char, 64> stiffness, haptic;
+  std::snprintf(stiffness.data(), stiffness.size(), "material/rubber/stiffness=%.17g", asked);
+  std::snprintf(haptic.data(), haptic.size(), "rates/haptic=%.0f", rate);
+  // the table is not touched: its own warning would hide the one that is looked for
+  const Loaded loaded = loadWorld({experimentFile("../config/scenes/cube.xml"),
+                                   rig.path(),
+                                   {stiffness.data(), haptic.data(), "material/wood/stiffness=1"}},
+                                  options, findings);
+  if (findings.hasErrors()) throw InputError(findings);
+  Outcome outcome;
+  requireClamped(loaded, findings, asked, oracle(damping, 1 / rate), outcome);
+  grasp(loaded, outcome);
+  return outcome;
+}
+
+}  // namespace presa::faults

@@ -1,0 +1,86 @@
+// The wall clock of this very process jumps by an hour, to and fro, whenever it is read: the functions here stand before those of
+// libc for the framework and every plug-in too.
+#include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <ctime>
+
+#include "experiments/faults/hold.h"
+#include "experiments/faults/object_imports.h"
+
+namespace {
+
+std::atomic<bool> jumping{false};
+std::atomic<int> reads{0};
+
+void jump(timespec& now) {
+  if (!jumping) return;
+  now.tv_sec += (++reads % 2 == 0 ? 1 : -1) * 3600;
+}
+
+}  // namespace
+
+extern "C" int clock_gettime(clockid_t clock, timespec* now) noexcept {
+  const long result = ::syscall(SYS_clock_gettime, clock, now);
+  if (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE) jump(*now);
+  return static_cast<int>(result);
+}
+
+extern "C" int gettimeofday(timeval* now, void*) noexcept {
+  timespec wall{};
+  clock_gettime(CLOCK_REALTIME, &wall);
+  *now = {wall.tv_sec, wall.tv_nsec / 1000};
+  return 0;
+}
+
+extern "C" time_t time(time_t* now) noexcept {
+  timespec wall{};
+  clock_gettime(CLOCK_REALTIME, &wall);
+  if (now != nullptr) *now = wall.tv_sec;
+  return wall.tv_sec;
+}
+
+namespace presa::faults {
+namespace {
+
+std::vector<Vec3> forces() {
+  Hold hold;
+  hold.end = 1.5;
+  std::vector<Vec3> all;
+  runHold(hold,
+          [&](double, const Traffic& traffic) { all.insert(all.end(), traffic.force.begin(), traffic.force.end()); });
+  return all;
+}
+
+TEST(WallClock, MayJumpAnHourAtEveryRead) {
+  const std::vector<Vec3> steady = forces();
+  jumping = true;
+  const std::vector<Vec3> jumped = forces();
+  const int read_by_run = reads;
+  const auto before = std::chrono::system_clock::now(), after = std::chrono::system_clock::now();
+  jumping = false;
+  EXPECT_EQ(steady, jumped);
+  EXPECT_EQ(read_by_run, 0);
+  // it did jump, for whoever reads it
+  EXPECT_GT(std::abs(std::chrono::duration<double>(after - before).count()), 3600);
+}
+
+// The look at the imports sees what is there: this program calls time(), the framework the clock that does not jump.
+TEST(WallClock, ImportsAreSeen) {
+  EXPECT_EQ(wallClocksAmong({"clock_gettime", "time", "timegm", "gettimeofday"}),
+            (std::vector<std::string>{"time", "gettimeofday"}));
+  forces();  // loads the plug-ins
+  bool framework = false;
+  for (const ObjectImports& object : loadedObjects()) {
+    if (object.name != "libpresa_framework.so") continue;
+    framework = std::find(object.imports.begin(), object.imports.end(), "clock_gettime") != object.imports.end();
+  }
+  EXPECT_TRUE(framework);
+}
+
+}  // namespace
+}  // namespace presa::faults
