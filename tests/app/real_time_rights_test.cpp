@@ -64,14 +64,14 @@ TEST(RealTimeRights, AreSeenToBeRefused) {
 
 TEST(RealTimeRights, HardwareIsRefusedWithoutThem) {
   const std::string rig = falconRig();
+  const std::string file = scratch("outcome");  // named by this process, written by its child
   const auto run = [&](const std::string& arguments) {
-    std::string out;
     withoutRights([&] {
       const Outcome outcome = presa("run " + source("config/scenes/cube.xml") + " --realtime --for 0.2 " + arguments);
-      std::ofstream(scratch("outcome")) << outcome.status << '\n' << outcome.err;
+      std::ofstream(file) << outcome.status << '\n' << outcome.err;
       return 0;
     });
-    std::ifstream in(scratch("outcome"));
+    std::ifstream in(file);
     return std::string{std::istreambuf_iterator<char>(in), {}};
   };
   const std::string refused = run("--rig " + rig);
