@@ -32,6 +32,8 @@ struct Fault {
   Bounds bounds;
   std::function<Outcome(RandomStream&)> run;
   int most_runs = std::numeric_limits<int>::max();  ///< where a run takes wall time or says no more than the one before
+  /// Real processes against the clock: means nothing where the system refuses SCHED_FIFO (realtimeRights).
+  bool real_time = false;
 };
 
 /// What a run broke; empty: nothing.

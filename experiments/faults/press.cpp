@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,7 +75,10 @@ void nap() { sleepUntilNs(monotonicNs() + 1'000'000); }
 PressingProgram::PressingProgram() : file_(makeLog(log_)) {
   program_ = fork();
   if (program_ < 0) throw std::runtime_error("no process for the pressing program");
-  if (program_ == 0) runProgram(file_);
+  if (program_ == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody presses on when the one who watches has died
+    runProgram(file_);
+  }
   waitUntilPressed();
 }
 

@@ -114,13 +114,15 @@ std::vector<Fault> processFaults() {
        "its supervisor takes the force to zero; back from zero, softly",
        {0.0065, 0.010, false},
        stopped,
-       kRuns},
+       kRuns,
+       true},
       {8,
        "program killed (SIGKILL) in the grasp",
        "its supervisor takes the force to zero, and lets go",
        {0.0065, 0.020, false},
        killed,
-       kRuns},
+       kRuns,
+       true},
   };
 }
 

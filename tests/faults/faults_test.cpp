@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/faults/fault.h"
+#include "framework/schedule/realtime_rights.h"
 
 namespace presa::faults {
 namespace {
@@ -9,6 +10,7 @@ class Faults : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Faults, KeepTheirBounds) {
   const Fault fault = allFaults()[GetParam()];
+  if (fault.real_time && !realtimeRights().fifo.empty()) GTEST_SKIP() << "SCHED_FIFO: " << realtimeRights().fifo;
   for (std::uint64_t run = 0; run < 6; ++run) {
     RandomStream random(1000, fault.name, run);
     const Outcome outcome = fault.run(random);

@@ -8,6 +8,7 @@
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/terminal/job_progress.h"
 #include "framework/diagnostics/refuse.h"
+#include "framework/schedule/realtime_rights.h"
 #include "framework/study/jobs.h"
 
 namespace presa::faults {
@@ -75,6 +76,14 @@ std::vector<Fault> chosen(const RunnerOptions& options) {
   std::vector<Fault> faults = allFaults();
   std::erase_if(faults, [&](const Fault& fault) { return fault.name.find(options.only) == std::string::npos; });
   if (faults.empty()) refuse(613, "--only " + options.only, "no fault has that in its name");
+  if (const std::string refused = realtimeRights().fifo; !refused.empty()) {
+    std::erase_if(faults, [&](const Fault& fault) {
+      if (fault.real_time)
+        std::fprintf(stderr, "left out: '%s' runs against the clock, and SCHED_FIFO is refused here (%s)\n",
+                     fault.name.c_str(), refused.c_str());
+      return fault.real_time;
+    });
+  }
   if (options.out.empty()) return faults;
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
