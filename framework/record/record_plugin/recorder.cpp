@@ -246,6 +246,11 @@ void FileRecorder::writeFaults() {
     faults.swap(faults_);
   }
   for (const std::string& fault : faults) onFile([&] { file_->addFault(fault); });
+  {
+    const std::scoped_lock lock(mutex_);
+    faults_unwritten_ -= faults.size();
+  }
+  if (!faults.empty()) space_.notify_all();
 }
 
 void FileRecorder::flushWhenDue() {
@@ -299,8 +304,13 @@ void FileRecorder::joinWriter() {
 void FileRecorder::fault(double time, const std::string& what) {
   std::array<char, 32> at;
   std::snprintf(at.data(), at.size(), "%.3f s: ", time);
-  const std::scoped_lock lock(mutex_);
+  std::unique_lock lock(mutex_);
   faults_.push_back(at.data() + what);
+  ++faults_unwritten_;
+  hurry_.store(true, std::memory_order_relaxed);
+  wake_.notify_one();
+  // virtual time would run away from the fault meanwhile
+  if (!realtime_) space_.wait(lock, [this] { return faults_unwritten_ == 0; });
 }
 
 void FileRecorder::finish() {

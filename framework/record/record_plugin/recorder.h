@@ -99,6 +99,7 @@ class FileRecorder final : public Recorder, public WatchedStages {
   std::condition_variable space_;  ///< step() waits, in lockstep only
   std::atomic<bool> hurry_{false};
   std::vector<std::string> faults_;  ///< to be written
+  std::size_t faults_unwritten_ = 0;
   bool stop_ = false;
   bool complete_ = false;
   std::vector<std::string> files_;  ///< after finish()
