@@ -73,8 +73,8 @@ std::string jumpingRig(const std::string& folder) {
   std::ofstream(folder + "/jump.csv") << "time_s,role,x_m,y_m,z_m,phase\n"
                                          "0,thumb,-0.1,0,0.03,press\n0,index,0.1,0,0.03,press\n"
                                          "0.3,thumb,-0.1,0,0.006,press\n0.3,index,0.1,0,0.006,press\n"
-                                         "1.2,thumb,-0.1,0,0.006,press\n"
-                                         "1.201,thumb,0.5,0,0.006,press\n1.202,thumb,1.5,0,0.006,press\n"
+                                         "2.6,thumb,-0.1,0,0.006,press\n"
+                                         "2.601,thumb,0.5,0,0.006,press\n2.602,thumb,1.5,0,0.006,press\n"
                                          "6,thumb,1.5,0,0.006,press\n6,index,0.1,0,0.006,press\n";
   std::ofstream(folder + "/rig.xml")
       << "<rig version=\"1.0\" name=\"jump\">"
@@ -111,7 +111,7 @@ TEST(Rearm, AKeyForgivesALatchedFault) {
   double rearmed = -1;
   for (std::size_t i = 0; i < run.time.size() && rearmed < 0; ++i)
     if (run.device[i].rearms > 0) rearmed = run.time[i];
-  ASSERT_GT(rearmed, 1.2);
+  ASSERT_GT(rearmed, 2.6);
   EXPECT_GT(forceAfter(samples, samples.fingers[1], rearmed + 0.1), 0.1);  // the index presses again
   const test::Outcome replayed = test::presa("replay " + recording + " --verify");
   EXPECT_EQ(replayed.status, 0) << replayed.out << replayed.err;
@@ -126,8 +126,9 @@ TEST(FlightRecord, IsWrittenAtAFaultAndShown) {
   EXPECT_THAT(run.out, HasSubstr("the seconds around the fault: " + flight));
   const RecordedSamples samples = recordPlugin().samples(flight);
   EXPECT_TRUE(samples.complete);
-  EXPECT_LE(samples.time.front(), 1.2);
-  EXPECT_GE(samples.time.back(), 1.5);
+  EXPECT_GT(samples.first_tick, 0u);
+  EXPECT_LE(samples.time.front(), 1.0);
+  EXPECT_GE(samples.time.back(), 3.0);
   const test::Outcome shown = test::presa("replay " + flight + " --page " + page);
   EXPECT_EQ(shown.status, 0) << shown.err;
   EXPECT_THAT(shown.out, HasSubstr("thumb: its device is gone, or says what cannot be"));

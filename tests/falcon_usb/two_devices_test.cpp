@@ -6,6 +6,7 @@
 #include "framework/graph/graph_builder.h"
 #include "framework/schedule/clock.h"
 #include "framework/schedule/rates.h"
+#include "framework/schedule/realtime_rights.h"
 #include "tests/falcon_usb/drivers.h"
 
 namespace presa::falcon_model::test {
@@ -59,7 +60,11 @@ TEST(TwoFalconsOverUsb, OneIsPulledOutAndTheOtherGoesToZero) {
   const auto felt = [](EmulatedFalcon& falcon) {
     return falcon.with([](FalconModel& model, double) { return model.received().meant_D.norm(); });
   };
-  ASSERT_TRUE(runUntil([&] { return felt(thumb) > 0.5 && felt(index) > 0.5; })) << felt(thumb) << ' ' << felt(index);
+  if (!runUntil([&] { return felt(thumb) > 0.5 && felt(index) > 0.5; })) {
+    // late replies take the force away, as they should
+    if (!realtimeRights().fifo.empty()) GTEST_SKIP() << "SCHED_FIFO: " << realtimeRights().fifo;
+    FAIL() << felt(thumb) << ' ' << felt(index);
+  }
 
   int requests = 0, zero_after = 0;
   double zero_at = 0;
