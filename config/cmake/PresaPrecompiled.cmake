@@ -1,0 +1,43 @@
+# Eigen and the standard library take most of the time that a file of Presa takes to compile. They are parsed once for the tree,
+# and once more, with GoogleTest, for the tests (tests/CMakeLists.txt). Files include what they use all the same: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows it.
+
+set(presa_common_headers
+  <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdio> <cstdlib> <cstring>
+  <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string>
+  <string_view> <utility> <variant> <vector>)
+
+# presa_precompiled(NAME HEADERS… LIBRARIES…): the object library that others take the parsed headers from
+function(presa_precompiled name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
+  file(WRITE ${CMAKE_BINARY_DIR}/${name}.cpp.new "")
+  configure_file(${CMAKE_BINARY_DIR}/${name}.cpp.new ${CMAKE_BINARY_DIR}/${name}.cpp COPYONLY)
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE presa_options ${ARG_LIBRARIES})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+  # what ccache goes by in place of the parsed headers, which are another file in each build folder
+  string(SHA256 sum "${ARG_HEADERS} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${Eigen3_VERSION} ${GTest_VERSION}")
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.gch.sum ${sum})
+endfunction()
+
+# presa_precompile(FOLDER): every target below it
+function(presa_precompile folder)
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(below IN LISTS folders)
+    presa_precompile(${below})
+  endforeach()
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    get_target_property(type ${target} TYPE)
+    if(NOT type MATCHES "^(STATIC_LIBRARY|SHARED_LIBRARY|EXECUTABLE)$")
+      continue()
+    endif()
+    set(from presa_precompiled_headers)
+    get_target_property(libraries ${target} LINK_LIBRARIES)
+    if(libraries MATCHES "GTest::gtest")
+      set(from presa_precompiled_test_headers)
+    endif()
+    target_precompile_headers(${target} REUSE_FROM ${from})
+  endforeach()
+endfunction()
+
+presa_precompiled(presa_precompiled_headers HEADERS ${presa_common_headers})
