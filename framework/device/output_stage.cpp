@@ -71,14 +71,16 @@ Vec3 OutputStage::cooled(const Vec3& force) noexcept {
 
 double OutputStage::fade(const Input& input, double period) noexcept {
   if (input.trust != Trust::kGood) status_ |= kOutputWatchdog;
-  if (latched() || input.trust == Trust::kDropped)
+  const bool dropped = latched() || input.trust == Trust::kDropped;
+  gap_ = dropped ? gap_ + period : 0;
+  if (latched() || gap_ > kShortGap) {
     gain_ = 0;
-  else if (input.stop || input.trust == Trust::kFading)
-    gain_ = std::max(0.0, gain_ - period / limits_.fade_out);
-  else
-    gain_ = std::min(1.0, gain_ + period / limits_.soft_start);
-  if (gain_ < 1) status_ |= kOutputFading;
-  return gain_;
+  } else if (!dropped) {
+    const bool fading = input.stop || input.trust == Trust::kFading;
+    gain_ = std::clamp(gain_ + (fading ? -period / limits_.fade_out : period / limits_.soft_start), 0.0, 1.0);
+  }
+  if (gain_ < 1 || dropped) status_ |= kOutputFading;
+  return dropped ? 0 : gain_;
 }
 
 Vec3 OutputStage::slewed(const Vec3& force, double most) noexcept {

@@ -51,8 +51,8 @@ class OutputStage {
   /// How far what the command was made from can be trusted.
   enum class Trust : std::uint8_t {
     kGood,
-    kFading,   ///< a little old: to zero within fade_out
-    kDropped,  ///< too old, or no sample at all: to zero as fast as slew allows
+    kFading,  ///< a little old: to zero within fade_out
+    kDropped,  ///< too old, or no sample at all: to zero as fast as slew allows; back softly, at the slew limit after a short gap
   };
   struct Input {
     Vec3 command = Vec3::Zero();  ///< wanted force on the finger [N]
@@ -74,6 +74,9 @@ class OutputStage {
   std::uint32_t status() const noexcept { return status_; }
   const Vec3& last() const noexcept { return last_; }
   bool latched() const noexcept { return latches_ != 0; }
+  /// A late sample is nothing unusual: a gap no longer than this one dips into the force and does not start it anew [s].
+  static constexpr double kShortGap = 3e-3;
+
   double heat() const noexcept { return budget_.heat(); }  ///< as a share of what the continuous rating allows
 
  private:
@@ -89,6 +92,7 @@ class OutputStage {
   Vec3 good_ = Vec3::Zero();  // last finite command
   Vec3 last_ = Vec3::Zero();  // last force sent
   double gain_ = 0;
+  double gap_ = 0;  // for how long the command is dropped [s]
   std::uint32_t latches_ = 0, status_ = 0;
   bool hurrying_ = false;  // pushed a hand that was too fast, at the last tick
 };

@@ -120,6 +120,20 @@ TEST(OutputStage, WhatIsDroppedGoesDownAsFastAsSlewAllows) {
   EXPECT_NEAR(stage.step({.command = {4, 0, 0}}, kPeriod).x(), 4 * kPeriod / kLimits.soft_start, 1e-9);  // softly again
 }
 
+// A sample that is late by no more than three ticks dips into the force: it comes back as fast as slew allows, and does not start anew.
+TEST(OutputStage, AShortGapIsADip) {
+  for (int gap = 1; gap <= 3; ++gap) {
+    OutputStage stage(kLimits);
+    settle(stage, {4, 0, 0});
+    for (int i = 1; i <= gap; ++i) {
+      EXPECT_NEAR(stage.step({.command = {4, 0, 0}, .trust = Trust::kDropped}, kPeriod).x(), 4 - i, 1e-9);
+      EXPECT_NE(stage.status() & kOutputFading, 0u);
+    }
+    for (int i = gap - 1; i >= 0; --i) EXPECT_NEAR(stage.step({.command = {4, 0, 0}}, kPeriod).x(), 4 - i, 1e-9);
+    EXPECT_EQ(stage.status(), kOutputClean);
+  }
+}
+
 // A lost device: to zero, and nothing but a re-arm brings the force back, softly; if it is still lost, nothing does.
 TEST(OutputStage, ALostDeviceStaysAtZeroUntilRearmed) {
   OutputStage stage(kLimits);
