@@ -156,7 +156,7 @@ Counts FalconLink::countsFor(double now, const LinkCommand& command, ForceGate& 
 }
 
 void FalconLink::forgetLate(double now) noexcept {
-  while (waiting_ > 0 && now - asked_[0] > kLateReply - kTick) askedAt();
+  while (waiting_ > 0 && now - asked_[0] > kLateReply - kTick) samples_.unsettle(askedAt(), now);
 }
 
 double FalconLink::askedAt() noexcept {

@@ -13,9 +13,16 @@ void SampleGate::reset() noexcept {
   v_DH_.setZero();
 }
 
+void SampleGate::unsettle(double asked, double now) noexcept {
+  if (now >= unsettled_until_) unsettled_since_ = asked;
+  unsettled_until_ = now + kVelocityGap;
+}
+
 SampleGate::Verdict SampleGate::take(const Counts& encoders, double time) noexcept {
   const auto p_DH = direct(thighAngles(encoders), empty_ ? kCentre : p_DH_);
-  const double elapsed = time - time_;
+  const bool unsettled = time < unsettled_until_;
+  const double since = unsettled ? std::min(time_, std::max(unsettled_since_, time - kVelocityGap)) : time_;
+  const double elapsed = time - since;
   const bool possible =
       p_DH && p_DH->allFinite() && (empty_ || (*p_DH - p_DH_).norm() <= max_speed_ * std::max(elapsed, period_));
   if (!possible) {
@@ -24,7 +31,7 @@ SampleGate::Verdict SampleGate::take(const Counts& encoders, double time) noexce
     doubted_ = true;
     return second ? Verdict::kLatched : Verdict::kRejected;
   }
-  if (empty_ || elapsed > kVelocityGap) {
+  if (empty_ || unsettled || elapsed > kVelocityGap) {
     v_DH_.setZero();
   } else if (elapsed > 0) {
     const double share = 1 - std::exp(-elapsed / kVelocityTime);

@@ -22,6 +22,9 @@ class SampleGate {
 
   /// Forgets where the grip was and how fast: homing moves the origin.
   void reset() noexcept;
+  /// A reply to what was asked at `asked` is late at `now`: if it still comes it is taken for that of a later request. For a while it
+  /// cannot be told how old a sample is, so there is no velocity, and the grip may have moved since `asked`.
+  void unsettle(double asked, double now) noexcept;
   /// `time`: when the encoders were read [s].
   Verdict take(const Counts& encoders, double time) noexcept;
 
@@ -32,13 +35,14 @@ class SampleGate {
 
   /// Time constant of the velocity [s]: a step of one count (45 um in 1 ms) shows as 13 mm/s.
   static constexpr double kVelocityTime = 3e-3;
-  /// After a pause longer than this the velocity starts from zero [s].
+  /// After a pause longer than this, and for so long after a late reply, the velocity starts from zero [s].
   static constexpr double kVelocityGap = 10e-3;
 
  private:
   double max_speed_, period_;
   Vec3 p_DH_ = Vec3::Zero(), v_DH_ = Vec3::Zero();
   double time_ = 0;
+  double unsettled_since_ = 0, unsettled_until_ = -1;
   bool empty_ = true;
   bool doubted_ = false;  // the last one was rejected
   std::uint64_t rejected_ = 0;
