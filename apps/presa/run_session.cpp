@@ -89,12 +89,12 @@ Run::Run(const Loaded& loaded, Settings settings)
   }
   if (!(options.duration > 0)) options.duration = end > 0 ? end : kDefaultDuration;
   if (options.screenshot_time > options.duration) options.screenshot_time = -1;
+  options.force_share = forceShare(drivesHardware(loaded_.plan), options, settings_.rights, result_.notes);
   World world = *loaded_.world;
   world.options = options;
   loaded_.world = std::make_shared<const World>(std::move(world));
 
   Session::Options session_options;
-  session_options.force_share = forceShare(drivesHardware(loaded_.plan), options, settings_.rights, result_.notes);
   session_options.trace_rate = settings_.trace_rate;
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
   if (options.realtime)
@@ -137,6 +137,7 @@ void Run::poll() {
   while (session_->output() != nullptr && session_->output()->nextEvent(event)) {
     const std::string role = loaded_.world->scene.devices[static_cast<std::size_t>(event.finger)].role;
     if (const char* fault = latchedFault(event.status)) {
+      device_lost_ = device_lost_ || (event.status & kOutputLost) != 0;
       fail(event.time, role + ": " + fault + "; the force went to zero and stays there");
       if (live_->keys && live_->keys->available())
         live_->line.note(role + ": " + fault + ". Look, then press r to re-arm.");
@@ -157,6 +158,14 @@ void Run::poll() {
 }
 
 void Run::rearm() {
+  if (std::exchange(device_lost_, false)) {
+    for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
+    for (const Diagnostic& finding : session_->reopenDevices(control_.stop_requested)) {
+      live_->line.note(format(finding));
+      device_lost_ = true;
+    }
+    if (device_lost_) return live_->line.note("not re-armed. Mend that, then press r again.");
+  }
   control_.rearms.fetch_add(1, std::memory_order_relaxed);
   live_->line.note("re-armed: forces come back softly where the cause is gone");
 }

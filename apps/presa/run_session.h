@@ -45,6 +45,7 @@ class Run {
   std::unique_ptr<Executor> executor_;
   RunResult result_;
   int watchdog_trips_ = 0;
+  bool device_lost_ = false;  // since the last re-arm
   std::uint32_t object_faults_told_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ class Device {
 
   /// Somebody has looked and forgives a latched fault: the device may try again. Called before read.
   virtual void rearm() noexcept {}
+
+  /// Main thread, while read and write go on: opens again what was lost, as open() does; what was not is left alone. Gives up when
+  /// `stop` is set. The device stays lost until a re-arm.
+  virtual void reopen(const std::atomic<bool>& /*stop*/) {}
 
   /// A simulated hand that looks: asks for the bodies' poses in see(), called before read. No hardware does.
   virtual bool looks() const { return false; }

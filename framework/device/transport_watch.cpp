@@ -44,6 +44,7 @@ class TransportWatch final : public Device {
   }
 
   void rearm() noexcept override { device_->rearm(); }
+  void reopen(const std::atomic<bool>& stop) override { device_->reopen(stop); }
   bool looks() const override { return device_->looks(); }
   void see(const ObjectState& objects, const Tick& tick) noexcept override { device_->see(objects, tick); }
   std::string model() const override { return device_->model(); }

@@ -1,8 +1,6 @@
 #include "framework/plan/load_world.h"
 
-#include <algorithm>
-
-#include "framework/plan/plugin.h"
+#include "framework/plan/realtime_policy.h"
 #include "framework/plan/session.h"
 #include "framework/plan/stiffness_bound.h"
 #include "framework/scene/load.h"
@@ -24,17 +22,6 @@ std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostic
   return overrides;
 }
 
-/// Whether the rig names a driver that moves something real. What cannot be loaded is said later.
-bool movesHardware(const Rig& rig) {
-  return std::any_of(rig.devices.begin(), rig.devices.end(), [](const DeviceBinding& binding) {
-    try {
-      return devicePlugin(binding.driver).hardware;
-    } catch (const InputError&) {
-      return false;
-    }
-  });
-}
-
 /// The scene with softer materials, as if --set had asked for them: a recording holds what was felt.
 void boundStiffness(Loaded& loaded, const DeviceList& devices, Diagnostics& diagnostics) {
   World world = *loaded.world;
@@ -46,10 +33,13 @@ void boundStiffness(Loaded& loaded, const DeviceList& devices, Diagnostics& diag
 }
 
 Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics) {
-  if (options.realtime && options.flight.empty() && !options.hardware_flight.empty() && movesHardware(rig))
-    options.flight = options.hardware_flight;
   Loaded loaded;
   loaded.plan = makePlan(scene, rig, options, diagnostics);
+  if (options.realtime && options.flight.empty() && !options.hardware_flight.empty() && drivesHardware(loaded.plan)) {
+    options.flight = options.hardware_flight;
+    Diagnostics said;  // all of it already
+    loaded.plan = makePlan(scene, rig, options, said);
+  }
   // meshes are read even when the scene has findings of its own: the user sees all at once
   loaded.world =
       std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));

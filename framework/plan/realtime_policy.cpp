@@ -20,8 +20,13 @@ std::string refusalOf(const RealtimeRights& rights) {
 }  // namespace
 
 bool drivesHardware(const Plan& plan) {
-  return std::any_of(plan.devices.begin(), plan.devices.end(),
-                     [](const PlannedDevice& device) { return devicePlugin(device.driver).hardware; });
+  return std::any_of(plan.devices.begin(), plan.devices.end(), [](const PlannedDevice& device) {
+    try {
+      return devicePlugin(device.driver).hardware;
+    } catch (const InputError&) {
+      return false;
+    }
+  });
 }
 
 double forceShare(bool hardware, const RunOptions& options, const RealtimeProbe& probe,
@@ -34,7 +39,8 @@ double forceShare(bool hardware, const RunOptions& options, const RealtimeProbe&
     refuse(463, "", refused + ": other programs could hold up a device that is pushing a hand",
            "let your group have it in /etc/security/limits.conf, '@plugdev - rtprio 90' and '@plugdev - memlock "
            "unlimited', and log "
-           "in again ('ulimit -r', 'ulimit -l' show it); or --allow-no-rt: with half the force");
+           "in again ('ulimit -r', 'ulimit -l' show it); `presa run --allow-no-rt` goes on with half the force, an "
+           "experiment does not");
   }
   notes.push_back(refused + ", as allowed: every force limit is halved");
   return kShareWithoutRights;

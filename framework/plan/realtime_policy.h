@@ -7,7 +7,7 @@
 
 namespace presa {
 
-/// A driver of the plan moves hardware. Loads the plug-ins.
+/// A driver of the plan moves hardware. Loads the plug-ins; one that cannot be loaded is passed over, createDevices() says it.
 bool drivesHardware(const Plan& plan);
 
 /// Share of the force limits that a run may use. Hardware must not hold a force for as long as other programs please: where the clock

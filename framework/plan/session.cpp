@@ -81,7 +81,7 @@ std::vector<std::string> engineVersions(const Plan& plan) {
 namespace {
 
 /// What the output stages keep to. A replay and a study bring devices of their own, and keep to the same.
-std::vector<FingerSafety> safetyOf(const World& world, double force_share, std::vector<std::string>& notes) {
+std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes) {
   std::vector<FingerSafety> safety;
   for (const DeviceRole& role : world.scene.devices) {
     const DeviceBinding* binding = bindingOf(world.rig, role.role);
@@ -92,7 +92,7 @@ std::vector<FingerSafety> safetyOf(const World& world, double force_share, std::
       rating = devicePlugin(binding->driver).rating;
     }
     safety.push_back({limitsFor(role, allowed, rating, notes), role.limits.watchdog_ms * 1e-3});
-    safety.back().limits.force *= force_share;
+    safety.back().limits.force *= world.options.force_share;
   }
   return safety;
 }
@@ -101,7 +101,7 @@ std::vector<FingerSafety> safetyOf(const World& world, double force_share, std::
 
 Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
     : devices_(std::move(options.devices)) {
-  const std::vector<FingerSafety> safety = safetyOf(*world, options.force_share, notes_);
+  const std::vector<FingerSafety> safety = safetyOf(*world, notes_);
   if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices, safety);
   for (std::size_t f = 0; f < devices_.size(); ++f)
     devices_[f] = watched(std::move(devices_[f]), safety[f].limits, control);
@@ -119,6 +119,19 @@ Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunContro
 
 Session::~Session() {
   for (const auto& device : devices_) device->close();
+}
+
+std::vector<Diagnostic> Session::reopenDevices(const std::atomic<bool>& stop) {
+  std::vector<Diagnostic> findings;
+  for (const auto& device : devices_) {
+    try {
+      device->reopen(stop);
+    } catch (const InputError& error) {
+      const auto& all = error.diagnostics().all();
+      findings.insert(findings.end(), all.begin(), all.end());
+    }
+  }
+  return findings;
 }
 
 void Session::bringUpDevices(const World& world, const Plan& plan, bool open, const std::vector<FingerSafety>& safety) {

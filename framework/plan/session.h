@@ -23,7 +23,6 @@ class Session {
   struct Options {
     double trace_rate = 0;                      ///< samples per second for plots; 0: none
     DeviceList devices;                         ///< replay: used instead of the rig's drivers
-    double force_share = 1;                     ///< of the force limits that this run may use
     bool open_devices = true;                   ///< explain: looks at the drivers without touching hardware
     std::vector<std::unique_ptr<Module>> more;  ///< the program's own taps
   };
@@ -35,6 +34,8 @@ class Session {
 
   Graph& graph() noexcept { return graph_; }
   const DeviceList& devices() const noexcept { return devices_; }
+  /// Main thread, while the graph runs: opens again what was lost, each device for itself. What stays lost is in the findings.
+  std::vector<Diagnostic> reopenDevices(const std::atomic<bool>& stop);
   /// Lines worth telling the user about the limits that hold.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
   DeviceOutput* output() noexcept { return output_; }  ///< null without devices

@@ -31,6 +31,7 @@ struct RunOptions {
   /// The same for a run that moves real hardware against the clock.
   std::string hardware_flight;
   bool allow_no_rt = false;  ///< hardware may run without real-time scheduling, with half the force
+  double force_share = 1;    ///< of the force limits that this run may use
   bool bound_stiffness =
       false;  ///< materials too stiff for the devices are brought down; else they are as the scene has them
   std::optional<SimulatedPerson> person{};

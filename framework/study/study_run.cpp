@@ -43,6 +43,7 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices) {
   RunOptions options;
   options.seed = spec.seed;
   options.duration = spec.duration;
+  options.force_share = spec.force_share;
   Loaded loaded = loadWorld({spec.scene, spec.rig, spec.sets}, options, diagnostics);
   if (!diagnostics.hasErrors() && devices.empty() && spec.duration <= 0) {
     // the monitor sizes its trace by the duration, which only the devices know
@@ -57,7 +58,6 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices) {
   Session::Options session_options;
   session_options.trace_rate = spec.trace_rate;
   session_options.devices = std::move(devices);
-  session_options.force_share = spec.force_share;
   auto probe = std::make_unique<Probe>();
   probe_ = probe.get();
   session_options.more.push_back(std::move(probe));

@@ -85,7 +85,7 @@ void SupervisedDevice::spawn() {
   ::close(shared);
   if (failed == 0) return;
   child_ = -1;
-  close();
+  end();
   refuse(kNotStarted, "its supervisor does not start: " + program, std::strerror(failed));
 }
 
@@ -98,27 +98,43 @@ bool SupervisedDevice::hasEnded() noexcept {
 }
 
 void SupervisedDevice::open() {
-  using State = SupervisorShare::State;
-  spawn();
-  while (share_->state.load(std::memory_order_acquire) == State::kStarting && !hasEnded())
-    sleepUntilNs(monotonicNs() + kLook);
-  const State state = share_->state.load(std::memory_order_acquire);
-  const std::string_view answer{share_->answer, share_->answer_size};
-  if (state == State::kRefused) {
-    const Diagnostics findings = unpackedFindings(answer);
-    close();
-    throw InputError(findings);
-  }
-  if (state != State::kRunning) {
-    close();
-    refuse(kDied, "its supervisor ended before it had the device", "please report this, with the rig");
-  }
-  notes_ = unpackedLines(answer);
+  start(false);
   notes_.push_back(task_.binding.role + ": held by process " + std::to_string(child_) +
                    ", which takes the force to zero when this one stops or dies");
 }
 
-void SupervisedDevice::close() noexcept {
+void SupervisedDevice::reopen(const std::atomic<bool>& stop) {
+  if (!lost_.load(std::memory_order_acquire)) return;
+  end();
+  retired_.push_back(std::move(share_));
+  start(stop);
+}
+
+void SupervisedDevice::start(const std::atomic<bool>& stop) {
+  using State = SupervisorShare::State;
+  spawn();
+  while (share_->state.load(std::memory_order_acquire) == State::kStarting && !hasEnded()) {
+    if (stop.load(std::memory_order_relaxed)) return end();
+    sleepUntilNs(monotonicNs() + kLook);
+  }
+  const State state = share_->state.load(std::memory_order_acquire);
+  const std::string_view answer{share_->answer, share_->answer_size};
+  if (state == State::kRefused) {
+    const Diagnostics findings = unpackedFindings(answer);
+    end();
+    throw InputError(findings);
+  }
+  if (state != State::kRunning) {
+    end();
+    refuse(kDied, "its supervisor ended before it had the device", "please report this, with the rig");
+  }
+  notes_ = unpackedLines(answer);
+  live_.store(&*share_, std::memory_order_release);
+}
+
+void SupervisedDevice::close() noexcept { end(); }
+
+void SupervisedDevice::end() noexcept {
   if (share_) share_->close.store(true, std::memory_order_relaxed);
   if (life_ >= 0) ::close(std::exchange(life_, -1));
   for (const std::int64_t begin = monotonicNs(); !hasEnded(); sleepUntilNs(monotonicNs() + kLook)) {
@@ -127,24 +143,28 @@ void SupervisedDevice::close() noexcept {
 }
 
 FingerInput SupervisedDevice::read(const Tick& tick) noexcept {
+  SupervisorShare& share = *live_.load(std::memory_order_acquire);
   // ticks made up after a late wake-up come all at once: no time has passed between them
-  if (share_->report.update())
+  if (share.report.update() || std::exchange(seen_, &share) != &share)
     silence_ = 0;
   else if (!tick.made_up)
     silence_ += tick.period;
-  const SupervisorReport& report = share_->report.value();
+  const SupervisorReport& report = share.report.value();
   FingerInput finger = report.finger;
-  if (report.rearms_met != share_->rearms.load(std::memory_order_relaxed)) finger.lost = false;  // of before
+  if (report.rearms_met != share.rearms.load(std::memory_order_relaxed)) finger.lost = false;  // of before
   finger.valid = finger.valid && !report.dropped && silence_ <= kSilent;
   finger.lost = finger.lost || silence_ > kDead;
   finger.age += silence_;
+  lost_.store(finger.lost, std::memory_order_release);
   return finger;
 }
 
 void SupervisedDevice::write(const Vec3& f_H_W, const Tick& tick) noexcept {
-  share_->command.publish({f_H_W}, tick.time);
+  live_.load(std::memory_order_relaxed)->command.publish({f_H_W}, tick.time);
 }
 
-void SupervisedDevice::rearm() noexcept { share_->rearms.fetch_add(1, std::memory_order_relaxed); }
+void SupervisedDevice::rearm() noexcept {
+  live_.load(std::memory_order_relaxed)->rearms.fetch_add(1, std::memory_order_relaxed);
+}
 
 }  // namespace presa

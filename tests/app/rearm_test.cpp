@@ -1,71 +1,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <pty.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <signal.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "framework/plan/load_world.h"
 #include "framework/record/record_plugin.h"
+#include "framework/schedule/clock.h"
 #include "tests/app/support.h"
+#include "tests/support/on_terminal.h"
 
 namespace presa {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// A program with a terminal of its own.
-class OnTerminal {
- public:
-  explicit OnTerminal(std::vector<std::string> command) {
-    std::vector<char*> arguments;
-    for (std::string& word : command) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    child_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
-    if (child_ == 0) {
-      execv(arguments[0], arguments.data());
-      _exit(127);
-    }
-  }
-  ~OnTerminal() {
-    close(terminal_);
-    if (child_ > 0) waitpid(child_, nullptr, 0);
-  }
-  OnTerminal(const OnTerminal&) = delete;
-  OnTerminal& operator=(const OnTerminal&) = delete;
-
-  /// Reads until it has been said; false when the program ended, or said nothing for ten seconds.
-  bool says(const std::string& text) {
-    for (char bytes[4096]; seen_.find(text) == std::string::npos;) {
-      pollfd waiting{terminal_, POLLIN, 0};
-      if (poll(&waiting, 1, 10'000) <= 0) return false;
-      const ssize_t read = ::read(terminal_, bytes, sizeof bytes);
-      if (read <= 0) return false;
-      seen_.append(bytes, static_cast<std::size_t>(read));
-    }
-    return true;
-  }
-  void press(char key) { ASSERT_EQ(write(terminal_, &key, 1), 1); }
-  int status() {
-    while (says("\1never")) {
-    }
-    int status = -1;
-    waitpid(std::exchange(child_, -1), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  const std::string& seen() const { return seen_; }
-
- private:
-  int terminal_ = -1;
-  pid_t child_ = -1;
-  std::string seen_;
-};
 
 /// A thumb that is suddenly somewhere else, which no hand can be.
 std::string jumpingRig(const std::string& folder) {
@@ -95,12 +45,12 @@ double forceAfter(const RecordedSamples& samples, const RecordedTable& finger, d
 // What a user sees and does: the force goes, the terminal says why, r brings it back softly, and the run can be replayed to the bit.
 TEST(Rearm, AKeyForgivesALatchedFault) {
   const std::string folder = test::scratch("rearm"), recording = folder + "/run.h5";
-  OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--rig",
-                    jumpingRig(folder), "--realtime", "--view", "none", "--for", "6", "--record", recording});
+  test::OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--rig",
+                          jumpingRig(folder), "--realtime", "--view", "none", "--for", "6", "--record", recording});
   ASSERT_TRUE(presa.says("Look, then press r to re-arm.")) << presa.seen();
   EXPECT_THAT(presa.seen(), HasSubstr("thumb: its device is gone, or says what cannot be"));
   EXPECT_TRUE(presa.says("index: another finger's device is lost")) << presa.seen();
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // the finger has swung out
+  ASSERT_TRUE(presa.says("]  4.")) << presa.seen();  // by its clock the finger has swung out
   presa.press('r');
   EXPECT_TRUE(presa.says("re-armed: forces come back softly")) << presa.seen();
   EXPECT_EQ(presa.status(), 1) << presa.seen();  // there was a fault
@@ -115,6 +65,22 @@ TEST(Rearm, AKeyForgivesALatchedFault) {
   EXPECT_GT(forceAfter(samples, samples.fingers[1], rearmed + 0.1), 0.1);  // the index presses again
   const test::Outcome replayed = test::presa("replay " + recording + " --verify");
   EXPECT_EQ(replayed.status, 0) << replayed.out << replayed.err;
+}
+
+// A program that stands still, as at a breakpoint, in real time by real threads: what it finds afterwards is another world, so its forces
+// wait for somebody to look. A gap begins at one second of the clock, and nothing but the clock tells.
+TEST(Rearm, AProgramThatStoodStillWaitsForAKey) {
+  test::OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--realtime",
+                          "--view", "none", "--for", "12"});
+  ASSERT_TRUE(presa.says("]  2.")) << presa.seen();
+  kill(presa.pid(), SIGSTOP);
+  sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(1.2e9 * Executor::kGap));
+  kill(presa.pid(), SIGCONT);
+  ASSERT_TRUE(presa.says("the program or the whole machine stood still. Look, then press r to re-arm."))
+      << presa.seen();
+  presa.press('r');
+  EXPECT_TRUE(presa.says("re-armed: forces come back softly")) << presa.seen();
+  EXPECT_EQ(presa.status(), 1) << presa.seen();
 }
 
 // Nothing was recorded, and yet there is what led to the fault.

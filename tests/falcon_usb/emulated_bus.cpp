@@ -1,6 +1,7 @@
 #include "tests/falcon_usb/emulated_bus.h"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/ioctl.h>
 // after sys/ioctl.h
 #include <linux/usbdevice_fs.h>
@@ -25,6 +26,23 @@ constexpr const char* kDescriptors =
     "0904000002ffffff02"  // two endpoints
     "07058102400000"
     "07050202400000";
+
+/// Threads that are made while it lives come first: a device does not wait for other programs. No matter where the system refuses.
+class Prompt {
+ public:
+  Prompt() {
+    pthread_getschedparam(pthread_self(), &policy_, &priority_);
+    const sched_param first{.sched_priority = 90};  // above the drivers'
+    pthread_setschedparam(pthread_self(), SCHED_FIFO, &first);
+  }
+  ~Prompt() { pthread_setschedparam(pthread_self(), policy_, &priority_); }
+  Prompt(const Prompt&) = delete;
+  Prompt& operator=(const Prompt&) = delete;
+
+ private:
+  int policy_ = SCHED_OTHER;
+  sched_param priority_{};
+};
 
 /// A string descriptor: length, type, UTF-16.
 std::vector<std::uint8_t> stringDescriptor(unsigned index, int port) {
@@ -269,7 +287,10 @@ void EmulatedFalcon::discard(UMockdevIoctlClient* client) {
   umockdev_ioctl_client_complete(client, -1, EINVAL);
 }
 
-EmulatedBus::EmulatedBus() : testbed_(umockdev_testbed_new()) {}
+EmulatedBus::EmulatedBus() {
+  const Prompt prompt;
+  testbed_.reset(umockdev_testbed_new());
+}
 
 EmulatedFalcon& EmulatedBus::add(ModelSettings settings) {
   const int port = 1 + static_cast<int>(falcons_.size());

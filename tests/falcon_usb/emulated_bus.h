@@ -1,4 +1,5 @@
 #pragma once
+#include <pthread.h>
 #include <umockdev.h>
 
 #include <chrono>
@@ -19,6 +20,26 @@ struct Unref {
 };
 template <class T>
 using Object = std::unique_ptr<T, Unref<T>>;
+
+/// Whoever holds it is as urgent as whoever waits for it: a test that looks at a model must not hold up its device.
+class UrgentMutex {
+ public:
+  UrgentMutex() {
+    pthread_mutexattr_t attributes;
+    pthread_mutexattr_init(&attributes);
+    pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
+    pthread_mutex_init(&mutex_, &attributes);
+    pthread_mutexattr_destroy(&attributes);
+  }
+  ~UrgentMutex() { pthread_mutex_destroy(&mutex_); }
+  UrgentMutex(const UrgentMutex&) = delete;
+  UrgentMutex& operator=(const UrgentMutex&) = delete;
+  void lock() { pthread_mutex_lock(&mutex_); }
+  void unlock() { pthread_mutex_unlock(&mutex_); }
+
+ private:
+  pthread_mutex_t mutex_{};
+};
 
 /// A Falcon on an emulated USB port. Its model lives in real time: seconds of the steady clock since the bus was made.
 /// Thread: any; a lock is held while the model is touched.
@@ -72,7 +93,7 @@ class EmulatedFalcon {
   std::chrono::steady_clock::time_point epoch_;
   std::string node_, path_;
   Object<UMockdevIoctlBase> base_;
-  std::mutex mutex_;
+  UrgentMutex mutex_;
   FalconModel model_;
   Object<UMockdevIoctlClient> owner_;  // who has claimed the interface
   bool gone_ = false, stalled_ = false;

@@ -27,10 +27,10 @@ constexpr double kPeriod = 1e-3;  // [s]
 class Supervised : public testing::Test {
  protected:
   Supervised() {
-    const int fd = memfd_create("presa-test", 0);
-    EXPECT_EQ(ftruncate(fd, sizeof(ProbeLog)), 0);
-    log_ = new (mmap(nullptr, sizeof(ProbeLog), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0)) ProbeLog;
-    setting("log", "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(fd));
+    fd_ = memfd_create("presa-test", 0);
+    EXPECT_EQ(ftruncate(fd_, sizeof(ProbeLog)), 0);
+    log_ = new (mmap(nullptr, sizeof(ProbeLog), PROT_READ | PROT_WRITE, MAP_SHARED, fd_, 0)) ProbeLog;
+    setting("log", "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(fd_));
     setting("pos", "0.1 0.2 0.3");
     binding_.role = "thumb";
     binding_.driver = "fault_probe";
@@ -39,6 +39,7 @@ class Supervised : public testing::Test {
   ~Supervised() override {
     device_.reset();
     munmap(log_, sizeof(ProbeLog));
+    close(fd_);
   }
   void setting(const std::string& key, const std::string& value) {
     binding_.settings[key] = {value, {"rig.xml", 4, 7}};
@@ -74,6 +75,7 @@ class Supervised : public testing::Test {
     return ticksUntil({0, 0, 3}, [&](const FingerInput&) { return std::abs(lastForce() - 3) < 1e-9; });
   }
 
+  int fd_ = -1;
   ProbeLog* log_ = nullptr;
   DeviceBinding binding_;
   std::unique_ptr<SupervisedDevice> device_;
@@ -133,6 +135,39 @@ TEST_F(Supervised, ASupervisorThatDiesIsALostDevice) {
   kill(device_->supervisor(), SIGKILL);
   EXPECT_TRUE(ticksUntil({0, 0, 3}, [](const FingerInput& finger) { return finger.lost && !finger.valid; }));
   device_->close();  // and does not wait for it
+}
+
+// What a re-arm in `presa run` begins with: the device is opened again by a supervisor of its own. One that is not lost stays as it is.
+TEST_F(Supervised, OneThatWasLostIsTakenOverByANewSupervisor) {
+  open();
+  ASSERT_TRUE(press());
+  const pid_t first = device_->supervisor();
+  device_->reopen(false);
+  EXPECT_EQ(device_->supervisor(), first);
+  kill(first, SIGKILL);
+  ASSERT_TRUE(ticksUntil({0, 0, 3}, [](const FingerInput& finger) { return finger.lost; }));
+  device_->reopen(false);
+  EXPECT_NE(device_->supervisor(), first);
+  device_->rearm();
+  EXPECT_TRUE(ticksUntil(Vec3::Zero(), [](const FingerInput& finger) { return finger.valid && !finger.lost; }));
+  EXPECT_TRUE(press());
+  EXPECT_EQ(log_->writer, device_->supervisor());
+}
+
+// It cannot be opened again: that is said, and it stays lost.
+TEST_F(Supervised, WhatStaysAwayStaysLost) {
+  open();
+  kill(device_->supervisor(), SIGKILL);
+  ASSERT_TRUE(ticksUntil(Vec3::Zero(), [](const FingerInput& finger) { return finger.lost; }));
+  const int kept = dup(fd_), nothing = ::open("/dev/null", O_RDWR);
+  dup2(nothing, fd_);  // no log any more where the probe looks for it
+  EXPECT_THROW(device_->reopen(false), InputError);
+  EXPECT_TRUE(tick(Vec3::Zero()).lost);
+  EXPECT_EQ(dup2(kept, fd_), fd_);
+  close(kept);
+  close(nothing);
+  device_->reopen(false);
+  EXPECT_TRUE(ticksUntil(Vec3::Zero(), [](const FingerInput& finger) { return finger.valid && !finger.lost; }));
 }
 
 TEST_F(Supervised, WhatTheDriverRefusesIsSaidHere) {

@@ -41,8 +41,8 @@ class TrialRun {
         world_(load(experiment, presentation, seed, setting, plan_)),
         trial_(experiment, presentation.columns, 1 / world_->scene.rates.haptic) {
     Session::Options options;
-    std::vector<std::string> notes;  // nothing is allowed, so nothing is halved
-    options.force_share = forceShare(drivesHardware(plan_), world_->options, realtimeRights, notes);
+    std::vector<std::string> notes;  // an experiment is refused, never halved
+    forceShare(drivesHardware(plan_), world_->options, realtimeRights, notes);
     auto tap = std::make_unique<TrialTap>(trial_, experiment, world_->scene, control_);
     tap_ = tap.get();
     options.more.push_back(std::move(tap));
