@@ -63,9 +63,11 @@ struct Recording {
   bool realtime = false;
   bool complete = false;  ///< false: the run was killed; everything up to its last flush is here
   std::uint64_t dropped = 0;
-  double haptic_period = 0;      ///< [s]
-  std::uint64_t first_tick = 0;  ///< not 0: it begins in the middle of a run, and cannot be run again
-  std::vector<double> time;      ///< one entry per haptic tick
+  double force_share = 1;           ///< of the force limits that the run might use
+  std::vector<std::string> faults;  ///< with their times, in words
+  double haptic_period = 0;         ///< [s]
+  std::uint64_t first_tick = 0;     ///< not 0: it begins in the middle of a run, and cannot be run again
+  std::vector<double> time;         ///< one entry per haptic tick
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
   std::vector<std::uint8_t> surfaces_changed;  ///< 1: they had their other friction

@@ -15,9 +15,10 @@ namespace {
 constexpr double kDuration = 3.5, kStall = 3.0;  // [s] the cube is held in the air
 
 /// The pinched cube, with a haptic loop that sleeps for 50 ms while it holds.
-Recording recordStalledRun(const std::string& file) {
+Recording recordStalledRun(const std::string& file, double force_share = 1) {
   Diagnostics diagnostics;
   RunOptions options;
+  options.force_share = force_share;
   options.record = file;
   options.overwrite = true;
   const Loaded loaded = loadWorld({test::source("config/scenes/cube.xml"), "", {}}, options, diagnostics);
@@ -36,12 +37,14 @@ Recording recordStalledRun(const std::string& file) {
 
 ReplayResult again(const Recording& recording) {
   Diagnostics diagnostics;
+  RunOptions options;
+  options.force_share = recording.force_share;
   const Loaded loaded =
-      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, {}, diagnostics);
+      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
   RunControl control;
-  Session::Options options;
-  options.devices = recordedDevices(recording);
-  Session session(loaded.world, loaded.plan, control, std::move(options));
+  Session::Options session_options;
+  session_options.devices = recordedDevices(recording);
+  Session session(loaded.world, loaded.plan, control, std::move(session_options));
   return replay(recording, session, RateTable(loaded.world->scene.rates), control);
 }
 
@@ -67,6 +70,15 @@ TEST(Replay, KnowsTheTicksThatAStallMadeUp) {
   for (ScheduleRow& row : haptic) row.made_up = 0;
   EXPECT_GT(again(recording).differing, 0u);
   std::filesystem::remove(file);
+}
+
+// Hardware without real-time rights runs with half of its limits: what was held back is part of the recording, too.
+TEST(Replay, KnowsTheShareOfTheForceThatWasAllowed) {
+  Recording recording = recordStalledRun(test::scratch("share.h5"), 0.3);  // 3 N, of the 6 N that the grip wants
+  EXPECT_EQ(recording.force_share, 0.3);
+  EXPECT_EQ(again(recording).differing, 0u);
+  recording.force_share = 1;
+  EXPECT_GT(again(recording).differing, 1000u);
 }
 
 }  // namespace

@@ -16,11 +16,15 @@ struct Arguments {
   bool verify = false;
 };
 
+void printFaults(const std::vector<std::string>& faults) {
+  for (const std::string& fault : faults) std::printf("  fault at %s\n", fault.c_str());
+}
+
 /// A recording that begins in the middle of a run, at a fault: to be seen, not to be run again.
 int showFlight(const std::string& file, const RecordedSamples& samples) {
   std::printf("%s: %.3f to %.3f s of scene %s, around a fault\n", file.c_str(), samples.time.front(),
               samples.time.back(), samples.scene_file.c_str());
-  for (const std::string& fault : samples.faults) std::printf("  fault at %s\n", fault.c_str());
+  printFaults(samples.faults);
   std::printf("output stages of all fingers together\n");
   for (const std::string& line : statusTimeline(samples)) std::printf("  %s\n", line.c_str());
   std::printf("forces and motion: presa replay %s --page FILE.html\n", file.c_str());
@@ -39,6 +43,7 @@ int runReplay(const Arguments& arguments) {
               recording.time.empty() ? 0.0 : recording.time.back() + recording.haptic_period,
               static_cast<unsigned long long>(recording.seed), recording.realtime ? "real time" : "lockstep",
               recording.dropped > 0 ? ", INCOMPLETE" : "");
+  printFaults(recording.faults);
   if (recording.dropped > 0) {
     std::fprintf(stderr,
                  "%s: error[E610]: %llu rows were dropped while recording, so the run cannot be repeated exactly\n",
@@ -48,6 +53,7 @@ int runReplay(const Arguments& arguments) {
   Diagnostics diagnostics;
   RunOptions options;
   options.seed = recording.seed;
+  options.force_share = recording.force_share;
   const Loaded loaded =
       loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);

@@ -38,6 +38,7 @@ FlightBuffer::FlightBuffer(std::shared_ptr<const World> world)
 }
 
 void FlightBuffer::append(const std::uint64_t* rows, std::size_t count) {
+  if (missing_ == 0) close();  // only now: the schedule of its last rows came after them
   for (std::size_t i = 0; i < count; ++i) {
     std::copy_n(rows + i * layout_.words(), layout_.words(), &kept_[next_ * layout_.words()]);
     next_ = (next_ + 1) % capacity_;
@@ -47,7 +48,6 @@ void FlightBuffer::append(const std::uint64_t* rows, std::size_t count) {
   const std::size_t taken = std::min(count, missing_);
   file_->append(rows, taken);
   missing_ -= taken;
-  if (missing_ == 0) close();
 }
 
 void FlightBuffer::appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) {
@@ -59,6 +59,7 @@ void FlightBuffer::appendSchedule(RateGroup group, const ScheduleRow* rows, std:
 }
 
 void FlightBuffer::addFault(const std::string& what) {
+  if (missing_ == 0) close();  // this fault came after its last row
   if (!file_) begin();
   if (file_) file_->addFault(what);
 }

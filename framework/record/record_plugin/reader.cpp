@@ -67,6 +67,8 @@ void readHeader(hid_t file, Recording& recording) {
   recording.complete = h5::readCountAttribute(file, "complete") != 0;
   recording.dropped = h5::readCountAttribute(file, "dropped");
   recording.haptic_period = h5::readRealAttribute(file, "haptic_period_s");
+  if (h5::hasAttribute(file, "force_share")) recording.force_share = h5::readRealAttribute(file, "force_share");
+  recording.faults = readFaults(file);
 }
 
 /// A table as the file has it: without a column that came with a later version of the format.

@@ -136,6 +136,7 @@ void RecordingFile::describe(const World& world) {
   h5::writeAttribute(file_, "scene_file", world.scene.file);
   h5::writeAttribute(file_, "rig_file", world.rig.file);
   h5::writeAttribute(file_, "seed", world.options.seed);
+  h5::writeAttribute(file_, "force_share", world.options.force_share);
   h5::writeAttribute(file_, "realtime", std::uint64_t{world.options.realtime});
   h5::writeAttribute(file_, "haptic_period_s", rates.period(RateGroup::kHaptic));
   for (int g = 0; g < kRateGroupCount; ++g) {

@@ -63,8 +63,7 @@ RecordedSamples readAll(hid_t file) {
   samples.dropped = h5::readCountAttribute(file, "dropped");
   samples.scene_file = h5::readStringAttribute(file, "scene_file");
   samples.start_utc = h5::readStringAttribute(file, "start_utc");
-  for (int i = 1; h5::hasAttribute(file, "fault_" + std::to_string(i)); ++i)
-    samples.faults.push_back(h5::readStringAttribute(file, "fault_" + std::to_string(i)));
+  samples.faults = readFaults(file);
   const auto ticks = readTable<TickRow>(file, "haptic/ticks", subset(tickTable(), {"index", "time", "output_status"}));
   std::size_t count = ticks.size();
   for (const HapticTable& table : hapticTables(file, "fingers", "finger"))

@@ -42,6 +42,13 @@ h5::Handle openRecording(const std::string& file) {
   return handle;
 }
 
+std::vector<std::string> readFaults(hid_t file) {
+  std::vector<std::string> faults;
+  for (int i = 1; h5::hasAttribute(file, "fault_" + std::to_string(i)); ++i)
+    faults.push_back(h5::readStringAttribute(file, "fault_" + std::to_string(i)));
+  return faults;
+}
+
 std::vector<HapticTable> hapticTables(hid_t file, const std::string& group, const std::string& number) {
   const h5::Handle parent(H5Gopen2(file, ("haptic/" + group).c_str(), H5P_DEFAULT), H5Gclose, "group " + group);
   std::vector<std::pair<std::uint64_t, HapticTable>> found;

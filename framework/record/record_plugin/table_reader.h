@@ -11,6 +11,9 @@ namespace presa::record {
 /// A recording of a format that this version knows, else InputError as RecordPlugin::read.
 h5::Handle openRecording(const std::string& file);
 
+/// What went wrong in the run, with times, in words.
+std::vector<std::string> readFaults(hid_t file);
+
 /// A dataset of the group haptic/NAME and what it is called.
 struct HapticTable {
   std::string name;
