@@ -267,12 +267,7 @@ std::vector<Fault> falconFaults() {
        "down from the same cycle on, latched",
        {0.003, 0.010, false},
        referenceLost},
-      {19,
-       "a second program asks for a Falcon in use",
-       "refused; the first feels nothing of it",
-       {},
-       secondProgram,
-       50},
+      {19, "a second program asks for a Falcon in use", "refused; the first feels nothing of it", {}, secondProgram},
   };
 }
 
