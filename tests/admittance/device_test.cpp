@@ -2,11 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "apps/presa/grasp_figures.h"
-#include "apps/presa/run_session.h"
 #include "devices/admittance/drive.h"
-#include "framework/plan/plugin.h"
-#include "framework/plan/plugin_loader.h"
-#include "tests/support/alloc_lock_guard.h"
+#include "tests/support/shipped_rig.h"
 
 namespace presa {
 namespace {
@@ -14,16 +11,7 @@ namespace {
 const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
 const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_admittance.xml";
 
-std::unique_ptr<Run> lift() {
-  Diagnostics diagnostics;
-  RunOptions options;
-  options.duration = 0;  // to the end of the script
-  const Loaded loaded = loadWorld({kScene, kRig, {}}, options, diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = 1000, .quiet = true, .command = ""});
-  run->execute();
-  return run;
-}
+std::unique_ptr<Run> lift() { return test::runToTheEnd(kScene, kRig); }
 
 // Bounds: 6 N of grip wanted, and the force loop follows what the hand feels; weight shared by two equal fingers; the cube slips at
 // m g / (2 mu) = 1.226 N while the grip loosens by 3 N/s. Where one finger has let go the other holds on at less.
@@ -54,12 +42,7 @@ TEST(AdmittanceDevice, TheSameInputGivesTheSameBits) {
 
 std::unique_ptr<Device> thumb(
     Diagnostics& diagnostics, const std::function<void(DeviceBinding&)>& change = [](DeviceBinding&) {}) {
-  const Loaded loaded = loadWorld({kScene, kRig, {}}, {}, diagnostics);
-  DeviceBinding binding = loaded.world->rig.devices.at(0);
-  change(binding);
-  using Table = const DevicePlugin* (*)();
-  const auto table = reinterpret_cast<Table>(pluginSymbol("admittance", "presaDevicePlugin"));
-  return table()->create(binding, *loaded.world, diagnostics);
+  return test::firstDevice(kScene, kRig, diagnostics, change);
 }
 
 TEST(AdmittanceDevice, ItsTickNeitherAllocatesNorLocks) {
@@ -67,13 +50,7 @@ TEST(AdmittanceDevice, ItsTickNeitherAllocatesNorLocks) {
   Diagnostics diagnostics;
   const auto device = thumb(diagnostics);
   ASSERT_TRUE(device) << diagnostics.text();
-  const RealTimeGuard guard;
-  for (std::uint64_t i = 0; i < 3000; ++i) {
-    const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
-    device->read(tick);
-    device->write({0.1, 0, 20.0 * static_cast<double>(i % 2)}, tick);
-  }
-  EXPECT_EQ(guard.violations(), 0) << guard.first();
+  test::expectRealTime(*device);
 }
 
 // The damping it claims is that of the loop's stiffest wall at K = 2 b / T.

@@ -5,11 +5,8 @@
 #include <fstream>
 
 #include "apps/presa/grasp_figures.h"
-#include "apps/presa/run_session.h"
 #include "devices/percro_arm/kinematics.h"
-#include "framework/plan/plugin.h"
-#include "framework/plan/plugin_loader.h"
-#include "tests/support/alloc_lock_guard.h"
+#include "tests/support/shipped_rig.h"
 
 namespace presa {
 namespace {
@@ -17,16 +14,7 @@ namespace {
 const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
 const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_percro.xml";
 
-std::unique_ptr<Run> lift(const std::vector<std::string>& sets = {}) {
-  Diagnostics diagnostics;
-  RunOptions options;
-  options.duration = 0;  // to the end of the script
-  const Loaded loaded = loadWorld({kScene, kRig, sets}, options, diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = 1000, .quiet = true, .command = ""});
-  run->execute();
-  return run;
-}
+std::unique_ptr<Run> lift(const std::vector<std::string>& sets = {}) { return test::runToTheEnd(kScene, kRig, sets); }
 
 // Bounds: rendered forces come in steps of stiffness times the barrel's 60 um (0.06 N), the hand feels 0.2 N of the joints'
 // friction besides, and the grip loosens by 3 N/s.
@@ -66,15 +54,9 @@ TEST(PercroDevice, TheSameInputGivesTheSameBits) {
   EXPECT_EQ(lift()->result().state_hash, lift()->result().state_hash);
 }
 
-/// The thumb's device of the shipped rig, after `change`; null with findings when it refuses.
 std::unique_ptr<Device> thumb(
     Diagnostics& diagnostics, const std::function<void(DeviceBinding&)>& change = [](DeviceBinding&) {}) {
-  const Loaded loaded = loadWorld({kScene, kRig, {}}, {}, diagnostics);
-  DeviceBinding binding = loaded.world->rig.devices.at(0);
-  change(binding);
-  using Table = const DevicePlugin* (*)();
-  const auto table = reinterpret_cast<Table>(pluginSymbol("percro_arm", "presaDevicePlugin"));
-  return table()->create(binding, *loaded.world, diagnostics);
+  return test::firstDevice(kScene, kRig, diagnostics, change);
 }
 
 // What is read are whole counts, seen from the base that the rig says.
@@ -101,13 +83,7 @@ TEST(PercroDevice, ItsTickNeitherAllocatesNorLocks) {
   Diagnostics diagnostics;
   const auto device = thumb(diagnostics);
   ASSERT_TRUE(device) << diagnostics.text();
-  const RealTimeGuard guard;
-  for (std::uint64_t i = 0; i < 3000; ++i) {
-    const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
-    device->read(tick);
-    device->write({0.1, 0, 20.0 * static_cast<double>(i % 2)}, tick);
-  }
-  EXPECT_EQ(guard.violations(), 0) << guard.first();
+  test::expectRealTime(*device);
 }
 
 TEST(PercroDevice, RefusesABaseFromWhichTheMotionIsOutOfReach) {
