@@ -71,7 +71,7 @@ TEST(Rearm, AKeyForgivesALatchedFault) {
 // wait for somebody to look. A gap begins at one second of the clock, and nothing but the clock tells.
 TEST(Rearm, AProgramThatStoodStillWaitsForAKey) {
   test::OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--realtime",
-                          "--view", "none", "--for", "12"});
+                          "--view", "none", "--for", "6"});
   ASSERT_TRUE(presa.says("]  2.")) << presa.seen();
   kill(presa.pid(), SIGSTOP);
   sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(1.2e9 * Executor::kGap));
