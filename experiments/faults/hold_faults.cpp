@@ -38,12 +38,13 @@ Outcome unplugged(RandomStream& random) {
   });
 }
 
-/// Not a number, infinite, 1e308, or somewhere else in the room: for good, so that the second in a row comes.
+/// Not a number, infinite, 1e308, or 0.1 to 1.1 m from where the finger is: for good, so that the second in a row comes.
 Outcome impossibleSample(RandomStream& random) {
   const std::uint64_t kind = random.below(4);
   return sampleFails(random, kForever, 1, [kind](RandomStream& bits, FingerInput& sample) {
     const double bad[] = {kNan, kForever, 1e308, 0.1 + bits.uniform()};
-    sample.p_WH[static_cast<int>(bits.below(3))] = (bits.below(2) == 0 ? 1 : -1) * bad[kind];
+    double& coordinate = sample.p_WH[static_cast<int>(bits.below(3))];
+    coordinate = (kind == 3 ? coordinate : 0) + (bits.below(2) == 0 ? 1 : -1) * bad[kind];
   });
 }
 
