@@ -100,7 +100,10 @@ TEST(FalconProgram, APulledOutFalconComesBackAfterARearm) {
     }
     return false;
   };
-  REACHED_OR_LATE(pushes(), kManyLate);  // how many were late cannot be seen from outside
+  // how many samples were late cannot be seen from outside
+  const bool pushed = pushes();
+  if (!pushed && !whyLate().empty()) GTEST_SKIP() << "no force was felt; " << whyLate();
+  ASSERT_TRUE(pushed) << program.seen();
   falcon.unplug();
   ASSERT_TRUE(program.says("Look, then press r to re-arm.")) << program.seen();
   EXPECT_THAT(program.seen(), HasSubstr("thumb: its device is gone"));
@@ -109,7 +112,9 @@ TEST(FalconProgram, APulledOutFalconComesBackAfterARearm) {
   falcon.plug();
   program.press('r');
   ASSERT_TRUE(program.says("re-armed: forces come back softly")) << program.seen();
-  REACHED_OR_LATE(pushes(), kManyLate);
+  const bool pushed_again = pushes();
+  if (!pushed_again && !whyLate().empty()) GTEST_SKIP() << "no force was felt again; " << whyLate();
+  ASSERT_TRUE(pushed_again) << program.seen();
   program.press('\x03');
   EXPECT_EQ(program.status(), 130) << program.seen();  // interrupted
   EXPECT_THAT(program.seen(), HasSubstr("the seconds around the fault: "));
