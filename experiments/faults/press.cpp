@@ -79,7 +79,7 @@ PressingProgram::PressingProgram() : file_(makeLog(log_)) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody presses on when the one who watches has died
     runProgram(file_);
   }
-  waitUntilPressed();
+  problem_ = waitUntilPressed();
 }
 
 PressingProgram::~PressingProgram() {
@@ -90,13 +90,18 @@ PressingProgram::~PressingProgram() {
   ::close(std::stoi(file_.substr(file_.rfind('/') + 1)));
 }
 
-void PressingProgram::waitUntilPressed() {
+std::string PressingProgram::waitUntilPressed() {
+  double force = 0;
   for (const std::int64_t begin = monotonicNs(); static_cast<double>(monotonicNs() - begin) * 1e-9 < kPatience; nap()) {
     const std::uint64_t written = log_->written.load(std::memory_order_acquire);
-    if (written > 0 && log_->entries[written - 1].force > 0.99 * kForce) return;
-    if (int status = 0; waitpid(program_, &status, WNOHANG) != 0) break;
+    force = written > 0 ? log_->entries[written - 1].force : 0;
+    if (force > 0.99 * kForce) return {};
+    if (int status = 0; waitpid(program_, &status, WNOHANG) != 0) {
+      return "the program ended by itself, " + (WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
+                                                                    : "status " + std::to_string(WEXITSTATUS(status)));
+    }
   }
-  throw std::runtime_error("the program does not press its finger");
+  return "the program does not press its finger: " + std::to_string(force) + " N after five seconds";
 }
 
 bool PressingProgram::isReleased() const {

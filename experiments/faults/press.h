@@ -12,7 +12,7 @@ namespace presa::faults {
 /// Thread: main, with no other thread in the process: the program is a fork.
 class PressingProgram {
  public:
-  /// Starts it and waits until the finger is pressed. Throws std::runtime_error with what the program said.
+  /// Starts it and waits until the finger is pressed, or five seconds.
   PressingProgram();
   ~PressingProgram();
   PressingProgram(const PressingProgram&) = delete;
@@ -20,17 +20,20 @@ class PressingProgram {
 
   pid_t pid() const noexcept { return program_; }
   const ProbeLog& log() const noexcept { return *log_; }
+  /// Empty when the finger is pressed, otherwise what is seen instead.
+  const std::string& problem() const noexcept { return problem_; }
   /// The supervisor has let go of the device and ended, within two seconds.
   bool isReleased() const;
 
   static constexpr double kForce = 4;  // [N]
 
  private:
-  void waitUntilPressed();
+  std::string waitUntilPressed();
 
   ProbeLog* log_ = nullptr;
   std::string file_;  // of the log, for whoever opens it
   pid_t program_ = -1;
+  std::string problem_;
 };
 
 }  // namespace presa::faults

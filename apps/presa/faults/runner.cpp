@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "apps/presa/atomic_file.h"
@@ -43,6 +44,7 @@ std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int coun
 
 void add(const JobResult& result, int count, Row& row) {
   if (result.outcome != JobResult::Outcome::kDone) {
+    if (result.outcome == JobResult::Outcome::kCrashed) row.watched = false;  // how the watch ends a run
     row.runs += count;
     row.broken += count;
     if (row.reason.empty()) row.reason = result.text.empty() ? "did not end" : result.text;
@@ -96,6 +98,7 @@ std::vector<Fault> chosen(const RunnerOptions& options) {
 int runFaults(const RunnerOptions& options) {
   const std::vector<Fault> faults = chosen(options);
   const std::vector<Block> blocks = blocksOf(faults, options.runs);
+  ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);  // of every run, and of the supervisors that it starts
   terminal::JobProgress progress(blocks.size());
   JobOptions job_options;
   job_options.workers = options.jobs;

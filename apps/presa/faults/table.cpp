@@ -12,7 +12,7 @@ using terminal::format;
 /// "3.0 (3)": worst and bound in milliseconds; "–" where there is nothing to measure.
 std::string milliseconds(double worst, double bound) {
   if (!(bound > 0)) return "–";
-  return worst < 0 ? "never" : format("%.1f (%.0f)", 1e3 * worst, 1e3 * bound);
+  return worst < 0 ? "never" : format("%.1f (%g)", 1e3 * worst, 1e3 * bound);
 }
 
 std::string energy(const Row& row) {
@@ -22,7 +22,7 @@ std::string energy(const Row& row) {
 
 const char* kColumns[] = {"row",           "fault",     "required",         "runs",
                           "detected [ms]", "zero [ms]", "largest step [N]", "energy to the hand",
-                          "broke it"};
+                          "invariants",    "broke it"};
 
 std::vector<std::string> cellsOf(const Row& row) {
   return {std::to_string(row.fault.row),
@@ -33,6 +33,7 @@ std::vector<std::string> cellsOf(const Row& row) {
           milliseconds(row.worst.zero, row.fault.bounds.zero),
           format("%.4f", row.worst.step),
           energy(row),
+          row.watched ? "held" : "broken",
           row.broken == 0 ? "0" : format("%d: %s", row.broken, row.reason.c_str())};
 }
 
@@ -51,6 +52,7 @@ nlohmann::ordered_json toJson(const std::vector<Row>& rows) {
                    {"zero_bound_s", row.fault.bounds.zero},
                    {"largest_step_n", row.worst.step},
                    {"energy_beyond_sampling_j", row.energy_beyond},
+                   {"invariants_held", row.watched},
                    {"broken", row.broken},
                    {"reason", row.reason}});
   }
@@ -58,14 +60,18 @@ nlohmann::ordered_json toJson(const std::vector<Row>& rows) {
 }
 
 std::string tableText(const std::vector<Row>& rows) {
-  std::string text = format("%3s  %-46s %5s  %14s %12s %9s  %-12s %s\n", "row", "fault", "runs", "detected [ms]",
-                            "zero [ms]", "step [N]", "energy", "broke it");
+  std::string text = format("%3s  %-46s %5s  %14s %12s %9s  %-12s %-10s %s\n", "row", "fault", "runs", "detected [ms]",
+                            "zero [ms]", "step [N]", "energy", "invariants", "broke it");
   for (const Row& row : rows) {
     const auto cells = cellsOf(row);
-    text += format("%3s  %-46s %5s  %14s %12s %9s  %-12s %s\n", cells[0].c_str(), cells[1].c_str(), cells[3].c_str(),
-                   cells[4].c_str(), cells[5].c_str(), cells[6].c_str(), cells[7].c_str(), cells[8].c_str());
+    text += format("%3s  %-46s %5s  %14s %12s %9s  %-12s %-10s %s\n", cells[0].c_str(), cells[1].c_str(),
+                   cells[3].c_str(), cells[4].c_str(), cells[5].c_str(), cells[6].c_str(), cells[7].c_str(),
+                   cells[8].c_str(), cells[9].c_str());
   }
-  return text + "worst of all runs (bound); steps may be 1 N in a tick; energy beyond what sampling a spring may add\n";
+  return text +
+         "worst of all runs (bound); steps may be 1 N in a tick; energy beyond what sampling a spring may add;\n"
+         "invariants: every force finite, below the limit, within the slew limit, zero before the first sample and "
+         "after a loss\n";
 }
 
 std::string pageHtml(const std::vector<Row>& rows, const RunnerOptions& options) {
@@ -73,16 +79,21 @@ std::string pageHtml(const std::vector<Row>& rows, const RunnerOptions& options)
   html += format(
       "<p>Two fingers hold a cube with 3 to 4 N each, in lockstep; each fault comes at %d random moments (seed "
       "%llu). Judged is what was written to the devices. Worst of all runs, bounds in brackets. The numbers of the "
-      "rows are those of the fault table.</p>\n",
+      "rows are those of the fault table. Invariants, looked at by a watch of its own before every device: every force "
+      "finite, never above the limit, never faster than the slew limit, zero before the first usable sample and after "
+      "a "
+      "loss.</p>\n",
       options.runs, static_cast<unsigned long long>(options.seed));
   html += "<div class=\"scroll\"><table><thead><tr>";
-  for (const char* column : kColumns) html += format("<th style=\"white-space:normal\">%s</th>", column);
+  const auto isWords = [](std::size_t column) { return column == 1 || column == 2; };
+  for (std::size_t i = 0; i < std::size(kColumns); ++i)
+    html += format("<th class=\"%s\">%s</th>", isWords(i) ? "words" : "", kColumns[i]);
   html += "</tr></thead><tbody>\n";
   for (const Row& row : rows) {
     html += "<tr>";
     const auto cells = cellsOf(row);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const bool words = i == 1 || i == 2, verdict = i + 1 == cells.size();
+      const bool words = isWords(i), verdict = i + 1 == cells.size();
       const char* css = words ? "words" : !verdict ? "" : row.broken == 0 ? "good" : "words bad";
       html += format("<td class=\"%s\">", css) + svg::escape(cells[i]) + "</td>";
     }

@@ -41,7 +41,7 @@ th:first-child, td:first-child { text-align: left; padding-left: 0; }
 table.facts td { text-align: left; white-space: normal; overflow-wrap: anywhere; }
 table.facts td:first-child { color: var(--soft); width: 170px; white-space: nowrap; vertical-align: top; }
 td > code { display: inline-block; white-space: normal; overflow-wrap: anywhere; text-align: left; min-width: 240px; }
-td.words { white-space: normal; text-align: left; } td.good { color: var(--good); } td.warn { color: var(--limit); } td.bad { color: var(--bad); }
+th.words, td.words { white-space: normal; text-align: left; } td.good { color: var(--good); } td.warn { color: var(--limit); } td.bad { color: var(--bad); }
 a { color: inherit; text-decoration-color: var(--soft); }
 .caption, .empty { color: var(--soft); font-size: 14px; }
 ul { margin: 6px 0; padding-left: 20px; }
