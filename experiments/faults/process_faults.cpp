@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kRuns = 100;            // each takes its time
 constexpr int kTries = 20;            // for one run without somebody else's pause in it
-constexpr double kPause = 1e-3;       // what comes so late was not let run [s]
-constexpr double kStanding = 0.5e-3;  // a program told to stop stands by then, or its moment is not known [s]
+constexpr double kPause = 0.5e-3;     // what comes so late was not let run [s]
+constexpr double kStanding = 0.3e-3;  // a program told to stop stands by then, or its moment is not known [s]
 constexpr double kLoss = 20e-3;       // a supervisor that was not let run for so long is a lost device [s]
 constexpr double kSoftStart = 0.5;    // [s]
 constexpr double kReturn = 2;         // patience for the force after the program's return [s]

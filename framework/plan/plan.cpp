@@ -78,10 +78,16 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
         407, {scene.file, 0, 0}, std::string("the scene has devices, and ") + dynamics + " knows no fingers",
         "engine=\"ode\" moves bodies that are held; the others are there to compare with, without fingers");
   }
+  if (scene.assembly && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
+    diagnostics.error(409, {scene.file, 0, 0},
+                      std::string("the scene has an assembly, and ") + dynamics + " draws no bodies", "engine=\"ode\"");
+  }
   if (options.realtime && scene.rates.haptic > kFastestRealTime) {
     diagnostics.error(408, {scene.file, 0, 0}, "a haptic rate above 10000 Hz cannot be kept against the clock",
                       "--lockstep, where finer steps are a reference for coarser ones");
   }
+  call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
+       "the scene has no assembly");
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,
        options.record.empty() ? "the last two seconds are kept for a fault" : "the run is recorded",

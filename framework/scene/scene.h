@@ -125,6 +125,30 @@ struct DynamicsSettings {
   bool sleeping = true;
 };
 
+/// A place of an assembly, and what may stand there.
+struct AssemblyGoal {
+  std::string name;
+  std::vector<std::size_t> bodies;  ///< indices into Scene::bodies: any one of them fits
+  Pose X_WB;                        ///< of the body that stands here
+  std::size_t fold = 1;             ///< turned by 1/fold about its own z axis it is the same; 0: by anything
+  std::vector<std::size_t> after;   ///< goals that have to be filled first, indices into Assembly::goals
+};
+
+/// Bodies that are to be put together: each is drawn to its place when it is near, and stays there.
+struct Assembly {
+  double reach = 0.02;             ///< a place draws what is this near [m]
+  double reach_angle_deg = 30;     ///< and turned away by no more than this
+  double tolerance = 0.0005;       ///< in its place: this near [m]
+  double tolerance_angle_deg = 1;  ///< and turned away by no more than this
+  double pull = 1.5;               ///< most that a place draws with, in weights of the body on Earth
+  /// A body that leaves this box, axes along W's, is brought back; none: it may go where it likes.
+  struct Field {
+    Vec3 centre = Vec3::Zero(), size = Vec3::Zero();  ///< [m]
+  };
+  std::optional<Field> field;
+  std::vector<AssemblyGoal> goals;
+};
+
 struct Scene {
   std::string name;
   std::string description;
@@ -138,6 +162,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<DeviceRole> devices;
+  std::optional<Assembly> assembly;
   std::string resolved_xml;  ///< the document after --set and defaults, as saved with recordings
 
   const Material& materialOf(const Body& body) const { return materials[body.material]; }
@@ -157,8 +182,8 @@ struct DeviceBinding {
   /// What this desk allows, beside what the scene wants; where nothing is said, the driver's rating holds.
   struct Limits {
     std::optional<double> force, force_rate, soft_start, continuous, speed;  ///< [N] [N/s] [s] [N] [m/s]
-    bool records_overload = false;                                           ///< past `continuous` is an event, no limit
-    bool passivity = false;                                                  ///< the hand may get no net energy
+    bool records_overload = false;  ///< past `continuous` is an event, no limit
+    bool passivity = false;         ///< the hand may get no net energy
   };
   Limits limits;
   SourceLocation where;

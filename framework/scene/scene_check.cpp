@@ -152,8 +152,8 @@ class SceneCheck {
   }
 
   void checkBody(const Element& body) {
-    checkOrientation(body);
-    for (const Element& geometry : body.children()) checkOrientation(geometry);
+    checkOrientation(body, diagnostics_);
+    for (const Element& geometry : body.children()) checkOrientation(geometry, diagnostics_);
     checkMaterial(body);
     const std::vector<Element> physics = body.children("physics");
     if (body.boolean("fixed", false)) {
@@ -163,18 +163,6 @@ class SceneCheck {
     }
     if (body.children().empty() && body.boolean("fixed", false)) {
       diagnostics_.warning(kNoGeometry, body.where(), body.label() + " has no geometry: it is neither seen nor felt");
-    }
-  }
-
-  void checkOrientation(const Element& element) {
-    if (element.hasAttribute("euler_deg") && element.hasAttribute("quat")) {
-      diagnostics_.error(kTwoOrientations, element.where("quat"),
-                         element.label() + " has both 'euler_deg' and 'quat', only one is allowed");
-    }
-    const std::vector<double> quat = element.numbers("quat");
-    if (quat == std::vector<double>{0, 0, 0, 0}) {
-      diagnostics_.error(kZeroQuat, element.where("quat"), "'quat' of " + element.label() + " is zero: no rotation",
-                         "quat: w x y z; no turn is \"1 0 0 0\"");
     }
   }
 
@@ -235,6 +223,21 @@ class SceneCheck {
 
 }  // namespace
 
-void checkScene(const Element& root, Diagnostics& diagnostics) { SceneCheck(root, diagnostics).run(); }
+void checkOrientation(const Element& element, Diagnostics& diagnostics) {
+  if (element.hasAttribute("euler_deg") && element.hasAttribute("quat")) {
+    diagnostics.error(kTwoOrientations, element.where("quat"),
+                      element.label() + " has both 'euler_deg' and 'quat', only one is allowed");
+  }
+  const std::vector<double> quat = element.numbers("quat");
+  if (quat == std::vector<double>{0, 0, 0, 0}) {
+    diagnostics.error(kZeroQuat, element.where("quat"), "'quat' of " + element.label() + " is zero: no rotation",
+                      "quat: w x y z; no turn is \"1 0 0 0\"");
+  }
+}
+
+void checkScene(const Element& root, Diagnostics& diagnostics) {
+  SceneCheck(root, diagnostics).run();
+  checkAssembly(root, diagnostics);
+}
 
 }  // namespace presa

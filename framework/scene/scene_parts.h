@@ -32,6 +32,10 @@ void applyOverrides(const xml::Element& root, const xml::ElementRule& rule, cons
 Scene readScene(const xml::Element& root, const std::string& file, const std::string& directory);
 /// What no schema can say: references, and values that depend on each other (E2xx).
 void checkScene(const xml::Element& root, Diagnostics& diagnostics);
+/// The same of <assembly>: bodies and goals that it names, and whether they can be put together in any order.
+void checkAssembly(const xml::Element& root, Diagnostics& diagnostics);
+/// Two orientations, or one that is none.
+void checkOrientation(const xml::Element& element, Diagnostics& diagnostics);
 /// Writes defaults, chosen materials and absolute paths into a document without errors.
 void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory);
 

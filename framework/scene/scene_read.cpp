@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/scene/scene_parts.h"
+#include "framework/xml/value_rule.h"
 
 namespace presa {
 namespace {
@@ -115,6 +116,38 @@ Body readBody(const Element& element, const std::vector<Material>& materials, co
   return body;
 }
 
+template <class Named>
+std::vector<std::size_t> indicesOf(const std::vector<std::string>& names, const std::vector<Named>& of) {
+  std::vector<std::size_t> indices;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(of.begin(), of.end(), [&](const Named& one) { return one.name == name; });
+    indices.push_back(static_cast<std::size_t>(found - of.begin()));
+  }
+  return indices;
+}
+
+Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
+  Assembly assembly;
+  assembly.reach = element.number("reach", assembly.reach);
+  assembly.reach_angle_deg = element.number("reach_angle_deg", assembly.reach_angle_deg);
+  assembly.tolerance = element.number("tolerance", assembly.tolerance);
+  assembly.tolerance_angle_deg = element.number("tolerance_angle_deg", assembly.tolerance_angle_deg);
+  assembly.pull = element.number("pull", assembly.pull);
+  for (const Element& field : element.children("field"))
+    assembly.field = {readVec3(field, "pos", Vec3::Zero()), readVec3(field, "size", Vec3::Zero())};
+  const std::vector<Element> goals = element.children("goal");
+  for (const Element& goal : goals) {
+    assembly.goals.push_back({.name = goal.attribute("name"),
+                              .bodies = indicesOf(xml::splitWords(goal.attribute("bodies")), bodies),
+                              .X_WB = readPose(goal),
+                              .fold = static_cast<std::size_t>(goal.number("fold", 1)),
+                              .after = {}});
+  }
+  for (std::size_t g = 0; g < goals.size(); ++g)
+    assembly.goals[g].after = indicesOf(xml::splitWords(goals[g].attribute("after")), assembly.goals);
+  return assembly;
+}
+
 DeviceRole readDevice(const Element& element) {
   DeviceRole device;
   device.role = element.attribute("role");
@@ -197,6 +230,7 @@ Scene readScene(const Element& root, const std::string& file, const std::string&
   for (const Element& material : materialElements(root)) scene.materials.push_back(readMaterial(material));
   for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, scene.materials, directory));
   for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));
+  for (const Element& assembly : root.children("assembly")) scene.assembly = readAssembly(assembly, scene.bodies);
   return scene;
 }
 

@@ -43,6 +43,9 @@ void resolveScene(xml::Document& document, const xml::Schema& schema, const std:
       resolveMesh(geometry, directory);
     }
   }
+  for (const Element& assembly : root.children("assembly")) {
+    for (const Element& goal : assembly.children("goal")) resolveOrientation(goal);
+  }
 }
 
 }  // namespace presa

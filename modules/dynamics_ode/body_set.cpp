@@ -211,28 +211,55 @@ void BodySet::driftRotations(double h) {
   }
 }
 
-void BodySet::freeze(Entry& entry) {
-  // as a fixed obstacle, so that ODE never sees the broken body again
-  const Pose X_WCm{entry.begin.p_WCm, entry.begin.q_WB};
-  if (entry.geom != nullptr) {
-    const Pose X_CmG{toVec3(dGeomGetOffsetPosition(entry.geom)), [&] {
-                       dQuaternion q;
-                       dGeomGetOffsetQuaternion(entry.geom, q);
-                       return toQuat(q);
-                     }()};
-    const Pose X_WG = X_WCm * X_CmG;
+// An obstacle: ODE's solvers never see the body again until it is taken.
+void BodySet::detach(Entry& entry) {
+  if (entry.geom != nullptr && !entry.still) {
+    dQuaternion q;
+    dGeomGetOffsetQuaternion(entry.geom, q);
+    entry.X_CmG = {toVec3(dGeomGetOffsetPosition(entry.geom)), toQuat(q)};
     dGeomSetBody(entry.geom, nullptr);
-    dGeomSetPosition(entry.geom, X_WG.p.x(), X_WG.p.y(), X_WG.p.z());
-    dGeomSetQuaternion(entry.geom, toOde(X_WG.q).data());
   }
-  dBodySetPosition(entry.body, X_WCm.p.x(), X_WCm.p.y(), X_WCm.p.z());
-  dBodySetQuaternion(entry.body, toOde(X_WCm.q).data());
   dBodySetLinearVel(entry.body, 0, 0, 0);
   dBodySetAngularVel(entry.body, 0, 0, 0);
   dBodyDisable(entry.body);
   entry.enabled = false;
+  entry.still = true;
+}
+
+void BodySet::moveTo(Entry& entry, const Pose& X_WCm) {
+  dBodySetPosition(entry.body, X_WCm.p.x(), X_WCm.p.y(), X_WCm.p.z());
+  dBodySetQuaternion(entry.body, toOde(X_WCm.q).data());
+  if (entry.geom == nullptr) return;
+  const Pose X_WG = X_WCm * entry.X_CmG;
+  dGeomSetPosition(entry.geom, X_WG.p.x(), X_WG.p.y(), X_WG.p.z());
+  dGeomSetQuaternion(entry.geom, toOde(X_WG.q).data());
+}
+
+void BodySet::freeze(Entry& entry) {
+  detach(entry);
+  moveTo(entry, {entry.begin.p_WCm, entry.begin.q_WB});
   entry.frozen = true;
 }
+
+void BodySet::put(std::size_t i) {
+  const Pose X_WCm = centrePose(i);
+  detach(bodies_[i]);
+  moveTo(bodies_[i], X_WCm);
+}
+
+void BodySet::take(std::size_t i) {
+  Entry& entry = bodies_[i];
+  entry.still = false;
+  if (entry.geom != nullptr) {
+    dGeomSetBody(entry.geom, entry.body);
+    dGeomSetOffsetPosition(entry.geom, entry.X_CmG.p.x(), entry.X_CmG.p.y(), entry.X_CmG.p.z());
+    dGeomSetOffsetQuaternion(entry.geom, toOde(entry.X_CmG.q).data());
+  }
+  entry.begin = read(entry);
+  enable(i, true);
+}
+
+void BodySet::place(std::size_t i, const Pose& X_WB) { moveTo(bodies_[i], centreOf(i, X_WB)); }
 
 std::size_t BodySet::freezeBroken() {
   std::size_t count = 0;
@@ -259,7 +286,7 @@ void BodySet::write(ObjectState& out) {
     motion.v_WB.setZero();
     motion.w_WB.setZero();
     motion.asleep = entry.asleep;
-    if (awake(i)) {
+    if (awake(i) || isPut(i)) {
       const State state = read(entry);
       entry.X_WB = poseOf(entry, state);
       motion.v_WB = state.v_WCm - state.w_WB.cross(state.q_WB * entry.p_BCm);

@@ -21,8 +21,8 @@ class BodySet {
   BodySet& operator=(const BodySet&) = delete;
 
   std::size_t size() const noexcept { return bodies_.size(); }
-  /// Takes part in the dynamics: neither fixed nor frozen.
-  bool moves(std::size_t i) const noexcept { return bodies_[i].body != nullptr && !bodies_[i].frozen; }
+  /// Takes part in the dynamics: neither fixed nor frozen nor put.
+  bool moves(std::size_t i) const noexcept { return bodies_[i].body != nullptr && !bodies_[i].still; }
   bool asleep(std::size_t i) const noexcept { return bodies_[i].asleep; }
   /// Moves and does not sleep: takes part in this step.
   bool awake(std::size_t i) const noexcept { return moves(i) && !bodies_[i].asleep; }
@@ -45,6 +45,23 @@ class BodySet {
 
   /// How far a point of body `i` goes in `h` at the speed it has, at most [m]; zero when it does not move.
   double reach(std::size_t i, double h) const;
+
+  struct Motion {
+    Vec3 p_WCm = Vec3::Zero(), v_WCm = Vec3::Zero(), w_WB = Vec3::Zero();
+    Quat q_WB = Quat::Identity();
+  };
+  Motion motion(std::size_t i) const { return read(bodies_[i]); }           ///< now; only for bodies that move
+  Pose pose(std::size_t i) const { return poseOf(bodies_[i], motion(i)); }  ///< X_WB now; not for fixed bodies
+  double mass(std::size_t i) const noexcept { return bodies_[i].mass; }     ///< [kg]
+  /// Pose of the centre of mass, with the body's axes, when the body is at X_WB.
+  Pose centreOf(std::size_t i, const Pose& X_WB) const { return {X_WB * bodies_[i].p_BCm, X_WB.q}; }
+
+  /// Makes body `i` (it moves) a fixed obstacle where it is, until take() gives it back to the dynamics, at rest.
+  void put(std::size_t i);
+  void take(std::size_t i);
+  bool isPut(std::size_t i) const noexcept { return bodies_[i].still && !bodies_[i].frozen; }
+  /// Moves a put body.
+  void place(std::size_t i, const Pose& X_WB);
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; nothing if it does not move
 
@@ -79,10 +96,7 @@ class BodySet {
   void write(ObjectState& out);
 
  private:
-  struct State {
-    Vec3 p_WCm = Vec3::Zero(), v_WCm = Vec3::Zero(), w_WB = Vec3::Zero();
-    Quat q_WB = Quat::Identity();
-  };
+  using State = Motion;
   struct Entry {
     dBodyID body = nullptr;  ///< null: fixed from the start
     dGeomID geom = nullptr;  ///< null: nothing collides with it
@@ -92,7 +106,10 @@ class BodySet {
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0;
-    bool frozen = false, asleep = false, enabled = true;
+    bool still = false;   // an obstacle: frozen or put
+    bool frozen = false;  // for good
+    bool asleep = false, enabled = true;
+    Pose X_CmG;  // of the geometry
     Vec3 constant_force_W = Vec3::Zero();
     Vec3 force_W = Vec3::Zero(), torque_W = Vec3::Zero();  // external, of this step, at the centre of mass
     State begin;
@@ -103,6 +120,8 @@ class BodySet {
   static Pose poseOf(const Entry& entry, const State& state);
   static bool sane(const State& state);
   void rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const;
+  static void detach(Entry& entry);
+  static void moveTo(Entry& entry, const Pose& X_WCm);
   void freeze(Entry& entry);
 
   DynamicsSettings::Rotation rotation_;

@@ -34,7 +34,9 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world)
       objects_(*this, "object_state"),
       world_(std::move(world)),
       options_(optionsOf(*world_)),
-      stages_(listStages(options_)) {}
+      stages_(listStages(options_)) {
+  if (world_->scene.assembly) attractions_.emplace(*this, "attractions", In<Attractions>::Optional{});
+}
 
 void DynamicsModule::start() {
   attachThread();
@@ -42,7 +44,14 @@ void DynamicsModule::start() {
   bodies_->write(0, objects_.value);
 }
 
+void DynamicsModule::attract() noexcept {
+  if (!attractions_ || attractions_->version() == attractions_seen_) return;
+  attractions_seen_ = attractions_->version();
+  bodies_->attract(attractions_->value());
+}
+
 void DynamicsModule::step(const Tick& tick) noexcept {
+  attract();
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value);
 }
 
@@ -61,6 +70,7 @@ void DynamicsModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
     const std::vector<StageText>& stages_;
     StageWatch& watch_;
   } listed(stages_, watch);
+  attract();
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, listed);
 }
 

@@ -26,8 +26,12 @@ class DynamicsModule final : public Module, public WatchedStages {
   const Faults& faults() const noexcept { return bodies_->faults(); }  ///< between start and stop
 
  private:
+  void attract() noexcept;
+
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
+  std::optional<In<Attractions>> attractions_;  // absent where nothing is put together
+  std::uint64_t attractions_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;
   std::vector<StageText> stages_;  ///< those of this scene

@@ -5,6 +5,7 @@
 #include <exception>
 #include <optional>
 
+#include "modules/dynamics_ode/attractor.h"
 #include "modules/dynamics_ode/body_contacts.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/engine.h"
@@ -58,7 +59,8 @@ struct OdeWorld::Impl {
   FingerJoints fingers;
   BodyContacts collider;
   StepSolver solver;
-  std::optional<Sleep> sleep;  // absent when the scene does without
+  std::optional<Sleep> sleep;          // absent when the scene does without
+  std::optional<Attractor> attractor;  // absent where nothing is put together
   Islands islands;
   Layers layers;
   std::vector<BodyContact> contacts;
@@ -145,6 +147,7 @@ int OdeWorld::Impl::substepsNow() {
 
 void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch) {
   bodies.resetForces();
+  if (attractor) attractor->drive(bodies, h);
   fingers.read(exchange, time, h, bodies);
   done(watch, Stage::kExtrapolate);
   if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps, watch)) ++fallback_steps;
@@ -171,6 +174,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   finger_force.fill(Vec3::Zero());
   wakeTouched(exchange);
   done(watch, Stage::kWake);
+  if (attractor) attractor->carry(bodies, period);
   if (!bodies.anyAwake()) {
     contacts.clear();
     return;
@@ -213,6 +217,12 @@ void OdeWorld::step(const ContactExchange& fingers, double time, double period, 
   write(time, out);
   out.time_end = time + period;
   done(watch, Stage::kPublish);
+}
+
+void OdeWorld::attract(const Attractions& attractions) {
+  if (impl_->failed) return;
+  if (!impl_->attractor) impl_->attractor.emplace(impl_->bodies, impl_->engine.world());
+  impl_->attractor->read(attractions, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);
 }
 
 void OdeWorld::write(double time, ObjectState& out) noexcept {

@@ -5,6 +5,7 @@
 
 #include "framework/graph/stage_watch.h"
 #include "framework/scene/world.h"
+#include "framework/state/attraction.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/object_state.h"
 #include "modules/dynamics_ode/body_contact.h"
@@ -38,6 +39,8 @@ class OdeWorld {
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
   /// The same, telling `watch` after each part of it, by its number in Stage.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out, StageWatch& watch) noexcept;
+  /// What is drawn and fixed from the next step on. A world to which this is never said has none of it.
+  void attract(const Attractions& attractions);
   /// The poses now, as a state valid from `time` on.
   void write(double time, ObjectState& out) noexcept;
 

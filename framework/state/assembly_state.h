@@ -1,0 +1,48 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "framework/state/limits.h"
+
+namespace presa {
+
+inline constexpr std::int32_t kNoGoal = -1;
+
+/// One place of an assembly.
+struct GoalState {
+  enum class Status : std::int32_t {
+    kOpen,
+    kBlocked,  ///< a body that belongs here is near, but `missing` has to be filled first
+    kDrawing,  ///< `body` is near enough to be drawn here
+    kFilled,   ///< `body` stands here
+  };
+  Status status = Status::kOpen;
+  std::int32_t body = kNoBody;
+  std::int32_t missing = kNoGoal;
+};
+
+/// How far an assembly has come; goals in scene order. Written by: collision thread (assembly).
+struct AssemblyState {
+  double time = 0;  ///< [s]
+  std::int32_t count = 0, filled = 0;
+  std::int32_t last_filled = kNoGoal;  ///< what an undo would take out
+  std::int32_t brought_back = 0;       ///< bodies that are on their way back into the field
+  std::array<GoalState, kMaxBodies> goals;
+
+  AssemblyState() = default;
+  AssemblyState(const AssemblyState& other) { *this = other; }
+  /// Copies only those in use.
+  AssemblyState& operator=(const AssemblyState& other) {
+    if (this == &other) return *this;
+    time = other.time;
+    count = other.count;
+    filled = other.filled;
+    last_filled = other.last_filled;
+    brought_back = other.brought_back;
+    std::copy_n(other.goals.begin(), other.count, goals.begin());
+    return *this;
+  }
+};
+
+}  // namespace presa

@@ -1,0 +1,31 @@
+#pragma once
+#include <atomic>
+#include <memory>
+
+#include "framework/graph/port.h"
+#include "framework/plan/assembly_control.h"
+#include "framework/plan/plugin.h"
+#include "modules/assembly/places.h"
+
+namespace presa::assembly {
+
+/// The places of a scene's assembly: Object State in, what is drawn and fixed out. Thread: collision.
+class AssemblyModule final : public Module, public AssemblyControl {
+ public:
+  explicit AssemblyModule(std::shared_ptr<const World> world);
+
+  void step(const Tick& tick) noexcept override;
+  std::vector<std::string> stages() const override;
+  void undo() noexcept override { undos_.fetch_add(1, std::memory_order_relaxed); }
+
+ private:
+  In<ObjectState> objects_;
+  Out<Attractions> attractions_;
+  Out<AssemblyState> state_;
+  std::shared_ptr<const World> world_;
+  Places places_;
+  std::atomic<std::uint32_t> undos_{0};
+  std::uint32_t undone_ = 0;
+};
+
+}  // namespace presa::assembly

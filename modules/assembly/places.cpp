@@ -1,0 +1,171 @@
+#include "modules/assembly/places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace presa::assembly {
+namespace {
+
+using Status = GoalState::Status;
+
+constexpr double kGravity = 9.81;  // what a weight is [m/s^2]
+constexpr double kWellInside = 0.9,
+                 kFarInside = 0.8;  // of the field's size: where a body is let go, where to it is drawn
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+Vec3 nearestInside(const Assembly::Field& field, const Vec3& p, double part) {
+  const Vec3 half = part * field.size / 2;
+  return p.cwiseMax(field.centre - half).cwiseMin(field.centre + half);
+}
+
+}  // namespace
+
+Places::Places(const Assembly& assembly, std::size_t bodies)
+    : assembly_(assembly),
+      belongs_(bodies),
+      goal_of_(bodies, kNoGoal),
+      refused_(bodies, kNoGoal),
+      placed_(assembly.goals.size()),
+      drawing_(assembly.goals.size()),
+      settled_(assembly.goals.size()),
+      returning_(bodies) {
+  std::size_t pairs = 0;
+  for (const AssemblyGoal& goal : assembly.goals) {
+    pairs += goal.bodies.size();
+    for (const std::size_t body : goal.bodies) belongs_[body] = 1;
+  }
+  candidates_.reserve(pairs);
+  order_.reserve(assembly.goals.size());
+  state_.count = static_cast<std::int32_t>(assembly.goals.size());
+}
+
+std::int32_t Places::missing(std::size_t goal) const {
+  for (const std::size_t before : assembly_.goals[goal].after) {
+    if (state_.goals[before].status != Status::kFilled) return static_cast<std::int32_t>(before);
+  }
+  return kNoGoal;
+}
+
+// Every body within reach of a place that is for it; who is drawn there already is let go a little farther away.
+void Places::findCandidates(const ObjectState& objects) {
+  candidates_.clear();
+  for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
+    if (state_.goals[g].status == Status::kFilled) continue;
+    const AssemblyGoal& goal = assembly_.goals[g];
+    for (const std::size_t body : goal.bodies) {
+      const std::int32_t there = goal_of_[body];
+      if (there != kNoGoal && state_.goals[index(there)].status == Status::kFilled) continue;
+      const Pose& X_WB = objects.bodies[body].X_WB_end;
+      const Pose X_WG = nearestTurn(goal.X_WB, goal.fold, X_WB.q);
+      const Way way = wayBetween(X_WG, X_WB);
+      const double slack = there == static_cast<std::int32_t>(g) ? kLeave : 1;
+      const bool near =
+          way.distance < slack * assembly_.reach && way.angle < slack * assembly_.reach_angle_deg * kDegree;
+      if (refused_[body] == static_cast<std::int32_t>(g)) {
+        if (!near) refused_[body] = kNoGoal;
+        continue;
+      }
+      if (near) candidates_.push_back({g, body, way, X_WG});
+    }
+  }
+}
+
+// The nearest pair first; a place draws one body, and a body is drawn to one place.
+void Places::assign() {
+  std::ranges::stable_sort(candidates_, {}, [](const Candidate& c) { return c.way.distance; });
+  for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
+    GoalState& goal = state_.goals[g];
+    if (goal.status == Status::kFilled) continue;
+    if (goal.body != kNoBody && goal_of_[index(goal.body)] == static_cast<std::int32_t>(g))
+      goal_of_[index(goal.body)] = kNoGoal;
+    goal = {};
+  }
+  for (const Candidate& candidate : candidates_) {
+    GoalState& goal = state_.goals[candidate.goal];
+    if (goal.body != kNoBody || goal_of_[candidate.body] != kNoGoal) continue;
+    goal.body = static_cast<std::int32_t>(candidate.body);
+    goal.missing = missing(candidate.goal);
+    goal.status = goal.missing == kNoGoal ? Status::kDrawing : Status::kBlocked;
+    if (goal.status == Status::kBlocked) continue;
+    goal_of_[candidate.body] = static_cast<std::int32_t>(candidate.goal);
+    placed_[candidate.goal] = candidate.X_WB;
+  }
+}
+
+void Places::settle(const ObjectState& objects, double period) {
+  for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
+    GoalState& goal = state_.goals[g];
+    if (goal.status == Status::kFilled) continue;
+    if (goal.status != Status::kDrawing) {
+      drawing_[g] = settled_[g] = 0;
+      continue;
+    }
+    drawing_[g] += period;
+    const BodyMotion& body = objects.bodies[index(goal.body)];
+    const Way way = wayBetween(placed_[g], body.X_WB_end);
+    const bool there = way.distance < assembly_.tolerance && way.angle < assembly_.tolerance_angle_deg * kDegree &&
+                       body.v_WB.norm() < kSlow && body.w_WB.norm() < kSlowTurn;
+    settled_[g] = there ? settled_[g] + period : 0;
+    if (settled_[g] < kSettle) continue;
+    goal.status = Status::kFilled;
+    state_.last_filled = static_cast<std::int32_t>(g);
+    ++state_.filled;
+    order_.push_back(g);
+  }
+}
+
+void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights) {
+  attractions_.bodies[index(attractions_.count++)] = {.body = static_cast<std::int32_t>(body),
+                                                      .fixed = fixed,
+                                                      .turns = turns,
+                                                      .X_WB = X_WB,
+                                                      .rate = kRate,
+                                                      .speed = kSpeed,
+                                                      .most = weights * kGravity};
+}
+
+void Places::bringBack(const ObjectState& objects) {
+  state_.brought_back = 0;
+  if (!assembly_.field) return;
+  for (std::size_t body = 0; body < belongs_.size(); ++body) {
+    if (belongs_[body] == 0 || goal_of_[body] != kNoGoal) continue;
+    const Vec3& p = objects.bodies[body].X_WB_end.p;
+    const auto is_inside = [&](double part) { return nearestInside(*assembly_.field, p, part) == p; };
+    returning_[body] = (returning_[body] != 0 ? !is_inside(kWellInside) : !is_inside(1)) ? 1 : 0;
+    if (returning_[body] == 0) continue;
+    ++state_.brought_back;
+    attract(body, {nearestInside(*assembly_.field, p, kFarInside), Quat::Identity()}, false, false, kBringBackWeights);
+  }
+}
+
+void Places::step(const ObjectState& objects, double period) {
+  findCandidates(objects);
+  assign();
+  settle(objects, period);
+  attractions_.count = 0;
+  for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
+    const GoalState& goal = state_.goals[g];
+    if (goal.status == Status::kFilled) attract(index(goal.body), placed_[g], true, true, 0);
+    if (goal.status == Status::kDrawing)
+      attract(index(goal.body), placed_[g], false, true, assembly_.pull * std::min(1.0, drawing_[g] / kRise));
+  }
+  bringBack(objects);
+}
+
+void Places::undo() {
+  if (order_.empty()) return;
+  const std::size_t last = order_.back();
+  order_.pop_back();
+  GoalState& goal = state_.goals[last];
+  goal_of_[index(goal.body)] = kNoGoal;
+  refused_[index(goal.body)] = static_cast<std::int32_t>(last);
+  goal = {};
+  drawing_[last] = settled_[last] = 0;
+  --state_.filled;
+  state_.last_filled = order_.empty() ? kNoGoal : static_cast<std::int32_t>(order_.back());
+}
+
+}  // namespace presa::assembly

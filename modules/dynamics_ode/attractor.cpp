@@ -1,0 +1,118 @@
+#include "modules/dynamics_ode/attractor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa::ode {
+namespace {
+
+/// Turn from `from` to `to` as a rotation vector in W [rad].
+Vec3 turnBetween(const Quat& from, const Quat& to) {
+  Quat turn = to * from.conjugate();
+  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+  const double sine = turn.vec().norm();
+  if (sine < 1e-12) return 2 * turn.vec();
+  return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
+}
+
+/// The three axes of a motor, the first along `way`; by the function of ODE that sets one of them.
+template <class SetAxis, class SetParam>
+void setMotor(dJointID motor, SetAxis set_axis, SetParam set_param, const Vec3& way, double velocity, double force) {
+  const double length = way.norm();
+  const Vec3 x = length > 1e-12 ? Vec3(way / length) : Vec3::UnitX();
+  const Vec3 y = x.unitOrthogonal(), z = x.cross(y);
+  int axis = 0;
+  for (const Vec3& direction : {x, y, z}) set_axis(motor, axis++, 0, direction.x(), direction.y(), direction.z());
+  set_param(motor, dParamVel1, velocity);
+  set_param(motor, dParamVel2, 0);
+  set_param(motor, dParamVel3, 0);
+  for (const int parameter : {dParamFMax1, dParamFMax2, dParamFMax3}) set_param(motor, parameter, force);
+}
+
+/// No faster than what ends at the place in this step.
+double towards(double way, const Attraction& to, double speed, double h) {
+  return std::min({to.rate * way, speed, way / h});
+}
+
+}  // namespace
+
+Attractor::Attractor(const BodySet& bodies, dWorldID ode_world)
+    : drawn_(bodies.size(), nullptr), motors_(bodies.size()) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies.moves(i)) continue;
+    Motors& motors = motors_[i];
+    motors.linear = dJointCreateLMotor(ode_world, nullptr);
+    motors.angular = dJointCreateAMotor(ode_world, nullptr);
+    dJointSetLMotorNumAxes(motors.linear, 3);
+    dJointSetAMotorMode(motors.angular, dAMotorUser);
+    dJointSetAMotorNumAxes(motors.angular, 3);
+  }
+}
+
+Attractor::~Attractor() {
+  for (const Motors& motors : motors_) {
+    if (motors.linear == nullptr) continue;
+    dJointDestroy(motors.linear);
+    dJointDestroy(motors.angular);
+  }
+}
+
+void Attractor::read(const Attractions& attractions, BodySet& bodies, Sleep* sleep) {
+  const std::vector<const Attraction*>::size_type count = drawn_.size();
+  std::fill(drawn_.begin(), drawn_.end(), nullptr);
+  wanted_ = attractions;
+  for (std::int32_t i = 0; i < wanted_.count; ++i) {
+    const Attraction& attraction = wanted_.bodies[static_cast<std::size_t>(i)];
+    const auto body = static_cast<std::size_t>(attraction.body);
+    if (attraction.body >= 0 && body < count) drawn_[body] = &attraction;
+  }
+  bool changed = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool fix = drawn_[i] != nullptr && drawn_[i]->fixed;
+    const bool free_to_be_drawn = drawn_[i] != nullptr && !fix && bodies.asleep(i);
+    if (sleep != nullptr && (free_to_be_drawn || (fix && bodies.asleep(i)))) sleep->wake(bodies, i);
+    if (fix == bodies.isPut(i)) continue;
+    fix ? bodies.put(i) : bodies.take(i);
+    changed = true;
+  }
+  if (!changed || sleep == nullptr) return;
+  // what leaned on it, or stood on it, has to find out
+  for (std::size_t i = 0; i < count; ++i) {
+    if (bodies.asleep(i)) sleep->wake(bodies, i);
+  }
+}
+
+void Attractor::carry(BodySet& bodies, double h) const {
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    if (drawn_[i] == nullptr || !bodies.isPut(i)) continue;
+    const Pose X_WB = bodies.pose(i);
+    const Pose& goal = drawn_[i]->X_WB;
+    const double way = (goal.p - X_WB.p).norm(), turn = turnBetween(X_WB.q, goal.q).norm();
+    const double steps = std::max(way / (kCarrySpeed * h), turn / (kCarrySpin * h));
+    bodies.place(i, steps > 1 ? interpolate(X_WB, goal, 1 / steps) : goal);
+  }
+}
+
+void Attractor::drive(const BodySet& bodies, double h) {
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    const Motors& motors = motors_[i];
+    if (motors.linear == nullptr) continue;
+    const bool is_drawn = drawn_[i] != nullptr && !drawn_[i]->fixed && bodies.awake(i);
+    const bool turns = is_drawn && drawn_[i]->turns;
+    dJointAttach(motors.linear, is_drawn ? bodies.body(i) : nullptr, nullptr);
+    dJointAttach(motors.angular, turns ? bodies.body(i) : nullptr, nullptr);
+    if (!is_drawn) continue;
+    const Attraction& to = *drawn_[i];
+    const Pose now = bodies.centrePose(i), goal = bodies.centreOf(i, to.X_WB);
+    const Vec3 way = goal.p - now.p;
+    setMotor(motors.linear, dJointSetLMotorAxis, dJointSetLMotorParam, way, towards(way.norm(), to, to.speed, h),
+             bodies.mass(i) * to.most);
+    if (!turns) continue;
+    const double rim = std::max(bodies.extent(i), 1e-3);
+    const Vec3 turn = turnBetween(now.q, goal.q);
+    setMotor(motors.angular, dJointSetAMotorAxis, dJointSetAMotorParam, turn,
+             towards(turn.norm(), to, to.speed / rim, h), bodies.mass(i) * to.most * rim);
+  }
+}
+
+}  // namespace presa::ode

@@ -1,0 +1,177 @@
+#include "modules/assembly/places.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace presa::assembly {
+namespace {
+
+using Status = GoalState::Status;
+
+constexpr double kPeriod = 0.01;
+constexpr double kPi = std::numbers::pi;
+
+Quat aboutZ(double angle) { return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())); }
+
+// The nearest of all turns, looked for one by one.
+TEST(GoalPose, TakesTheNearestOfItsTurns) {
+  for (const std::size_t fold : {1U, 2U, 4U, 20U}) {
+    for (double angle = -3; angle < 3; angle += 0.0717) {
+      const Quat q = Quat(Eigen::AngleAxisd(0.1, Vec3(1, 0.3, 0).normalized())) * aboutZ(angle);
+      const Pose goal{{1, 2, 3}, Quat(Eigen::AngleAxisd(0.05, Vec3::UnitY()))};
+      double least = 10;
+      for (std::size_t k = 0; k < fold; ++k)
+        least = std::min(
+            least, (goal.q * aboutZ(2 * kPi * static_cast<double>(k) / static_cast<double>(fold))).angularDistance(q));
+      EXPECT_NEAR(nearestTurn(goal, fold, q).q.angularDistance(q), least, 1e-7) << fold << " " << angle;
+    }
+  }
+}
+
+TEST(GoalPose, RoundThingsLeaveOnlyTheTilt) {
+  const Quat tilt(Eigen::AngleAxisd(0.2, Vec3::UnitX()));
+  EXPECT_NEAR(nearestTurn({}, 0, tilt * aboutZ(1.234)).q.angularDistance(tilt * aboutZ(1.234)), 0.2, 1e-9);
+}
+
+/// Two places, one above the other, for the same two bodies; a third body belongs nowhere.
+class PlacesTest : public testing::Test {
+ protected:
+  PlacesTest() {
+    assembly.goals = {{"lower", {0, 1}, {}, 1, {}}, {"upper", {0, 1}, {{0, 0, 0.1}, Quat::Identity()}, 1, {0}}};
+    objects.count = 3;
+    for (std::size_t i = 0; i < 3; ++i) objects.bodies[i].X_WB_end.p = {1 + static_cast<double>(i), 0, 0};
+  }
+  void at(std::size_t body, const Vec3& p, double angle = 0) { objects.bodies[body].X_WB_end = {p, aboutZ(angle)}; }
+  void step(int steps = 1) {
+    if (!places) places.emplace(assembly, 3);
+    for (int i = 0; i < steps; ++i) places->step(objects, kPeriod);
+  }
+  Status status(std::size_t goal) const { return places->state().goals[goal].status; }
+  static constexpr int kArrives = static_cast<int>(Places::kSettle / kPeriod) + 1;
+
+  Assembly assembly;
+  ObjectState objects;
+  std::optional<Places> places;
+};
+
+TEST_F(PlacesTest, NothingNearNothingDrawn) {
+  step();
+  EXPECT_EQ(places->attractions().count, 0);
+  EXPECT_EQ(status(0), Status::kOpen);
+}
+
+TEST_F(PlacesTest, DrawsWhatIsInReachOfDistanceAndAngle) {
+  at(0, {0.019, 0, 0}, 29 * kPi / 180);
+  step();
+  ASSERT_EQ(places->attractions().count, 1);
+  EXPECT_EQ(places->attractions().bodies[0].body, 0);
+  EXPECT_FALSE(places->attractions().bodies[0].fixed);
+  EXPECT_NEAR(places->attractions().bodies[0].most, 1.5 * 9.81 * kPeriod / Places::kRise, 1e-12) << "rises softly";
+  step(40);
+  EXPECT_EQ(places->attractions().bodies[0].most, 1.5 * 9.81);
+  at(0, {0.019, 0, 0}, 45 * kPi / 180);
+  step();
+  EXPECT_EQ(places->attractions().count, 0) << "turned away";
+}
+
+TEST_F(PlacesTest, LetsGoALittleFartherThanItTakes) {
+  at(0, {0.024, 0, 0});
+  step();
+  EXPECT_EQ(status(0), Status::kOpen);
+  at(0, {0.019, 0, 0});
+  step();
+  at(0, {0.024, 0, 0});
+  step();
+  EXPECT_EQ(status(0), Status::kDrawing);
+  at(0, {0.026, 0, 0});
+  step();
+  EXPECT_EQ(status(0), Status::kOpen);
+}
+
+TEST_F(PlacesTest, OfTwoAlikeTheNearerIsTaken) {
+  at(0, {0.015, 0, 0});
+  at(1, {0, 0.010, 0});
+  step();
+  EXPECT_EQ(places->state().goals[0].body, 1);
+  EXPECT_EQ(places->attractions().count, 1);
+}
+
+TEST_F(PlacesTest, WhatMustWaitSaysForWhat) {
+  at(0, {0.005, 0, 0.1});
+  step();
+  EXPECT_EQ(status(1), Status::kBlocked);
+  EXPECT_EQ(places->state().goals[1].missing, 0);
+  EXPECT_EQ(places->attractions().count, 0) << "not drawn";
+  at(1, {});
+  step(kArrives + 1);
+  EXPECT_EQ(status(0), Status::kFilled);
+  EXPECT_EQ(status(1), Status::kDrawing) << "now it may";
+}
+
+TEST_F(PlacesTest, ArrivedIsWhatStaysThereSlowly) {
+  at(0, {0.0004, 0, 0});
+  objects.bodies[0].v_WB = {0.02, 0, 0};
+  step(3 * kArrives);
+  EXPECT_EQ(status(0), Status::kDrawing) << "passing through";
+  objects.bodies[0].v_WB.setZero();
+  step(kArrives - 2);
+  EXPECT_EQ(status(0), Status::kDrawing);
+  step(3);
+  ASSERT_EQ(status(0), Status::kFilled);
+  EXPECT_TRUE(places->attractions().bodies[0].fixed);
+  EXPECT_EQ(places->state().filled, 1);
+  EXPECT_EQ(places->state().last_filled, 0);
+  at(1, {0.001, 0, 0});
+  step(kArrives);
+  EXPECT_EQ(places->state().goals[0].body, 0) << "a filled place takes nothing else";
+}
+
+TEST_F(PlacesTest, UndoTakesOutTheLastAndLeavesItAloneUntilItWasAway) {
+  at(0, {});
+  step(kArrives);
+  at(1, {0, 0, 0.1});
+  step(kArrives);
+  ASSERT_EQ(places->state().filled, 2);
+  places->undo();
+  step(kArrives);
+  EXPECT_EQ(status(1), Status::kOpen);
+  EXPECT_EQ(places->state().filled, 1);
+  EXPECT_EQ(places->state().last_filled, 0);
+  at(1, {0.1, 0, 0.1});
+  step();
+  at(1, {0, 0, 0.1});
+  step(kArrives);
+  EXPECT_EQ(status(1), Status::kFilled) << "it was away";
+  places->undo();
+  places->undo();
+  places->undo();
+  step();
+  EXPECT_EQ(places->state().filled, 0);
+}
+
+TEST_F(PlacesTest, WhatLeavesTheFieldIsBroughtBackWellInside) {
+  assembly.field = Assembly::Field{{0, 0, 0}, {1, 1, 1}};
+  at(0, {0.4, 0, 0});
+  at(1, {0.2, 0.2, 0});
+  step();
+  EXPECT_EQ(places->attractions().count, 0);
+  at(0, {0.7, 0.1, 0});
+  at(2, {5, 0, 0});
+  step();
+  ASSERT_EQ(places->attractions().count, 1) << "what belongs nowhere may go where it likes";
+  const Attraction& back = places->attractions().bodies[0];
+  EXPECT_EQ(back.body, 0);
+  EXPECT_FALSE(back.turns);
+  EXPECT_LT((back.X_WB.p - Vec3(0.4, 0.1, 0)).norm(), 1e-12);
+  at(0, {0.48, 0.1, 0});
+  step();
+  EXPECT_EQ(places->attractions().count, 1) << "not yet";
+  at(0, {0.45, 0.1, 0});
+  step();
+  EXPECT_EQ(places->attractions().count, 0);
+  EXPECT_EQ(places->state().brought_back, 0);
+}
+
+}  // namespace
+}  // namespace presa::assembly

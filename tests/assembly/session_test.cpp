@@ -1,0 +1,124 @@
+// Whole runs in lockstep: what a scene's <assembly> does to real bodies.
+#include <gtest/gtest.h>
+
+#include "framework/plan/load_world.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/executor.h"
+#include "framework/state/assembly_state.h"
+
+namespace presa {
+namespace {
+
+/// Takes what passes by.
+class Probe final : public Module {
+ public:
+  Probe() : Module("probe", RateGroup::kHaptic), objects_(*this, "object_state"), assembly_(*this, "assembly_state") {}
+  void step(const Tick&) noexcept override {
+    objects = objects_.value();
+    assembly = assembly_.value();
+  }
+  ObjectState objects;
+  AssemblyState assembly;
+
+ private:
+  In<ObjectState> objects_;
+  In<AssemblyState> assembly_;
+};
+
+std::string scene(const std::string& lid_pose, const std::string& box_pose, const std::string& extra = {}) {
+  return R"(<scene version="1.0" name="lid"><world gravity="0 0 -9.81"/>
+  <materials><material name="wood" stiffness="1000"><friction static="0.5"/></material></materials>
+  <body name="table" fixed="true" pos="0 0 -0.05"><physics><box size="2 2 0.1"/></physics></body>
+  <body name="box" )" +
+         box_pose + R"(><physics mass="0.2"><box size="0.1 0.1 0.06"/></physics></body>
+  <body name="lid" )" +
+         lid_pose + R"(><physics mass="0.05"><box size="0.1 0.1 0.01"/></physics></body>
+  <assembly>)" +
+         extra + R"(
+    <goal name="bottom" bodies="box" pos="0 0 0.03" fold="4"/>
+    <goal name="top" bodies="lid" pos="0 0 0.065" fold="4" after="bottom"/>
+  </assembly></scene>)";
+}
+
+struct Ended {
+  explicit Ended(const std::string& text, double seconds) {
+    Diagnostics diagnostics;
+    const Loaded loaded = loadWorldFromText(text, "lid.xml", "", {}, diagnostics);
+    EXPECT_FALSE(diagnostics.hasErrors());
+    if (diagnostics.hasErrors()) throw InputError(diagnostics);
+    RunControl control;
+    Session::Options options;
+    auto made = std::make_unique<Probe>();
+    Probe& probe = *made;
+    options.more.push_back(std::move(made));
+    Session session(loaded.world, loaded.plan, control, std::move(options));
+    makeExecutor(false, session.graph(), RateTable(loaded.world->scene.rates), control)->run(seconds);
+    objects = probe.objects;
+    assembly = probe.assembly;
+  }
+  double error(std::size_t body, const Vec3& p) const { return (objects.bodies[body].X_WB_end.p - p).norm(); }
+  ObjectState objects;
+  AssemblyState assembly;
+};
+
+constexpr const char* kBoxNear = R"(pos="0.004 -0.003 0.0302" euler_deg="0 0 100")";
+constexpr const char* kLidNear = R"(pos="-0.008 0.012 0.0662" euler_deg="0 0 -12")";
+
+TEST(AssemblySession, WhatIsLetGoNearItsPlaceFindsIt) {
+  const Ended run(scene(kLidNear, kBoxNear), 4);
+  EXPECT_EQ(run.assembly.filled, 2);
+  EXPECT_LT(run.error(1, {0, 0, 0.03}), 1e-9);
+  EXPECT_LT(run.error(2, {0, 0, 0.065}), 1e-9);
+  const Quat quarter(Eigen::AngleAxisd(EIGEN_PI / 2, Vec3::UnitZ()));
+  EXPECT_LT(run.objects.bodies[1].X_WB_end.q.angularDistance(quarter), 1e-6) << "the nearest of four turns";
+  EXPECT_EQ(run.objects.faults, 0U);
+}
+
+TEST(AssemblySession, TheLidWaitsForItsBox) {
+  const Ended run(scene(kLidNear, R"(pos="0.3 0 0.0302")"), 4);
+  EXPECT_EQ(run.assembly.filled, 0);
+  EXPECT_GT(run.error(1, {0, 0, 0.03}), 0.2) << "too far to be drawn";
+}
+
+TEST(AssemblySession, ABodyThatWasThrownOutComesBack) {
+  const std::string field = R"(<field size="0.8 0.8 2"/>)";
+  const Ended run(scene(R"(pos="0.7 0.6 0.0052")", R"(pos="0.3 0 0.0302")", field), 6);
+  const Vec3 lid = run.objects.bodies[2].X_WB_end.p;
+  EXPECT_LT(std::max(std::abs(lid.x()), std::abs(lid.y())), 0.4);
+  EXPECT_EQ(run.assembly.brought_back, 0);
+  EXPECT_LT(run.objects.bodies[2].v_WB.norm(), 1e-3);
+}
+
+TEST(AssemblySession, TheSameRunTwiceIsTheSameToTheBit) {
+  const Ended one(scene(kLidNear, kBoxNear), 1), two(scene(kLidNear, kBoxNear), 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(one.objects.bodies[i].X_WB_end.p, two.objects.bodies[i].X_WB_end.p);
+    EXPECT_EQ(one.objects.bodies[i].X_WB_end.q.coeffs(), two.objects.bodies[i].X_WB_end.q.coeffs());
+  }
+}
+
+std::string findingsOf(const std::string& assembly) {
+  Diagnostics diagnostics;
+  std::string text = scene(kLidNear, kBoxNear);
+  const auto begin = text.find("<assembly>"), end = text.find("</scene>");
+  text.replace(begin, end - begin, assembly);
+  loadWorldFromText(text, "lid.xml", "", {}, diagnostics);
+  std::string codes;
+  for (const Diagnostic& finding : diagnostics.all()) codes += std::to_string(finding.code) + " ";
+  return codes;
+}
+
+TEST(AssemblySession, EverythingWrongIsSaidAtOnce) {
+  EXPECT_EQ(findingsOf("<assembly/>"), "113 ");
+  EXPECT_EQ(
+      findingsOf(R"(<assembly><goal name="a" bodies="boxx table" after="c"/><goal name="a" bodies="lid"/></assembly>)"),
+      "214 215 216 203 ");
+  EXPECT_EQ(
+      findingsOf(
+          R"(<assembly><goal name="a" bodies="box" after="b"/><goal name="b" bodies="lid" after="a"/></assembly>)"),
+      "217 217 ");
+  EXPECT_EQ(findingsOf(R"(<assembly><goal name="a" bodies="box" quat="0 0 0 0"/></assembly>)"), "212 ");
+}
+
+}  // namespace
+}  // namespace presa
