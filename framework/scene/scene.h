@@ -51,6 +51,7 @@ struct Material {
   double damping = 0;           ///< [N s/m], >= 0
   double friction_static = 0;   ///< [-], >= dynamic
   double friction_dynamic = 0;  ///< [-]
+  double torsion = 0;           ///< a soft fingertip resists turning about its normal by friction at this radius [m]
   std::optional<FrictionCoefficients>
       changed_friction;       ///< under a finger after the surfaces have changed; none: as before
   Vec3 color{0.7, 0.7, 0.7};  ///< linear RGB in [0, 1]

@@ -84,6 +84,7 @@ Material readMaterial(const Element& element) {
   for (const Element& friction : element.children("friction")) {
     material.friction_static = friction.number("static", 0);
     material.friction_dynamic = friction.number("dynamic", 0);
+    material.torsion = friction.number("torsion", 0);
     for (const Element& changed : friction.children("changed"))
       material.changed_friction = {changed.number("static", 0), changed.number("dynamic", 0)};
   }

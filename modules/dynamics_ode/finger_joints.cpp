@@ -27,15 +27,47 @@ dContact jointOf(const FingerRow& row) {
   return contact;
 }
 
+// What two fingertips on one axis share; a slip of 0.01 rad/s at the torque of a firm grip.
+constexpr double kTorsionCfm = 1;  // [rad/s / (N m)]
+
 }  // namespace
+
+FingerJoints::FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world)
+    : coupling_(coupling) {
+  active_.reserve(kMaxFingers);
+  const auto soft = [](const Material& material) { return material.torsion > 0; };
+  if (coupling == DynamicsSettings::Coupling::kExplicit || std::ranges::none_of(scene.materials, soft)) return;
+  for (const Body& body : scene.bodies) torsion_.push_back(scene.materialOf(body).torsion);
+  for (int finger = 0; finger < kMaxFingers; ++finger) {
+    motors_.push_back(dJointCreateAMotor(ode_world, nullptr));
+    dJointSetAMotorMode(motors_.back(), dAMotorUser);
+    dJointSetAMotorNumAxes(motors_.back(), 1);
+    dJointSetAMotorParam(motors_.back(), dParamCFM, kTorsionCfm);
+  }
+}
+
+FingerJoints::~FingerJoints() {
+  for (const dJointID motor : motors_) dJointDestroy(motor);
+}
+
+// A fingertip that does not turn itself. Bounded by the normal force at the start of the step, as friction beside it.
+void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const FingerRow& row, const BodySet& bodies) {
+  const double normal = std::max(0.0, row.expected_force_W.dot(row.n_in));
+  dJointAttach(motors_[finger], bodies.body(body), nullptr);
+  dJointSetAMotorAxis(motors_[finger], 0, 0, row.n_in.x(), row.n_in.y(), row.n_in.z());
+  dJointSetAMotorParam(motors_[finger], dParamVel, 0);
+  dJointSetAMotorParam(motors_[finger], dParamFMax, torsion_[body] * row.mu * normal);
+}
 
 std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
   active_.clear();
+  for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
   return forEachTouch(exchange, bodies, [&](std::size_t f, std::size_t body) {
     const auto row = makeFingerRow(exchange.fingers[f], bodies.inertiaState(body), time - exchange.time, h);
     if (!row) return;
     active_.push_back({f, body, *row});
     feedback_[f] = {};
+    if (!motors_.empty()) resistTurning(f, body, *row, bodies);
     if (coupling_ == DynamicsSettings::Coupling::kExplicit) bodies.addForce(body, row->expected_force_W, row->p_WP);
   });
 }

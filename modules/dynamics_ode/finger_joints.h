@@ -13,7 +13,11 @@ namespace presa::ode {
 /// The fingers of one step: as contact joints (soft coupling) or as forces (explicit coupling).
 class FingerJoints {
  public:
-  explicit FingerJoints(DynamicsSettings::Coupling coupling) : coupling_(coupling) { active_.reserve(kMaxFingers); }
+  /// The motors of soft fingertips live in `ode_world` and go before it; there are none where no material has torsion.
+  FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world);
+  ~FingerJoints();
+  FingerJoints(const FingerJoints&) = delete;
+  FingerJoints& operator=(const FingerJoints&) = delete;
 
   /// Takes the rows of every finger that touches a moving body, for a step of `h` from `time` on; forces of the explicit
   /// coupling go to `bodies` at once. Returns how many fingers made no sense and were left out.
@@ -27,6 +31,8 @@ class FingerJoints {
   Vec3 force(std::size_t f) const;
 
  private:
+  void resistTurning(std::size_t finger, std::size_t body, const FingerRow& row, const BodySet& bodies);
+
   struct Active {
     std::size_t finger = 0, body = 0;
     FingerRow row;
@@ -34,6 +40,8 @@ class FingerJoints {
   const DynamicsSettings::Coupling coupling_;
   std::vector<Active> active_;
   std::array<dJointFeedback, kMaxFingers> feedback_{};
+  std::vector<double> torsion_;   // by body [m]; empty where no fingertip is soft
+  std::vector<dJointID> motors_;  // by finger: hold it from turning about its normal, with a bounded torque
 };
 
 /// Calls use(finger, body) for each finger that touches a body that moves; returns how many made no sense.

@@ -29,7 +29,7 @@ struct OdeWorld::Impl {
         options(options_),
         engine(world->scene.gravity, options.seed, kContactsPerBody * world->scene.bodies.size()),
         bodies(*world, options.method.rotation, engine.world()),
-        fingers(options.method.coupling),
+        fingers(options.method.coupling, world->scene, engine.world()),
         collider(bodies, world->scene.gravity),
         solver(world->scene, engine, bodies, options),
         islands(bodies.size()),
