@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
   presa::addCost(app, status);
   presa::addExperiment(app, status);
   presa::addDevice(app, status);
+  presa::addView(app, status);
+  presa::addBus(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

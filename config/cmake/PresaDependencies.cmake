@@ -9,6 +9,8 @@ find_package(meshoptimizer REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fcl REQUIRED)
+find_package(CycloneDDS REQUIRED)
+find_program(IDLC idlc REQUIRED) # its types from IDL
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 find_library(MUJOCO_LIBRARY mujoco REQUIRED) # Debian's CMake package of it names a folder that does not exist
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)

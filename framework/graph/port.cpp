@@ -28,6 +28,8 @@ const char* toString(RateGroup group) noexcept {
       return "dynamics";
     case RateGroup::kView:
       return "view";
+    case RateGroup::kBus:
+      return "bus";
   }
   return "?";
 }

@@ -94,6 +94,13 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
        "nothing is recorded");
   call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,
        options.view == RunOptions::View::kWindow ? "--view window" : "a picture is wanted", "no view is wanted");
+  const std::optional<BusSettings> bus = busOf(scene, rig, options);
+  call(bus.has_value(), "bus_dds", RateGroup::kBus,
+       !bus          ? ""
+       : options.bus ? "--bus " + bus->network
+                     : (rig.bus ? "the rig '" + rig.name : "the scene '" + scene.name) + "' publishes on bus '" +
+                           bus->network + "'",
+       "nobody asked for a bus (--bus)");
   return plan;
 }
 

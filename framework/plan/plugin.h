@@ -13,7 +13,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 7;
+inline constexpr int kPluginAbi = 8;
 
 struct ModulePlugin {
   int abi = kPluginAbi;

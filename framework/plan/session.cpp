@@ -59,6 +59,11 @@ DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diag
   return devices;
 }
 
+std::unique_ptr<View> makeView(std::shared_ptr<const World> world) {
+  auto module = tableOf<ModulePlugin>("view_osg", "presaModulePlugin").create(std::move(world));
+  return std::unique_ptr<View>(&dynamic_cast<View&>(*module.release()));
+}
+
 std::vector<std::string> whileOpening(const Plan& plan) {
   std::vector<std::string> lines;
   for (const PlannedDevice& planned : plan.devices) {

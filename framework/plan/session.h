@@ -61,6 +61,9 @@ class Session {
   View* view_ = nullptr;
 };
 
+/// The view of a world alone, for a graph of one's own (its plug-in is loaded; throws InputError when that cannot be done).
+std::unique_ptr<View> makeView(std::shared_ptr<const World> world);
+
 /// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
 const DevicePlugin& devicePlugin(const std::string& driver);
 

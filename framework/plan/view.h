@@ -24,6 +24,9 @@ class View : public Module {
   };
   virtual Screenshot screenshot() const = 0;
 
+  /// A line under the time, until the next one; an alarm is red. On the thread of the view, between start() and stop().
+  virtual void setBanner(const std::string& text, bool alarm) = 0;
+
   /// Timing of the groups for the head-up display, by RateGroup; null where there is none. They must outlive the view.
   /// Read while the groups run, so the figures shown are approximate. Call before start().
   virtual void setTimings(const std::array<const GroupTiming*, kRateGroupCount>& timings) noexcept = 0;

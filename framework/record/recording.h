@@ -23,10 +23,15 @@ struct ScheduleRow {
   std::array<std::uint64_t, kMaxBridges> versions{};
 };
 
+/// Groups whose ticks are recorded: all but the bus, which only carries away what the others made. A replay does without it, and
+/// recordings stay as they were.
+inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
+constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
+
 /// The executors write here when a run is recorded: one ring per rate group (one writer each), drained by
 /// the recorder's thread.
 struct ScheduleLog {
-  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kRateGroupCount> rings;
+  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;
   ScheduleLog();
 };
 
@@ -71,7 +76,7 @@ struct Recording {
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
   std::vector<std::uint8_t> surfaces_changed;  ///< 1: they had their other friction
-  std::array<std::vector<ScheduleRow>, kRateGroupCount> schedule;
+  std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
 };
 
 /// A table of a recording by column, one value per haptic tick. What the columns hold: README.md, or their own description.

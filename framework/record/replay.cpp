@@ -109,7 +109,7 @@ class Replayer {
   const RateTable& rates_;
   RunControl& control_;
   const ForceCommand* command_;
-  std::array<std::size_t, kRateGroupCount> next_{};
+  std::array<std::size_t, kScheduledGroupCount> next_{};
   ReplayResult result_;
 };
 

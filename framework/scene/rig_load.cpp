@@ -95,6 +95,7 @@ Rig readDocument(xml::Document& document, const std::string& directory, Diagnost
       resolvePaths(device, directory);
       rig.devices.push_back(readBinding(device, diagnostics));
     }
+    rig.bus = readBus(root);
     rig.resolved_xml = document.text();
   }
   if (diagnostics.errorCount() > errors_before) rig = {};  // all or nothing: no half-read rig

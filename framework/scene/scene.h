@@ -93,6 +93,7 @@ struct Rates {
   double collision = 100;  ///< [Hz], haptic / collision is a whole number
   double dynamics = 200;   ///< [Hz], haptic / dynamics is a whole number
   double view = 60;        ///< [Hz]
+  double bus = 200;        ///< at which the state is published [Hz]; no scene changes it
 };
 
 /// How fingers are rendered. The defaults are Presa's methods, the others what they replace.
@@ -150,6 +151,15 @@ struct Assembly {
   std::vector<AssemblyGoal> goals;
 };
 
+/// Where a run's state is published for viewers (framework/bus).
+struct BusSettings {
+  std::string network = "loopback";  ///< loopback, lan, lan:INTERFACE, or none
+  int domain = 0;                    ///< viewers join the same; kLeastBusDomain to kMostBusDomain
+};
+inline constexpr int kLeastBusDomain = 0, kMostBusDomain = 200;
+/// Whether that names a network.
+bool isBusNetwork(const std::string& network);
+
 struct Scene {
   std::string name;
   std::string description;
@@ -164,6 +174,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<DeviceRole> devices;
   std::optional<Assembly> assembly;
+  std::optional<BusSettings> bus;
   std::string resolved_xml;  ///< the document after --set and defaults, as saved with recordings
 
   const Material& materialOf(const Body& body) const { return materials[body.material]; }
@@ -194,6 +205,7 @@ struct DeviceBinding {
 struct Rig {
   std::string name;
   std::string file;
+  std::optional<BusSettings> bus;  ///< goes before the scene's
   std::vector<DeviceBinding> devices;
   std::string resolved_xml;
 };

@@ -39,6 +39,9 @@ void checkOrientation(const xml::Element& element, Diagnostics& diagnostics);
 /// Writes defaults, chosen materials and absolute paths into a document without errors.
 void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory);
 
+/// The <bus> of a scene or a rig; none when it has none.
+std::optional<BusSettings> readBus(const xml::Element& root);
+
 /// All materials of the document, in order.
 std::vector<xml::Element> materialElements(const xml::Element& root);
 /// All device roles of the document, in order.

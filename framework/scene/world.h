@@ -35,6 +35,7 @@ struct RunOptions {
   bool bound_stiffness =
       false;  ///< materials too stiff for the devices are brought down; else they are as the scene has them
   std::optional<SimulatedPerson> person{};
+  std::optional<BusSettings> bus{};  ///< goes before the rig's and the scene's; network none: no bus whatever those say
 };
 
 /// Meshes of one body; null where the geometry is a primitive or absent.
@@ -57,6 +58,10 @@ struct World {
   std::vector<BodyMeshes> meshes;     ///< as Scene::bodies
   std::vector<BodyInertia> inertias;  ///< as Scene::bodies
 };
+
+/// The bus that such a run publishes on; none: nobody asked for one.
+std::optional<BusSettings> busOf(const Scene& scene, const Rig& rig, const RunOptions& options);
+inline std::optional<BusSettings> busOf(const World& world) { return busOf(world.scene, world.rig, world.options); }
 
 /// Reads every mesh the scene names (each file once) and computes mass properties from the physics geometry.
 World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics);

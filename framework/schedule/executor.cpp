@@ -8,7 +8,7 @@ void Executor::stepTimed(RateGroup group, std::uint64_t index, bool made_up, boo
   tick.made_up = made_up;
   tick.resumed = resumed;
   const std::int64_t begin = clock_();
-  if (schedule_ == nullptr) {
+  if (schedule_ == nullptr || !isScheduled(group)) {
     graph_.step(group, tick);
   } else {
     ScheduleRow row;

@@ -68,7 +68,7 @@ class Executor {
 };
 
 /// All groups on the calling thread in virtual time: deterministic to the bit, as fast as the machine goes.
-/// At one instant the slow groups step before the fast ones: dynamics, collision, haptic, view.
+/// At one instant the slow groups step before the fast ones: dynamics, collision, haptic, view, bus.
 class LockstepExecutor final : public Executor {
  public:
   using Executor::Executor;

@@ -26,7 +26,8 @@ void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double 
 }
 
 void LockstepExecutor::run(double duration) {
-  static constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView};
+  static constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView,
+                                     RateGroup::kBus};
   for (RateGroup group : kOrder) graph_.start(group);
 
   std::uint64_t end = rates_.ticksWithin(RateGroup::kHaptic, duration);

@@ -7,7 +7,7 @@ namespace presa {
 
 RateTable::RateTable(const Rates& rates) : haptic_ns_(std::llround(1e9 / rates.haptic)) {
   const auto times = [&](double rate) { return std::max<std::int64_t>(1, std::llround(rates.haptic / rate)); };
-  divisors_ = {1, times(rates.collision), times(rates.dynamics), times(rates.view)};
+  divisors_ = {1, times(rates.collision), times(rates.dynamics), times(rates.view), times(rates.bus)};
 }
 
 Tick RateTable::tick(RateGroup group, std::uint64_t index) const noexcept {

@@ -29,6 +29,7 @@ int priorityOf(RateGroup group) noexcept {
     case RateGroup::kCollision:
       return 50;
     case RateGroup::kView:
+    case RateGroup::kBus:
       return 0;
   }
   return 0;

@@ -4,8 +4,8 @@
 namespace presa {
 
 /// The groups of modules that run together, each at its own rate and, in real time, on its own thread.
-enum class RateGroup : std::uint8_t { kHaptic, kCollision, kDynamics, kView };
-inline constexpr int kRateGroupCount = 4;
+enum class RateGroup : std::uint8_t { kHaptic, kCollision, kDynamics, kView, kBus };
+inline constexpr int kRateGroupCount = 5;
 const char* toString(RateGroup group) noexcept;
 
 /// One step of a rate group. Time is simulated time, index * period exactly, in both executors; no module

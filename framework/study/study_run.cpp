@@ -38,12 +38,13 @@ class StudyRun::Probe final : public Module {
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
 };
 
-StudyRun::StudyRun(const StudySpec& spec, DeviceList devices) {
+StudyRun::StudyRun(const StudySpec& spec, DeviceList devices, const MakeModule& more) {
   Diagnostics diagnostics;
   RunOptions options;
   options.seed = spec.seed;
   options.duration = spec.duration;
   options.force_share = spec.force_share;
+  options.bus = BusSettings{.network = "none"};  // one of many runs, for nobody to look at
   Loaded loaded = loadWorld({spec.scene, spec.rig, spec.sets}, options, diagnostics);
   if (!diagnostics.hasErrors() && devices.empty() && spec.duration <= 0) {
     // the monitor sizes its trace by the duration, which only the devices know
@@ -58,6 +59,7 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices) {
   Session::Options session_options;
   session_options.trace_rate = spec.trace_rate;
   session_options.devices = std::move(devices);
+  if (more) session_options.more.push_back(more(world_));
   auto probe = std::make_unique<Probe>();
   probe_ = probe.get();
   session_options.more.push_back(std::move(probe));

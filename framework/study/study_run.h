@@ -35,8 +35,10 @@ struct StudySample {
 class StudyRun {
  public:
   using Observer = std::function<void(const StudySample&)>;
+  using MakeModule = std::function<std::unique_ptr<Module>(const std::shared_ptr<const World>&)>;
   /// `devices`: used instead of the rig's drivers, in the order of the scene's roles; empty: the rig's.
-  explicit StudyRun(const StudySpec& spec, DeviceList devices = {});
+  /// `more` makes a module that runs with it, such as one that publishes its state.
+  explicit StudyRun(const StudySpec& spec, DeviceList devices = {}, const MakeModule& more = {});
   ~StudyRun();
 
   const World& world() const noexcept { return *world_; }

@@ -101,6 +101,12 @@ void Hud::toggleHelp() { help_->setNodeMask(help_->getNodeMask() == 0 ? ~0U : 0U
 
 void Hud::tell(const std::string& message) { message_->set(message); }
 
+void Hud::setBanner(const std::string& text, bool alarm) {
+  if (!banner_) banner_.emplace(*center_, 0, kHeight / 2 - 34, 15, kInk, Typeface::kBold, Label::Align::kCenter);
+  banner_->set(text);
+  banner_->setColor(alarm ? kAlarm : kInk);
+}
+
 void Hud::addTitle(const World& world) {
   Label title(*left_, kMargin + 2, kHeight - 42, 25, kInk, Typeface::kBold);
   title.set(world.scene.name.empty() ? "scene" : world.scene.name);
@@ -133,26 +139,28 @@ void Hud::addGrip() {
 
 void Hud::addRates(const World& world) {
   const Rates& rates = world.scene.rates;
-  constexpr float kWidth = 268, kTop = kHeight - 18;
-  right_->addChild(roundedPanel({-kMargin - kWidth, kTop - 104, kWidth, 104}, 8, kPanel));
+  constexpr float kWidth = 268, kTop = kHeight - 18, kRow = 19.5F;
+  std::vector<std::pair<RateGroup, double>> groups{{RateGroup::kHaptic, rates.haptic},
+                                                   {RateGroup::kCollision, rates.collision},
+                                                   {RateGroup::kDynamics, rates.dynamics},
+                                                   {RateGroup::kView, rates.view}};
+  if (busOf(world)) groups.emplace_back(RateGroup::kBus, rates.bus);
+  const float height = 26 + kRow * static_cast<float>(groups.size());
+  right_->addChild(roundedPanel({-kMargin - kWidth, kTop - height, kWidth, height}, 8, kPanel));
   const float left = -kMargin - kWidth + 12, right = -kMargin - 12;
   Label head_rate(*right_, right - 82, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
   head_rate.set("rate");
   Label head_missed(*right_, right, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
   head_missed.set("late ticks");
-  const std::array<std::pair<RateGroup, double>, kRateGroupCount> groups{{{RateGroup::kHaptic, rates.haptic},
-                                                                          {RateGroup::kCollision, rates.collision},
-                                                                          {RateGroup::kDynamics, rates.dynamics},
-                                                                          {RateGroup::kView, rates.view}}};
   float y = kTop - 36;
   for (const auto& [group, nominal] : groups) {
     Label name(*right_, left, y, 13, kInk);
     name.set(toString(group));
     rates_.push_back({group, nominal, Label(*right_, right - 82, y, 13, kInk, Typeface::kMono, Label::Align::kRight),
                       Label(*right_, right, y, 13, kInk, Typeface::kMono, Label::Align::kRight)});
-    y -= 19.5F;
+    y -= kRow;
   }
-  output_.emplace(*right_, -kMargin - 4, kTop - 124, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
+  output_.emplace(*right_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
 }
 
 void Hud::addLegend(bool interactive) {

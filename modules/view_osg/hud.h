@@ -26,6 +26,8 @@ class Hud {
   /// Width over height of the picture: what hangs on the right edge moves with it.
   void setAspect(double aspect);
   void toggleHelp();
+  /// A line at the top, until the next one.
+  void setBanner(const std::string& text, bool alarm);
   /// A line above the legend, until the next one.
   void tell(const std::string& message);
 
@@ -55,7 +57,7 @@ class Hud {
   osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;   ///< x = 0 is the right edge
   osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;  ///< origin in the middle
   osg::ref_ptr<osg::Group> help_ = new osg::Group;
-  std::optional<Label> time_, output_, grip_value_, message_;
+  std::optional<Label> time_, banner_, output_, grip_value_, message_;
   std::optional<Bar> grip_bar_;
   std::vector<Card> cards_;
   std::vector<RateLine> rates_;

@@ -74,6 +74,10 @@ void ViewModule::stop() {
   picture_.reset();
 }
 
+void ViewModule::setBanner(const std::string& text, bool alarm) {
+  if (picture_) picture_->hud().setBanner(text, alarm);
+}
+
 void ViewModule::copyPorts(const Tick& tick) {
   frame_.time = tick.time;
   frame_.device = device_state_.value();

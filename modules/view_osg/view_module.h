@@ -27,6 +27,7 @@ class ViewModule final : public View, public WatchedStages {
 
   bool wantsStop() const noexcept override { return wants_stop_.load(std::memory_order_relaxed); }
   Screenshot screenshot() const override { return screenshot_; }
+  void setBanner(const std::string& text, bool alarm) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
 
  private:

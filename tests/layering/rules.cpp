@@ -27,6 +27,7 @@ constexpr std::array kLibraries{
     Library{"(osg[A-Za-z]*|OpenThreads|EGL|X11|GL|GLES[23]?)/.*", "modules/view_osg/"},
     Library{"(hdf5|H5).*", "framework/record/record_plugin/"},
     Library{"openssl/.*", "framework/checksum/checksum_plugin/"},
+    Library{"(dds/.*|RunState\\.h)", "modules/bus_dds/"},
     Library{"libxml/.*", "framework/xml/"},
     Library{"(libusb-1.0/)?libusb\\.h", "devices/novint_falcon/"},
     Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},

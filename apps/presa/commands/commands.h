@@ -19,6 +19,8 @@ void addReplay(CLI::App& app, int& status);
 void addStability(CLI::App& app, int& status);
 void addCost(CLI::App& app, int& status);
 void addExperiment(CLI::App& app, int& status);
+void addView(CLI::App& app, int& status);
+void addBus(CLI::App& app, int& status);
 void addDevice(CLI::App& app, int& status);
 
 }  // namespace presa

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/presa/commands/bus_options.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/explain/cost.h"
 #include "apps/presa/explain/description.h"
@@ -16,12 +17,14 @@ struct Arguments {
   bool cost = false;
   bool record = false;
   std::string view = "none";
+  std::optional<BusSettings> bus;
 };
 
 /// What it leaves goes to `scratch`: nobody asked for it.
 RunOptions optionsOf(const Arguments& arguments, const ScratchFolder& scratch) {
   RunOptions options;
   options.bound_stiffness = true;
+  options.bus = arguments.bus;
   if (arguments.record) {
     options.record = scratch.file("run.h5");
     options.realtime = true;  // a recorder that waits for the disk would hide what it costs a haptic tick
@@ -69,6 +72,7 @@ void addExplain(CLI::App& app, int& status) {
   command->add_flag("--record", arguments->record, "explain a run that is recorded (to a file that is thrown away)");
   command->add_option("--view", arguments->view, "explain a run with this view: window, offscreen or none (default)")
       ->check(CLI::IsMember({"window", "offscreen", "none"}));
+  addBusOptions(*command, arguments->bus, "explain a run that is published");
   command->add_flag("--cost", arguments->cost,
                     "play the scene with its devices and tell time and instructions per tick of each module and\n"
                     "stage; takes up to a minute");

@@ -54,6 +54,7 @@ int runReplay(const Arguments& arguments) {
   RunOptions options;
   options.seed = recording.seed;
   options.force_share = recording.force_share;
+  options.bus = BusSettings{.network = "none"};  // what is run again is not on show
   const Loaded loaded =
       loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);

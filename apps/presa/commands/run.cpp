@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/presa/commands/bus_options.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/machine.h"
 #include "apps/presa/report/report.h"
@@ -59,6 +60,7 @@ std::string commandLine(const Arguments& a) {
     line += text.data();
   }
   for (const std::string& set : a.inputs.sets) line += " --set '" + set + "'";
+  if (a.options.bus) line += " --bus " + a.options.bus->network;
   if (a.options.seed != 1) line += " --seed " + std::to_string(a.options.seed);
   return line;
 }
@@ -120,6 +122,7 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--screenshot", a->options.screenshot,
                       "PNG of the scene, at the middle of the hold when there is one");
   command->add_option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]");
+  addBusOptions(*command, a->options.bus, "publish the state for presa view --join");
   command->add_option("--summary", a->summary, "results as JSON");
   command->add_option("--report", a->report, "results as one HTML page with plots");
   command->add_flag("--quiet", a->quiet, "no status line and no closing text");

@@ -114,7 +114,8 @@ class Timed {
 }  // namespace
 
 std::map<std::string, ModuleTime> measureModuleTimes(Graph& graph, const RateTable& rates, double duration) {
-  static constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView};
+  static constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView,
+                                     RateGroup::kBus};
   std::array<std::vector<Timed>, kRateGroupCount> timed;
   for (const RateGroup group : kOrder) {
     for (std::size_t m = 0; m < graph.modules(group).size(); ++m)

@@ -83,7 +83,7 @@ void FlightBuffer::begin() {
   const std::size_t to_the_end = std::min(filled_, capacity_ - oldest);
   file_->append(&kept_[oldest * layout_.words()], to_the_end);
   if (to_the_end < filled_) file_->append(kept_.data(), filled_ - to_the_end);
-  for (int g = 0; g < kRateGroupCount; ++g) {
+  for (int g = 0; g < kScheduledGroupCount; ++g) {
     const auto& kept = schedule_[static_cast<std::size_t>(g)];
     const std::vector<ScheduleRow> rows(kept.begin(), kept.end());
     if (!rows.empty()) file_->appendSchedule(static_cast<RateGroup>(g), rows.data(), rows.size());

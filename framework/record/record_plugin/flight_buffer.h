@@ -38,7 +38,7 @@ class FlightBuffer final : public RowSink {
   std::size_t capacity_, after_;       // rows
   std::vector<std::uint64_t> kept_;    // a circle of `capacity_` rows
   std::size_t next_ = 0, filled_ = 0;  // rows
-  std::array<std::deque<ScheduleRow>, kRateGroupCount> schedule_;
+  std::array<std::deque<ScheduleRow>, kScheduledGroupCount> schedule_;
   std::unique_ptr<RecordingFile> file_;  // while a fault is being written
   std::size_t missing_ = 0;              // rows that it still wants
   std::uint64_t dropped_ = 0;

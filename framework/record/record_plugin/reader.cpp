@@ -84,7 +84,7 @@ void readTicks(hid_t file, const std::string& name, Recording& recording) {
   const auto fingers = readFingers(file);
   std::size_t count = commonPrefix(ticks, fingers);
   const Table schedule = asIn(file, scheduleTable(), "made_up", 2);
-  for (int g = 0; g < kRateGroupCount; ++g) {
+  for (int g = 0; g < kScheduledGroupCount; ++g) {
     recording.schedule[static_cast<std::size_t>(g)] =
         readTable<ScheduleRow>(file, std::string("schedule/") + toString(static_cast<RateGroup>(g)), schedule);
   }

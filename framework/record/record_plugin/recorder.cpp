@@ -228,7 +228,7 @@ std::size_t FileRecorder::drainBlock() {
 void FileRecorder::drainSchedule() {
   ScheduleLog* schedule = schedule_.load(std::memory_order_acquire);
   if (schedule == nullptr) return;
-  for (int g = 0; g < kRateGroupCount; ++g) {
+  for (int g = 0; g < kScheduledGroupCount; ++g) {
     auto& ring = *schedule->rings[static_cast<std::size_t>(g)];
     std::size_t rows = 0;
     do {

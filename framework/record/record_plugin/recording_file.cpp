@@ -118,7 +118,7 @@ void RecordingFile::create(const World& world) {
     h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
   }
   const h5::Handle schedule = h5::group(file_, "schedule");
-  for (int g = 0; g < kRateGroupCount; ++g) {
+  for (int g = 0; g < kScheduledGroupCount; ++g) {
     schedule_.push_back(createTable(schedule, toString(static_cast<RateGroup>(g)), scheduleTable()));
   }
   describe(world);
@@ -139,7 +139,7 @@ void RecordingFile::describe(const World& world) {
   h5::writeAttribute(file_, "force_share", world.options.force_share);
   h5::writeAttribute(file_, "realtime", std::uint64_t{world.options.realtime});
   h5::writeAttribute(file_, "haptic_period_s", rates.period(RateGroup::kHaptic));
-  for (int g = 0; g < kRateGroupCount; ++g) {
+  for (int g = 0; g < kScheduledGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);
     h5::writeAttribute(file_, std::string("rate_") + toString(group) + "_hz", rates.rate(group));
   }

@@ -1,0 +1,109 @@
+#include <cstdio>
+#include <optional>
+#include <random>
+
+#include "apps/presa/atomic_file.h"
+#include "apps/presa/commands/bus_options.h"
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/remote/measure.h"
+#include "apps/presa/remote/viewer.h"
+#include "apps/presa/terminal/interruption.h"
+#include "framework/state/limits.h"
+
+namespace presa {
+namespace {
+
+void print(const Heard& heard, const char* who) {
+  if (!heard.joined) {
+    std::printf("%s: joined no run\n", who);
+    return;
+  }
+  std::printf("%s: %.1f s, lost %llu of %llu samples, %llu twice, %llu late; thrown away here %llu, never sent %llu\n",
+              who, heard.seconds, static_cast<unsigned long long>(heard.lost),
+              static_cast<unsigned long long>(heard.received + heard.lost),
+              static_cast<unsigned long long>(heard.doubled), static_cast<unsigned long long>(heard.late),
+              static_cast<unsigned long long>(heard.overrun), static_cast<unsigned long long>(heard.refused));
+  std::printf("    latency p50 %.3f ms, p99 %.3f ms, longest %.3f ms\n", 1e3 * heard.latency_p50,
+              1e3 * heard.latency_p99, 1e3 * heard.latency_max);
+}
+
+bool clean(const Heard& heard) {
+  return heard.joined && heard.received > 0 && heard.lost == 0 && heard.overrun == 0 && heard.refused == 0;
+}
+
+void addListen(CLI::App& app, int& status) {
+  struct Arguments {
+    double wait = 10, duration = 10;
+    bool json = false, quiet = false;
+  };
+  auto a = std::make_shared<Arguments>();
+  auto bus = std::make_shared<std::optional<BusSettings>>();
+  CLI::App* command =
+      app.add_subcommand("listen", "Join a run without a picture, and say what is lost and how long it takes");
+  addBusOptions(*command, *bus, "the network that the run is on");
+  command->add_option("--wait", a->wait, "seconds to wait for a run")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--for", a->duration, "seconds to listen")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_flag("--json", a->json, "the figures as JSON");
+  command->add_flag("--quiet", a->quiet, "nothing on stderr");
+  command->footer(
+      "Latencies mean something on the machine of the run only. Exit status: 0 nothing lost, 1 something, 3 no run.");
+  command->callback([=, &status] {
+    const terminal::Interruption interruption;
+    const Heard heard = listen(bus->value_or(BusSettings{}), a->wait, a->duration, a->quiet);
+    if (a->json)
+      std::printf("%s\n", toJson(heard).dump(2).c_str());
+    else
+      print(heard, "listened");
+    status = !heard.joined ? kExitNoRun : clean(heard) ? kExitOk : kExitFault;
+  });
+}
+
+void addMeasure(CLI::App& app, int& status) {
+  auto settings = std::make_shared<MeasureSettings>();
+  auto bus = std::make_shared<std::optional<BusSettings>>();
+  auto out = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("measure", "Objects at 200 Hz to viewers in processes of their own: loss and latency");
+  command->add_option("--objects", settings->objects, "bodies that move")
+      ->check(CLI::Range(1, kMaxBodies))
+      ->capture_default_str();
+  command->add_option("--viewers", settings->viewers, "processes that listen")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command->add_option("--for", settings->duration, "seconds")->check(CLI::Range(0.5, 1e5))->capture_default_str();
+  addBusOptions(*command, *bus, "network to measure (default: loopback, on a domain of its own)");
+  command->add_option("--json", *out, "file for the figures");
+  command->add_flag("--quiet", settings->quiet, "no progress");
+  command->footer(
+      "Exit status: 0 nothing lost, 1 something lost.\nExample:  presa bus measure --objects 120 --viewers 2 --for 60");
+  command->callback([=, &status] {
+    if (*bus)
+      settings->bus = **bus;
+    else
+      settings->bus.domain = 1 + static_cast<int>(std::random_device{}() % kMostBusDomain);  // no other run is there
+    const terminal::Interruption interruption;
+    const std::vector<Heard> heard = measureBus(*settings);
+    auto json = nlohmann::ordered_json::array();
+    status = kExitOk;
+    for (std::size_t v = 0; v < heard.size(); ++v) {
+      print(heard[v], ("viewer " + std::to_string(v + 1)).c_str());
+      json.push_back(toJson(heard[v]));
+      if (!clean(heard[v])) status = kExitFault;
+    }
+    if (!out->empty()) writeFileAtomically(*out, json.dump(2) + "\n");
+    if (terminal::Interruption::came()) status = kExitInterrupted;
+  });
+}
+
+}  // namespace
+
+void addBus(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("bus", "The state of a run on the network: who listens, what is lost");
+  command->require_subcommand(1);
+  addListen(*command, status);
+  addMeasure(*command, status);
+}
+
+}  // namespace presa

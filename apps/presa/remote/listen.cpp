@@ -1,0 +1,83 @@
+#include "apps/presa/remote/listen.h"
+
+#include <cstdio>
+
+#include "apps/presa/remote/join.h"
+#include "apps/presa/terminal/interruption.h"
+#include "framework/bus/remote_picture.h"
+#include "framework/scene/load.h"
+#include "framework/schedule/clock.h"
+
+namespace presa {
+
+Heard listen(const BusSettings& settings, double wait, double duration, bool quiet) {
+  const auto reader = bus::openReader(settings);
+  const auto run = awaitRun(*reader, wait);
+  if (!run) return {};
+  Diagnostics diagnostics;
+  Scene scene = parseScene(run->scene_xml, "scene '" + run->scene_name + "'", ".", {}, diagnostics);
+  const World world = buildWorld(std::move(scene), {}, {}, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  if (!quiet) std::fprintf(stderr, "joined the run of scene '%s'\n", run->scene_name.c_str());
+  bus::RemotePicture picture(world);
+  picture.onRun(*run, monotonicNs());
+  const std::int64_t begin = monotonicNs();
+  double seconds = 0;
+  // taken once a frame, as a viewer does
+  while (seconds < duration && picture.state() != bus::RemotePicture::State::kEnded &&
+         !terminal::Interruption::came()) {
+    sleepUntilNs(monotonicNs() + 16'000'000);
+    reader->take(picture);
+    picture.advance(monotonicNs());
+    seconds = static_cast<double>(monotonicNs() - begin) * 1e-9;
+  }
+  const auto health = picture.health();
+  const DurationHistogram& latency = picture.latency();
+  const auto at = [&](double share) { return static_cast<double>(latency.percentile(share)) * 1e-9; };
+  return {health.received,
+          health.lost,
+          health.doubled,
+          health.late,
+          health.refused,
+          reader->overrun(),
+          seconds,
+          at(0.5),
+          at(0.99),
+          static_cast<double>(latency.max()) * 1e-9,
+          true,
+          picture.state() == bus::RemotePicture::State::kEnded};
+}
+
+nlohmann::ordered_json toJson(const Heard& heard) {
+  return {{"joined", heard.joined},
+          {"ended", heard.ended},
+          {"seconds", heard.seconds},
+          {"received", heard.received},
+          {"lost", heard.lost},
+          {"doubled", heard.doubled},
+          {"late", heard.late},
+          {"never_sent", heard.refused},
+          {"overrun", heard.overrun},
+          {"latency_p50_s", heard.latency_p50},
+          {"latency_p99_s", heard.latency_p99},
+          {"latency_max_s", heard.latency_max}};
+}
+
+Heard heardFrom(const nlohmann::json& json) {
+  Heard heard;
+  heard.joined = json.at("joined");
+  heard.ended = json.at("ended");
+  heard.seconds = json.at("seconds");
+  heard.received = json.at("received");
+  heard.lost = json.at("lost");
+  heard.doubled = json.at("doubled");
+  heard.late = json.at("late");
+  heard.refused = json.at("never_sent");
+  heard.overrun = json.at("overrun");
+  heard.latency_p50 = json.at("latency_p50_s");
+  heard.latency_p99 = json.at("latency_p99_s");
+  heard.latency_max = json.at("latency_max_s");
+  return heard;
+}
+
+}  // namespace presa

@@ -1,0 +1,165 @@
+#include "apps/presa/remote/viewer.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/remote/join.h"
+#include "apps/presa/terminal/interruption.h"
+#include "framework/bus/remote_picture.h"
+#include "framework/graph/graph_builder.h"
+#include "framework/plan/session.h"
+#include "framework/plan/view.h"
+#include "framework/scene/load.h"
+#include "framework/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+using bus::RemotePicture;
+
+/// Puts the remote states where a view looks for them. Group: view, before it.
+class RemoteSource final : public Module {
+ public:
+  RemoteSource(RemotePicture& picture, View*& view)
+      : Module("remote", RateGroup::kView), picture_(picture), view_(view) {}
+  void step(const Tick&) noexcept override {
+    picture_.fill(objects_.value, device_.value, contact_.value, command_.value);
+    if (view_ != nullptr) view_->setBanner(picture_.line(), picture_.alarm());
+  }
+
+ private:
+  RemotePicture& picture_;
+  View*& view_;
+  Out<ObjectState> objects_{*this, "object_state"};
+  Out<DeviceState> device_{*this, "device_state"};
+  Out<ContactExchange> contact_{*this, "contact_exchange"};
+  Out<ForceCommand> command_{*this, "force_command"};
+};
+
+/// What this viewer draws: the run's scene as it was sent, or its own.
+std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::RunInfo& run) {
+  Diagnostics diagnostics;
+  Scene scene = settings.scene.empty()
+                    ? parseScene(run.scene_xml, "scene '" + run.scene_name + "'", ".", {}, diagnostics)
+                    : loadScene(settings.scene, {}, diagnostics);
+  RunOptions options;
+  options.view = settings.view;
+  options.screenshot = settings.screenshot;
+  options.screenshot_time = settings.screenshot_time;
+  options.bus = settings.bus;
+  World world;
+  if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, std::move(options), diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  return std::make_shared<const World>(std::move(world));
+}
+
+/// The picture's clock is that of the run, one period behind; the machine's clock only says when to draw.
+class Viewer {
+ public:
+  Viewer(const ViewerSettings& settings, bus::Reader& reader, const bus::RunInfo& run)
+      : settings_(settings), reader_(reader), world_(worldOf(settings, run)), picture_(*world_) {
+    picture_.onRun(run, monotonicNs());
+    if (settings.view == RunOptions::View::kNone) return;
+    GraphBuilder builder;
+    builder.add(std::make_unique<RemoteSource>(picture_, view_));
+    auto view = makeView(world_);
+    view_ = view.get();
+    builder.add(std::move(view));
+    builder.connectByName();
+    graph_ = builder.build();
+  }
+
+  int show() {
+    graph_.start(RateGroup::kView);
+    const double period = 1 / world_->scene.rates.view;
+    const std::int64_t begin = monotonicNs();
+    std::int64_t next = begin, next_line = begin;
+    Tick tick;
+    tick.period = period;
+    while (!done(begin)) {
+      reader_.take(picture_);
+      picture_.advance(monotonicNs());
+      tick.time = picture_.time();
+      graph_.step(RateGroup::kView, tick);
+      ++tick.index;
+      if (!settings_.quiet && monotonicNs() >= next_line) {
+        say();
+        next_line = monotonicNs() + (isatty(STDERR_FILENO) != 0 ? 100'000'000 : 2'000'000'000);
+      }
+      next = std::max(next + static_cast<std::int64_t>(period * 1e9), monotonicNs());
+      if (picture_.state() != RemotePicture::State::kEnded) sleepUntilNs(next);
+    }
+    graph_.stop(RateGroup::kView);
+    if (!settings_.quiet) say(true);
+    return verdict();
+  }
+
+ private:
+  bool done(std::int64_t begin) {
+    if (terminal::Interruption::came() || (view_ != nullptr && view_->wantsStop())) return true;
+    const double shown = static_cast<double>(monotonicNs() - begin) * 1e-9;
+    if (settings_.duration > 0 && shown >= settings_.duration) return true;
+    return picture_.state() == RemotePicture::State::kEnded && drawn_end_++ > 0;
+  }
+  void say(bool last = false) const {
+    const bool terminal = isatty(STDERR_FILENO) != 0;
+    std::fprintf(stderr, terminal ? "\r\033[K%8.3f s  %s%s" : "%8.3f s  %s%s\n", picture_.time(),
+                 picture_.line().c_str(), terminal && last ? "\n" : "");
+  }
+  int verdict() const {
+    if (picture_.wrongScene()) return kExitBadInput;
+    if (view_ != nullptr) {
+      const View::Screenshot shot = view_->screenshot();
+      if (shot.outcome != View::Screenshot::Outcome::kNotAsked) std::fprintf(stderr, "%s\n", shot.message.c_str());
+      if (shot.outcome == View::Screenshot::Outcome::kFailed) return kExitFault;
+    }
+    return terminal::Interruption::came() ? kExitInterrupted : kExitOk;
+  }
+
+  const ViewerSettings& settings_;
+  bus::Reader& reader_;
+  std::shared_ptr<const World> world_;
+  RemotePicture picture_;
+  View* view_ = nullptr;  // owned by the graph
+  Graph graph_;
+  int drawn_end_ = 0;
+};
+
+}  // namespace
+
+RunOptions::View chooseRemoteView(const std::string& wanted, bool screenshot) {
+  if (wanted == "window") return RunOptions::View::kWindow;
+  if (wanted == "offscreen") return RunOptions::View::kOffscreen;
+  if (wanted == "none") return RunOptions::View::kNone;
+  const char* display = std::getenv("DISPLAY");
+  if (display != nullptr && *display != '\0') return RunOptions::View::kWindow;
+  return screenshot ? RunOptions::View::kOffscreen : RunOptions::View::kNone;
+}
+
+int showRemote(const ViewerSettings& settings) {
+  if (settings.view == RunOptions::View::kNone && !settings.screenshot.empty()) {
+    Diagnostics diagnostics;
+    diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none",
+                      "use --view offscreen");
+    throw InputError(diagnostics);
+  }
+  const terminal::Interruption interruption;
+  const auto reader = bus::openReader(settings.bus);
+  const auto run = awaitRun(*reader, settings.wait);
+  if (!run) {
+    if (terminal::Interruption::came()) return kExitInterrupted;
+    std::fprintf(stderr,
+                 "bus: error[E722]: no run on network %s, domain %d, within %g s\n"
+                 "  help: start it with presa run SCENE --bus %s, or wait longer: --wait S\n",
+                 settings.bus.network.c_str(), settings.bus.domain, settings.wait, settings.bus.network.c_str());
+    return kExitNoRun;
+  }
+  if (!settings.quiet) std::fprintf(stderr, "joined the run of scene '%s'\n", run->scene_name.c_str());
+  return Viewer(settings, *reader, *run).show();
+}
+
+}  // namespace presa

@@ -1,0 +1,38 @@
+#pragma once
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include "framework/bus/state_bus.h"
+
+namespace presa::bus {
+
+/// What has arrived for one reader and was not taken yet. Any threads put in, one takes out; they share a lock, so that neither may
+/// be the haptic thread.
+class Inbox {
+ public:
+  using Item = std::variant<ObjectSample, FingerSample, Beat, Event, RunInfo>;
+
+  /// Beyond so many items the newest are thrown away and counted.
+  explicit Inbox(std::size_t capacity) : capacity_(capacity) {}
+  void put(const Item& item, std::int64_t received_ns);
+  void take(Listener& listener);
+  void wait(double seconds);
+  std::uint64_t overrun() const;
+
+ private:
+  struct Received {
+    Item item;
+    std::int64_t at_ns;
+  };
+  const std::size_t capacity_;
+  mutable std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::vector<Received> items_;
+  std::vector<Received> taken_;  // the reader's; swapped, so that memory is kept
+  std::uint64_t overrun_ = 0;
+};
+
+}  // namespace presa::bus

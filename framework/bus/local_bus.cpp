@@ -1,0 +1,76 @@
+#include "framework/bus/local_bus.h"
+
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "framework/bus/inbox.h"
+#include "framework/schedule/clock.h"
+
+namespace presa::bus {
+
+struct LocalBus::Hub {
+  explicit Hub(std::size_t most) : capacity(most) {}
+  void send(const Inbox::Item& item) {
+    const std::int64_t now = monotonicNs();
+    for (Inbox* inbox : inboxes) inbox->put(item, now);
+  }
+
+  std::size_t capacity;
+  std::mutex mutex;
+  std::vector<Inbox*> inboxes;
+  std::optional<RunInfo> run;  // for who comes later
+};
+
+class LocalBus::LocalWriter final : public Writer {
+ public:
+  explicit LocalWriter(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {}
+  void announce(const RunInfo& run) override {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->run = run;
+    hub_->send(run);
+  }
+  std::uint64_t publish(const Snapshot& snapshot) noexcept override {
+    const std::lock_guard lock(hub_->mutex);
+    for (const ObjectSample& sample : snapshot.objects) hub_->send(sample);
+    for (const FingerSample& sample : snapshot.fingers) hub_->send(sample);
+    hub_->send(snapshot.beat);
+    return 0;
+  }
+  void publish(const Event& event) noexcept override {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->send(event);
+  }
+  void finish() noexcept override {}
+
+ private:
+  std::shared_ptr<Hub> hub_;
+};
+
+class LocalBus::LocalReader final : public Reader {
+ public:
+  explicit LocalReader(std::shared_ptr<Hub> hub) : hub_(std::move(hub)), inbox_(hub_->capacity) {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->inboxes.push_back(&inbox_);
+    if (hub_->run) inbox_.put(*hub_->run, monotonicNs());
+  }
+  ~LocalReader() override {
+    const std::lock_guard lock(hub_->mutex);
+    std::erase(hub_->inboxes, &inbox_);
+  }
+  void take(Listener& listener) override { inbox_.take(listener); }
+  void wait(double seconds) override { inbox_.wait(seconds); }
+  std::uint64_t overrun() const override { return inbox_.overrun(); }
+
+ private:
+  std::shared_ptr<Hub> hub_;
+  Inbox inbox_;
+};
+
+LocalBus::LocalBus(std::size_t capacity) : hub_(std::make_shared<Hub>(capacity)) {}
+LocalBus::~LocalBus() = default;
+std::unique_ptr<Writer> LocalBus::writer() { return std::make_unique<LocalWriter>(hub_); }
+std::unique_ptr<Reader> LocalBus::reader() { return std::make_unique<LocalReader>(hub_); }
+
+}  // namespace presa::bus

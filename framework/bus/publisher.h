@@ -1,0 +1,49 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "framework/bus/state_bus.h"
+#include "framework/graph/port.h"
+#include "framework/scene/world.h"
+#include "framework/state/object_state.h"
+
+namespace presa::bus {
+
+/// Publishes a run: every free body and every finger once a tick of the bus group. It only reads its ports, which the haptic thread
+/// fills without waiting; nothing comes back. Ports, all optional: device_state, contact_exchange, force_command, object_state.
+class Publisher final : public Module {
+ public:
+  using Open = std::function<std::unique_ptr<Writer>()>;
+  /// `open` is called in start(), on the thread of the group; it may throw InputError.
+  Publisher(std::shared_ptr<const World> world, Open open);
+  ~Publisher() override;
+  void start() override;
+  void step(const Tick& tick) noexcept override;
+  void stop() override;
+  std::vector<std::string> stages() const override;
+
+ private:
+  void fillObjects(const Stamp& stamp) noexcept;
+  void fillFingers(const Stamp& stamp) noexcept;
+  void tellEvents(const Stamp& stamp) noexcept;
+
+  std::shared_ptr<const World> world_;
+  Open open_;
+  In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
+  In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
+  In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
+  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+
+  std::unique_ptr<Writer> writer_;
+  std::uint64_t run_ = 0;
+  Beat beat_;
+  std::vector<ObjectSample> object_samples_;
+  std::vector<FingerSample> finger_samples_;
+  std::uint32_t told_status_ = 0, told_faults_ = 0;
+};
+
+/// A number for a run that no other has: random, not 0.
+std::uint64_t newRunId();
+
+}  // namespace presa::bus

@@ -1,0 +1,83 @@
+#include "framework/bus/scene_hash.h"
+
+#include <bit>
+#include <string_view>
+
+namespace presa::bus {
+namespace {
+
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    for (unsigned shift = 0; shift < 64; shift += 8) addByte(static_cast<std::uint8_t>(word >> shift));
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(std::string_view text) {
+    for (const char c : text) addByte(static_cast<std::uint8_t>(c));
+    addByte(0);
+  }
+  void add(const Vec3& v) {
+    for (const double x : v) add(x);
+  }
+  void add(const Pose& X) {
+    add(X.p);
+    for (const double x : {X.q.w(), X.q.x(), X.q.y(), X.q.z()}) add(x);
+  }
+  void add(const TriMesh& mesh) {
+    for (const Vec3& vertex : mesh.vertices) add(vertex);
+    for (const TriMesh::Triangle& triangle : mesh.triangles) {
+      for (const std::int32_t index : triangle) add(static_cast<std::uint64_t>(index));
+    }
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void addByte(std::uint8_t byte) {
+    value_ ^= byte;
+    value_ *= 0x100000001b3ULL;
+  }
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+struct AddShape {
+  Hash& hash;
+  void operator()(const MeshRef& mesh) const { hash.add(mesh.scale); }
+  void operator()(const Box& box) const { hash.add(box.size); }
+  void operator()(const Sphere& sphere) const { hash.add(sphere.radius); }
+  void operator()(const Cylinder& rod) const { addRod(rod.radius, rod.length); }
+  void operator()(const Capsule& rod) const { addRod(rod.radius, rod.length); }
+  void addRod(double radius, double length) const {
+    hash.add(radius);
+    hash.add(length);
+  }
+};
+
+void addGeometry(Hash& hash, const std::optional<Geometry>& geometry, const TriMesh* mesh) {
+  hash.add(std::uint64_t{geometry ? geometry->shape.index() + 1 : 0});
+  if (!geometry) return;
+  hash.add(geometry->X_BG);
+  std::visit(AddShape{hash}, geometry->shape);
+  if (mesh != nullptr) hash.add(*mesh);
+}
+
+}  // namespace
+
+std::uint64_t sceneHash(const World& world) {
+  Hash hash;
+  for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
+    const Body& body = world.scene.bodies[b];
+    hash.add(body.name);
+    hash.add(std::uint64_t{body.fixed});
+    hash.add(body.X_WB);
+    addGeometry(hash, body.visual, world.meshes[b].visual.get());
+    addGeometry(hash, body.haptic, world.meshes[b].haptic.get());
+    addGeometry(hash, body.physics, world.meshes[b].physics.get());
+  }
+  for (const DeviceRole& device : world.scene.devices) {
+    hash.add(device.role);
+    hash.add(device.fingertip_radius);
+  }
+  return hash.value();
+}
+
+}  // namespace presa::bus

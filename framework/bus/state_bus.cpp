@@ -1,0 +1,18 @@
+#include "framework/bus/state_bus.h"
+
+#include "framework/plan/plugin_loader.h"
+
+namespace presa::bus {
+
+// The plug-in returns what it made as a plain pointer, which changes hands here.
+std::unique_ptr<Writer> openWriter(const BusSettings& settings) {
+  using Open = Writer* (*)(const BusSettings&);
+  return std::unique_ptr<Writer>(reinterpret_cast<Open>(pluginSymbol("bus_dds", "presaOpenBusWriter"))(settings));
+}
+
+std::unique_ptr<Reader> openReader(const BusSettings& settings) {
+  using Open = Reader* (*)(const BusSettings&);
+  return std::unique_ptr<Reader>(reinterpret_cast<Open>(pluginSymbol("bus_dds", "presaOpenBusReader"))(settings));
+}
+
+}  // namespace presa::bus

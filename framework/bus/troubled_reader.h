@@ -1,0 +1,38 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "framework/bus/state_bus.h"
+#include "framework/math/random.h"
+
+namespace presa::bus {
+
+/// A reader with a bad network before it: loses, doubles and holds back samples of objects, fingers and beats, as a stream of random
+/// numbers says. Loopback loses nothing when asked to, so this does.
+class TroubledReader final : public Reader {
+ public:
+  /// Shares of samples in [0, 1]; what is held back comes with the next take().
+  struct Trouble {
+    double lose = 0, twice = 0, hold_back = 0;
+  };
+  TroubledReader(std::unique_ptr<Reader> reader, Trouble trouble, std::uint64_t seed);
+  ~TroubledReader() override;
+  void take(Listener& listener) override;
+  void wait(double seconds) override { reader_->wait(seconds); }
+  std::uint64_t overrun() const override { return reader_->overrun(); }
+  std::uint64_t lost() const noexcept { return lost_; }
+  std::uint64_t doubled() const noexcept { return doubled_; }
+  std::uint64_t heldBack() const noexcept { return held_back_; }
+  void change(Trouble trouble) noexcept { trouble_ = trouble; }
+
+ private:
+  class Filter;
+  std::unique_ptr<Reader> reader_;
+  Trouble trouble_;
+  RandomStream random_;
+  std::vector<std::function<void(Listener&)>> held_;
+  std::uint64_t lost_ = 0, doubled_ = 0, held_back_ = 0;
+};
+
+}  // namespace presa::bus

@@ -1,0 +1,117 @@
+#include "modules/bus_dds/convert.h"
+
+#include <algorithm>
+
+namespace presa::bus_dds {
+namespace {
+
+presa_dds_Stamp toTopic(const bus::Stamp& stamp) noexcept {
+  return {stamp.run, stamp.sequence, stamp.time, stamp.sent_ns};
+}
+bus::Stamp fromTopic(const presa_dds_Stamp& stamp) noexcept {
+  return {stamp.run, stamp.number, stamp.time, stamp.sent_ns};
+}
+void put(const Vec3& v, presa_dds_Vector& out) noexcept { std::copy_n(v.data(), 3, out); }
+Vec3 vec3(const presa_dds_Vector& v) noexcept { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+presa_dds_ObjectState toTopic(const bus::ObjectSample& sample) noexcept {
+  presa_dds_ObjectState out{};
+  out.body = sample.body;
+  out.stamp = toTopic(sample.stamp);
+  put(sample.X_WB.p, out.position);
+  const Quat& q = sample.X_WB.q;
+  std::ranges::copy(std::array{q.w(), q.x(), q.y(), q.z()}, out.orientation);
+  put(sample.v_WB, out.velocity);
+  put(sample.w_WB, out.angular_velocity);
+  out.asleep = sample.asleep;
+  return out;
+}
+
+bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept {
+  bus::ObjectSample out;
+  out.body = sample.body;
+  out.stamp = fromTopic(sample.stamp);
+  const double* q = sample.orientation;
+  out.X_WB = {vec3(sample.position), Quat(q[0], q[1], q[2], q[3])};
+  out.v_WB = vec3(sample.velocity);
+  out.w_WB = vec3(sample.angular_velocity);
+  out.asleep = sample.asleep;
+  return out;
+}
+
+presa_dds_DeviceState toTopic(const bus::FingerSample& sample) noexcept {
+  presa_dds_DeviceState out{};
+  const FingerContact& contact = sample.contact;
+  out.finger = sample.finger;
+  out.stamp = toTopic(sample.stamp);
+  out.valid = sample.valid;
+  put(sample.p_WH, out.hip);
+  out.mode = static_cast<std::int32_t>(contact.mode);
+  out.body = contact.body;
+  put(contact.p_WP, out.proxy);
+  put(contact.p_BP, out.proxy_on_body);
+  put(contact.p_BC, out.touched_on_body);
+  put(contact.nhat_B, out.normal_on_body);
+  out.friction_static = contact.friction_static;
+  out.friction_dynamic = contact.friction_dynamic;
+  out.normal_force = contact.normal_force;
+  put(contact.tangential_force_W, out.tangential_force);
+  put(contact.f_H_W, out.rendered_force);
+  put(sample.f_H_W, out.held_force);
+  return out;
+}
+
+bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept {
+  bus::FingerSample out;
+  out.finger = sample.finger;
+  out.stamp = fromTopic(sample.stamp);
+  out.valid = sample.valid;
+  out.p_WH = out.contact.p_WH = vec3(sample.hip);
+  FingerContact& contact = out.contact;
+  contact.mode = static_cast<ContactMode>(std::clamp(sample.mode, 0, 2));
+  contact.body = sample.body;
+  contact.p_WP = vec3(sample.proxy);
+  contact.p_BP = vec3(sample.proxy_on_body);
+  contact.p_BC = vec3(sample.touched_on_body);
+  contact.nhat_B = vec3(sample.normal_on_body);
+  contact.friction_static = sample.friction_static;
+  contact.friction_dynamic = sample.friction_dynamic;
+  contact.normal_force = sample.normal_force;
+  contact.tangential_force_W = vec3(sample.tangential_force);
+  contact.f_H_W = vec3(sample.rendered_force);
+  out.f_H_W = vec3(sample.held_force);
+  return out;
+}
+
+presa_dds_Beat toTopic(const bus::Beat& beat) noexcept {
+  return {toTopic(beat.stamp), beat.objects, beat.fingers, beat.output_status,
+          beat.object_faults,  beat.refused, beat.last};
+}
+bus::Beat fromTopic(const presa_dds_Beat& beat) noexcept {
+  return {fromTopic(beat.stamp), beat.objects, beat.fingers, beat.output_status,
+          beat.object_faults,    beat.refused, beat.last};
+}
+
+presa_dds_Event toTopic(const bus::Event& event) noexcept {
+  return {toTopic(event.stamp), static_cast<std::int32_t>(event.kind), event.bits};
+}
+bus::Event fromTopic(const presa_dds_Event& event) noexcept {
+  return {fromTopic(event.stamp), static_cast<bus::Event::Kind>(event.kind), event.bits};
+}
+
+presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept {
+  // the generated type has no const, and writing changes nothing
+  return {run.run,
+          run.scene_hash,
+          run.period,
+          run.realtime,
+          const_cast<char*>(run.scene_name.c_str()),
+          const_cast<char*>(run.scene_xml.c_str())};
+}
+bus::RunInfo fromTopic(const presa_dds_SceneInfo& run) {
+  return {run.run, run.scene_hash, run.period, run.realtime, run.scene_name, run.scene_xml};
+}
+
+}  // namespace presa::bus_dds

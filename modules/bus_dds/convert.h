@@ -1,0 +1,22 @@
+#pragma once
+#include <RunState.h>
+
+#include "framework/bus/samples.h"
+
+/// Between the samples of framework/bus and the types of the topics. Numbers pass unchanged, to the bit.
+namespace presa::bus_dds {
+
+presa_dds_ObjectState toTopic(const bus::ObjectSample& sample) noexcept;
+presa_dds_DeviceState toTopic(const bus::FingerSample& sample) noexcept;
+presa_dds_Beat toTopic(const bus::Beat& beat) noexcept;
+presa_dds_Event toTopic(const bus::Event& event) noexcept;
+/// Its texts are those of `run`, which has to outlive it.
+presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept;
+
+bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept;
+bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept;
+bus::Beat fromTopic(const presa_dds_Beat& beat) noexcept;
+bus::Event fromTopic(const presa_dds_Event& event) noexcept;
+bus::RunInfo fromTopic(const presa_dds_SceneInfo& run);
+
+}  // namespace presa::bus_dds

@@ -1,0 +1,65 @@
+#include "modules/bus_dds/convert.h"
+#include "modules/bus_dds/dds_bus.h"
+#include "modules/bus_dds/participant.h"
+
+namespace presa::bus_dds {
+namespace {
+
+constexpr dds_duration_t kPatience = DDS_MSECS(100);  // with viewers that have not confirmed the end
+
+/// A publication goes out in as few packets as it fits: written sample by sample into a batch, then flushed.
+class DdsWriter final : public bus::Writer {
+ public:
+  explicit DdsWriter(const BusSettings& settings) : joined_(join(settings)) {
+    dds_write_set_batch(true);
+    const auto writer = [&](const Entity& topic, const Qos& qos) {
+      return checked(dds_create_writer(joined_->participant, topic, qos.get(), nullptr), "a writer");
+    };
+    objects_ = writer(joined_->objects, stateQos());
+    fingers_ = writer(joined_->fingers, stateQos());
+    beats_ = writer(joined_->beats, stateQos());
+    events_ = writer(joined_->events, eventQos());
+    scenes_ = writer(joined_->scenes, sceneQos());
+  }
+
+  void announce(const bus::RunInfo& run) override {
+    const presa_dds_SceneInfo info = toTopic(run);
+    dds_write(scenes_, &info);
+    dds_write_flush(scenes_);
+  }
+
+  std::uint64_t publish(const bus::Snapshot& snapshot) noexcept override {
+    std::uint64_t refused = 0;
+    for (const bus::ObjectSample& sample : snapshot.objects) refused += write(objects_, toTopic(sample));
+    dds_write_flush(objects_);
+    for (const bus::FingerSample& sample : snapshot.fingers) refused += write(fingers_, toTopic(sample));
+    dds_write_flush(fingers_);
+    refused += write(beats_, toTopic(snapshot.beat));
+    dds_write_flush(beats_);
+    return refused;
+  }
+
+  void publish(const bus::Event& event) noexcept override {
+    write(events_, toTopic(event));
+    dds_write_flush(events_);
+  }
+
+  void finish() noexcept override {
+    for (const Entity* writer : {&objects_, &fingers_, &beats_, &events_}) dds_wait_for_acks(*writer, kPatience);
+  }
+
+ private:
+  template <class Topic>
+  static std::uint64_t write(const Entity& writer, const Topic& sample) noexcept {
+    return dds_write(writer, &sample) == DDS_RETCODE_OK ? 0 : 1;
+  }
+
+  std::shared_ptr<Participant> joined_;
+  Entity objects_, fingers_, beats_, events_, scenes_;
+};
+
+}  // namespace
+
+std::unique_ptr<bus::Writer> makeWriter(const BusSettings& settings) { return std::make_unique<DdsWriter>(settings); }
+
+}  // namespace presa::bus_dds

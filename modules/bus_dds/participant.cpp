@@ -1,0 +1,145 @@
+#include "modules/bus_dds/participant.h"
+
+#include <RunState.h>
+#include <dds/ddsrt/log.h>
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "framework/diagnostics/refuse.h"
+
+namespace presa::bus_dds {
+namespace {
+
+constexpr int kKept = 32;  // publications
+
+// Everything said here, so that no file and no environment variable of the machine changes where the state goes.
+// - Peers, ParticipantIndex: without multicast the viewers' ports are tried one by one.
+// - LeaseDuration: packets to a viewer that was killed end so soon.
+// - SocketReceiveBufferSize: a viewer may be off the processor for half a second and lose nothing.
+// - WhcHigh: far above what kKept publications of the largest scene need, so that a reader that stands still slows nobody.
+std::string configuration(const std::string& network) {
+  std::string interface = "<NetworkInterface autodetermine=\"true\"/>", multicast = "spdp", peers;
+  if (network == "loopback") {
+    interface = "<NetworkInterface name=\"lo\" multicast=\"false\"/>";
+    multicast = "false";
+    peers = "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
+  } else if (network.starts_with("lan:")) {
+    interface = "<NetworkInterface name=\"" + network.substr(4) + "\"/>";
+  }
+  return "<CycloneDDS><Domain Id=\"any\"><General><Interfaces>" + interface + "</Interfaces><AllowMulticast>" +
+         multicast +
+         "</AllowMulticast></General>"
+         "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>64</MaxAutoParticipantIndex>"
+         "<LeaseDuration>2 s</LeaseDuration>" +
+         peers +
+         "</Discovery><Internal><SocketReceiveBufferSize min=\"default\" max=\"4 MB\"/>"
+         "<Watermarks><WhcHigh>32 MB</WhcHigh></Watermarks></Internal>"
+         "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>";
+}
+
+/// What Cyclone last complained about, in its words: told with an error, and not on the terminal, where a cable that is out would fill
+/// hundreds of lines a second; the viewers say that the bus is silent.
+class Complaint {
+ public:
+  static void listen() { dds_set_log_sink(&Complaint::note, nullptr); }
+  static std::string last() {
+    const std::lock_guard lock(mutex());
+    return text();
+  }
+
+ private:
+  static void note(void*, const dds_log_data_t* entry) {
+    std::string message(entry->message);
+    while (!message.empty() && message.back() == '\n') message.pop_back();
+    const std::lock_guard lock(mutex());
+    text() = std::move(message);
+  }
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  static std::string& text() {
+    static std::string one;
+    return one;
+  }
+};
+
+std::shared_ptr<Participant> open(const BusSettings& settings) {
+  Complaint::listen();
+  auto joined = std::make_shared<Participant>();
+  const auto id = static_cast<dds_domainid_t>(settings.domain);
+  joined->domain = checked(dds_create_domain(id, configuration(settings.network).c_str()),
+                           ("the network '" + settings.network + "'").c_str());
+  joined->participant =
+      checked(dds_create_participant(id, nullptr, nullptr), ("the network '" + settings.network + "'").c_str());
+  const auto topic = [&](const dds_topic_descriptor_t& type, const char* name) {
+    return checked(dds_create_topic(joined->participant, &type, name, nullptr, nullptr), name);
+  };
+  joined->objects = topic(presa_dds_ObjectState_desc, "presa_object_state");
+  joined->fingers = topic(presa_dds_DeviceState_desc, "presa_device_state");
+  joined->beats = topic(presa_dds_Beat_desc, "presa_beat");
+  joined->events = topic(presa_dds_Event_desc, "presa_event");
+  joined->scenes = topic(presa_dds_SceneInfo_desc, "presa_scene");
+  return joined;
+}
+
+Qos reliable() {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  return qos;
+}
+
+}  // namespace
+
+Entity checked(dds_entity_t handle, const char* what) {
+  if (handle > 0) return Entity(handle);
+  const std::string complaint = Complaint::last();
+  refuse(720, "bus",
+         std::string("cannot use ") + what + ": " + dds_strretcode(-handle) +
+             (complaint.empty() ? "" : " (" + complaint + ")"),
+         "ip link shows the interfaces; --bus loopback needs none but lo");
+}
+
+std::shared_ptr<Participant> join(const BusSettings& settings) {
+  struct Known {
+    std::string network;
+    std::weak_ptr<Participant> participant;
+  };
+  static std::mutex mutex;
+  static std::map<int, Known> known;
+  const std::lock_guard lock(mutex);
+  Known& entry = known[settings.domain];
+  if (auto joined = entry.participant.lock()) {
+    if (entry.network != settings.network)
+      refuse(721, "bus", "domain " + std::to_string(settings.domain) + " is in use on network " + entry.network,
+             "another --domain");
+    return joined;
+  }
+  auto joined = open(settings);
+  entry = {settings.network, joined};
+  return joined;
+}
+
+Qos stateQos() {
+  Qos qos = reliable();
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kKept);
+  return qos;
+}
+
+Qos eventQos() {
+  Qos qos = reliable();
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kKept);
+  return qos;
+}
+
+Qos sceneQos() {
+  Qos qos = reliable();
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  return qos;
+}
+
+}  // namespace presa::bus_dds

@@ -1,0 +1,36 @@
+#include "framework/plan/plugin.h"
+
+#include <dds/version.h>
+
+#include "framework/bus/publisher.h"
+#include "modules/bus_dds/dds_bus.h"
+
+namespace presa::bus_dds {
+namespace {
+
+std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
+  const BusSettings settings = busOf(*world).value_or(BusSettings{});
+  return std::make_unique<bus::Publisher>(std::move(world), [settings] { return makeWriter(settings); });
+}
+
+std::string library() { return "Cyclone DDS " DDS_VERSION; }
+
+const ModulePlugin kPlugin{.name = "bus_dds",
+                           .summary = "publishes the state for viewers, on this machine or on others",
+                           .create = &create,
+                           .library = &library};
+
+}  // namespace
+}  // namespace presa::bus_dds
+
+PRESA_MODULE_PLUGIN(presa::bus_dds::kPlugin)
+
+extern "C" __attribute__((visibility("default"))) presa::bus::Writer* presaOpenBusWriter(
+    const presa::BusSettings& settings) {
+  return presa::bus_dds::makeWriter(settings).release();
+}
+
+extern "C" __attribute__((visibility("default"))) presa::bus::Reader* presaOpenBusReader(
+    const presa::BusSettings& settings) {
+  return presa::bus_dds::makeReader(settings).release();
+}

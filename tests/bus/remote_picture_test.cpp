@@ -1,0 +1,269 @@
+#include "framework/bus/remote_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/bus/local_bus.h"
+#include "framework/bus/scene_hash.h"
+#include "framework/bus/troubled_reader.h"
+#include "framework/scene/load.h"
+
+namespace presa::bus {
+namespace {
+
+constexpr double kPeriod = 0.005;
+
+World worldOf(const std::string& size = "0.1") {
+  Diagnostics diagnostics;
+  const std::string xml = R"(<scene version="1.0" name="s"><world gravity="0 0 0"/>
+    <materials><material name="wood" stiffness="1000"/></materials>
+    <body name="table" fixed="true"><haptic><box size="1 1 )" +
+                          size + R"("/></haptic></body>
+    <body name="a"><physics mass="1"><sphere radius="0.1"/></physics></body>
+    <devices><device role="thumb"/></devices></scene>)";
+  Scene scene = parseScene(xml, "test", ".", {}, diagnostics);
+  World world = buildWorld(std::move(scene), {}, {}, diagnostics);
+  EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  return world;
+}
+
+std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
+
+/// Where the body is at t [m]: it moves along x with 1 m/s, so that positions are times.
+double where(double t) { return t; }
+
+/// A run that exists on the wire only, and one who looks at it. `delay`: from sender to here [s].
+struct Wire {
+  explicit Wire(const World& world) : world_hash(sceneHash(world)), picture(world) {}
+  void announce(std::uint64_t id) {
+    run = {id, world_hash, kPeriod, false, "s", "<scene/>"};
+    sequence = 0;
+    picture.onRun(run, ns(clock));
+  }
+  Stamp stampOf(std::uint64_t number) const {
+    return {run.run, number, static_cast<double>(number - 1) * kPeriod, ns(clock)};
+  }
+  void send(std::uint64_t number, double delay = 0) {
+    ObjectSample object;
+    object.stamp = stampOf(number);
+    object.body = 1;
+    object.X_WB.p.x() = where(object.stamp.time);
+    picture.onObject(object, ns(clock + delay));
+    FingerSample finger;
+    finger.stamp = object.stamp;
+    finger.finger = 0;
+    finger.valid = true;
+    finger.p_WH.x() = 2 * where(object.stamp.time);
+    picture.onFinger(finger, ns(clock + delay));
+    Beat beat;
+    beat.stamp = object.stamp;
+    picture.onBeat(beat, ns(clock + delay));
+  }
+  /// So many periods, all of them sent and received at once.
+  void go(int periods) {
+    for (int i = 0; i < periods; ++i) {
+      send(++sequence);
+      picture.advance(ns(clock));
+      clock += kPeriod;
+    }
+  }
+  double shown() {
+    picture.fill(objects, device, contact, command);
+    return objects.bodies[1].X_WB_end.p.x();
+  }
+
+  std::uint64_t world_hash;
+  RemotePicture picture;
+  RunInfo run;
+  std::uint64_t sequence = 0;
+  double clock = 1000;  // of the viewer, which has nothing to do with the run's
+  ObjectState objects;
+  DeviceState device;
+  ContactExchange contact;
+  ForceCommand command;
+};
+
+// One period behind, interpolated at any moment between two samples: a straight motion is shown without error.
+TEST(RemotePicture, ShowsThePastPeriodWithoutError) {
+  Wire wire(worldOf());
+  wire.announce(7);
+  wire.go(20);
+  const double newest = 19 * kPeriod, received = wire.clock - kPeriod;
+  for (const double later : {0.0, 0.1, 0.3, 0.5, 0.9, 1.0}) {
+    wire.picture.advance(ns(received + later * kPeriod));
+    const double expected = newest - kPeriod + later * kPeriod;
+    EXPECT_NEAR(wire.picture.time(), expected, 2e-9);  // the clock counts whole nanoseconds
+    EXPECT_NEAR(wire.shown(), where(wire.picture.time()), 1e-12);
+    EXPECT_NEAR(wire.device.fingers[0].p_WH.x(), 2 * where(wire.picture.time()), 1e-12);
+    EXPECT_TRUE(wire.device.fingers[0].valid);
+  }
+  // never ahead of what is known
+  wire.picture.advance(ns(received + 3 * kPeriod));
+  EXPECT_EQ(wire.picture.time(), newest);
+}
+
+TEST(RemotePicture, BridgesALostSampleAndTakesALateOne) {
+  Wire wire(worldOf());
+  wire.announce(7);
+  wire.go(10);
+  wire.sequence += 2;  // 11 and 12 are lost, or late
+  wire.clock += 2 * kPeriod;
+  wire.go(1);
+  wire.picture.advance(ns(wire.clock - kPeriod));
+  EXPECT_NEAR(wire.shown(), where(11 * kPeriod), 1e-12);  // between 10 and 13
+  EXPECT_EQ(wire.picture.health().lost, 6u);              // object, finger and beat of each
+  wire.send(12);
+  wire.send(12);
+  EXPECT_EQ(wire.picture.health().lost, 3u);
+  EXPECT_EQ(wire.picture.health().late, 3u);
+  EXPECT_EQ(wire.picture.health().doubled, 3u);
+  EXPECT_EQ(wire.picture.health().received, 3u * 12);
+  EXPECT_NEAR(wire.shown(), where(11 * kPeriod), 1e-12);
+}
+
+// Packets that come late now and then do not pull the picture to and fro: time goes on evenly.
+TEST(RemotePicture, GoesOnEvenlyUnderJitter) {
+  Wire wire(worldOf());
+  wire.announce(7);
+  wire.go(20);
+  wire.picture.advance(ns(wire.clock));
+  RandomStream random(1, "jitter");
+  double before = wire.picture.time();
+  for (int i = 0; i < 400; ++i) {
+    wire.send(++wire.sequence, random.uniform(0, 0.8 * kPeriod));
+    wire.clock += kPeriod;
+    wire.picture.advance(ns(wire.clock));
+    EXPECT_NEAR(wire.picture.time() - before, kPeriod, 0.02 * kPeriod) << i;
+    before = wire.picture.time();
+  }
+}
+
+TEST(RemotePicture, FreezesAndComesBack) {
+  Wire wire(worldOf());
+  wire.announce(7);
+  wire.go(50);
+  EXPECT_EQ(wire.picture.state(), RemotePicture::State::kLive);
+  const double last = 49 * kPeriod;
+  wire.clock += 1.0 - kPeriod;
+  wire.picture.advance(ns(wire.clock));
+  EXPECT_EQ(wire.picture.state(), RemotePicture::State::kFrozen);
+  EXPECT_TRUE(wire.picture.alarm());
+  EXPECT_NE(wire.picture.line().find("FROZEN: nothing on the bus for 1.0 s"), std::string::npos) << wire.picture.line();
+  EXPECT_EQ(wire.shown(), where(last));
+  EXPECT_TRUE(wire.device.fingers[0].valid);  // the whole picture stands
+  // meanwhile the run went on: 200 publications are lost, and the next is shown at once
+  wire.sequence += 200;
+  wire.go(2);
+  EXPECT_EQ(wire.picture.state(), RemotePicture::State::kLive);
+  EXPECT_FALSE(wire.picture.alarm());
+  EXPECT_EQ(wire.picture.health().resumed, 1u);
+  EXPECT_EQ(wire.picture.health().lost, 600u);
+  EXPECT_NEAR(wire.shown(), where(250 * kPeriod), 1e-9);
+  EXPECT_TRUE(wire.device.fingers[0].valid);
+}
+
+TEST(RemotePicture, SaysThatAnotherSceneRuns) {
+  Wire wire(worldOf());
+  wire.world_hash = sceneHash(worldOf("0.2"));
+  wire.announce(7);
+  wire.go(10);
+  EXPECT_TRUE(wire.picture.wrongScene());
+  EXPECT_TRUE(wire.picture.alarm());
+  EXPECT_EQ(wire.picture.health().other_scene, 30u);
+  EXPECT_NE(wire.picture.line().find("another scene"), std::string::npos);
+  EXPECT_EQ(wire.shown(), 0);  // where the own scene has it
+}
+
+// The next run begins where the last was killed: other numbers, other times, no loss between them.
+TEST(RemotePicture, FollowsTheNextRun) {
+  Wire wire(worldOf());
+  wire.announce(7);
+  wire.go(500);
+  wire.announce(8);  // while the first still sends: a stranger
+  EXPECT_EQ(wire.picture.health().received, 1500u);
+  wire.go(3);
+  EXPECT_EQ(wire.picture.health().received, 1500u);
+  wire.clock += 1;
+  wire.picture.advance(ns(wire.clock));
+  wire.go(5);
+  EXPECT_EQ(wire.picture.health().received, 1515u);
+  EXPECT_EQ(wire.picture.health().lost, 0u);
+  EXPECT_NEAR(wire.shown(), where(6 * kPeriod), 1e-9);
+}
+
+TEST(RemotePicture, SaysThatTheRunHasEnded) {
+  Wire wire(worldOf());
+  wire.announce(7);
+  wire.go(10);
+  Beat beat;
+  beat.stamp = wire.stampOf(11);
+  beat.last = true;
+  wire.picture.onBeat(beat, ns(wire.clock));
+  wire.clock += 10;
+  wire.picture.advance(ns(wire.clock));
+  EXPECT_EQ(wire.picture.state(), RemotePicture::State::kEnded);
+  EXPECT_FALSE(wire.picture.alarm());
+}
+
+TEST(RemotePicture, ShowsAnEvent) {
+  Wire wire(worldOf());
+  wire.announce(7);
+  wire.go(10);
+  wire.picture.onEvent({wire.stampOf(10), Event::Kind::kObjectFault, kFaultBodyFrozen}, ns(wire.clock));
+  EXPECT_NE(wire.picture.line().find("0.045 s: a body froze"), std::string::npos) << wire.picture.line();
+  EXPECT_TRUE(wire.picture.alarm());
+}
+
+// Through a reader that loses, doubles and holds back: what is counted is what was done to the samples.
+TEST(RemotePicture, CountsWhatABadNetworkDoes) {
+  const World world = worldOf();
+  LocalBus bus;
+  const auto writer = bus.writer();
+  TroubledReader reader(bus.reader(), {}, 3);
+  RemotePicture picture(world);
+  writer->announce({7, sceneHash(world), kPeriod, false, "s", ""});
+  Beat beat;
+  const auto publish = [&] {
+    beat.stamp = {7, beat.stamp.sequence + 1, static_cast<double>(beat.stamp.sequence) * kPeriod, 0};
+    ObjectSample object;
+    object.stamp = beat.stamp;
+    object.body = 1;
+    writer->publish({std::span(&object, 1), {}, beat});
+    reader.take(picture);
+  };
+  publish();  // the first is what counting begins with
+  reader.change({.lose = 0.1, .twice = 0.1, .hold_back = 0.2});
+  for (int i = 0; i < 3000; ++i) publish();
+  reader.change({});
+  publish();
+  publish();
+  const RemotePicture::Health health = picture.health();
+  EXPECT_GT(reader.lost(), 500u);
+  EXPECT_EQ(health.lost, reader.lost());
+  EXPECT_EQ(health.doubled, reader.doubled());
+  EXPECT_GT(health.late, 0u);
+  EXPECT_LE(health.late, reader.heldBack());  // held back to the next, or past a loss
+  EXPECT_EQ(health.received, 2u * 3003 - reader.lost());
+}
+
+// The reader's own side throws away, and says so: not a loss of the network.
+TEST(LocalBus, CountsWhatAReaderLeavesLying) {
+  LocalBus bus(10);
+  const auto writer = bus.writer();
+  const auto reader = bus.reader();
+  for (std::uint64_t n = 1; n <= 25; ++n) {
+    Beat beat;
+    beat.stamp.sequence = n;
+    writer->publish({{}, {}, beat});
+  }
+  EXPECT_EQ(reader->overrun(), 15u);
+}
+
+TEST(SceneHash, DiffersByWhatIsDrawn) {
+  EXPECT_EQ(sceneHash(worldOf()), sceneHash(worldOf()));
+  EXPECT_NE(sceneHash(worldOf()), sceneHash(worldOf("0.2")));
+}
+
+}  // namespace
+}  // namespace presa::bus

@@ -1,0 +1,87 @@
+#pragma once
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "framework/scene/scene.h"
+
+namespace presa {
+
+/// Loopback, and a domain that nobody else is likely to be in.
+inline BusSettings ownDomain() {
+  return {.network = "loopback", .domain = 1 + static_cast<int>(std::random_device{}() % kMostBusDomain)};
+}
+
+/// The program in a process of its own, killed with this object if it has not ended. Its stderr is read here, its stdout too.
+class ViewerProcess {
+ public:
+  ViewerProcess(std::vector<std::string> words, const BusSettings& bus) {
+    words.insert(words.begin(), std::string(PRESA_BINARY_DIR) + "/bin/presa");
+    words.insert(words.end(), {"--bus", bus.network, "--domain", std::to_string(bus.domain)});
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const int failed = posix_spawn(&process_, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    said_ = fdopen(ends[0], "r");
+    if (failed != 0) throw std::runtime_error("the program does not start");
+  }
+  ~ViewerProcess() {
+    signal(SIGKILL);
+    end();
+    std::fclose(said_);
+  }
+  ViewerProcess(const ViewerProcess&) = delete;
+  ViewerProcess& operator=(const ViewerProcess&) = delete;
+
+  /// Waits until it says a line with that word; false: it ended without.
+  bool says(const std::string& word) {
+    std::array<char, 4096> line;
+    while (std::fgets(line.data(), line.size(), said_) != nullptr) {
+      if (std::string(line.data()).find(word) != std::string::npos) return true;
+    }
+    return false;
+  }
+  void signal(int which) const {
+    if (process_ > 0) kill(process_, which);
+  }
+  /// Everything it still says.
+  std::string rest() {
+    std::string all;
+    std::array<char, 4096> part;
+    while (const std::size_t count = std::fread(part.data(), 1, part.size(), said_)) all.append(part.data(), count);
+    return all;
+  }
+  /// Waits for its end; exit status, -1 when a signal ended it.
+  int end() {
+    if (process_ <= 0) return status_;
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return status_;
+  }
+
+ private:
+  pid_t process_ = -1;
+  std::FILE* said_ = nullptr;
+  int status_ = -1;
+};
+
+}  // namespace presa
