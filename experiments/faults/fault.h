@@ -51,6 +51,9 @@ std::vector<Fault> falconFaults();
 /// Faults of what a scene is made from, of the machine and of the rig (scene_faults.h).
 std::vector<Fault> sceneFaults();
 
+/// Faults of those who look at a run (framework/bus).
+std::vector<Fault> viewerFaults();
+
 /// Of every family, in the order of the table.
 std::vector<Fault> allFaults();
 

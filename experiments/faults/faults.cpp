@@ -24,7 +24,7 @@ std::string brokenBy(const Fault& fault, const Outcome& outcome) {
 
 std::vector<Fault> allFaults() {
   std::vector<Fault> all;
-  for (auto family : {holdFaults, falconFaults, processFaults, sceneFaults})
+  for (auto family : {holdFaults, falconFaults, processFaults, sceneFaults, viewerFaults})
     std::ranges::move(family(), std::back_inserter(all));
   std::ranges::stable_sort(all, {}, &Fault::row);
   return all;

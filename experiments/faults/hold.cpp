@@ -55,7 +55,7 @@ void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick, const
   spec.sets = hold.sets;
   spec.force_share = hold.force_share;
   spec.duration = hold.end;
-  StudyRun run(spec, std::move(devices.fingers));
+  StudyRun run(spec, std::move(devices.fingers), hold.more);
   Traffic traffic;
   std::array<Vec3, 2> last{};
   bool first = true;

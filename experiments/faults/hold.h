@@ -41,6 +41,7 @@ struct Hold {
   FailingDevice::Failure thumb;                            ///< on the thumb's device
   std::function<bool(RateGroup, double)> held_up;          ///< groups that do not run
   double rearm = std::numeric_limits<double>::infinity();  ///< [s]
+  StudyRun::MakeModule more;                               ///< a module that runs with it
 };
 
 /// What passed at the devices, tick by tick.
