@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   presa::addDevice(app, status);
   presa::addView(app, status);
   presa::addBus(app, status);
+  presa::addTemple(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,4 +6,5 @@ extern const char* const rig;
 extern const char* const motion;
 extern const char* const accuracy_cost;
 extern const char* const experiment;
+extern const char* const temple;
 }  // namespace presa::schemas

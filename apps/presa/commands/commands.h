@@ -22,5 +22,6 @@ void addExperiment(CLI::App& app, int& status);
 void addView(CLI::App& app, int& status);
 void addBus(CLI::App& app, int& status);
 void addDevice(CLI::App& app, int& status);
+void addTemple(CLI::App& app, int& status);
 
 }  // namespace presa

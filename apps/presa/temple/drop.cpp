@@ -1,0 +1,42 @@
+#include "apps/presa/temple/drop.h"
+
+#include "apps/presa/atomic_file.h"
+#include "framework/study/study_run.h"
+
+namespace presa::temple {
+namespace {
+
+double reachOf(const Block& block) { return radiusOf(block.haptic); }
+
+double between(const Pose& a, const Pose& b, double reach) {
+  return (b.p - a.p).norm() + reach * a.q.angularDistance(b.q);
+}
+
+}  // namespace
+
+DropResult drop(const Building& building, const std::vector<SceneSpec::Stone>& stones, double duration,
+                const std::string& folder) {
+  SceneSpec spec;
+  spec.name = "drop";
+  spec.stones = stones;
+  spec.physics_only = true;
+  const std::string file = folder + "/drop.xml";
+  writeFileAtomically(file, sceneText(building, spec));
+  StudySpec study;
+  study.scene = file;
+  study.duration = duration;
+  StudyRun run(study);
+  DropResult result;
+  for (const SceneSpec::Stone& stone : stones) result.X_WB.push_back(stone.X_WB);
+  run.observe([&](const StudySample& sample) {
+    if (sample.objects == nullptr) return;
+    result.sound = sample.objects->faults == 0;
+    for (std::size_t i = 0; i < stones.size(); ++i) result.X_WB[i] = sample.objects->bodies[i].X_WB_end;
+  });
+  run.run();
+  for (std::size_t i = 0; i < stones.size(); ++i)
+    result.moved.push_back(between(stones[i].X_WB, result.X_WB[i], reachOf(building.blocks[stones[i].block])));
+  return result;
+}
+
+}  // namespace presa::temple

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/temple/block.h"
+
+namespace presa::temple {
+
+/// Which blocks of a building a scene holds, and how.
+struct SceneSpec {
+  struct Stone {
+    std::size_t block = 0;  ///< index into Building::blocks
+    Pose X_WB;
+    bool fixed = false;
+  };
+  std::string name, description;
+  std::vector<Stone> stones;
+  bool physics_only = false;  ///< neither seen nor felt
+  std::string rig;            ///< path for the scene's two fingers, thumb and index; empty: no fingers
+};
+
+/// Half of the ground's edges along x and y [m]: what strays from a building stays on it.
+inline constexpr double kGroundX = 0.6, kGroundY = 0.5;
+
+/// Stones in the order of the spec are bodies in the scene's, before ground and steps. Mesh files are named "meshes/…".
+std::string sceneText(const Building& building, const SceneSpec& spec);
+/// All blocks where they belong.
+SceneSpec assembled(const Building& building);
+
+/// A file of a scene's folder.
+struct SceneFile {
+  std::string path, text;
+};
+/// Meshes of all blocks as OBJ; `physics_only`: those alone that dynamics needs.
+std::vector<SceneFile> meshFiles(const Building& building, bool physics_only);
+
+}  // namespace presa::temple
