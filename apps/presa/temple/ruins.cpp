@@ -13,13 +13,13 @@ namespace presa::temple {
 namespace {
 
 constexpr std::size_t kGroup = 8;
-constexpr int kAttempts = 12;      // of a group
+constexpr int kGroups = 60;        // of one attempt: a façade needs about ten
+constexpr int kAttempts = 4;       // from an empty field
 constexpr double kRound = 0.2;     // from rest to rest [s]
 constexpr int kRounds = 15;        // of a group
-constexpr int kLastRounds = 60;    // of all together
-constexpr double kLies = 3e-4;     // moved less in a round: lies, while others still fall [m]
-constexpr double kStill = 1e-4;    // the same at the end, over a second [m]
+constexpr int kLastRounds = 30;    // of all together
 constexpr double kLastSecond = 1;  // [s]
+constexpr double kStill = 1e-4;    // moved less: lies [m]
 
 class Strewing {
  public:
@@ -40,13 +40,23 @@ class Strewing {
   }
 
   Ruins strew() {
-    while (lying_.size() < order_.size()) {
-      if (!strewGroup()) return {};
+    std::uint64_t group = 0;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      lying_.clear();
+      spots_.keep(0);
+      waiting_ = order_;
+      for (int fallen = 0; fallen < kGroups && !waiting_.empty(); ++fallen) {
+        if (!strewGroup(group++)) return {};
+      }
+      if (!waiting_.empty()) continue;
+      if (!settleAll()) return {};
+      if (!restless_.empty()) continue;
+      ruins_.X_WB.resize(all());
+      for (const SceneSpec::Stone& stone : lying_) ruins_.X_WB[stone.block] = stone.X_WB;
+      return std::move(ruins_);
     }
-    if (!settleAll()) return {};
-    ruins_.X_WB.resize(building_.blocks.size());
-    for (const SceneSpec::Stone& stone : lying_) ruins_.X_WB[stone.block] = stone.X_WB;
-    return std::move(ruins_);
+    refuse(974, building_.name, "block " + quote(restless_) + " has not come to rest on the field",
+           "another --seed strews the blocks another way");
   }
 
  private:
@@ -61,10 +71,9 @@ class Strewing {
   std::vector<SceneSpec::Stone> drawGroup(RandomStream& random) {
     std::vector<SceneSpec::Stone> group;
     const std::size_t before = spots_.count();
-    while (group.size() < kGroup && lying_.size() + group.size() < all()) {
-      const std::size_t block = order_[lying_.size() + group.size()];
+    for (const std::size_t block : waiting_) {
       Pose X_WB;
-      if (!spots_.find(building_.blocks[block], before, random, X_WB)) break;
+      if (group.size() == kGroup || !spots_.find(building_.blocks[block], before, random, X_WB)) break;
       group.push_back({block, X_WB, false});
       spots_.take(cornersOf(building_.blocks[block], X_WB));
     }
@@ -72,69 +81,60 @@ class Strewing {
     if (group.empty())
       refuse(977, building_.name,
              "the field of 600 x 300 mm beside the building has no room for block " +
-                 quote(building_.blocks[order_[lying_.size()]].name),
+                 quote(building_.blocks[waiting_.front()].name),
              "take a smaller module");
     return group;
   }
 
-  bool strewGroup() {
-    std::string restless;
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      RandomStream random(seed_, "ruins", 1000 * lying_.size() + static_cast<std::size_t>(attempt));
-      std::vector<SceneSpec::Stone> group = drawGroup(random);
-      // what lies is as firm as the ground for now
-      std::vector<SceneSpec::Stone> stones = lying_;
-      for (SceneSpec::Stone& stone : stones) stone.fixed = true;
-      stones.insert(stones.end(), group.begin(), group.end());
-      restless = nameOf(group.front());
-      for (int round = 0; round < kRounds && !restless.empty(); ++round) {
-        const DropResult result = run(stones, kRound);
-        restless.clear();
-        for (std::size_t i = lying_.size(); i < stones.size(); ++i) {
-          stones[i].X_WB = result.X_WB[i];
-          if (!result.sound || result.moved[i] > kLies) restless = nameOf(stones[i]);
-        }
-        if (!progress_(lying_.size(), all(), "falling: " + nameOf(group.front()))) return false;
+  /// Lets the next blocks fall. Those that lie then stay; the others wait to fall elsewhere.
+  bool strewGroup(std::uint64_t number) {
+    RandomStream random(seed_, "ruins", number);
+    const std::vector<SceneSpec::Stone> group = drawGroup(random);
+    // what lies is as firm as the ground for now
+    std::vector<SceneSpec::Stone> stones = lying_;
+    for (SceneSpec::Stone& stone : stones) stone.fixed = true;
+    stones.insert(stones.end(), group.begin(), group.end());
+    std::vector<char> lies(stones.size(), 0);
+    for (int round = 0; round < kRounds && std::count(lies.begin(), lies.end(), 0) > 0; ++round) {
+      const DropResult result = run(stones, kRound);
+      for (std::size_t i = 0; i < stones.size(); ++i) {
+        lies[i] = stones[i].fixed || (result.sound && result.moved[i] < kStill) ? 1 : 0;
+        if (!stones[i].fixed) stones[i].X_WB = result.X_WB[i];
       }
-      for (std::size_t i = lying_.size(); i < stones.size(); ++i) {
-        if (!field_.holds(stones[i].X_WB.p)) restless = nameOf(stones[i]);
-      }
-      if (!restless.empty()) continue;
-      for (std::size_t i = lying_.size(); i < stones.size(); ++i) {
-        spots_.take(cornersOf(building_.blocks[stones[i].block], stones[i].X_WB));
-      }
-      for (SceneSpec::Stone& stone : stones) stone.fixed = false;
-      lying_ = std::move(stones);
-      return true;
+      if (!progress_(lying_.size(), all(), "falling: " + nameOf(group.front()))) return false;
     }
-    refuseRestless(restless);
+    for (std::size_t i = lying_.size(); i < stones.size(); ++i) {
+      if (lies[i] == 0 || !field_.holds(stones[i].X_WB.p)) {
+        restless_ = nameOf(stones[i]);
+        continue;
+      }
+      std::erase(waiting_, stones[i].block);
+      spots_.take(cornersOf(building_.blocks[stones[i].block], stones[i].X_WB));
+      lying_.push_back({stones[i].block, stones[i].X_WB, false});
+    }
+    return true;
   }
 
+  /// All are free to move now, until none does. False when stopped.
   bool settleAll() {
-    std::string restless;
     for (int round = 0; round < kLastRounds; ++round) {
-      DropResult result = run(lying_, kRound);
-      if (largest(result) < kStill) {
-        result = run(lying_, kLastSecond);
-        ruins_.still = largest(result);
-        if (ruins_.still < kStill) return true;
-      }
+      // now and then time enough to roll off what is not level
+      DropResult result = run(lying_, round % 4 == 3 ? kLastSecond : kRound);
+      if (largest(result) < kStill) result = run(lying_, kLastSecond);
+      ruins_.still = largest(result);
+      restless_.clear();
       for (std::size_t i = 0; i < lying_.size(); ++i) {
-        lying_[i].X_WB = result.X_WB[i];
-        if (result.moved[i] >= kStill) restless = nameOf(lying_[i]);
+        if (result.moved[i] >= kStill || !field_.holds(result.X_WB[i].p)) restless_ = nameOf(lying_[i]);
       }
-      if (!progress_(lying_.size(), all(), "settling: " + restless)) return false;
+      if (restless_.empty() && ruins_.still < kStill) return true;
+      for (std::size_t i = 0; i < lying_.size(); ++i) lying_[i].X_WB = result.X_WB[i];
+      if (!progress_(lying_.size(), all(), "settling: " + restless_)) return false;
     }
-    refuseRestless(restless);
+    return true;
   }
 
   static double largest(const DropResult& result) {
     return result.sound ? *std::max_element(result.moved.begin(), result.moved.end()) : 1e300;
-  }
-
-  [[noreturn]] void refuseRestless(const std::string& name) const {
-    refuse(974, building_.name, "block " + quote(name) + " has not come to rest on the field",
-           "another --seed strews the blocks another way");
   }
 
   const Building& building_;
@@ -143,8 +143,9 @@ class Strewing {
   const RuinsProgress& progress_;
   const Field field_;
   Spots spots_;
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> order_, waiting_;
   std::vector<SceneSpec::Stone> lying_;
+  std::string restless_;
   Ruins ruins_;
 };
 
