@@ -71,14 +71,14 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
                      "\">\n  <world gravity=\"0 0 -9.81\"/>\n";
   // nothing is felt while stones fall: the haptic group only keeps time
   if (spec.physics_only) text += "  <rates haptic=\"200\" collision=\"100\" dynamics=\"200\" view=\"50\"/>\n";
+  if (spec.fine_steps) text += "  <dynamics substeps=\"10\" iterations=\"100\"/>\n";
   text +=
-      "  <dynamics substeps=\"5\" iterations=\"100\"/>\n"
       "  <materials>\n"
-      "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.78 0.73 0.63\">"
+      "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.68 0.60 0.47\">"
       "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
-      "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.55 0.51 0.43\">"
+      "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.50 0.45 0.36\">"
       "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
-      "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.30 0.26 0.19\">"
+      "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.23 0.20 0.13\">"
       "<friction static=\"0.8\" dynamic=\"0.7\"/></material>\n"
       "  </materials>\n";
   for (const SceneSpec::Stone& stone : spec.stones)

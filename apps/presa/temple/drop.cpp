@@ -1,5 +1,7 @@
 #include "apps/presa/temple/drop.h"
 
+#include <algorithm>
+
 #include "apps/presa/atomic_file.h"
 #include "framework/study/study_run.h"
 
@@ -20,6 +22,8 @@ DropResult drop(const Building& building, const std::vector<SceneSpec::Stone>& s
   spec.name = "drop";
   spec.stones = stones;
   spec.physics_only = true;
+  // beside stones as firm as the ground islands are small
+  spec.fine_steps = std::ranges::none_of(stones, [](const SceneSpec::Stone& stone) { return stone.fixed; });
   const std::string file = folder + "/drop.xml";
   writeFileAtomically(file, sceneText(building, spec));
   StudySpec study;

@@ -13,13 +13,14 @@ namespace presa::temple {
 namespace {
 
 constexpr std::size_t kGroup = 8;
-constexpr int kGroups = 60;        // of one attempt: a façade needs about ten
-constexpr int kAttempts = 4;       // from an empty field
+constexpr int kGroups = 60;        // at most: a façade needs about ten
+constexpr int kAttempts = 20;      // to let fall again what has not come to rest with all others
 constexpr double kRound = 0.2;     // from rest to rest [s]
 constexpr int kRounds = 15;        // of a group
-constexpr int kLastRounds = 30;    // of all together
+constexpr int kLastRounds = 8;     // of all together
 constexpr double kLastSecond = 1;  // [s]
-constexpr double kStill = 1e-4;    // moved less: lies [m]
+// moved less in a round: lies; what trembles in a heap solved by iterations does not count, as for falling asleep [m]
+constexpr double kStill = 2e-4;
 
 class Strewing {
  public:
@@ -41,21 +42,22 @@ class Strewing {
 
   Ruins strew() {
     std::uint64_t group = 0;
+    waiting_ = order_;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      lying_.clear();
-      spots_.keep(0);
-      waiting_ = order_;
       for (int fallen = 0; fallen < kGroups && !waiting_.empty(); ++fallen) {
         if (!strewGroup(group++)) return {};
       }
-      if (!waiting_.empty()) continue;
+      if (!waiting_.empty()) break;
       if (!settleAll()) return {};
-      if (!restless_.empty()) continue;
-      ruins_.X_WB.resize(all());
-      for (const SceneSpec::Stone& stone : lying_) ruins_.X_WB[stone.block] = stone.X_WB;
-      return std::move(ruins_);
+      if (restless_.empty()) {
+        ruins_.X_WB.resize(all());
+        for (const SceneSpec::Stone& stone : lying_) ruins_.X_WB[stone.block] = stone.X_WB;
+        return std::move(ruins_);
+      }
+      takeUp();
     }
-    refuse(974, building_.name, "block " + quote(restless_) + " has not come to rest on the field",
+    refuse(974, building_.name,
+           "block " + quote(building_.blocks[waiting_.front()].name) + " has not come to rest on the field",
            "another --seed strews the blocks another way");
   }
 
@@ -104,10 +106,7 @@ class Strewing {
       if (!progress_(lying_.size(), all(), "falling: " + nameOf(group.front()))) return false;
     }
     for (std::size_t i = lying_.size(); i < stones.size(); ++i) {
-      if (lies[i] == 0 || !field_.holds(stones[i].X_WB.p)) {
-        restless_ = nameOf(stones[i]);
-        continue;
-      }
+      if (lies[i] == 0 || !field_.holds(stones[i].X_WB.p)) continue;
       std::erase(waiting_, stones[i].block);
       spots_.take(cornersOf(building_.blocks[stones[i].block], stones[i].X_WB));
       lying_.push_back({stones[i].block, stones[i].X_WB, false});
@@ -115,7 +114,7 @@ class Strewing {
     return true;
   }
 
-  /// All are free to move now, until none does. False when stopped.
+  /// All are free to move now, until none does; names those that still do in the end. False when stopped.
   bool settleAll() {
     for (int round = 0; round < kLastRounds; ++round) {
       // now and then time enough to roll off what is not level
@@ -124,13 +123,24 @@ class Strewing {
       ruins_.still = largest(result);
       restless_.clear();
       for (std::size_t i = 0; i < lying_.size(); ++i) {
-        if (result.moved[i] >= kStill || !field_.holds(result.X_WB[i].p)) restless_ = nameOf(lying_[i]);
+        if (!result.sound || result.moved[i] >= kStill || !field_.holds(result.X_WB[i].p))
+          restless_.push_back(lying_[i].block);
       }
-      if (restless_.empty() && ruins_.still < kStill) return true;
+      if (restless_.empty()) return true;
       for (std::size_t i = 0; i < lying_.size(); ++i) lying_[i].X_WB = result.X_WB[i];
-      if (!progress_(lying_.size(), all(), "settling: " + restless_)) return false;
+      if (!progress_(lying_.size(), all(), "settling: " + building_.blocks[restless_.front()].name)) return false;
     }
     return true;
+  }
+
+  /// Blocks that tremble or roll are to fall again, elsewhere.
+  void takeUp() {
+    std::erase_if(lying_, [&](const SceneSpec::Stone& stone) {
+      return std::ranges::find(restless_, stone.block) != restless_.end();
+    });
+    waiting_ = restless_;
+    spots_.keep(0);
+    for (const SceneSpec::Stone& stone : lying_) spots_.take(cornersOf(building_.blocks[stone.block], stone.X_WB));
   }
 
   static double largest(const DropResult& result) {
@@ -143,9 +153,8 @@ class Strewing {
   const RuinsProgress& progress_;
   const Field field_;
   Spots spots_;
-  std::vector<std::size_t> order_, waiting_;
+  std::vector<std::size_t> order_, waiting_, restless_;  // blocks
   std::vector<SceneSpec::Stone> lying_;
-  std::string restless_;
   Ruins ruins_;
 };
 
