@@ -45,7 +45,7 @@ class DdsReader final : public bus::Reader {
     objects_ = reader(joined_->objects, stateQos(), collect<presa_dds_ObjectState>);
     fingers_ = reader(joined_->fingers, stateQos(), collect<presa_dds_DeviceState>);
     beats_ = reader(joined_->beats, stateQos(), collect<presa_dds_Beat>);
-    events_ = reader(joined_->events, eventQos(), collect<presa_dds_Event>);
+    events_ = reader(joined_->events, stateQos(), collect<presa_dds_Event>);
   }
 
   void take(bus::Listener& listener) override { inbox_.take(listener); }

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "framework/schedule/clock.h"
 #include "modules/bus_dds/convert.h"
 #include "modules/bus_dds/dds_bus.h"
 #include "modules/bus_dds/participant.h"
@@ -5,7 +8,7 @@
 namespace presa::bus_dds {
 namespace {
 
-constexpr dds_duration_t kPatience = DDS_MSECS(100);  // with viewers that have not confirmed the end
+constexpr dds_duration_t kPatience = DDS_MSECS(500);  // with viewers that have not confirmed the end
 
 /// A publication goes out in as few packets as it fits: written sample by sample into a batch, then flushed.
 class DdsWriter final : public bus::Writer {
@@ -18,7 +21,7 @@ class DdsWriter final : public bus::Writer {
     objects_ = writer(joined_->objects, stateQos());
     fingers_ = writer(joined_->fingers, stateQos());
     beats_ = writer(joined_->beats, stateQos());
-    events_ = writer(joined_->events, eventQos());
+    events_ = writer(joined_->events, stateQos());
     scenes_ = writer(joined_->scenes, sceneQos());
   }
 
@@ -45,7 +48,9 @@ class DdsWriter final : public bus::Writer {
   }
 
   void finish() noexcept override {
-    for (const Entity* writer : {&objects_, &fingers_, &beats_, &events_}) dds_wait_for_acks(*writer, kPatience);
+    const dds_time_t end = monotonicNs() + kPatience;
+    for (const Entity* writer : {&objects_, &fingers_, &beats_, &events_})
+      dds_wait_for_acks(*writer, std::max<dds_duration_t>(0, end - monotonicNs()));
   }
 
  private:

@@ -129,12 +129,6 @@ Qos stateQos() {
   return qos;
 }
 
-Qos eventQos() {
-  Qos qos = reliable();
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kKept);
-  return qos;
-}
-
 Qos sceneQos() {
   Qos qos = reliable();
   dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);

@@ -38,14 +38,13 @@ struct Participant {
 /// Throws InputError E720 when the network cannot be used, E721 when this process is in that domain on another network already.
 std::shared_ptr<Participant> join(const BusSettings& settings);
 
-/// Quality of service of the state: reliable, the last kKept publications of each key. A lost packet is asked for again as long as
+/// Quality of service of state and events: reliable, the last kKept publications of each key. A lost packet is asked for again as long as
 /// the writer still has it (0.16 s); a writer never waits for a reader that stands still.
 struct QosDelete {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDelete>;
 Qos stateQos();
-Qos eventQos();
 /// The static part: kept for who comes late.
 Qos sceneQos();
 
