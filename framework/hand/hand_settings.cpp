@@ -28,16 +28,6 @@ double positive(const Settings& settings, const std::string& key, double fallbac
   return value;
 }
 
-double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics) {
-  if (const auto side = binding.settings.find("side"); side != binding.settings.end()) {
-    if (side->second.value == "-1") return -1;
-    if (side->second.value == "1" || side->second.value == "+1") return 1;
-    diagnostics.error(404, side->second.where, "side must be -1 or 1, found '" + side->second.value + "'",
-                      "-1 is the end of the grasp axis that it points away from (the thumb's)");
-  }
-  return binding.role == "thumb" ? -1 : 1;
-}
-
 std::unique_ptr<Motion> readMotion(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   const auto file = binding.settings.find("motion");
   if (file == binding.settings.end()) {
@@ -78,6 +68,16 @@ std::string settleDamping(const std::string& role, const World& world, double ca
 
 }  // namespace
 
+double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics) {
+  if (const auto side = binding.settings.find("side"); side != binding.settings.end()) {
+    if (side->second.value == "-1") return -1;
+    if (side->second.value == "1" || side->second.value == "+1") return 1;
+    diagnostics.error(404, side->second.where, "side must be -1 or 1, found '" + side->second.value + "'",
+                      "-1 is the end of the grasp axis that it points away from (the thumb's)");
+  }
+  return binding.role == "thumb" ? -1 : 1;
+}
+
 const std::vector<std::string>& handKeys() {
   static const std::vector<std::string> keys{"motion", "side", "mass", "stiffness", "damping", "lost_at"};
   return keys;
@@ -95,19 +95,25 @@ void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::
   }
 }
 
-HandSettings readHand(const DeviceBinding& binding, const World& world, double carried, Diagnostics& diagnostics) {
+HandSettings readImpedance(const DeviceBinding& binding, const World& world, double carried, FingerImpedance impedance,
+                           Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   HandSettings hand;
-  hand.motion = readMotion(binding, world, diagnostics);
-  if (hand.motion) hand.impedance = hand.motion->impedance();
-  hand.impedance.mass = positive(binding.settings, "mass", hand.impedance.mass, diagnostics);
-  hand.impedance.stiffness = positive(binding.settings, "stiffness", hand.impedance.stiffness, diagnostics);
-  hand.impedance.damping = positive(binding.settings, "damping", hand.impedance.damping, diagnostics);
-  hand.lost_at = positive(binding.settings, "lost_at", std::numeric_limits<double>::infinity(), diagnostics);
-  if (diagnostics.errorCount() > before)
-    hand.motion = nullptr;
-  else
+  hand.impedance.mass = positive(binding.settings, "mass", impedance.mass, diagnostics);
+  hand.impedance.stiffness = positive(binding.settings, "stiffness", impedance.stiffness, diagnostics);
+  hand.impedance.damping = positive(binding.settings, "damping", impedance.damping, diagnostics);
+  if (diagnostics.errorCount() == before)
     hand.notes.push_back(settleDamping(binding.role, world, carried, hand.impedance));
+  return hand;
+}
+
+HandSettings readHand(const DeviceBinding& binding, const World& world, double carried, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  std::unique_ptr<Motion> motion = readMotion(binding, world, diagnostics);
+  HandSettings hand =
+      readImpedance(binding, world, carried, motion ? motion->impedance() : FingerImpedance{}, diagnostics);
+  hand.lost_at = positive(binding.settings, "lost_at", std::numeric_limits<double>::infinity(), diagnostics);
+  if (diagnostics.errorCount() == before) hand.motion = std::move(motion);
   return hand;
 }
 

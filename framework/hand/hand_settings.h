@@ -21,6 +21,11 @@ struct HandSettings {
   double lost_at = 0;              ///< from then on the device gives no sample [s]; infinity: never
   std::vector<std::string> notes;  ///< the damping, and what the contacts ask for
 };
+/// -1 for the thumb, 1 otherwise, unless the setting 'side' says it (E404).
+double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics);
+/// The same for a hand that moves by itself: mass, stiffness and damping alone, onto those of `impedance`; motion stays null.
+HandSettings readImpedance(const DeviceBinding& binding, const World& world, double carried, FingerImpedance impedance,
+                           Diagnostics& diagnostics);
 /// Reads them; all findings go to `diagnostics` (E402 to E404 and those of the motion's file), motion is null when any is an
 /// error. `carried`: mass of a device that moves with the fingertip, for the damping that contacts ask for [kg].
 HandSettings readHand(const DeviceBinding& binding, const World& world, double carried, Diagnostics& diagnostics);

@@ -2,11 +2,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "framework/scene/goal_pose.h"
 #include "framework/scene/scene.h"
 #include "framework/state/assembly_state.h"
 #include "framework/state/attraction.h"
 #include "framework/state/object_state.h"
-#include "modules/assembly/goal_pose.h"
 
 namespace presa::assembly {
 

@@ -3,7 +3,7 @@
 
 #include "framework/math/spatial.h"
 
-namespace presa::assembly {
+namespace presa {
 
 /// How far a body is from where it belongs.
 struct Way {
@@ -16,4 +16,4 @@ Way wayBetween(const Pose& a, const Pose& b);
 /// when fold is 0 — the one nearest to the orientation `q_WB`.
 Pose nearestTurn(const Pose& X_WB, std::size_t fold, const Quat& q_WB);
 
-}  // namespace presa::assembly
+}  // namespace presa

@@ -1,9 +1,9 @@
-#include "modules/assembly/goal_pose.h"
+#include "framework/scene/goal_pose.h"
 
 #include <cmath>
 #include <numbers>
 
-namespace presa::assembly {
+namespace presa {
 
 Way wayBetween(const Pose& a, const Pose& b) {
   const Quat turn = a.q.conjugate() * b.q;
@@ -23,4 +23,4 @@ Pose nearestTurn(const Pose& X_WB, std::size_t fold, const Quat& q_WB) {
   return {X_WB.p, (X_WB.q * turn).normalized()};
 }
 
-}  // namespace presa::assembly
+}  // namespace presa

@@ -1,0 +1,83 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/assembling_hand/grasp.h"
+#include "framework/scene/goal_pose.h"
+
+namespace presa::assembling {
+
+/// Where both fingertips are wanted, and how they press.
+struct PairTarget {
+  Vec3 centre = Vec3::Zero();  ///< between the fingertips' centres [m]
+  double yaw = 0;              ///< of the line from thumb to index [rad]
+  double gap = 0;              ///< from the centre to each fingertip's centre [m]
+  double grip = 0;             ///< towards each other [N]; 0: they go where they are wanted
+};
+
+/// What a pair of fingers does to put a scene's bodies together. The same states give the same plan, so each finger of the pair has one
+/// of its own. Thread: haptic; no memory after construction.
+class Planner {
+ public:
+  enum Phase : int {
+    kLook,
+    kRise,
+    kOver,
+    kDown,
+    kClose,
+    kGrip,
+    kLift,
+    kLoosen,
+    kSwing,
+    kCarry,
+    kSettle,
+    kLower,
+    kOpen,
+    kLeave
+  };
+  static const std::vector<std::string>& phaseNames();
+
+  /// `fingertip`: radius [m].
+  Planner(std::shared_ptr<const World> world, double fingertip);
+
+  /// At every tick, before at().
+  void see(const ObjectState& objects, double time) noexcept;
+  /// Within the tick that was seen last.
+  PairTarget at(double time) const noexcept;
+  /// Change of at() [1/s].
+  PairTarget rate(double time) const noexcept;
+  Phase phase() const noexcept { return phase_; }
+  /// Every goal that can be filled is.
+  bool finished() const noexcept { return finished_; }
+
+ private:
+  void go(Phase phase, const PairTarget& to, double duration) noexcept;
+  void goAt(Phase phase, const PairTarget& to, double speed) noexcept;
+  void next(const ObjectState& objects) noexcept;
+  void look(const ObjectState& objects) noexcept;
+  void takeAim(const ObjectState& objects) noexcept;
+  void carry(const ObjectState& objects) noexcept;
+  void lower(const ObjectState& objects) noexcept;
+  bool isFilled(std::size_t goal, const ObjectState& objects) const noexcept;
+  bool isPlaced(std::size_t body, const ObjectState& objects) const noexcept;
+  double clearHeight(const ObjectState& objects) const noexcept;
+  double openGap() const noexcept { return grasp_.half + fingertip_ + kOpening; }
+
+  static constexpr double kOpening = 0.012;   // beside the body [m]
+  static constexpr double kClearance = 0.03;  // over everything [m]
+
+  std::shared_ptr<const World> world_;
+  const double fingertip_;
+  std::vector<double> size_;  // by body: from its centre to its farthest corner [m]
+  std::vector<int> tries_;    // by body
+  Phase phase_ = kLook;
+  PairTarget from_, to_;
+  double begin_ = 0, end_ = 0, now_ = 0;
+  std::size_t goal_ = 0, body_ = 0;
+  Pose X_WG_, X_WB_taken_;
+  Grasp grasp_;
+  bool finished_ = false;
+};
+
+}  // namespace presa::assembling
