@@ -24,6 +24,7 @@ struct Block {
   std::string name;
   BlockKind kind = BlockKind::kDrum;
   Pose X_WB;             ///< where it belongs
+  int fold = 1;          ///< in so many turns about z it fits as well
   double mass = 0;       ///< [kg]
   TriMesh visual;        ///< fine
   TriMesh haptic;        ///< flutes, dowel holes and chips, with fewer facets

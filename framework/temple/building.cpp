@@ -41,6 +41,9 @@ class Builder {
   void place(Block block, const std::string& name, const Vec3& p_WB, const Quat& q_WB = Quat::Identity()) {
     block.name = name;
     block.X_WB = {p_WB + Vec3(0, behind_, 0), q_WB};
+    if (block.kind == BlockKind::kDrum) block.fold = p_.column.flutes;
+    if (block.kind == BlockKind::kCapital) block.fold = 4;
+    if (block.kind == BlockKind::kArchitrave) block.fold = 2;
     const double volume = massProperties(block.haptic).volume;
     block.mass = std::clamp(p_.stone.density * volume, p_.stone.lightest, p_.stone.heaviest);
     for (const Vec3& vertex : block.visual.vertices) building_.top = std::max(building_.top, (block.X_WB * vertex).z());

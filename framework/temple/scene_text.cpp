@@ -4,6 +4,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "framework/temple/assembly_text.h"
+
 namespace presa::temple {
 namespace {
 
@@ -75,7 +77,7 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
   text +=
       "  <materials>\n"
       "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.68 0.60 0.47\">"
-      "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
+      "<friction static=\"0.7\" dynamic=\"0.6\" torsion=\"0.004\"/></material>\n"
       "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.50 0.45 0.36\">"
       "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
       "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.23 0.20 0.13\">"
@@ -92,6 +94,8 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
       text += format("    <device role=\"%s\" fingertip_radius=\"0.008\"/>\n", role);
     text += "  </devices>\n";
   }
+  // twice as high as the building: what is being carried is inside
+  if (spec.to_be_built) text += assemblyText(building, {1.9 * kGroundX, 1.9 * kGroundY, 2 * building.top + 0.5});
   return text + "</scene>\n";
 }
 

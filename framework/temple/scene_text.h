@@ -18,7 +18,8 @@ struct SceneSpec {
   bool physics_only = false;  ///< neither seen nor felt
   /// A heap or a façade is one island: with half as many steps as these its stones creep by some 0.1 mm/s.
   bool fine_steps = true;
-  std::string rig;  ///< path for the scene's two fingers, thumb and index; empty: no fingers
+  bool to_be_built = false;  ///< with an <assembly>: every block is drawn to its place
+  std::string rig;           ///< path for the scene's two fingers, thumb and index; empty: no fingers
 };
 
 /// Half of the ground's edges along x and y [m]: what strays from a building stays on it.

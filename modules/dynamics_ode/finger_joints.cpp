@@ -36,7 +36,8 @@ FingerJoints::FingerJoints(DynamicsSettings::Coupling coupling, const Scene& sce
     : coupling_(coupling) {
   active_.reserve(kMaxFingers);
   const auto soft = [](const Material& material) { return material.torsion > 0; };
-  if (coupling == DynamicsSettings::Coupling::kExplicit || std::ranges::none_of(scene.materials, soft)) return;
+  if (coupling == DynamicsSettings::Coupling::kExplicit || scene.devices.empty()) return;
+  if (std::ranges::none_of(scene.materials, soft)) return;
   for (const Body& body : scene.bodies) torsion_.push_back(scene.materialOf(body).torsion);
   for (int finger = 0; finger < kMaxFingers; ++finger) {
     motors_.push_back(dJointCreateAMotor(ode_world, nullptr));

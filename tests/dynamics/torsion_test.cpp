@@ -15,6 +15,7 @@ std::shared_ptr<const World> cube(double torsion, const Vec3& gravity) {
   WorldMaker maker;
   maker.gravity(gravity).box({kEdge, kEdge, kEdge}, kMass, {});
   auto world = std::make_shared<World>(*maker.world());
+  world->scene.devices.resize(2);
   for (Material& material : world->scene.materials) material.torsion = torsion;
   return world;
 }

@@ -49,6 +49,7 @@ std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::
   temple::SceneSpec spec = temple::assembled(building);
   spec.name += "_ruins";
   spec.description = "What is left of a Doric building";
+  spec.to_be_built = true;
   for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = ruins.X_WB[stone.block];
   return spec;
 }

@@ -1,0 +1,70 @@
+#include "framework/temple/assembly_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "framework/scene/load.h"
+#include "tests/temple/support.h"
+
+namespace presa::temple {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+std::vector<std::string> names(const Building& building, const std::vector<std::size_t>& blocks) {
+  std::vector<std::string> all;
+  for (const std::size_t i : blocks) all.push_back(building.blocks[i].name);
+  return all;
+}
+
+std::size_t indexOf(const Building& building, const std::string& name) {
+  for (std::size_t i = 0; i < building.blocks.size(); ++i) {
+    if (building.blocks[i].name == name) return i;
+  }
+  throw std::out_of_range(name);
+}
+
+TEST(AssemblyText, AColumnIsBuiltDrumByDrum) {
+  const Building column = test::shippedBuilding("column");
+  EXPECT_THAT(supporting(column, 0), IsEmpty());
+  for (std::size_t i = 1; i < column.blocks.size(); ++i) EXPECT_THAT(supporting(column, i), ElementsAre(i - 1));
+  for (std::size_t i = 0; i < column.blocks.size(); ++i)
+    EXPECT_THAT(fitting(column, i), ElementsAre(i)) << "it tapers: no two drums are alike";
+}
+
+TEST(AssemblyText, AFacadeHasAlikesAndLoads) {
+  const Building facade = test::shippedBuilding("facade");
+  EXPECT_THAT(names(facade, fitting(facade, indexOf(facade, "column2_drum1"))),
+              UnorderedElementsAre("column1_drum1", "column2_drum1", "column3_drum1", "column4_drum1"));
+  EXPECT_THAT(names(facade, supporting(facade, indexOf(facade, "architrave2"))),
+              UnorderedElementsAre("column2_capital", "column3_capital"));
+  EXPECT_THAT(names(facade, fitting(facade, indexOf(facade, "tympanum_left"))), ElementsAre("tympanum_left"))
+      << "the other is its mirror image";
+  for (std::size_t i = 0; i < facade.blocks.size(); ++i) {
+    const bool on_the_steps = facade.blocks[i].name.ends_with("drum1");
+    EXPECT_EQ(supporting(facade, i).empty(), on_the_steps) << facade.blocks[i].name;
+  }
+}
+
+// What the reader of scenes makes of it: every block has a place, in an order that ends.
+TEST(AssemblyText, IsAnAssemblyThatSceneFilesTake) {
+  for (const char* name : {"column", "facade"}) {
+    const Building building = test::shippedBuilding(name);
+    SceneSpec spec = assembled(building);
+    spec.to_be_built = true;
+    Diagnostics diagnostics;
+    const Scene scene = parseScene(sceneText(building, spec), "scene.xml", ".", {}, diagnostics);
+    ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+    ASSERT_TRUE(scene.assembly);
+    ASSERT_EQ(scene.assembly->goals.size(), building.blocks.size());
+    for (std::size_t i = 0; i < building.blocks.size(); ++i) {
+      EXPECT_EQ(scene.assembly->goals[i].X_WB.p, building.blocks[i].X_WB.p);
+      EXPECT_EQ(scene.assembly->goals[i].fold, static_cast<std::size_t>(building.blocks[i].fold));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace presa::temple
