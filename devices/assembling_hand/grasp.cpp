@@ -6,10 +6,11 @@
 namespace presa::assembling {
 namespace {
 
-constexpr double kTowardsTop = 0.6;  // of half the height: a body that is taken there hangs with its top up
-constexpr double kSafety = 2.5;      // of the grip over the least that carries
+constexpr double kTowardsTop = 0.75;  // of half the height: a body that is taken there hangs with its top up
+constexpr double kSafety = 2.5;       // of the grip over the least that carries
 constexpr double kLeastGrip = 0.5, kMostGrip = 6;  // [N]
-constexpr double kStands = 0.9;                    // cosine: upright, or on its head
+constexpr double kFlat = 0.02;   // half a height of which fingertips on the ground reach too little [m]
+constexpr double kStands = 0.9;  // cosine: upright, or on its head
 
 Vec3 level(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }
 
@@ -64,10 +65,10 @@ Grasp chooseGrasp(const World& world, std::size_t i, const Pose& X_WB, const Pos
   if (a_W.dot(level(yaw)) < 0) a_W = -a_W;
   grasp.a_B = X_WB.q.conjugate() * a_W;
   Vec3 top_B = up_B;
-  if (up_W.z() < -kStands) {
-    grasp.turns_over = true;
+  if (up_W.z() < -kStands && half_along(up_B) < kFlat) {
     top_B = up_B.cross(grasp.a_B).normalized();
-    grasp.rest = half_along(top_B) - half_along(up_B);
+    grasp.lays_down = true;
+    grasp.rise = half_along(top_B) - half_along(up_B);
   }
   grasp.p_BC = world.inertias[i].p_BCm + kTowardsTop * half_along(top_B) * top_B;
   grasp.half = half_along(grasp.a_B);

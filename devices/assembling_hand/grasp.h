@@ -12,9 +12,9 @@ struct Grasp {
   Vec3 a_B = Vec3::UnitX();  ///< from thumb to index, body frame
   double half = 0;           ///< half the width of the body there [m]
   double force = 0;          ///< of each finger [N]
-  /// The body stands on its head, and would stay so: from this grasp it hangs on its side, to be put down and taken again.
-  bool turns_over = false;
-  double rest = 0;  ///< then: height of its centre over what it stands on, once it lies [m]
+  /// A flat body on its head, whose top is out of reach: it hangs on its side from this grasp, to be put down where it is and taken again.
+  bool lays_down = false;
+  double rise = 0;  ///< then: of its centre, from standing to lying [m]
 };
 
 /// Half of what a physics geometry measures along the unit direction `n_G`, in its own frame [m].

@@ -13,8 +13,14 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kFast = 0.25, kSlow = 0.06;  // [m/s]
 constexpr double kTurn = 1;                   // [rad/s]
 constexpr double kAbove = 0.001;              // a body is let go so far over its place [m]
-constexpr double kLoose = 0.55;               // of the grip, while a body finds its own way to hang
-constexpr double kPause = 0.5;                // to look again [s]
+constexpr double kLoose = 0.48;               // of the grip, while a body finds its own way to hang
+constexpr double kHangs = 0.35;               // no more askew than this it may be put down [rad]
+constexpr int kMostShakes = 8;
+constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
+constexpr double kInHand = 0.012;     // a body is held while its spot stays this near to the fingers [m]
+constexpr double kOverGround = 1.05;  // centre of a fingertip, in its radii
+constexpr double kMoved = 0.004;      // a body that moved by more is aimed at again [m]
+constexpr double kPause = 0.5;        // to look again [s]
 
 double yawOf(const Vec3& a_W) { return std::atan2(a_W.y(), a_W.x()); }
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
@@ -22,8 +28,8 @@ double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 }  // namespace
 
 const std::vector<std::string>& Planner::phaseNames() {
-  static const std::vector<std::string> names{"look",   "rise",  "over",  "down",   "close", "grip", "lift",
-                                              "loosen", "swing", "carry", "settle", "lower", "open", "leave"};
+  static const std::vector<std::string> names{"look",  "rise",  "over",  "down",   "close", "grip", "lift", "loosen",
+                                              "shake", "swing", "carry", "settle", "lower", "open", "leave"};
   return names;
 }
 
@@ -136,6 +142,23 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);
   grasp_ = chooseGrasp(*world_, body_, X_WB_taken_, X_WG_, to_.yaw);
+  PairTarget to = to_;
+  to.centre.head<2>() = (X_WB_taken_ * grasp_.p_BC).head<2>();
+  to.yaw = yawOf(X_WB_taken_.q * grasp_.a_B);
+  to.gap = openGap();
+  goAt(kOver, to, kFast);
+}
+
+bool Planner::holds(const ObjectState& objects) const noexcept {
+  return (objects.bodies[body_].X_WB_end * grasp_.p_BC - to_.centre).norm() < kInHand;
+}
+
+// It slipped out, or will not be taken: another try.
+void Planner::letGo() noexcept {
+  PairTarget to = to_;
+  to.grip = 0;
+  to.gap = openGap();
+  go(kLeave, to, kPause);
 }
 
 // Hanging, the body has its top up: what is left is a turn about the vertical, the least of those in which it looks the same.
@@ -145,15 +168,25 @@ void Planner::carry(const ObjectState& objects) noexcept {
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB.q);
   PairTarget to = to_;
   to.grip = grasp_.force;
-  if (grasp_.turns_over) {
-    X_WG_.p = X_WB_taken_.p + grasp_.rest * Vec3::UnitZ();
-    return go(kCarry, to, kPause);
-  }
   to.yaw = to_.yaw + wrapped(yawOf(X_WG_.q * grasp_.a_B) - yawOf(X_WB.q * grasp_.a_B));
   const Vec3 over = X_WG_ * grasp_.p_BC;
   to.centre.x() = over.x();
   to.centre.y() = over.y();
   goAt(kCarry, to, kFast);
+}
+
+// Of the body's top from straight up, whatever it looks the same in [rad].
+double Planner::tilt(const ObjectState& objects) const noexcept {
+  const Quat& q_WG = world_->scene.assembly->goals[goal_].X_WB.q;
+  const Vec3 up_W = objects.bodies[body_].X_WB_end.q * (q_WG.conjugate() * Vec3::UnitZ());
+  return std::acos(std::clamp(up_W.z(), -1.0, 1.0));
+}
+
+// What friction of the fingertips holds askew, or balances on its head, finds its way when it is moved quickly across.
+void Planner::shake() noexcept {
+  PairTarget to = to_;
+  to.centre += (shakes_++ % 2 == 0 ? kShakeBy : -kShakeBy) * Vec3(-std::sin(to_.yaw), std::cos(to_.yaw), 0);
+  go(kShake, to, kShakeTime);
 }
 
 // By what the body is away from its place now, not by where the fingers were meant to be.
@@ -170,39 +203,44 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kLeave:
       return look(objects);
     case kRise:
-      takeAim(objects);
-      to.centre.head<2>() = (X_WB_taken_ * grasp_.p_BC).head<2>();
-      to.yaw = yawOf(X_WB_taken_.q * grasp_.a_B);
-      to.gap = openGap();
-      return goAt(kOver, to, kFast);
+      return takeAim(objects);
     case kOver:
+      if ((objects.bodies[body_].X_WB_end.p - X_WB_taken_.p).norm() > kMoved) return takeAim(objects);  // it rolls
       to.centre = X_WB_taken_ * grasp_.p_BC;
-      to.centre.z() = std::max(to.centre.z(), 1.1 * fingertip_);
+      // over the ground; a flat body's edge is no higher than that
+      to.centre.z() = grasp_.lays_down ? kOverGround * fingertip_ : std::max(to.centre.z(), kOverGround * fingertip_);
       return goAt(kDown, to, kFast);
     case kDown:
       to.gap = grasp_.half + fingertip_;
       return go(kClose, to, 0.3);
     case kClose:
+      grasp_.p_BC = objects.bodies[body_].X_WB_end.inverseTimes(to_.centre);  // as it came to be
       to.grip = grasp_.force;
       return go(kGrip, to, 0.3);
     case kGrip:
       to.centre.z() = clearHeight(objects) + 2 * size_[body_];
       return goAt(kLift, to, kFast);
     case kLift:
-      if (objects.bodies[body_].X_WB_end.p.z() < X_WB_taken_.p.z() + (to_.centre.z() - X_WB_taken_.p.z()) / 2) {
-        to.grip = 0;  // it slipped out
-        to.gap = openGap();
-        return go(kLeave, to, kPause);
-      }
-      to.grip = kLoose * grasp_.force;
+      if (!holds(objects)) return letGo();
+      shakes_ = 0;
+      // less so each time it slips out
+      to.grip = std::min(1.0, kLoose + 0.15 * (tries_[body_] - 1)) * grasp_.force;
       return go(kLoosen, to, 0.3);
     case kLoosen:
+    case kShake:
       return go(kSwing, to, kPause);
     case kSwing:
+      if (!holds(objects)) return letGo();
+      if (grasp_.lays_down) {
+        X_WG_.p = X_WB_taken_.p + grasp_.rise * Vec3::UnitZ();
+        return lower(objects);
+      }
+      if (tilt(objects) > kHangs && shakes_ < kMostShakes) return shake();
       return carry(objects);
     case kCarry:
       return go(kSettle, to, kPause);
     case kSettle:
+      if (!holds(objects)) return letGo();
       return lower(objects);
     case kLower:
       to.grip = 0;

@@ -29,6 +29,7 @@ class Planner {
     kGrip,
     kLift,
     kLoosen,
+    kShake,
     kSwing,
     kCarry,
     kSettle,
@@ -57,8 +58,12 @@ class Planner {
   void next(const ObjectState& objects) noexcept;
   void look(const ObjectState& objects) noexcept;
   void takeAim(const ObjectState& objects) noexcept;
+  void letGo() noexcept;
+  bool holds(const ObjectState& objects) const noexcept;
   void carry(const ObjectState& objects) noexcept;
   void lower(const ObjectState& objects) noexcept;
+  void shake() noexcept;
+  double tilt(const ObjectState& objects) const noexcept;
   bool isFilled(std::size_t goal, const ObjectState& objects) const noexcept;
   bool isPlaced(std::size_t body, const ObjectState& objects) const noexcept;
   double clearHeight(const ObjectState& objects) const noexcept;
@@ -77,6 +82,7 @@ class Planner {
   std::size_t goal_ = 0, body_ = 0;
   Pose X_WG_, X_WB_taken_;
   Grasp grasp_;
+  int shakes_ = 0;
   bool finished_ = false;
 };
 

@@ -77,7 +77,7 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
   text +=
       "  <materials>\n"
       "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.68 0.60 0.47\">"
-      "<friction static=\"0.7\" dynamic=\"0.6\" torsion=\"0.004\"/></material>\n"
+      "<friction static=\"0.7\" dynamic=\"0.6\" torsion=\"0.0025\"/></material>\n"
       "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.50 0.45 0.36\">"
       "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
       "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.23 0.20 0.13\">"

@@ -141,6 +141,16 @@ void Places::bringBack(const ObjectState& objects) {
   }
 }
 
+void Places::slowDown(const ObjectState& objects) {
+  for (std::size_t body = 0; body < belongs_.size(); ++body) {
+    if (belongs_[body] == 0 || goal_of_[body] != kNoGoal || returning_[body] != 0) continue;
+    const double speed = objects.bodies[body].v_WB.norm();
+    if (speed < kRollsFrom || speed > kRollsTo) continue;
+    attractions_.bodies[index(attractions_.count++)] = {
+        .body = static_cast<std::int32_t>(body), .turns = false, .X_WB = objects.bodies[body].X_WB_end, .most = kGrass};
+  }
+}
+
 void Places::step(const ObjectState& objects, double period) {
   findCandidates(objects);
   assign();
@@ -153,6 +163,7 @@ void Places::step(const ObjectState& objects, double period) {
       attract(index(goal.body), placed_[g], false, true, assembly_.pull * std::min(1.0, drawing_[g] / kRise));
   }
   bringBack(objects);
+  slowDown(objects);
 }
 
 void Places::undo() {

@@ -30,7 +30,9 @@ class Places {
   static constexpr double kLeave = 1.25;             ///< a body that is drawn is let go this much farther away
   static constexpr double kRate = 20, kSpeed = 0.1;  ///< of Attraction [1/s, m/s]
   static constexpr double kRise = 0.3;               ///< in which a place comes to its full pull [s]
-  static constexpr double kBringBackWeights = 1.5;   ///< what friction on the ground does not hold
+  /// What rolls is slowed, as by grass: a drum on even ground would never stop [m/s^2, m/s].
+  static constexpr double kGrass = 0.3, kRollsFrom = 1e-3, kRollsTo = 0.5;
+  static constexpr double kBringBackWeights = 1.5;  ///< what friction on the ground does not hold
 
  private:
   struct Candidate {
@@ -42,6 +44,7 @@ class Places {
   void assign();
   void settle(const ObjectState& objects, double period);
   void bringBack(const ObjectState& objects);
+  void slowDown(const ObjectState& objects);
   void attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights);
   std::int32_t missing(std::size_t goal) const;
 

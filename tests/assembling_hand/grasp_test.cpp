@@ -30,7 +30,7 @@ TEST(Grasp, OfAStandingBodyIsAcrossItsNarrowSideAndAboveItsCentre) {
   const Grasp grasp = chooseGrasp(block(), 0, {{0.3, 0, 0.03}, turn(0.4, Vec3::UnitZ())}, {}, 0);
   EXPECT_NEAR(grasp.half, 0.02, 1e-12);
   EXPECT_NEAR(std::abs(grasp.a_B.y()), 1, 1e-12);
-  EXPECT_NEAR(grasp.p_BC.z(), 0.6 * 0.03, 1e-12);
+  EXPECT_NEAR(grasp.p_BC.z(), 0.75 * 0.03, 1e-12);
   EXPECT_NEAR(grasp.force, 2.5 * 0.1 * 9.81 / (2 * 0.5), 1e-12);
 }
 
@@ -41,17 +41,22 @@ TEST(Grasp, OfALyingBodyIsLevelAndNearItsTop) {
   const Vec3 a_W = lies.q * grasp.a_B;
   EXPECT_NEAR(a_W.z(), 0, 1e-12);
   EXPECT_NEAR(a_W.dot(lies.q * Vec3::UnitZ()), 0, 1e-12);
-  EXPECT_NEAR(grasp.p_BC.z(), 0.6 * 0.03, 1e-12);
+  EXPECT_NEAR(grasp.p_BC.z(), 0.75 * 0.03, 1e-12);
 }
 
-// Balanced on its head it would stay so: it is taken at a side, to lie down first.
-TEST(Grasp, OfABodyOnItsHeadIsAtItsSide) {
+TEST(Grasp, OfABodyOnItsHeadIsBelowItsCentre) {
   const Pose on_its_head{{0, 0, 0.03}, turn(EIGEN_PI, Vec3::UnitX())};
   const Grasp grasp = chooseGrasp(block(), 0, on_its_head, {}, 0);
-  EXPECT_TRUE(grasp.turns_over);
-  EXPECT_NEAR((on_its_head * grasp.p_BC).z(), 0.03, 1e-12);
-  EXPECT_NEAR(std::abs(grasp.p_BC.x()), 0.6 * 0.04, 1e-12) << "square to the line between the fingers";
-  EXPECT_NEAR(grasp.rest, 0.04 - 0.03, 1e-12);
+  EXPECT_NEAR((on_its_head * grasp.p_BC).z(), 0.03 - 0.75 * 0.03, 1e-12);
+}
+
+TEST(Grasp, OfAFlatBodyOnItsHeadIsAtItsSideToLayItDown) {
+  World world = block();
+  world.scene.bodies[0].physics = Geometry{Box{{0.08, 0.04, 0.03}}, {}, {}};
+  const Grasp grasp = chooseGrasp(world, 0, {{0, 0, 0.015}, turn(EIGEN_PI, Vec3::UnitX())}, {}, 0);
+  EXPECT_TRUE(grasp.lays_down);
+  EXPECT_NEAR(std::abs(grasp.p_BC.x()), 0.75 * 0.04, 1e-12) << "square to the line between the fingers";
+  EXPECT_NEAR(grasp.rise, 0.04 - 0.015, 1e-12);
 }
 
 }  // namespace

@@ -173,5 +173,17 @@ TEST_F(PlacesTest, WhatLeavesTheFieldIsBroughtBackWellInside) {
   EXPECT_EQ(places->state().brought_back, 0);
 }
 
+TEST_F(PlacesTest, WhatRollsIsSlowedAndNothingElse) {
+  at(0, {0.3, 0, 0});
+  objects.bodies[0].v_WB = {0.05, 0, 0};
+  objects.bodies[1].v_WB = {2, 0, 0};
+  objects.bodies[2].v_WB = {0.05, 0, 0};
+  step();
+  ASSERT_EQ(places->attractions().count, 1);
+  EXPECT_EQ(places->attractions().bodies[0].body, 0);
+  EXPECT_EQ(places->attractions().bodies[0].speed, 0);
+  EXPECT_EQ(places->attractions().bodies[0].most, Places::kGrass);
+}
+
 }  // namespace
 }  // namespace presa::assembly
