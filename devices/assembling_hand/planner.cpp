@@ -111,15 +111,13 @@ double Planner::clearHeight(const ObjectState& objects) const noexcept {
   return top + kClearance + fingertip_;
 }
 
-// The first goal that may be filled, and of the bodies that fit the one that was tried least and lies highest.
+// The first goal that may be filled, and of the bodies that fit the one that was tried least.
 void Planner::look(const ObjectState& objects) noexcept {
   const auto& goals = world_->scene.assembly->goals;
-  finished_ = true;
   bool found = false;
   int fewest = 0;
   for (std::size_t g = 0; g < goals.size(); ++g) {
     if (isFilled(g, objects)) continue;
-    finished_ = false;
     if (!std::ranges::all_of(goals[g].after, [&](std::size_t before) { return isFilled(before, objects); })) continue;
     for (const std::size_t body : goals[g].bodies) {
       if (isPlaced(body, objects) || (found && tries_[body] >= fewest)) continue;

@@ -49,8 +49,6 @@ class Planner {
   /// Change of at() [1/s].
   PairTarget rate(double time) const noexcept;
   Phase phase() const noexcept { return phase_; }
-  /// Every goal that can be filled is.
-  bool finished() const noexcept { return finished_; }
 
  private:
   void go(Phase phase, const PairTarget& to, double duration) noexcept;
@@ -83,7 +81,6 @@ class Planner {
   Pose X_WG_, X_WB_taken_;
   Grasp grasp_;
   int shakes_ = 0;
-  bool finished_ = false;
 };
 
 }  // namespace presa::assembling
