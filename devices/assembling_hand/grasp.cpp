@@ -55,7 +55,8 @@ Grasp chooseGrasp(const World& world, std::size_t i, const Pose& X_WB, const Pos
   } else {
     // the narrower of the two pairs of faces
     double least = 1e9;
-    for (const Vec3& n_B : {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 n_B = Vec3::Unit(axis);
       const Vec3 n_W = X_WB.q * n_B;
       if (std::abs(n_W.z()) > 0.3 || half_along(n_B) >= least) continue;
       least = half_along(n_B);

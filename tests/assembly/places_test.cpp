@@ -103,7 +103,7 @@ TEST_F(PlacesTest, WhatMustWaitSaysForWhat) {
   EXPECT_EQ(status(1), Status::kBlocked);
   EXPECT_EQ(places->state().goals[1].missing, 0);
   EXPECT_EQ(places->attractions().count, 0) << "not drawn";
-  at(1, {});
+  at(1, Vec3::Zero());
   step(kArrives + 1);
   EXPECT_EQ(status(0), Status::kFilled);
   EXPECT_EQ(status(1), Status::kDrawing) << "now it may";
@@ -128,7 +128,7 @@ TEST_F(PlacesTest, ArrivedIsWhatStaysThereSlowly) {
 }
 
 TEST_F(PlacesTest, UndoTakesOutTheLastAndLeavesItAloneUntilItWasAway) {
-  at(0, {});
+  at(0, Vec3::Zero());
   step(kArrives);
   at(1, {0, 0, 0.1});
   step(kArrives);
