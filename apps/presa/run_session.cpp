@@ -96,7 +96,9 @@ Run::Run(const Loaded& loaded, Settings settings)
 
   Session::Options session_options;
   session_options.trace_rate = settings_.trace_rate;
+  session_options.more = std::move(settings_.more);
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
+  session_options.wrap = settings_.wrap;
   if (options.realtime)
     for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
   session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
@@ -124,7 +126,7 @@ void Run::execute() {
   const SignalGuard guard(control_);
   live_->start_ns = monotonicNs();
   for (const std::string& note : result_.notes) live_->line.note(note);
-  if (loaded_.world->options.realtime && session_->output() != nullptr) live_->keys.emplace();
+  if (settings_.watch || (loaded_.world->options.realtime && session_->output() != nullptr)) live_->keys.emplace();
   executor_->run(loaded_.world->options.duration);
   live_->keys.reset();
   live_->line.finish();
@@ -153,7 +155,9 @@ void Run::poll() {
   }
   if (session_->view() != nullptr && session_->view()->wantsStop()) control_.stop_requested = true;
   noteObjectFaults();
-  if (live_->keys && live_->keys->next(0) == 'r') rearm();
+  const char key = live_->keys ? live_->keys->next(0) : '\0';
+  if (key == 'r') rearm();
+  if (settings_.watch && !settings_.watch(*session_, key)) control_.stop_requested = true;
   showStatus();
 }
 

@@ -1,5 +1,8 @@
 #pragma once
+#include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "apps/presa/run_result.h"
 #include "framework/plan/load_world.h"
@@ -18,6 +21,10 @@ class Run {
     bool quiet = false;     ///< no status line
     std::string command;    ///< command line, for the report
     RealtimeProbe rights = realtimeRights;
+    std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own taps
+    std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap
+    /// Called with every poll; `key` was pressed on the terminal, 0: none. False ends the run.
+    std::function<bool(Session& session, char key)> watch = {};
   };
   /// Builds the session. Throws InputError; nothing has been written then.
   Run(const Loaded& loaded, Settings settings);

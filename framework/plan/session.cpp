@@ -108,6 +108,7 @@ Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunContro
     : devices_(std::move(options.devices)) {
   const std::vector<FingerSafety> safety = safetyOf(*world, notes_);
   if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices, safety);
+  if (options.wrap) devices_ = options.wrap(std::move(devices_));
   for (std::size_t f = 0; f < devices_.size(); ++f)
     devices_[f] = watched(std::move(devices_[f]), safety[f].limits, control);
   GraphBuilder builder;
@@ -162,6 +163,7 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned, const std::s
   }
   auto module = tableOf<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world);
   if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
+  if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
   return module;
 }
 

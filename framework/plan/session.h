@@ -1,10 +1,12 @@
 #pragma once
+#include <functional>
 #include <limits>
 #include <memory>
 
 #include "framework/device/device_modules.h"
 #include "framework/graph/graph.h"
 #include "framework/monitor/monitor.h"
+#include "framework/plan/assembly_control.h"
 #include "framework/plan/plan.h"
 #include "framework/plan/view.h"
 #include "framework/record/recording.h"
@@ -25,6 +27,8 @@ class Session {
     DeviceList devices;                         ///< replay: used instead of the rig's drivers
     bool open_devices = true;                   ///< explain: looks at the drivers without touching hardware
     std::vector<std::unique_ptr<Module>> more;  ///< the program's own taps
+    /// What the program puts around the rig's devices once they are open; none: nothing.
+    std::function<DeviceList(DeviceList)> wrap;
   };
   /// Throws InputError with every finding.
   Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options);
@@ -42,7 +46,8 @@ class Session {
   const Monitor& monitor() const noexcept { return *monitor_; }
   Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
-  View* view() noexcept { return view_; }  ///< null without a view
+  View* view() noexcept { return view_; }                     ///< null without a view
+  AssemblyControl* assembly() noexcept { return assembly_; }  ///< null where nothing is put together
 
   /// Start of the scripted phase of that name [s]; infinity when no device has one.
   double phaseStart(const std::string& phase) const;
@@ -59,6 +64,7 @@ class Session {
   Monitor* monitor_ = nullptr;
   Recorder* recorder_ = nullptr;
   View* view_ = nullptr;
+  AssemblyControl* assembly_ = nullptr;
 };
 
 /// The view of a world alone, for a graph of one's own (its plug-in is loaded; throws InputError when that cannot be done).

@@ -16,6 +16,10 @@ class View : public Module {
   /// The user closed the window or pressed Esc. May be asked from any thread.
   virtual bool wantsStop() const noexcept = 0;
 
+  /// How often the user has asked to take out again what was put last, and has done anything at all in the window. From any thread.
+  virtual std::uint32_t undosWanted() const noexcept = 0;
+  virtual std::uint32_t inputs() const noexcept = 0;
+
   /// What became of RunOptions::screenshot. Ask after stop().
   struct Screenshot {
     enum class Outcome { kNotAsked, kPending, kWritten, kFailed };

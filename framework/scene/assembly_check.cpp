@@ -10,7 +10,14 @@ namespace {
 using xml::Element;
 using xml::splitWords;
 
-enum Code { kDuplicateGoal = 203, kUnknownBody = 214, kFixedBody = 215, kUnknownGoal = 216, kGoalLoop = 217 };
+enum Code {
+  kDuplicateGoal = 203,
+  kUnknownBody = 214,
+  kFixedBody = 215,
+  kUnknownGoal = 216,
+  kGoalLoop = 217,
+  kElement = 218
+};
 
 class AssemblyCheck {
  public:
@@ -21,6 +28,10 @@ class AssemblyCheck {
       if (body.boolean("fixed", false)) fixed_.insert(bodies_.back());
     }
     for (const Element& goal : goals_) names_.push_back(goal.attribute("name"));
+    for (const Element& words : assembly.children("words")) {
+      checkWords(words, diagnostics);
+      for (const Element& element : words.children("element")) elements_.push_back(element.attribute("name"));
+    }
   }
 
   void run() {
@@ -28,6 +39,7 @@ class AssemblyCheck {
       checkName(g);
       checkBodies(goals_[g]);
       checkAfter(goals_[g]);
+      checkElement(goals_[g]);
       checkOrientation(goals_[g], diagnostics_);
     }
     checkOrder();
@@ -63,6 +75,15 @@ class AssemblyCheck {
     }
   }
 
+  void checkElement(const Element& goal) {
+    const std::string name = goal.attribute("element");
+    if (name.empty() || std::find(elements_.begin(), elements_.end(), name) != elements_.end()) return;
+    diagnostics_.error(kElement, goal.where("element"),
+                       goal.label() + " is an element " + quote(name) + ", of which <words> says nothing" +
+                           didYouMean(name, elements_),
+                       "<words><element name=" + quote(name) + " called=\"…\"/></words>");
+  }
+
   /// Whatever can be filled is filled, until nothing more can: what is left waits for itself.
   void checkOrder() {
     std::set<std::string> filled;
@@ -88,7 +109,7 @@ class AssemblyCheck {
 
   Diagnostics& diagnostics_;
   std::vector<Element> goals_;
-  std::vector<std::string> bodies_, names_;
+  std::vector<std::string> bodies_, names_, elements_;
   std::set<std::string> fixed_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "framework/diagnostics/diagnostics.h"
 #include "framework/math/spatial.h"
+#include "framework/scene/assembly_words.h"
 
 /// A scene as plain data: what the user wrote, with every default filled in. SI units throughout.
 /// Immutable after loading; every module reads it, none keeps a second copy of a value.
@@ -55,6 +56,8 @@ struct Material {
   std::optional<FrictionCoefficients>
       changed_friction;       ///< under a finger after the surfaces have changed; none: as before
   Vec3 color{0.7, 0.7, 0.7};  ///< linear RGB in [0, 1]
+  enum class Texture { kNone, kStone, kEarth };
+  Texture texture = Texture::kNone;  ///< how it is drawn
   SourceLocation where;
 };
 
@@ -130,10 +133,11 @@ struct DynamicsSettings {
 /// A place of an assembly, and what may stand there.
 struct AssemblyGoal {
   std::string name;
-  std::vector<std::size_t> bodies;  ///< indices into Scene::bodies: any one of them fits
-  Pose X_WB;                        ///< of the body that stands here
-  std::size_t fold = 1;             ///< turned by 1/fold about its own z axis it is the same; 0: by anything
-  std::vector<std::size_t> after;   ///< goals that have to be filled first, indices into Assembly::goals
+  std::vector<std::size_t> bodies;   ///< indices into Scene::bodies: any one of them fits
+  Pose X_WB;                         ///< of the body that stands here
+  std::size_t fold = 1;              ///< turned by 1/fold about its own z axis it is the same; 0: by anything
+  std::vector<std::size_t> after;    ///< goals that have to be filled first, indices into Assembly::goals
+  std::size_t element = kNoElement;  ///< index into AssemblyWords::elements
 };
 
 /// Bodies that are to be put together: each is drawn to its place when it is near, and stays there.
@@ -149,6 +153,8 @@ struct Assembly {
   };
   std::optional<Field> field;
   std::vector<AssemblyGoal> goals;
+  AssemblyWords words;
+  double spent = 0;  ///< that people have worked on it before this run [s]
 };
 
 /// Where a run's state is published for viewers (framework/bus).

@@ -34,6 +34,10 @@ Scene readScene(const xml::Element& root, const std::string& file, const std::st
 void checkScene(const xml::Element& root, Diagnostics& diagnostics);
 /// The same of <assembly>: bodies and goals that it names, and whether they can be put together in any order.
 void checkAssembly(const xml::Element& root, Diagnostics& diagnostics);
+/// The <words> of an assembly, or of a file of their own: elements of one name (E218), places in a phrase that nothing fills (E219).
+void checkWords(const xml::Element& words, Diagnostics& diagnostics);
+/// Of a document whose defaults are written.
+AssemblyWords readWords(const xml::Element& words);
 /// Two orientations, or one that is none.
 void checkOrientation(const xml::Element& element, Diagnostics& diagnostics);
 /// Writes defaults, chosen materials and absolute paths into a document without errors.

@@ -81,6 +81,10 @@ Material readMaterial(const Element& element) {
   material.stiffness = element.number("stiffness", 0);
   material.damping = element.number("damping", 0);
   material.color = readVec3(element, "color", material.color);
+  const std::string texture = element.attribute("texture");
+  material.texture = texture == "stone"   ? Material::Texture::kStone
+                     : texture == "earth" ? Material::Texture::kEarth
+                                          : Material::Texture::kNone;
   for (const Element& friction : element.children("friction")) {
     material.friction_static = friction.number("static", 0);
     material.friction_dynamic = friction.number("dynamic", 0);
@@ -136,6 +140,9 @@ Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
   assembly.pull = element.number("pull", assembly.pull);
   for (const Element& field : element.children("field"))
     assembly.field = {readVec3(field, "pos", Vec3::Zero()), readVec3(field, "size", Vec3::Zero())};
+  assembly.spent = element.number("spent", assembly.spent);
+  for (const Element& words : element.children("words")) assembly.words = readWords(words);
+  std::vector<AssemblyWords::Element>& elements = assembly.words.elements;
   const std::vector<Element> goals = element.children("goal");
   for (const Element& goal : goals) {
     assembly.goals.push_back({.name = goal.attribute("name"),
@@ -143,6 +150,8 @@ Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
                               .X_WB = readPose(goal),
                               .fold = static_cast<std::size_t>(goal.number("fold", 1)),
                               .after = {}});
+    if (const std::string name = goal.attribute("element"); !name.empty())
+      assembly.goals.back().element = indicesOf({name}, elements).front();
   }
   for (std::size_t g = 0; g < goals.size(); ++g)
     assembly.goals[g].after = indicesOf(xml::splitWords(goals[g].attribute("after")), assembly.goals);

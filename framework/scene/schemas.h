@@ -7,4 +7,5 @@ extern const char* const motion;
 extern const char* const accuracy_cost;
 extern const char* const experiment;
 extern const char* const temple;
+extern const char* const words;
 }  // namespace presa::schemas

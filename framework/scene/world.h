@@ -25,6 +25,8 @@ struct RunOptions {
   View view = View::kNone;
   std::string screenshot;       ///< PNG path, may be empty
   double screenshot_time = -1;  ///< [s]; -1: at the end
+  std::string screenshots;      ///< folder for one picture every `screenshot_every`; may be empty
+  double screenshot_every = 0;  ///< simulated [s]
   std::string record;           ///< HDF5 path, may be empty
   bool overwrite = false;       ///< `record` may replace an existing file
   std::string flight;  ///< HDF5 path for the last seconds before a fault, where nothing is recorded; may be empty

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 
+#include "framework/temple/words.h"
+
 namespace presa::temple {
 namespace {
 
@@ -92,14 +94,17 @@ std::vector<std::size_t> supporting(const Building& building, std::size_t i) {
   return below;
 }
 
-std::string assemblyText(const Building& building, const Vec3& field) {
-  std::string text = "  <assembly>\n    <field pos=\"" + numbers({0.0, 0.0, field.z() / 2}) + "\" size=\"" +
-                     numbers({field.x(), field.y(), field.z()}) + "\"/>\n";
+std::string assemblyText(const Building& building, const Vec3& field, const AssemblyWords& words, double spent) {
+  std::string text = spent > 0 ? "  <assembly spent=\"" + numbers({spent}) + "\">\n" : "  <assembly>\n";
+  if (!words.elements.empty()) text += wordsText(words);
+  text += "    <field pos=\"" + numbers({0.0, 0.0, field.z() / 2}) + "\" size=\"" +
+          numbers({field.x(), field.y(), field.z()}) + "\"/>\n";
   for (std::size_t i = 0; i < building.blocks.size(); ++i) {
     const Block& block = building.blocks[i];
     const Pose& X = block.X_WB;
     text += "    <goal name=\"" + block.name + "\" bodies=\"" + namesOf(building, fitting(building, i)) + "\" pos=\"" +
             numbers({X.p.x(), X.p.y(), X.p.z()}) + "\" quat=\"" + numbers({X.q.w(), X.q.x(), X.q.y(), X.q.z()}) + "\"";
+    if (!words.elements.empty()) text += std::string(" element=\"") + elementName(block.kind) + "\"";
     if (block.fold != 1) text += " fold=\"" + std::to_string(block.fold) + "\"";
     if (const auto below = supporting(building, i); !below.empty())
       text += " after=\"" + namesOf(building, below) + "\"";

@@ -12,6 +12,7 @@ std::vector<std::size_t> fitting(const Building& building, std::size_t i);
 std::vector<std::size_t> supporting(const Building& building, std::size_t i);
 /// The scene's <assembly>: a goal for every block, named as the block, after those that carry it. `field`: edges of the box on
 /// the ground out of which nothing gets [m].
-std::string assemblyText(const Building& building, const Vec3& field);
+std::string assemblyText(const Building& building, const Vec3& field, const AssemblyWords& words = {},
+                         double spent = 0);
 
 }  // namespace presa::temple

@@ -76,11 +76,11 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
   if (spec.fine_steps) text += "  <dynamics substeps=\"10\" iterations=\"100\"/>\n";
   text +=
       "  <materials>\n"
-      "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.68 0.60 0.47\">"
+      "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.68 0.60 0.47\" texture=\"stone\">"
       "<friction static=\"0.7\" dynamic=\"0.6\" torsion=\"0.0025\"/></material>\n"
-      "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.50 0.45 0.36\">"
+      "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.50 0.45 0.36\" texture=\"stone\">"
       "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
-      "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.23 0.20 0.13\">"
+      "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.23 0.20 0.13\" texture=\"earth\">"
       "<friction static=\"0.8\" dynamic=\"0.7\"/></material>\n"
       "  </materials>\n";
   for (const SceneSpec::Stone& stone : spec.stones)
@@ -95,7 +95,8 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
     text += "  </devices>\n";
   }
   // twice as high as the building: what is being carried is inside
-  if (spec.to_be_built) text += assemblyText(building, {1.9 * kGroundX, 1.9 * kGroundY, 2 * building.top + 0.5});
+  if (spec.to_be_built)
+    text += assemblyText(building, {1.9 * kGroundX, 1.9 * kGroundY, 2 * building.top + 0.5}, spec.words, spec.spent);
   return text + "</scene>\n";
 }
 

@@ -19,6 +19,8 @@ struct SceneSpec {
   /// A heap or a façade is one island: with half as many steps as these its stones creep by some 0.1 mm/s.
   bool fine_steps = true;
   bool to_be_built = false;  ///< with an <assembly>: every block is drawn to its place
+  AssemblyWords words;       ///< of that assembly; without elements it has none
+  double spent = 0;          ///< that people have worked on it before [s]
   std::string rig;           ///< path for the scene's two fingers, thumb and index; empty: no fingers
 };
 

@@ -59,7 +59,7 @@ std::string outputWords(std::uint32_t status) {
 
 }  // namespace
 
-Hud::Hud(const World& world) {
+Hud::Hud(const World& world) : world_(world) {
   camera_->setName("head-up display");
   camera_->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera_->setViewMatrix(osg::Matrixd::identity());
@@ -78,6 +78,13 @@ Hud::Hud(const World& world) {
   content_->addChild(left_);
   content_->addChild(right_);
   content_->addChild(center_);
+  right_->addChild(right_figures_);
+  center_->addChild(legend_);
+  if (world.scene.assembly) {
+    assembly_.emplace(*center_);
+    right_figures_->setNodeMask(0);
+    legend_->setNodeMask(0);
+  }
   center_->addChild(help_);
 
   addTitle(world);
@@ -97,12 +104,17 @@ void Hud::setAspect(double aspect) {
   center_->setMatrix(osg::Matrixd::translate(width / 2, kHeight / 2, 0));
 }
 
-void Hud::toggleHelp() { help_->setNodeMask(help_->getNodeMask() == 0 ? ~0U : 0U); }
+void Hud::toggleHelp() {
+  help_->setNodeMask(~help_->getNodeMask());
+  if (assembly_) right_figures_->setNodeMask(help_->getNodeMask());
+}
 
 void Hud::tell(const std::string& message) { message_->set(message); }
 
 void Hud::setBanner(const std::string& text, bool alarm) {
-  if (!banner_) banner_.emplace(*center_, 0, kHeight / 2 - 34, 15, kInk, Typeface::kBold, Label::Align::kCenter);
+  if (!banner_)
+    banner_.emplace(*center_, 0, kHeight / 2 - (assembly_ ? 84 : 34), assembly_ ? 22 : 15, kInk, Typeface::kBold,
+                    Label::Align::kCenter);
   banner_->set(text);
   banner_->setColor(alarm ? kAlarm : kInk);
 }
@@ -146,18 +158,19 @@ void Hud::addRates(const World& world) {
                                                    {RateGroup::kView, rates.view}};
   if (busOf(world)) groups.emplace_back(RateGroup::kBus, rates.bus);
   const float height = 26 + kRow * static_cast<float>(groups.size());
-  right_->addChild(roundedPanel({-kMargin - kWidth, kTop - height, kWidth, height}, 8, kPanel));
+  right_figures_->addChild(roundedPanel({-kMargin - kWidth, kTop - height, kWidth, height}, 8, kPanel));
   const float left = -kMargin - kWidth + 12, right = -kMargin - 12;
-  Label head_rate(*right_, right - 82, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
+  Label head_rate(*right_figures_, right - 82, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
   head_rate.set("rate");
-  Label head_missed(*right_, right, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
+  Label head_missed(*right_figures_, right, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
   head_missed.set("late ticks");
   float y = kTop - 36;
   for (const auto& [group, nominal] : groups) {
-    Label name(*right_, left, y, 13, kInk);
+    Label name(*right_figures_, left, y, 13, kInk);
     name.set(toString(group));
-    rates_.push_back({group, nominal, Label(*right_, right - 82, y, 13, kInk, Typeface::kMono, Label::Align::kRight),
-                      Label(*right_, right, y, 13, kInk, Typeface::kMono, Label::Align::kRight)});
+    rates_.push_back({group, nominal,
+                      Label(*right_figures_, right - 82, y, 13, kInk, Typeface::kMono, Label::Align::kRight),
+                      Label(*right_figures_, right, y, 13, kInk, Typeface::kMono, Label::Align::kRight)});
     y -= kRow;
   }
   output_.emplace(*right_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
@@ -166,10 +179,10 @@ void Hud::addRates(const World& world) {
 void Hud::addLegend(bool interactive) {
   constexpr float kY = 27;
   const float width = interactive ? 904 : 826, left = -width / 2;
-  center_->addChild(roundedPanel({left, -kHeight / 2 + 10, width, 34}, 8, kPanel));
+  legend_->addChild(roundedPanel({left, -kHeight / 2 + 10, width, 34}, 8, kPanel));
   osg::ref_ptr<osg::MatrixTransform> strip =
       new osg::MatrixTransform(osg::Matrixd::translate(left + 12, -kHeight / 2, 0));
-  center_->addChild(strip);
+  legend_->addChild(strip);
   const auto entry = [&](float x, const char* words) {
     Label label(*strip, x, kY - 4.5F, 12.5F, kInk);
     label.set(words);
@@ -193,20 +206,22 @@ void Hud::addLegend(bool interactive) {
   strip->addChild(polygon({{701, kY - 0.6F}, {720, kY - 0.6F}, {720, kY + 0.6F}, {701, kY + 0.6F}}, kSoftInk));
   entry(727, "grid 5 cm");
   if (interactive) entry(813, "? help");
-  message_.emplace(*center_, 0, -kHeight / 2 + 56, 13, kInk, Typeface::kRegular, Label::Align::kCenter);
+  message_.emplace(*center_, 0, assembly_ ? AssemblyPanel::kTop + 14 : -kHeight / 2 + 56, 13, kInk, Typeface::kRegular,
+                   Label::Align::kCenter);
 }
 
 void Hud::addHelp() {
   help_->setNodeMask(0);
-  help_->addChild(roundedPanel({-210, -110, 420, 220}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
-  const std::array<std::pair<const char*, const char*>, 7> lines{{{"left drag", "turn around the scene"},
+  help_->addChild(roundedPanel({-210, -123, 420, 246}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
+  const std::array<std::pair<const char*, const char*>, 8> lines{{{"left drag", "turn around the scene"},
                                                                   {"middle drag", "shift"},
                                                                   {"right drag, wheel", "nearer, farther"},
                                                                   {"h", "follow bodies and fingers again"},
                                                                   {"s", "save a picture"},
+                                                                  {"u", "take out what was put last"},
                                                                   {"?", "this help"},
                                                                   {"Esc", "stop the run"}}};
-  float y = 74;
+  float y = 87;
   for (const auto& [key, what] : lines) {
     Label key_label(*help_, -186, y, 14, kInk, Typeface::kBold);
     key_label.set(key);
@@ -255,6 +270,7 @@ void Hud::update(const ViewFrame& frame, const std::vector<FingerView>& fingers,
     grip_bar_->set(grip / grip_scale_, kGripInk);
   }
   updateRates(timings);
+  if (assembly_ && frame.guidance) assembly_->update(world_.scene, *frame.guidance);
   output_->set(outputWords(frame.forces.status));
 }
 

@@ -8,6 +8,7 @@
 
 #include "framework/schedule/tick.h"
 #include "framework/schedule/timing_stats.h"
+#include "modules/view_osg/assembly_panel.h"
 #include "modules/view_osg/finger_view.h"
 #include "modules/view_osg/hud_widgets.h"
 
@@ -57,6 +58,10 @@ class Hud {
   osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;   ///< x = 0 is the right edge
   osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;  ///< origin in the middle
   osg::ref_ptr<osg::Group> help_ = new osg::Group;
+  /// Where people put something together the rates come with the help only, and the legend leaves its place to what they are told.
+  osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, legend_ = new osg::Group;
+  const World& world_;
+  std::optional<AssemblyPanel> assembly_;
   std::optional<Label> time_, banner_, output_, grip_value_, message_;
   std::optional<Bar> grip_bar_;
   std::vector<Card> cards_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "modules/view_osg/grain.h"
+
 namespace presa::view {
 namespace {
 
@@ -22,8 +24,10 @@ Picture::Picture(std::shared_ptr<const World> world)
       glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
       lighting_(casters_, root_->getOrCreateStateSet()),
       hud_(*world_) {
+  addGrain(*root_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
+  if (world_->scene.assembly) guides_ = std::make_unique<Guides>(world_->scene, bodies_);
   ViewFrame start;
   start.X_WB = startPoses(*world_);
   updateSubject(start, {});
@@ -31,6 +35,7 @@ Picture::Picture(std::shared_ptr<const World> world)
   for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
                           static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(hud_.camera())})
     root_->addChild(part);
+  if (guides_) root_->addChild(guides_->root());
   root_->addChild(makeBackground());
   root_->addChild(makeFloor(*world_, enclose(subject_).center, reach));
 }
@@ -46,6 +51,13 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
   const bool any_free = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.fixed; });
   for (std::size_t i = 0; i < bodies.size() && i < frame.X_WB.size(); ++i)
     if (!bodies[i].fixed || !any_free) subject_.push_back({frame.X_WB[i].p, bodies_.radius(i)});
+  if (world_->scene.assembly) {
+    for (const AssemblyGoal& goal : world_->scene.assembly->goals)
+      subject_.push_back({goal.X_WB.p, bodies_.radius(goal.bodies.front())});
+    // what people are told covers the lower edge: the picture has some ground to give
+    const Ball all = enclose(subject_);
+    subject_.push_back({all.center - Vec3(0, 0, all.radius), 0});
+  }
   for (const FingerView& finger : fingers) {
     if (!finger.valid) continue;
     subject_.push_back({finger.p_WP, finger.radius});
@@ -57,6 +69,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   const std::vector<FingerView> fingers = fingerViews(*world_, frame);
   bodies_.setPoses(frame.X_WB);
   glyphs_.update(fingers);
+  if (guides_ && frame.guidance) guides_->update(*frame.guidance, frame.X_WB, frame.time);
   hud_.update(frame, fingers, timings);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);

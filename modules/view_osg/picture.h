@@ -4,6 +4,7 @@
 
 #include "modules/view_osg/camera.h"
 #include "modules/view_osg/contact_glyphs.h"
+#include "modules/view_osg/guides.h"
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
 #include "modules/view_osg/scene_nodes.h"
@@ -30,6 +31,7 @@ class Picture {
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
   BodyNodes bodies_;
   ContactGlyphs glyphs_;
+  std::unique_ptr<Guides> guides_;  // of scenes with an assembly
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;
   Hud hud_;

@@ -18,6 +18,11 @@ class Renderer {
   virtual bool closed() const = 0;
   /// The user asked for a picture since the last call.
   virtual bool takePictureRequest() = 0;
+  /// How often the user asked to take out what was put last, and did anything at all, since the start.
+  struct Inputs {
+    std::uint32_t undos = 0, all = 0;
+  };
+  virtual Inputs inputs() const { return {}; }
 };
 
 /// Without a display: 1280 x 720, drawn at twice the size and averaged down.

@@ -1,5 +1,6 @@
 #include "modules/view_osg/scene_nodes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <osg/ComputeBoundsVisitor>
@@ -8,6 +9,7 @@
 
 #include "modules/view_osg/crease_normals.h"
 #include "modules/view_osg/geometry_nodes.h"
+#include "modules/view_osg/grain.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/shaders.h"
 
@@ -49,6 +51,21 @@ double lowestPoint(const World& world) {
   return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
 }
 
+/// What is of earth and stays where it is: the floor goes on around it. Null where there is none.
+const Body* earthOf(const Scene& scene) {
+  const auto found = std::ranges::find_if(scene.bodies, [&](const Body& body) {
+    return body.fixed && scene.materialOf(body).texture == Material::Texture::kEarth;
+  });
+  return found == scene.bodies.end() ? nullptr : &*found;
+}
+
+double topOf(const World& world, const Body& body) {
+  BodyNodes bodies(world);
+  osg::ComputeBoundsVisitor bounds;
+  bodies.root()->getChild(static_cast<unsigned>(&body - world.scene.bodies.data()))->accept(bounds);
+  return bounds.getBoundingBox().zMax();
+}
+
 }  // namespace
 
 const Geometry* shownGeometry(const Body& body) {
@@ -66,7 +83,10 @@ BodyNodes::BodyNodes(const World& world) {
     osg::ref_ptr<osg::MatrixTransform> X_WB = new osg::MatrixTransform(toOsg(body.X_WB));
     X_WB->setName(body.name);
     // fixed bodies are what things stand on: the grid gives them a scale
-    X_WB->getOrCreateStateSet()->addUniform(new osg::Uniform("grid_strength", body.fixed ? 1.0F : 0.0F));
+    const Material::Texture texture = world.scene.materialOf(body).texture;
+    const bool grid = body.fixed && texture == Material::Texture::kNone;
+    X_WB->getOrCreateStateSet()->addUniform(new osg::Uniform("grid_strength", grid ? 1.0F : 0.0F));
+    setGrain(*X_WB->getOrCreateStateSet(), texture, i);
     double radius = 0;
     if (const Geometry* shown = shownGeometry(body)) {
       const TriMesh* mesh = i < world.meshes.size() ? shownMesh(body, world.meshes[i]) : nullptr;
@@ -104,15 +124,18 @@ osg::ref_ptr<osg::Node> makeBackground() {
 }
 
 osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius) {
+  const Body* earth = earthOf(world.scene);
   const double drop = 1e-4;  // a body that ends on the floor must not flicker with it
-  const Vec3 middle(center.x(), center.y(), lowestPoint(world) - drop);
-  osg::ref_ptr<osg::Geometry> disc = revolve({{radius, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, kFloorColor);
+  const Vec3 middle(center.x(), center.y(), (earth != nullptr ? topOf(world, *earth) : lowestPoint(world)) - drop);
+  const Vec3 color = earth != nullptr ? world.scene.materialOf(*earth).color : kFloorColor;
+  osg::ref_ptr<osg::Geometry> disc = revolve({{radius, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, color);
   osg::ref_ptr<osg::MatrixTransform> floor =
       new osg::MatrixTransform(osg::Matrixd::translate(middle.x(), middle.y(), 0));
   floor->setName("floor");
   floor->addChild(disc);
   osg::StateSet* state = floor->getOrCreateStateSet();
   state->setAttributeAndModes(shaders::floor());
+  setGrain(*state, earth != nullptr ? Material::Texture::kEarth : Material::Texture::kNone, 0);
   state->addUniform(new osg::Uniform("floor_center", osg::Vec3(toOsg(middle))));
   state->addUniform(new osg::Uniform("floor_radius", static_cast<float>(radius)));
   return floor;

@@ -14,6 +14,10 @@ class BodyNodes {
   osg::Group* root() { return root_; }
   /// Poses as Scene::bodies.
   void setPoses(const std::vector<Pose>& X_WB);
+  /// What is drawn of it, in the body's frame; null when there is nothing. It may hang in other places, too.
+  osg::Node* shape(std::size_t body) {
+    return transforms_[body]->getNumChildren() > 0 ? transforms_[body]->getChild(0) : nullptr;
+  }
   /// Smallest sphere about the body's origin that holds what is drawn of it [m].
   double radius(std::size_t body) const { return radius_[body]; }
 

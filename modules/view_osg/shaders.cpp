@@ -11,7 +11,9 @@ out vec3 position_W;
 out vec3 normal_W;
 out vec3 to_eye_W;
 out vec4 base;
+out vec3 position_B;
 void main() {
+  position_B = gl_Vertex.xyz;
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
   position_W = (osg_ViewMatrixInverse * eye).xyz;
   normal_W = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
@@ -31,8 +33,10 @@ void main() {
 
 constexpr const char* kSky = R"(#version 130
 uniform vec2 picture_size;
+uniform bool outdoors;
 vec3 skyColor(float height) {
-  vec3 low = vec3(0.300, 0.345, 0.400), high = vec3(0.030, 0.043, 0.065);
+  vec3 low = outdoors ? vec3(0.46, 0.50, 0.52) : vec3(0.300, 0.345, 0.400);
+  vec3 high = outdoors ? vec3(0.060, 0.150, 0.330) : vec3(0.030, 0.043, 0.065);
   return mix(low, high, smoothstep(0.05, 1.0, height));
 }
 vec3 skyBehindFragment() { return skyColor(gl_FragCoord.y / picture_size.y); }
@@ -105,21 +109,62 @@ vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss);
 float grid(vec2 p);
 )";
 
+constexpr const char* kGrain = R"(#version 130
+uniform sampler3D grain_map;
+
+// lengths in metres: clouds over a hand's width, grain of millimetres
+vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W) {
+  vec4 cloud = texture(grain_map, p * 5.5);
+  float fine = texture(grain_map, p * 42.0 + 0.3).r;
+  float pit = smoothstep(0.42, 0.22, texture(grain_map, p * 17.0 + 0.7).r);
+  albedo *= 0.50 + 0.72 * cloud.r;
+  albedo = mix(albedo, albedo * vec3(0.78, 0.66, 0.50), 0.5 * cloud.a);
+  albedo *= (0.80 + 0.36 * fine) * (1.0 - 0.45 * pit);
+  // a bump, from how the grain changes across the picture
+  float height = 0.0005 * fine - 0.0008 * pit;
+  vec3 dx = dFdx(position_W), dy = dFdy(position_W);
+  vec3 r1 = cross(dy, n), r2 = cross(n, dx);
+  float area = dot(dx, r1);
+  vec3 slope = sign(area) * (dFdx(height) * r1 + dFdy(height) * r2);
+  n = normalize(max(abs(area), 1e-12) * n - slope);
+  return albedo;
+}
+
+vec3 earth(vec3 albedo, vec3 p) {
+  float patch_ = texture(grain_map, p * 1.1).r, tuft = texture(grain_map, p * 7.0 + 0.6).r;
+  // turned against the tile, so that its rows do not show
+  vec3 q = vec3(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z + 0.4 * p.x);
+  float blade = 0.5 * (texture(grain_map, q * 23.0).r + texture(grain_map, p * 9.7).r);
+  vec3 grass = vec3(0.115, 0.135, 0.045);
+  albedo = mix(albedo, grass, smoothstep(0.38, 0.62, 0.6 * patch_ + 0.4 * tuft));
+  return albedo * (0.35 + 1.3 * blade) * (0.8 + 0.4 * tuft);
+}
+)";
+
 constexpr const char* kBody = R"(
 uniform float grid_strength;
+uniform int grain_kind;
+uniform vec3 grain_offset;
+in vec3 position_B;
+vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W);
+vec3 earth(vec3 albedo, vec3 p);
 void main() {
   vec3 n = normalize(normal_W);
   vec3 albedo = base.rgb;
+  if (grain_kind == 1) albedo = stone(albedo, position_B + grain_offset, n, position_W);
+  if (grain_kind == 2) albedo = earth(albedo, position_W);
   if (n.z > 0.99) albedo *= 1.0 - grid_strength * grid(position_W.xy);
-  gl_FragColor = vec4(toDisplay(lit(albedo, n, position_W, normalize(to_eye_W), 0.35)), 1.0);
+  gl_FragColor = vec4(toDisplay(lit(albedo, n, position_W, normalize(to_eye_W), grain_kind == 0 ? 0.35 : 0.04)), 1.0);
 }
 )";
 
 constexpr const char* kFloor = R"(
 uniform vec3 floor_center;
 uniform float floor_radius;
+uniform int grain_kind;
+vec3 earth(vec3 albedo, vec3 p);
 void main() {
-  vec3 albedo = base.rgb * (1.0 - grid(position_W.xy));
+  vec3 albedo = grain_kind == 2 ? earth(base.rgb, position_W) : base.rgb * (1.0 - grid(position_W.xy));
   vec3 color = lit(albedo, vec3(0, 0, 1), position_W, normalize(to_eye_W), 0.0);
   float far = smoothstep(0.15, 1.0, length(position_W.xy - floor_center.xy) / floor_radius);
   gl_FragColor = vec4(toDisplay(mix(color, skyBehindFragment(), far)), 1.0);
@@ -167,6 +212,7 @@ osg::ref_ptr<osg::Program> surface(const char* name, const char* main) {
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kSky));
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kLight));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kGrain));
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, std::string(kSurfaceDeclarations) + main));
   return program;
 }

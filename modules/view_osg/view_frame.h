@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "framework/guide/assembly_guide.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/device_state.h"
 
@@ -13,6 +15,7 @@ struct ViewFrame {
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;
+  std::optional<Guidance> guidance;  ///< of scenes with an assembly
 };
 
 }  // namespace presa::view

@@ -6,6 +6,7 @@
 #include <osg/Notify>
 
 #include "framework/diagnostics/refuse.h"
+#include "framework/guide/standing.h"
 #include "framework/plan/plugin.h"
 #include "modules/view_osg/frame_image.h"
 
@@ -25,6 +26,7 @@ ViewModule::ViewModule(std::shared_ptr<const World> world)
   // Mesa's software renderer would take every core, the haptic thread's too. Set here, before any thread runs.
   setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
+  if (world_->scene.assembly) guide_.emplace(*world_->scene.assembly, world_->scene.bodies.size());
   if (!world_->options.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
 }
 
@@ -32,6 +34,7 @@ ViewModule::~ViewModule() = default;
 
 std::vector<std::string> ViewModule::stages() const {
   if (windowed()) return {"take the latest states, poses interpolated to now", "handle keys and mouse, draw a frame"};
+  if (!world_->options.screenshots.empty()) return {"keep the latest state", "draw the pictures that are due"};
   return {"keep the latest state", "draw the picture once, when it is due"};
 }
 
@@ -62,6 +65,7 @@ void ViewModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
     watch.done(0);
     if (windowed()) drawWindow();
     if (screenshotDue()) saveScreenshot();
+    saveSeries();
     watch.done(1);
   } catch (const std::exception& error) {
     giveUp(error.what());
@@ -87,11 +91,22 @@ void ViewModule::copyPorts(const Tick& tick) {
   const ObjectState& objects = object_state_.value();
   const std::size_t count = std::min(frame_.X_WB.size(), static_cast<std::size_t>(objects.count));
   for (std::size_t i = 0; i < count; ++i) frame_.X_WB[i] = objects.poseAt(static_cast<std::int32_t>(i), tick.time);
+  if (guide_) followAssembly(objects, tick.time);
+}
+
+// Every step, drawn or not: the guide counts hesitation in them. A viewer elsewhere gets no assembly's state and judges by poses.
+void ViewModule::followAssembly(const ObjectState& objects, double time) {
+  guide_->step(time, objects,
+               assembly_state_.hasValue() ? assembly_state_.value() : standing(*world_->scene.assembly, objects),
+               frame_.contacts);
+  frame_.guidance = guide_->now();
 }
 
 void ViewModule::drawWindow() {
   picture_->show(frame_, timings_);
   renderer_->render();
+  undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);
+  inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);
   if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";
@@ -111,6 +126,16 @@ void ViewModule::saveScreenshot() {
     screenshot_ = {Screenshot::Outcome::kWritten, "wrote " + file + ", t = " + timeStamp(frame_.time) + " s"};
   else
     screenshot_ = {Screenshot::Outcome::kFailed, "cannot write " + file + ": " + trouble};
+}
+
+void ViewModule::saveSeries() {
+  const RunOptions& options = world_->options;
+  if (options.screenshots.empty() || frame_.time < next_picture_) return;
+  next_picture_ = frame_.time + options.screenshot_every;
+  std::array<char, 32> name;
+  std::snprintf(name.data(), name.size(), "/%09.3f.png", frame_.time);
+  const std::string trouble = savePicture(options.screenshots + name.data());
+  if (!trouble.empty()) throw std::runtime_error(trouble);
 }
 
 std::string ViewModule::savePicture(const std::string& file) {

@@ -4,6 +4,7 @@
 
 #include "framework/graph/port.h"
 #include "framework/graph/stage_watch.h"
+#include "framework/guide/assembly_guide.h"
 #include "framework/plan/view.h"
 #include "framework/scene/world.h"
 #include "framework/state/object_state.h"
@@ -26,6 +27,8 @@ class ViewModule final : public View, public WatchedStages {
   std::vector<std::string> stages() const override;
 
   bool wantsStop() const noexcept override { return wants_stop_.load(std::memory_order_relaxed); }
+  std::uint32_t undosWanted() const noexcept override { return undos_.load(std::memory_order_relaxed); }
+  std::uint32_t inputs() const noexcept override { return inputs_.load(std::memory_order_relaxed); }
   Screenshot screenshot() const override { return screenshot_; }
   void setBanner(const std::string& text, bool alarm) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
@@ -34,7 +37,9 @@ class ViewModule final : public View, public WatchedStages {
   bool windowed() const { return world_->options.view == RunOptions::View::kWindow; }
   void copyPorts(const Tick& tick);
   void drawWindow();
+  void followAssembly(const ObjectState& objects, double time);
   bool screenshotDue() const;
+  void saveSeries();
   void saveScreenshot();
   std::string savePicture(const std::string& file);
   void giveUp(const std::string& why) noexcept;
@@ -45,12 +50,17 @@ class ViewModule final : public View, public WatchedStages {
   In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
+  In<AssemblyState> assembly_state_{*this, "assembly_state", In<AssemblyState>::Optional{}};
+
   ViewFrame frame_;
+  std::optional<AssemblyGuide> guide_;  // of scenes with an assembly
+  double next_picture_ = 0;             // of RunOptions::screenshots [s]
   GroupTimings timings_{};
   std::unique_ptr<Picture> picture_;
   std::unique_ptr<Renderer> renderer_;
   Screenshot screenshot_;
   std::atomic<bool> wants_stop_{false};
+  std::atomic<std::uint32_t> undos_{0}, inputs_{0};
   bool broken_ = false;  ///< drawing failed once: the run goes on without a picture
 };
 

@@ -26,13 +26,18 @@ class Keys : public osgGA::GUIEventHandler {
     }
     if (event.getEventType() == osgGA::GUIEventAdapter::PUSH || event.getEventType() == osgGA::GUIEventAdapter::SCROLL)
       following = false;
+    if (event.getEventType() == osgGA::GUIEventAdapter::PUSH) ++inputs.all;
     if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
+    ++inputs.all;
     switch (event.getKey()) {
       case 's':
         picture_requested = true;
         return true;
       case 'h':
         frame_requested = following = true;
+        return true;
+      case 'u':
+        ++inputs.undos;
         return true;
       case '?':
         picture_.hud().toggleHelp();
@@ -44,6 +49,7 @@ class Keys : public osgGA::GUIEventHandler {
     }
   }
   bool picture_requested = false;
+  Renderer::Inputs inputs;
   bool frame_requested = true;  ///< the first frame frames
   bool following = true;        ///< until the user takes the camera in hand
 
@@ -92,6 +98,7 @@ class WindowRenderer final : public Renderer {
     return grabber_->take();
   }
   bool closed() const override { return viewer_.done() || !window_->isRealized(); }
+  Inputs inputs() const override { return keys_->inputs; }
   bool takePictureRequest() override { return std::exchange(keys_->picture_requested, false); }
 
  private:

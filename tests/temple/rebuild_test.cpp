@@ -1,5 +1,5 @@
 // The whole demo without a person: ruins, fingers, friction, places.
-#include "apps/presa/temple/rebuild.h"
+#include "apps/presa/temple/visit.h"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,11 @@ Rebuilt rebuildColumn(std::uint64_t seed, double limit) {
   spec.to_be_built = true;
   spec.rig = PRESA_SOURCE_DIR "/config/rigs/assembling_pair.xml";
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorld({writeScene(column, spec, folder), "", {}}, {}, diagnostics);
+  RunOptions options;
+  options.duration = limit;
+  const Loaded loaded = loadWorld({writeScene(column, spec, folder), "", {}}, options, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
-  return rebuild(loaded, limit, [](int, int) { return true; });
+  return visit(loaded, {.finish = 2, .quiet = true});
 }
 
 // Seed 8 has drums and the capital on their heads.

@@ -1,18 +1,21 @@
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <tuple>
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/run_session.h"
 #include "apps/presa/scratch_folder.h"
-#include "apps/presa/temple/rebuild.h"
 #include "apps/presa/temple/ruins.h"
+#include "apps/presa/temple/visit.h"
 #include "apps/presa/temple/written_scene.h"
 #include "apps/presa/terminal/job_progress.h"
 #include "framework/temple/building.h"
+#include "framework/temple/words.h"
 
 namespace presa {
 namespace {
@@ -20,23 +23,54 @@ namespace {
 constexpr double kBehind = 0.1;          // of the building's middle, from the field's [m]
 constexpr double kEachBlock = 100;       // an automatic rebuilding is given up after so long a block [s]
 constexpr double kPictureAfter = 0.005;  // one step of the dynamics [s]
+constexpr double kLetGo = 2;             // for the fingers, once all stands [s]
+constexpr double kFinish = 8;            // for who looks on [s]
+constexpr double kOpenEnd = 7 * 86400;   // [s]
 
 struct Arguments {
-  std::string size = "column", parameters, folder, rig, view, screenshot, summary;
+  std::string size = "column", parameters, folder, rig, view, screenshot, summary, language = "en";
+  std::string visits;                    // where they are kept; empty: the default
+  std::string kept;                      // session to go on with
+  std::vector<std::string> screenshots;  // seconds, folder
   std::uint64_t seed = 1;
-  double limit = 0;  // simulated [s]; 0: by the number of blocks
-  bool assembled = false, overwrite = false, automatic = false;
-  bool lockstep = true;  // there is no other way yet
+  double limit = 0;       // simulated [s]; 0: by the number of blocks, or without end
+  double time_scale = 0;  // 0: none
+  bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
+
+  /// Somebody puts it together: not only a picture or a scene is wanted.
+  bool visit() const { return automatic || go_on || !screenshots.empty() || (folder.empty() && screenshot.empty()); }
+  bool realtime() const { return !lockstep && time_scale == 0; }
 };
 
+RunOptions::View chooseView(const Arguments& a) {
+  if (a.view == "window") return RunOptions::View::kWindow;
+  if (a.view == "offscreen") return RunOptions::View::kOffscreen;
+  if (a.view == "none") return RunOptions::View::kNone;
+  const char* display = std::getenv("DISPLAY");
+  const bool seen = a.realtime() || a.time_scale > 0;
+  if (seen && display != nullptr && *display != '\0') return RunOptions::View::kWindow;
+  return a.screenshot.empty() && a.screenshots.empty() ? RunOptions::View::kNone : RunOptions::View::kOffscreen;
+}
+
+std::string visitFolder(const Arguments& a) {
+  if (a.visits == "none" || (a.visits.empty() && !a.realtime())) return {};
+  return a.visits.empty() ? temple::defaultVisitFolder() : a.visits;
+}
+
 void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
-  if (a.folder.empty() && a.screenshot.empty() && !a.automatic)
-    diagnostics.error(979, {"command line", 0, 0}, "there is nothing to do",
-                      "--auto rebuilds it, --write DIR writes the scene, --screenshot FILE.png shows it");
+  if (a.visit() && !a.automatic && a.rig.empty() && chooseView(a) != RunOptions::View::kWindow)
+    diagnostics.error(
+        979, {"command line", 0, 0}, "there is nobody to rebuild it: no window for a visitor, and no rig",
+        "set DISPLAY for a window, --rig RIG for devices, --auto for simulated fingers; --write DIR writes the "
+        "scene, --screenshot FILE.png shows it");
   if (!a.folder.empty()) temple::checkTarget(a.folder, a.overwrite, diagnostics);
-  if (a.view == "none" && !a.screenshot.empty())
+  if (a.view == "none" && !(a.screenshot.empty() && a.screenshots.empty()))
     diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none",
                       "use --view offscreen");
+  if (!a.screenshots.empty() && !(std::atof(a.screenshots.front().c_str()) > 0))
+    diagnostics.error(979, {"--screenshot-every", 0, 0},
+                      "a picture every '" + a.screenshots.front() + "' seconds cannot be taken",
+                      "--screenshot-every 0.5 out/pictures");
 }
 
 /// Every block where it fell; none when interrupted.
@@ -55,7 +89,6 @@ std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::
   temple::SceneSpec spec = temple::assembled(building);
   spec.name += "_ruins";
   spec.description = "What is left of a Doric building";
-  spec.to_be_built = true;
   for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = ruins.X_WB[stone.block];
   return spec;
 }
@@ -82,65 +115,134 @@ int takePicture(const temple::Building& building, temple::SceneSpec spec, const 
   return run.result().interrupted ? kExitInterrupted : kExitOk;
 }
 
-/// Two fingers of that pair, where the user names no other.
-constexpr const char* kPair = R"(<rig version="1.0" name="assembling_pair">
-  <device role="thumb" driver="assembling_hand"/><device role="index" driver="assembling_hand"/></rig>)";
+std::string pairOf(const char* driver) {
+  const auto device = [&](const char* role) {
+    return std::string("<device role=\"") + role + "\" driver=\"" + driver + "\"/>";
+  };
+  return std::string("<rig version=\"1.0\" name=\"") + driver + "_pair\">" + device("thumb") + device("index") +
+         "</rig>";
+}
 
-int rebuildAlone(const temple::Building& building, temple::SceneSpec spec, const Arguments& a) {
-  const ScratchFolder scratch;
-  const std::filesystem::path rig = scratch.path() / "pair.xml";
-  if (spec.rig.empty()) {
-    writeFileAtomically(rig.string(), kPair);
-    spec.rig = rig.string();
-  }
+RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   RunOptions options;
-  options.duration = a.limit > 0 ? a.limit : kEachBlock * static_cast<double>(building.blocks.size());
-  if (!a.screenshot.empty()) {
-    options.view = RunOptions::View::kOffscreen;
-    options.screenshot = a.screenshot;
+  options.duration = a.limit > 0   ? a.limit
+                     : a.automatic ? kEachBlock * static_cast<double>(building.blocks.size())
+                                   : kOpenEnd;
+  options.realtime = a.realtime();
+  options.allow_no_rt = a.allow_no_rt;
+  options.bound_stiffness = !a.automatic;
+  options.view = chooseView(a);
+  options.screenshot = a.screenshot;
+  if (!a.screenshots.empty()) {
+    options.screenshot_every = std::atof(a.screenshots.front().c_str());
+    options.screenshots = a.screenshots.back();
+    std::filesystem::create_directories(options.screenshots);
   }
-  Diagnostics diagnostics;
-  const Loaded loaded =
-      loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}}, options, diagnostics);
-  std::fputs(diagnostics.text().c_str(), stderr);
-  if (diagnostics.hasErrors()) return kExitBadInput;
+  return options;
+}
 
-  terminal::JobProgress progress(building.blocks.size());
-  int told = 0;
-  const temple::Rebuilt rebuilt = temple::rebuild(loaded, options.duration, [&](int placed, int) {
-    for (; told < placed; ++told) progress.done("rebuilding");
-    progress.show();
-    return !terminal::JobProgress::interrupted();
-  });
-  progress.finish();
+int told(const temple::Rebuilt& rebuilt, const Arguments& a) {
   if (!a.summary.empty()) writeFileAtomically(a.summary, temple::summaryText(rebuilt, a.size, a.seed));
   std::printf(
       "%d of %d blocks in their places, at most %.3f mm and %.2f degrees off; %d dropped; %.0f s simulated in %.1f s\n",
       rebuilt.placed, rebuilt.pieces, 1e3 * rebuilt.worst_position_error,
       rebuilt.worst_angle_error * 180 / std::numbers::pi, rebuilt.drops, rebuilt.simulated_seconds,
       rebuilt.wall_seconds);
-  if (terminal::JobProgress::interrupted()) return kExitInterrupted;
-  return rebuilt.placed == rebuilt.pieces && rebuilt.faults == 0 ? kExitOk : kExitFault;
+  if (rebuilt.interrupted) return kExitInterrupted;
+  return (rebuilt.placed == rebuilt.pieces || !a.automatic) && rebuilt.faults == 0 ? kExitOk : kExitFault;
 }
 
-int runTemple(const Arguments& a) {
+int runVisit(const temple::Building& building, temple::SceneSpec spec, const Arguments& a, temple::KeptSession start) {
+  const ScratchFolder scratch;
+  if (spec.rig.empty()) {
+    spec.rig = scratch.file("pair.xml");
+    writeFileAtomically(spec.rig, pairOf(a.automatic ? "assembling_hand" : "pointer"));
+  }
   Diagnostics diagnostics;
-  const temple::Proportions proportions = a.parameters.empty() ? temple::shippedProportions(a.size, diagnostics)
-                                                               : temple::readProportions(a.parameters, diagnostics);
-  checkOutputs(a, diagnostics);
+  const Loaded loaded = loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}},
+                                  optionsOf(building, a), diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  const temple::Building building = temple::makeBuilding(proportions, kBehind, a.seed);
-  std::optional<temple::SceneSpec> spec = a.assembled ? temple::assembled(building) : ruinsOf(building, a.seed);
+  temple::VisitSettings settings{.finish = !a.automatic   ? -1
+                                           : a.realtime() ? kFinish
+                                                          : kLetGo,
+                                 .time_scale = a.time_scale,
+                                 .quiet = a.lockstep,
+                                 .folder = visitFolder(a),
+                                 .start = std::move(start),
+                                 .language = a.language};
+  if (!a.lockstep) return told(temple::visit(loaded, settings), a);
+  terminal::JobProgress progress(building.blocks.size());
+  int done = 0;
+  settings.progress = [&](int placed, int) {
+    for (; done < placed; ++done) progress.done("rebuilding");
+    progress.show();
+    return true;
+  };
+  const temple::Rebuilt rebuilt = temple::visit(loaded, settings);
+  progress.finish();
+  return told(rebuilt, a);
+}
+
+/// The blocks as they lay when that visit was kept.
+std::optional<temple::SceneSpec> specOf(const temple::Building& building, const temple::KeptSession& kept,
+                                        const std::string& file, Diagnostics& diagnostics) {
+  if (kept.X_WB.size() != building.blocks.size()) {
+    diagnostics.error(967, {file, 0, 0},
+                      "the session has " + std::to_string(kept.X_WB.size()) + " blocks, the building " +
+                          std::to_string(building.blocks.size()),
+                      "the building of the session: --parameters has to be the same");
+    return std::nullopt;
+  }
+  temple::SceneSpec spec = temple::assembled(building);
+  for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = kept.X_WB[stone.block];
+  spec.spent = kept.spent;
+  return spec;
+}
+
+int runTemple(Arguments a) {
+  Diagnostics diagnostics;
+  std::optional<temple::KeptSession> kept;
+  const std::string kept_file =
+      !a.kept.empty() ? a.kept : temple::sessionFile(a.visits.empty() ? temple::defaultVisitFolder() : a.visits);
+  if (a.go_on) {
+    kept = temple::readKept(kept_file, diagnostics);
+    if (kept) std::tie(a.size, a.parameters, a.seed) = std::tie(kept->size, kept->parameters, kept->seed);
+  }
+  const temple::Proportions proportions = a.parameters.empty() ? temple::shippedProportions(a.size, diagnostics)
+                                                               : temple::readProportions(a.parameters, diagnostics);
+  const AssemblyWords words = temple::shippedWords(a.language, diagnostics);
+  checkOutputs(a, diagnostics);
+  std::optional<temple::Building> building;
+  std::optional<temple::SceneSpec> spec;
+  if (!diagnostics.hasErrors()) {
+    building = temple::makeBuilding(proportions, kBehind, a.seed);
+    if (kept) spec = specOf(*building, *kept, kept_file, diagnostics);
+  }
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+
+  if (!spec) spec = a.assembled ? temple::assembled(*building) : ruinsOf(*building, a.seed);
   if (!spec) return kExitInterrupted;
+  if (!a.assembled || a.visit()) {
+    spec->to_be_built = true;
+    spec->words = words;
+  }
   if (!a.rig.empty()) spec->rig = std::filesystem::absolute(a.rig).lexically_normal().string();
   if (!a.folder.empty()) {
-    const std::string scene = temple::writeScene(building, *spec, a.folder);
-    std::printf("%s: %zu blocks, %.0f mm high when built\n", scene.c_str(), building.blocks.size(), 1e3 * building.top);
+    const std::string scene = temple::writeScene(*building, *spec, a.folder);
+    std::printf("%s: %zu blocks, %.0f mm high when built\n", scene.c_str(), building->blocks.size(),
+                1e3 * building->top);
   }
-  if (a.automatic) return rebuildAlone(building, *spec, a);
-  return a.screenshot.empty() ? kExitOk : takePicture(building, *spec, a);
+  if (a.visit()) {
+    if (!kept) {
+      kept = temple::KeptSession{a.size, a.parameters, a.seed, 0, 0, {}};
+      for (const temple::SceneSpec::Stone& stone : spec->stones) kept->X_WB.push_back(stone.X_WB);
+    }
+    return runVisit(*building, std::move(*spec), a, std::move(*kept));
+  }
+  return a.screenshot.empty() ? kExitOk : takePicture(*building, *spec, a);
 }
 
 }  // namespace
@@ -150,11 +252,26 @@ void addTemple(CLI::App& app, int& status) {
   CLI::App* command =
       app.add_subcommand("temple", "A Doric temple in blocks that two fingers can hold: its ruins, or the building");
   command->add_flag("--auto", a->automatic,
-                    "two simulated fingers rebuild it from its ruins, by friction alone, as fast as the machine goes");
-  command->add_flag("--lockstep", a->lockstep, "in virtual time, as --auto always runs");
-  command->add_option("--for", a->limit, "give up after so many simulated seconds (default: 100 a block)")
+                    "two simulated fingers rebuild it from its ruins, by friction alone, against the clock");
+  auto* lockstep = command->add_flag("--lockstep", a->lockstep, "in virtual time, as fast as the machine goes");
+  command->add_option("--time-scale", a->time_scale, "in virtual time, so many seconds in one of the clock")
+      ->check(CLI::PositiveNumber)
+      ->excludes(lockstep);
+  command->add_option("--for", a->limit, "end after so many simulated seconds (default with --auto: 100 a block)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--summary", a->summary, "JSON: what --auto has placed, how exactly, in what time");
+  command->add_option("--summary", a->summary, "JSON: what was placed, how exactly, in what time");
+  command->add_option("--language", a->language, "of what visitors are told")
+      ->check(CLI::IsMember(temple::shippedLanguages()))
+      ->capture_default_str();
+  command->add_option(
+      "--session", a->visits,
+      "folder for log.jsonl (what happened, nothing of a person) and session.json (what stands), or none\n"
+      "(default against the clock: " +
+          temple::defaultVisitFolder() + ", else none)");
+  command
+      ->add_option("--continue", a->kept,
+                   "go on with what stood, after a crash as well: a session.json (default: of --session)")
+      ->expected(0, 1);
   command->add_option("--size", a->size, "column: six pieces; facade: a front of four columns, 45 pieces")
       ->check(CLI::IsMember(temple::shippedNames()))
       ->capture_default_str();
@@ -164,11 +281,20 @@ void addTemple(CLI::App& app, int& status) {
   command->add_option("--write", a->folder,
                       "folder for scene.xml and its meshes, which presa check, explain and run take");
   command->add_flag("--overwrite", a->overwrite, "let --write replace what the folder holds");
-  command->add_option("--rig", a->rig, "rig whose thumb and index the scene gets (default: a scene without fingers)")
+  command
+      ->add_option("--rig", a->rig,
+                   "rig of the visitor's thumb and index (default: mouse and keyboard in the window; a written scene "
+                   "has no fingers)")
       ->check(CLI::ExistingFile);
   command->add_option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
-  command->add_option("--view", a->view, "offscreen (default with --screenshot) or none")
-      ->check(CLI::IsMember({"offscreen", "none"}));
+  command->add_option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every so many simulated seconds")
+      ->expected(2);
+  command
+      ->add_option("--view", a->view,
+                   "window, offscreen or none (default: window against the clock, where there is a display)")
+      ->check(CLI::IsMember({"window", "offscreen", "none"}));
+  command->add_flag("--allow-no-rt", a->allow_no_rt,
+                    "let hardware run where the system refuses real-time scheduling: with half the force");
   command
       ->add_option("--parameters", a->parameters,
                    "proportions of another building, as in config/temple/facade.xml, each with its source")
@@ -178,10 +304,14 @@ void addTemple(CLI::App& app, int& status) {
       "do not come to rest (nothing\n"
       "written), 130 Ctrl-C (likewise).\n"
       "Examples:\n"
-      "  presa temple --auto --seed 7 --screenshot column.png\n"
+      "  presa temple --language it\n"
+      "  presa temple --auto --lockstep --seed 7 --screenshot column.png\n"
       "  presa temple --size facade --screenshot ruins.png\n"
       "  presa temple --size column --assembled --write out/column && presa run out/column/scene.xml --lockstep");
-  command->callback([a, &status] { status = runTemple(*a); });
+  command->callback([a, command, &status] {
+    a->go_on = command->count("--continue") > 0;
+    status = runTemple(*a);
+  });
 }
 
 }  // namespace presa

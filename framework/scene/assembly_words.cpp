@@ -1,0 +1,77 @@
+#include "framework/scene/assembly_words.h"
+
+#include <algorithm>
+
+#include "framework/scene/scene_parts.h"
+#include "framework/xml/value_rule.h"
+
+namespace presa {
+
+const std::vector<AssemblyPhrase>& assemblyPhrases() {
+  using Words = AssemblyWords;
+  static const std::vector<AssemblyPhrase> phrases{{"progress", &Words::progress, {"count", "all"}},
+                                                   {"next", &Words::next, {"element"}},
+                                                   {"placed", &Words::placed, {"element"}},
+                                                   {"undone", &Words::undone, {"element"}},
+                                                   {"dropped", &Words::dropped, {"element"}},
+                                                   {"finished", &Words::finished, {}},
+                                                   {"took", &Words::took, {"time"}},
+                                                   {"invitation", &Words::invitation, {}}};
+  return phrases;
+}
+
+std::string fillIn(std::string text, const std::string& place, const std::string& value) {
+  const std::string mark = "{" + place + "}";
+  for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += value.size())
+    text.replace(at, mark.size(), value);
+  return text;
+}
+
+std::vector<std::string> placesIn(const std::string& text) {
+  std::vector<std::string> places;
+  for (std::size_t open = 0; (open = text.find('{', open)) != std::string::npos; ++open) {
+    const std::size_t close = text.find('}', open);
+    if (close == std::string::npos) break;
+    places.push_back(text.substr(open + 1, close - open - 1));
+  }
+  return places;
+}
+
+namespace {
+
+void checkPhrase(const xml::Element& words, const AssemblyPhrase& phrase, Diagnostics& diagnostics) {
+  std::string allowed;
+  for (const std::string& place : phrase.places) allowed += (allowed.empty() ? "{" : ", {") + place + "}";
+  for (const std::string& place : placesIn(words.attribute(phrase.attribute))) {
+    if (std::find(phrase.places.begin(), phrase.places.end(), place) != phrase.places.end()) continue;
+    diagnostics.error(219, words.where(phrase.attribute),
+                      std::string("nothing is filled in for {") + place + "} of " + quote(phrase.attribute),
+                      allowed.empty() ? "this phrase stands as it is" : "here stands for something: " + allowed);
+  }
+}
+
+}  // namespace
+
+void checkWords(const xml::Element& words, Diagnostics& diagnostics) {
+  for (const AssemblyPhrase& phrase : assemblyPhrases()) checkPhrase(words, phrase, diagnostics);
+  std::vector<std::string> names;
+  for (const xml::Element& element : words.children("element")) {
+    const std::string name = element.attribute("name");
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      diagnostics.error(218, element.where("name"), "a second element is named " + quote(name));
+    names.push_back(name);
+  }
+}
+
+AssemblyWords readWords(const xml::Element& element) {
+  AssemblyWords words;
+  words.language = element.attribute("language", words.language);
+  for (const AssemblyPhrase& phrase : assemblyPhrases())
+    words.*phrase.text = element.attribute(phrase.attribute, words.*phrase.text);
+  for (const xml::Element& one : element.children("element"))
+    words.elements.push_back(
+        {one.attribute("name"), one.attribute("called"), one.attribute("says"), one.attribute("waits")});
+  return words;
+}
+
+}  // namespace presa
