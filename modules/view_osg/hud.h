@@ -25,6 +25,8 @@ class Hud {
   void update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings);
   /// Width over height of the picture: what hangs on the right edge moves with it.
   void setAspect(double aspect);
+  /// What `toggleHelp` shows: keys (none: a heading) and what they do.
+  void setHelp(const std::vector<std::pair<std::string, std::string>>& lines);
   void toggleHelp();
   /// A line at the top, until the next one.
   void setBanner(const std::string& text, bool alarm);
@@ -47,7 +49,6 @@ class Hud {
   void addGrip();
   void addRates(const World& world);
   void addLegend(bool interactive);
-  void addHelp();
   void updateCard(Card& card, const FingerView& finger);
   void updateRates(const GroupTimings& timings);
 

@@ -20,6 +20,8 @@ Picture::Picture(std::shared_ptr<const World> world)
     : world_(std::move(world)),
       bodies_(*world_),
       glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
+      parts_(world_->options.show),
+      overlays_(*world_),
       lighting_(casters_, root_->getOrCreateStateSet()),
       hud_(*world_) {
   casters_->addChild(bodies_.root());
@@ -29,7 +31,8 @@ Picture::Picture(std::shared_ptr<const World> world)
   updateSubject(start, {});
   const double reach = std::max(kFloorRadius, 10 * enclose(subject_).radius);
   for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
-                          static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(hud_.camera())})
+                          static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()),
+                          patches_.root(), static_cast<osg::Node*>(hud_.camera())})
     root_->addChild(part);
   root_->addChild(makeBackground());
   root_->addChild(makeFloor(*world_, enclose(subject_).center, reach));
@@ -56,7 +59,11 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   const std::vector<FingerView> fingers = fingerViews(*world_, frame);
   bodies_.setPoses(frame.X_WB);
+  bodies_.show(parts_[ShownPart::kVisual]);
   glyphs_.update(fingers);
+  glyphs_.show(parts_);
+  overlays_.update(parts_, frame.X_WB, frame.asleep);
+  patches_.update(parts_[ShownPart::kPatches], frame.patches, frame.X_WB);
   hud_.update(frame, fingers, timings);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);

@@ -6,6 +6,8 @@
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
+#include "modules/view_osg/overlays.h"
+#include "modules/view_osg/patch_lines.h"
 #include "modules/view_osg/scene_nodes.h"
 
 namespace presa::view {
@@ -17,6 +19,8 @@ class Picture {
   osg::Group* root() { return root_; }
   Hud& hud() { return hud_; }
   Lighting& lighting() { return lighting_; }
+  /// What is shown from the next frame on.
+  ShownParts& parts() { return parts_; }
 
   void show(const ViewFrame& frame, const GroupTimings& timings);
   /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.
@@ -30,6 +34,9 @@ class Picture {
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
   BodyNodes bodies_;
   ContactGlyphs glyphs_;
+  ShownParts parts_;
+  Overlays overlays_;
+  PatchLines patches_;
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;
   Hud hud_;

@@ -3,6 +3,7 @@
 #include <osg/Image>
 
 #include "modules/view_osg/picture.h"
+#include "modules/view_osg/window_input.h"
 
 namespace presa::view {
 
@@ -22,7 +23,7 @@ class Renderer {
 
 /// Without a display: 1280 x 720, drawn at twice the size and averaged down.
 std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture);
-/// On the display that DISPLAY names. Throws std::runtime_error when there is none.
-std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title);
+/// On the display that DISPLAY names. What `controls` name must outlive it. Throws std::runtime_error when there is no display.
+std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls);
 
 }  // namespace presa::view

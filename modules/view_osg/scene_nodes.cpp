@@ -22,13 +22,23 @@ struct Overload : Ts... {
   using Ts::operator()...;
 };
 
+/// Lowest point of what is drawn at the start [m]; 0 for an empty scene.
+double lowestPoint(const World& world) {
+  BodyNodes bodies(world);
+  osg::ComputeBoundsVisitor bounds;
+  bodies.root()->accept(bounds);
+  return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
+}
+
+}  // namespace
+
 const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes) {
   if (body.visual) return meshes.visual.get();
   if (body.haptic) return meshes.haptic.get();
   return meshes.physics.get();
 }
 
-osg::ref_ptr<osg::Geometry> geometryOf(const Shape& shape, const TriMesh* mesh, const Vec3& color) {
+osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color) {
   return std::visit(
       Overload{[&](const MeshRef&) {
                  return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color)
@@ -40,16 +50,6 @@ osg::ref_ptr<osg::Geometry> geometryOf(const Shape& shape, const TriMesh* mesh, 
                [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color); }},
       shape);
 }
-
-/// Lowest point of what is drawn at the start [m]; 0 for an empty scene.
-double lowestPoint(const World& world) {
-  BodyNodes bodies(world);
-  osg::ComputeBoundsVisitor bounds;
-  bodies.root()->accept(bounds);
-  return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
-}
-
-}  // namespace
 
 const Geometry* shownGeometry(const Body& body) {
   for (const auto* geometry : {&body.visual, &body.haptic, &body.physics})
@@ -70,7 +70,7 @@ BodyNodes::BodyNodes(const World& world) {
     double radius = 0;
     if (const Geometry* shown = shownGeometry(body)) {
       const TriMesh* mesh = i < world.meshes.size() ? shownMesh(body, world.meshes[i]) : nullptr;
-      if (auto geometry = geometryOf(shown->shape, mesh, world.scene.materialOf(body).color)) {
+      if (auto geometry = surfaceOf(shown->shape, mesh, world.scene.materialOf(body).color)) {
         osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shown->X_BG));
         X_BG->addChild(geometry);
         X_WB->addChild(X_BG);

@@ -14,6 +14,7 @@ class BodyNodes {
   osg::Group* root() { return root_; }
   /// Poses as Scene::bodies.
   void setPoses(const std::vector<Pose>& X_WB);
+  void show(bool shown) { root_->setNodeMask(shown ? ~0U : 0U); }
   /// Smallest sphere about the body's origin that holds what is drawn of it [m].
   double radius(std::size_t body) const { return radius_[body]; }
 
@@ -25,6 +26,12 @@ class BodyNodes {
 
 /// The geometry that shows a body: visual, else haptic, else physics; null when it has none.
 const Geometry* shownGeometry(const Body& body);
+
+/// Its mesh, where that geometry has one.
+const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes);
+
+/// A shape in its own frame; null for a mesh that is not there.
+osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color);
 
 /// Gradient behind everything.
 osg::ref_ptr<osg::Node> makeBackground();

@@ -1,11 +1,13 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 
 #include "framework/graph/port.h"
 #include "framework/graph/stage_watch.h"
 #include "framework/plan/view.h"
 #include "framework/scene/world.h"
+#include "framework/state/contact_patch.h"
 #include "framework/state/object_state.h"
 #include "modules/view_osg/renderer.h"
 
@@ -29,6 +31,9 @@ class ViewModule final : public View, public WatchedStages {
   Screenshot screenshot() const override { return screenshot_; }
   void setBanner(const std::string& text, bool alarm) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
+  void offerPointer(const std::vector<std::size_t>& fingers) override;
+  void offerTime(TimeWish& wish, double length) noexcept override;
+  void refresh() noexcept override;
 
  private:
   bool windowed() const { return world_->options.view == RunOptions::View::kWindow; }
@@ -44,6 +49,11 @@ class ViewModule final : public View, public WatchedStages {
   In<ContactExchange> contact_exchange_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
+
+  std::optional<In<ContactPatches>> patches_;     ///< only where they may be shown
+  std::optional<Out<PointerState>> pointer_out_;  ///< only when a finger points
+  std::optional<PointerControl> pointer_;
+  TimeWish* time_ = nullptr;
 
   ViewFrame frame_;
   GroupTimings timings_{};
