@@ -17,6 +17,7 @@ class Run {
     double trace_rate = 0;  ///< samples per second kept for plots
     bool quiet = false;     ///< no status line
     std::string command;    ///< command line, for the report
+    double speed = 1;       ///< of a lockstep run with a window: simulated seconds in a second
     RealtimeProbe rights = realtimeRights;
   };
   /// Builds the session. Throws InputError; nothing has been written then.
@@ -39,6 +40,8 @@ class Run {
   Loaded loaded_;
   Settings settings_;
   RunControl control_;
+  TimeWish time_wish_;
+  View* view_ = nullptr;
   struct Live;
   std::unique_ptr<Live> live_;
   std::unique_ptr<Session> session_;
