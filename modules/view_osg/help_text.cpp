@@ -31,7 +31,8 @@ Lines cameraLines(bool pair) {
                    {"right drag, wheel", "nearer, farther"},
                    {"arrows, PageUp, PageDown", "fly"}});
   }
-  append(lines, {{"h", "follow bodies and fingers again"}});
+  append(lines,
+         {{"h", "follow bodies and fingers again"}, {"click", "what is this body"}, {"double click", "look there"}});
   return lines;
 }
 

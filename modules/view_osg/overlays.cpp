@@ -12,7 +12,7 @@ namespace presa::view {
 namespace {
 
 const Vec3 kHapticColor(0.05, 0.75, 1.0), kPhysicsColor(1.0, 0.15, 0.75), kSleepColor(0.35, 0.45, 1.0);
-constexpr double kAxisThickness = 0.018;  ///< of its length
+constexpr double kAxisThickness = 0.012;  ///< of its length
 constexpr double kAxisLength = 1.25;      ///< of what is drawn of the body
 constexpr double kWorldAxis = 0.1;        ///< [m]
 

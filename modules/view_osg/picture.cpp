@@ -23,7 +23,8 @@ Picture::Picture(std::shared_ptr<const World> world)
       parts_(world_->options.show),
       overlays_(*world_),
       lighting_(casters_, root_->getOrCreateStateSet()),
-      hud_(*world_) {
+      hud_(*world_),
+      card_(hud_.right(), *world_) {
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
   ViewFrame start;
@@ -65,6 +66,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   overlays_.update(parts_, frame.X_WB, frame.asleep);
   patches_.update(parts_[ShownPart::kPatches], frame.patches, frame.X_WB);
   hud_.update(frame, fingers, timings);
+  card_.update(frame.X_WB);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   lighting_.setFocus(focus.center, kLitAround * focus.radius);

@@ -2,6 +2,7 @@
 #include <memory>
 #include <osg/Group>
 
+#include "modules/view_osg/body_card.h"
 #include "modules/view_osg/camera.h"
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/hud.h"
@@ -23,6 +24,9 @@ class Picture {
   ShownParts& parts() { return parts_; }
 
   void show(const ViewFrame& frame, const GroupTimings& timings);
+  const BodyNodes& bodies() const { return bodies_; }
+  /// The head-up display tells of this body from now on; none: of no body.
+  void choose(std::optional<std::size_t> body) { card_.choose(body); }
   /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.
   const std::vector<Ball>& subject() const { return subject_; }
   void setSize(int width, int height);
@@ -40,6 +44,7 @@ class Picture {
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;
   Hud hud_;
+  BodyCard card_;
   std::vector<Ball> subject_;
 };
 

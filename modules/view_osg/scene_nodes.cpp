@@ -1,10 +1,12 @@
 #include "modules/view_osg/scene_nodes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Depth>
 #include <osg/Geode>
+#include <osgUtil/LineSegmentIntersector>
 
 #include "modules/view_osg/crease_normals.h"
 #include "modules/view_osg/geometry_nodes.h"
@@ -86,6 +88,23 @@ BodyNodes::BodyNodes(const World& world) {
 
 void BodyNodes::setPoses(const std::vector<Pose>& X_WB) {
   for (std::size_t i = 0; i < transforms_.size() && i < X_WB.size(); ++i) transforms_[i]->setMatrix(toOsg(X_WB[i]));
+}
+
+std::optional<BodyNodes::Hit> BodyNodes::along(const Vec3& eye, const Vec3& ray) const {
+  constexpr double kFar = 1000;  // [m]
+  const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
+      new osgUtil::LineSegmentIntersector(toOsg(eye), toOsg(eye + kFar * ray));
+  osgUtil::IntersectionVisitor visitor(line);
+  root_->accept(visitor);
+  if (!line->containsIntersections()) return std::nullopt;
+  const auto& first = *line->getIntersections().begin();
+  const osg::Vec3d p = first.getWorldIntersectPoint();
+  for (const osg::Node* node : first.nodePath) {
+    const auto body = std::find(transforms_.begin(), transforms_.end(), node);
+    if (body != transforms_.end())
+      return Hit{static_cast<std::size_t>(body - transforms_.begin()), {p.x(), p.y(), p.z()}};
+  }
+  return std::nullopt;
 }
 
 osg::ref_ptr<osg::Node> makeBackground() {

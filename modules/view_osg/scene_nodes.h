@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <osg/Group>
 #include <osg/MatrixTransform>
 #include <vector>
@@ -14,6 +15,12 @@ class BodyNodes {
   osg::Group* root() { return root_; }
   /// Poses as Scene::bodies.
   void setPoses(const std::vector<Pose>& X_WB);
+  /// The body that is first along a ray, and where it meets its surface.
+  struct Hit {
+    std::size_t body;
+    Vec3 p_W;
+  };
+  std::optional<Hit> along(const Vec3& eye, const Vec3& ray) const;
   void show(bool shown) { root_->setNodeMask(shown ? ~0U : 0U); }
   /// Smallest sphere about the body's origin that holds what is drawn of it [m].
   double radius(std::size_t body) const { return radius_[body]; }

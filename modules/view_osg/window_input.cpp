@@ -11,6 +11,7 @@ using Event = osgGA::GUIEventAdapter;
 constexpr double kNotch = 1.12;     // a notch of the wheel changes the distance by this factor
 constexpr double kZoomDrag = 1.5;   // exponent of a drag over half of the picture's height
 constexpr double kFlyStep = 0.06;   // of an arrow key, in distances to the target
+constexpr double kStill = 0.01;     // a click is a drag by less than this
 constexpr double kFineShare = 0.2;  // of a key's step, with Shift
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;
 
@@ -31,14 +32,22 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
       return false;
     case Event::PUSH:
       drag_ = dragOf(event);
+      dragged_ = 0;
       at_ = {static_cast<float>(aspect_) * event.getXnormalized(), event.getYnormalized()};
       return true;
     case Event::DRAG:
       at_ = {static_cast<float>(aspect_) * event.getXnormalized(), event.getYnormalized()};
+      dragged_ += (at_ - before).length();
       drag(at_ - before);
       return true;
     case Event::RELEASE:
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && drag_ != Drag::kNone && dragged_ < kStill)
+        click(event, false);
       drag_ = Drag::kNone;
+      return true;
+    case Event::DOUBLECLICK:
+      drag_ = Drag::kNone;
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON) click(event, true);
       return true;
     case Event::SCROLL:
       scroll(event);
@@ -80,6 +89,15 @@ void WindowInput::drag(const osg::Vec2& by) {
     case Drag::kNone:
       return;
   }
+}
+
+void WindowInput::click(const Event& event, bool twice) {
+  const auto hit =
+      picture_.bodies().along(camera_.pose().eye, camera_.rayThrough(event.getXnormalized(), event.getYnormalized()));
+  picture_.choose(hit ? std::optional(hit->body) : std::nullopt);
+  if (!twice || !hit) return;
+  following = false;
+  camera_.center(hit->p_W);
 }
 
 void WindowInput::scroll(const Event& event) {

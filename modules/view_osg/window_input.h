@@ -29,6 +29,7 @@ class WindowInput : public osgGA::GUIEventHandler {
   enum class Drag { kNone, kOrbit, kPan, kZoom, kPairLevel, kPairUpright };
   Drag dragOf(const osgGA::GUIEventAdapter& event) const;
   void drag(const osg::Vec2& by);
+  void click(const osgGA::GUIEventAdapter& event, bool twice);
   void scroll(const osgGA::GUIEventAdapter& event);
   bool key(const osgGA::GUIEventAdapter& event);
   bool cameraKey(int key);
@@ -39,7 +40,8 @@ class WindowInput : public osgGA::GUIEventHandler {
   CameraControl& camera_;
   Controls controls_;
   Drag drag_ = Drag::kNone;
-  osg::Vec2 at_;  // of the mouse, in halves of the picture's height
+  double dragged_ = 0;  // since the button went down, as at_
+  osg::Vec2 at_;        // of the mouse, in halves of the picture's height
   double aspect_ = 16.0 / 9;
 };
 

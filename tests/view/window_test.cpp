@@ -76,6 +76,12 @@ class Driven {
     frame();
     events().getCurrentEventState()->setModKeyMask(0);
   }
+  void doubleClick(const osg::Vec2& at) {
+    events().mouseDoubleButtonPress(at.x(), at.y(), 1);
+    events().mouseButtonRelease(at.x(), at.y(), 1);
+    frame();
+    frame();
+  }
   void scroll(int modifier = 0) {
     events().getCurrentEventState()->setModKeyMask(modifier);
     events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
@@ -153,6 +159,25 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
   view.press('h');  // back to where everything is in the picture
   view.frame();
   EXPECT_LT((view.look().first - framed.first).length(), 1e-6);
+
+  // each part comes and goes with its key; the cube has no patch here, and nothing sleeps
+  const std::string all = view.pictureByKey();
+  for (const char key : {'1', '2', '3', '5', '6', '7', '8', '0'}) {
+    view.press(key);
+    EXPECT_NE(view.pictureByKey(), all) << key;
+    view.press(key);
+    EXPECT_EQ(view.pictureByKey(), all) << key;
+  }
+
+  // a click on the cube tells of it, a click on nothing no more; two in a row bring it to the middle of the picture
+  const osg::Vec2 cube = view.pixelOf({0.02, -0.034, 0.09});
+  view.drag(cube, cube);
+  EXPECT_NE(view.pictureByKey(), all);
+  view.drag({640, 5}, {640, 5});
+  EXPECT_EQ(view.pictureByKey(), all);
+  view.doubleClick(cube);
+  EXPECT_LT((view.pixelOf({0.02, -0.034, 0.09}) - osg::Vec2(640, 360)).length(),
+            8);  // the ray meets the cube's face close by
 
   EXPECT_FALSE(view.wantsStop());
   view.press(osgGA::GUIEventAdapter::KEY_Escape);
