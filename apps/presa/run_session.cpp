@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/presa/live_tap.h"
+#include "apps/presa/pacer.h"
 #include "apps/presa/terminal/keys.h"
 #include "apps/presa/terminal/status_line.h"
 #include "apps/presa/version.h"
@@ -99,6 +100,8 @@ Run::Run(const Loaded& loaded, Settings settings)
   session_options.more = std::move(settings_.more);
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
   session_options.wrap = settings_.wrap;
+  const bool paced = !options.realtime && options.view == RunOptions::View::kWindow && !drivesHardware(loaded_.plan);
+  if (paced) session_options.more.push_back(std::make_unique<Pacer>(time_wish_, view_, control_));
   if (options.realtime)
     for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
   session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
@@ -106,6 +109,9 @@ Run::Run(const Loaded& loaded, Settings settings)
   executor_ = makeExecutor(options.realtime, session_->graph(), rates, control_);
   executor_->onPoll([this] { poll(); });
   executor_->recordTo(session_->schedule());
+  view_ = session_->view();
+  time_wish_.speed = settings_.speed;
+  if (paced) view_->offerTime(time_wish_, 0);
   if (View* view = session_->view()) {
     std::array<const GroupTiming*, kRateGroupCount> timings{};
     for (int g = 0; g < kRateGroupCount; ++g) {

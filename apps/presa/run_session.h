@@ -20,6 +20,7 @@ class Run {
     double trace_rate = 0;  ///< samples per second kept for plots
     bool quiet = false;     ///< no status line
     std::string command;    ///< command line, for the report
+    double speed = 1;       ///< of a lockstep run with a window: simulated seconds in a second
     RealtimeProbe rights = realtimeRights;
     std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own taps
     std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap
@@ -46,6 +47,8 @@ class Run {
   Loaded loaded_;
   Settings settings_;
   RunControl control_;
+  TimeWish time_wish_;
+  View* view_ = nullptr;
   struct Live;
   std::unique_ptr<Live> live_;
   std::unique_ptr<Session> session_;

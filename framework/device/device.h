@@ -8,6 +8,7 @@
 #include "framework/schedule/tick.h"
 #include "framework/state/device_state.h"
 #include "framework/state/object_state.h"
+#include "framework/state/pointer_state.h"
 
 namespace presa {
 
@@ -43,6 +44,10 @@ class Device {
   /// A simulated hand that looks: asks for the bodies' poses in see(), called before read. No hardware does.
   virtual bool looks() const { return false; }
   virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}
+
+  /// A finger that somebody moves in the window: asks for the pointer's state in point(), called before read. No hardware does.
+  virtual bool points() const { return false; }
+  virtual void point(const PointerState& /*pointer*/, const Tick& /*tick*/) noexcept {}
 
   /// What moves the finger where no person does, to be shown with every number that comes of it: "simulated subject, level
   /// L1: a model, not a person"; empty: a person.

@@ -12,6 +12,8 @@ DeviceInput::DeviceInput(DeviceList& devices, const RunControl& control)
     : Module("device_input", RateGroup::kHaptic), devices_(devices), control_(control), checks_(devices.size()) {
   if (std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device->looks(); }))
     seen_.emplace(*this, "object_state", In<ObjectState>::Optional{});
+  if (std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device->points(); }))
+    pointer_.emplace(*this, kPointerPort, In<PointerState>::Optional{});
 }
 
 void DeviceInput::step(const Tick& tick) noexcept {
@@ -21,6 +23,9 @@ void DeviceInput::step(const Tick& tick) noexcept {
   state.stop_requested = control_.stop_requested.load(std::memory_order_relaxed);
   if (seen_ && seen_->hasValue()) {
     for (const auto& device : devices_) device->see(seen_->value(), tick);
+  }
+  if (pointer_ && pointer_->hasValue()) {
+    for (const auto& device : devices_) device->point(pointer_->value(), tick);
   }
   const std::uint32_t before = std::exchange(state.rearms, control_.rearms.load(std::memory_order_relaxed));
   for (std::size_t f = 0; f < devices_.size(); ++f) {

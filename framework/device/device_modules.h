@@ -38,7 +38,8 @@ class DeviceInput final : public Module {
   DeviceList& devices_;
   const RunControl& control_;
   std::vector<SampleCheck> checks_;
-  std::optional<In<ObjectState>> seen_;  // only when a device looks
+  std::optional<In<ObjectState>> seen_;      // only when a device looks
+  std::optional<In<PointerState>> pointer_;  // only when a device points
   Out<DeviceState> state_{*this, "device_state"};
 };
 

@@ -47,6 +47,8 @@ class TransportWatch final : public Device {
   void reopen(const std::atomic<bool>& stop) override { device_->reopen(stop); }
   bool looks() const override { return device_->looks(); }
   void see(const ObjectState& objects, const Tick& tick) noexcept override { device_->see(objects, tick); }
+  bool points() const override { return device_->points(); }
+  void point(const PointerState& pointer, const Tick& tick) noexcept override { device_->point(pointer, tick); }
   std::string model() const override { return device_->model(); }
   std::vector<DeviceFact> facts() const override { return device_->facts(); }
   std::vector<std::string> phases() const override { return device_->phases(); }

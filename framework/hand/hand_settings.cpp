@@ -13,21 +13,6 @@
 namespace presa {
 namespace {
 
-using Settings = std::map<std::string, DeviceBinding::Setting>;
-
-double positive(const Settings& settings, const std::string& key, double fallback, Diagnostics& diagnostics) {
-  const auto found = settings.find(key);
-  if (found == settings.end()) return fallback;
-  const std::string& text = found->second.value;
-  double value = 0;
-  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || rest != text.data() + text.size() || !(value > 0) || !std::isfinite(value)) {
-    diagnostics.error(403, found->second.where, key + " must be a positive number, found '" + text + "'");
-    return fallback;
-  }
-  return value;
-}
-
 std::unique_ptr<Motion> readMotion(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   const auto file = binding.settings.find("motion");
   if (file == binding.settings.end()) {
@@ -95,13 +80,27 @@ void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::
   }
 }
 
+double positiveSetting(const DeviceBinding& binding, const std::string& key, double fallback,
+                       Diagnostics& diagnostics) {
+  const auto found = binding.settings.find(key);
+  if (found == binding.settings.end()) return fallback;
+  const std::string& text = found->second.value;
+  double value = 0;
+  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc{} || rest != text.data() + text.size() || !(value > 0) || !std::isfinite(value)) {
+    diagnostics.error(403, found->second.where, key + " must be a positive number, found '" + text + "'");
+    return fallback;
+  }
+  return value;
+}
+
 HandSettings readImpedance(const DeviceBinding& binding, const World& world, double carried, FingerImpedance impedance,
                            Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   HandSettings hand;
-  hand.impedance.mass = positive(binding.settings, "mass", impedance.mass, diagnostics);
-  hand.impedance.stiffness = positive(binding.settings, "stiffness", impedance.stiffness, diagnostics);
-  hand.impedance.damping = positive(binding.settings, "damping", impedance.damping, diagnostics);
+  hand.impedance.mass = positiveSetting(binding, "mass", impedance.mass, diagnostics);
+  hand.impedance.stiffness = positiveSetting(binding, "stiffness", impedance.stiffness, diagnostics);
+  hand.impedance.damping = positiveSetting(binding, "damping", impedance.damping, diagnostics);
   if (diagnostics.errorCount() == before)
     hand.notes.push_back(settleDamping(binding.role, world, carried, hand.impedance));
   return hand;
@@ -112,7 +111,7 @@ HandSettings readHand(const DeviceBinding& binding, const World& world, double c
   std::unique_ptr<Motion> motion = readMotion(binding, world, diagnostics);
   HandSettings hand =
       readImpedance(binding, world, carried, motion ? motion->impedance() : FingerImpedance{}, diagnostics);
-  hand.lost_at = positive(binding.settings, "lost_at", std::numeric_limits<double>::infinity(), diagnostics);
+  hand.lost_at = positiveSetting(binding, "lost_at", std::numeric_limits<double>::infinity(), diagnostics);
   if (diagnostics.errorCount() == before) hand.motion = std::move(motion);
   return hand;
 }

@@ -15,6 +15,9 @@ const std::vector<std::string>& handKeys();
 void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::string>& known,
                            Diagnostics& diagnostics);
 
+/// A setting that is a positive number (E403), or `fallback` where the rig says nothing.
+double positiveSetting(const DeviceBinding& binding, const std::string& key, double fallback, Diagnostics& diagnostics);
+
 struct HandSettings {
   std::unique_ptr<Motion> motion;
   FingerImpedance impedance;       ///< damping chosen

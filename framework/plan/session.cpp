@@ -114,6 +114,7 @@ Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunContro
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
   for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
+  offerPointer();
   if (!devices_.empty()) {
     output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world->options.realtime));
   }
@@ -121,6 +122,14 @@ Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunContro
   for (auto& module : options.more) builder.add(std::move(module));
   builder.connectByName();
   graph_ = builder.build();
+}
+
+void Session::offerPointer() {
+  std::vector<std::size_t> fingers;
+  for (std::size_t f = 0; f < devices_.size(); ++f) {
+    if (devices_[f]->points()) fingers.push_back(f);
+  }
+  if (view_ != nullptr && !fingers.empty()) view_->offerPointer(fingers);
 }
 
 Session::~Session() {

@@ -54,6 +54,7 @@ class Session {
 
  private:
   void bringUpDevices(const World& world, const Plan& plan, bool open, const std::vector<FingerSafety>& safety);
+  void offerPointer();
   std::unique_ptr<Module> load(const PlannedModule& planned, const std::shared_ptr<const World>& world);
 
   DeviceList devices_;

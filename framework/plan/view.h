@@ -1,11 +1,22 @@
 #pragma once
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "framework/graph/module.h"
 #include "framework/schedule/timing_stats.h"
 
 namespace presa {
+
+/// What somebody at the window asks of simulated time. Written by the view, read by whoever steps it; any thread.
+struct TimeWish {
+  std::atomic<bool> paused{false};
+  std::atomic<double> speed{1};         ///< simulated seconds in a second
+  std::atomic<std::uint32_t> steps{0};  ///< single steps asked for since the start, while paused
+  std::atomic<double> jump_to{-1};      ///< a moment of a recording [s]; who goes there sets it to -1
+};
 
 /// The picture of a run, as the application sees it: a module of the view group that draws what its ports bring.
 /// Which engine draws is the plug-in's matter.
@@ -34,6 +45,17 @@ class View : public Module {
   /// Timing of the groups for the head-up display, by RateGroup; null where there is none. They must outlive the view.
   /// Read while the groups run, so the figures shown are approximate. Call before start().
   virtual void setTimings(const std::array<const GroupTiming*, kRateGroupCount>& timings) noexcept = 0;
+
+  /// Mouse and keys of the window move a pair of these fingers (as DeviceState): from then on the view writes PointerState. Call
+  /// before the graph is built.
+  virtual void offerPointer(const std::vector<std::size_t>& fingers) = 0;
+
+  /// Keys of the window hold and slow time, by `wish`, which must outlive the view; with a length [s] there is a bar to move about
+  /// in a recording, too. Call before start().
+  virtual void offerTime(TimeWish& wish, double length) noexcept = 0;
+
+  /// Handles input and draws what was shown last, for while time is held. On the thread of the view.
+  virtual void refresh() noexcept = 0;
 };
 
 }  // namespace presa

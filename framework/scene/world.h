@@ -23,12 +23,14 @@ struct RunOptions {
   double duration = 10;  ///< simulated seconds
   std::uint64_t seed = 1;
   View view = View::kNone;
-  std::string screenshot;       ///< PNG path, may be empty
-  double screenshot_time = -1;  ///< [s]; -1: at the end
-  std::string screenshots;      ///< folder for one picture every `screenshot_every`; may be empty
-  double screenshot_every = 0;  ///< simulated [s]
-  std::string record;           ///< HDF5 path, may be empty
-  bool overwrite = false;       ///< `record` may replace an existing file
+  std::string screenshot;         ///< PNG path, may be empty
+  double screenshot_time = -1;    ///< [s]; -1: at the end
+  std::string screenshots;        ///< folder for one picture every `screenshot_every`; may be empty
+  double screenshot_every = 0;    ///< simulated [s]
+  std::string record;             ///< HDF5 path, may be empty
+  bool overwrite = false;         ///< `record` may replace an existing file
+  std::vector<std::string> show;  ///< what the picture shows or leaves out beside its own choice: "haptic", "no-cones"
+  std::string video;              ///< MP4 path, may be empty
   std::string flight;  ///< HDF5 path for the last seconds before a fault, where nothing is recorded; may be empty
   /// The same for a run that moves real hardware against the clock.
   std::string hardware_flight;

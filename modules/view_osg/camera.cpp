@@ -12,9 +12,21 @@ constexpr double kElevation = 26 * kDegree;
 constexpr double kUsedHeight = 0.80;  ///< share of the picture's height for the subject
 constexpr double kUsedWidth = 0.52;   ///< the head-up display takes the sides
 
-/// From the subject to the eye, unit.
-Vec3 towardsEye(double heading) {
-  return {std::cos(kElevation) * std::sin(heading), -std::cos(kElevation) * std::cos(heading), std::sin(kElevation)};
+/// What two planes through the eye, `slope` to either side of the axis, ask of an eye that sees all between them.
+struct Wedge {
+  double back;   ///< farthest forward that the eye may be [m]
+  double aside;  ///< where it is then, along the axis across [m]
+};
+// A ball at c of radius r lies on the inner side of the plane when (c - e).across + r / cos <= (c - e).forward * slope.
+Wedge fit(const std::vector<Ball>& balls, const Vec3& across, const Vec3& forward, double slope) {
+  const double secant = std::hypot(1, slope);
+  double high = -1e300, low = -1e300;
+  for (const Ball& ball : balls) {
+    const double depth = slope * ball.center.dot(forward), aside = ball.center.dot(across);
+    high = std::max(high, aside + secant * ball.radius - depth);
+    low = std::max(low, -aside + secant * ball.radius - depth);
+  }
+  return {-(high + low) / (2 * slope), (high - low) / 2};
 }
 
 double spread(const std::vector<Ball>& balls, const Vec3& right) {
@@ -46,12 +58,23 @@ double chooseHeading(const std::vector<Ball>& balls) {
   return spread(balls, rightOf(kSide)) > spread(balls, rightOf(kFront)) ? kSide : kFront;
 }
 
+CameraAxes::CameraAxes(double heading, double elevation)
+    : right(std::cos(heading), std::sin(heading), 0),
+      up(-std::sin(elevation) * std::sin(heading), std::sin(elevation) * std::cos(heading), std::cos(elevation)),
+      forward(-std::cos(elevation) * std::sin(heading), std::cos(elevation) * std::cos(heading), -std::sin(elevation)) {
+}
+
 CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading) {
   const Ball all = enclose(balls);
-  const double half_height = kUsedHeight * kFieldOfView / 2 * kDegree;
-  const double half_width = std::atan(kUsedWidth * aspect * std::tan(kFieldOfView / 2 * kDegree));
-  const double distance = all.radius / std::sin(std::min(half_height, half_width));
-  return {all.center + distance * towardsEye(heading), all.center};
+  std::vector<Ball> seen = balls;
+  seen.push_back({all.center, 0.02});
+  const CameraAxes axes(heading, kElevation);
+  const double slope = std::tan(kFieldOfView / 2 * kDegree);
+  const Wedge height = fit(seen, axes.up, axes.forward, kUsedHeight * slope);
+  const Wedge width = fit(seen, axes.right, axes.forward, kUsedWidth * aspect * slope);
+  const double back = std::min(height.back, width.back);
+  const Vec3 eye = back * axes.forward + height.aside * axes.up + width.aside * axes.right;
+  return {eye, eye + (all.center - eye).dot(axes.forward) * axes.forward};
 }
 
 }  // namespace presa::view

@@ -18,6 +18,12 @@ struct CameraPose {
 
 inline constexpr double kFieldOfView = 28;  ///< vertical [degree]
 
+/// Unit vectors of a camera that looks from `heading` (below) and from `elevation` above the horizon [rad].
+struct CameraAxes {
+  CameraAxes(double heading, double elevation);
+  Vec3 right, up, forward;
+};
+
 /// One ball around all (not the smallest: centred on their box). Radius at least 2 cm.
 Ball enclose(const std::vector<Ball>& balls);
 
@@ -25,7 +31,8 @@ Ball enclose(const std::vector<Ball>& balls);
 /// balls' centres further apart, so that opposed fingers do not hide behind the object.
 double chooseHeading(const std::vector<Ball>& balls);
 
-/// View from `heading` and above that holds every ball, with room for the head-up display at the sides.
+/// View from `heading` and above: the nearest that holds every ball in its picture, with room for the head-up display at the
+/// sides, and with as much room on either side of what is outermost. Not nearer than to see 2 cm.
 CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading);
 
 }  // namespace presa::view

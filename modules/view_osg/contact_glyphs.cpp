@@ -123,6 +123,13 @@ void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
   }
 }
 
+void ContactGlyphs::show(const ShownParts& parts) {
+  setShown(*solid_, parts[ShownPart::kHips]);
+  setShown(*tips_, parts[ShownPart::kProxies]);
+  setShown(*cones_, parts[ShownPart::kCones]);
+  setShown(*arrows_, parts[ShownPart::kForces]);
+}
+
 void ContactGlyphs::updateForce(const FingerView& view, Finger& finger) {
   const double length = kArrowLengthPerNewton * view.f_H_W.norm();
   const bool pulled = view.touches() && length > 1e-4;

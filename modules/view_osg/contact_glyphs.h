@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/view_osg/finger_view.h"
+#include "modules/view_osg/shown_parts.h"
 
 namespace presa::view {
 
@@ -22,6 +23,7 @@ class ContactGlyphs {
   /// The fingertips alone, for the shadow.
   osg::Node* casters() { return tips_; }
   void update(const std::vector<FingerView>& fingers);
+  void show(const ShownParts& parts);
 
  private:
   struct Finger {

@@ -93,7 +93,7 @@ Hud::Hud(const World& world) : world_(world) {
   for (const DeviceRole& role : world.scene.devices) grip_scale_ = std::min(grip_scale_, role.limits.force);
   addRates(world);
   addLegend(world.options.view == RunOptions::View::kWindow);
-  addHelp();
+  help_->setNodeMask(0);
   setAspect(16.0 / 9.0);
 }
 
@@ -210,24 +210,17 @@ void Hud::addLegend(bool interactive) {
                    Label::Align::kCenter);
 }
 
-void Hud::addHelp() {
-  help_->setNodeMask(0);
-  help_->addChild(roundedPanel({-210, -123, 420, 246}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
-  const std::array<std::pair<const char*, const char*>, 8> lines{{{"left drag", "turn around the scene"},
-                                                                  {"middle drag", "shift"},
-                                                                  {"right drag, wheel", "nearer, farther"},
-                                                                  {"h", "follow bodies and fingers again"},
-                                                                  {"s", "save a picture"},
-                                                                  {"u", "take out what was put last"},
-                                                                  {"?", "this help"},
-                                                                  {"Esc", "stop the run"}}};
-  float y = 87;
-  for (const auto& [key, what] : lines) {
-    Label key_label(*help_, -186, y, 14, kInk, Typeface::kBold);
-    key_label.set(key);
-    Label what_label(*help_, -30, y, 14, kInk);
-    what_label.set(what);
-    y -= 26;
+void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines) {
+  constexpr float kLine = 22, kHalf = 290;
+  const float top = kLine * static_cast<float>(lines.size()) / 2 + 10;
+  help_->removeChildren(0, help_->getNumChildren());
+  help_->addChild(roundedPanel({-kHalf, -top, 2 * kHalf, 2 * top}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
+  float y = top - 25;
+  for (const auto& [keys, what] : lines) {
+    Label(*help_, keys.empty() ? -kHalf + 24 : -kHalf + 40, y, 14, keys.empty() ? kSoftInk : kInk, Typeface::kBold)
+        .set(keys.empty() ? what : keys);
+    if (!keys.empty()) Label(*help_, 0, y, 14, kInk).set(what);
+    y -= kLine;
   }
 }
 

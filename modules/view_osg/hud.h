@@ -23,9 +23,14 @@ class Hud {
 
   explicit Hud(const World& world);
   osg::Camera* camera() { return camera_; }
+  /// For cards of others: x = 0 is the left edge, the right edge.
+  osg::Group& left() { return *left_; }
+  osg::Group& right() { return *right_; }
   void update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings);
   /// Width over height of the picture: what hangs on the right edge moves with it.
   void setAspect(double aspect);
+  /// What `toggleHelp` shows: keys (none: a heading) and what they do.
+  void setHelp(const std::vector<std::pair<std::string, std::string>>& lines);
   void toggleHelp();
   /// A line at the top, until the next one.
   void setBanner(const std::string& text, bool alarm);
@@ -48,7 +53,6 @@ class Hud {
   void addGrip();
   void addRates(const World& world);
   void addLegend(bool interactive);
-  void addHelp();
   void updateCard(Card& card, const FingerView& finger);
   void updateRates(const GroupTimings& timings);
 

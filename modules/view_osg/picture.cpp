@@ -22,8 +22,11 @@ Picture::Picture(std::shared_ptr<const World> world)
     : world_(std::move(world)),
       bodies_(*world_),
       glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
+      parts_(world_->options.show),
+      overlays_(*world_),
       lighting_(casters_, root_->getOrCreateStateSet()),
-      hud_(*world_) {
+      hud_(*world_),
+      card_(hud_.right(), *world_) {
   addGrain(*root_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
@@ -33,7 +36,8 @@ Picture::Picture(std::shared_ptr<const World> world)
   updateSubject(start, {});
   const double reach = std::max(kFloorRadius, 10 * enclose(subject_).radius);
   for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
-                          static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(hud_.camera())})
+                          static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()),
+                          patches_.root(), static_cast<osg::Node*>(hud_.camera())})
     root_->addChild(part);
   if (guides_) root_->addChild(guides_->root());
   root_->addChild(makeBackground());
@@ -68,9 +72,14 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   const std::vector<FingerView> fingers = fingerViews(*world_, frame);
   bodies_.setPoses(frame.X_WB);
+  bodies_.show(parts_[ShownPart::kVisual]);
   glyphs_.update(fingers);
   if (guides_ && frame.guidance) guides_->update(*frame.guidance, frame.X_WB, frame.time);
+  glyphs_.show(parts_);
+  overlays_.update(parts_, frame.X_WB, frame.asleep);
+  patches_.update(parts_[ShownPart::kPatches], frame.patches, frame.X_WB);
   hud_.update(frame, fingers, timings);
+  card_.update(frame.X_WB);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   lighting_.setFocus(focus.center, kLitAround * focus.radius);

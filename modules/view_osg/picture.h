@@ -2,11 +2,14 @@
 #include <memory>
 #include <osg/Group>
 
+#include "modules/view_osg/body_card.h"
 #include "modules/view_osg/camera.h"
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/guides.h"
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
+#include "modules/view_osg/overlays.h"
+#include "modules/view_osg/patch_lines.h"
 #include "modules/view_osg/scene_nodes.h"
 
 namespace presa::view {
@@ -18,8 +21,13 @@ class Picture {
   osg::Group* root() { return root_; }
   Hud& hud() { return hud_; }
   Lighting& lighting() { return lighting_; }
+  /// What is shown from the next frame on.
+  ShownParts& parts() { return parts_; }
 
   void show(const ViewFrame& frame, const GroupTimings& timings);
+  const BodyNodes& bodies() const { return bodies_; }
+  /// The head-up display tells of this body from now on; none: of no body.
+  void choose(std::optional<std::size_t> body) { card_.choose(body); }
   /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.
   const std::vector<Ball>& subject() const { return subject_; }
   void setSize(int width, int height);
@@ -32,9 +40,13 @@ class Picture {
   BodyNodes bodies_;
   ContactGlyphs glyphs_;
   std::unique_ptr<Guides> guides_;  // of scenes with an assembly
+  ShownParts parts_;
+  Overlays overlays_;
+  PatchLines patches_;
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;
   Hud hud_;
+  BodyCard card_;
   std::vector<Ball> subject_;
 };
 

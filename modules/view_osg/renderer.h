@@ -3,6 +3,7 @@
 #include <osg/Image>
 
 #include "modules/view_osg/picture.h"
+#include "modules/view_osg/window_input.h"
 
 namespace presa::view {
 
@@ -18,16 +19,12 @@ class Renderer {
   virtual bool closed() const = 0;
   /// The user asked for a picture since the last call.
   virtual bool takePictureRequest() = 0;
-  /// How often the user asked to take out what was put last, and did anything at all, since the start.
-  struct Inputs {
-    std::uint32_t undos = 0, all = 0;
-  };
   virtual Inputs inputs() const { return {}; }
 };
 
 /// Without a display: 1280 x 720, drawn at twice the size and averaged down.
 std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture);
-/// On the display that DISPLAY names. Throws std::runtime_error when there is none.
-std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title);
+/// On the display that DISPLAY names. What `controls` name must outlive it. Throws std::runtime_error when there is no display.
+std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls);
 
 }  // namespace presa::view

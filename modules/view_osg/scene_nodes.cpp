@@ -6,6 +6,7 @@
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Depth>
 #include <osg/Geode>
+#include <osgUtil/LineSegmentIntersector>
 
 #include "modules/view_osg/crease_normals.h"
 #include "modules/view_osg/geometry_nodes.h"
@@ -23,25 +24,6 @@ template <class... Ts>
 struct Overload : Ts... {
   using Ts::operator()...;
 };
-
-const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes) {
-  if (body.visual) return meshes.visual.get();
-  if (body.haptic) return meshes.haptic.get();
-  return meshes.physics.get();
-}
-
-osg::ref_ptr<osg::Geometry> geometryOf(const Shape& shape, const TriMesh* mesh, const Vec3& color) {
-  return std::visit(
-      Overload{[&](const MeshRef&) {
-                 return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color)
-                             : osg::ref_ptr<osg::Geometry>();
-               },
-               [&](const Box& box) { return boxGeometry(box.size, color); },
-               [&](const Sphere& sphere) { return sphereGeometry(sphere.radius, color); },
-               [&](const Cylinder& cylinder) { return cylinderGeometry(cylinder.radius, cylinder.length, color); },
-               [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color); }},
-      shape);
-}
 
 /// Lowest point of what is drawn at the start [m]; 0 for an empty scene.
 double lowestPoint(const World& world) {
@@ -68,6 +50,25 @@ double topOf(const World& world, const Body& body) {
 
 }  // namespace
 
+const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes) {
+  if (body.visual) return meshes.visual.get();
+  if (body.haptic) return meshes.haptic.get();
+  return meshes.physics.get();
+}
+
+osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color) {
+  return std::visit(
+      Overload{[&](const MeshRef&) {
+                 return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color)
+                             : osg::ref_ptr<osg::Geometry>();
+               },
+               [&](const Box& box) { return boxGeometry(box.size, color); },
+               [&](const Sphere& sphere) { return sphereGeometry(sphere.radius, color); },
+               [&](const Cylinder& cylinder) { return cylinderGeometry(cylinder.radius, cylinder.length, color); },
+               [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color); }},
+      shape);
+}
+
 const Geometry* shownGeometry(const Body& body) {
   for (const auto* geometry : {&body.visual, &body.haptic, &body.physics})
     if (*geometry) return &**geometry;
@@ -90,7 +91,7 @@ BodyNodes::BodyNodes(const World& world) {
     double radius = 0;
     if (const Geometry* shown = shownGeometry(body)) {
       const TriMesh* mesh = i < world.meshes.size() ? shownMesh(body, world.meshes[i]) : nullptr;
-      if (auto geometry = geometryOf(shown->shape, mesh, world.scene.materialOf(body).color)) {
+      if (auto geometry = surfaceOf(shown->shape, mesh, world.scene.materialOf(body).color)) {
         osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shown->X_BG));
         X_BG->addChild(geometry);
         X_WB->addChild(X_BG);
@@ -106,6 +107,23 @@ BodyNodes::BodyNodes(const World& world) {
 
 void BodyNodes::setPoses(const std::vector<Pose>& X_WB) {
   for (std::size_t i = 0; i < transforms_.size() && i < X_WB.size(); ++i) transforms_[i]->setMatrix(toOsg(X_WB[i]));
+}
+
+std::optional<BodyNodes::Hit> BodyNodes::along(const Vec3& eye, const Vec3& ray) const {
+  constexpr double kFar = 1000;  // [m]
+  const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
+      new osgUtil::LineSegmentIntersector(toOsg(eye), toOsg(eye + kFar * ray));
+  osgUtil::IntersectionVisitor visitor(line);
+  root_->accept(visitor);
+  if (!line->containsIntersections()) return std::nullopt;
+  const auto& first = *line->getIntersections().begin();
+  const osg::Vec3d p = first.getWorldIntersectPoint();
+  for (const osg::Node* node : first.nodePath) {
+    const auto body = std::find(transforms_.begin(), transforms_.end(), node);
+    if (body != transforms_.end())
+      return Hit{static_cast<std::size_t>(body - transforms_.begin()), {p.x(), p.y(), p.z()}};
+  }
+  return std::nullopt;
 }
 
 osg::ref_ptr<osg::Node> makeBackground() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <osg/Group>
 #include <osg/MatrixTransform>
 #include <vector>
@@ -18,6 +19,13 @@ class BodyNodes {
   osg::Node* shape(std::size_t body) {
     return transforms_[body]->getNumChildren() > 0 ? transforms_[body]->getChild(0) : nullptr;
   }
+  /// The body that is first along a ray, and where it meets its surface.
+  struct Hit {
+    std::size_t body;
+    Vec3 p_W;
+  };
+  std::optional<Hit> along(const Vec3& eye, const Vec3& ray) const;
+  void show(bool shown) { root_->setNodeMask(shown ? ~0U : 0U); }
   /// Smallest sphere about the body's origin that holds what is drawn of it [m].
   double radius(std::size_t body) const { return radius_[body]; }
 
@@ -29,6 +37,12 @@ class BodyNodes {
 
 /// The geometry that shows a body: visual, else haptic, else physics; null when it has none.
 const Geometry* shownGeometry(const Body& body);
+
+/// Its mesh, where that geometry has one.
+const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes);
+
+/// A shape in its own frame; null for a mesh that is not there.
+osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color);
 
 /// Gradient behind everything.
 osg::ref_ptr<osg::Node> makeBackground();

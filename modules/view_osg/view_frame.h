@@ -4,14 +4,17 @@
 
 #include "framework/guide/assembly_guide.h"
 #include "framework/state/contact_exchange.h"
+#include "framework/state/contact_patch.h"
 #include "framework/state/device_state.h"
 
 namespace presa::view {
 
 /// One moment of the run, copied from the ports: all that a picture is made of.
 struct ViewFrame {
-  double time = 0;         ///< [s]
-  std::vector<Pose> X_WB;  ///< as Scene::bodies
+  double time = 0;                          ///< [s]
+  std::vector<Pose> X_WB;                   ///< as Scene::bodies
+  std::vector<bool> asleep;                 ///< as Scene::bodies
+  const ContactPatches* patches = nullptr;  ///< of the port; null: there are none
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;

@@ -27,6 +27,10 @@ ViewModule::ViewModule(std::shared_ptr<const World> world)
   setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   if (world_->scene.assembly) guide_.emplace(*world_->scene.assembly, world_->scene.bodies.size());
+  frame_.asleep.resize(frame_.X_WB.size());
+  const ShownParts asked(world_->options.show);
+  if (windowed() || asked[ShownPart::kPatches])
+    patches_.emplace(*this, "contact_patches", In<ContactPatches>::Optional{});
   if (!world_->options.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
 }
 
@@ -42,7 +46,8 @@ void ViewModule::start() {
   osg::setNotifyLevel(osg::FATAL);
   try {
     picture_ = std::make_unique<Picture>(world_);
-    renderer_ = windowed() ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name)
+    renderer_ = windowed() ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
+                                                {pointer_ ? &*pointer_ : nullptr, time_, guide_.has_value()})
                            : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
@@ -82,15 +87,35 @@ void ViewModule::setBanner(const std::string& text, bool alarm) {
   if (picture_) picture_->hud().setBanner(text, alarm);
 }
 
+void ViewModule::offerPointer(const std::vector<std::size_t>& fingers) {
+  pointer_out_.emplace(*this, kPointerPort);
+  pointer_.emplace(fingers);
+}
+
+void ViewModule::offerTime(TimeWish& wish, double) noexcept { time_ = &wish; }
+
+void ViewModule::refresh() noexcept {
+  if (!renderer_ || broken_ || !windowed()) return;
+  try {
+    drawWindow();
+  } catch (const std::exception& error) {
+    giveUp(error.what());
+  }
+}
+
 void ViewModule::copyPorts(const Tick& tick) {
   frame_.time = tick.time;
   frame_.device = device_state_.value();
   frame_.contacts = contact_exchange_.value();
   frame_.forces = force_command_.value();
+  if (patches_ && patches_->hasValue()) frame_.patches = &patches_->value();
   if (!object_state_.hasValue()) return;
   const ObjectState& objects = object_state_.value();
   const std::size_t count = std::min(frame_.X_WB.size(), static_cast<std::size_t>(objects.count));
-  for (std::size_t i = 0; i < count; ++i) frame_.X_WB[i] = objects.poseAt(static_cast<std::int32_t>(i), tick.time);
+  for (std::size_t i = 0; i < count; ++i) {
+    frame_.X_WB[i] = objects.poseAt(static_cast<std::int32_t>(i), tick.time);
+    frame_.asleep[i] = objects.bodies[i].asleep;
+  }
   if (guide_) followAssembly(objects, tick.time);
 }
 
@@ -104,9 +129,11 @@ void ViewModule::followAssembly(const ObjectState& objects, double time) {
 
 void ViewModule::drawWindow() {
   picture_->show(frame_, timings_);
+  if (pointer_) pointer_->begin(frame_.device);
   renderer_->render();
   undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);
   inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);
+  if (pointer_) pointer_out_->value = pointer_->state();
   if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";

@@ -1,12 +1,14 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 
 #include "framework/graph/port.h"
 #include "framework/graph/stage_watch.h"
 #include "framework/guide/assembly_guide.h"
 #include "framework/plan/view.h"
 #include "framework/scene/world.h"
+#include "framework/state/contact_patch.h"
 #include "framework/state/object_state.h"
 #include "modules/view_osg/renderer.h"
 
@@ -32,6 +34,9 @@ class ViewModule final : public View, public WatchedStages {
   Screenshot screenshot() const override { return screenshot_; }
   void setBanner(const std::string& text, bool alarm) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
+  void offerPointer(const std::vector<std::size_t>& fingers) override;
+  void offerTime(TimeWish& wish, double length) noexcept override;
+  void refresh() noexcept override;
 
  private:
   bool windowed() const { return world_->options.view == RunOptions::View::kWindow; }
@@ -51,6 +56,10 @@ class ViewModule final : public View, public WatchedStages {
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
   In<AssemblyState> assembly_state_{*this, "assembly_state", In<AssemblyState>::Optional{}};
+  std::optional<In<ContactPatches>> patches_;     ///< only where they may be shown
+  std::optional<Out<PointerState>> pointer_out_;  ///< only when a finger points
+  std::optional<PointerControl> pointer_;
+  TimeWish* time_ = nullptr;
 
   ViewFrame frame_;
   std::optional<AssemblyGuide> guide_;  // of scenes with an assembly

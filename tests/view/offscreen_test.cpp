@@ -183,5 +183,38 @@ TEST_F(Offscreen, WindowWithoutDisplayIsAnInputError) {
   }
 }
 
+/// Pixels of a wire: much more of `strong` than of `weak`.
+template <class Strong, class Weak>
+int wires(const PngPicture& picture, Strong strong, Weak weak) {
+  int pixels = 0;
+  for (int y = 70; y < 650; ++y)
+    for (int x = 300; x < 980; ++x)
+      pixels += picture.at(x, y).*strong > 150 && 2 * picture.at(x, y).*weak < picture.at(x, y).*strong;
+  return pixels;
+}
+
+// --show brings up lines of the haptic (blue) and the physics (magenta) geometry, and leaves the bodies out; without it there are none.
+TEST_F(Offscreen, ShowsWhatIsAskedFor) {
+  const auto draw = [](std::vector<std::string> show) {
+    const std::string file = tempFile("show.png");
+    auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+    world->options.show = std::move(show);
+    PinchStates states = makePinchStates(*world, {0, 0, 0.08});
+    states.device.count = states.contacts.count = 0;
+    EXPECT_EQ(drawOnce(world, states).outcome, View::Screenshot::Outcome::kWritten);
+    return PngPicture(file);
+  };
+  const auto blue = [](const PngPicture& p) { return wires(p, &Color::b, &Color::r); };
+  const PngPicture plain = draw({}), haptic = draw({"haptic"}), physics = draw({"physics", "no-visual"});
+  EXPECT_EQ(blue(plain), 0);
+  EXPECT_GT(blue(haptic), 300);
+  EXPECT_GT(redBlob(plain).pixels, 5000);
+  EXPECT_GT(wires(physics, &Color::b, &Color::g), 300);
+  EXPECT_LT(redBlob(physics).pixels, 1000);
+  auto world = makePinchWorld(RunOptions::View::kOffscreen, "");
+  world->options.show = {"hiptic"};
+  EXPECT_THROW(view::ViewModule module(world), InputError);
+}
+
 }  // namespace
 }  // namespace presa::view_test

@@ -69,20 +69,59 @@ TEST(Creases, SphereIsSmooth) {
     EXPECT_GT(mesh.normals[i].dot(mesh.positions[i].normalized()), std::cos(0.5 * std::numbers::pi / 180));
 }
 
-// Whatever the scene's size, everything lies inside the viewing cone, and the camera looks from the front, right and above.
+/// Shares of the picture's half width and half height that a ball reaches to, seen through the planes that touch it.
+struct Share {
+  double left, right, down, up;
+};
+Share shareOf(const Ball& ball, const CameraPose& pose, double aspect) {
+  const Vec3 forward = (pose.target - pose.eye).normalized(), right = forward.cross(Vec3::UnitZ()).normalized();
+  const Vec3 up = right.cross(forward), to = ball.center - pose.eye;
+  const double slope = std::tan(kFieldOfView / 2 * std::numbers::pi / 180);
+  const auto reach = [&](const Vec3& axis) {
+    const double depth = to.dot(forward), aside = to.dot(axis);
+    return std::tan(std::atan2(aside, depth) + std::asin(ball.radius / std::hypot(depth, aside))) / slope;
+  };
+  return {reach(-right) / aspect, reach(right) / aspect, reach(-up), reach(up)};
+}
+
+// Whatever the scene's size, everything lies inside the picture, and the camera looks from the front, right and above.
 TEST(Framing, HoldsEveryBallAtAnyScale) {
   for (const double scale : {0.3, 1.0, 20.0}) {
     const std::vector<Ball> balls{{{0, 0, 0.1 * scale}, 0.06 * scale}, {{0.3 * scale, -0.1 * scale, 0}, 0.01 * scale}};
     const CameraPose pose = frameSubject(balls, 16.0 / 9, chooseHeading(balls));
-    const Vec3 forward = (pose.target - pose.eye).normalized();
     for (const Ball& ball : balls) {
-      const Vec3 to_ball = ball.center - pose.eye;
-      const double off_axis = std::acos(to_ball.normalized().dot(forward)) + std::asin(ball.radius / to_ball.norm());
-      EXPECT_LT(off_axis, kFieldOfView / 2 * std::numbers::pi / 180);
+      const Share share = shareOf(ball, pose, 16.0 / 9);
+      EXPECT_LT(std::max({share.left, share.right, share.down, share.up}), 1);
     }
     EXPECT_GT(pose.eye.x(), pose.target.x());
     EXPECT_LT(pose.eye.y(), pose.target.y());
     EXPECT_GT(pose.eye.z(), pose.target.z());
+  }
+}
+
+// A wide flat field, a tower and one ball each fill what they may of the picture's width (52 %) or height (80 %) to the last digit, and
+// leave as much room on the left as on the right, above as below. Slopes, so exact but for rounding.
+TEST(Framing, FillsThePictureWithFieldsAndTowers) {
+  const auto grid = [](const Vec3& half) {
+    std::vector<Ball> balls;
+    for (int i = 0; i < 27; ++i)
+      balls.push_back(
+          {Vec3(0.3, 0.2, 0) + Vec3((i % 3 - 1) * half.x(), (i / 3 % 3 - 1) * half.y(), (i / 9 - 1) * half.z()), 0.03});
+    return balls;
+  };
+  for (const double aspect : {16.0 / 9, 1.0}) {
+    for (const auto& balls : {grid({1, 0.5, 0}), grid({0.05, 0.05, 0.8}), grid({0, 0, 0})}) {
+      Share most{-1, -1, -1, -1};
+      const CameraPose pose = frameSubject(balls, aspect, chooseHeading(balls));
+      for (const Ball& ball : balls) {
+        const Share share = shareOf(ball, pose, aspect);
+        most = {std::max(most.left, share.left), std::max(most.right, share.right), std::max(most.down, share.down),
+                std::max(most.up, share.up)};
+      }
+      EXPECT_NEAR(most.left, most.right, 0.02);  // of the half width; exact where the width decides
+      EXPECT_NEAR(std::max(most.right / 0.52, most.up / 0.80), 1, 1e-9);
+      EXPECT_LE(std::max(most.left / 0.52, most.down / 0.80), 1 + 1e-9);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <osg/GraphicsContext>
 #include <osgViewer/GraphicsWindow>
 #include <sstream>
@@ -36,7 +37,8 @@ TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
 /// A window that is driven through OSG's event queue, as its X events are. The scene stands still.
 class Driven {
  public:
-  Driven() : module_(world_), feed_(module_) {
+  explicit Driven(bool pointer = false) : module_(world_), feed_(module_) {
+    if (pointer) module_.offerPointer({0, 1});
     std::filesystem::current_path(testing::TempDir());  // pictures that a key asks for go there
     module_.start();
     frame();
@@ -54,24 +56,51 @@ class Driven {
     feed_.publish(states_, 0);
     module_.step({0, 0, 1.0 / 60});
   }
-  void press(int key) {
+  void press(int key, int modifier = 0) {
+    events().getCurrentEventState()->setModKeyMask(modifier);
     events().keyPress(key);
     events().keyRelease(key);
     frame();
+    events().getCurrentEventState()->setModKeyMask(0);
   }
-  void drag(float from_x, float to_x, float y) {
-    events().mouseButtonPress(from_x, y, 1);
+  void drag(const osg::Vec2& from, const osg::Vec2& to, unsigned button = 1, int modifier = 0) {
+    events().getCurrentEventState()->setModKeyMask(modifier);
+    events().mouseButtonPress(from.x(), from.y(), button);
     frame();
     for (int i = 1; i <= 5; ++i) {
-      events().mouseMotion(from_x + static_cast<float>(i) / 5 * (to_x - from_x), y);
+      const osg::Vec2 at = from + (to - from) * (static_cast<float>(i) / 5);
+      events().mouseMotion(at.x(), at.y());
       frame();
     }
-    events().mouseButtonRelease(to_x, y, 1);
+    events().mouseButtonRelease(to.x(), to.y(), button);
+    frame();
+    events().getCurrentEventState()->setModKeyMask(0);
+  }
+  void doubleClick(const osg::Vec2& at) {
+    events().mouseDoubleButtonPress(at.x(), at.y(), 1);
+    events().mouseButtonRelease(at.x(), at.y(), 1);
+    frame();
     frame();
   }
-  void scroll() {
+  void scroll(int modifier = 0) {
+    events().getCurrentEventState()->setModKeyMask(modifier);
     events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
     frame();
+    events().getCurrentEventState()->setModKeyMask(0);
+  }
+  /// What the view says of the pair; as the graph would read it.
+  const PointerState& pair() const {
+    for (const OutPortBase* port : module_.outputs()) {
+      if (port->name() == kPointerPort) return static_cast<const Out<PointerState>*>(port)->value;
+    }
+    throw std::logic_error("the view has no pointer");
+  }
+  /// Pixels from the left and from the top at which the window shows a point.
+  osg::Vec2 pixelOf(const Vec3& p_W) const {
+    const osg::Camera& camera = **window_->getCameras().begin();
+    const osg::Vec3d at = osg::Vec3d(p_W.x(), p_W.y(), p_W.z()) * camera.getViewMatrix() *
+                          camera.getProjectionMatrix() * camera.getViewport()->computeWindowMatrix();
+    return {static_cast<float>(at.x()), static_cast<float>(camera.getViewport()->height() - at.y())};
   }
 
   /// Where the camera is and what it looks at, some way off [m].
@@ -118,19 +147,87 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
   view.press('?');
   EXPECT_EQ(view.pictureByKey(), told);
 
-  view.drag(640, 840, 360);
+  view.drag({640, 360}, {840, 360});
   const auto turned = view.look();
   EXPECT_GT((turned.first - framed.first).length(), 0.1 * framed.first.length());
   view.scroll();
   EXPECT_GT((view.look().first - turned.first).length(), 1e-3);
+  const auto before = view.look();
+  view.press(osgGA::GUIEventAdapter::KEY_Right);  // flies: eye and target together, to the camera's right
+  EXPECT_GT((view.look().first - before.first).length(), 1e-3);
+  EXPECT_LT((view.look().second - before.second).length(), 1e-9);
   view.press('h');  // back to where everything is in the picture
   view.frame();
   EXPECT_LT((view.look().first - framed.first).length(), 1e-6);
+
+  // each part comes and goes with its key; the cube has no patch here, and nothing sleeps
+  const std::string all = view.pictureByKey();
+  for (const char key : {'1', '2', '3', '5', '6', '7', '8', '0'}) {
+    view.press(key);
+    EXPECT_NE(view.pictureByKey(), all) << key;
+    view.press(key);
+    EXPECT_EQ(view.pictureByKey(), all) << key;
+  }
+
+  // a click on the cube tells of it, a click on nothing no more; two in a row bring it to the middle of the picture
+  const osg::Vec2 cube = view.pixelOf({0.02, -0.034, 0.09});
+  view.drag(cube, cube);
+  EXPECT_NE(view.pictureByKey(), all);
+  view.drag({640, 5}, {640, 5});
+  EXPECT_EQ(view.pictureByKey(), all);
+  view.doubleClick(cube);
+  EXPECT_LT((view.pixelOf({0.02, -0.034, 0.09}) - osg::Vec2(640, 360)).length(),
+            8);  // the ray meets the cube's face close by
 
   EXPECT_FALSE(view.wantsStop());
   view.press(osgGA::GUIEventAdapter::KEY_Escape);
   view.frame();
   EXPECT_TRUE(view.wantsStop());
+}
+
+// The pair follows the mouse, pixel for pixel, in the plane that is asked for; the camera stays. Keys and wheel move it by their steps.
+TEST(OnDisplay, DISABLED_MovesThePair) {
+  Driven view(true);
+  ASSERT_TRUE(view.found());
+  view.frame();
+  EXPECT_EQ(view.pair().sequence, 0u);
+  const auto looked = view.look();
+  const Vec3 start = view.pair().p_WT;
+  EXPECT_LT((start - Vec3(0, 0, 0.08)).norm(), 0.02);  // between the fingertips that hold the cube at 80 mm
+
+  const osg::Vec2 from = view.pixelOf(start);
+  view.drag({600, 400}, {680, 370});
+  EXPECT_LT((view.pixelOf(view.pair().p_WT) - from - osg::Vec2(80, -30)).length(),
+            6);  // nearer and farther changes the scale
+  EXPECT_DOUBLE_EQ(view.pair().p_WT.z(), start.z());
+  const Vec3 level = view.pair().p_WT;
+  view.drag({600, 400}, {600, 340}, 1, osgGA::GUIEventAdapter::MODKEY_LEFT_SHIFT);
+  EXPECT_NEAR(view.pair().p_WT.x(), level.x(), 1e-12);
+  EXPECT_NEAR(view.pair().p_WT.y(), level.y(), 1e-12);
+  EXPECT_LT((view.pixelOf(view.pair().p_WT) - view.pixelOf(level) - osg::Vec2(0, -60)).length(), 6);
+  EXPECT_LT((view.look().first - looked.first).length(), 1e-6);
+
+  const Vec3 dragged = view.pair().p_WT;
+  view.press(osgGA::GUIEventAdapter::KEY_Page_Up);
+  EXPECT_LT((view.pair().p_WT - dragged - Vec3(0, 0, 0.005)).norm(), 1e-12);
+  view.press(osgGA::GUIEventAdapter::KEY_Page_Down, osgGA::GUIEventAdapter::MODKEY_LEFT_SHIFT);
+  EXPECT_LT((view.pair().p_WT - dragged - Vec3(0, 0, 0.004)).norm(), 1e-12);
+  view.scroll();
+  view.press('+');
+  EXPECT_NEAR(view.pair().closing, 0.08, 1e-12);
+  view.press('-');
+  view.press('q');
+  EXPECT_NEAR(view.pair().closing, 0.04, 1e-12);
+  EXPECT_NEAR(view.pair().yaw, 5 * std::numbers::pi / 180, 1e-12);
+
+  const PointerState held = view.pair();
+  view.drag({600, 400}, {700, 400}, 3);
+  EXPECT_GT((view.look().first - looked.first).length(), 0.1 * looked.first.length());
+  const auto turned = view.look();
+  view.scroll(osgGA::GUIEventAdapter::MODKEY_LEFT_CTRL);
+  EXPECT_GT((view.look().first - turned.first).length(), 1e-3);
+  view.press(osgGA::GUIEventAdapter::KEY_Up, osgGA::GUIEventAdapter::MODKEY_LEFT_CTRL);
+  EXPECT_EQ(view.pair().sequence, held.sequence);
 }
 
 /// Status of one of the tests above under an X server of its own; what it said is in `log`.
@@ -145,6 +242,11 @@ int onDisplay(const std::string& test, const std::string& log) {
 TEST(Window, OpensDrawsAndClosesUnderXvfb) {
   const std::string log = testing::TempDir() + "presa_window.log";
   EXPECT_EQ(onDisplay("DrawsFiveFrames", log), 0) << "see " << log;
+}
+
+TEST(Window, MovesThePairUnderXvfb) {
+  const std::string log = testing::TempDir() + "presa_pair.log";
+  EXPECT_EQ(onDisplay("MovesThePair", log), 0) << "see " << log;
 }
 
 TEST(Window, AnswersKeysAndMouseUnderXvfb) {

@@ -6,6 +6,7 @@
 
 #include "apps/presa/commands/bus_options.h"
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/commands/show_option.h"
 #include "apps/presa/machine.h"
 #include "apps/presa/report/report.h"
 #include "apps/presa/run_session.h"
@@ -21,6 +22,7 @@ struct Arguments {
   RunOptions options;
   bool lockstep = false, realtime = false, quiet = false;
   std::string view;  ///< empty: choose
+  double speed = 1;
   std::string summary, report;
 };
 
@@ -79,7 +81,9 @@ int run(Arguments arguments) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  Run session(loaded, {.trace_rate = 250, .quiet = arguments.quiet, .command = commandLine(arguments)});
+  Run session(
+      loaded,
+      {.trace_rate = 250, .quiet = arguments.quiet, .command = commandLine(arguments), .speed = arguments.speed});
   session.execute();
   const RunResult& result = session.result();
   if (!arguments.summary.empty()) writeSummary(result, arguments.summary);
@@ -122,6 +126,11 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--screenshot", a->options.screenshot,
                       "PNG of the scene, at the middle of the hold when there is one");
   command->add_option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]");
+  command
+      ->add_option("--speed", a->speed,
+                   "simulated seconds in a second, of a lockstep run with a window (default 1; keys [ and ] change it)")
+      ->check(CLI::PositiveNumber);
+  addShowOption(*command, a->options.show);
   addBusOptions(*command, a->options.bus, "publish the state for presa view --join");
   command->add_option("--summary", a->summary, "results as JSON");
   command->add_option("--report", a->report, "results as one HTML page with plots");

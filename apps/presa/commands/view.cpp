@@ -1,5 +1,6 @@
 #include "apps/presa/commands/bus_options.h"
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/commands/show_option.h"
 #include "apps/presa/remote/viewer.h"
 
 namespace presa {
@@ -25,6 +26,7 @@ void addView(CLI::App& app, int& status) {
   command->add_option("--screenshot", settings->screenshot, "PNG of what is shown");
   command->add_option("--screenshot-at", settings->screenshot_time,
                       "simulated time of the run for it [s] (default: when the viewer ends)");
+  addShowOption(*command, settings->show);
   command->add_flag("--quiet", settings->quiet, "no status line");
   command->footer(
       "The picture is one period (5 ms) behind, interpolated. Without the bus it freezes and says so.\n"

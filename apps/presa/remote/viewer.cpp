@@ -50,6 +50,7 @@ std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::
   options.view = settings.view;
   options.screenshot = settings.screenshot;
   options.screenshot_time = settings.screenshot_time;
+  options.show = settings.show;
   options.bus = settings.bus;
   World world;
   if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, std::move(options), diagnostics);

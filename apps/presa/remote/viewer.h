@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "framework/scene/world.h"
 
@@ -13,7 +14,8 @@ struct ViewerSettings {
   double duration = 0;  ///< wall [s]; 0: to the end of the run
   RunOptions::View view = RunOptions::View::kNone;
   std::string screenshot;
-  double screenshot_time = -1;  ///< of the run [s]; -1: when the viewer ends
+  double screenshot_time = -1;    ///< of the run [s]; -1: when the viewer ends
+  std::vector<std::string> show;  ///< as RunOptions
   bool quiet = false;
 };
 

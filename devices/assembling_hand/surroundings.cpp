@@ -1,0 +1,106 @@
+#include "devices/assembling_hand/surroundings.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "devices/assembling_hand/grasp.h"
+
+namespace presa::assembling {
+namespace {
+
+constexpr double kInset = 0.8;                   // of a box's edges: its neighbours do not count as lying on it
+constexpr double kWellInside = 0.8;              // of the field
+constexpr double kFingersRoom = 2.5;             // fingertips, around a body that is put down
+constexpr double kStep = 0.02, kFarthest = 0.6;  // of a search for room [m]
+constexpr int kAround = 16;
+constexpr double kLiftedBy = 0.012, kLiftedRadius = 0.004;  // [m]
+
+}  // namespace
+
+Surroundings::Bounds Surroundings::boundsOf(const Body& body, const TriMesh* mesh) {
+  Bounds bounds;
+  if (!body.physics) return bounds;
+  bounds.solid = true;
+  bounds.fixed = body.fixed;
+  bounds.X_BG = body.physics->X_BG;
+  for (int axis = 0; axis < 3; ++axis) bounds.half[axis] = halfWidth(body.physics->shape, mesh, Vec3::Unit(axis));
+  if (mesh != nullptr && std::holds_alternative<MeshRef>(body.physics->shape)) {
+    Vec3 low = mesh->vertices.front();
+    for (const Vec3& v : mesh->vertices) low = low.cwiseMin(v);
+    bounds.X_BG.p = bounds.X_BG * Vec3(low + bounds.half);
+  }
+  bounds.radius = bounds.half.norm();
+  return bounds;
+}
+
+Surroundings::Surroundings(const World& world) {
+  for (std::size_t i = 0; i < world.scene.bodies.size(); ++i)
+    bounds_.push_back(boundsOf(world.scene.bodies[i], world.meshes[i].physics.get()));
+  if (world.scene.assembly) field_ = world.scene.assembly->field;
+}
+
+std::size_t Surroundings::bodyAt(const ObjectState& objects, const Vec3& p_W, double radius,
+                                 std::size_t but) const noexcept {
+  for (std::size_t i = 0; i < bounds_.size(); ++i) {
+    const Bounds& bounds = bounds_[i];
+    if (i == but || !bounds.solid) continue;
+    const Pose X_WG = objects.bodies[i].X_WB_end * bounds.X_BG;
+    const Vec3 away = p_W - X_WG.p;
+    if (away.squaredNorm() > (bounds.radius + radius) * (bounds.radius + radius)) continue;
+    const Vec3 outside = ((X_WG.q.conjugate() * away).cwiseAbs() - bounds.half).cwiseMax(Vec3::Zero());
+    if (outside.squaredNorm() < radius * radius) return i;
+  }
+  return kNothing;
+}
+
+bool Surroundings::isFree(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept {
+  return bodyAt(objects, p_W, radius, but) == kNothing;
+}
+
+std::size_t Surroundings::coverOf(const ObjectState& objects, std::size_t body) const noexcept {
+  const Bounds& bounds = bounds_[body];
+  const Pose X_WG = objects.bodies[body].X_WB_end * bounds.X_BG;
+  for (int corner = 0; corner < 9; ++corner) {
+    const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const Vec3 p_G = corner == 8 ? Vec3::Zero() : Vec3(kInset * sign.cwiseProduct(bounds.half));
+    const std::size_t cover = bodyAt(objects, X_WG * p_G + Vec3(0, 0, kLiftedBy), kLiftedRadius, body);
+    if (cover != kNothing) return cover;
+  }
+  return kNothing;
+}
+
+// Seen from above, free bodies count as discs; a ball of that size that lies on the ground touches nothing that is fixed.
+bool Surroundings::isRoom(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept {
+  if (field_) {
+    const Vec3 inside = (p_W - field_->centre).cwiseAbs() - kWellInside * field_->size / 2;
+    if (inside.x() > 0 || inside.y() > 0) return false;
+  }
+  const Vec3 centre(p_W.x(), p_W.y(), 1.02 * radius);
+  for (std::size_t i = 0; i < bounds_.size(); ++i) {
+    if (i == but || !bounds_[i].solid) continue;
+    const Pose X_WG = objects.bodies[i].X_WB_end * bounds_[i].X_BG;
+    const Vec3 away = centre - X_WG.p;
+    if (bounds_[i].fixed) {
+      const Vec3 outside = ((X_WG.q.conjugate() * away).cwiseAbs() - bounds_[i].half).cwiseMax(Vec3::Zero());
+      if (outside.squaredNorm() < radius * radius) return false;
+    } else if (away.head<2>().norm() < radius + bounds_[i].radius) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::optional<Vec3> Surroundings::roomFor(const ObjectState& objects, std::size_t body, const Vec3& p_W,
+                                          double fingertip) const noexcept {
+  const double radius = bounds_[body].radius + kFingersRoom * fingertip;
+  for (double away = 0; away < kFarthest; away += kStep) {
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kAround;
+      const Vec3 there = p_W + away * Vec3(std::cos(angle), std::sin(angle), 0);
+      if (isRoom(objects, there, radius, body)) return there;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace presa::assembling

@@ -1,0 +1,40 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "framework/math/spatial.h"
+
+namespace presa::pointer {
+
+/// A value that goes where it is wanted without haste: neither its rate nor the change of that rate passes a bound, however the wanted
+/// value jumps. Thread: haptic.
+template <class Value>
+class Follower {
+ public:
+  /// `rate`: most of it [1/s]; `time`: constant with which it arrives [s]. It speeds up by no more than rate / time, with which it
+  /// never runs past what is wanted.
+  Follower(const Value& start, double rate, double time) : value_(start), most_(rate), time_(time) {}
+
+  void step(const Value& wanted, double period) noexcept {
+    const Value rate = bounded((wanted - value_) / time_, most_);
+    rate_ = rate_ + bounded(rate - rate_, most_ / time_ * period);
+    value_ = value_ + rate_ * period;
+  }
+  const Value& value() const noexcept { return value_; }
+  const Value& rate() const noexcept { return rate_; }
+
+ private:
+  static double bounded(double v, double most) noexcept { return std::clamp(v, -most, most); }
+  static Vec3 bounded(const Vec3& v, double most) noexcept {
+    const double norm = v.norm();
+    return norm > most ? Vec3(v * (most / norm)) : v;
+  }
+  static double zero(double) noexcept { return 0; }
+  static Vec3 zero(const Vec3&) noexcept { return Vec3::Zero(); }
+
+  Value value_;
+  Value rate_ = zero(Value());
+  double most_, time_;
+};
+
+}  // namespace presa::pointer

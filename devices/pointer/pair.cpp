@@ -1,0 +1,98 @@
+#include "devices/pointer/pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa::pointer {
+namespace {
+
+constexpr double kTouch = 0.05;  // [N] by which both fingers feel that there is something between them
+
+double signOf(std::size_t side) { return side == Pair::kThumb ? -1 : 1; }
+
+}  // namespace
+
+Pair::Pair(const PairSettings& settings)
+    : settings_(settings),
+      wanted_(settings.start),
+      centre_(settings.start, kSpeed, kArrive),
+      yaw_(0, kTurn, kArrive),
+      half_(openHalf(), kClose, kArrive) {}
+
+bool Pair::add(Side side, const FingerImpedance& impedance, double period) {
+  if (fingers_[side]) return false;
+  fingers_[side].emplace(Finger{FingerPlant(impedance, period), impedance.stiffness});
+  fingers_[side]->plant.reset(settings_.start + signOf(side) * openHalf() * Vec3::UnitX());
+  stiffness_ = stiffness_ > 0 ? std::min(stiffness_, impedance.stiffness) : impedance.stiffness;
+  return true;
+}
+
+void Pair::point(const PointerState& pointer) noexcept {
+  if (pointer.sequence == 0 || !pointer.p_WT.allFinite()) return;
+  wanted_ = pointer.p_WT;
+  if (std::isfinite(pointer.yaw)) wanted_yaw_ = pointer.yaw;
+  if (std::isfinite(pointer.closing)) closing_ = std::clamp(pointer.closing, 0.0, 1.0);
+}
+
+void Pair::advance(const Tick& tick) noexcept {
+  for (; at_.index < tick.index; ++at_.index) live(tick.period);
+  at_ = tick;
+}
+
+bool Pair::holds(const Vec3& along) const noexcept {
+  for (std::size_t side : {kThumb, kIndex}) {
+    if (!fingers_[side] || fingers_[side]->felt.dot(signOf(side) * along) < kTouch) return false;
+  }
+  return true;
+}
+
+double Pair::halfWidth(const Vec3& along) const noexcept {
+  double width = 0;
+  int fingers = 0;
+  for (std::size_t side : {kThumb, kIndex}) {
+    if (!fingers_[side]) continue;
+    width += signOf(side) * (fingers_[side]->plant.position() - centre_.value()).dot(along);
+    ++fingers;
+  }
+  return width / std::max(fingers, 1);
+}
+
+Vec3 Pair::middle(const Vec3& along) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  int fingers = 0;
+  for (std::size_t side : {kThumb, kIndex}) {
+    if (!fingers_[side]) continue;
+    sum += fingers_[side]->plant.position() - signOf(side) * half_.value() * along;
+    ++fingers;
+  }
+  return fingers > 0 ? Vec3(sum / fingers) : centre_.value();
+}
+
+void Pair::live(double period) noexcept {
+  centre_.step(wanted_, period);
+  yaw_.step(wanted_yaw_, period);
+  const Vec3 along(std::cos(yaw_.value()), std::sin(yaw_.value()), 0), across(-along.y(), along.x(), 0);
+  // closed all the way the hand asks for more than touching, by what makes the full grip of its springs
+  const double deepest = settings_.grip / stiffness_;
+  double half = openHalf() - closing_ * (openHalf() + deepest);
+  if (!holds(along)) half = std::max(half, settings_.fingertip);  // fingertips stop at each other
+  half_.step(half, period);
+  const double least = halfWidth(along) - deepest;
+  const bool bounded = half_.value() < least;
+  const double reach = bounded ? least : half_.value(), closing = bounded ? 0 : half_.rate();
+  // pushed on against what does not give way, the springs pull no more than so hard
+  Vec3 lead = centre_.value() - middle(along), rate = centre_.rate();
+  if (const double most = settings_.push / stiffness_, length = lead.norm(); length > most) {
+    lead *= most / length;
+    rate.setZero();
+  }
+  const Vec3 centre = middle(along) + lead;
+  for (std::size_t side : {kThumb, kIndex}) {
+    if (!fingers_[side]) continue;
+    const double sign = signOf(side);
+    fingers_[side]->plant.step(centre + sign * reach * along,
+                               rate + sign * (closing * along + reach * yaw_.rate() * across), fingers_[side]->felt);
+  }
+}
+
+}  // namespace presa::pointer

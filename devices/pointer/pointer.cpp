@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "devices/pointer/pair.h"
+#include "framework/diagnostics/refuse.h"
+#include "framework/hand/hand_settings.h"
+#include "framework/plan/plugin.h"
+#include "framework/schedule/rates.h"
+
+namespace presa::pointer {
+namespace {
+
+constexpr double kMostGrip = 6;        // [N], where neither rig nor scene says less
+constexpr double kShareOfLimit = 0.6;  // of the force limit: the rest is for weight and for what the pair runs into
+constexpr double kSpan = 0.12;         // [m]
+constexpr double kAbove = 0.05;        // [m] over everything that is free, at the start
+
+/// One fingertip of the pair.
+class PointedFinger final : public Device {
+ public:
+  PointedFinger(std::shared_ptr<Pair> pair, Pair::Side side, HandSettings settings, bool window)
+      : pair_(std::move(pair)),
+        side_(side),
+        damping_(settings.impedance.damping),
+        notes_(std::move(settings.notes)),
+        window_(window) {}
+
+  void open() override {
+    if (window_) return;
+    refuse(449, "command line", "the rig's fingers are moved with the mouse, and there is no window to do it in",
+           "--view window (it needs a display), or a rig whose fingers move by themselves");
+  }
+  bool points() const override { return true; }
+  void point(const PointerState& pointer, const Tick&) noexcept override { pair_->point(pointer); }
+
+  FingerInput read(const Tick& tick) noexcept override {
+    pair_->advance(tick);
+    return {pair_->finger(side_).position(), pair_->finger(side_).velocity(), -1, true};
+  }
+  void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
+    pair_->advance(tick);
+    pair_->push(side_, f_H_W);
+  }
+  double damping() const override { return damping_; }
+  std::vector<std::string> notes() const override { return notes_; }
+
+ private:
+  std::shared_ptr<Pair> pair_;
+  Pair::Side side_;
+  double damping_;
+  std::vector<std::string> notes_;
+  bool window_;
+};
+
+/// From a body's origin to what is farthest of it [m].
+double reachOf(const Geometry& geometry, const TriMesh* mesh) {
+  struct Reach {
+    const TriMesh* mesh;
+    double operator()(const Box& box) const { return box.size.norm() / 2; }
+    double operator()(const Sphere& sphere) const { return sphere.radius; }
+    double operator()(const Cylinder& rod) const { return std::hypot(rod.radius, rod.length / 2); }
+    double operator()(const Capsule& rod) const { return rod.radius + rod.length / 2; }
+    double operator()(const MeshRef&) const {
+      double reach = 0;
+      if (mesh != nullptr)
+        for (const Vec3& v : mesh->vertices) reach = std::max(reach, v.norm());
+      return reach;
+    }
+  };
+  return geometry.X_BG.p.norm() + std::visit(Reach{mesh}, geometry.shape);
+}
+
+/// Over the first free body, clear of all free ones; without any, over the world's origin.
+Vec3 startOf(const World& world) {
+  Vec3 start(0, 0, 0);
+  double top = 0.1;
+  bool found = false;
+  for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
+    const Body& body = world.scene.bodies[i];
+    if (body.fixed || !body.haptic) continue;
+    if (!std::exchange(found, true)) start = body.X_WB.p;
+    top = std::max(top, body.X_WB.p.z() + reachOf(*body.haptic, world.meshes[i].haptic.get()));
+  }
+  start.z() = top + kAbove;
+  return start;
+}
+
+PairSettings readPair(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  PairSettings pair;
+  double force = kMostGrip;
+  for (const DeviceRole& role : world.scene.devices) {
+    if (role.role != binding.role) continue;
+    force = std::min(force, kShareOfLimit * role.limits.force);
+    pair.push = role.limits.force;
+    pair.fingertip = role.fingertip_radius;
+  }
+  pair.grip = positiveSetting(binding, "grip", force, diagnostics);
+  pair.span = positiveSetting(binding, "span", kSpan, diagnostics);
+  pair.start = startOf(world);
+  return pair;
+}
+
+/// The second finger of a world joins the first. Held by the devices alone: gone with them, so that runs do not meet.
+std::shared_ptr<Pair> join(const World& world, const PairSettings& settings) {
+  static std::mutex mutex;
+  static std::map<const World*, std::weak_ptr<Pair>> pairs;
+  const std::lock_guard lock(mutex);
+  std::erase_if(pairs, [](const auto& entry) { return entry.second.expired(); });
+  std::shared_ptr<Pair> pair = pairs[&world].lock();
+  if (!pair) {
+    pair = std::make_shared<Pair>(settings);
+    pairs[&world] = pair;
+  }
+  return pair;
+}
+
+std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping", "grip", "span"}, diagnostics);
+  const Pair::Side side = sideOf(binding, diagnostics) < 0 ? Pair::kThumb : Pair::kIndex;
+  HandSettings hand = readImpedance(binding, world, 0, {}, diagnostics);
+  const PairSettings settings = readPair(binding, world, diagnostics);
+  if (diagnostics.errorCount() > before) return nullptr;
+  auto pair = join(world, settings);
+  if (!(pair->settings() == settings))
+    diagnostics.error(455, binding.where, "role '" + binding.role + "' has other settings than the other finger",
+                      "both fingers are one pair: give them the same grip, span, fingertip radius and force limit");
+  else if (!pair->add(side, hand.impedance, RateTable(world.scene.rates).period(RateGroup::kHaptic)))
+    diagnostics.error(456, binding.where, "role '" + binding.role + "' is a side that another role is already",
+                      "one pointer moves one thumb and one index finger; side=\"-1\" is the thumb's");
+  if (diagnostics.errorCount() > before) return nullptr;
+  return std::make_unique<PointedFinger>(std::move(pair), side, std::move(hand),
+                                         world.options.view == RunOptions::View::kWindow);
+}
+
+const DevicePlugin kPlugin{
+    .name = "pointer", .summary = "one of two fingertips that mouse and keys move in the window", .create = create};
+
+}  // namespace
+}  // namespace presa::pointer
+
+PRESA_DEVICE_PLUGIN(presa::pointer::kPlugin)

@@ -1,0 +1,57 @@
+#include "modules/view_osg/camera_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace presa::view {
+namespace {
+
+constexpr double kTurn = 1.6;                              // [rad] for half of the picture's height
+constexpr double kSteepest = 89 * std::numbers::pi / 180;  // straight down has no right and left
+constexpr double kNearest = 0.01, kFarthest = 500;         // [m]
+const double kSlope = std::tan(kFieldOfView / 2 * std::numbers::pi / 180);
+
+}  // namespace
+
+void CameraControl::set(const CameraPose& pose) {
+  const Vec3 out = pose.eye - pose.target;
+  target_ = pose.target;
+  distance_ = std::clamp(out.norm(), kNearest, kFarthest);
+  heading_ = std::atan2(out.x(), -out.y());
+  elevation_ = std::clamp(std::asin(std::clamp(out.z() / distance_, -1.0, 1.0)), -kSteepest, kSteepest);
+}
+
+void CameraControl::approach(const CameraPose& goal, double share) {
+  const CameraPose now = pose();
+  set({now.eye + share * (goal.eye - now.eye), now.target + share * (goal.target - now.target)});
+}
+
+void CameraControl::orbit(double right, double up) {
+  heading_ -= kTurn * right;
+  elevation_ = std::clamp(elevation_ - kTurn * up, -kSteepest, kSteepest);
+}
+
+void CameraControl::pan(double right, double up) {
+  target_ -= distance_ * kSlope * (right * axes().right + up * axes().up);
+}
+
+void CameraControl::zoom(double factor) { distance_ = std::clamp(distance_ * factor, kNearest, kFarthest); }
+
+void CameraControl::fly(double right, double ahead, double up) {
+  const CameraAxes now = axes();
+  target_ += distance_ * (right * now.right + ahead * Vec3::UnitZ().cross(now.right) + up * Vec3::UnitZ());
+}
+
+CameraPose CameraControl::pose() const { return {target_ - distance_ * axes().forward, target_}; }
+
+double CameraControl::scaleAt(const Vec3& p_W) const {
+  return kSlope * std::max(kNearest, (p_W - pose().eye).dot(axes().forward));
+}
+
+Vec3 CameraControl::rayThrough(double right, double up) const {
+  const CameraAxes now = axes();
+  return (now.forward + kSlope * (aspect_ * right * now.right + up * now.up)).normalized();
+}
+
+}  // namespace presa::view

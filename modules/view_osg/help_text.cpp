@@ -1,0 +1,65 @@
+#include "modules/view_osg/help_text.h"
+
+namespace presa::view {
+namespace {
+
+using Lines = std::vector<HelpLine>;
+
+void append(Lines& lines, Lines more) { lines.insert(lines.end(), more.begin(), more.end()); }
+
+Lines pairLines() {
+  return {{"", "pair of fingers"},
+          {"left drag", "over the ground"},
+          {"Shift + left drag", "up, down and aside"},
+          {"wheel", "close and open the grip"},
+          {"arrows, PageUp, PageDown", "right, left, away, near, up, down"},
+          {"+  -", "close and open"},
+          {"q  e", "turn about the vertical"},
+          {"Shift + key", "a fifth of the step"}};
+}
+
+Lines cameraLines(bool pair) {
+  Lines lines{{"", "camera"}};
+  if (pair) {
+    append(lines, {{"right drag, Alt + left drag", "turn around the scene"},
+                   {"middle drag", "shift"},
+                   {"Ctrl + wheel", "nearer, farther"},
+                   {"Ctrl + arrows, PageUp …", "fly"}});
+  } else {
+    append(lines, {{"left drag", "turn around the scene"},
+                   {"middle drag", "shift"},
+                   {"right drag, wheel", "nearer, farther"},
+                   {"arrows, PageUp, PageDown", "fly"}});
+  }
+  append(lines,
+         {{"h", "follow bodies and fingers again"}, {"click", "what is this body"}, {"double click", "look there"}});
+  return lines;
+}
+
+Lines timeLines() {
+  return {{"", "time"}, {"space", "hold, go on"}, {".", "a single step"}, {"[  ]", "half and double speed"}};
+}
+
+Lines partLines() {
+  return {{"", "show and hide"},
+          {"1  2  3", "looks, haptic and physics geometry"},
+          {"4", "triangles near the fingers"},
+          {"5  6", "HIPs, fingertips"},
+          {"7  8", "friction cones, forces"},
+          {"9  0", "what sleeps, frames"}};
+}
+
+}  // namespace
+
+std::vector<HelpLine> helpLines(const Controls& controls) {
+  Lines lines;
+  if (controls.pointer != nullptr) append(lines, pairLines());
+  append(lines, cameraLines(controls.pointer != nullptr));
+  if (controls.time != nullptr) append(lines, timeLines());
+  append(lines, partLines());
+  if (controls.undo) append(lines, {{"", "building"}, {"u", "take out what was put last"}});
+  append(lines, {{"", "window"}, {"s", "save a picture"}, {"?", "this help"}, {"Esc", "stop the run"}});
+  return lines;
+}
+
+}  // namespace presa::view

@@ -1,0 +1,54 @@
+#include "modules/view_osg/pointer_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa::view {
+namespace {
+
+/// A plane that is seen almost from its edge would run away under the mouse.
+constexpr double kFlattest = 0.3;
+
+}  // namespace
+
+void PointerControl::begin(const DeviceState& device) {
+  if (begun_ || fingers_.empty()) return;
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t f : fingers_) {
+    if (f >= static_cast<std::size_t>(device.count) || !device.fingers[f].valid) return;
+    sum += device.fingers[f].p_WH;
+  }
+  state_.p_WT = sum / static_cast<double>(fingers_.size());
+  begun_ = true;
+}
+
+void PointerControl::dragLevel(double right, double up, const CameraControl& camera) {
+  const double scale = camera.scaleAt(state_.p_WT);
+  move(scale * right, scale * up / std::max(kFlattest, std::sin(camera.elevation())), 0, camera);
+}
+
+void PointerControl::dragUpright(double right, double up, const CameraControl& camera) {
+  const double scale = camera.scaleAt(state_.p_WT);
+  move(scale * right, 0, scale * up / std::max(kFlattest, std::cos(camera.elevation())), camera);
+}
+
+void PointerControl::move(double right, double away, double up, const CameraControl& camera) {
+  if (!begun_) return;
+  const Vec3 right_W = camera.axes().right;
+  state_.p_WT += right * right_W + away * Vec3::UnitZ().cross(right_W) + up * Vec3::UnitZ();
+  changed();
+}
+
+void PointerControl::turn(double angle) {
+  if (!begun_) return;
+  state_.yaw += angle;
+  changed();
+}
+
+void PointerControl::close(double amount) {
+  if (!begun_) return;
+  state_.closing = std::clamp(state_.closing + amount, 0.0, 1.0);
+  changed();
+}
+
+}  // namespace presa::view

@@ -1,0 +1,24 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "framework/plan/shown_parts.h"
+
+namespace presa::view {
+
+/// What the picture shows now. At first: bodies, HIPs, fingertips, cones and forces.
+class ShownParts {
+ public:
+  ShownParts() = default;
+  /// Besides, each of `names`; with "no-" before it, left out. Throws InputError E704 for what is no part.
+  explicit ShownParts(const std::vector<std::string>& names);
+
+  bool operator[](ShownPart part) const { return shown_[static_cast<std::size_t>(part)]; }
+  void toggle(ShownPart part) { shown_[static_cast<std::size_t>(part)] = !(*this)[part]; }
+
+ private:
+  std::array<bool, kShownPartNames.size()> shown_{true, false, false, false, true, true, true, true, false, false};
+};
+
+}  // namespace presa::view

@@ -1,0 +1,233 @@
+#include "modules/view_osg/window_input.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa::view {
+namespace {
+
+using Event = osgGA::GUIEventAdapter;
+
+constexpr double kNotch = 1.12;     // a notch of the wheel changes the distance by this factor
+constexpr double kZoomDrag = 1.5;   // exponent of a drag over half of the picture's height
+constexpr double kFlyStep = 0.06;   // of an arrow key, in distances to the target
+constexpr double kStill = 0.01;     // a click is a drag by less than this
+constexpr double kFineShare = 0.2;  // of a key's step, with Shift
+constexpr double kSlowest = 1.0 / 64, kFastest = 64;
+
+bool has(const Event& event, int mask) { return (event.getModKeyMask() & mask) != 0; }
+
+}  // namespace
+
+WindowInput::WindowInput(Picture& picture, CameraControl& camera, const Controls& controls)
+    : picture_(picture), camera_(camera), controls_(controls) {}
+
+bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
+  const osg::Vec2 before = at_;
+  switch (event.getEventType()) {
+    case Event::RESIZE:
+      aspect_ = static_cast<double>(event.getWindowWidth()) / std::max(1, event.getWindowHeight());
+      picture_.setSize(event.getWindowWidth(), event.getWindowHeight());
+      camera_.setAspect(aspect_);
+      return false;
+    case Event::PUSH:
+      ++inputs.all;
+      drag_ = dragOf(event);
+      dragged_ = 0;
+      at_ = {static_cast<float>(aspect_) * event.getXnormalized(), event.getYnormalized()};
+      return true;
+    case Event::DRAG:
+      at_ = {static_cast<float>(aspect_) * event.getXnormalized(), event.getYnormalized()};
+      dragged_ += (at_ - before).length();
+      drag(at_ - before);
+      return true;
+    case Event::RELEASE:
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && drag_ != Drag::kNone && dragged_ < kStill)
+        click(event, false);
+      drag_ = Drag::kNone;
+      return true;
+    case Event::DOUBLECLICK:
+      drag_ = Drag::kNone;
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON) click(event, true);
+      return true;
+    case Event::SCROLL:
+      scroll(event);
+      return true;
+    case Event::KEYDOWN:
+      return key(event);
+    default:
+      return false;
+  }
+}
+
+WindowInput::Drag WindowInput::dragOf(const Event& event) const {
+  switch (event.getButton()) {
+    case Event::LEFT_MOUSE_BUTTON:
+      if (controls_.pointer == nullptr || has(event, Event::MODKEY_ALT)) return Drag::kOrbit;
+      return has(event, Event::MODKEY_SHIFT) ? Drag::kPairUpright : Drag::kPairLevel;
+    case Event::MIDDLE_MOUSE_BUTTON:
+      return Drag::kPan;
+    case Event::RIGHT_MOUSE_BUTTON:
+      return controls_.pointer == nullptr ? Drag::kZoom : Drag::kOrbit;
+    default:
+      return Drag::kNone;
+  }
+}
+
+void WindowInput::drag(const osg::Vec2& by) {
+  if (drag_ == Drag::kOrbit || drag_ == Drag::kPan || drag_ == Drag::kZoom) following = false;
+  switch (drag_) {
+    case Drag::kOrbit:
+      return camera_.orbit(by.x(), by.y());
+    case Drag::kPan:
+      return camera_.pan(by.x(), by.y());
+    case Drag::kZoom:
+      return camera_.zoom(std::exp(-kZoomDrag * by.y()));
+    case Drag::kPairLevel:
+      return controls_.pointer->dragLevel(by.x(), by.y(), camera_);
+    case Drag::kPairUpright:
+      return controls_.pointer->dragUpright(by.x(), by.y(), camera_);
+    case Drag::kNone:
+      return;
+  }
+}
+
+void WindowInput::click(const Event& event, bool twice) {
+  const auto hit =
+      picture_.bodies().along(camera_.pose().eye, camera_.rayThrough(event.getXnormalized(), event.getYnormalized()));
+  picture_.choose(hit ? std::optional(hit->body) : std::nullopt);
+  if (!twice || !hit) return;
+  following = false;
+  camera_.center(hit->p_W);
+}
+
+void WindowInput::scroll(const Event& event) {
+  const bool up = event.getScrollingMotion() == Event::SCROLL_UP;
+  if (!up && event.getScrollingMotion() != Event::SCROLL_DOWN) return;
+  if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL))
+    return controls_.pointer->close(up ? PointerControl::kCloseStep : -PointerControl::kCloseStep);
+  following = false;
+  camera_.zoom(up ? 1 / kNotch : kNotch);
+}
+
+bool WindowInput::key(const Event& event) {
+  const int key = event.getKey();
+  ++inputs.all;
+  switch (key) {
+    case 's':
+      picture_requested = true;
+      return true;
+    case 'h':
+      frame_requested = following = true;
+      return true;
+    case 'u':
+      inputs.undos += controls_.undo ? 1 : 0;
+      return true;
+    case '?':
+      picture_.hud().toggleHelp();
+      return true;
+    default:
+      break;
+  }
+  if (key >= '0' && key <= '9') {
+    picture_.parts().toggle(static_cast<ShownPart>((key - '0' + 9) % 10));
+    return true;
+  }
+  if (timeKey(key)) return true;
+  if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL))
+    return pairKey(key, has(event, Event::MODKEY_SHIFT));
+  return cameraKey(key);
+}
+
+bool WindowInput::cameraKey(int key) {
+  const auto fly = [&](double right, double ahead, double up) {
+    following = false;
+    camera_.fly(kFlyStep * right, kFlyStep * ahead, kFlyStep * up);
+    return true;
+  };
+  switch (key) {
+    case Event::KEY_Left:
+      return fly(-1, 0, 0);
+    case Event::KEY_Right:
+      return fly(1, 0, 0);
+    case Event::KEY_Up:
+      return fly(0, 1, 0);
+    case Event::KEY_Down:
+      return fly(0, -1, 0);
+    case Event::KEY_Page_Up:
+      return fly(0, 0, 1);
+    case Event::KEY_Page_Down:
+      return fly(0, 0, -1);
+    default:
+      return false;
+  }
+}
+
+bool WindowInput::pairKey(int key, bool fine) {
+  PointerControl& pair = *controls_.pointer;
+  const double share = fine ? kFineShare : 1;
+  const auto move = [&](double right, double away, double up) {
+    const double step = share * PointerControl::kStep;
+    pair.move(step * right, step * away, step * up, camera_);
+    return true;
+  };
+  switch (key) {
+    case Event::KEY_Left:
+      return move(-1, 0, 0);
+    case Event::KEY_Right:
+      return move(1, 0, 0);
+    case Event::KEY_Up:
+      return move(0, 1, 0);
+    case Event::KEY_Down:
+      return move(0, -1, 0);
+    case Event::KEY_Page_Up:
+      return move(0, 0, 1);
+    case Event::KEY_Page_Down:
+      return move(0, 0, -1);
+    case '+':
+    case '=':
+    case Event::KEY_KP_Add:
+      pair.close(PointerControl::kCloseStep);
+      return true;
+    case '-':
+    case '_':
+    case Event::KEY_KP_Subtract:
+      pair.close(-PointerControl::kCloseStep);
+      return true;
+    case 'q':
+      pair.turn(share * PointerControl::kTurnStep);
+      return true;
+    case 'e':
+      pair.turn(-share * PointerControl::kTurnStep);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool WindowInput::timeKey(int key) {
+  if (key == Event::KEY_Space && controls_.time == nullptr) return true;  // reserved
+  if (controls_.time == nullptr) return false;
+  TimeWish& time = *controls_.time;
+  const auto faster = [&](double factor) {
+    time.speed = std::clamp(time.speed.load() * factor, kSlowest, kFastest);
+    return true;
+  };
+  switch (key) {
+    case Event::KEY_Space:
+      time.paused = !time.paused;
+      return true;
+    case '.':
+      time.paused = true;
+      ++time.steps;
+      return true;
+    case '[':
+      return faster(0.5);
+    case ']':
+      return faster(2);
+    default:
+      return false;
+  }
+}
+
+}  // namespace presa::view

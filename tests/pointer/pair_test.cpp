@@ -1,0 +1,140 @@
+// The pair alone, against walls made here.
+#include "devices/pointer/pair.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace presa::pointer {
+namespace {
+
+constexpr double kPeriod = 1e-3, kRadius = 0.008, kSpan = 0.12, kGrip = 6, kPush = 10;
+constexpr double kOpenHalf = kSpan / 2 + kRadius;
+const FingerImpedance kFinger{.mass = 0.1, .stiffness = 300, .damping = 8};
+
+/// Two fingers at 1 kHz, and a wall of stiffness `wall` on either side of a body of that half width, which stays where it is.
+struct Bench {
+  explicit Bench(double half_width = -1, double wall = 1000) : half_width(half_width), wall(wall) {
+    pair.add(Pair::kThumb, kFinger, kPeriod);
+    pair.add(Pair::kIndex, kFinger, kPeriod);
+  }
+  void run(double seconds) {
+    for (const auto ticks = static_cast<std::uint64_t>(std::lround(seconds / kPeriod)), end = at + ticks; at < end;)
+      step();
+  }
+  void step() {
+    ++at;
+    pair.advance({at, static_cast<double>(at) * kPeriod, kPeriod});
+    for (const auto side : {Pair::kThumb, Pair::kIndex}) {
+      const double sign = side == Pair::kThumb ? -1 : 1;
+      const double x = sign * pair.finger(side).position().x();
+      const double depth = half_width < 0 ? 0 : std::max(0.0, half_width + kRadius - x);
+      force[side] = wall * depth;
+      pair.push(side, Vec3(sign * force[side], 0, 0) + load);
+    }
+  }
+  void point(const Vec3& p, double closing, double yaw = 0) { pair.point({++sequence, p, yaw, closing}); }
+  double x(Pair::Side side) const { return pair.finger(side).position().x(); }
+
+  Pair pair{{.start = Vec3::Zero(), .fingertip = kRadius, .span = kSpan, .grip = kGrip, .push = kPush}};
+  double half_width, wall;
+  Vec3 load = Vec3::Zero();  ///< on each finger [N]
+  std::array<double, 2> force{};
+  std::uint64_t at = 0, sequence = 0;
+};
+
+// Closed form of a way of 0.3 m: 0.05 s to full speed (12.5 mm), 0.5 m/s until 25 mm are left, then e^(-t / 0.05 s). It is
+// 1 mm away at 0.05 + (0.3 - 0.0125 - 0.025) / 0.5 + 0.05 ln 25 = 0.7359 s; ticks of 1 ms: within two of them.
+TEST(PointerFollower, GoesWithBoundedSpeedAndNeverTooFar) {
+  Follower<Vec3> follower(Vec3::Zero(), Pair::kSpeed, Pair::kArrive);
+  const Vec3 goal(0.18, -0.24, 0);
+  double near_at = -1;
+  Vec3 rate = Vec3::Zero();
+  for (int i = 1; i <= 2000; ++i) {
+    follower.step(goal, kPeriod);
+    EXPECT_LE(follower.rate().norm(), Pair::kSpeed * (1 + 1e-12));
+    EXPECT_LE((follower.rate() - rate).norm(), Pair::kSpeed / Pair::kArrive * kPeriod * (1 + 1e-9));
+    rate = follower.rate();
+    const double gone = follower.value().dot(goal) / goal.norm();
+    EXPECT_LE(gone, goal.norm() + 1e-12);
+    if (near_at < 0 && goal.norm() - gone < 1e-3) near_at = i * kPeriod;
+  }
+  EXPECT_NEAR(near_at, 0.7359, 0.002);
+  EXPECT_LT((follower.value() - goal).norm(), 1e-9);
+}
+
+// Spring of the hand and spring of the wall in series, k k_w / (k + k_w) over the depth that is asked for; never more than the grip. At
+// rest nothing is left of the damping: 1e-6 N is what five seconds leave.
+TEST(PointerPair, PressesAsTheSpringsSayAndNeverMoreThanItsGrip) {
+  for (const double half_width : {0.005, 0.02, 0.035, 0.05}) {
+    for (const double closing : {0.3, 0.5, 0.7, 0.85, 1.0}) {
+      Bench bench(half_width);
+      bench.point(Vec3::Zero(), closing);
+      bench.run(5);
+      const double wanted = kOpenHalf - closing * (kOpenHalf + kGrip / kFinger.stiffness);
+      const double depth = std::max(0.0, half_width + kRadius - wanted);
+      const double series = kFinger.stiffness * bench.wall / (kFinger.stiffness + bench.wall);
+      for (const double force : bench.force) EXPECT_NEAR(force, std::min(kGrip, series * depth), 1e-6) << closing;
+    }
+  }
+}
+
+// However the mouse jumps. A fingertip arrives with at most the speeds of hand, turn and grip together, so a wall of 1 N/mm sees at
+// most 0.85 N more in a millisecond.
+TEST(PointerPair, AJumpOfTheMouseIsNoJumpOfForce) {
+  Bench bench(0.035);
+  double most = 0;
+  for (int i = 0; i < 4000; ++i) {
+    if (i % 400 == 0) bench.point(Vec3(i % 800 == 0 ? 0.5 : -0.5, 0.3, 0), i % 1200 == 0 ? 1 : 0, i);
+    const auto before = bench.force;
+    bench.step();
+    for (std::size_t f = 0; f < 2; ++f) most = std::max(most, bench.force[f] - before[f]);
+  }
+  EXPECT_GT(most, 0.05);  // it did meet the wall
+  EXPECT_LT(most, bench.wall * (Pair::kSpeed + Pair::kTurn * kOpenHalf + Pair::kClose) * kPeriod);
+}
+
+TEST(PointerPair, FingertipsStopAtEachOther) {
+  Bench bench;
+  bench.point(Vec3(0.05, 0, 0), 1);
+  bench.run(3);
+  EXPECT_NEAR(bench.x(Pair::kThumb), 0.05 - kRadius, 1e-6);
+  EXPECT_NEAR(bench.x(Pair::kIndex), 0.05 + kRadius, 1e-6);
+}
+
+// A load sags by its force over the stiffness; a whole turn of the pair is one of the line between the fingertips.
+TEST(PointerPair, YieldsToALoadAndTurns) {
+  Bench bench;
+  bench.load = {0, 0, -2};
+  bench.point(Vec3(0, 0, 0.1), 0, std::numbers::pi / 2);
+  bench.run(5);
+  EXPECT_LT((bench.pair.finger(Pair::kThumb).position() - Vec3(0, -kOpenHalf, 0.1 - 2 / 300.0)).norm(), 1e-6);
+  EXPECT_LT((bench.pair.finger(Pair::kIndex).position() - Vec3(0, kOpenHalf, 0.1 - 2 / 300.0)).norm(), 1e-6);
+}
+
+// Told to go far into what does not give way, each finger pushes with the bound, and no harder for a pointer still farther away.
+TEST(PointerPair, PushesWithABoundedForce) {
+  for (const double far : {0.2, 5.0}) {
+    Bench bench;
+    bench.point(Vec3(0, 0, -far), 0);
+    double force = 0;
+    for (int i = 0; i < 5000; ++i) {
+      force = 1000 * std::max(0.0, -0.01 - bench.pair.finger(Pair::kThumb).position().z());
+      bench.load = {0, 0, force};
+      bench.step();
+    }
+    EXPECT_NEAR(force, kPush, 1e-3);  // its load is one tick old, but at rest
+  }
+}
+
+TEST(PointerPair, BelievesNoPointerThatIsNotANumber) {
+  Bench bench;
+  bench.point(Vec3(0.1, 0, 0), 0);
+  bench.point(Vec3(NAN, 0, 0), NAN, NAN);
+  bench.run(2);
+  EXPECT_NEAR(bench.x(Pair::kThumb), 0.1 - kOpenHalf, 1e-6);
+}
+
+}  // namespace
+}  // namespace presa::pointer
