@@ -12,7 +12,7 @@ void addGrain(osg::StateSet& state, const Scene& scene);
 /// Something is of stone or earth: there is a sky, and the ground goes on to the horizon.
 bool isOutdoors(const Scene& scene);
 
-/// Uniforms of one body: what it is made of, and where in the tile it was cut.
-void setGrain(osg::StateSet& body, Material::Texture texture, std::size_t index);
+/// Where in the tile one body was cut.
+void setGrain(osg::StateSet& body, std::size_t index);
 
 }  // namespace presa::view

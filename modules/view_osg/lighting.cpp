@@ -10,6 +10,8 @@ namespace {
 
 const Vec3 kKeyDirection = Vec3(0.38, -0.42, 0.95).normalized();  ///< towards the key light: over the right shoulder
 
+constexpr double kKeeps = 1.2;  // of the maps' radius
+
 }  // namespace
 
 Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) {
@@ -24,6 +26,8 @@ Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) {
 }
 
 void Lighting::setQuality(const LightQuality& quality) {
+  quality_ = quality;
+  frame_ = 0;
   taps_->set(quality.taps);
   for (Map& map : maps_) {
     map.depth->setTextureSize(quality.map_size, quality.map_size);
@@ -66,12 +70,25 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
 }
 
 void Lighting::setFocus(const Vec3& center, double radius) {
+  // a quick light keeps its maps as long as they cover what there is
+  const bool covered = (center - center_).norm() + radius < kKeeps * radius_ && radius > radius_ / 2;
+  if (quality_.sky_every > 1 && frame_ > 0 && covered) return;
+  center_ = center;
+  radius_ = radius;
+  frame_ = 0;
   for (Map& map : maps_) {
     map.camera->setViewMatrixAsLookAt(toOsg(Vec3(center + 2 * radius * map.direction)), toOsg(center), toOsg(map.up));
     map.camera->setProjectionMatrixAsOrtho(-radius, radius, -radius, radius, 0, 4 * radius);
     const osg::Matrixd to_texture = osg::Matrixd::translate(1, 1, 1) * osg::Matrixd::scale(0.5, 0.5, 0.5);
     map.matrix->set(osg::Matrixf(map.camera->getViewMatrix() * map.camera->getProjectionMatrix() * to_texture));
   }
+}
+
+void Lighting::beginFrame(bool moved) {
+  const bool fine = quality_.sky_every == 1, first = frame_ == 0;
+  maps_.front().camera->setNodeMask(fine || first || moved ? ~0U : 0U);
+  maps_.back().camera->setNodeMask(fine || frame_ % quality_.sky_every == 0 ? ~0U : 0U);
+  ++frame_;
 }
 
 void Lighting::setPictureSize(int width, int height) {

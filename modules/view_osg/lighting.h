@@ -11,11 +11,12 @@ namespace presa::view {
 
 /// What the light may cost.
 struct LightQuality {
-  int taps;      ///< shadow samples per pixel and map, at most 16
-  int map_size;  ///< [pixel]
+  int taps;       ///< shadow samples per pixel and map, at most 16
+  int map_size;   ///< [pixel]
+  int sky_every;  ///< frames
 };
-inline constexpr LightQuality kFineLight{16, 2048};
-inline constexpr LightQuality kQuickLight{4, 512};  ///< for a window drawn by the processor
+inline constexpr LightQuality kFineLight{16, 2048, 1};
+inline constexpr LightQuality kQuickLight{1, 512, 12};  ///< for a window drawn by the processor
 
 /// Depth maps of what stands in the light: one from the key light (shadow), one from straight above (how much sky a
 /// point sees). Both cover a sphere around what the picture is about.
@@ -27,6 +28,9 @@ class Lighting {
   /// Cameras that must be drawn before the picture.
   osg::Group* passes() { return passes_; }
   void setFocus(const Vec3& center, double radius);
+  /// In a new frame: draws the maps that are due. A quick light draws the shadow when something `moved`, how much sky a point
+  /// sees now and then.
+  void beginFrame(bool moved);
   void setQuality(const LightQuality& quality);
   /// Size of the picture [pixel].
   void setPictureSize(int width, int height);
@@ -44,6 +48,10 @@ class Lighting {
 
   osg::ref_ptr<osg::Group> passes_ = new osg::Group;
   std::vector<Map> maps_;
+  LightQuality quality_ = kFineLight;
+  int frame_ = 0;  // since the maps were laid out
+  Vec3 center_ = Vec3::Zero();
+  double radius_ = 0;
   osg::ref_ptr<osg::Uniform> picture_size_, taps_;
 };
 

@@ -8,6 +8,10 @@ namespace presa::view {
 namespace {
 
 constexpr double kFloorRadius = 1.2;  ///< [m], at least
+constexpr double kMoves = 0.0005;     ///< below it a shadow stays [m]
+constexpr double kArm = 0.05;         ///< at which turns are seen as moves [m]
+constexpr double kFloorReach = 10;    ///< radii of the subject
+constexpr double kShadows = 1.0;      ///< where a processor draws they fall within so many radii
 constexpr double kLitAround = 2.2;    ///< shadows reach this many radii of the subject
 
 std::vector<Pose> startPoses(const World& world) {
@@ -34,14 +38,25 @@ Picture::Picture(std::shared_ptr<const World> world)
   ViewFrame start;
   start.X_WB = startPoses(*world_);
   updateSubject(start, {});
-  const double reach = std::max(kFloorRadius, 10 * enclose(subject_).radius);
+  const double reach = std::max(kFloorRadius, kFloorReach * enclose(subject_).radius);
   for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
                           static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()),
                           patches_.root(), static_cast<osg::Node*>(hud_.camera())})
     root_->addChild(part);
   if (guides_) root_->addChild(guides_->root());
   root_->addChild(makeBackground());
-  root_->addChild(makeFloor(*world_, enclose(subject_).center, reach));
+  floor_center_ = enclose(subject_).center;
+  floor_radius_ = reach;
+  root_->addChild(floor_);
+  setQuick(false);
+}
+
+void Picture::setQuick(bool quick) {
+  quick_ = quick;
+  lighting_.setQuality(quick ? kQuickLight : kFineLight);
+  bodies_.setQuick(quick);
+  floor_->removeChildren(0, floor_->getNumChildren());
+  floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_, kShadows * floor_radius_ / kFloorReach, quick));
 }
 
 void Picture::setSize(int width, int height) {
@@ -69,6 +84,21 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
   }
 }
 
+/// Something that casts a shadow, since the last time it had.
+bool Picture::moved(const ViewFrame& frame, const std::vector<FingerView>& fingers) {
+  std::vector<Vec3> now;
+  for (const Pose& X_WB : frame.X_WB) {
+    now.push_back(X_WB.p);
+    now.push_back(X_WB.p + kArm * (X_WB.q * Vec3(0.6, 0.64, 0.48)));
+  }
+  for (const FingerView& finger : fingers) now.push_back(finger.p_WP);
+  double most = now.size() == shadowed_.size() ? 0 : kMoves;
+  for (std::size_t i = 0; i < now.size() && most < kMoves; ++i) most = std::max(most, (now[i] - shadowed_[i]).norm());
+  if (most < kMoves) return false;
+  shadowed_ = std::move(now);
+  return true;
+}
+
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   const std::vector<FingerView> fingers = fingerViews(*world_, frame);
   bodies_.setPoses(frame.X_WB);
@@ -82,7 +112,8 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   card_.update(frame.X_WB);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
-  lighting_.setFocus(focus.center, kLitAround * focus.radius);
+  lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius);
+  lighting_.beginFrame(moved(frame, fingers));
 }
 
 }  // namespace presa::view

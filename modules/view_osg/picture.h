@@ -20,7 +20,6 @@ class Picture {
   explicit Picture(std::shared_ptr<const World> world);
   osg::Group* root() { return root_; }
   Hud& hud() { return hud_; }
-  Lighting& lighting() { return lighting_; }
   /// What is shown from the next frame on.
   ShownParts& parts() { return parts_; }
 
@@ -30,9 +29,12 @@ class Picture {
   void choose(std::optional<std::size_t> body) { card_.choose(body); }
   /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.
   const std::vector<Ball>& subject() const { return subject_; }
+  /// Drawn by the processor: fewer samples, so that frames come in time.
+  void setQuick(bool quick);
   void setSize(int width, int height);
 
  private:
+  bool moved(const ViewFrame& frame, const std::vector<FingerView>& fingers);
   void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
 
   std::shared_ptr<const World> world_;
@@ -48,6 +50,11 @@ class Picture {
   Hud hud_;
   BodyCard card_;
   std::vector<Ball> subject_;
+  osg::ref_ptr<osg::Group> floor_ = new osg::Group;
+  Vec3 floor_center_ = Vec3::Zero();
+  double floor_radius_ = 0;
+  bool quick_ = false;
+  std::vector<Vec3> shadowed_;
 };
 
 }  // namespace presa::view

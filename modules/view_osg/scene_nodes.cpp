@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <osg/ComputeBoundsVisitor>
+#include <osg/CullFace>
 #include <osg/Depth>
 #include <osg/Geode>
 #include <osgUtil/LineSegmentIntersector>
@@ -25,6 +27,24 @@ struct Overload : Ts... {
   using Ts::operator()...;
 };
 
+/// What is drawn of a body, in its frame; null when there is nothing. `quick`: as it is felt, where that has fewer facets.
+osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick) {
+  const Body& body = world.scene.bodies[i];
+  const BodyMeshes meshes = i < world.meshes.size() ? world.meshes[i] : BodyMeshes{};
+  const Geometry* shown = shownGeometry(body);
+  if (shown == nullptr) return nullptr;
+  const TriMesh* mesh = shownMesh(body, meshes);
+  if (quick && mesh != nullptr && meshes.haptic && meshes.haptic->triangles.size() < mesh->triangles.size()) {
+    shown = &*body.haptic;
+    mesh = meshes.haptic.get();
+  }
+  const auto geometry = surfaceOf(shown->shape, mesh, world.scene.materialOf(body).color);
+  if (!geometry) return nullptr;
+  osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shown->X_BG));
+  X_BG->addChild(geometry);
+  return X_BG;
+}
+
 /// Lowest point of what is drawn at the start [m]; 0 for an empty scene.
 double lowestPoint(const World& world) {
   BodyNodes bodies(world);
@@ -42,8 +62,9 @@ const Body* earthOf(const Scene& scene) {
 }
 
 double topOf(const World& world, const Body& body) {
-  BodyNodes bodies(world);
   osg::ComputeBoundsVisitor bounds;
+  bounds.setNodeMaskOverride(~0U);
+  BodyNodes bodies(world);
   bodies.root()->getChild(static_cast<unsigned>(&body - world.scene.bodies.data()))->accept(bounds);
   return bounds.getBoundingBox().zMax();
 }
@@ -75,9 +96,8 @@ const Geometry* shownGeometry(const Body& body) {
   return nullptr;
 }
 
-BodyNodes::BodyNodes(const World& world) {
+BodyNodes::BodyNodes(const World& world) : world_(world) {
   root_->setName("bodies");
-  root_->getOrCreateStateSet()->setAttributeAndModes(shaders::body());
   const auto& bodies = world.scene.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
@@ -87,21 +107,30 @@ BodyNodes::BodyNodes(const World& world) {
     const Material::Texture texture = world.scene.materialOf(body).texture;
     const bool grid = body.fixed && texture == Material::Texture::kNone;
     X_WB->getOrCreateStateSet()->addUniform(new osg::Uniform("grid_strength", grid ? 1.0F : 0.0F));
-    setGrain(*X_WB->getOrCreateStateSet(), texture, i);
-    double radius = 0;
-    if (const Geometry* shown = shownGeometry(body)) {
-      const TriMesh* mesh = i < world.meshes.size() ? shownMesh(body, world.meshes[i]) : nullptr;
-      if (auto geometry = surfaceOf(shown->shape, mesh, world.scene.materialOf(body).color)) {
-        osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shown->X_BG));
-        X_BG->addChild(geometry);
-        X_WB->addChild(X_BG);
-        const osg::BoundingSphere bound = X_BG->getBound();
-        radius = bound.center().length() + bound.radius();
-      }
-    }
-    radius_.push_back(radius);
+    setGrain(*X_WB->getOrCreateStateSet(), i);
+    if (&body == earthOf(world.scene)) X_WB->setNodeMask(0);  // the floor is drawn in its place
+    textures_.push_back(texture);
+    const osg::ref_ptr<osg::Node> shape = makeShape(world, i, false);
+    if (shape) X_WB->addChild(shape);
+    const osg::BoundingSphere bound = shape ? shape->getBound() : osg::BoundingSphere();
+    radius_.push_back(shape ? bound.center().length() + bound.radius() : 0);
     transforms_.push_back(X_WB);
     root_->addChild(X_WB);
+  }
+  setQuick(false);
+}
+
+void BodyNodes::setQuick(bool quick) {
+  std::map<Material::Texture, osg::ref_ptr<osg::Program>> programs;
+  for (std::size_t i = 0; i < transforms_.size(); ++i) {
+    osg::ref_ptr<osg::Program>& program = programs[textures_[i]];
+    if (!program) program = shaders::body(textures_[i], quick);
+    osg::StateSet* state = transforms_[i]->getOrCreateStateSet();
+    state->setAttributeAndModes(program);
+    // stones are closed: nobody sees their backs
+    if (quick && textures_[i] != Material::Texture::kNone)
+      state->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+    if (const osg::ref_ptr<osg::Node> shape = makeShape(world_, i, quick)) transforms_[i]->setChild(0, shape);
   }
 }
 
@@ -136,24 +165,33 @@ osg::ref_ptr<osg::Node> makeBackground() {
   quad->setCullingActive(false);
   osg::StateSet* state = quad->getOrCreateStateSet();
   state->setAttributeAndModes(shaders::background());
-  state->setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
-  state->setRenderBinDetails(-10, "RenderBin");
+  // after all that hides it: a pixel that nobody sees costs nothing
+  state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
+  state->setRenderBinDetails(6, "RenderBin");
   return quad;
 }
 
-osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius) {
+osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius, double shadows, bool quick) {
   const Body* earth = earthOf(world.scene);
-  const double drop = 1e-4;  // a body that ends on the floor must not flicker with it
+  const double drop = earth != nullptr ? 0 : 1e-4;  // a body that ends on the floor must not flicker with it
   const Vec3 middle(center.x(), center.y(), (earth != nullptr ? topOf(world, *earth) : lowestPoint(world)) - drop);
   const Vec3 color = earth != nullptr ? world.scene.materialOf(*earth).color : kFloorColor;
-  osg::ref_ptr<osg::Geometry> disc = revolve({{radius, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, color);
+  const Material::Texture texture = earth != nullptr ? Material::Texture::kEarth : Material::Texture::kNone;
   osg::ref_ptr<osg::MatrixTransform> floor =
       new osg::MatrixTransform(osg::Matrixd::translate(middle.x(), middle.y(), 0));
   floor->setName("floor");
+  // a processor that draws is spared shadows where nothing throws any
+  const double shaded = quick ? std::min(shadows, radius) : radius;
+  osg::ref_ptr<osg::Geometry> disc = revolve({{shaded, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, color);
+  disc->getOrCreateStateSet()->setAttributeAndModes(shaders::floor(texture, quick, false));
   floor->addChild(disc);
+  if (shaded < radius) {
+    osg::ref_ptr<osg::Geometry> ring = revolve({{radius, middle.z(), 0, 1}, {shaded, middle.z(), 0, 1}}, color);
+    ring->getOrCreateStateSet()->setAttributeAndModes(shaders::floor(texture, quick, true));
+    floor->addChild(ring);
+  }
   osg::StateSet* state = floor->getOrCreateStateSet();
-  state->setAttributeAndModes(shaders::floor());
-  setGrain(*state, earth != nullptr ? Material::Texture::kEarth : Material::Texture::kNone, 0);
+  state->setRenderBinDetails(5, "RenderBin");
   state->addUniform(new osg::Uniform("floor_center", osg::Vec3(toOsg(middle))));
   state->addUniform(new osg::Uniform("floor_radius", static_cast<float>(radius)));
   return floor;

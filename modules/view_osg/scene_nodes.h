@@ -11,8 +11,11 @@ namespace presa::view {
 /// The bodies of the scene, each under one transform, and the still things around them.
 class BodyNodes {
  public:
+  /// `world` must outlive this.
   explicit BodyNodes(const World& world);
   osg::Group* root() { return root_; }
+  /// For a processor that draws.
+  void setQuick(bool quick);
   /// Poses as Scene::bodies.
   void setPoses(const std::vector<Pose>& X_WB);
   /// What is drawn of it, in the body's frame; null when there is nothing. It may hang in other places, too.
@@ -30,8 +33,10 @@ class BodyNodes {
   double radius(std::size_t body) const { return radius_[body]; }
 
  private:
+  const World& world_;
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
   std::vector<osg::ref_ptr<osg::MatrixTransform>> transforms_;
+  std::vector<Material::Texture> textures_;
   std::vector<double> radius_;
 };
 
@@ -47,7 +52,7 @@ osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, c
 /// Gradient behind everything.
 osg::ref_ptr<osg::Node> makeBackground();
 
-/// Ground with a grid, under the lowest body at its start pose, fading into the background.
-osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius);
+/// Ground with a grid, under the lowest body at its start pose, fading into the background. Shadows fall within `shadows` of its middle [m].
+osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius, double shadows, bool quick);
 
 }  // namespace presa::view

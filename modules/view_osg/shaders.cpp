@@ -43,9 +43,16 @@ vec3 skyBehindFragment() { return skyColor(gl_FragCoord.y / picture_size.y); }
 vec3 toDisplay(vec3 linear) {
   // hue stays: the brightest channel is bent towards 1, the others follow
   float top = max(max(linear.r, linear.g), max(linear.b, 1e-6));
+#ifdef QUICK
+  // within 0.015 of what follows; roots are cheap, powers are not
+  float over = max(top - 0.6, 0.0);
+  vec3 root = sqrt(linear * ((min(top, 0.6) + over / (1.0 + 2.5 * over)) / top));
+  return 0.85 * root + 0.15 * sqrt(root);
+#else
   float bent = top < 0.6 ? top : 1.0 - 0.4 * exp(-(top - 0.6) / 0.4);
   vec3 c = linear * (bent / top);
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+#endif
 }
 )";
 
@@ -64,6 +71,13 @@ const vec2 kTaps[16] = vec2[](
 
 // share of light that arrives; blur [m] is the half width of the penumbra. Samples lie in the surface's own plane, so
 // that a slanted surface does not shade itself.
+#ifdef OPEN
+float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) { return 1.0; }
+#elif defined(QUICK)
+float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
+  return texture(map, (to_map * vec4(p, 1.0)).xyz);  // beyond the map nothing is in the way
+}
+#else
 float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   vec3 c = (to_map * vec4(p, 1.0)).xyz;
   if (any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)))) return 1.0;
@@ -75,6 +89,7 @@ float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   for (int i = 0; i < taps; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
   return sum / float(taps);
 }
+#endif
 
 vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
   float facing = dot(n, key_direction);
@@ -84,7 +99,7 @@ vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
   vec3 sky = mix(vec3(0.16, 0.15, 0.15), vec3(0.30, 0.34, 0.40), 0.5 + 0.5 * n.z) * open;
   vec3 fill = vec3(0.08, 0.10, 0.14) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
   vec3 half_way = normalize(key_direction + to_eye);
-  float shine = 0.5 * gloss * pow(max(dot(n, half_way), 0.0), 48.0) * key;
+  float shine = gloss > 0.0 ? 0.5 * gloss * pow(max(dot(n, half_way), 0.0), 48.0) * key : 0.0;
   return albedo * (vec3(0.98, 0.93, 0.85) * key + sky + fill) + vec3(shine);
 }
 
@@ -111,10 +126,14 @@ float grid(vec2 p);
 
 constexpr const char* kGrain = R"(#version 130
 uniform sampler3D grain_map;
+uniform sampler2D ground_map;
 
 // lengths in metres: clouds over a hand's width, grain of millimetres
 vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W) {
   vec4 cloud = texture(grain_map, p * 5.5);
+#ifdef QUICK
+  return albedo * (0.48 + 0.70 * cloud.r) * mix(vec3(1.0), vec3(0.78, 0.66, 0.50), 0.5 * cloud.a);
+#else
   float fine = texture(grain_map, p * 42.0 + 0.3).r;
   float pit = smoothstep(0.42, 0.22, texture(grain_map, p * 17.0 + 0.7).r);
   albedo *= 0.50 + 0.72 * cloud.r;
@@ -128,22 +147,22 @@ vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W) {
   vec3 slope = sign(area) * (dFdx(height) * r1 + dFdy(height) * r2);
   n = normalize(max(abs(area), 1e-12) * n - slope);
   return albedo;
+#endif
 }
 
 vec3 earth(vec3 albedo, vec3 p) {
-  float patch_ = texture(grain_map, p * 1.1).r, tuft = texture(grain_map, p * 7.0 + 0.6).r;
-  // turned against the tile, so that its rows do not show
-  vec3 q = vec3(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z + 0.4 * p.x);
-  float blade = 0.5 * (texture(grain_map, q * 23.0).r + texture(grain_map, p * 9.7).r);
-  vec3 grass = vec3(0.115, 0.135, 0.045);
-  albedo = mix(albedo, grass, smoothstep(0.38, 0.62, 0.6 * patch_ + 0.4 * tuft));
-  return albedo * (0.35 + 1.3 * blade) * (0.8 + 0.4 * tuft);
+#ifdef QUICK
+  return albedo * 4.0 * texture(ground_map, 0.83 * p.xy).rgb;
+#else
+  // turned and larger once more, so that the tile does not show
+  vec2 q = vec2(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y);
+  return albedo * 4.0 * texture(ground_map, 0.83 * p.xy).rgb * (0.55 + 1.8 * texture(ground_map, 0.31 * q).g);
+#endif
 }
 )";
 
 constexpr const char* kBody = R"(
 uniform float grid_strength;
-uniform int grain_kind;
 uniform vec3 grain_offset;
 in vec3 position_B;
 vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W);
@@ -151,20 +170,26 @@ vec3 earth(vec3 albedo, vec3 p);
 void main() {
   vec3 n = normalize(normal_W);
   vec3 albedo = base.rgb;
-  if (grain_kind == 1) albedo = stone(albedo, position_B + grain_offset, n, position_W);
-  if (grain_kind == 2) albedo = earth(albedo, position_W);
+#if GRAIN == 1
+  albedo = stone(albedo, position_B + grain_offset, n, position_W);
+#elif GRAIN == 2
+  albedo = earth(albedo, position_W);
+#endif
   if (n.z > 0.99) albedo *= 1.0 - grid_strength * grid(position_W.xy);
-  gl_FragColor = vec4(toDisplay(lit(albedo, n, position_W, normalize(to_eye_W), grain_kind == 0 ? 0.35 : 0.04)), 1.0);
+  gl_FragColor = vec4(toDisplay(lit(albedo, n, position_W, normalize(to_eye_W), GLOSS)), 1.0);
 }
 )";
 
 constexpr const char* kFloor = R"(
 uniform vec3 floor_center;
 uniform float floor_radius;
-uniform int grain_kind;
 vec3 earth(vec3 albedo, vec3 p);
 void main() {
-  vec3 albedo = grain_kind == 2 ? earth(base.rgb, position_W) : base.rgb * (1.0 - grid(position_W.xy));
+#if GRAIN == 2
+  vec3 albedo = earth(base.rgb, position_W);
+#else
+  vec3 albedo = base.rgb * (1.0 - grid(position_W.xy));
+#endif
   vec3 color = lit(albedo, vec3(0, 0, 1), position_W, normalize(to_eye_W), 0.0);
   float far = smoothstep(0.15, 1.0, length(position_W.xy - floor_center.xy) / floor_radius);
   gl_FragColor = vec4(toDisplay(mix(color, skyBehindFragment(), far)), 1.0);
@@ -206,21 +231,37 @@ vec3 toDisplay(vec3 linear);
 void main() { gl_FragColor = vec4(toDisplay(skyColor(height)), 1.0); }
 )";
 
-osg::ref_ptr<osg::Program> surface(const char* name, const char* main) {
+/// `text` with definitions after its first line, which says the version.
+osg::ref_ptr<osg::Shader> fragments(std::string text, const std::string& definitions) {
+  text.insert(text.find('\n') + 1, definitions);
+  return new osg::Shader(osg::Shader::FRAGMENT, text);
+}
+
+osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material::Texture texture = {},
+                                   bool quick = false, bool open = false) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
+  const std::string definitions = std::string(quick ? "#define QUICK\n" : "") +
+                                  (texture == Material::Texture::kNone ? "#define GLOSS 0.35\n"
+                                   : quick                             ? "#define GLOSS 0.0\n"
+                                                                       : "#define GLOSS 0.04\n") +
+                                  (open ? "#define OPEN\n" : "") +
+                                  ("#define GRAIN " + std::to_string(static_cast<int>(texture))) + "\n";
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kSky));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kLight));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kGrain));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, std::string(kSurfaceDeclarations) + main));
+  for (const char* part : {kSky, kLight}) program->addShader(fragments(part, definitions));
+  if (texture != Material::Texture::kNone) program->addShader(fragments(kGrain, definitions));
+  program->addShader(fragments(std::string(kSurfaceDeclarations) + main, definitions));
   return program;
 }
 
 }  // namespace
 
-osg::ref_ptr<osg::Program> body() { return surface("body", kBody); }
-osg::ref_ptr<osg::Program> floor() { return surface("floor", kFloor); }
+osg::ref_ptr<osg::Program> body(Material::Texture texture, bool quick) {
+  return surface("body", kBody, texture, quick);
+}
+osg::ref_ptr<osg::Program> floor(Material::Texture texture, bool quick, bool open) {
+  return surface("floor", kFloor, texture, quick, open);
+}
 osg::ref_ptr<osg::Program> skin() { return surface("skin", kSkin); }
 osg::ref_ptr<osg::Program> glyph() { return surface("glyph", kGlyph); }
 osg::ref_ptr<osg::Program> cone() { return surface("cone", kCone); }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <osgUtil/RenderBin>
 #include <osgViewer/Viewer>
 #include <stdexcept>
 
@@ -21,7 +22,9 @@ class WindowRenderer final : public Renderer {
       : picture_(picture), input_(new WindowInput(picture, camera_, controls)) {
     const WindowContext window = openWindow(title, kWidth, kHeight);
     window_ = window.context;
-    if (window.software) picture.lighting().setQuality(kQuickLight);
+    if (window.software) picture.setQuick(true);
+    // what is hidden is not drawn first
+    osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
     viewer_.setKeyEventSetsDone(osgGA::GUIEventAdapter::KEY_Escape);

@@ -27,7 +27,7 @@ Rebuilt rebuildColumn(std::uint64_t seed, double limit) {
   options.duration = limit;
   const Loaded loaded = loadWorld({writeScene(column, spec, folder), "", {}}, options, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
-  return visit(loaded, {.finish = 2, .quiet = true});
+  return visit(loaded, {.finish = 2, .quiet = true}).rebuilt;
 }
 
 // Seed 8 has drums and the capital on their heads.

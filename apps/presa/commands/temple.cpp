@@ -33,12 +33,17 @@ struct Arguments {
   std::string kept;                      // session to go on with
   std::vector<std::string> screenshots;  // seconds, folder
   std::uint64_t seed = 1;
-  double limit = 0;       // simulated [s]; 0: by the number of blocks, or without end
-  double time_scale = 0;  // 0: none
+  double limit = 0;         // simulated [s]; 0: by the number of blocks, or without end
+  double time_scale = 0;    // 0: none
+  double attract = 0;       // [s]; 0: never
+  bool attracting = false;  // no visitor came to the ruins before
   bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
 
   /// Somebody puts it together: not only a picture or a scene is wanted.
-  bool visit() const { return automatic || go_on || !screenshots.empty() || (folder.empty() && screenshot.empty()); }
+  bool visit() const {
+    return automatic || go_on || attract > 0 || limit > 0 || time_scale > 0 || !screenshots.empty() ||
+           (folder.empty() && screenshot.empty());
+  }
   bool realtime() const { return !lockstep && time_scale == 0; }
 };
 
@@ -152,7 +157,8 @@ int told(const temple::Rebuilt& rebuilt, const Arguments& a) {
   return (rebuilt.placed == rebuilt.pieces || !a.automatic) && rebuilt.faults == 0 ? kExitOk : kExitFault;
 }
 
-int runVisit(const temple::Building& building, temple::SceneSpec spec, const Arguments& a, temple::KeptSession start) {
+temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec spec, const Arguments& a,
+                          temple::KeptSession start) {
   const ScratchFolder scratch;
   if (spec.rig.empty()) {
     spec.rig = scratch.file("pair.xml");
@@ -161,18 +167,20 @@ int runVisit(const temple::Building& building, temple::SceneSpec spec, const Arg
   Diagnostics diagnostics;
   const Loaded loaded = loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}},
                                   optionsOf(building, a), diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
-  if (diagnostics.hasErrors()) return kExitBadInput;
 
   temple::VisitSettings settings{.finish = !a.automatic   ? -1
                                            : a.realtime() ? kFinish
                                                           : kLetGo,
                                  .time_scale = a.time_scale,
                                  .quiet = a.lockstep,
+                                 .attract = a.automatic ? 0 : a.attract,
+                                 .attracting = a.attracting,
                                  .folder = visitFolder(a),
                                  .start = std::move(start),
                                  .language = a.language};
-  if (!a.lockstep) return told(temple::visit(loaded, settings), a);
+  if (!a.lockstep) return temple::visit(loaded, settings);
   terminal::JobProgress progress(building.blocks.size());
   int done = 0;
   settings.progress = [&](int placed, int) {
@@ -180,9 +188,7 @@ int runVisit(const temple::Building& building, temple::SceneSpec spec, const Arg
     progress.show();
     return true;
   };
-  const temple::Rebuilt rebuilt = temple::visit(loaded, settings);
-  progress.finish();
-  return told(rebuilt, a);
+  return temple::visit(loaded, settings);
 }
 
 /// The blocks as they lay when that visit was kept.
@@ -201,7 +207,8 @@ std::optional<temple::SceneSpec> specOf(const temple::Building& building, const 
   return spec;
 }
 
-int runTemple(Arguments a) {
+/// `again`: nobody came while the hands put all together, and there are to be other ruins.
+int runOnce(Arguments a, bool& again) {
   Diagnostics diagnostics;
   std::optional<temple::KeptSession> kept;
   const std::string kept_file =
@@ -240,9 +247,23 @@ int runTemple(Arguments a) {
       kept = temple::KeptSession{a.size, a.parameters, a.seed, 0, 0, {}};
       for (const temple::SceneSpec::Stone& stone : spec->stones) kept->X_WB.push_back(stone.X_WB);
     }
-    return runVisit(*building, std::move(*spec), a, std::move(*kept));
+    const temple::VisitEnd end = runVisit(*building, std::move(*spec), a, std::move(*kept));
+    again = end.again;
+    return again ? kExitOk : told(end.rebuilt, a);
   }
   return a.screenshot.empty() ? kExitOk : takePicture(*building, *spec, a);
+}
+
+int runTemple(Arguments a) {
+  for (;;) {
+    bool again = false;
+    const int status = runOnce(a, again);
+    if (!again) return status;
+    ++a.seed;
+    a.attracting = true;
+    a.go_on = false;
+    a.folder.clear();
+  }
 }
 
 }  // namespace
@@ -268,6 +289,11 @@ void addTemple(CLI::App& app, int& status) {
       "folder for log.jsonl (what happened, nothing of a person) and session.json (what stands), or none\n"
       "(default against the clock: " +
           temple::defaultVisitFolder() + ", else none)");
+  command
+      ->add_option("--attract", a->attract,
+                   "after so many seconds without a touch simulated hands go on, until somebody touches anything "
+                   "(default: never)")
+      ->check(CLI::PositiveNumber);
   command
       ->add_option("--continue", a->kept,
                    "go on with what stood, after a crash as well: a session.json (default: of --session)")

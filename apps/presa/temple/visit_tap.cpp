@@ -13,12 +13,13 @@ VisitTap::VisitTap(std::shared_ptr<const World> world)
 }
 
 void VisitTap::step(const Tick& tick) noexcept {
+  View* const view = view_.load(std::memory_order_relaxed);
   std::optional<std::string> banner;
   {
     const std::lock_guard lock(mutex_);
-    if (std::exchange(banner_changed_, false)) banner = banner_;
+    if (view != nullptr && std::exchange(banner_changed_, false)) banner = banner_;
   }
-  if (banner && view_ != nullptr) view_->setBanner(*banner, false);
+  if (banner) view->setBanner(*banner, false);
   if (!objects_.hasValue() || !assembly_.hasValue()) return;
   guide_.step(tick.time, objects_.value(), assembly_.value(), contact_.value());
   const std::lock_guard lock(mutex_);

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -29,8 +30,8 @@ class VisitTap final : public Module {
 
   /// Text under the time of that view, from the next step on; empty: none.
   void setBanner(const std::string& text);
-  /// Whose banner it is. Before the run.
-  void showOn(View* view) { view_ = view; }
+  /// Whose banner it is: a view of the same run.
+  void showOn(View* view) { view_.store(view, std::memory_order_relaxed); }
 
  private:
   In<ObjectState> objects_{*this, "object_state"};
@@ -38,7 +39,7 @@ class VisitTap final : public Module {
   In<ContactExchange> contact_{*this, "contact_exchange"};
   std::shared_ptr<const World> world_;
   AssemblyGuide guide_;
-  View* view_ = nullptr;
+  std::atomic<View*> view_{nullptr};
   mutable std::mutex mutex_;  // of all below
   Look look_;
   std::vector<GuideEvent> events_;
