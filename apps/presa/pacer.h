@@ -9,7 +9,7 @@ namespace presa {
 /// step is one picture. Not for hardware, which must not be held.
 class Pacer final : public Module {
  public:
-  /// `view` is set before the first step. All outlive this.
+  /// `view` is set before the first step; null: nobody looks on. All outlive this.
   Pacer(const TimeWish& wish, View*& view, const RunControl& control)
       : Module("pace", RateGroup::kView), wish_(wish), view_(view), control_(control) {}
   void step(const Tick& tick) noexcept override;

@@ -100,7 +100,8 @@ Run::Run(const Loaded& loaded, Settings settings)
   session_options.more = std::move(settings_.more);
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
   session_options.wrap = settings_.wrap;
-  const bool paced = !options.realtime && options.view == RunOptions::View::kWindow && !drivesHardware(loaded_.plan);
+  const bool window = options.view == RunOptions::View::kWindow;
+  const bool paced = !options.realtime && (window || settings_.paced) && !drivesHardware(loaded_.plan);
   if (paced) session_options.more.push_back(std::make_unique<Pacer>(time_wish_, view_, control_));
   if (options.realtime)
     for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
@@ -111,7 +112,7 @@ Run::Run(const Loaded& loaded, Settings settings)
   executor_->recordTo(session_->schedule());
   view_ = session_->view();
   time_wish_.speed = settings_.speed;
-  if (paced) view_->offerTime(time_wish_, 0);
+  if (paced && view_ != nullptr) view_->offerTime(time_wish_, 0);
   if (View* view = session_->view()) {
     std::array<const GroupTiming*, kRateGroupCount> timings{};
     for (int g = 0; g < kRateGroupCount; ++g) {

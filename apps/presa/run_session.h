@@ -21,6 +21,7 @@ class Run {
     bool quiet = false;     ///< no status line
     std::string command;    ///< command line, for the report
     double speed = 1;       ///< of a lockstep run with a window: simulated seconds in a second
+    bool paced = false;     ///< a lockstep run keeps that speed without a window, too
     RealtimeProbe rights = realtimeRights;
     std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own taps
     std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap

@@ -55,6 +55,7 @@ Captions captionsOf(const Scene& scene, const Guidance& guidance) {
   captions.progress =
       fillIn(fillIn(words.progress, "count", std::to_string(guidance.placed)), "all", std::to_string(guidance.all));
   if (guidance.news) captions.news = newsText(scene, *guidance.news);
+  captions.good = guidance.news && guidance.news->kind == Kind::kPlaced;
   if (guidance.finished) {
     captions.finish = words.finished;
     captions.took = fillIn(words.took, "time", durationText(guidance.spent));

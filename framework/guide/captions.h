@@ -13,6 +13,7 @@ struct Captions {
   std::string reason;    ///< why it must wait
   std::string hint;      ///< what comes next
   std::string news;      ///< what was just placed, taken out, dropped
+  bool good = false;     ///< and that helps
   std::string finish, took;
 };
 Captions captionsOf(const Scene& scene, const Guidance& guidance);

@@ -41,7 +41,7 @@ void AssemblyPanel::showLines(const Captions& captions) {
   progress_->set(captions.progress);
   const bool news = !captions.news.empty();
   title_->set(news ? captions.news : captions.title);
-  title_->setColor(news ? kDone : kInk);
+  title_->setColor(captions.good ? kDone : news ? kAdvice : kInk);
   sentence_->set(captions.sentence);
   advice_->set(captions.reason.empty() ? captions.hint : captions.reason);
   finish_->set(captions.finish);

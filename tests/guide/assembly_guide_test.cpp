@@ -133,6 +133,7 @@ TEST_F(GuideTest, TellsWhatWasPlacedAndTakenOut) {
   fill(0, 0);
   step();
   EXPECT_EQ(captions().news, "Placed: Drum");
+  EXPECT_TRUE(captions().good);
   EXPECT_EQ(captions().progress, "1 of 3");
   hold(kNoBody);
   run(AssemblyGuide::kNews + 2 * kPeriod);
@@ -140,6 +141,7 @@ TEST_F(GuideTest, TellsWhatWasPlacedAndTakenOut) {
   state_.goals[0] = {};
   step();
   EXPECT_EQ(captions().news, "Taken out: Drum");
+  EXPECT_FALSE(captions().good);
   EXPECT_THAT(kinds_, testing::ElementsAre(Kind::kTaken, Kind::kPlaced, Kind::kUndone));
 }
 

@@ -23,6 +23,8 @@ class PuppetDevice final : public Device {
     return {.p_WH = puppet_.p_WH, .v_WH = Vec3::Zero(), .valid = true};
   }
   void write(const Vec3& f_H_W, const Tick&) noexcept override { puppet_.force = f_H_W; }
+  bool points() const override { return true; }
+  void point(const PointerState& pointer, const Tick&) noexcept override { puppet_.p_WH = pointer.p_WT; }
 
  private:
   Puppet& puppet_;
@@ -70,6 +72,20 @@ TEST_F(SharedFingerTest, IsGoneForAPauseAndThenTheHands) {
   EXPECT_NEAR(gone() * kPeriod, SharedFinger::kPause, 2 * kPeriod);
   EXPECT_EQ(tick().p_WH.x(), 1);
   EXPECT_EQ(visitor.force.z(), 1);
+}
+
+// A mouse that moves while the hands have the finger is a visitor.
+TEST_F(SharedFingerTest, ThePointerIsTheVisitors) {
+  ASSERT_TRUE(finger.points());
+  finger.give(std::make_unique<PuppetDevice>(hand));
+  tick();
+  PointerState pointer;
+  pointer.p_WT = {5, 0, 0};
+  finger.point(pointer, {});
+  tick();
+  EXPECT_EQ(hand.p_WH.x(), 2);
+  EXPECT_EQ(visitor.p_WH.x(), 5);
+  EXPECT_TRUE(finger.visitorMoved());
 }
 
 TEST_F(SharedFingerTest, AVisitorWhoMovesTheDeviceIsNoticed) {

@@ -28,6 +28,8 @@ class SharedFinger final : public Device {
   void reopen(const std::atomic<bool>& stop) override { visitor_->reopen(stop); }
   bool looks() const override { return true; }
   void see(const ObjectState& objects, const Tick& tick) noexcept override;
+  bool points() const override { return visitor_->points(); }
+  void point(const PointerState& pointer, const Tick& tick) noexcept override { visitor_->point(pointer, tick); }
   std::string model() const override { return visitor_->model(); }
   double damping() const override { return visitor_->damping(); }
   std::vector<std::string> notes() const override { return visitor_->notes(); }

@@ -11,26 +11,11 @@
 #include "apps/presa/temple/visit_log.h"
 #include "apps/presa/temple/visit_tap.h"
 #include "framework/plan/plugin.h"
-#include "framework/schedule/clock.h"
 
 namespace presa::temple {
 namespace {
 
 constexpr double kShownFinish = 10;  // when the hands have put all together, before the next ruins [s]
-
-/// Holds a lockstep run to the clock. In the view group: a frame is when somebody looks.
-class Pace final : public Module {
- public:
-  explicit Pace(double scale) : Module("pace", RateGroup::kView), scale_(scale) {}
-  void start() override { begin_ = monotonicNs(); }
-  void step(const Tick& tick) noexcept override {
-    sleepUntilNs(begin_ + static_cast<std::int64_t>(1e9 * tick.time / scale_));
-  }
-
- private:
-  double scale_;
-  std::int64_t begin_ = 0;
-};
 
 class Visit {
  public:
@@ -43,7 +28,8 @@ class Visit {
     Run::Settings run{.quiet = settings.quiet, .command = "presa temple"};
     run.more.push_back(std::move(witness));
     run.more.push_back(std::move(tap));
-    if (settings.time_scale > 0) run.more.push_back(std::make_unique<Pace>(settings.time_scale));
+    run.paced = settings.time_scale > 0;
+    if (run.paced) run.speed = settings.time_scale;
     if (settings.attract > 0) run.wrap = [this](DeviceList devices) { return share(std::move(devices)); };
     run.watch = [this](Session& session, char key) { return watch(session, key); };
     run_ = std::make_unique<Run>(loaded, std::move(run));
