@@ -75,7 +75,7 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
       subject_.push_back({goal.X_WB.p, bodies_.radius(goal.bodies.front())});
     // what people are told covers the lower edge: the picture has some ground to give
     const Ball all = enclose(subject_);
-    subject_.push_back({all.center - Vec3(0, 0, all.radius), 0});
+    subject_.push_back({all.center - Vec3(0, 0, 1.5 * all.radius), 0});
   }
   for (const FingerView& finger : fingers) {
     if (!finger.valid) continue;
