@@ -25,9 +25,9 @@ AssemblyPanel::AssemblyPanel(osg::Group& center) {
   advice_.emplace(*lines_, kLeft, kBottom + 15, 18, kAdvice, Typeface::kBold);
 
   center.addChild(finish_group_);
-  finish_group_->addChild(roundedPanel({-330, 176, 660, 116}, 14, kPanel));
-  finish_.emplace(*finish_group_, 0, 234, 42, kInk, Typeface::kBold, Label::Align::kCenter);
-  took_.emplace(*finish_group_, 0, 196, 21, kSoftInk, Typeface::kRegular, Label::Align::kCenter);
+  finish_group_->addChild(roundedPanel({-330, kBottom, 660, kTop - kBottom}, 14, kPanel));
+  finish_.emplace(*finish_group_, 0, kTop - 52, 42, kInk, Typeface::kBold, Label::Align::kCenter);
+  took_.emplace(*finish_group_, 0, kBottom + 18, 21, kSoftInk, Typeface::kRegular, Label::Align::kCenter);
 }
 
 void AssemblyPanel::update(const Scene& scene, const Guidance& guidance) {
@@ -48,7 +48,7 @@ void AssemblyPanel::showLines(const Captions& captions) {
   took_->set(captions.took);
   finish_group_->setNodeMask(captions.finish.empty() ? 0U : ~0U);
   const bool advice = !captions.reason.empty() || !captions.hint.empty();
-  lines_->setNodeMask(news || advice || !captions.title.empty() ? ~0U : 0U);
+  lines_->setNodeMask(captions.finish.empty() && (news || advice || !captions.title.empty()) ? ~0U : 0U);
 }
 
 }  // namespace presa::view

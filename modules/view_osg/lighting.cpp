@@ -22,6 +22,7 @@ Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) {
   receivers->addUniform(picture_size_);
   taps_ = new osg::Uniform("taps", 0);
   receivers->addUniform(taps_);
+  receivers->addUniform(glow_);
   setQuality(kFineLight);
 }
 

@@ -28,6 +28,8 @@ class Lighting {
   /// Cameras that must be drawn before the picture.
   osg::Group* passes() { return passes_; }
   void setFocus(const Vec3& center, double radius);
+  /// 0: by day; 1: in evening sun.
+  void setGlow(double share) { glow_->set(static_cast<float>(share)); }
   /// In a new frame: draws the maps that are due. A quick light draws the shadow when something `moved`, how much sky a point
   /// sees now and then.
   void beginFrame(bool moved);
@@ -52,7 +54,7 @@ class Lighting {
   int frame_ = 0;  // since the maps were laid out
   Vec3 center_ = Vec3::Zero();
   double radius_ = 0;
-  osg::ref_ptr<osg::Uniform> picture_size_, taps_;
+  osg::ref_ptr<osg::Uniform> picture_size_, taps_, glow_ = new osg::Uniform("glow", 0.0F);
 };
 
 }  // namespace presa::view

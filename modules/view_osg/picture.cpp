@@ -8,6 +8,7 @@ namespace presa::view {
 namespace {
 
 constexpr double kFloorRadius = 1.2;  ///< [m], at least
+constexpr double kSunset = 2;         ///< in which all that stands comes into the evening sun [s]
 constexpr double kMoves = 0.0005;     ///< below it a shadow stays [m]
 constexpr double kArm = 0.05;         ///< at which turns are seen as moves [m]
 constexpr double kFloorReach = 10;    ///< radii of the subject
@@ -104,7 +105,11 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   bodies_.setPoses(frame.X_WB);
   bodies_.show(parts_[ShownPart::kVisual]);
   glyphs_.update(fingers);
-  if (guides_ && frame.guidance) guides_->update(*frame.guidance, frame.X_WB, frame.time);
+  if (guides_ && frame.guidance) {
+    guides_->update(*frame.guidance, frame.X_WB, frame.time);
+    const Guidance& told = *frame.guidance;
+    lighting_.setGlow(told.finished ? std::min(1.0, (frame.time - told.finished_at) / kSunset) : 0.0);
+  }
   glyphs_.show(parts_);
   overlays_.update(parts_, frame.X_WB, frame.asleep);
   patches_.update(parts_[ShownPart::kPatches], frame.patches, frame.X_WB);

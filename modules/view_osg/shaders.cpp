@@ -62,6 +62,7 @@ uniform sampler2DShadow sky_map;
 uniform mat4 key_matrix;
 uniform mat4 sky_matrix;
 uniform vec3 key_direction;
+uniform float glow;
 uniform int taps;
 const vec2 kTaps[16] = vec2[](
   vec2(-0.942, -0.399), vec2(0.946, -0.769), vec2(-0.094, -0.929), vec2(0.345, 0.294),
@@ -100,7 +101,7 @@ vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
   vec3 fill = vec3(0.08, 0.10, 0.14) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
   vec3 half_way = normalize(key_direction + to_eye);
   float shine = gloss > 0.0 ? 0.5 * gloss * pow(max(dot(n, half_way), 0.0), 48.0) * key : 0.0;
-  return albedo * (vec3(0.98, 0.93, 0.85) * key + sky + fill) + vec3(shine);
+  return albedo * (mix(vec3(0.98, 0.93, 0.85), vec3(1.55, 1.16, 0.66), glow) * key + sky + fill) + vec3(shine);
 }
 
 float gridLine(vec2 p, float spacing, float strength) {
