@@ -11,8 +11,8 @@ namespace presa::assembling {
 namespace {
 
 // What each trouble weighs, against a metre of way.
-constexpr double kWay = 1, kFingerBlocked = 3, kCovered = 5, kLies = 0.5, kOnItsHead = 2, kPlaceBlocked = 8,
-                 kPlaceTaken = 8, kStandsUp = 3, kMoves = 5;
+constexpr double kWay = 1, kFingerBlocked = 3, kCovered = 7, kLies = 0.5, kOnItsHead = 2, kPlaceBlocked = 8,
+                 kPlaceTaken = 8, kStandsUp = 3, kMoves = 5, kInVain = 1;
 constexpr double kOccupied = 0.004;    // about the middle of a place [m]
 constexpr double kFlat = 0.02;         // half a height of which fingertips on the ground reach too little [m]
 constexpr double kFingerNeeds = 0.85;  // of its radius: a touch is no obstacle
@@ -61,7 +61,8 @@ void Chooser::weighCarrying(Choice& best, const ObjectState& objects, double eff
   const Lines lines = linesToHang(world_, best.body, X_WB, up_B, yaw);
   for (const Vec3& a_W : std::span(lines.a_W).first(lines.count)) {
     const Vec3 top_B = top_out_of_reach ? Vec3(up_B.cross(X_WB.q.conjugate() * a_W).normalized()) : up_B;
-    Choice choice{best.goal, best.body, graspAlong(world_, best.body, X_WB, top_B, a_W, yaw), top_out_of_reach, effort};
+    Choice choice{best.goal,        best.body,        graspAlong(world_, best.body, X_WB, top_B, a_W, yaw),
+                  top_out_of_reach, top_out_of_reach, effort};
     if (top_out_of_reach) takeLow(choice.grasp, best.body, X_WB);
     choice.effort += kFingerBlocked * obstacles(objects, choice.grasp, best.body, X_WB);
     if (!choice.only_moves && obstacles(objects, choice.grasp, best.body, X_WG) > 0) {
@@ -78,7 +79,7 @@ void Chooser::weighMoving(Choice& best, const ObjectState& objects, std::size_t 
   const Lines lines = linesToMove(world_, body, X_WB);
   for (const Vec3& a_W : std::span(lines.a_W).first(lines.count)) {
     // by its middle, where it is widest
-    Choice choice{goal, body, graspAlong(world_, body, X_WB, Vec3::Zero(), a_W, yaw), true, effort + kMoves};
+    Choice choice{goal, body, graspAlong(world_, body, X_WB, Vec3::Zero(), a_W, yaw), true, false, effort + kMoves};
     choice.effort += kFingerBlocked * obstacles(objects, choice.grasp, body, X_WB);
     if (choice.effort < best.effort) best = choice;
   }
@@ -86,14 +87,14 @@ void Chooser::weighMoving(Choice& best, const ObjectState& objects, std::size_t 
 
 Choice Chooser::weigh(const ObjectState& objects, std::size_t goal, std::size_t body, const Vec3& p_W,
                       double yaw) const noexcept {
-  Choice best{goal, body, {}, true, std::numeric_limits<double>::infinity()};
+  Choice best{goal, body, {}, true, false, std::numeric_limits<double>::infinity()};
   const std::size_t cover = surroundings_.coverOf(objects, body);
   const std::size_t occupant =
       surroundings_.bodyAt(objects, world_.scene.assembly->goals[goal].X_WB.p, kOccupied, body);
   const double effort = kWay * (objects.bodies[body].X_WB_end.p - p_W).head<2>().norm() +
                         (cover == Surroundings::kNothing ? 0 : kCovered);
   weighCarrying(best, objects, effort + (occupant == Surroundings::kNothing ? 0 : kPlaceTaken), yaw);
-  weighMoving(best, objects, goal, body, effort, yaw);
+  weighMoving(best, objects, goal, body, effort + kInVain, yaw);
   for (const std::size_t other : {cover, occupant}) {
     if (other == Surroundings::kNothing || world_.scene.bodies[other].fixed) continue;
     if (surroundings_.coverOf(objects, other) == Surroundings::kNothing)

@@ -9,6 +9,7 @@ struct Choice {
   std::size_t goal = 0, body = 0;
   Grasp grasp;
   bool only_moves = false;  ///< to where there is room, turned by hanging, to be taken again from there
+  bool tips_over = false;   ///< and there laid on its back: a flat body on its head, which hangs from its side
   double effort = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <span>
 
 namespace presa::assembling {
 namespace {
@@ -9,8 +11,7 @@ namespace {
 constexpr double kTowardsTop = 0.75;  // of half the height: a body that is taken there hangs with its top up
 constexpr double kSafety = 2.5;       // of the grip over the least that carries
 constexpr double kLeastGrip = 0.5, kMostGrip = 6;  // [N]
-constexpr double kFlat = 0.02;   // half a height of which fingertips on the ground reach too little [m]
-constexpr double kStands = 0.9;  // cosine: upright, or on its head
+constexpr double kLevel = 0.6;                     // sine
 
 Vec3 level(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }
 
@@ -39,41 +40,59 @@ double halfWidth(const Shape& shape, const TriMesh* mesh, const Vec3& n_G) {
   return std::visit(Measure{mesh, n_G}, shape);
 }
 
-Grasp chooseGrasp(const World& world, std::size_t i, const Pose& X_WB, const Pose& X_WG, double yaw) {
-  const Body& body = world.scene.bodies[i];
-  const Geometry& physics = *body.physics;
-  const TriMesh* mesh = world.meshes[i].physics.get();
-  const auto half_along = [&](const Vec3& n_B) {
-    return halfWidth(physics.shape, mesh, physics.X_BG.q.conjugate() * n_B);
-  };
-  const Vec3 up_B = X_WG.q.conjugate() * Vec3::UnitZ(), up_W = X_WB.q * up_B;
+double halfWidth(const World& world, std::size_t i, const Vec3& n_B) {
+  const Geometry& physics = *world.scene.bodies[i].physics;
+  return halfWidth(physics.shape, world.meshes[i].physics.get(), physics.X_BG.q.conjugate() * n_B);
+}
 
-  Grasp grasp;
-  Vec3 a_W = level(yaw);
+double outTo(const World& world, std::size_t i, const Vec3& n_B) {
+  const double half = halfWidth(world, i, n_B);
+  const TriMesh* mesh = world.meshes[i].physics.get();
+  if (!std::holds_alternative<MeshRef>(world.scene.bodies[i].physics->shape) || mesh == nullptr) return half;
+  const Pose& X_BG = world.scene.bodies[i].physics->X_BG;
+  double out = half;
+  for (const auto& triangle : mesh->triangles) {
+    const Vec3 a = X_BG * mesh->vertices[static_cast<std::size_t>(triangle[0])],
+               b = X_BG * mesh->vertices[static_cast<std::size_t>(triangle[1])],
+               c = X_BG * mesh->vertices[static_cast<std::size_t>(triangle[2])];
+    const Vec3 outward = (b - a).cross(c - a);
+    const double along = outward.dot(n_B);
+    if (along > 0) out = std::min(out, outward.dot(a - world.inertias[i].p_BCm) / along);
+  }
+  return out;
+}
+
+Lines linesToHang(const World& world, std::size_t i, const Pose& X_WB, const Vec3& up_B, double yaw) {
+  const Vec3 up_W = X_WB.q * up_B;
+  Lines lines;
   if (std::abs(up_W.z()) < kStands) {
-    a_W = Vec3::UnitZ().cross(up_W).normalized();  // about which it swings upright
+    lines.add(Vec3::UnitZ().cross(up_W));
+  } else if (std::holds_alternative<Cylinder>(world.scene.bodies[i].physics->shape)) {
+    for (std::size_t n = 0; n < Lines::kMost; ++n)
+      lines.add(level(yaw + std::numbers::pi * static_cast<double>(n) / Lines::kMost));
   } else {
-    // the narrower of the two pairs of faces
-    double least = 1e9;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 n_B = Vec3::Unit(axis);
-      const Vec3 n_W = X_WB.q * n_B;
-      if (std::abs(n_W.z()) > 0.3 || half_along(n_B) >= least) continue;
-      least = half_along(n_B);
-      a_W = Vec3(n_W.x(), n_W.y(), 0).normalized();
-    }
+    lines = linesToMove(world, i, X_WB);
   }
-  if (a_W.dot(level(yaw)) < 0) a_W = -a_W;
-  grasp.a_B = X_WB.q.conjugate() * a_W;
-  Vec3 top_B = up_B;
-  if (up_W.z() < -kStands && half_along(up_B) < kFlat) {
-    top_B = up_B.cross(grasp.a_B).normalized();
-    grasp.lays_down = true;
-    grasp.rise = half_along(top_B) - half_along(up_B);
+  return lines;
+}
+
+Lines linesToMove(const World& world, std::size_t i, const Pose& X_WB) {
+  Lines lines;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 n_W = X_WB.q * Vec3::Unit(axis);
+    if (std::abs(n_W.z()) < kLevel) lines.add(n_W);
   }
-  grasp.p_BC = world.inertias[i].p_BCm + kTowardsTop * half_along(top_B) * top_B;
-  grasp.half = half_along(grasp.a_B);
-  const double mu = std::max(0.1, world.scene.materialOf(body).friction_dynamic);
+  std::ranges::stable_sort(std::span(lines.a_W).first(lines.count), {},
+                           [&](const Vec3& n_W) { return halfWidth(world, i, X_WB.q.conjugate() * n_W); });
+  return lines;
+}
+
+Grasp graspAlong(const World& world, std::size_t i, const Pose& X_WB, const Vec3& top_B, const Vec3& a_W, double yaw) {
+  Grasp grasp;
+  grasp.a_B = X_WB.q.conjugate() * (a_W.dot(level(yaw)) < 0 ? Vec3(-a_W) : a_W);
+  grasp.p_BC = world.inertias[i].p_BCm + kTowardsTop * outTo(world, i, top_B) * top_B;
+  grasp.half = halfWidth(world, i, grasp.a_B);
+  const double mu = std::max(0.1, world.scene.materialOf(world.scene.bodies[i]).friction_dynamic);
   grasp.force = std::clamp(kSafety * world.inertias[i].mass * 9.81 / (2 * mu), kLeastGrip, kMostGrip);
   return grasp;
 }

@@ -10,17 +10,23 @@ namespace presa::assembling {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFast = 0.25, kSlow = 0.06;  // [m/s]
-constexpr double kTurn = 1;                   // [rad/s]
-constexpr double kAbove = 0.001;              // a body is let go so far over its place [m]
-constexpr double kLoose = 0.48;               // of the grip, while a body finds its own way to hang
-constexpr double kHangs = 0.35;               // no more askew than this it may be put down [rad]
+constexpr double kFast = 0.4, kSlow = 0.06;        // [m/s]
+constexpr double kTurn = 1;                        // [rad/s]
+constexpr double kAbove = 0.001;                   // a body is let go so far over its place [m]
+constexpr double kNear = 0.015, kHoverTime = 0.6;  // over its place it waits: the place draws it upright [m, s]
+constexpr double kLoose = 0.48;                    // of the grip, while a body finds its own way to hang
+constexpr double kLessLoose = 0.15;                // less loosely each time it slips out, and then anew
+constexpr double kFirm =
+    1.6;  // of the grip, while one on its head is shaken: it falls into the fingers, not out of them
+constexpr double kHangs = 0.3;  // no more askew than this it may be put down [rad]
 constexpr int kMostShakes = 8;
 constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
-constexpr double kInHand = 0.012;     // a body is held while its spot stays this near to the fingers [m]
-constexpr double kOverGround = 1.05;  // centre of a fingertip, in its radii
-constexpr double kMoved = 0.004;      // a body that moved by more is aimed at again [m]
-constexpr double kPause = 0.5;        // to look again [s]
+constexpr double kJerkBy = 0.08;                      // one on its head: 7.4 m/s^2
+constexpr double kInHand = 0.012;       // a body is held while its spot stays this near to the fingers [m]
+constexpr double kMoved = 0.004;        // a body that moved by more is aimed at again [m]
+constexpr double kPause = 0.5;          // to look again [s]
+constexpr double kTried = 2, kGap = 6;  // what a try in vain, and a place left open between two, weigh in a choice
+constexpr double kInLine = 1e-3;        // [m]
 
 double yawOf(const Vec3& a_W) { return std::atan2(a_W.y(), a_W.x()); }
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
@@ -28,13 +34,14 @@ double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 }  // namespace
 
 const std::vector<std::string>& Planner::phaseNames() {
-  static const std::vector<std::string> names{"look",  "rise",  "over",  "down",   "close", "grip", "lift", "loosen",
-                                              "shake", "swing", "carry", "settle", "lower", "open", "leave"};
+  static const std::vector<std::string> names{"look",     "rise",   "over",  "down",  "close", "grip",
+                                              "lift",     "loosen", "shake", "swing", "carry", "settle",
+                                              "approach", "hover",  "lower", "tip",   "open",  "leave"};
   return names;
 }
 
 Planner::Planner(std::shared_ptr<const World> world, double fingertip)
-    : world_(std::move(world)), fingertip_(fingertip) {
+    : world_(std::move(world)), fingertip_(fingertip), chooser_(*world_, fingertip, kOpening) {
   for (std::size_t i = 0; i < world_->scene.bodies.size(); ++i) {
     const Body& body = world_->scene.bodies[i];
     Vec3 half = Vec3::Zero();
@@ -111,40 +118,85 @@ double Planner::clearHeight(const ObjectState& objects) const noexcept {
   return top + kClearance + fingertip_;
 }
 
-// The first goal that may be filled, and of the bodies that fit the one that was tried least.
+// One place at a tick: what is near at hand, lies free, and was not tried in vain.
 void Planner::look(const ObjectState& objects) noexcept {
-  const auto& goals = world_->scene.assembly->goals;
-  bool found = false;
-  int fewest = 0;
-  for (std::size_t g = 0; g < goals.size(); ++g) {
-    if (isFilled(g, objects)) continue;
-    if (!std::ranges::all_of(goals[g].after, [&](std::size_t before) { return isFilled(before, objects); })) continue;
-    for (const std::size_t body : goals[g].bodies) {
-      if (isPlaced(body, objects) || (found && tries_[body] >= fewest)) continue;
-      found = true;
-      fewest = tries_[body];
-      goal_ = g;
-      body_ = body;
-    }
+  const std::size_t goals = world_->scene.assembly->goals.size();
+  if (phase_ != kLook || looked_at_ == goals) {
+    looked_at_ = 0;
+    found_ = false;
   }
+  consider(looked_at_++, objects);
   PairTarget to = to_;
   to.grip = 0;
-  if (!found) return go(kLook, to, kPause);
+  if (looked_at_ < goals) return go(kLook, to, 0);
+  if (!found_) return go(kLook, to, kPause);
+  goal_ = best_.goal;
+  body_ = best_.body;
   ++tries_[body_];
   to.centre.z() = std::max(to.centre.z(), clearHeight(objects));
   goAt(kRise, to, kFast);
 }
 
+void Planner::consider(std::size_t goal, const ObjectState& objects) noexcept {
+  const AssemblyGoal& place = world_->scene.assembly->goals[goal];
+  if (isFilled(goal, objects)) return;
+  if (!std::ranges::all_of(place.after, [&](std::size_t before) { return isFilled(before, objects); })) return;
+  const double gap = leavesGap(goal, objects) ? kGap : 0;
+  for (const std::size_t body : place.bodies) {
+    if (isPlaced(body, objects)) continue;
+    Choice choice = chooser_.weigh(objects, goal, body, to_.centre, to_.yaw);
+    choice.effort += kTried * tries_[choice.body] + gap;
+    if (found_ && choice.effort >= best_.effort) continue;
+    if (isPlaced(choice.body, objects)) continue;  // lies on the other
+    found_ = true;
+    best_ = choice;
+    wanted_ = body;
+  }
+}
+
+// Whether it would leave an open place between two that are filled, into which the last would have to be squeezed.
+bool Planner::leavesGap(std::size_t goal, const ObjectState& objects) const noexcept {
+  const auto& goals = world_->scene.assembly->goals;
+  const Vec3& a = goals[goal].X_WB.p;
+  for (std::size_t f = 0; f < goals.size(); ++f) {
+    if (f == goal || !isFilled(f, objects)) continue;
+    const Vec3 way = goals[f].X_WB.p - a;
+    for (std::size_t g = 0; g < goals.size(); ++g) {
+      if (g == goal || g == f || isFilled(g, objects)) continue;
+      const Vec3 to = goals[g].X_WB.p - a;
+      const double part = to.dot(way) / way.squaredNorm();
+      if (part > 0 && part < 1 && (to - part * way).norm() < kInLine) return true;
+    }
+  }
+  return false;
+}
+
 void Planner::takeAim(const ObjectState& objects) noexcept {
+  const Choice choice = chooser_.weigh(objects, goal_, wanted_, to_.centre, to_.yaw);
+  if (isPlaced(choice.body, objects)) return letGo();
+  body_ = choice.body;
+  grasp_ = choice.grasp;
+  only_moves_ = choice.only_moves;
+  tips_over_ = choice.tips_over;
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);
-  grasp_ = chooseGrasp(*world_, body_, X_WB_taken_, X_WG_, to_.yaw);
   PairTarget to = to_;
   to.centre.head<2>() = (X_WB_taken_ * grasp_.p_BC).head<2>();
   to.yaw = yawOf(X_WB_taken_.q * grasp_.a_B);
   to.gap = openGap();
   goAt(kOver, to, kFast);
+}
+
+// To where there is room, as it hangs.
+void Planner::moveAside(const ObjectState& objects) noexcept {
+  const auto room = chooser_.surroundings().roomFor(objects, body_, X_WB_taken_.p, fingertip_);
+  const Pose& X_WB = objects.bodies[body_].X_WB_end;
+  X_WG_.p = room.value_or(X_WB_taken_.p);
+  X_WG_.p.z() = halfWidth(*world_, body_, X_WB.q.conjugate() * Vec3::UnitZ());
+  PairTarget to = to_;
+  to.centre.head<2>() += (X_WG_.p - X_WB.p).head<2>();
+  goAt(kCarry, to, kFast);
 }
 
 bool Planner::holds(const ObjectState& objects) const noexcept {
@@ -164,6 +216,7 @@ void Planner::carry(const ObjectState& objects) noexcept {
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   const Pose& X_WB = objects.bodies[body_].X_WB_end;
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB.q);
+  X_WG_.p += chooser_.surroundings().awayFromNeighbours(objects, body_, X_WG_);
   PairTarget to = to_;
   to.grip = grasp_.force;
   to.yaw = to_.yaw + wrapped(yawOf(X_WG_.q * grasp_.a_B) - yawOf(X_WB.q * grasp_.a_B));
@@ -180,17 +233,39 @@ double Planner::tilt(const ObjectState& objects) const noexcept {
   return std::acos(std::clamp(up_W.z(), -1.0, 1.0));
 }
 
+bool Planner::isOnItsHead(const ObjectState& objects) const noexcept { return tilt(objects) > kPi / 2; }
+
 // What friction of the fingertips holds askew, or balances on its head, finds its way when it is moved quickly across.
-void Planner::shake() noexcept {
+void Planner::shake(double by) noexcept {
   PairTarget to = to_;
-  to.centre += (shakes_++ % 2 == 0 ? kShakeBy : -kShakeBy) * Vec3(-std::sin(to_.yaw), std::cos(to_.yaw), 0);
+  to.centre += (shakes_++ % 2 == 0 ? by : -by) * Vec3(-std::sin(to_.yaw), std::cos(to_.yaw), 0);
   go(kShake, to, kShakeTime);
+}
+
+// Hanging from loose fingers, or held firmly as long as it is on its head.
+double Planner::swingingGrip(const ObjectState& objects) const noexcept {
+  if (isOnItsHead(objects) && !only_moves_) return kFirm * grasp_.force;
+  return (kLoose + kLessLoose * ((tries_[body_] - 1) % 3)) * grasp_.force;
+}
+
+// It hangs from an edge, with the other on the ground: laid down so that its top comes up.
+void Planner::tipOver(const ObjectState& objects) noexcept {
+  const Quat& q_WG = world_->scene.assembly->goals[goal_].X_WB.q;
+  const Vec3 top_W = objects.bodies[body_].X_WB_end.q * (q_WG.conjugate() * Vec3::UnitZ());
+  PairTarget to = to_;
+  const double high = to_.centre.z() - Chooser::kOverGround * fingertip_;
+  to.centre -= high * (Vec3(top_W.x(), top_W.y(), 0).normalized() + Vec3::UnitZ());
+  goAt(kTip, to, kSlow);
 }
 
 // By what the body is away from its place now, not by where the fingers were meant to be.
 void Planner::lower(const ObjectState& objects) noexcept {
   PairTarget to = to_;
   to.centre += X_WG_.p + kAbove * Vec3::UnitZ() - objects.bodies[body_].X_WB_end.p;
+  if (phase_ == kSettle && to_.centre.z() - to.centre.z() > kNear) {
+    to.centre.z() += kNear;
+    return goAt(kApproach, to, kFast);
+  }
   goAt(kLower, to, kSlow);
 }
 
@@ -205,8 +280,7 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kOver:
       if ((objects.bodies[body_].X_WB_end.p - X_WB_taken_.p).norm() > kMoved) return takeAim(objects);  // it rolls
       to.centre = X_WB_taken_ * grasp_.p_BC;
-      // over the ground; a flat body's edge is no higher than that
-      to.centre.z() = grasp_.lays_down ? kOverGround * fingertip_ : std::max(to.centre.z(), kOverGround * fingertip_);
+      to.centre.z() = std::max(to.centre.z(), Chooser::kOverGround * fingertip_);
       return goAt(kDown, to, kFast);
     case kDown:
       to.gap = grasp_.half + fingertip_;
@@ -221,26 +295,37 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kLift:
       if (!holds(objects)) return letGo();
       shakes_ = 0;
-      // less so each time it slips out
-      to.grip = std::min(1.0, kLoose + 0.15 * (tries_[body_] - 1)) * grasp_.force;
+      to.grip = swingingGrip(objects);
       return go(kLoosen, to, 0.3);
     case kLoosen:
     case kShake:
       return go(kSwing, to, kPause);
     case kSwing:
       if (!holds(objects)) return letGo();
-      if (grasp_.lays_down) {
-        X_WG_.p = X_WB_taken_.p + grasp_.rise * Vec3::UnitZ();
-        return lower(objects);
+      if (only_moves_) return moveAside(objects);
+      if (tilt(objects) > kHangs && shakes_ < kMostShakes) {
+        if (const double grip = swingingGrip(objects); grip != to_.grip) {
+          to.grip = grip;
+          return go(kLoosen, to, 0.3);
+        }
+        return shake(isOnItsHead(objects) ? kJerkBy : kShakeBy);
       }
-      if (tilt(objects) > kHangs && shakes_ < kMostShakes) return shake();
-      return carry(objects);
+      if (tilt(objects) <= kHangs) return carry(objects);
+      only_moves_ = true;
+      return moveAside(objects);
     case kCarry:
       return go(kSettle, to, kPause);
     case kSettle:
       if (!holds(objects)) return letGo();
       return lower(objects);
+    case kApproach:
+      return go(kHover, to, kHoverTime);
+    case kHover:
+      return lower(objects);
     case kLower:
+      if (tips_over_) return tipOver(objects);
+      [[fallthrough]];
+    case kTip:
       to.grip = 0;
       to.gap = openGap();
       return go(kOpen, to, 0.5);

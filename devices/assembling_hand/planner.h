@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/assembling_hand/grasp.h"
+#include "devices/assembling_hand/choice.h"
 #include "framework/scene/goal_pose.h"
 
 namespace presa::assembling {
@@ -33,7 +33,10 @@ class Planner {
     kSwing,
     kCarry,
     kSettle,
+    kApproach,
+    kHover,
     kLower,
+    kTip,
     kOpen,
     kLeave
   };
@@ -55,12 +58,19 @@ class Planner {
   void goAt(Phase phase, const PairTarget& to, double speed) noexcept;
   void next(const ObjectState& objects) noexcept;
   void look(const ObjectState& objects) noexcept;
+  void consider(std::size_t goal, const ObjectState& objects) noexcept;
+  bool leavesGap(std::size_t goal, const ObjectState& objects) const noexcept;
+  void aim(const ObjectState& objects, const Choice& choice) noexcept;
   void takeAim(const ObjectState& objects) noexcept;
+  void moveAside(const ObjectState& objects) noexcept;
   void letGo() noexcept;
   bool holds(const ObjectState& objects) const noexcept;
   void carry(const ObjectState& objects) noexcept;
   void lower(const ObjectState& objects) noexcept;
-  void shake() noexcept;
+  void tipOver(const ObjectState& objects) noexcept;
+  void shake(double by) noexcept;
+  double swingingGrip(const ObjectState& objects) const noexcept;
+  bool isOnItsHead(const ObjectState& objects) const noexcept;
   double tilt(const ObjectState& objects) const noexcept;
   bool isFilled(std::size_t goal, const ObjectState& objects) const noexcept;
   bool isPlaced(std::size_t body, const ObjectState& objects) const noexcept;
@@ -72,14 +82,20 @@ class Planner {
 
   std::shared_ptr<const World> world_;
   const double fingertip_;
+  const Chooser chooser_;
   std::vector<double> size_;  // by body: from its centre to its farthest corner [m]
   std::vector<int> tries_;    // by body
   Phase phase_ = kLook;
   PairTarget from_, to_;
   double begin_ = 0, end_ = 0, now_ = 0;
+  std::size_t looked_at_ = 0;  // goals, of those there are
+  bool found_ = false;
+  Choice best_;
+  std::size_t wanted_ = 0;  // body that the choice is for; it may be another that is moved first
   std::size_t goal_ = 0, body_ = 0;
   Pose X_WG_, X_WB_taken_;
   Grasp grasp_;
+  bool only_moves_ = false, tips_over_ = false;
   int shakes_ = 0;
 };
 

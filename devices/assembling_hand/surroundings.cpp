@@ -8,10 +8,11 @@
 namespace presa::assembling {
 namespace {
 
-constexpr double kInset = 0.8;                   // of a box's edges: its neighbours do not count as lying on it
-constexpr double kWellInside = 0.8;              // of the field
-constexpr double kFingersRoom = 2.5;             // fingertips, around a body that is put down
-constexpr double kStep = 0.02, kFarthest = 0.6;  // of a search for room [m]
+constexpr double kInset = 0.8;                     // of a box's edges: its neighbours do not count as lying on it
+constexpr double kWellInside = 0.8;                // of the field
+constexpr double kFingersRoom = 2.5;               // fingertips, around a body that is put down
+constexpr double kBeside = 0.002, kAside = 0.003;  // [m]
+constexpr double kStep = 0.02, kFarthest = 0.6;    // of a search for room [m]
 constexpr int kAround = 16;
 constexpr double kLiftedBy = 0.012, kLiftedRadius = 0.004;  // [m]
 
@@ -67,6 +68,21 @@ std::size_t Surroundings::coverOf(const ObjectState& objects, std::size_t body) 
     if (cover != kNothing) return cover;
   }
   return kNothing;
+}
+
+Vec3 Surroundings::awayFromNeighbours(const ObjectState& objects, std::size_t body, const Pose& X_WB) const noexcept {
+  const Bounds& bounds = bounds_[body];
+  const Pose X_WG = X_WB * bounds.X_BG;
+  Vec3 away = Vec3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 n_W = X_WG.q * Vec3(side * Vec3::Unit(axis));
+      if (std::abs(n_W.z()) > 0.5) continue;  // what it stands on, or will carry
+      const Vec3 beside = X_WG.p + (bounds.half[axis] + kBeside) * n_W;
+      if (bodyAt(objects, beside, kBeside / 2, body) != kNothing) away -= kAside * n_W;
+    }
+  }
+  return away;
 }
 
 // Seen from above, free bodies count as discs; a ball of that size that lies on the ground touches nothing that is fixed.

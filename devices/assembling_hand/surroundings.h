@@ -18,6 +18,9 @@ class Surroundings {
   std::size_t bodyAt(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept;
   /// What lies on `body`: another body, or kNothing.
   std::size_t coverOf(const ObjectState& objects, std::size_t body) const noexcept;
+  /// From where `body` is best put to X_WB: a little away from those who stand right beside it there, so that it does not catch on
+  /// their edges; zero where nobody does, or on both sides [m].
+  Vec3 awayFromNeighbours(const ObjectState& objects, std::size_t body, const Pose& X_WB) const noexcept;
   /// A place on the ground for `body`, not far from `p_W`, where fingers have room around it; nothing when there is none.
   std::optional<Vec3> roomFor(const ObjectState& objects, std::size_t body, const Vec3& p_W,
                               double fingertip) const noexcept;

@@ -18,6 +18,14 @@ World block() {
   return world;
 }
 
+/// To hang upright, along the best line.
+Grasp chooseGrasp(const World& world, std::size_t i, const Pose& X_WB, const Pose& X_WG, double yaw) {
+  const Vec3 up_B = X_WG.q.conjugate() * Vec3::UnitZ();
+  const Lines lines = linesToHang(world, i, X_WB, up_B, yaw);
+  EXPECT_GE(lines.count, 1U);
+  return graspAlong(world, i, X_WB, up_B, lines.a_W[0], yaw);
+}
+
 TEST(HalfWidth, IsTheSupportOfTheShape) {
   EXPECT_NEAR(halfWidth(Box{{2, 4, 6}}, nullptr, Vec3::UnitY()), 2, 1e-15);
   EXPECT_NEAR(halfWidth(Box{{2, 2, 2}}, nullptr, Vec3(1, 1, 0).normalized()), std::sqrt(2), 1e-12);
@@ -50,13 +58,19 @@ TEST(Grasp, OfABodyOnItsHeadIsBelowItsCentre) {
   EXPECT_NEAR((on_its_head * grasp.p_BC).z(), 0.03 - 0.75 * 0.03, 1e-12);
 }
 
-TEST(Grasp, OfAFlatBodyOnItsHeadIsAtItsSideToLayItDown) {
+// Above its middle a wedge is lower than at its high end: fingers that aim by its height would close over it.
+TEST(Grasp, OfAWedgeIsWithinIt) {
   World world = block();
-  world.scene.bodies[0].physics = Geometry{Box{{0.08, 0.04, 0.03}}, {}, {}};
-  const Grasp grasp = chooseGrasp(world, 0, {{0, 0, 0.015}, turn(EIGEN_PI, Vec3::UnitX())}, {}, 0);
-  EXPECT_TRUE(grasp.lays_down);
-  EXPECT_NEAR(std::abs(grasp.p_BC.x()), 0.75 * 0.04, 1e-12) << "square to the line between the fingers";
-  EXPECT_NEAR(grasp.rise, 0.04 - 0.015, 1e-12);
+  world.scene.bodies[0].physics = Geometry{MeshRef{}, {}, {}};
+  auto wedge = std::make_shared<TriMesh>();
+  wedge->vertices = {{-0.03, -0.01, -0.01}, {0.03, -0.01, -0.01}, {0.03, 0.01, -0.01},
+                     {-0.03, 0.01, -0.01},  {0.03, -0.01, 0.02},  {0.03, 0.01, 0.02}};
+  wedge->triangles = {{0, 4, 5}, {0, 5, 3}, {0, 2, 1}, {0, 3, 2}, {1, 5, 4}, {1, 2, 5}, {0, 1, 4}, {3, 5, 2}};
+  world.meshes[0].physics = wedge;
+  // the slope rises from -10 mm by a half: 5 mm above the middle
+  EXPECT_NEAR(outTo(world, 0, Vec3::UnitZ()), 0.005, 1e-12);
+  EXPECT_NEAR(outTo(world, 0, -Vec3::UnitZ()), 0.01, 1e-12);
+  EXPECT_NEAR(outTo(block(), 0, Vec3::UnitZ()), 0.03, 1e-12);
 }
 
 }  // namespace
