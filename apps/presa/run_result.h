@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ struct RunResult {
     double time = 0;  ///< simulated [s]
     std::string text;
   };
+  /// How much of the scene's assembly stands in its places.
+  struct Assembly {
+    int goals = 0, filled = 0;
+  };
   struct Recording {
     std::string file;  ///< empty: not recorded
     std::uint64_t rows = 0;
@@ -60,6 +65,7 @@ struct RunResult {
   std::vector<Rate> rates;                    ///< groups that ran, in the order of RateGroup
   std::vector<ContactPoint> contact_points;   ///< as Scene::devices
   std::vector<Object> objects;
+  std::optional<Assembly> assembly;                 ///< none: the scene has none
   std::vector<Phase> phases;                        ///< empty for a real hand
   const std::vector<TraceSample>* trace = nullptr;  ///< null: none
   std::vector<Fault> faults;

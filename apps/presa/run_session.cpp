@@ -6,6 +6,7 @@
 #include <csignal>
 #include <optional>
 
+#include "apps/presa/assembly_tap.h"
 #include "apps/presa/live_tap.h"
 #include "apps/presa/pacer.h"
 #include "apps/presa/terminal/keys.h"
@@ -66,7 +67,8 @@ constexpr double kDefaultDuration = 10;  // [s], for scenes without a script
 struct Run::Live {
   LiveValues values;
   StatusLine line;
-  std::optional<terminal::Keys> keys;  // while forces may have to be re-armed
+  std::optional<terminal::Keys> keys;   // while forces may have to be re-armed
+  std::atomic<std::int32_t> filled{0};  // places of the assembly
   std::int64_t start_ns = 0;
   explicit Live(bool quiet) : line(quiet) {}
 };
@@ -100,6 +102,7 @@ Run::Run(const Loaded& loaded, Settings settings)
   session_options.more = std::move(settings_.more);
   session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
   session_options.wrap = settings_.wrap;
+  if (loaded_.world->scene.assembly) session_options.more.push_back(std::make_unique<AssemblyTap>(live_->filled));
   const bool window = options.view == RunOptions::View::kWindow;
   const bool paced = !options.realtime && (window || settings_.paced) && !drivesHardware(loaded_.plan);
   if (paced) session_options.more.push_back(std::make_unique<Pacer>(time_wish_, view_, control_));
@@ -239,6 +242,8 @@ void Run::finish() {
       result_.rates.push_back({group, executor_->rates().rate(group), &executor_->timing(group)});
   }
   takeMonitor(session_->monitor(), result_);
+  if (const auto& assembly = loaded_.world->scene.assembly)
+    result_.assembly = {static_cast<int>(assembly->goals.size()), live_->filled.load(std::memory_order_relaxed)};
   if (Recorder* recorder = session_->recorder()) {
     recorder->finish();
     const RecorderStatus status = recorder->status();
@@ -259,6 +264,8 @@ void Run::finish() {
     if (shot.outcome == View::Screenshot::Outcome::kWritten) result_.screenshot = options.screenshot;
     if (shot.outcome == View::Screenshot::Outcome::kFailed)
       result_.faults.push_back({result_.simulated_seconds, shot.message});
+    if (const std::string trouble = view->videoTrouble(); !trouble.empty())
+      result_.faults.push_back({result_.simulated_seconds, "no video " + options.video + ": " + trouble});
   }
 }
 

@@ -133,6 +133,7 @@ std::string summaryJson(const RunResult& result) {
   json["contact_points"] = contactPoints(result);
   json["objects"] = objects(result);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
+  if (result.assembly) json["assembly"] = {{"goals", result.assembly->goals}, {"filled", result.assembly->filled}};
   json["solver_fallbacks"] = result.solver_fallbacks;
   json["faults"] = Json::array();
   for (const RunResult::Fault& fault : result.faults)

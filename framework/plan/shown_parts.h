@@ -16,9 +16,10 @@ enum class ShownPart : std::size_t {
   kCones,     ///< static friction
   kForces,    ///< on the fingers
   kSleeping,  ///< bodies that the dynamics lets rest
-  kFrames     ///< axes of world and bodies, x red, y green, z blue
+  kFrames,    ///< axes of world and bodies, x red, y green, z blue
+  kPlots      ///< force, penetration and haptic rate of the last seconds; key g
 };
-inline constexpr std::array<std::string_view, 10> kShownPartNames{
-    "visual", "haptic", "physics", "patches", "hips", "proxies", "cones", "forces", "sleeping", "frames"};
+inline constexpr std::array<std::string_view, 11> kShownPartNames{
+    "visual", "haptic", "physics", "patches", "hips", "proxies", "cones", "forces", "sleeping", "frames", "plots"};
 
 }  // namespace presa

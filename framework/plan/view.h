@@ -39,6 +39,9 @@ class View : public Module {
   };
   virtual Screenshot screenshot() const = 0;
 
+  /// Why RunOptions::video is not, or not wholly, there; empty: it is, or nobody asked. Ask after stop().
+  virtual std::string videoTrouble() const = 0;
+
   /// A line under the time, until the next one; an alarm is red. On the thread of the view, between start() and stop().
   virtual void setBanner(const std::string& text, bool alarm) = 0;
 

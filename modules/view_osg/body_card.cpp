@@ -6,7 +6,7 @@
 namespace presa::view {
 namespace {
 
-constexpr float kWidth = 268, kHeight = 92, kMargin = 18, kBottom = 60;
+constexpr float kWidth = 268, kHeight = 92, kMargin = 18, kBottom = 126;
 const osg::Vec4 kPanel(0.05F, 0.07F, 0.10F, 0.74F), kInk(0.95F, 0.96F, 0.98F, 1), kSoftInk(0.66F, 0.70F, 0.75F, 1);
 
 template <class... Args>

@@ -24,6 +24,8 @@ void CameraControl::set(const CameraPose& pose) {
 
 void CameraControl::approach(const CameraPose& goal, double share) {
   const CameraPose now = pose();
+  // there already: rounding must not make a still picture tremble
+  if ((goal.eye - now.eye).norm() + (goal.target - now.target).norm() < 1e-9) return;
   set({now.eye + share * (goal.eye - now.eye), now.target + share * (goal.target - now.target)});
 }
 

@@ -36,8 +36,13 @@ Lines cameraLines(bool pair) {
   return lines;
 }
 
-Lines timeLines() {
-  return {{"", "time"}, {"space", "hold, go on"}, {".", "a single step"}, {"[  ]", "half and double speed"}};
+Lines timeLines(bool recording) {
+  Lines lines{{"", "time"}, {"space", "hold, go on"}, {".", "a single step"}, {"[  ]", "half and double speed"}};
+  if (recording)
+    append(lines, {{"drag on the bar", "to that moment"},
+                   {",  <  >", "a step back, a second back and on"},
+                   {"Home  End", "start and end"}});
+  return lines;
 }
 
 Lines partLines() {
@@ -46,16 +51,17 @@ Lines partLines() {
           {"4", "triangles near the fingers"},
           {"5  6", "HIPs, fingertips"},
           {"7  8", "friction cones, forces"},
-          {"9  0", "what sleeps, frames"}};
+          {"9  0", "what sleeps, frames"},
+          {"g", "plots of the last seconds"}};
 }
 
 }  // namespace
 
-std::vector<HelpLine> helpLines(const Controls& controls) {
+std::vector<HelpLine> helpLines(const Controls& controls, bool recording) {
   Lines lines;
   if (controls.pointer != nullptr) append(lines, pairLines());
   append(lines, cameraLines(controls.pointer != nullptr));
-  if (controls.time != nullptr) append(lines, timeLines());
+  if (controls.time != nullptr) append(lines, timeLines(recording));
   append(lines, partLines());
   if (controls.undo) append(lines, {{"", "building"}, {"u", "take out what was put last"}});
   append(lines, {{"", "window"}, {"s", "save a picture"}, {"?", "this help"}, {"Esc", "stop the run"}});

@@ -10,7 +10,7 @@ struct HelpLine {
   std::string keys, what;  ///< empty keys: a heading
 };
 
-/// All that mouse and keys do in this window: what the key `?` shows.
-std::vector<HelpLine> helpLines(const Controls& controls);
+/// All that mouse and keys do in this window, of a run or of a recording: what the key `?` shows.
+std::vector<HelpLine> helpLines(const Controls& controls, bool recording);
 
 }  // namespace presa::view

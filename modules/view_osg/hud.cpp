@@ -213,6 +213,8 @@ void Hud::addLegend(bool interactive) {
 void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines) {
   constexpr float kLine = 22, kHalf = 290;
   const float top = kLine * static_cast<float>(lines.size()) / 2 + 10;
+  center_->removeChild(help_);
+  center_->addChild(help_);  // over all that others put there meanwhile
   help_->removeChildren(0, help_->getNumChildren());
   help_->addChild(roundedPanel({-kHalf, -top, 2 * kHalf, 2 * top}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
   float y = top - 25;

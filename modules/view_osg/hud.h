@@ -23,9 +23,10 @@ class Hud {
 
   explicit Hud(const World& world);
   osg::Camera* camera() { return camera_; }
-  /// For cards of others: x = 0 is the left edge, the right edge.
+  /// For cards of others: x = 0 is the left edge, the right edge; the origin is the middle.
   osg::Group& left() { return *left_; }
   osg::Group& right() { return *right_; }
+  osg::Group& center() { return *center_; }
   void update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings);
   /// Width over height of the picture: what hangs on the right edge moves with it.
   void setAspect(double aspect);

@@ -31,7 +31,9 @@ Picture::Picture(std::shared_ptr<const World> world)
       overlays_(*world_),
       lighting_(casters_, root_->getOrCreateStateSet()),
       hud_(*world_),
-      card_(hud_.right(), *world_) {
+      card_(hud_.right(), *world_),
+      time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
+      plots_(hud_.left(), *world_) {
   addGrain(*root_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
@@ -115,6 +117,8 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   patches_.update(parts_[ShownPart::kPatches], frame.patches, frame.X_WB);
   hud_.update(frame, fingers, timings);
   card_.update(frame.X_WB);
+  time_bar_.update(frame.time);
+  plots_.update(parts_[ShownPart::kPlots]);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius);

@@ -10,7 +10,9 @@
 #include "modules/view_osg/lighting.h"
 #include "modules/view_osg/overlays.h"
 #include "modules/view_osg/patch_lines.h"
+#include "modules/view_osg/plots.h"
 #include "modules/view_osg/scene_nodes.h"
+#include "modules/view_osg/time_bar.h"
 
 namespace presa::view {
 
@@ -20,9 +22,14 @@ class Picture {
   explicit Picture(std::shared_ptr<const World> world);
   osg::Group* root() { return root_; }
   Hud& hud() { return hud_; }
+  TimeBar& timeBar() { return time_bar_; }
   /// What is shown from the next frame on.
   ShownParts& parts() { return parts_; }
 
+  /// What plots need of a moment; every step, drawn or not.
+  void follow(const ViewFrame& frame, const GroupTimings& timings) {
+    if (parts_[ShownPart::kPlots]) plots_.add(frame, timings);
+  }
   void show(const ViewFrame& frame, const GroupTimings& timings);
   const BodyNodes& bodies() const { return bodies_; }
   /// The head-up display tells of this body from now on; none: of no body.
@@ -41,14 +48,16 @@ class Picture {
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
   BodyNodes bodies_;
   ContactGlyphs glyphs_;
-  std::unique_ptr<Guides> guides_;  // of scenes with an assembly
   ShownParts parts_;
   Overlays overlays_;
   PatchLines patches_;
+  std::unique_ptr<Guides> guides_;  // of scenes with an assembly
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;
   Hud hud_;
   BodyCard card_;
+  TimeBar time_bar_;
+  Plots plots_;
   std::vector<Ball> subject_;
   osg::ref_ptr<osg::Group> floor_ = new osg::Group;
   Vec3 floor_center_ = Vec3::Zero();

@@ -26,11 +26,12 @@ ViewModule::ViewModule(std::shared_ptr<const World> world)
   // Mesa's software renderer would take every core, the haptic thread's too. Set here, before any thread runs.
   setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
-  if (world_->scene.assembly) guide_.emplace(*world_->scene.assembly, world_->scene.bodies.size());
   frame_.asleep.resize(frame_.X_WB.size());
+  if (!world_->options.video.empty()) video_.emplace(world_->options.video);
   const ShownParts asked(world_->options.show);
   if (windowed() || asked[ShownPart::kPatches])
     patches_.emplace(*this, "contact_patches", In<ContactPatches>::Optional{});
+  if (world_->scene.assembly) guide_.emplace(*world_->scene.assembly, world_->scene.bodies.size());
   if (!world_->options.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
 }
 
@@ -46,8 +47,9 @@ void ViewModule::start() {
   osg::setNotifyLevel(osg::FATAL);
   try {
     picture_ = std::make_unique<Picture>(world_);
+    if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
     renderer_ = windowed() ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
-                                                {pointer_ ? &*pointer_ : nullptr, time_, guide_.has_value()})
+                                                {pointer_ ? &*pointer_ : nullptr, time_})
                            : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
@@ -67,8 +69,10 @@ void ViewModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
   if (!renderer_ || broken_) return;
   try {
     copyPorts(tick);
+    picture_->follow(frame_, timings_);
     watch.done(0);
     if (windowed()) drawWindow();
+    if (video_ && video_->due(frame_.time)) film();
     if (screenshotDue()) saveScreenshot();
     saveSeries();
     watch.done(1);
@@ -79,6 +83,7 @@ void ViewModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
 
 void ViewModule::stop() {
   if (renderer_ && screenshot_.outcome == Screenshot::Outcome::kPending) saveScreenshot();
+  if (video_) video_trouble_ = video_->finish();
   renderer_.reset();
   picture_.reset();
 }
@@ -92,7 +97,7 @@ void ViewModule::offerPointer(const std::vector<std::size_t>& fingers) {
   pointer_.emplace(fingers);
 }
 
-void ViewModule::offerTime(TimeWish& wish, double) noexcept { time_ = &wish; }
+void ViewModule::offerTime(TimeWish& wish, double length) noexcept { time_ = &wish, length_ = length; }
 
 void ViewModule::refresh() noexcept {
   if (!renderer_ || broken_ || !windowed()) return;
@@ -131,9 +136,9 @@ void ViewModule::drawWindow() {
   picture_->show(frame_, timings_);
   if (pointer_) pointer_->begin(frame_.device);
   renderer_->render();
+  if (pointer_) pointer_out_->value = pointer_->state();
   undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);
   inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);
-  if (pointer_) pointer_out_->value = pointer_->state();
   if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";
@@ -153,6 +158,11 @@ void ViewModule::saveScreenshot() {
     screenshot_ = {Screenshot::Outcome::kWritten, "wrote " + file + ", t = " + timeStamp(frame_.time) + " s"};
   else
     screenshot_ = {Screenshot::Outcome::kFailed, "cannot write " + file + ": " + trouble};
+}
+
+void ViewModule::film() {
+  picture_->show(frame_, timings_);
+  if (const osg::ref_ptr<osg::Image> image = renderer_->capture()) video_->add(*image, frame_.time);
 }
 
 void ViewModule::saveSeries() {

@@ -11,6 +11,7 @@
 #include "framework/state/contact_patch.h"
 #include "framework/state/object_state.h"
 #include "modules/view_osg/renderer.h"
+#include "modules/view_osg/video.h"
 
 namespace presa::view {
 
@@ -32,6 +33,7 @@ class ViewModule final : public View, public WatchedStages {
   std::uint32_t undosWanted() const noexcept override { return undos_.load(std::memory_order_relaxed); }
   std::uint32_t inputs() const noexcept override { return inputs_.load(std::memory_order_relaxed); }
   Screenshot screenshot() const override { return screenshot_; }
+  std::string videoTrouble() const override { return video_trouble_; }
   void setBanner(const std::string& text, bool alarm) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
   void offerPointer(const std::vector<std::size_t>& fingers) override;
@@ -44,6 +46,7 @@ class ViewModule final : public View, public WatchedStages {
   void drawWindow();
   void followAssembly(const ObjectState& objects, double time);
   bool screenshotDue() const;
+  void film();
   void saveSeries();
   void saveScreenshot();
   std::string savePicture(const std::string& file);
@@ -55,11 +58,12 @@ class ViewModule final : public View, public WatchedStages {
   In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
-  In<AssemblyState> assembly_state_{*this, "assembly_state", In<AssemblyState>::Optional{}};
   std::optional<In<ContactPatches>> patches_;     ///< only where they may be shown
   std::optional<Out<PointerState>> pointer_out_;  ///< only when a finger points
   std::optional<PointerControl> pointer_;
   TimeWish* time_ = nullptr;
+  double length_ = 0;  ///< of a recording [s]; 0: none
+  In<AssemblyState> assembly_state_{*this, "assembly_state", In<AssemblyState>::Optional{}};
 
   ViewFrame frame_;
   std::optional<AssemblyGuide> guide_;  // of scenes with an assembly
@@ -68,6 +72,8 @@ class ViewModule final : public View, public WatchedStages {
   std::unique_ptr<Picture> picture_;
   std::unique_ptr<Renderer> renderer_;
   Screenshot screenshot_;
+  std::optional<Video> video_;
+  std::string video_trouble_;
   std::atomic<bool> wants_stop_{false};
   std::atomic<std::uint32_t> undos_{0}, inputs_{0};
   bool broken_ = false;  ///< drawing failed once: the run goes on without a picture

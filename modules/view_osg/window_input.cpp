@@ -8,11 +8,12 @@ namespace {
 
 using Event = osgGA::GUIEventAdapter;
 
-constexpr double kNotch = 1.12;     // a notch of the wheel changes the distance by this factor
-constexpr double kZoomDrag = 1.5;   // exponent of a drag over half of the picture's height
-constexpr double kFlyStep = 0.06;   // of an arrow key, in distances to the target
-constexpr double kStill = 0.01;     // a click is a drag by less than this
-constexpr double kFineShare = 0.2;  // of a key's step, with Shift
+constexpr double kNotch = 1.12;          // a notch of the wheel changes the distance by this factor
+constexpr double kZoomDrag = 1.5;        // exponent of a drag over half of the picture's height
+constexpr double kFlyStep = 0.06;        // of an arrow key, in distances to the target
+constexpr double kShortJump = 1.0 / 60;  // [s] back: what a single step goes ahead
+constexpr double kStill = 0.01;          // a click is a drag by less than this
+constexpr double kFineShare = 0.2;       // of a key's step, with Shift
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;
 
 bool has(const Event& event, int mask) { return (event.getModKeyMask() & mask) != 0; }
@@ -24,6 +25,9 @@ WindowInput::WindowInput(Picture& picture, CameraControl& camera, const Controls
 
 bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
   const osg::Vec2 before = at_;
+  if (event.getEventType() == Event::PUSH || event.getEventType() == Event::DOUBLECLICK ||
+      event.getEventType() == Event::SCROLL || event.getEventType() == Event::KEYDOWN)
+    ++inputs.all;
   switch (event.getEventType()) {
     case Event::RESIZE:
       aspect_ = static_cast<double>(event.getWindowWidth()) / std::max(1, event.getWindowHeight());
@@ -31,10 +35,10 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
       camera_.setAspect(aspect_);
       return false;
     case Event::PUSH:
-      ++inputs.all;
-      drag_ = dragOf(event);
       dragged_ = 0;
       at_ = {static_cast<float>(aspect_) * event.getXnormalized(), event.getYnormalized()};
+      drag_ = dragOf(event);
+      if (drag_ == Drag::kTime) drag({});
       return true;
     case Event::DRAG:
       at_ = {static_cast<float>(aspect_) * event.getXnormalized(), event.getYnormalized()};
@@ -42,7 +46,8 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
       drag(at_ - before);
       return true;
     case Event::RELEASE:
-      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && drag_ != Drag::kNone && dragged_ < kStill)
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && drag_ != Drag::kNone && drag_ != Drag::kTime &&
+          dragged_ < kStill)
         click(event, false);
       drag_ = Drag::kNone;
       return true;
@@ -63,6 +68,7 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
 WindowInput::Drag WindowInput::dragOf(const Event& event) const {
   switch (event.getButton()) {
     case Event::LEFT_MOUSE_BUTTON:
+      if (controls_.time != nullptr && picture_.timeBar().momentAt(at_.x(), at_.y())) return Drag::kTime;
       if (controls_.pointer == nullptr || has(event, Event::MODKEY_ALT)) return Drag::kOrbit;
       return has(event, Event::MODKEY_SHIFT) ? Drag::kPairUpright : Drag::kPairLevel;
     case Event::MIDDLE_MOUSE_BUTTON:
@@ -87,6 +93,8 @@ void WindowInput::drag(const osg::Vec2& by) {
       return controls_.pointer->dragLevel(by.x(), by.y(), camera_);
     case Drag::kPairUpright:
       return controls_.pointer->dragUpright(by.x(), by.y(), camera_);
+    case Drag::kTime:
+      return jump(*picture_.timeBar().momentAt(at_.x(), at_.y(), true));
     case Drag::kNone:
       return;
   }
@@ -112,13 +120,15 @@ void WindowInput::scroll(const Event& event) {
 
 bool WindowInput::key(const Event& event) {
   const int key = event.getKey();
-  ++inputs.all;
   switch (key) {
     case 's':
       picture_requested = true;
       return true;
     case 'h':
       frame_requested = following = true;
+      return true;
+    case 'g':
+      picture_.parts().toggle(ShownPart::kPlots);
       return true;
     case 'u':
       inputs.undos += controls_.undo ? 1 : 0;
@@ -225,6 +235,33 @@ bool WindowInput::timeKey(int key) {
       return faster(0.5);
     case ']':
       return faster(2);
+    default:
+      return picture_.timeBar().length() > 0 && jumpKey(key);
+  }
+}
+
+void WindowInput::jump(double moment) {
+  controls_.time->jump_to = std::clamp(moment, 0.0, picture_.timeBar().length());
+}
+
+bool WindowInput::jumpKey(int key) {
+  const double now = picture_.timeBar().time();
+  const auto to = [&](double moment) {
+    jump(moment);
+    return true;
+  };
+  switch (key) {
+    case ',':
+      controls_.time->paused = true;
+      return to(now - kShortJump);
+    case '<':
+      return to(now - 1);
+    case '>':
+      return to(now + 1);
+    case Event::KEY_Home:
+      return to(0);
+    case Event::KEY_End:
+      return to(picture_.timeBar().length());
     default:
       return false;
   }

@@ -27,13 +27,13 @@ class WindowInput : public osgGA::GUIEventHandler {
   WindowInput(Picture& picture, CameraControl& camera, const Controls& controls);
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&) override;
 
-  bool picture_requested = false;
   Inputs inputs;
+  bool picture_requested = false;
   bool frame_requested = true;  ///< the first frame frames
   bool following = true;        ///< until the user takes the camera in hand
 
  private:
-  enum class Drag { kNone, kOrbit, kPan, kZoom, kPairLevel, kPairUpright };
+  enum class Drag { kNone, kOrbit, kPan, kZoom, kPairLevel, kPairUpright, kTime };
   Drag dragOf(const osgGA::GUIEventAdapter& event) const;
   void drag(const osg::Vec2& by);
   void click(const osgGA::GUIEventAdapter& event, bool twice);
@@ -42,6 +42,8 @@ class WindowInput : public osgGA::GUIEventHandler {
   bool cameraKey(int key);
   bool pairKey(int key, bool fine);
   bool timeKey(int key);
+  bool jumpKey(int key);
+  void jump(double moment);
 
   Picture& picture_;
   CameraControl& camera_;

@@ -36,7 +36,8 @@ class WindowRenderer final : public Renderer {
     viewer_.addEventHandler(input_);
     viewer_.setSceneData(picture.root());
     std::vector<std::pair<std::string, std::string>> help;
-    for (const HelpLine& line : helpLines(controls)) help.emplace_back(line.keys, line.what);
+    for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
+      help.emplace_back(line.keys, line.what);
     picture.hud().setHelp(help);
     picture.setSize(kWidth, kHeight);
     viewer_.realize();

@@ -216,5 +216,31 @@ TEST_F(Offscreen, ShowsWhatIsAskedFor) {
   EXPECT_THROW(view::ViewModule module(world), InputError);
 }
 
+// Over the last of five seconds thumb and index press with a constant force each; the larger one is the scale's end, so that its line
+// runs along the top of the plot (364 lines above the lower edge) for the last fifth of its width, and the rest is empty.
+TEST_F(Offscreen, PlotsTheLastSeconds) {
+  const std::string file = tempFile("plots.png");
+  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+  world->options.show = {"plots"};
+  {
+    view::ViewModule module(world);
+    Feed feed(module);
+    module.start();
+    for (std::uint64_t i = 0; i <= 60; ++i) {
+      feed.publish(makePinchStates(*world, {0, 0, 0.08}), static_cast<double>(i) / 60);
+      module.step({i, static_cast<double>(i) / 60, 1.0 / 60});
+    }
+    module.stop();
+  }
+  const PngPicture picture(file);
+  const auto line = [&](int x) {  // within two lines of where it should be: it is one line thick, and averaged
+    int most = 0;
+    for (int y = 354; y <= 358; ++y) most = std::max(most, picture.at(x, y).b - picture.at(x, y).r);
+    return most;
+  };
+  for (const int x : {225, 245, 262}) EXPECT_GT(line(x), 60) << x;
+  for (const int x : {60, 120, 200}) EXPECT_LT(line(x), 30) << x;
+}
+
 }  // namespace
 }  // namespace presa::view_test

@@ -3,6 +3,8 @@
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/commands/show_option.h"
+#include "apps/presa/playback/player.h"
 #include "apps/presa/report/recording_page.h"
 #include "framework/plan/load_world.h"
 #include "framework/record/record_plugin.h"
@@ -12,9 +14,29 @@ namespace presa {
 namespace {
 
 struct Arguments {
-  std::string file, page;
+  std::string file, page, view;
+  RunOptions shown;  ///< what of it is to be seen
+  double speed = 1;
   bool verify = false;
 };
+
+/// Where it is to be seen: a window only when asked for, off-screen when a picture or a film is.
+RunOptions::View viewOf(const Arguments& arguments) {
+  if (arguments.view == "window") return RunOptions::View::kWindow;
+  const bool drawn = !arguments.shown.screenshot.empty() || !arguments.shown.video.empty();
+  return arguments.view == "offscreen" || drawn ? RunOptions::View::kOffscreen : RunOptions::View::kNone;
+}
+
+int showRecording(const Arguments& arguments, const Recording& recording, const RecordedSamples& samples) {
+  Diagnostics diagnostics;
+  RunOptions options = arguments.shown;
+  options.view = viewOf(arguments);
+  options.bus = BusSettings{.network = "none"};
+  const Loaded loaded =
+      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  return diagnostics.hasErrors() ? kExitBadInput : play(samples, loaded.world, arguments.speed);
+}
 
 void printFaults(const std::vector<std::string>& faults) {
   for (const std::string& fault : faults) std::printf("  fault at %s\n", fault.c_str());
@@ -33,9 +55,14 @@ int showFlight(const std::string& file, const RecordedSamples& samples) {
 
 int runReplay(const Arguments& arguments) {
   const Recording recording = recordPlugin().read(arguments.file);
-  if (recording.first_tick > 0 || !arguments.page.empty()) {
+  const bool shown = viewOf(arguments) != RunOptions::View::kNone;
+  if (recording.first_tick > 0 || !arguments.page.empty() || shown) {
     const RecordedSamples samples = recordPlugin().samples(arguments.file);
     if (!arguments.page.empty()) writeFileAtomically(arguments.page, recordingPage(arguments.file, samples));
+    if (shown) {
+      const int status = showRecording(arguments, recording, samples);
+      if (status != kExitOk || !arguments.verify) return status;
+    }
     if (recording.first_tick > 0) return showFlight(arguments.file, samples);
   }
   std::printf("%s: scene %s, %zu haptic ticks, %.3f s, seed %llu, %s%s\n", arguments.file.c_str(),
@@ -93,9 +120,21 @@ void addReplay(CLI::App& app, int& status) {
                    "recording made with presa run --record, or the record of a fault (--flight)")
       ->required();
   command->add_flag("--verify", arguments->verify, "compare every commanded force with the recorded one, bit by bit");
+  command
+      ->add_option("--view", arguments->view,
+                   "window: look at it, hold it, move about in it; offscreen: with --screenshot or --video")
+      ->check(CLI::IsMember({"window", "offscreen"}));
+  command->add_option("--speed", arguments->speed, "seconds of the recording in a second of the window (default 1)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--screenshot", arguments->shown.screenshot, "PNG of one moment");
+  command->add_option("--screenshot-at", arguments->shown.screenshot_time, "which moment [s] (default: the end)");
+  command->add_option("--video", arguments->shown.video, "MP4 of all of it, through ffmpeg");
+  addShowOption(*command, arguments->shown.show);
   command->add_option("--page", arguments->page,
                       "forces, penetration, speed and place of every finger as an HTML page");
-  command->footer("Exit status: 0 replayed (and, with --verify, equal), 1 different, 2 not a recording.");
+  command->footer(
+      "Nothing is run again for a view: it shows what was recorded.\nExit status: 0 replayed (and, with --verify, "
+      "equal), 1 different, 2 not a recording.");
   command->callback([arguments, &status] { status = runReplay(*arguments); });
 }
 

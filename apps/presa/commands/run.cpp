@@ -33,12 +33,13 @@ RunOptions::View chooseView(const Arguments& arguments) {
   if (arguments.view == "none") return RunOptions::View::kNone;
   const char* display = std::getenv("DISPLAY");
   if (arguments.options.realtime && display != nullptr && *display != '\0') return RunOptions::View::kWindow;
-  return arguments.options.screenshot.empty() ? RunOptions::View::kNone : RunOptions::View::kOffscreen;
+  return arguments.options.screenshot.empty() && arguments.options.video.empty() ? RunOptions::View::kNone
+                                                                                 : RunOptions::View::kOffscreen;
 }
 
 void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
   for (const std::string& file : {arguments.options.record, arguments.options.flight, arguments.options.screenshot,
-                                  arguments.summary, arguments.report}) {
+                                  arguments.options.video, arguments.summary, arguments.report}) {
     if (file.empty()) continue;
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
@@ -46,9 +47,11 @@ void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
     if (error)
       diagnostics.error(120, {file, 0, 0}, "cannot make the folder " + folder.string() + ": " + error.message());
   }
-  if (arguments.view == "none" && !arguments.options.screenshot.empty()) {
-    diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none",
-                      "use --view offscreen");
+  for (const auto& [option, file] :
+       {std::pair{"--screenshot", arguments.options.screenshot}, {"--video", arguments.options.video}}) {
+    if (arguments.view == "none" && !file.empty())
+      diagnostics.error(121, {option, 0, 0}, "a picture of the run needs a view, found --view none",
+                        "use --view offscreen");
   }
 }
 
@@ -126,6 +129,8 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--screenshot", a->options.screenshot,
                       "PNG of the scene, at the middle of the hold when there is one");
   command->add_option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]");
+  command->add_option("--video", a->options.video,
+                      "MP4 of the run through ffmpeg, 30 pictures for each simulated second");
   command
       ->add_option("--speed", a->speed,
                    "simulated seconds in a second, of a lockstep run with a window (default 1; keys [ and ] change it)")

@@ -1,0 +1,115 @@
+#include "apps/presa/playback/player.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/playback/recorded_moment.h"
+#include "apps/presa/terminal/interruption.h"
+#include "framework/graph/graph_builder.h"
+#include "framework/plan/session.h"
+#include "framework/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+/// Puts the recording where a view looks for a run. Group: view, before it.
+class RecordedSource final : public Module {
+ public:
+  explicit RecordedSource(const RecordedMoment& moment) : Module("recording", RateGroup::kView), moment_(moment) {}
+  void step(const Tick& tick) noexcept override {
+    moment_.fill(tick.time, objects_.value, device_.value, contact_.value, command_.value);
+  }
+
+ private:
+  const RecordedMoment& moment_;
+  Out<ObjectState> objects_{*this, "object_state"};
+  Out<DeviceState> device_{*this, "device_state"};
+  Out<ContactExchange> contact_{*this, "contact_exchange"};
+  Out<ForceCommand> command_{*this, "force_command"};
+};
+
+class Player {
+ public:
+  Player(const RecordedSamples& samples, const std::shared_ptr<const World>& world, double speed)
+      : world_(world), moment_(samples, *world), time_(moment_.begin()) {
+    wish_.speed = speed;
+    GraphBuilder builder;
+    builder.add(std::make_unique<RecordedSource>(moment_));
+    auto view = makeView(world);
+    view_ = view.get();
+    if (windowed()) view_->offerTime(wish_, moment_.end());
+    builder.add(std::move(view));
+    builder.connectByName();
+    graph_ = builder.build();
+  }
+
+  int run() {
+    graph_.start(RateGroup::kView);
+    windowed() ? live() : all();
+    graph_.stop(RateGroup::kView);
+    const View::Screenshot shot = view_->screenshot();
+    if (shot.outcome != View::Screenshot::Outcome::kNotAsked) std::fprintf(stderr, "%s\n", shot.message.c_str());
+    const std::string trouble = view_->videoTrouble();
+    if (!trouble.empty()) std::fprintf(stderr, "no video %s: %s\n", world_->options.video.c_str(), trouble.c_str());
+    return shot.outcome == View::Screenshot::Outcome::kFailed || !trouble.empty() ? kExitFault : kExitOk;
+  }
+
+ private:
+  bool windowed() const { return world_->options.view == RunOptions::View::kWindow; }
+  double period() const { return 1 / world_->scene.rates.view; }
+
+  void step() {
+    graph_.step(RateGroup::kView, {index_, time_, period()});
+    ++index_;
+  }
+  /// Off-screen: what is wanted is drawn as its time comes, so only that need come.
+  void all() {
+    const RunOptions& options = world_->options;
+    if (options.video.empty()) time_ = options.screenshot_time < 0 ? moment_.end() : options.screenshot_time;
+    for (; time_ < moment_.end() && !options.video.empty() && !terminal::Interruption::came(); time_ += period())
+      step();
+    time_ = std::min(time_, moment_.end());
+    step();
+  }
+  void live() {
+    std::int64_t last = monotonicNs();
+    while (!view_->wantsStop() && !terminal::Interruption::came()) {
+      step();
+      sleepUntilNs(last + static_cast<std::int64_t>(period() * 1e9));
+      const std::int64_t now = monotonicNs();
+      advance(static_cast<double>(now - last) * 1e-9);
+      last = now;
+    }
+  }
+  void advance(double seconds) {
+    if (const double moment = wish_.jump_to.exchange(-1); moment >= 0)
+      time_ = moment;
+    else if (!wish_.paused)
+      time_ += wish_.speed * seconds;
+    if (const std::uint32_t steps = wish_.steps; steps != steps_) {
+      time_ += period() * (steps - steps_);
+      steps_ = steps;
+    }
+    if (time_ >= moment_.end()) wish_.paused = true;
+    time_ = std::clamp(time_, moment_.begin(), moment_.end());
+  }
+
+  std::shared_ptr<const World> world_;
+  RecordedMoment moment_;
+  TimeWish wish_;
+  View* view_ = nullptr;  // owned by the graph
+  Graph graph_;
+  double time_;
+  std::uint64_t index_ = 0;
+  std::uint32_t steps_ = 0;
+};
+
+}  // namespace
+
+int play(const RecordedSamples& samples, const std::shared_ptr<const World>& world, double speed) {
+  const terminal::Interruption interruption;
+  return Player(samples, world, speed).run();
+}
+
+}  // namespace presa

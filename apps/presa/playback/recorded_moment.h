@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+
+#include "framework/record/recording.h"
+#include "framework/scene/world.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/device_state.h"
+#include "framework/state/object_state.h"
+
+namespace presa {
+
+/// The states of a recorded run at its ticks, as far as a picture needs them.
+class RecordedMoment {
+ public:
+  /// Both outlive this; the world is that of the recording.
+  RecordedMoment(const RecordedSamples& samples, const World& world);
+
+  double begin() const { return samples_.time.front(); }
+  double end() const { return samples_.time.back(); }
+  /// At the newest tick that is not later.
+  void fill(double time, ObjectState& objects, DeviceState& device, ContactExchange& contacts,
+            ForceCommand& command) const;
+
+ private:
+  /// Columns of one table, found once.
+  using Column = const std::vector<double>*;
+  using Vector = std::array<Column, 3>;
+  struct Finger {
+    Vector p_WH, v_WH, p_WP, p_BP, p_BC, nhat_W, tangential, rendered, command;
+    Column depth, normal, phase, valid, mode, body;
+  };
+  struct Moved {
+    std::size_t body;
+    Vector p_WB, v_WB, w_WB;
+    std::array<Column, 4> q_WB;
+  };
+  void fillFinger(const Finger& finger, std::size_t row, const ObjectState& objects, FingerInput& input,
+                  FingerContact& contact) const;
+
+  const RecordedSamples& samples_;
+  const World& world_;
+  std::vector<Finger> fingers_;
+  std::vector<Moved> moved_;
+};
+
+}  // namespace presa

@@ -1,0 +1,114 @@
+#include "modules/view_osg/video.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "framework/diagnostics/refuse.h"
+
+extern char** environ;
+
+namespace presa::view {
+namespace {
+
+bool isOnPath(const char* program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+  }
+  return false;
+}
+
+/// Without SIGPIPE, which an ffmpeg that ends early would send to the whole run.
+bool writeAll(int pipe, const unsigned char* bytes, std::size_t count) {
+  sigset_t broken, before;
+  sigemptyset(&broken);
+  sigaddset(&broken, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &broken, &before);
+  while (count > 0) {
+    const ssize_t done = ::write(pipe, bytes, count);
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) break;
+    bytes += done;
+    count -= static_cast<std::size_t>(done);
+  }
+  const timespec now{};
+  if (count > 0) sigtimedwait(&broken, nullptr, &now);  // it is pending: taken away before it may be delivered
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return count == 0;
+}
+
+}  // namespace
+
+Video::Video(const std::string& file) : file_(file) {
+  if (!isOnPath("ffmpeg"))
+    refuse(705, "--video", "a video is made by ffmpeg, which is not on the PATH", "install it (Debian: ffmpeg)");
+}
+
+Video::~Video() { finish(); }
+
+void Video::start(int width, int height) {
+  width_ = width, height_ = height;
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    trouble_ = std::string("no pipe to ffmpeg: ") + std::strerror(errno);
+    return;
+  }
+  const std::string size = std::to_string(width) + "x" + std::to_string(height),
+                    rate = std::to_string(std::lround(kRate));
+  // OSG's rows come from below; H.264 with colours at half the resolution asks for even sizes
+  std::array<const char*, 25> words{"ffmpeg",      "-y",         "-loglevel", "error",
+                                    "-f",          "rawvideo",   "-pix_fmt",  "rgb24",
+                                    "-s",          size.c_str(), "-r",        rate.c_str(),
+                                    "-i",          "-",          "-vf",       "vflip,crop=trunc(iw/2)*2:trunc(ih/2)*2",
+                                    "-pix_fmt",    "yuv420p",    "-f",        "mp4",
+                                    file_.c_str(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, const_cast<char**>(words.data()), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[0]);
+  pipe_ = ends[1];
+  if (failed == 0) return;
+  process_ = -1;
+  trouble_ = std::string("ffmpeg cannot be started: ") + std::strerror(failed);
+}
+
+void Video::add(const osg::Image& picture, double time) {
+  if (process_ < 0 && trouble_.empty()) start(picture.s(), picture.t());
+  if (picture.s() != width_ || picture.t() != height_) return;  // the window has another size now
+  while (due(time)) write(picture);
+}
+
+void Video::write(const osg::Image& picture) {
+  ++written_;
+  for (int row = 0; row < height_ && trouble_.empty(); ++row) {
+    if (!writeAll(pipe_, picture.data(0, row), 3 * static_cast<std::size_t>(width_)))
+      trouble_ = "ffmpeg ended before the run";
+  }
+}
+
+std::string Video::finish() {
+  if (pipe_ >= 0) close(std::exchange(pipe_, -1));
+  if (process_ < 0) return trouble_.empty() ? "nothing was drawn" : trouble_;
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  if (trouble_.empty() && (!WIFEXITED(status) || WEXITSTATUS(status) != 0)) trouble_ = "ffmpeg could not write it";
+  return trouble_;
+}
+
+}  // namespace presa::view

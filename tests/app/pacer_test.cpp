@@ -1,0 +1,93 @@
+// What a window's user asks of time, with a view that only counts.
+#include "apps/presa/pacer.h"
+
+#include <gtest/gtest.h>
+
+#include "framework/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+class CountingView final : public View {
+ public:
+  explicit CountingView(TimeWish& wish) : View("counting", RateGroup::kView), wish_(wish) {}
+  void step(const Tick&) noexcept override {}
+  bool wantsStop() const noexcept override { return closed; }
+  std::uint32_t undosWanted() const noexcept override { return 0; }
+  std::uint32_t inputs() const noexcept override { return 0; }
+  Screenshot screenshot() const override { return {}; }
+  std::string videoTrouble() const override { return {}; }
+  void setBanner(const std::string&, bool) override {}
+  void setTimings(const std::array<const GroupTiming*, kRateGroupCount>&) noexcept override {}
+  void offerPointer(const std::vector<std::size_t>&) override {}
+  void offerTime(TimeWish&, double) noexcept override {}
+  void refresh() noexcept override {
+    if (++refreshed == act_at && act != nullptr) act(wish_, *this);
+  }
+  int refreshed = 0, act_at = 5;
+  bool closed = false;
+  void (*act)(TimeWish&, CountingView&) = nullptr;
+
+ private:
+  TimeWish& wish_;
+};
+
+struct Held {
+  TimeWish wish;
+  RunControl control;
+  CountingView counting{wish};
+  View* view = &counting;
+  Pacer pacer{wish, view, control};
+  void step(double time) { pacer.step({static_cast<std::uint64_t>(time * 60), time, 1.0 / 60}); }
+};
+
+// Held, a step waits for the user and draws meanwhile; it goes on with a single step, with the end of the hold, with the window's end.
+TEST(Pacer, AHeldRunWaitsForItsUser) {
+  for (const auto act :
+       {+[](TimeWish&wish, CountingView&) { ++wish.steps; }, +[](TimeWish&wish, CountingView&) { wish.paused = false; },
+        +[](TimeWish&, CountingView&view) { view.closed = true; }}) {
+    Held held;
+    held.wish.paused = true;
+    held.counting.act = act;
+    held.step(1);
+    EXPECT_EQ(held.counting.refreshed, held.counting.act_at);
+  }
+}
+
+// Two steps asked for are two steps made, and no third.
+TEST(Pacer, MakesAsManyStepsAsWereAskedFor) {
+  Held held;
+  held.wish.paused = true;
+  held.wish.steps = 2;
+  held.counting.act = [](TimeWish&, CountingView& view) { view.closed = true; };
+  held.step(1);
+  held.step(2);
+  EXPECT_EQ(held.counting.refreshed, 0);
+  held.step(3);
+  EXPECT_EQ(held.counting.refreshed, held.counting.act_at);
+}
+
+// Never faster than asked: 0.1 s at a quarter of the speed are at least 0.4 s of the clock, and the window is drawn meanwhile.
+TEST(Pacer, SlowMotionTakesItsTime) {
+  Held held;
+  held.wish.speed = 0.25;
+  const std::int64_t begin = monotonicNs();
+  for (int i = 0; i <= 6; ++i) held.step(i / 60.0);
+  EXPECT_GE(static_cast<double>(monotonicNs() - begin) * 1e-9, 0.4 - 1e-3);
+  EXPECT_GT(held.counting.refreshed, 5);
+}
+
+// What was late by much is not made up for: afterwards it keeps pace again.
+TEST(Pacer, DoesNotRunAfterAStall) {
+  Held held;
+  held.step(0);
+  sleepUntilNs(monotonicNs() + 300'000'000);
+  held.step(0.01);
+  const std::int64_t begin = monotonicNs();
+  held.step(0.02);
+  held.step(0.06);
+  EXPECT_GE(static_cast<double>(monotonicNs() - begin) * 1e-9, 0.04 - 1e-3);
+}
+
+}  // namespace
+}  // namespace presa
