@@ -49,7 +49,7 @@ void ViewModule::start() {
     picture_ = std::make_unique<Picture>(world_);
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
     renderer_ = windowed() ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
-                                                {pointer_ ? &*pointer_ : nullptr, time_})
+                                                {pointer_ ? &*pointer_ : nullptr, time_, guide_.has_value()})
                            : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
