@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kTowardsTop = 0.75;  // of half the height: a body that is taken there hangs with its top up
 constexpr double kSafety = 2.5;       // of the grip over the least that carries
-constexpr double kLeastGrip = 0.5, kMostGrip = 6;  // [N]
-constexpr double kLevel = 0.6;                     // sine
+constexpr double kLeastGrip = 0.5;    // [N]
+constexpr double kLevel = 0.6;        // sine
 
 Vec3 level(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }
 

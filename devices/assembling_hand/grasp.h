@@ -14,6 +14,8 @@ struct Grasp {
   double force = 0;          ///< of each finger [N]
 };
 
+inline constexpr double kMostGrip = 6;  ///< of each finger [N]
+
 /// Half of what a physics geometry measures along the unit direction `n_G`, in its own frame [m].
 double halfWidth(const Shape& shape, const TriMesh* mesh, const Vec3& n_G);
 /// The same of body `i`, along `n_B` in the body's frame.

@@ -20,13 +20,14 @@ constexpr double kFirm =
     1.6;  // of the grip, while one on its head is shaken: it falls into the fingers, not out of them
 constexpr double kHangs = 0.3;  // no more askew than this it may be put down [rad]
 constexpr int kMostShakes = 8;
+constexpr int kTips = 4;                              // steps of a quarter turn
 constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
 constexpr double kJerkBy = 0.08;                      // one on its head: 7.4 m/s^2
-constexpr double kInHand = 0.012;       // a body is held while its spot stays this near to the fingers [m]
-constexpr double kMoved = 0.004;        // a body that moved by more is aimed at again [m]
-constexpr double kPause = 0.5;          // to look again [s]
-constexpr double kTried = 2, kGap = 6;  // what a try in vain, and a place left open between two, weigh in a choice
-constexpr double kInLine = 1e-3;        // [m]
+constexpr double kInHand = 0.012;  // a body is held while its spot stays this near to the fingers [m]
+constexpr double kMoved = 0.004;   // a body that moved by more is aimed at again [m]
+constexpr double kPause = 0.5;     // to look again [s]
+constexpr double kGap = 6;         // what a place left open between two weighs in a choice
+constexpr double kInLine = 1e-3;   // [m]
 
 double yawOf(const Vec3& a_W) { return std::atan2(a_W.y(), a_W.x()); }
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
@@ -49,7 +50,7 @@ Planner::Planner(std::shared_ptr<const World> world, double fingertip)
       half[axis] = halfWidth(body.physics->shape, world_->meshes[i].physics.get(), Vec3::Unit(axis));
     size_.push_back(half.norm());
   }
-  tries_.resize(world_->scene.bodies.size());
+  trials_.resize(world_->scene.bodies.size());
   from_.centre = to_.centre = {0, 0, 0.3};
   from_.gap = to_.gap = 0.05;
 }
@@ -132,7 +133,6 @@ void Planner::look(const ObjectState& objects) noexcept {
   if (!found_) return go(kLook, to, kPause);
   goal_ = best_.goal;
   body_ = best_.body;
-  ++tries_[body_];
   to.centre.z() = std::max(to.centre.z(), clearHeight(objects));
   goAt(kRise, to, kFast);
 }
@@ -144,8 +144,8 @@ void Planner::consider(std::size_t goal, const ObjectState& objects) noexcept {
   const double gap = leavesGap(goal, objects) ? kGap : 0;
   for (const std::size_t body : place.bodies) {
     if (isPlaced(body, objects)) continue;
-    Choice choice = chooser_.weigh(objects, goal, body, to_.centre, to_.yaw);
-    choice.effort += kTried * tries_[choice.body] + gap;
+    Choice choice = chooser_.weigh(objects, goal, body, to_.centre, to_.yaw, trials_);
+    choice.effort += gap;
     if (found_ && choice.effort >= best_.effort) continue;
     if (isPlaced(choice.body, objects)) continue;  // lies on the other
     found_ = true;
@@ -172,12 +172,14 @@ bool Planner::leavesGap(std::size_t goal, const ObjectState& objects) const noex
 }
 
 void Planner::takeAim(const ObjectState& objects) noexcept {
-  const Choice choice = chooser_.weigh(objects, goal_, wanted_, to_.centre, to_.yaw);
+  const Choice choice = chooser_.weigh(objects, goal_, wanted_, to_.centre, to_.yaw, trials_);
   if (isPlaced(choice.body, objects)) return letGo();
   body_ = choice.body;
   grasp_ = choice.grasp;
   only_moves_ = choice.only_moves;
   tips_over_ = choice.tips_over;
+  tips_ = 0;
+  trials_[body_] = {trials_[body_].count + 1, grasp_.a_B, only_moves_};
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);
@@ -245,16 +247,22 @@ void Planner::shake(double by) noexcept {
 // Hanging from loose fingers, or held firmly as long as it is on its head.
 double Planner::swingingGrip(const ObjectState& objects) const noexcept {
   if (isOnItsHead(objects) && !only_moves_) return kFirm * grasp_.force;
-  return (kLoose + kLessLoose * ((tries_[body_] - 1) % 3)) * grasp_.force;
+  return (kLoose + kLessLoose * ((trials_[body_].count - 1) % 3)) * grasp_.force;
 }
 
-// It hangs from an edge, with the other on the ground: laid down so that its top comes up.
+// It stands on an edge: laid down so that its top comes up, along the circle about that edge.
 void Planner::tipOver(const ObjectState& objects) noexcept {
-  const Quat& q_WG = world_->scene.assembly->goals[goal_].X_WB.q;
-  const Vec3 top_W = objects.bodies[body_].X_WB_end.q * (q_WG.conjugate() * Vec3::UnitZ());
+  if (tips_ == 0) {
+    const Quat& q_WG = world_->scene.assembly->goals[goal_].X_WB.q;
+    const Vec3 top_W = objects.bodies[body_].X_WB_end.q * (q_WG.conjugate() * Vec3::UnitZ());
+    tip_along_ = -Vec3(top_W.x(), top_W.y(), 0).normalized();
+    tip_about_ = to_.centre;
+    tip_about_.z() = Chooser::kOverGround * fingertip_;
+    tip_high_ = to_.centre.z() - tip_about_.z();
+  }
+  const double angle = kPi / 2 * ++tips_ / kTips;
   PairTarget to = to_;
-  const double high = to_.centre.z() - Chooser::kOverGround * fingertip_;
-  to.centre -= high * (Vec3(top_W.x(), top_W.y(), 0).normalized() + Vec3::UnitZ());
+  to.centre = tip_about_ + tip_high_ * (std::sin(angle) * tip_along_ + std::cos(angle) * Vec3::UnitZ());
   goAt(kTip, to, kSlow);
 }
 
@@ -323,9 +331,8 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kHover:
       return lower(objects);
     case kLower:
-      if (tips_over_) return tipOver(objects);
-      [[fallthrough]];
     case kTip:
+      if (tips_over_ && tips_ < kTips) return tipOver(objects);
       to.grip = 0;
       to.gap = openGap();
       return go(kOpen, to, 0.5);

@@ -83,8 +83,8 @@ class Planner {
   std::shared_ptr<const World> world_;
   const double fingertip_;
   const Chooser chooser_;
-  std::vector<double> size_;  // by body: from its centre to its farthest corner [m]
-  std::vector<int> tries_;    // by body
+  std::vector<double> size_;   // by body: from its centre to its farthest corner [m]
+  std::vector<Trial> trials_;  // by body
   Phase phase_ = kLook;
   PairTarget from_, to_;
   double begin_ = 0, end_ = 0, now_ = 0;
@@ -97,6 +97,9 @@ class Planner {
   Grasp grasp_;
   bool only_moves_ = false, tips_over_ = false;
   int shakes_ = 0;
+  int tips_ = 0;
+  Vec3 tip_along_ = Vec3::Zero(), tip_about_ = Vec3::Zero();
+  double tip_high_ = 0;
 };
 
 }  // namespace presa::assembling

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace presa::assembling {
 namespace {
 
@@ -14,7 +16,7 @@ Quat turn(double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle,
 class Table {
  public:
   explicit Table(const Vec3& size, std::vector<Pose> poses, const Vec3& place) {
-    world_.scene.materials.emplace_back();
+    world_.scene.materials.emplace_back().friction_dynamic = 0.6;
     world_.scene.assembly.emplace();
     world_.scene.assembly->goals.emplace_back();
     world_.scene.assembly->goals[0].bodies = {0};
@@ -32,8 +34,13 @@ class Table {
     objects_.count = static_cast<std::int32_t>(poses.size());
   }
 
-  Choice weigh() const { return Chooser(world_, kFingertip, kOpening).weigh(objects_, 0, 0, Vec3(0, 0, 0.3), 0); }
+  Choice weigh(const Trial& before = {}) const {
+    std::vector<Trial> trials(world_.scene.bodies.size());
+    trials[0] = before;
+    return Chooser(world_, kFingertip, kOpening).weigh(objects_, 0, 0, Vec3(0, 0, 0.3), 0, trials);
+  }
   Vec3 line(const Choice& choice) const { return objects_.bodies[choice.body].X_WB_end.q * choice.grasp.a_B; }
+  double friction() const { return world_.scene.materials[0].friction_dynamic; }
   Surroundings surroundings() const { return Surroundings(world_); }
   const ObjectState& objects() const { return objects_; }
 
@@ -80,6 +87,21 @@ TEST(Choice, AFlatBlockOnItsHeadIsTippedOverAndTakenAsLowAsFingersGet) {
   const Vec3 p_W = table.objects().bodies[0].X_WB_end * choice.grasp.p_BC;
   EXPECT_NEAR(p_W.z(), Chooser::kOverGround * kFingertip, 1e-12);
   EXPECT_NEAR(p_W.head<2>().norm(), 0.75 * 0.03, 1e-12) << "near an edge, so that it hangs from it";
+}
+
+TEST(Choice, WhatWasInVainIsTriedOtherwise) {
+  const Table table(kSize, {{{0, 0, 0.02}, Quat::Identity()}}, kFarAway);
+  const Choice first = table.weigh();
+  const Choice second = table.weigh({1, first.grasp.a_B, first.only_moves});
+  EXPECT_NEAR(first.grasp.a_B.dot(second.grasp.a_B), 0, 1e-12);
+}
+
+// A plate of 9 mm under fingertips of 8 mm: held by its edge, 0.6 of the normal force must also lift it against what presses it down.
+TEST(Choice, APlateLowerThanTheFingertipsIsHeldHarder) {
+  const Table flat({0.06, 0.03, 0.006}, {{{0, 0, 0.003}, Quat::Identity()}}, kFarAway);
+  const Table high({0.06, 0.03, 0.04}, {{{0, 0, 0.02}, Quat::Identity()}}, kFarAway);
+  const double over = (Chooser::kOverGround * kFingertip - 0.006) / kFingertip, mu = high.friction();
+  EXPECT_NEAR(flat.weigh().grasp.force / high.weigh().grasp.force, mu / (mu * std::sqrt(1 - over * over) - over), 1e-9);
 }
 
 TEST(Surroundings, ABallIsFreeUntilItTouchesABox) {
