@@ -124,8 +124,8 @@ Choice Chooser::weigh(const ObjectState& objects, std::size_t goal, std::size_t 
                       std::span<const Trial> trials) const noexcept {
   Choice best{goal, body, {}, true, false, std::numeric_limits<double>::infinity()};
   const std::size_t cover = surroundings_.coverOf(objects, body);
-  const std::size_t occupant =
-      surroundings_.bodyAt(objects, world_.scene.assembly->goals[goal].X_WB.p, kOccupied, body);
+  std::size_t occupant = surroundings_.bodyAt(objects, world_.scene.assembly->goals[goal].X_WB.p, kOccupied, body);
+  if (occupant != Surroundings::kNothing && trials[occupant].placed) occupant = Surroundings::kNothing;  // only near
   std::size_t in_the_way = Surroundings::kNothing;
   const double effort = kWay * (objects.bodies[body].X_WB_end.p - p_W).head<2>().norm() +
                         (cover == Surroundings::kNothing ? 0 : kCovered);
@@ -133,7 +133,7 @@ Choice Chooser::weigh(const ObjectState& objects, std::size_t goal, std::size_t 
                 trials);
   weighMoving(best, objects, goal, body, effort + kInVain, yaw, trials);
   for (const std::size_t other : {cover, occupant, in_the_way}) {
-    if (other == Surroundings::kNothing || world_.scene.bodies[other].fixed) continue;
+    if (other == Surroundings::kNothing || world_.scene.bodies[other].fixed || trials[other].placed) continue;
     if (surroundings_.coverOf(objects, other) == Surroundings::kNothing)
       weighMoving(best, objects, goal, other, 0, yaw, trials);
   }

@@ -20,6 +20,7 @@ struct Trial {
   int count = 0;
   Vec3 a_B = Vec3::Zero();  ///< the last grasp's line
   bool only_moves = false;
+  bool placed = false;  ///< stands where it belongs, and is left there
 };
 
 /// Weighs what two fingers would have to put up with. Thread: any one; no memory after construction.

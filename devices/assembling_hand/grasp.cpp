@@ -46,7 +46,12 @@ double halfWidth(const World& world, std::size_t i, const Vec3& n_B) {
 }
 
 double outTo(const World& world, std::size_t i, const Vec3& n_B) {
-  const double half = halfWidth(world, i, n_B);
+  double half = halfWidth(world, i, n_B);
+  if (const Box* box = std::get_if<Box>(&world.scene.bodies[i].physics->shape)) {
+    const Vec3 n_G = world.scene.bodies[i].physics->X_BG.q.conjugate() * n_B;
+    for (int axis = 0; axis < 3; ++axis)
+      half = std::min(half, box->size[axis] / 2 / std::max(1e-9, std::abs(n_G[axis])));
+  }
   const TriMesh* mesh = world.meshes[i].physics.get();
   if (!std::holds_alternative<MeshRef>(world.scene.bodies[i].physics->shape) || mesh == nullptr) return half;
   const Pose& X_BG = world.scene.bodies[i].physics->X_BG;

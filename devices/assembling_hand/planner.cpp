@@ -125,6 +125,7 @@ void Planner::look(const ObjectState& objects) noexcept {
   if (phase_ != kLook || looked_at_ == goals) {
     looked_at_ = 0;
     found_ = false;
+    for (std::size_t i = 0; i < trials_.size(); ++i) trials_[i].placed = isPlaced(i, objects);
   }
   consider(looked_at_++, objects);
   PairTarget to = to_;
@@ -143,11 +144,10 @@ void Planner::consider(std::size_t goal, const ObjectState& objects) noexcept {
   if (!std::ranges::all_of(place.after, [&](std::size_t before) { return isFilled(before, objects); })) return;
   const double gap = leavesGap(goal, objects) ? kGap : 0;
   for (const std::size_t body : place.bodies) {
-    if (isPlaced(body, objects)) continue;
+    if (trials_[body].placed) continue;
     Choice choice = chooser_.weigh(objects, goal, body, to_.centre, to_.yaw, trials_);
     choice.effort += gap;
     if (found_ && choice.effort >= best_.effort) continue;
-    if (isPlaced(choice.body, objects)) continue;  // lies on the other
     found_ = true;
     best_ = choice;
     wanted_ = body;
@@ -173,13 +173,12 @@ bool Planner::leavesGap(std::size_t goal, const ObjectState& objects) const noex
 
 void Planner::takeAim(const ObjectState& objects) noexcept {
   const Choice choice = chooser_.weigh(objects, goal_, wanted_, to_.centre, to_.yaw, trials_);
-  if (isPlaced(choice.body, objects)) return letGo();
   body_ = choice.body;
   grasp_ = choice.grasp;
   only_moves_ = choice.only_moves;
   tips_over_ = choice.tips_over;
   tips_ = 0;
-  trials_[body_] = {trials_[body_].count + 1, grasp_.a_B, only_moves_};
+  trials_[body_] = {trials_[body_].count + 1, grasp_.a_B, only_moves_, false};
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);

@@ -34,9 +34,10 @@ class Table {
     objects_.count = static_cast<std::int32_t>(poses.size());
   }
 
-  Choice weigh(const Trial& before = {}) const {
+  Choice weigh(const Trial& before = {}, const Trial& other = {}) const {
     std::vector<Trial> trials(world_.scene.bodies.size());
     trials[0] = before;
+    if (trials.size() > 2) trials[1] = other;
     return Chooser(world_, kFingertip, kOpening).weigh(objects_, 0, 0, Vec3(0, 0, 0.3), 0, trials);
   }
   Vec3 line(const Choice& choice) const { return objects_.bodies[choice.body].X_WB_end.q * choice.grasp.a_B; }
@@ -87,6 +88,12 @@ TEST(Choice, AFlatBlockOnItsHeadIsTippedOverAndTakenAsLowAsFingersGet) {
   const Vec3 p_W = table.objects().bodies[0].X_WB_end * choice.grasp.p_BC;
   EXPECT_NEAR(p_W.z(), Chooser::kOverGround * kFingertip, 1e-12);
   EXPECT_NEAR(p_W.head<2>().norm(), 0.75 * 0.03, 1e-12) << "near an edge, so that it hangs from it";
+}
+
+// The box about a placed wedge reaches into the place of the tile above it.
+TEST(Choice, WhatIsPlacedIsNotMoved) {
+  const Table table(kSize, {{{0, 0, 0.02}, Quat::Identity()}, {kFarAway, Quat::Identity()}}, kFarAway);
+  EXPECT_EQ(table.weigh({}, {.placed = true}).body, 0U);
 }
 
 TEST(Choice, WhatWasInVainIsTriedOtherwise) {

@@ -71,6 +71,8 @@ TEST(Grasp, OfAWedgeIsWithinIt) {
   EXPECT_NEAR(outTo(world, 0, Vec3::UnitZ()), 0.005, 1e-12);
   EXPECT_NEAR(outTo(world, 0, -Vec3::UnitZ()), 0.01, 1e-12);
   EXPECT_NEAR(outTo(block(), 0, Vec3::UnitZ()), 0.03, 1e-12);
+  const double lean = 0.2;  // of a box's top, as on a roof
+  EXPECT_NEAR(outTo(block(), 0, {std::sin(lean), 0, std::cos(lean)}), 0.03 / std::cos(lean), 1e-12);
 }
 
 }  // namespace
