@@ -31,7 +31,11 @@ bool Pacer::due(double time) noexcept {
   steps_ = wish_.steps;
   const std::int64_t now = monotonicNs();
   const double speed = wish_.speed;
-  if (speed != speed_) speed_ = speed, anchor_time_ = time, anchor_ns_ = now;
+  if (speed != speed_) {
+    speed_ = speed;
+    anchor_time_ = time;
+    anchor_ns_ = now;
+  }
   const std::int64_t at = anchor_ns_ + static_cast<std::int64_t>((time - anchor_time_) / speed * 1e9);
   if (at - now > kFrame) {  // slow motion: the window lives on meanwhile
     sleepUntilNs(now + kFrame);

@@ -60,7 +60,6 @@ class Planner {
   void look(const ObjectState& objects) noexcept;
   void consider(std::size_t goal, const ObjectState& objects) noexcept;
   bool leavesGap(std::size_t goal, const ObjectState& objects) const noexcept;
-  void aim(const ObjectState& objects, const Choice& choice) noexcept;
   void takeAim(const ObjectState& objects) noexcept;
   void moveAside(const ObjectState& objects) noexcept;
   void letGo() noexcept;

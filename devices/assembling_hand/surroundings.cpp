@@ -54,10 +54,6 @@ std::size_t Surroundings::bodyAt(const ObjectState& objects, const Vec3& p_W, do
   return kNothing;
 }
 
-bool Surroundings::isFree(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept {
-  return bodyAt(objects, p_W, radius, but) == kNothing;
-}
-
 std::size_t Surroundings::coverOf(const ObjectState& objects, std::size_t body) const noexcept {
   const Bounds& bounds = bounds_[body];
   const Pose X_WG = objects.bodies[body].X_WB_end * bounds.X_BG;

@@ -12,9 +12,7 @@ class Surroundings {
  public:
   explicit Surroundings(const World& world);
 
-  /// Whether a ball is clear of every body except `but`.
-  bool isFree(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept;
-  /// A body in such a ball, or kNothing.
+  /// A body other than `but` in that ball, or kNothing.
   std::size_t bodyAt(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept;
   /// What lies on `body`: another body, or kNothing.
   std::size_t coverOf(const ObjectState& objects, std::size_t body) const noexcept;

@@ -5,28 +5,26 @@
 #include <memory>
 
 #include "experiments/faults/fault.h"
+#include "framework/device/wrapped_device.h"
 #include "framework/study/study_run.h"
 #include "framework/study/yielding_finger.h"
 
 namespace presa::faults {
 
 /// A finger whose device may be made to fail.
-class FailingDevice final : public Device {
+class FailingDevice final : public WrappedDevice {
  public:
   /// Changes the sample that is due at that time [s] before anybody sees it.
   using Failure = std::function<void(double time, FingerInput& sample)>;
   FailingDevice(std::unique_ptr<Device> device, Failure failure)
-      : device_(std::move(device)), failure_(std::move(failure)) {}
+      : WrappedDevice(std::move(device)), failure_(std::move(failure)) {}
   FingerInput read(const Tick& tick) noexcept override {
-    FingerInput sample = device_->read(tick);
+    FingerInput sample = inner().read(tick);
     if (failure_) failure_(tick.time, sample);
     return sample;
   }
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override { device_->write(f_H_W, tick); }
-  double damping() const override { return device_->damping(); }
 
  private:
-  std::unique_ptr<Device> device_;
   Failure failure_;
 };
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "framework/device/device_modules.h"
+#include "framework/device/wrapped_device.h"
 
 namespace presa::faults {
 
@@ -14,21 +15,18 @@ struct Meter {
 };
 
 /// A driver with a meter on its wire.
-class MeteredDevice final : public Device {
+class MeteredDevice final : public WrappedDevice {
  public:
-  MeteredDevice(std::unique_ptr<Device> device, Meter& meter) : device_(std::move(device)), meter_(meter) {}
-  FingerInput read(const Tick& tick) noexcept override { return device_->read(tick); }
+  MeteredDevice(std::unique_ptr<Device> device, Meter& meter) : WrappedDevice(std::move(device)), meter_(meter) {}
   void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
     const double force = f_H_W.norm();
     meter_.largest = force > meter_.largest || !(force == force) ? force : meter_.largest;
     meter_.largest_step = std::max(meter_.largest_step, (f_H_W - meter_.force).norm());
     meter_.force = f_H_W;
-    device_->write(f_H_W, tick);
+    inner().write(f_H_W, tick);
   }
-  double damping() const override { return device_->damping(); }
 
  private:
-  std::unique_ptr<Device> device_;
   Meter& meter_;
 };
 

@@ -4,21 +4,20 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "framework/device/wrapped_device.h"
+
 namespace presa {
 namespace {
 
 constexpr double kRounding = 1e-9;
 
-class TransportWatch final : public Device {
+class TransportWatch final : public WrappedDevice {
  public:
   TransportWatch(std::unique_ptr<Device> device, const OutputLimits& limits, const RunControl& control)
-      : device_(std::move(device)), limits_(limits), control_(control) {}
-
-  void open() override { device_->open(); }
-  void close() noexcept override { device_->close(); }
+      : WrappedDevice(std::move(device)), limits_(limits), control_(control) {}
 
   FingerInput read(const Tick& tick) noexcept override {
-    const FingerInput input = device_->read(tick);
+    const FingerInput input = inner().read(tick);
     const std::uint32_t rearms = control_.rearms.load(std::memory_order_relaxed);
     if (rearms != rearms_) lost_for_ = 0, usable_ = false;
     rearms_ = rearms;
@@ -40,21 +39,8 @@ class TransportWatch final : public Device {
     if (tick.resumed && force > 0) fail("came right after a gap", force, 0, tick);
     if (lost_for_ > down && force > 0) fail("outlived the device", force, 0, tick);
     sent_ = f;
-    device_->write(f, tick);
+    inner().write(f, tick);
   }
-
-  void rearm() noexcept override { device_->rearm(); }
-  void reopen(const std::atomic<bool>& stop) override { device_->reopen(stop); }
-  bool looks() const override { return device_->looks(); }
-  void see(const ObjectState& objects, const Tick& tick) noexcept override { device_->see(objects, tick); }
-  bool points() const override { return device_->points(); }
-  void point(const PointerState& pointer, const Tick& tick) noexcept override { device_->point(pointer, tick); }
-  std::string model() const override { return device_->model(); }
-  std::vector<DeviceFact> facts() const override { return device_->facts(); }
-  std::vector<std::string> phases() const override { return device_->phases(); }
-  std::vector<double> phaseTimes() const override { return device_->phaseTimes(); }
-  double damping() const override { return device_->damping(); }
-  std::vector<std::string> notes() const override { return device_->notes(); }
 
  private:
   [[noreturn]] static void fail(const char* what, double found, double allowed, const Tick& tick) noexcept {
@@ -63,7 +49,6 @@ class TransportWatch final : public Device {
     std::abort();
   }
 
-  std::unique_ptr<Device> device_;
   OutputLimits limits_;
   const RunControl& control_;
   Vec3 sent_ = Vec3::Zero();

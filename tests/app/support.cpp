@@ -5,20 +5,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include "apps/presa/file_text.h"
 
 namespace presa::test {
-namespace {
-
-std::string contents(const std::string& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-}  // namespace
 
 std::string scratch(const std::string& name) {
   const auto folder = std::filesystem::temp_directory_path() / ("presa_app_" + std::to_string(::getpid()));
@@ -40,7 +30,7 @@ std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::s
 Outcome shell(const std::string& command) {
   const std::string out = scratch("stdout"), err = scratch("stderr");
   const int status = std::system((command + " >" + out + " 2>" + err).c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentsOf(out), contentsOf(err)};
 }
 
 Outcome presa(const std::string& arguments) { return shell(std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments); }

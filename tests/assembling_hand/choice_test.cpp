@@ -114,9 +114,9 @@ TEST(Choice, APlateLowerThanTheFingertipsIsHeldHarder) {
 TEST(Surroundings, ABallIsFreeUntilItTouchesABox) {
   const Table table(kSize, {{{0, 0, 0.02}, turn(EIGEN_PI / 2, Vec3::UnitZ())}}, kFarAway);
   const Surroundings around = table.surroundings();
-  EXPECT_TRUE(around.isFree(table.objects(), {0.0251, 0, 0.02}, 0.01, 9));
-  EXPECT_FALSE(around.isFree(table.objects(), {0.0249, 0, 0.02}, 0.01, 9));
-  EXPECT_TRUE(around.isFree(table.objects(), {0.0249, 0, 0.02}, 0.01, 0)) << "but that one";
+  EXPECT_EQ(around.bodyAt(table.objects(), {0.0251, 0, 0.02}, 0.01, 9), Surroundings::kNothing);
+  EXPECT_EQ(around.bodyAt(table.objects(), {0.0249, 0, 0.02}, 0.01, 9), 0U);
+  EXPECT_EQ(around.bodyAt(table.objects(), {0.0249, 0, 0.02}, 0.01, 0), Surroundings::kNothing) << "but that one";
 }
 
 TEST(Surroundings, ABodyIsPutALittleAwayFromItsNeighbourAndInTheMiddleOfTwo) {

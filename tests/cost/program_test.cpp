@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/presa/file_text.h"
 #include "tests/app/support.h"
 
 namespace presa {
@@ -19,13 +20,7 @@ using test::source;
 const std::string kCube = source("config/scenes/cube.xml");
 const std::string kSmall = "cost " + kCube + " --for 2.5 --knob dynamics_rate=100,200 --knob coupling=soft,explicit ";
 
-std::string contents(const std::string& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-nlohmann::json readJson(const std::string& file) { return nlohmann::json::parse(contents(file)); }
+nlohmann::json readJson(const std::string& file) { return nlohmann::json::parse(contentsOf(file)); }
 
 // Everything wrong is told at once, with the nearest name, and nothing is run or written.
 TEST(Cost, RefusesBadInputBeforeAnyWork) {
@@ -78,9 +73,9 @@ TEST(Cost, WritesWhatItPromises) {
       EXPECT_GT(setting.at("error").at("force_rms").get<double>(), 0);
     }
   }
-  const std::string csv = contents(out + "/cost.csv");
+  const std::string csv = contentsOf(out + "/cost.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
-  EXPECT_NE(contents(out + "/report.html").find("In words"), std::string::npos);
+  EXPECT_NE(contentsOf(out + "/report.html").find("In words"), std::string::npos);
 }
 
 // The same study interrupted, resumed, and never interrupted gives the same errors; what was done is kept.
@@ -114,7 +109,7 @@ TEST(Cost, TheReportWorksInABrowser) {
   if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
   const std::string out = scratch("page");
   ASSERT_EQ(presa(kSmall + "--out " + out).status, 0);
-  std::string page = contents(out + "/report.html");
+  std::string page = contentsOf(out + "/report.html");
   EXPECT_EQ(page.find("http://"), std::string::npos);
   EXPECT_EQ(page.find("https://"), std::string::npos);
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 namespace presa::experiment::bids {
@@ -59,14 +58,9 @@ int Table::column(const std::string& name) const {
   return -1;
 }
 
-std::string textOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 Table readTsv(const std::filesystem::path& file, bool header) {
   Table table;
-  for (const std::string& line : split(textOf(file), '\n')) {
+  for (const std::string& line : split(contentsOf(file), '\n')) {
     std::vector<std::string> cells = split(line + "\t", '\t');
     if (header && table.header.empty())
       table.header = std::move(cells);
@@ -76,7 +70,7 @@ Table readTsv(const std::filesystem::path& file, bool header) {
   return table;
 }
 
-Json readJson(const std::filesystem::path& file) { return Json::parse(textOf(file), nullptr, false); }
+Json readJson(const std::filesystem::path& file) { return Json::parse(contentsOf(file), nullptr, false); }
 
 bool isNumber(const std::string& cell) {
   char* end = nullptr;

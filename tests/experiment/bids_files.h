@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/presa/file_text.h"
+
 /// A dataset's files taken apart, for the rules.
 namespace presa::experiment::bids {
 
@@ -34,7 +36,6 @@ struct Table {
   /// Place of a column; -1: there is none.
   int column(const std::string& name) const;
 };
-std::string textOf(const std::filesystem::path& file);
 /// Without a header every line is a row.
 Table readTsv(const std::filesystem::path& file, bool header);
 /// null when it is not JSON.

@@ -72,7 +72,7 @@ class Rules {
         !json["GeneratedBy"][0].contains("Name"))
       find("dataset_description.json", "GeneratedBy is not a list of objects with a Name");
     if (json.contains("Authors") && !json["Authors"].is_array()) find("dataset_description.json", "Authors is no list");
-    if (textOf(root_ / "README").size() <= 150) find("README", "general.yaml README_FILE_SMALL");
+    if (contentsOf(root_ / "README").size() <= 150) find("README", "general.yaml README_FILE_SMALL");
   }
 
   /// common-principles "Dotfiles", "Case collision intolerance", "File format specification".

@@ -46,7 +46,7 @@ class TableRules {
 
   /// common-principles "Tabular files".
   void checkTable(const File& file) {
-    const std::string text = textOf(file.path);
+    const std::string text = contentsOf(file.path);
     if (text.find('\r') != std::string::npos || !text.ends_with("\n")) find(file, "Tabular files: line ends");
     const Table table = readTsv(file.path, true);
     if (table.rows.empty()) find(file, "Compulsory: an empty file should be left out");

@@ -1,16 +1,11 @@
 #pragma once
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 
-namespace presa::experiment {
+#include "apps/presa/file_text.h"
 
-inline std::string contentsOf(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+namespace presa::experiment {
 
 /// Every file below a folder.
 inline std::map<std::string, std::string> allBytesOf(const std::string& folder) {

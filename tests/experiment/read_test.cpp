@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <unistd.h>
-#include <filesystem>
 
+#include <filesystem>
 #include <fstream>
 
 #include "framework/experiment/order.h"
 #include "framework/experiment/read.h"
+#include "tests/experiment/contents.h"
 
 namespace presa::experiment {
 namespace {
@@ -17,17 +18,12 @@ using testing::HasSubstr;
 
 const std::string kGrip = std::string(PRESA_SOURCE_DIR) + "/experiments/grip_slip/experiment.xml";
 
-std::string textOf(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// The shipped experiment with one thing changed, and what is said about it.
 class Changed : public testing::Test {
  protected:
   ~Changed() override { fs::remove(file_); }
   std::string findings(const std::string& from, const std::string& to) {
-    std::string text = textOf(kGrip);
+    std::string text = contentsOf(kGrip);
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     if (at != std::string::npos) text.replace(at, from.size(), to);
@@ -117,7 +113,7 @@ TEST_F(Changed, ReactionOfNoPhase) {
 }
 
 TEST_F(Changed, EverythingAtOnce) {
-  std::string text = textOf(kGrip);
+  std::string text = contentsOf(kGrip);
   const std::string all = findings("until=\"signal\"", "until=\"signl\" abort=\"cube.lft &lt; 0\"");
   EXPECT_THAT(all, HasSubstr("signl"));
   EXPECT_THAT(all, HasSubstr("cube.lft"));

@@ -1,17 +1,13 @@
 // The pair in shipped scenes, in lockstep, moved by states that a test writes in the view's place.
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "apps/presa/scratch_folder.h"
 #include "framework/record/record_plugin.h"
 #include "framework/record/replay.h"
+#include "tests/app/support.h"
 #include "tests/support/shipped_rig.h"
 
 namespace presa {
@@ -120,22 +116,12 @@ TEST(PointerScene, IsNotInTheGraphOfOtherRigs) {
   EXPECT_FALSE(hasPointer(session));
 }
 
-/// Status of the program and what it complained about.
-std::pair<int, std::string> presa(const std::string& arguments) {
-  const ScratchFolder scratch;
-  const int status = std::system(
-      (std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments + " > /dev/null 2> " + scratch.file("err")).c_str());
-  std::stringstream text;
-  text << std::ifstream(scratch.file("err")).rdbuf();
-  return {WEXITSTATUS(status), text.str()};
-}
-
 TEST(PointerScene, WithoutAWindowItSaysWhatToDo) {
-  const auto [status, said] = presa("run " + kScene + " --rig " + kRig + " --view none --lockstep");
-  EXPECT_EQ(status, 2);
-  EXPECT_NE(said.find("error[E449]"), std::string::npos) << said;
-  EXPECT_NE(said.find("--view window"), std::string::npos) << said;
-  EXPECT_EQ(presa("check " + kScene + " --rig " + kRig).first, 0);
+  const test::Outcome outcome = test::presa("run " + kScene + " --rig " + kRig + " --view none --lockstep");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("error[E449]"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("--view window"), std::string::npos) << outcome.err;
+  EXPECT_EQ(test::presa("check " + kScene + " --rig " + kRig).status, 0);
 }
 
 TEST(PointerScene, TwoFingersOnOneSideOrWithTwoGripsAreNoPair) {

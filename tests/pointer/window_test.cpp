@@ -6,9 +6,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 #include <tuple>
 
+#include "apps/presa/file_text.h"
 #include "apps/presa/scratch_folder.h"
 
 namespace presa {
@@ -41,12 +41,6 @@ drag() {  # pixels right and down, in ten steps, with whatever keys are down
   xdotool mouseup 1
 }
 )";
-
-std::string contentsOf(const std::string& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 /// A run with a window, moved by the lines of `script`, stopped by Esc. `folder` has its summary and its recording.
 void runWith(const std::string& scene, const std::string& script, const ScratchFolder& folder) {

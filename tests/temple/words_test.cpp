@@ -5,8 +5,8 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "apps/presa/file_text.h"
 #include "framework/scene/load.h"
 #include "framework/temple/assembly_text.h"
 #include "tests/temple/support.h"
@@ -14,16 +14,9 @@
 namespace presa::temple {
 namespace {
 
-std::string textOf(const std::string& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 /// Codes that a words file gives after `from` has become `to`.
 std::vector<int> codesOf(const std::string& from, const std::string& to) {
-  std::string text = textOf(PRESA_SOURCE_DIR "/config/temple/words_en.xml");
+  std::string text = contentsOf(PRESA_SOURCE_DIR "/config/temple/words_en.xml");
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);

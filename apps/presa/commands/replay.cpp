@@ -4,6 +4,7 @@
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/commands/show_option.h"
+#include "apps/presa/commands/view_choice.h"
 #include "apps/presa/playback/player.h"
 #include "apps/presa/report/recording_page.h"
 #include "framework/plan/load_world.h"
@@ -20,11 +21,9 @@ struct Arguments {
   bool verify = false;
 };
 
-/// Where it is to be seen: a window only when asked for, off-screen when a picture or a film is.
+/// A window only when asked for.
 RunOptions::View viewOf(const Arguments& arguments) {
-  if (arguments.view == "window") return RunOptions::View::kWindow;
-  const bool drawn = !arguments.shown.screenshot.empty() || !arguments.shown.video.empty();
-  return arguments.view == "offscreen" || drawn ? RunOptions::View::kOffscreen : RunOptions::View::kNone;
+  return chooseView(arguments.view, false, !arguments.shown.screenshot.empty() || !arguments.shown.video.empty());
 }
 
 int showRecording(const Arguments& arguments, const Recording& recording, const RecordedSamples& samples) {

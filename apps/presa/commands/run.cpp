@@ -1,12 +1,12 @@
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "apps/presa/commands/bus_options.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/commands/show_option.h"
+#include "apps/presa/commands/view_choice.h"
 #include "apps/presa/machine.h"
 #include "apps/presa/report/report.h"
 #include "apps/presa/run_session.h"
@@ -25,17 +25,6 @@ struct Arguments {
   double speed = 1;
   std::string summary, report;
 };
-
-// A window when someone can see it; a picture when one is asked for; otherwise none.
-RunOptions::View chooseView(const Arguments& arguments) {
-  if (arguments.view == "window") return RunOptions::View::kWindow;
-  if (arguments.view == "offscreen") return RunOptions::View::kOffscreen;
-  if (arguments.view == "none") return RunOptions::View::kNone;
-  const char* display = std::getenv("DISPLAY");
-  if (arguments.options.realtime && display != nullptr && *display != '\0') return RunOptions::View::kWindow;
-  return arguments.options.screenshot.empty() && arguments.options.video.empty() ? RunOptions::View::kNone
-                                                                                 : RunOptions::View::kOffscreen;
-}
 
 void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
   for (const std::string& file : {arguments.options.record, arguments.options.flight, arguments.options.screenshot,
@@ -73,7 +62,8 @@ std::string commandLine(const Arguments& a) {
 int run(Arguments arguments) {
   arguments.options.realtime = !arguments.lockstep;
   arguments.options.bound_stiffness = true;
-  arguments.options.view = chooseView(arguments);
+  arguments.options.view = chooseView(arguments.view, arguments.options.realtime,
+                                      !arguments.options.screenshot.empty() || !arguments.options.video.empty());
   std::string now = utcNow();
   std::erase_if(now, [](char c) { return c == '-' || c == ':'; });
   arguments.options.hardware_flight = "flight-" + now + ".h5";

@@ -8,6 +8,7 @@
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/commands/view_choice.h"
 #include "apps/presa/run_session.h"
 #include "apps/presa/scratch_folder.h"
 #include "apps/presa/temple/ruins.h"
@@ -47,14 +48,8 @@ struct Arguments {
   bool realtime() const { return !lockstep && time_scale == 0; }
 };
 
-RunOptions::View chooseView(const Arguments& a) {
-  if (a.view == "window") return RunOptions::View::kWindow;
-  if (a.view == "offscreen") return RunOptions::View::kOffscreen;
-  if (a.view == "none") return RunOptions::View::kNone;
-  const char* display = std::getenv("DISPLAY");
-  const bool seen = a.realtime() || a.time_scale > 0;
-  if (seen && display != nullptr && *display != '\0') return RunOptions::View::kWindow;
-  return a.screenshot.empty() && a.screenshots.empty() ? RunOptions::View::kNone : RunOptions::View::kOffscreen;
+RunOptions::View viewOf(const Arguments& a) {
+  return chooseView(a.view, !a.lockstep, !a.screenshot.empty() || !a.screenshots.empty());
 }
 
 std::string visitFolder(const Arguments& a) {
@@ -63,7 +58,7 @@ std::string visitFolder(const Arguments& a) {
 }
 
 void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
-  if (a.visit() && !a.automatic && a.rig.empty() && chooseView(a) != RunOptions::View::kWindow)
+  if (a.visit() && !a.automatic && a.rig.empty() && viewOf(a) != RunOptions::View::kWindow)
     diagnostics.error(
         979, {"command line", 0, 0}, "there is nobody to rebuild it: no window for a visitor, and no rig",
         "set DISPLAY for a window, --rig RIG for devices, --auto for simulated fingers; --write DIR writes the "
@@ -136,7 +131,7 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   options.realtime = a.realtime();
   options.allow_no_rt = a.allow_no_rt;
   options.bound_stiffness = !a.automatic;
-  options.view = chooseView(a);
+  options.view = viewOf(a);
   options.screenshot = a.screenshot;
   if (!a.screenshots.empty()) {
     options.screenshot_every = std::atof(a.screenshots.front().c_str());

@@ -1,6 +1,7 @@
 #include "apps/presa/commands/bus_options.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/commands/show_option.h"
+#include "apps/presa/commands/view_choice.h"
 #include "apps/presa/remote/viewer.h"
 
 namespace presa {
@@ -35,7 +36,7 @@ void addView(CLI::App& app, int& status) {
       "Example:  presa run config/scenes/cube.xml --bus loopback &  presa view --join --view window");
   command->callback([=, &status] {
     settings->bus = bus->value_or(BusSettings{});
-    settings->view = chooseRemoteView(*view, !settings->screenshot.empty());
+    settings->view = chooseView(*view, true, !settings->screenshot.empty());
     status = showRemote(*settings);
   });
 }

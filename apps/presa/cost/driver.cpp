@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <thread>
 
@@ -17,6 +16,7 @@
 #include "apps/presa/cost/meshes.h"
 #include "apps/presa/cost/metrics.h"
 #include "apps/presa/cost/run_store.h"
+#include "apps/presa/file_text.h"
 #include "apps/presa/machine.h"
 #include "apps/presa/terminal/job_progress.h"
 #include "apps/presa/terminal/text.h"
@@ -28,11 +28,6 @@ namespace presa::cost {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 constexpr const char* kTooLong = "it took too long";
 constexpr int kWatched = -1;
@@ -117,7 +112,7 @@ void Driver::prepare() {
   common.add(rig);
   for (const DeviceBinding& binding : base.world->rig.devices) {
     for (const auto& [key, setting] : binding.settings) {
-      if (key == "motion" || key == "file") common.add(contents(setting.value));
+      if (key == "motion" || key == "file") common.add(contentsOf(setting.value));
     }
   }
   for (const std::string& text :

@@ -7,10 +7,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
+#include "apps/presa/file_text.h"
 #include "apps/presa/scratch_folder.h"
 
 namespace presa {
@@ -39,12 +39,6 @@ int runProgram(const std::vector<std::string>& words, const fs::path& log) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-std::string textOf(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 std::optional<std::map<std::string, FunctionCost>> countInstructions(const Inputs& inputs, double duration,
@@ -70,7 +64,7 @@ std::optional<std::map<std::string, FunctionCost>> countInstructions(const Input
   if (status == kNotFound) return std::nullopt;
   std::ifstream file(counts);
   if (status != 0 && status != 1)  // 1: the run reported a fault, the counts are there all the same
-    throw std::runtime_error("valgrind failed (status " + std::to_string(status) + "):\n" + textOf(log));
+    throw std::runtime_error("valgrind failed (status " + std::to_string(status) + "):\n" + contentsOf(log));
   return readCallgrind(file);
 }
 

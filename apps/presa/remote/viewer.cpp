@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/remote/join.h"
@@ -131,15 +130,6 @@ class Viewer {
 };
 
 }  // namespace
-
-RunOptions::View chooseRemoteView(const std::string& wanted, bool screenshot) {
-  if (wanted == "window") return RunOptions::View::kWindow;
-  if (wanted == "offscreen") return RunOptions::View::kOffscreen;
-  if (wanted == "none") return RunOptions::View::kNone;
-  const char* display = std::getenv("DISPLAY");
-  if (display != nullptr && *display != '\0') return RunOptions::View::kWindow;
-  return screenshot ? RunOptions::View::kOffscreen : RunOptions::View::kNone;
-}
 
 int showRemote(const ViewerSettings& settings) {
   if (settings.view == RunOptions::View::kNone && !settings.screenshot.empty()) {

@@ -21,9 +21,6 @@ struct ViewerSettings {
 
 inline constexpr int kExitNoRun = 3;
 
-/// A window where somebody can see it, a picture where one is wanted.
-RunOptions::View chooseRemoteView(const std::string& wanted, bool screenshot);
-
 /// Joins, draws, and says on the terminal what it sees; returns the exit status. Throws InputError.
 int showRemote(const ViewerSettings& settings);
 

@@ -29,12 +29,12 @@ Tick SharedFinger::sinceChange(const Tick& tick) const noexcept {
 void SharedFinger::see(const ObjectState& objects, const Tick& tick) noexcept {
   change(tick);
   if (moving_ != nullptr) moving_->see(objects, sinceChange(tick));
-  if (visitor_->looks()) visitor_->see(objects, tick);
+  if (inner().looks()) inner().see(objects, tick);
 }
 
 FingerInput SharedFinger::read(const Tick& tick) noexcept {
   change(tick);
-  const FingerInput visitor = visitor_->read(tick);
+  const FingerInput visitor = inner().read(tick);
   if (moving_ != nullptr && visitor.valid) {
     if (!std::exchange(left_known_, true)) left_ = visitor;
     if ((visitor.p_WH - left_.p_WH).norm() > kMoves || visitor.buttons != left_.buttons)
@@ -46,7 +46,7 @@ FingerInput SharedFinger::read(const Tick& tick) noexcept {
 }
 
 void SharedFinger::write(const Vec3& f_H_W, const Tick& tick) noexcept {
-  visitor_->write(moving_ != nullptr ? Vec3::Zero().eval() : f_H_W, tick);
+  inner().write(moving_ != nullptr ? Vec3::Zero().eval() : f_H_W, tick);
   if (moving_ != nullptr) moving_->write(f_H_W, sinceChange(tick));
 }
 

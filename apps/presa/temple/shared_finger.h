@@ -2,15 +2,16 @@
 #include <atomic>
 #include <memory>
 
-#include "framework/device/device.h"
+#include "framework/device/wrapped_device.h"
 
 namespace presa::temple {
 
 /// A finger that is the visitor's, and a simulated hand's while nobody is there. At every change of hands it is gone for kPause: no force,
 /// no contact, so that it may be elsewhere afterwards.
-class SharedFinger final : public Device {
+class SharedFinger final : public WrappedDevice {
  public:
-  explicit SharedFinger(std::unique_ptr<Device> visitor) : visitor_(std::move(visitor)) {}
+  /// `visitor`: the visitor's device.
+  explicit SharedFinger(std::unique_ptr<Device> visitor) : WrappedDevice(std::move(visitor)) {}
 
   static constexpr double kPause = 0.3;    ///< [s]
   static constexpr double kMoves = 0.015;  ///< a visitor who is there moves the device so far [m]
@@ -21,25 +22,16 @@ class SharedFinger final : public Device {
   /// The visitor's device was moved, or a button of it pressed, since the hand has the finger. Any thread.
   bool visitorMoved() const noexcept { return moved_.load(std::memory_order_relaxed); }
 
-  void close() noexcept override { visitor_->close(); }
   FingerInput read(const Tick& tick) noexcept override;
   void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
-  void rearm() noexcept override { visitor_->rearm(); }
-  void reopen(const std::atomic<bool>& stop) override { visitor_->reopen(stop); }
   bool looks() const override { return true; }
   void see(const ObjectState& objects, const Tick& tick) noexcept override;
-  bool points() const override { return visitor_->points(); }
-  void point(const PointerState& pointer, const Tick& tick) noexcept override { visitor_->point(pointer, tick); }
-  std::string model() const override { return visitor_->model(); }
-  double damping() const override { return visitor_->damping(); }
-  std::vector<std::string> notes() const override { return visitor_->notes(); }
 
  private:
   void change(const Tick& tick) noexcept;
   /// A hand's time begins when it gets the finger.
   Tick sinceChange(const Tick& tick) const noexcept;
 
-  std::unique_ptr<Device> visitor_;
   std::unique_ptr<Device> hand_, last_;  // main thread
   std::atomic<Device*> given_{nullptr};
   std::atomic<bool> moved_{false};
