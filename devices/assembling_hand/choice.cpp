@@ -21,6 +21,13 @@ constexpr double kFlat = 0.02;         // half a height of which fingertips on t
 constexpr double kFingerNeeds = 0.85;  // of its radius: a touch is no obstacle
 constexpr int kHigh = 6;               // radii above a grasp through which a finger comes down
 
+/// Of the body's axes, either way.
+Vec3 nearestAxis(const Vec3& n_B) {
+  int axis = 0;
+  n_B.cwiseAbs().maxCoeff(&axis);
+  return n_B[axis] < 0 ? Vec3(-Vec3::Unit(axis)) : Vec3(Vec3::Unit(axis));
+}
+
 bool prefer(Choice& best, Choice choice, const Trial& before) {
   const bool again = before.count > 0 && choice.only_moves == before.only_moves &&
                      std::abs(choice.grasp.a_B.dot(before.a_B)) > kSameLine;
@@ -82,14 +89,14 @@ void Chooser::weighCarrying(Choice& best, std::size_t& in_the_way, const ObjectS
   const Vec3 up_B = X_WG.q.conjugate() * Vec3::UnitZ();
   const double up = (X_WB.q * up_B).z();
   if (up < kStands) effort += up < -kStands ? kOnItsHead : kLies;
-  const double half = halfWidth(world_, body, up_B);
+  const double half = outTo(world_, body, up_B);  // on a roof its top is not square to it
   const bool tips_over = up < -kStands ? half < kFlat : up < kStands && half < kPlate;
 
   const Lines lines = linesToHang(world_, body, X_WB, up_B, yaw);
   // a flat body on its head hangs from either of two edges; a plate that stands on one, from the other
   for (std::size_t k = 0; k < (tips_over ? 2 : 1) * lines.count; ++k) {
     const Vec3& a_W = lines.a_W[k % lines.count];
-    const Vec3 edge_B = (k < lines.count ? 1 : -1) * up_B.cross(X_WB.q.conjugate() * a_W).normalized();
+    const Vec3 edge_B = (k < lines.count ? 1 : -1) * nearestAxis(up_B.cross(X_WB.q.conjugate() * a_W));
     if (tips_over && up > -kStands && (X_WB.q * edge_B).z() < 0) continue;
     Choice choice{best.goal, body,      graspAlong(world_, body, X_WB, tips_over ? edge_B : up_B, a_W, yaw),
                   tips_over, tips_over, effort};

@@ -18,7 +18,8 @@ constexpr double kLoose = 0.48;                    // of the grip, while a body 
 constexpr double kLessLoose = 0.15;                // less loosely each time it slips out, and then anew
 constexpr double kFirm =
     1.6;  // of the grip, while one on its head is shaken: it falls into the fingers, not out of them
-constexpr double kHangs = 0.3;  // no more askew than this it may be put down [rad]
+constexpr double kHangs = 0.3;       // no more askew than this it may be put down [rad]
+constexpr double kHangsWell = 0.25;  // what a place draws upright without being helped [rad]
 constexpr int kMostShakes = 8;
 constexpr int kTips = 4;                              // steps of a quarter turn
 constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
@@ -302,6 +303,7 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kLift:
       if (!holds(objects)) return letGo();
       shakes_ = 0;
+      if (!only_moves_ && tilt(objects) < kHangsWell) return carry(objects);
       to.grip = swingingGrip(objects);
       return go(kLoosen, to, 0.3);
     case kLoosen:

@@ -40,11 +40,11 @@ std::string textOf(const std::string& file) {
 
 /// Runs until it is killed.
 [[noreturn]] void runProgram(const std::string& log) {
-  const std::string scene = experimentFile("faults/press.xml");
-  const std::string rig =
-      "<rig version=\"1.0\" name=\"probe\"><device role=\"finger\" driver=\"fault_probe\"><set key=\"log\" value=\"" +
-      log + "\"/><set key=\"pos\" value=\"0 0 0.004\"/></device></rig>";
   try {
+    const std::string scene = experimentFile("faults/press.xml");
+    const std::string rig =
+        "<rig version=\"1.0\" name=\"probe\"><device role=\"finger\" driver=\"fault_probe\"><set key=\"log\" value=\"" +
+        log + "\"/><set key=\"pos\" value=\"0 0 0.004\"/></device></rig>";
     RunOptions options;
     options.realtime = true;
     Diagnostics diagnostics;

@@ -82,13 +82,15 @@ std::vector<std::size_t> fitting(const Building& building, std::size_t i) {
 std::vector<std::size_t> supporting(const Building& building, std::size_t i) {
   std::vector<std::size_t> below;
   const Bounds mine = boundsOf(building.blocks[i]);
+  // on a slope what carries may be higher: square to the face that it rests on it is not
+  const Vec3 up = building.blocks[i].X_WB.q * Vec3::UnitZ();
   for (std::size_t j = 0; j < building.blocks.size(); ++j) {
     if (j == i) continue;
     const Bounds other = boundsOf(building.blocks[j]);
     const bool overlap = (mine.low.array() < other.high.array() + kTouch).all() &&
                          (other.low.array() < mine.high.array() + kTouch).all();
     const bool beside = mine.low.x() > other.high.x() - kTouch || mine.high.x() < other.low.x() + kTouch;
-    if (overlap && !beside && building.blocks[j].X_WB.p.z() < building.blocks[i].X_WB.p.z() - kTouch)
+    if (overlap && !beside && up.dot(building.blocks[i].X_WB.p - building.blocks[j].X_WB.p) > kTouch)
       below.push_back(j);
   }
   return below;

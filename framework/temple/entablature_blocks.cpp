@@ -195,8 +195,10 @@ Block makeRakingCornice(const Proportions& p, double length, RandomStream chips)
 
 Block makeTile(const Proportions& p, double length, RandomStream chips) {
   const double height = p.pediment->tile_height * p.module, half = halfCornice(p);
-  const Polygon profile{{half, -height / 2},       {half, 0},  {0.8 * half, height / 2},
-                        {-0.8 * half, height / 2}, {-half, 0}, {-half, -height / 2}};
+  // edges upright for most of the height: fingertips on the ground slip upwards from lower ones
+  const double edge = 0.3 * height;
+  const Polygon profile{{half, -height / 2},       {half, edge},  {0.8 * half, height / 2},
+                        {-0.8 * half, height / 2}, {-half, edge}, {-half, -height / 2}};
   return blockOf(BlockKind::kTile, extrude(p, {kY, kZ, kX, profile, {0, 0}, length}, chips),
                  {length, 2 * half, height});
 }

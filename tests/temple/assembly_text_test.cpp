@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "framework/scene/load.h"
 #include "tests/temple/support.h"
 
@@ -11,6 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
 std::vector<std::string> names(const Building& building, const std::vector<std::size_t>& blocks) {
@@ -45,6 +48,38 @@ TEST(AssemblyText, AFacadeHasAlikesAndLoads) {
   for (std::size_t i = 0; i < facade.blocks.size(); ++i) {
     const bool on_the_steps = facade.blocks[i].name.ends_with("drum1");
     EXPECT_EQ(supporting(facade, i).empty(), on_the_steps) << facade.blocks[i].name;
+  }
+}
+
+/// Blocks that a block overlaps when it is pushed by 1 mm into what it rests on, square to its bed: what is beside it gives way.
+std::set<std::size_t> pushedInto(const Building& building, std::size_t i) {
+  Pose pushed = building.blocks[i].X_WB;
+  pushed.p -= 1e-3 * (pushed.q * Vec3::UnitZ());
+  std::set<std::size_t> under;
+  for (std::size_t j = 0; j < building.blocks.size(); ++j) {
+    if (j != i && test::overlap(building.blocks[i], pushed, building.blocks[j], building.blocks[j].X_WB) > 0.5e-3)
+      under.insert(j);
+  }
+  return under;
+}
+
+// Whatever carries a block has to stand first: an oracle of shapes, where a roof's lower tiles lie deeper than the middle of what they
+// rest on. What else is waited for carries that, directly or not, so that it costs nothing.
+TEST(AssemblyText, ABlockWaitsForAllThatCarriesIt) {
+  const Building facade = test::shippedBuilding("facade");
+  std::vector<std::set<std::size_t>> carriers;
+  for (std::size_t i = 0; i < facade.blocks.size(); ++i) carriers.push_back(pushedInto(facade, i));
+  std::vector<std::set<std::size_t>> below = carriers;
+  for (std::size_t round = 0; round < facade.blocks.size(); ++round) {
+    for (std::set<std::size_t>& under : below) {
+      const std::set<std::size_t> known = under;
+      for (const std::size_t j : known) under.insert(below[j].begin(), below[j].end());
+    }
+  }
+  for (std::size_t i = 0; i < facade.blocks.size(); ++i) {
+    const std::vector<std::size_t> waits = supporting(facade, i);
+    EXPECT_THAT(waits, IsSupersetOf(carriers[i])) << facade.blocks[i].name;
+    EXPECT_THAT(below[i], IsSupersetOf(waits)) << facade.blocks[i].name;
   }
 }
 

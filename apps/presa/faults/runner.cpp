@@ -10,6 +10,7 @@
 #include "apps/presa/terminal/job_progress.h"
 #include "framework/diagnostics/refuse.h"
 #include "framework/schedule/realtime_rights.h"
+#include "framework/study/experiment_file.h"
 #include "framework/study/jobs.h"
 
 namespace presa::faults {
@@ -96,6 +97,7 @@ std::vector<Fault> chosen(const RunnerOptions& options) {
 }  // namespace
 
 int runFaults(const RunnerOptions& options) {
+  experimentFile("faults/hold.xml");  // refused once, not by every run
   const std::vector<Fault> faults = chosen(options);
   const std::vector<Block> blocks = blocksOf(faults, options.runs);
   ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);  // of every run, and of the supervisors that it starts

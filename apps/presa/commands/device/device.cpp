@@ -11,6 +11,7 @@ void addDevice(CLI::App& app, int& status) {
   addCharacterise(*command, status);
   addCalibrate(*command, status);
   addFaults(*command, status);
+  addPeriods(*command, status);
 }
 
 }  // namespace presa

@@ -10,5 +10,6 @@ void addDeviceDoctor(CLI::App& app, int& status);
 void addCharacterise(CLI::App& app, int& status);
 void addCalibrate(CLI::App& app, int& status);
 void addFaults(CLI::App& app, int& status);
+void addPeriods(CLI::App& app, int& status);
 
 }  // namespace presa
