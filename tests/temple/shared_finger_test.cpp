@@ -12,7 +12,7 @@ constexpr double kPeriod = 1e-3;
 struct Puppet {
   Vec3 p_WH = Vec3::Zero();
   Vec3 force = Vec3::Zero();
-  Tick last;
+  Tick last = {};
 };
 
 class PuppetDevice final : public Device {

@@ -29,7 +29,9 @@ int check(const Arguments& arguments) {
   nlohmann::json report = nlohmann::json::array();
   for (const std::string& scene : arguments.scenes) {
     Diagnostics diagnostics;
-    const Loaded loaded = loadWorld({scene, arguments.rig, arguments.sets}, {.bound_stiffness = true}, diagnostics);
+    RunOptions options;
+    options.bound_stiffness = true;
+    const Loaded loaded = loadWorld({scene, arguments.rig, arguments.sets}, options, diagnostics);
     good = good && !diagnostics.hasErrors();
     if (arguments.format == "json") {
       nlohmann::json findings = nlohmann::json::array();
