@@ -65,6 +65,9 @@ void StateHash::add(const ObjectState& state) noexcept {
   add(state.count);
   add(state.faults);
   addWord(state.fallback_steps);
+  add(state.penetration.points);
+  add(state.penetration.mean);
+  add(state.penetration.worst);
   for (const Vec3& impulse_W : state.finger_impulse_W) add(impulse_W);
   for (std::size_t i = 0; i < static_cast<std::size_t>(state.count); ++i) {
     const BodyMotion& body = state.bodies[i];

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "framework/math/spatial.h"
 #include "framework/state/limits.h"
@@ -24,6 +25,15 @@ enum ObjectFault : std::uint32_t {
   kFaultBadFinger = 4,     ///< a finger contact made no sense: ignored
 };
 
+/// How deep bodies stand in each other: over the contact points between two bodies, fixed ones included and fingers not, from which the
+/// step just solved started (its last sub-step). What sleeps on what sleeps or is fixed is not looked at, and not counted.
+struct BodyPenetration {
+  static constexpr std::int32_t kUnknown = -1;
+  std::int32_t points = kUnknown;  ///< kUnknown: the engine does not say, and the depths are NaN
+  double mean = std::numeric_limits<double>::quiet_NaN();   ///< [m]; 0 where nothing touches
+  double worst = std::numeric_limits<double>::quiet_NaN();  ///< [m]; 0 where nothing touches
+};
+
 /// Object State: every body of the scene (fixed ones too, in scene order), over the step just solved.
 /// It says for which time it is valid; a reader interpolates to its own "now", so that no pose jumps
 /// ahead when it is published (a jump of one 5 ms step costs a factor five in stable stiffness).
@@ -35,6 +45,7 @@ struct ObjectState {
   std::uint32_t faults = 0;  ///< ObjectFault bits since the start; forces fade for good when any is set
   /// Steps since the start in which an island had to change from the direct to the iterative solver.
   std::uint64_t fallback_steps = 0;
+  BodyPenetration penetration;
   /// By finger: what it gave to the bodies since the start, in W [N s]. Its difference over a time is the mean force.
   std::array<Vec3, kMaxFingers> finger_impulse_W;
   std::array<BodyMotion, kMaxBodies> bodies;
@@ -49,6 +60,7 @@ struct ObjectState {
     count = other.count;
     faults = other.faults;
     fallback_steps = other.fallback_steps;
+    penetration = other.penetration;
     finger_impulse_W = other.finger_impulse_W;
     std::copy_n(other.bodies.begin(), other.count, bodies.begin());
     return *this;

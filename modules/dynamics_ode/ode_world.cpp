@@ -21,6 +21,19 @@ namespace {
 
 void done(StageWatch& watch, Stage stage) noexcept { watch.done(static_cast<std::size_t>(stage)); }
 
+// A contact with a gap is none yet.
+BodyPenetration penetrationOf(const std::vector<BodyContact>& contacts) noexcept {
+  BodyPenetration in{0, 0, 0};
+  for (const BodyContact& contact : contacts) {
+    if (contact.depth < 0) continue;
+    ++in.points;
+    in.mean += contact.depth;
+    in.worst = std::max(in.worst, contact.depth);
+  }
+  if (in.points > 0) in.mean /= in.points;
+  return in;
+}
+
 }  // namespace
 
 struct OdeWorld::Impl {
@@ -230,6 +243,7 @@ void OdeWorld::write(double time, ObjectState& out) noexcept {
   out.time_begin = out.time_end = time;
   out.faults = impl_->faults.bits;
   out.fallback_steps = impl_->fallback_steps;
+  out.penetration = penetrationOf(impl_->contacts);
   out.finger_impulse_W = impl_->finger_impulse;
 }
 

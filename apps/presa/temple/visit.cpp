@@ -21,7 +21,7 @@ class Visit {
  public:
   Visit(const Loaded& loaded, const VisitSettings& settings)
       : settings_(settings), world_(loaded.world), assembly_(*world_->scene.assembly) {
-    auto witness = std::make_unique<Witness>(loaded.world->scene.bodies.size());
+    auto witness = std::make_unique<Witness>(loaded.world);
     auto tap = std::make_unique<VisitTap>(loaded.world);
     witness_ = witness.get();
     tap_ = tap.get();
