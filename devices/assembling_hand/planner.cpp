@@ -4,14 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/math/minimum_jerk.h"
-
 namespace presa::assembling {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFast = 0.4, kSlow = 0.06;        // [m/s]
-constexpr double kTurn = 1;                        // [rad/s]
 constexpr double kAbove = 0.001;                   // a body is let go so far over its place [m]
 constexpr double kNear = 0.015, kHoverTime = 0.6;  // over its place it waits: the place draws it upright [m, s]
 constexpr double kLoose = 0.48;                    // of the grip, while a body finds its own way to hang
@@ -43,7 +40,10 @@ const std::vector<std::string>& Planner::phaseNames() {
 }
 
 Planner::Planner(std::shared_ptr<const World> world, double fingertip)
-    : world_(std::move(world)), fingertip_(fingertip), chooser_(*world_, fingertip, kOpening) {
+    : PairPlan({.centre = {0, 0, 0.3}, .gap = 0.05}),
+      world_(std::move(world)),
+      fingertip_(fingertip),
+      chooser_(*world_, fingertip, kOpening) {
   for (std::size_t i = 0; i < world_->scene.bodies.size(); ++i) {
     const Body& body = world_->scene.bodies[i];
     Vec3 half = Vec3::Zero();
@@ -52,41 +52,6 @@ Planner::Planner(std::shared_ptr<const World> world, double fingertip)
     size_.push_back(half.norm());
   }
   trials_.resize(world_->scene.bodies.size());
-  from_.centre = to_.centre = {0, 0, 0.3};
-  from_.gap = to_.gap = 0.05;
-}
-
-void Planner::go(Phase phase, const PairTarget& to, double duration) noexcept {
-  phase_ = phase;
-  from_ = to_;
-  from_.grip = to.grip > 0 && to_.grip <= 0 ? 0 : to_.grip;
-  to_ = to;
-  to_.yaw = from_.yaw + wrapped(to.yaw - from_.yaw);
-  begin_ = now_;
-  end_ = now_ + duration;
-}
-
-void Planner::goAt(Phase phase, const PairTarget& to, double speed) noexcept {
-  const double way = (to.centre - to_.centre).norm(), turn = std::abs(wrapped(to.yaw - to_.yaw));
-  // the peak of a minimum-jerk movement is 1.875 times its mean
-  go(phase, to, 0.2 + 1.875 * std::max(way / speed, turn / kTurn));
-}
-
-PairTarget Planner::at(double time) const noexcept {
-  const double s = end_ > begin_ ? minimumJerk((time - begin_) / (end_ - begin_)) : 1;
-  return {from_.centre + s * (to_.centre - from_.centre), from_.yaw + s * (to_.yaw - from_.yaw),
-          from_.gap + s * (to_.gap - from_.gap), from_.grip + s * (to_.grip - from_.grip)};
-}
-
-PairTarget Planner::rate(double time) const noexcept {
-  if (!(end_ > begin_)) return {};
-  const double slope = minimumJerkSlope((time - begin_) / (end_ - begin_)) / (end_ - begin_);
-  return {slope * (to_.centre - from_.centre), slope * (to_.yaw - from_.yaw), slope * (to_.gap - from_.gap), 0};
-}
-
-void Planner::see(const ObjectState& objects, double time) noexcept {
-  now_ = time;
-  if (time >= end_) next(objects);
 }
 
 bool Planner::isFilled(std::size_t goal, const ObjectState& objects) const noexcept {
@@ -123,13 +88,13 @@ double Planner::clearHeight(const ObjectState& objects) const noexcept {
 // One place at a tick: what is near at hand, lies free, and was not tried in vain.
 void Planner::look(const ObjectState& objects) noexcept {
   const std::size_t goals = world_->scene.assembly->goals.size();
-  if (phase_ != kLook || looked_at_ == goals) {
+  if (phase() != kLook || looked_at_ == goals) {
     looked_at_ = 0;
     found_ = false;
     for (std::size_t i = 0; i < trials_.size(); ++i) trials_[i].placed = isPlaced(i, objects);
   }
   consider(looked_at_++, objects);
-  PairTarget to = to_;
+  PairTarget to = target();
   to.grip = 0;
   if (looked_at_ < goals) return go(kLook, to, 0);
   if (!found_) return go(kLook, to, kPause);
@@ -146,7 +111,7 @@ void Planner::consider(std::size_t goal, const ObjectState& objects) noexcept {
   const double gap = leavesGap(goal, objects) ? kGap : 0;
   for (const std::size_t body : place.bodies) {
     if (trials_[body].placed) continue;
-    Choice choice = chooser_.weigh(objects, goal, body, to_.centre, to_.yaw, trials_);
+    Choice choice = chooser_.weigh(objects, goal, body, target().centre, target().yaw, trials_);
     choice.effort += gap;
     if (found_ && choice.effort >= best_.effort) continue;
     found_ = true;
@@ -173,7 +138,7 @@ bool Planner::leavesGap(std::size_t goal, const ObjectState& objects) const noex
 }
 
 void Planner::takeAim(const ObjectState& objects) noexcept {
-  const Choice choice = chooser_.weigh(objects, goal_, wanted_, to_.centre, to_.yaw, trials_);
+  const Choice choice = chooser_.weigh(objects, goal_, wanted_, target().centre, target().yaw, trials_);
   body_ = choice.body;
   grasp_ = choice.grasp;
   only_moves_ = choice.only_moves;
@@ -183,7 +148,7 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);
-  PairTarget to = to_;
+  PairTarget to = target();
   to.centre.head<2>() = (X_WB_taken_ * grasp_.p_BC).head<2>();
   to.yaw = yawOf(X_WB_taken_.q * grasp_.a_B);
   to.gap = openGap();
@@ -196,18 +161,18 @@ void Planner::moveAside(const ObjectState& objects) noexcept {
   const Pose& X_WB = objects.bodies[body_].X_WB_end;
   X_WG_.p = room.value_or(X_WB_taken_.p);
   X_WG_.p.z() = halfWidth(*world_, body_, X_WB.q.conjugate() * Vec3::UnitZ());
-  PairTarget to = to_;
+  PairTarget to = target();
   to.centre.head<2>() += (X_WG_.p - X_WB.p).head<2>();
   goAt(kCarry, to, kFast);
 }
 
 bool Planner::holds(const ObjectState& objects) const noexcept {
-  return (objects.bodies[body_].X_WB_end * grasp_.p_BC - to_.centre).norm() < kInHand;
+  return (objects.bodies[body_].X_WB_end * grasp_.p_BC - target().centre).norm() < kInHand;
 }
 
 // It slipped out, or will not be taken: another try.
 void Planner::letGo() noexcept {
-  PairTarget to = to_;
+  PairTarget to = target();
   to.grip = 0;
   to.gap = openGap();
   go(kLeave, to, kPause);
@@ -219,9 +184,9 @@ void Planner::carry(const ObjectState& objects) noexcept {
   const Pose& X_WB = objects.bodies[body_].X_WB_end;
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB.q);
   X_WG_.p += chooser_.surroundings().awayFromNeighbours(objects, body_, X_WG_);
-  PairTarget to = to_;
+  PairTarget to = target();
   to.grip = grasp_.force;
-  to.yaw = to_.yaw + wrapped(yawOf(X_WG_.q * grasp_.a_B) - yawOf(X_WB.q * grasp_.a_B));
+  to.yaw = target().yaw + wrapped(yawOf(X_WG_.q * grasp_.a_B) - yawOf(X_WB.q * grasp_.a_B));
   const Vec3 over = X_WG_ * grasp_.p_BC;
   to.centre.x() = over.x();
   to.centre.y() = over.y();
@@ -239,8 +204,8 @@ bool Planner::isOnItsHead(const ObjectState& objects) const noexcept { return ti
 
 // What friction of the fingertips holds askew, or balances on its head, finds its way when it is moved quickly across.
 void Planner::shake(double by) noexcept {
-  PairTarget to = to_;
-  to.centre += (shakes_++ % 2 == 0 ? by : -by) * Vec3(-std::sin(to_.yaw), std::cos(to_.yaw), 0);
+  PairTarget to = target();
+  to.centre += (shakes_++ % 2 == 0 ? by : -by) * Vec3(-std::sin(target().yaw), std::cos(target().yaw), 0);
   go(kShake, to, kShakeTime);
 }
 
@@ -256,21 +221,21 @@ void Planner::tipOver(const ObjectState& objects) noexcept {
     const Quat& q_WG = world_->scene.assembly->goals[goal_].X_WB.q;
     const Vec3 top_W = objects.bodies[body_].X_WB_end.q * (q_WG.conjugate() * Vec3::UnitZ());
     tip_along_ = -Vec3(top_W.x(), top_W.y(), 0).normalized();
-    tip_about_ = to_.centre;
+    tip_about_ = target().centre;
     tip_about_.z() = Chooser::kOverGround * fingertip_;
-    tip_high_ = to_.centre.z() - tip_about_.z();
+    tip_high_ = target().centre.z() - tip_about_.z();
   }
   const double angle = kPi / 2 * ++tips_ / kTips;
-  PairTarget to = to_;
+  PairTarget to = target();
   to.centre = tip_about_ + tip_high_ * (std::sin(angle) * tip_along_ + std::cos(angle) * Vec3::UnitZ());
   goAt(kTip, to, kSlow);
 }
 
 // By what the body is away from its place now, not by where the fingers were meant to be.
 void Planner::lower(const ObjectState& objects) noexcept {
-  PairTarget to = to_;
+  PairTarget to = target();
   to.centre += X_WG_.p + kAbove * Vec3::UnitZ() - objects.bodies[body_].X_WB_end.p;
-  if (phase_ == kSettle && to_.centre.z() - to.centre.z() > kNear) {
+  if (phase() == kSettle && target().centre.z() - to.centre.z() > kNear) {
     to.centre.z() += kNear;
     return goAt(kApproach, to, kFast);
   }
@@ -278,8 +243,8 @@ void Planner::lower(const ObjectState& objects) noexcept {
 }
 
 void Planner::next(const ObjectState& objects) noexcept {
-  PairTarget to = to_;
-  switch (phase_) {
+  PairTarget to = target();
+  switch (phase()) {
     case kLook:
     case kLeave:
       return look(objects);
@@ -294,7 +259,7 @@ void Planner::next(const ObjectState& objects) noexcept {
       to.gap = grasp_.half + fingertip_;
       return go(kClose, to, 0.3);
     case kClose:
-      grasp_.p_BC = objects.bodies[body_].X_WB_end.inverseTimes(to_.centre);  // as it came to be
+      grasp_.p_BC = objects.bodies[body_].X_WB_end.inverseTimes(target().centre);  // as it came to be
       to.grip = grasp_.force;
       return go(kGrip, to, 0.3);
     case kGrip:
@@ -313,7 +278,7 @@ void Planner::next(const ObjectState& objects) noexcept {
       if (!holds(objects)) return letGo();
       if (only_moves_) return moveAside(objects);
       if (tilt(objects) > kHangs && shakes_ < kMostShakes) {
-        if (const double grip = swingingGrip(objects); grip != to_.grip) {
+        if (const double grip = swingingGrip(objects); grip != target().grip) {
           to.grip = grip;
           return go(kLoosen, to, 0.3);
         }

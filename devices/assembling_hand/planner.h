@@ -4,21 +4,13 @@
 #include <vector>
 
 #include "devices/assembling_hand/choice.h"
+#include "framework/hand/pair_plan.h"
 #include "framework/scene/goal_pose.h"
 
 namespace presa::assembling {
 
-/// Where both fingertips are wanted, and how they press.
-struct PairTarget {
-  Vec3 centre = Vec3::Zero();  ///< between the fingertips' centres [m]
-  double yaw = 0;              ///< of the line from thumb to index [rad]
-  double gap = 0;              ///< from the centre to each fingertip's centre [m]
-  double grip = 0;             ///< towards each other [N]; 0: they go where they are wanted
-};
-
-/// What a pair of fingers does to put a scene's bodies together. The same states give the same plan, so each finger of the pair has one
-/// of its own. Thread: haptic; no memory after construction.
-class Planner {
+/// What a pair of fingers does to put a scene's bodies together. Thread: haptic; no memory after construction.
+class Planner final : public PairPlan {
  public:
   enum Phase : int {
     kLook,
@@ -45,18 +37,8 @@ class Planner {
   /// `fingertip`: radius [m].
   Planner(std::shared_ptr<const World> world, double fingertip);
 
-  /// At every tick, before at().
-  void see(const ObjectState& objects, double time) noexcept;
-  /// Within the tick that was seen last.
-  PairTarget at(double time) const noexcept;
-  /// Change of at() [1/s].
-  PairTarget rate(double time) const noexcept;
-  Phase phase() const noexcept { return phase_; }
-
  private:
-  void go(Phase phase, const PairTarget& to, double duration) noexcept;
-  void goAt(Phase phase, const PairTarget& to, double speed) noexcept;
-  void next(const ObjectState& objects) noexcept;
+  void next(const ObjectState& objects) noexcept override;
   void look(const ObjectState& objects) noexcept;
   void consider(std::size_t goal, const ObjectState& objects) noexcept;
   bool leavesGap(std::size_t goal, const ObjectState& objects) const noexcept;
@@ -84,9 +66,6 @@ class Planner {
   const Chooser chooser_;
   std::vector<double> size_;   // by body: from its centre to its farthest corner [m]
   std::vector<Trial> trials_;  // by body
-  Phase phase_ = kLook;
-  PairTarget from_, to_;
-  double begin_ = 0, end_ = 0, now_ = 0;
   std::size_t looked_at_ = 0;  // goals, of those there are
   bool found_ = false;
   Choice best_;

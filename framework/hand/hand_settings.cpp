@@ -53,6 +53,13 @@ std::string settleDamping(const std::string& role, const World& world, double ca
 
 }  // namespace
 
+double fingertipOf(const DeviceBinding& binding, const World& world) {
+  for (const DeviceRole& role : world.scene.devices) {
+    if (role.role == binding.role) return role.fingertip_radius;
+  }
+  return 0;
+}
+
 double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics) {
   if (const auto side = binding.settings.find("side"); side != binding.settings.end()) {
     if (side->second.value == "-1") return -1;

@@ -26,6 +26,8 @@ struct HandSettings {
 };
 /// -1 for the thumb, 1 otherwise, unless the setting 'side' says it (E404).
 double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics);
+/// Radius of the role's fingertip [m]; 0 where the scene has no such role.
+double fingertipOf(const DeviceBinding& binding, const World& world);
 /// The same for a hand that moves by itself: mass, stiffness and damping alone, onto those of `impedance`; motion stays null.
 HandSettings readImpedance(const DeviceBinding& binding, const World& world, double carried, FingerImpedance impedance,
                            Diagnostics& diagnostics);

@@ -128,6 +128,7 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   options.duration = a.limit > 0   ? a.limit
                      : a.automatic ? kEachBlock * static_cast<double>(building.blocks.size())
                                    : kOpenEnd;
+  options.seed = a.seed;
   options.realtime = a.realtime();
   options.allow_no_rt = a.allow_no_rt;
   options.bound_stiffness = !a.automatic;

@@ -1,0 +1,37 @@
+#include <algorithm>
+
+#include "devices/clumsy_hand/clumsy_plan.h"
+#include "framework/hand/planned_finger.h"
+#include "framework/plan/plugin.h"
+#include "framework/schedule/rates.h"
+
+namespace presa::clumsy {
+namespace {
+
+std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping"}, diagnostics);
+  const double side = sideOf(binding, diagnostics);
+  HandSettings settings = readImpedance(binding, world, 0, {}, diagnostics);
+  if (std::ranges::none_of(world.scene.bodies, [](const Body& body) { return body.physics && !body.fixed; }))
+    diagnostics.error(447, binding.where,
+                      "role '" + binding.role + "': no body of the scene moves, so there is nothing to take",
+                      "a scene with a body that is not fixed and has a <physics>");
+  if (diagnostics.errorCount() > before) return nullptr;
+  return makePlannedFinger({.plan = std::make_unique<ClumsyPlan>(std::make_shared<const World>(world),
+                                                                 fingertipOf(binding, world), world.options.seed),
+                            .side = side,
+                            .settings = std::move(settings),
+                            .period = RateTable(world.scene.rates).period(RateGroup::kHaptic),
+                            .phases = ClumsyPlan::phaseNames(),
+                            .model = "fingers that grab at random: no person"});
+}
+
+const DevicePlugin kPlugin{.name = "clumsy_hand",
+                           .summary = "one of two simulated fingertips that grab, throw, press and push at random",
+                           .create = create};
+
+}  // namespace
+}  // namespace presa::clumsy
+
+PRESA_DEVICE_PLUGIN(presa::clumsy::kPlugin)

@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/hand/pair_plan.h"
+#include "framework/math/random.h"
+#include "framework/scene/world.h"
+
+namespace presa::clumsy {
+
+/// What two fingers do that know nothing of what they do it to. The same seed and the same states, the same acts. Thread: haptic; no memory
+/// after construction.
+class ClumsyPlan final : public PairPlan {
+ public:
+  enum Phase : int { kStray, kReach, kGrab, kLift, kShake, kThrow, kDrag, kPress, kPush, kOpen };
+  static const std::vector<std::string>& phaseNames();
+  static constexpr double kFastest = 1.2;  ///< of a movement [m/s]
+  static constexpr double kMostGrip = 8;   ///< [N]
+
+  /// `fingertip`: radius [m]. The scene has a body that moves and has a physics geometry.
+  ClumsyPlan(std::shared_ptr<const World> world, double fingertip, std::uint64_t seed);
+
+ private:
+  struct Step {
+    int phase = kStray;
+    PairTarget to;
+    double speed = 0;
+  };
+  void next(const ObjectState& objects) noexcept override;
+  void choose(const ObjectState& objects) noexcept;
+  void grab(const ObjectState& objects) noexcept;
+  void withWhatIsHeld(PairTarget to) noexcept;
+  void press(const ObjectState& objects) noexcept;
+  void push(const ObjectState& objects) noexcept;
+  void stray() noexcept;
+  void add(Phase phase, const PairTarget& to, double speed) noexcept;
+  Vec3 across(double least, double most) noexcept;
+  double uniform(double low, double high) noexcept { return random_.uniform(low, high); }
+  std::size_t anyBody() noexcept { return movable_[random_.below(movable_.size())]; }
+
+  std::shared_ptr<const World> world_;
+  const double fingertip_;
+  std::vector<std::size_t> movable_;  // bodies
+  std::vector<double> size_;          // of each body, from its origin to its farthest point [m]
+  RandomStream random_;
+  std::array<Step, 16> steps_;  // of one act
+  std::size_t count_ = 0, done_ = 0;
+};
+
+}  // namespace presa::clumsy
