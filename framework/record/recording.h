@@ -76,6 +76,12 @@ struct Recording {
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
   std::vector<std::uint8_t> surfaces_changed;  ///< 1: they had their other friction
+  /// What commands changed, in the order of ticks: entry of `time`, slot of SurfaceSettings, value.
+  struct Command {
+    std::size_t row, slot;
+    double value;
+  };
+  std::vector<Command> commands;
   std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
 };
 

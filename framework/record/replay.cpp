@@ -5,6 +5,7 @@
 
 #include "framework/graph/port.h"
 #include "framework/state/surface_change.h"
+#include "framework/state/surface_settings.h"
 
 namespace presa {
 namespace {
@@ -35,6 +36,27 @@ class RecordedSurfaces final : public Module {
   const Recording& recording_;
   std::size_t row_ = 0;
   Out<SurfaceChange> change_{*this, "surface_change"};
+};
+
+class RecordedCommands final : public Module {
+ public:
+  explicit RecordedCommands(const Recording& recording)
+      : Module("recorded_commands", RateGroup::kHaptic), recording_(recording) {}
+  void step(const Tick&) noexcept override {
+    const auto& commands = recording_.commands;
+    if (next_ < commands.size() && commands[next_].row == row_) {
+      const Recording::Command& command = commands[next_++];
+      SurfaceSettings& settings = settings_.value;
+      if (command.slot < settings.slots.size()) settings.slots[command.slot] = {++settings.newest, command.value};
+    }
+    ++row_;
+  }
+  std::vector<std::string> stages() const override { return {"set what commands set"}; }
+
+ private:
+  const Recording& recording_;
+  std::size_t row_ = 0, next_ = 0;
+  Out<SurfaceSettings> settings_{*this, "surface_settings"};
 };
 
 class Replayer {
@@ -127,6 +149,10 @@ std::unique_ptr<Module> recordedSurfaces(const Recording& recording) {
   const auto& changed = recording.surfaces_changed;
   if (std::find(changed.begin(), changed.end(), 1) == changed.end()) return nullptr;
   return std::make_unique<RecordedSurfaces>(recording);
+}
+
+std::unique_ptr<Module> recordedCommands(const Recording& recording) {
+  return recording.commands.empty() ? nullptr : std::make_unique<RecordedCommands>(recording);
 }
 
 ReplayResult replay(const Recording& recording, Session& session, const RateTable& rates, RunControl& control) {

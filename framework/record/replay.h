@@ -29,6 +29,10 @@ DeviceList recordedDevices(const Recording& recording);
 /// What changed the surfaces in the recorded run does so again, for Session::Options::more; null where nothing did.
 std::unique_ptr<Module> recordedSurfaces(const Recording& recording);
 
+/// What commands set in the recorded run is set again, for Session::Options::more; null where nothing was. The world has to have
+/// RunOptions::bus_commands then.
+std::unique_ptr<Module> recordedCommands(const Recording& recording);
+
 /// Result of running a recording again.
 struct ReplayResult {
   std::uint64_t ticks = 0;        ///< haptic ticks replayed

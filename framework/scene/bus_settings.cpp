@@ -19,10 +19,16 @@ std::optional<BusSettings> busOf(const Scene& scene, const Rig& rig, const RunOp
   return bus && bus->network != "none" ? bus : std::nullopt;
 }
 
+bool takesCommands(const World& world) {
+  const std::optional<BusSettings> bus = busOf(world);
+  return world.options.bus_commands || (bus && bus->commands);
+}
+
 std::optional<BusSettings> readBus(const xml::Element& root) {
   std::optional<BusSettings> bus;
   for (const xml::Element& element : root.children("bus"))
-    bus = {element.attribute("network"), static_cast<int>(element.number("domain", 0))};
+    bus = {element.attribute("network"), static_cast<int>(element.number("domain", 0)),
+           element.boolean("commands", false)};
   return bus;
 }
 

@@ -40,6 +40,7 @@ struct RunOptions {
       false;  ///< materials too stiff for the devices are brought down; else they are as the scene has them
   std::optional<SimulatedPerson> person{};
   std::optional<BusSettings> bus{};  ///< goes before the rig's and the scene's; network none: no bus whatever those say
+  bool bus_commands = false;         ///< the run takes commands, whatever rig and scene say
 };
 
 /// Meshes of one body; null where the geometry is a primitive or absent.
@@ -66,6 +67,8 @@ struct World {
 /// The bus that such a run publishes on; none: nobody asked for one.
 std::optional<BusSettings> busOf(const Scene& scene, const Rig& rig, const RunOptions& options);
 inline std::optional<BusSettings> busOf(const World& world) { return busOf(world.scene, world.rig, world.options); }
+/// Whether commands may change the surfaces of such a run: over its bus, or in a replay that changes them again.
+bool takesCommands(const World& world);
 
 /// Reads every mesh the scene names (each file once) and computes mass properties from the physics geometry.
 World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics);

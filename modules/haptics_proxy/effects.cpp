@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/scene/open_surfaces.h"
+
 namespace presa {
 
 HapticEffects effectsOf(const World& world) {
@@ -21,6 +23,7 @@ HapticEffects effectsOf(const World& world) {
   effects.friction =
       effects.surface_change ||
       (god_object && any_touchable([&](const Body& body) { return scene.materialOf(body).friction_static > 0; }));
+  effects.commanded = takesCommands(world) && !openSurfaces(scene).empty();
   effects.shading = god_object && any_touchable([](const Body& body) {
                       return body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape);
                     });
@@ -38,8 +41,9 @@ std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
   }
   if (!effects.surface_change) {
     left_out.push_back({"changing friction", god_object ? "no touchable material has <changed> friction"
-                                                            : "the penalty renderer has no friction"});
+                                                        : "the penalty renderer has no friction"});
   }
+  if (!effects.commanded) left_out.push_back({"commanded surfaces", "the run takes no commands (--bus-commands)"});
   if (!effects.shading) {
     left_out.push_back({"force shading", god_object ? "no touchable mesh says shading=\"smooth\""
                                                     : "the penalty renderer has no proxy to turn"});

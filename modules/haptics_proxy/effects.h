@@ -14,6 +14,7 @@ struct HapticEffects {
   HapticSettings::Renderer renderer = HapticSettings::Renderer::kGodObject;
   bool friction = false;
   bool surface_change = false;  ///< friction that can change during a run
+  bool commanded = false;       ///< stiffness and friction that commands can set
   bool shading = false;
   bool damping = false;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "framework/graph/port.h"
 #include "framework/scene/world.h"
@@ -21,6 +22,15 @@ struct Finger {
   Vec3 penalty_nhat = Vec3::Zero();  ///< of the tick before, penalty only; zero: no contact
   double radius = 0;                 ///< of the fingertip [m]
   std::unique_ptr<Surroundings> near;
+};
+
+/// The surfaces that fingers touch, as they are in force. Both outlive whoever holds it.
+struct SurfacesInForce {
+  const Scene& scene;
+  const std::vector<Material>& materials;  ///< as Scene::materials
+  const Material& of(std::int32_t body) const noexcept {
+    return materials[scene.bodies[static_cast<std::size_t>(body)].material];
+  }
 };
 
 /// What the stages of one tick share about one finger. The working frame A is the body next to it when the tick began.
@@ -50,12 +60,12 @@ class FingerStage {
 // Each in the file of its name, but for the two of rendering.
 std::unique_ptr<FingerStage> makeGodObject();
 std::unique_ptr<FingerStage> makePenalty();
-std::unique_ptr<FingerStage> makeFriction(const World& world);
+std::unique_ptr<FingerStage> makeFriction(const SurfacesInForce& surfaces);
 /// `change` outlives it.
 std::unique_ptr<FingerStage> makeChangingFriction(const World& world, const In<SurfaceChange>& change);
 std::unique_ptr<FingerStage> makeShading(const World& world);
 /// Writes contact and spring force; counts what should not happen.
-std::unique_ptr<FingerStage> makeSpring(const World& world);
-std::unique_ptr<FingerStage> makeDamping(const World& world);
+std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);
+std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces);
 
 }  // namespace presa

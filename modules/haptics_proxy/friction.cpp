@@ -53,15 +53,15 @@ FrictionCone coneOf(const Material& material) { return {material.friction_static
 
 class Friction final : public FingerStage {
  public:
-  explicit Friction(const Scene& scene) : scene_(scene) {}
+  explicit Friction(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
   void apply(FingerTick& tick) noexcept override {
     if (!tick.contact.state.touching) return;
-    applyFriction(tick, coneOf(scene_.materialOf(scene_.bodies[static_cast<std::size_t>(tick.contact.body)])));
+    applyFriction(tick, coneOf(surfaces_.of(tick.contact.body)));
   }
   const char* what() const override { return "friction: two-state cone"; }
 
  private:
-  const Scene& scene_;
+  const SurfacesInForce surfaces_;
 };
 
 /// A finger that sticks is judged by the other cone in the tick after the change: it slips then as it would anyhow.
@@ -87,7 +87,9 @@ class ChangingFriction final : public FingerStage {
 
 }  // namespace
 
-std::unique_ptr<FingerStage> makeFriction(const World& world) { return std::make_unique<Friction>(world.scene); }
+std::unique_ptr<FingerStage> makeFriction(const SurfacesInForce& surfaces) {
+  return std::make_unique<Friction>(surfaces);
+}
 std::unique_ptr<FingerStage> makeChangingFriction(const World& world, const In<SurfaceChange>& change) {
   return std::make_unique<ChangingFriction>(world.scene, change);
 }

@@ -37,15 +37,22 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   } else if (effects.poses == HapticEffects::Poses::kHold) {
     place_bodies_.push_back({"take the bodies where the last dynamics step left them", holdBodies});
   }
+  const SurfacesInForce in_force = surfaces(effects);
   finger_stages_.push_back(effects.renderer == HapticSettings::Renderer::kPenalty ? makePenalty() : makeGodObject());
-  if (effects.friction) finger_stages_.push_back(frictionOf(effects));
+  if (effects.friction) finger_stages_.push_back(frictionOf(effects, in_force));
   if (effects.shading) finger_stages_.push_back(makeShading(*world_));
-  finger_stages_.push_back(makeSpring(*world_));
-  if (effects.damping) finger_stages_.push_back(makeDamping(*world_));
+  finger_stages_.push_back(makeSpring(in_force));
+  if (effects.damping) finger_stages_.push_back(makeDamping(in_force));
 }
 
-std::unique_ptr<FingerStage> HapticsProxy::frictionOf(const HapticEffects& effects) {
-  if (!effects.surface_change) return makeFriction(*world_);
+SurfacesInForce HapticsProxy::surfaces(const HapticEffects& effects) {
+  if (!effects.commanded) return {world_->scene, world_->scene.materials};
+  commanded_.push_back(std::make_unique<Commanded>(*this, world_->scene));
+  return {world_->scene, commanded_.back()->surfaces.materials()};
+}
+
+std::unique_ptr<FingerStage> HapticsProxy::frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces) {
+  if (!effects.surface_change) return makeFriction(surfaces);
   return makeChangingFriction(*world_, surface_change_.emplace(*this, "surface_change", In<SurfaceChange>::Optional{}));
 }
 
@@ -58,10 +65,14 @@ void HapticsProxy::stepWatched(const Tick& tick, StageWatch& watch) noexcept { r
 
 template <class Watch>
 void HapticsProxy::run(const Tick& tick, Watch& watch) noexcept {
+  for (const auto& commanded : commanded_) {
+    commanded->surfaces.step(commanded->settings.value(), tick.period);
+    watch.done(0);
+  }
   if (objects_.hasValue()) {
     for (const PlaceBodies& stage : place_bodies_) {
       stage.apply(touchables_, objects_.value(), tick.time);
-      watch.done(0);
+      watch.done(commanded_.size());
     }
   }
   ContactExchange& out = contact_.value;
@@ -91,7 +102,7 @@ void HapticsProxy::stepFinger(std::size_t f, Watch& watch) noexcept {
   const bool patched = patches_.hasValue() && f < static_cast<std::size_t>(patches_->count);
   touchables_.surround(finger, input.p_WH, way + 1.1 * finger.radius,  // 10 %: room to be pushed out of a moving body
                        patched ? &patches_->fingers[f] : nullptr, patches_.version());
-  const std::size_t gathered = place_bodies_.size();
+  const std::size_t gathered = commanded_.size() + place_bodies_.size();
   watch.done(gathered);
   for (std::size_t i = 0; i < finger_stages_.size(); ++i) {
     finger_stages_[i]->apply(tick);
@@ -102,6 +113,7 @@ void HapticsProxy::stepFinger(std::size_t f, Watch& watch) noexcept {
 
 std::vector<std::string> HapticsProxy::stages() const {
   std::vector<std::string> stages;
+  if (!commanded_.empty()) stages.emplace_back("bring the surfaces slowly to what commands have set");
   for (const PlaceBodies& stage : place_bodies_) stages.emplace_back(stage.what);
   stages.emplace_back("gather the pieces within reach of each fingertip");
   for (const auto& stage : finger_stages_) stages.emplace_back(stage->what());
@@ -110,6 +122,7 @@ std::vector<std::string> HapticsProxy::stages() const {
 
 std::vector<std::string> HapticsProxy::stageFunctions() const {
   std::vector<std::string> functions;
+  if (!commanded_.empty()) functions.emplace_back("presa::CommandedSurfaces::step");
   if (effects_.poses == HapticEffects::Poses::kInterpolate) functions.emplace_back("presa::Touchables::interpolate");
   if (effects_.poses == HapticEffects::Poses::kHold) functions.emplace_back("presa::Touchables::hold");
   functions.emplace_back("presa::Touchables::surround");

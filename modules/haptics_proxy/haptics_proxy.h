@@ -5,6 +5,7 @@
 
 #include "framework/graph/port.h"
 #include "framework/graph/stage_watch.h"
+#include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
 #include "modules/haptics_proxy/touchables.h"
 
@@ -31,7 +32,15 @@ class HapticsProxy final : public Module, public WatchedStages {
     const char* what;
     void (*apply)(Touchables& touchables, const ObjectState& objects, double time) noexcept;
   };
-  std::unique_ptr<FingerStage> frictionOf(const HapticEffects& effects);
+  /// Surfaces that commands set, and the port that they come by.
+  struct Commanded {
+    Commanded(Module& owner, const Scene& scene)
+        : settings(owner, "surface_settings", In<SurfaceSettings>::Optional{}), surfaces(scene) {}
+    In<SurfaceSettings> settings;
+    CommandedSurfaces surfaces;
+  };
+  SurfacesInForce surfaces(const HapticEffects& effects);
+  std::unique_ptr<FingerStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
   template <class Watch>
   void run(const Tick& tick, Watch& watch) noexcept;
   template <class Watch>
@@ -47,7 +56,8 @@ class HapticsProxy final : public Module, public WatchedStages {
   In<DeviceState> device_{*this, "device_state"};
   In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kHold};
-  std::optional<In<SurfaceChange>> surface_change_;  // only where friction can change
+  std::optional<In<SurfaceChange>> surface_change_;    // only where friction can change
+  std::vector<std::unique_ptr<Commanded>> commanded_;  // none or one
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };
 

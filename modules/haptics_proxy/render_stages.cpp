@@ -22,7 +22,7 @@ class GodObject final : public FingerStage {
 /// What was found becomes contact state and spring force, and the finger's state for the next tick.
 class Spring final : public FingerStage {
  public:
-  explicit Spring(const Scene& scene) : scene_(scene) {}
+  explicit Spring(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
   void apply(FingerTick& tick) noexcept override;
   const char* what() const override { return "spring between proxy and HIP"; }
 
@@ -30,7 +30,7 @@ class Spring final : public FingerStage {
   static std::int32_t nearestBody(const Vec3& p, double r, Surroundings& near) noexcept;
   static void countPopThrough(FingerTick& tick) noexcept;
 
-  const Scene& scene_;
+  const SurfacesInForce surfaces_;
 };
 
 void Spring::apply(FingerTick& tick) noexcept {
@@ -48,7 +48,7 @@ void Spring::apply(FingerTick& tick) noexcept {
     out.p_BP = out.p_WP;
     return;
   }
-  const Material& material = scene_.materialOf(scene_.bodies[static_cast<std::size_t>(contact.body)]);
+  const Material& material = surfaces_.of(contact.body);
   out.mode = contact.state.slipping ? ContactMode::kSlip : ContactMode::kStick;
   out.body = contact.body;
   out.nhat_W = tick.X_WA.q * contact.nhat;
@@ -96,11 +96,11 @@ void Spring::countPopThrough(FingerTick& tick) noexcept {
 
 class Damping final : public FingerStage {
  public:
-  explicit Damping(const Scene& scene) : scene_(scene) {}
+  explicit Damping(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
   void apply(FingerTick& tick) noexcept override {
     FingerContact& out = tick.out;
     if (out.body == kNoBody) return;
-    const double damping = scene_.materialOf(scene_.bodies[static_cast<std::size_t>(out.body)]).damping;
+    const double damping = surfaces_.of(out.body).damping;
     const Vec3 relative = out.v_WH - tick.touchables.velocityAt(out.body, out.p_WP - tick.r * out.nhat_W);
     out.damping = damping;
     out.normal_force = std::max(0.0, out.stiffness * out.depth - damping * relative.dot(out.nhat_W));
@@ -108,13 +108,15 @@ class Damping final : public FingerStage {
   const char* what() const override { return "surface damping along the normal"; }
 
  private:
-  const Scene& scene_;
+  const SurfacesInForce surfaces_;
 };
 
 }  // namespace
 
 std::unique_ptr<FingerStage> makeGodObject() { return std::make_unique<GodObject>(); }
-std::unique_ptr<FingerStage> makeSpring(const World& world) { return std::make_unique<Spring>(world.scene); }
-std::unique_ptr<FingerStage> makeDamping(const World& world) { return std::make_unique<Damping>(world.scene); }
+std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces) { return std::make_unique<Spring>(surfaces); }
+std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces) {
+  return std::make_unique<Damping>(surfaces);
+}
 
 }  // namespace presa

@@ -38,6 +38,7 @@ class OneFinger {
   }
   ContactPatches& patches() { return patches_->out.value; }
   SurfaceChange& surfaces() { return surfaces_->out.value; }
+  SurfaceSettings& settings() { return settings_->out.value; }
   ObjectState& objects() { return objects_->out.value; }
   const ContactExchange& all() const { return sink_->contact.value(); }
   std::vector<std::string> stages() const { return graph_.find("haptics_proxy")->stages(); }
@@ -48,6 +49,7 @@ class OneFinger {
     device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
     patches_ = &builder.add(std::make_unique<Source<ContactPatches>>("contact_patches"));
     surfaces_ = &builder.add(std::make_unique<Source<SurfaceChange>>("surface_change"));
+    settings_ = &builder.add(std::make_unique<Source<SurfaceSettings>>("surface_settings"));
     objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));
     objects_->out.value.count = static_cast<std::int32_t>(world_->scene.bodies.size());
     for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
@@ -64,6 +66,7 @@ class OneFinger {
   Source<DeviceState>* device_ = nullptr;
   Source<ContactPatches>* patches_ = nullptr;
   Source<SurfaceChange>* surfaces_ = nullptr;
+  Source<SurfaceSettings>* settings_ = nullptr;
   Source<ObjectState>* objects_ = nullptr;
   Sink* sink_ = nullptr;
   std::uint64_t index_ = 0;

@@ -81,6 +81,7 @@ int runReplay(const Arguments& arguments) {
   options.seed = recording.seed;
   options.force_share = recording.force_share;
   options.bus = BusSettings{.network = "none"};  // what is run again is not on show
+  options.bus_commands = !recording.commands.empty();
   const Loaded loaded =
       loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
@@ -90,6 +91,7 @@ int runReplay(const Arguments& arguments) {
   Session::Options session_options;
   session_options.devices = recordedDevices(recording);
   if (auto surfaces = recordedSurfaces(recording)) session_options.more.push_back(std::move(surfaces));
+  if (auto commands = recordedCommands(recording)) session_options.more.push_back(std::move(commands));
   Session session(loaded.world, loaded.plan, control, std::move(session_options));
   const ReplayResult result = replay(recording, session, RateTable(loaded.world->scene.rates), control);
   if (!result.problem.empty()) {

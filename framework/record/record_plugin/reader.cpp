@@ -79,8 +79,9 @@ Table asIn(hid_t file, Table table, const std::string& added, std::uint64_t vers
 }
 
 void readTicks(hid_t file, const std::string& name, Recording& recording) {
-  auto ticks =
-      readTable<TickRow>(file, "haptic/ticks", asIn(file, asIn(file, tickTable(), "surfaces_changed", 3), "rearms", 4));
+  Table table = asIn(file, asIn(file, tickTable(), "surfaces_changed", 3), "rearms", 4);
+  table = asIn(file, asIn(file, table, "commanded", 5), "commanded_value", 5);
+  auto ticks = readTable<TickRow>(file, "haptic/ticks", table);
   const auto fingers = readFingers(file);
   std::size_t count = commonPrefix(ticks, fingers);
   const Table schedule = asIn(file, scheduleTable(), "made_up", 2);
@@ -100,6 +101,8 @@ void readTicks(hid_t file, const std::string& name, Recording& recording) {
     recording.device.push_back(deviceState(ticks[i], fingers, i));
     recording.command.push_back(forceCommand(ticks[i], fingers, i));
     recording.surfaces_changed.push_back(ticks[i].surfaces_changed != 0 ? 1 : 0);
+    if (ticks[i].commanded != 0)
+      recording.commands.push_back({i, static_cast<std::size_t>(ticks[i].commanded - 1), ticks[i].commanded_value});
   }
 }
 

@@ -53,6 +53,7 @@ FileRecorder::FileRecorder(std::shared_ptr<const World> world, WriterSettings se
       block_(layout_.words() * kBlockRows),
       schedule_block_(kBlockRows),
       flushed_at_(std::chrono::steady_clock::now()) {
+  if (takesCommands(*world_)) commanded_.emplace(*this, "surface_settings", In<SurfaceSettings>::Optional{});
   startWriter();
 }
 
@@ -112,6 +113,12 @@ void FileRecorder::fillRow(const Tick& tick) noexcept {
   row.stop_requested = device_->stop_requested ? 1 : 0;
   row.rearms = device_->rearms;
   row.surfaces_changed = surfaces_.hasValue() && surfaces_->happened ? 1 : 0;
+  if (commanded_) {
+    if (const std::size_t slot = commands_.next(commanded_->value()); slot != SettingsTaker::kNone) {
+      row.commanded = slot + 1;
+      row.commanded_value = (*commanded_)->slots[slot].value;
+    }
+  }
   row.output_status = command_->status;
   row.coverage_lost = contact_->coverage_lost;
   row.pop_through = contact_->pop_through;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
 #include "framework/state/surface_change.h"
+#include "framework/state/surface_settings.h"
 
 namespace presa::record {
 
@@ -74,6 +76,8 @@ class FileRecorder final : public Recorder, public WatchedStages {
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
   In<SurfaceChange> surfaces_{*this, "surface_change", In<SurfaceChange>::Optional{}};
+  std::optional<In<SurfaceSettings>> commanded_;  // where the run takes commands
+  SettingsTaker commands_;
 
   std::shared_ptr<const World> world_;
   WriterSettings settings_;

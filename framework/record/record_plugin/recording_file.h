@@ -12,7 +12,7 @@ namespace presa::record {
 
 /// Version of the layout below; a reader refuses a higher one.
 inline constexpr std::uint64_t kFormatVersion =
-    4;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms in the ticks
+    5;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows of one chunk in the file and of one write.
 inline constexpr std::size_t kBlockRows = 1024;

@@ -46,6 +46,9 @@ Table tickTable() {
       .add("stop_requested", offsetof(R, stop_requested), Cell::kI32, "1", "1: the run is being stopped, forces fade")
       .add("surfaces_changed", offsetof(R, surfaces_changed), Cell::kU64, "1", "1: surfaces have their other friction")
       .add("rearms", offsetof(R, rearms), Cell::kU64, "1", "latched faults forgiven, since start")
+      .add("commanded", offsetof(R, commanded), Cell::kU64, "1",
+           "surface that a command changed in this tick, counted from 1 as openSurfaces lists them; 0: none")
+      .real("commanded_value", offsetof(R, commanded_value), "1", "to what, in the unit of the scene")
       .add("output_status", offsetof(R, output_status), Cell::kU32, "1",
            "bits of the output stage, all fingers together")
       .add("coverage_lost", offsetof(R, coverage_lost), Cell::kU32, "1",

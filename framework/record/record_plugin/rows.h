@@ -18,6 +18,8 @@ struct TickRow {
   double object_time_end = 0;
   std::uint64_t surfaces_changed = 0;
   std::uint64_t rearms = 0;
+  std::uint64_t commanded = 0;  // 1 + slot of SurfaceSettings; 0: nothing
+  double commanded_value = 0;
   std::int32_t device_count = 0;
   std::int32_t command_count = 0;
   std::int32_t stop_requested = 0;
@@ -53,7 +55,7 @@ struct BodyRow {
 // rows travel through the ring as 64-bit words and go to the file byte by byte: no padding may hide in them
 template <class Row>
 inline constexpr bool kPacked = std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(std::uint64_t) == 0;
-static_assert(kPacked<TickRow> && sizeof(TickRow) == 7 * 8 + 6 * 4);
+static_assert(kPacked<TickRow> && sizeof(TickRow) == 9 * 8 + 6 * 4);
 static_assert(kPacked<FingerRow> && sizeof(FingerRow) == (2 + 3 * 9 + 2) * 8 + 4 * 4);
 static_assert(kPacked<BodyRow> && sizeof(BodyRow) == (2 + 13) * 8);
 

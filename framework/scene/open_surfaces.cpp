@@ -1,0 +1,37 @@
+#include "framework/scene/open_surfaces.h"
+
+#include <algorithm>
+
+#include "framework/state/surface_settings.h"
+
+namespace presa {
+namespace {
+
+constexpr double kLeastStiffness = 1;  // [N/m]; none at all would be no surface
+constexpr double kMostFriction = 2;    // times what was loaded
+
+}  // namespace
+
+std::vector<OpenSurface> openSurfaces(const Scene& scene) {
+  std::vector<OpenSurface> open;
+  const bool friction = scene.haptics.renderer == HapticSettings::Renderer::kGodObject && !scene.surfacesChange();
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const Material& material = scene.materials[m];
+    const bool touched = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                     [&](const Body& body) { return body.haptic && body.material == m; });
+    if (!touched || scene.devices.empty()) continue;
+    const std::string path = "material/" + material.name + "/";
+    open.push_back({m, &Material::stiffness, path + "stiffness", std::min(kLeastStiffness, material.stiffness),
+                    material.stiffness});
+    if (!friction || !(material.friction_static > 0)) continue;
+    open.push_back(
+        {m, &Material::friction_static, path + "friction/static", 0, kMostFriction * material.friction_static});
+    if (!(material.friction_dynamic > 0)) continue;
+    open.push_back(
+        {m, &Material::friction_dynamic, path + "friction/dynamic", 0, kMostFriction * material.friction_dynamic});
+  }
+  if (open.size() > SurfaceSettings::kMost) open.resize(SurfaceSettings::kMost);
+  return open;
+}
+
+}  // namespace presa
