@@ -1,7 +1,9 @@
 #include "framework/bus/local_bus.h"
 
+#include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,9 @@ struct LocalBus::Hub {
   std::mutex mutex;
   std::vector<Inbox*> inboxes;
   std::optional<RunInfo> run;  // for who comes later
+  std::vector<std::vector<Command>*> posts;
+  std::vector<Commander::Heard*> commanders;
+  std::map<std::pair<std::uint64_t, std::string>, OpenParameter> parameters;  // for who comes later
 };
 
 class LocalBus::LocalWriter final : public Writer {
@@ -68,9 +73,65 @@ class LocalBus::LocalReader final : public Reader {
   Inbox inbox_;
 };
 
+class LocalBus::LocalPost final : public CommandPost {
+ public:
+  explicit LocalPost(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->posts.push_back(&commands_);
+  }
+  ~LocalPost() override {
+    const std::lock_guard lock(hub_->mutex);
+    std::erase(hub_->posts, &commands_);
+  }
+  void show(const OpenParameter& parameter) noexcept override {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->parameters[{parameter.run, parameter.name}] = parameter;
+    for (Commander::Heard* heard : hub_->commanders) heard->parameters.push_back(parameter);
+  }
+  std::vector<Command> take() override {
+    const std::lock_guard lock(hub_->mutex);
+    return std::exchange(commands_, {});
+  }
+  void answer(const Answer& answer) noexcept override {
+    const std::lock_guard lock(hub_->mutex);
+    for (Commander::Heard* heard : hub_->commanders) heard->answers.push_back(answer);
+  }
+
+ private:
+  std::shared_ptr<Hub> hub_;
+  std::vector<Command> commands_;
+};
+
+class LocalBus::LocalCommander final : public Commander {
+ public:
+  explicit LocalCommander(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->commanders.push_back(&heard_);
+    for (const auto& [key, parameter] : hub_->parameters) heard_.parameters.push_back(parameter);
+  }
+  ~LocalCommander() override {
+    const std::lock_guard lock(hub_->mutex);
+    std::erase(hub_->commanders, &heard_);
+  }
+  void send(const Command& command) override {
+    const std::lock_guard lock(hub_->mutex);
+    for (std::vector<Command>* post : hub_->posts) post->push_back(command);
+  }
+  Heard take() override {
+    const std::lock_guard lock(hub_->mutex);
+    return std::exchange(heard_, {});
+  }
+
+ private:
+  std::shared_ptr<Hub> hub_;
+  Heard heard_;
+};
+
 LocalBus::LocalBus(std::size_t capacity) : hub_(std::make_shared<Hub>(capacity)) {}
 LocalBus::~LocalBus() = default;
 std::unique_ptr<Writer> LocalBus::writer() { return std::make_unique<LocalWriter>(hub_); }
 std::unique_ptr<Reader> LocalBus::reader() { return std::make_unique<LocalReader>(hub_); }
+std::unique_ptr<CommandPost> LocalBus::post() { return std::make_unique<LocalPost>(hub_); }
+std::unique_ptr<Commander> LocalBus::commander() { return std::make_unique<LocalCommander>(hub_); }
 
 }  // namespace presa::bus

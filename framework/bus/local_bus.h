@@ -15,11 +15,15 @@ class LocalBus {
   ~LocalBus();
   std::unique_ptr<Writer> writer();
   std::unique_ptr<Reader> reader();
+  std::unique_ptr<CommandPost> post();
+  std::unique_ptr<Commander> commander();
 
  private:
   struct Hub;
   class LocalWriter;
   class LocalReader;
+  class LocalPost;
+  class LocalCommander;
   std::shared_ptr<Hub> hub_;
 };
 

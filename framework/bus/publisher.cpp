@@ -16,8 +16,9 @@ std::uint64_t newRunId() {
   return id == 0 ? 1 : id;
 }
 
-Publisher::Publisher(std::shared_ptr<const World> world, Open open)
+Publisher::Publisher(std::shared_ptr<const World> world, Open open, CommandDesk::Open open_post)
     : Module("bus_dds", RateGroup::kBus), world_(std::move(world)), open_(std::move(open)) {
+  if (takesCommands(*world_)) desk_ = std::make_unique<Desk>(*this, world_->scene, std::move(open_post));
   const auto& bodies = world_->scene.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].fixed) continue;  // the scene says where it is
@@ -32,7 +33,10 @@ Publisher::Publisher(std::shared_ptr<const World> world, Open open)
 Publisher::~Publisher() = default;
 
 std::vector<std::string> Publisher::stages() const {
-  return {"take the latest states, poses interpolated to now", "hand every object and finger to the network"};
+  std::vector<std::string> stages{"take the latest states, poses interpolated to now",
+                                  "hand every object and finger to the network"};
+  if (desk_) stages.emplace_back("judge the commands that have come, and answer");
+  return stages;
 }
 
 void Publisher::start() {
@@ -40,7 +44,8 @@ void Publisher::start() {
   run_ = newRunId();
   const Scene& scene = world_->scene;
   writer_->announce({run_, sceneHash(*world_), RateTable(scene.rates).period(RateGroup::kBus), world_->options.realtime,
-                     scene.name, scene.resolved_xml});
+                     scene.name, scene.resolved_xml, desk_ != nullptr});
+  if (desk_) desk_->desk.start(run_);
 }
 
 void Publisher::step(const Tick& tick) noexcept {
@@ -54,10 +59,14 @@ void Publisher::step(const Tick& tick) noexcept {
   beat_.object_faults = objects_->faults;
   beat_.refused += writer_->publish({object_samples_, finger_samples_, beat_});
   tellEvents(stamp);
+  if (!desk_) return;
+  desk_->desk.serve(tick.time);
+  desk_->settings.value = desk_->desk.surfaces();
 }
 
 void Publisher::stop() {
   if (!writer_) return;
+  if (desk_) desk_->desk.stop();
   // the last states again, so that the end is no gap
   const Stamp stamp{run_, beat_.stamp.sequence + 1, beat_.stamp.time, monotonicNs()};
   beat_.stamp = stamp;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "framework/bus/command_desk.h"
 #include "framework/bus/state_bus.h"
 #include "framework/graph/port.h"
 #include "framework/scene/world.h"
@@ -11,25 +12,36 @@
 namespace presa::bus {
 
 /// Publishes a run: every free body and every finger once a tick of the bus group. It only reads its ports, which the haptic thread
-/// fills without waiting; nothing comes back. Ports, all optional: device_state, contact_exchange, force_command, object_state.
-class Publisher final : public Module {
+/// fills without waiting. Ports, all optional: device_state, contact_exchange, force_command, object_state; and, only where the run
+/// takes commands (takesCommands), surface_settings to the haptic thread.
+class Publisher final : public Module, public Commandable {
  public:
   using Open = std::function<std::unique_ptr<Writer>()>;
-  /// `open` is called in start(), on the thread of the group; it may throw InputError.
-  Publisher(std::shared_ptr<const World> world, Open open);
+  /// `open` and `open_post` are called in start(), on the thread of the group; they may throw InputError. The second only where the
+  /// run takes commands.
+  Publisher(std::shared_ptr<const World> world, Open open, CommandDesk::Open open_post = {});
   ~Publisher() override;
   void start() override;
   void step(const Tick& tick) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
+  CommandDesk* desk() noexcept override { return desk_ ? &desk_->desk : nullptr; }
 
  private:
+  struct Desk {
+    Desk(Module& owner, const Scene& scene, CommandDesk::Open open)
+        : settings(owner, "surface_settings"), desk(scene, std::move(open)) {}
+    Out<SurfaceSettings> settings;
+    CommandDesk desk;
+  };
+
   void fillObjects(const Stamp& stamp) noexcept;
   void fillFingers(const Stamp& stamp) noexcept;
   void tellEvents(const Stamp& stamp) noexcept;
 
   std::shared_ptr<const World> world_;
   Open open_;
+  std::unique_ptr<Desk> desk_;
   In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
   In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};

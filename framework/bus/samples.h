@@ -7,7 +7,7 @@
 #include "framework/state/contact_exchange.h"
 #include "framework/state/device_state.h"
 
-/// What travels on the bus: whole states, never changes of them, so that any one may be lost, doubled or late. SI units, world frame.
+/// What travels on the bus: whole states and values, never changes of them, so that any one may be lost, doubled or late. SI units, world frame.
 namespace presa::bus {
 
 /// Of every sample. All samples of one publication share it.
@@ -57,6 +57,39 @@ struct Event {
   std::uint32_t bits = 0;  ///< those that came up: OutputStatus of any finger, or ObjectFault
 };
 
+/// Sets one parameter of one run. It carries the value, never a difference, so that it may come twice, late, or not at all.
+struct Command {
+  std::uint64_t run = 0;
+  std::uint64_t sender = 0;  ///< random, one for each process that commands
+  std::uint64_t number = 0;  ///< of the sender's commands, from 1
+  std::string parameter;     ///< OpenParameter::name
+  double value = 0;
+};
+inline constexpr std::size_t kLongestParameter = 127;  ///< characters of a name
+
+/// What a run says to one command, as often as the command arrives.
+struct Answer {
+  enum class Verdict : std::int32_t {
+    kAccepted = 1,
+    kUnknown,  ///< no such parameter is open here
+    kOutOfRange,
+    kNotANumber,
+    kOvertaken,  ///< a later command of this sender for this parameter was there before
+  };
+  std::uint64_t run = 0, sender = 0, number = 0;
+  Verdict verdict = Verdict::kAccepted;
+  double value = 0;            ///< that is in force
+  double least = 0, most = 0;  ///< that is allowed
+};
+
+/// A parameter that commands may set, as it is now; kept for who comes late. Key: run and name.
+struct OpenParameter {
+  std::uint64_t run = 0;
+  std::string name;
+  double value = 0, least = 0, most = 0;
+  std::int32_t of = 0;  ///< how many this run has
+};
+
 /// The static part, kept for viewers that come late.
 struct RunInfo {
   std::uint64_t run = 0;
@@ -65,6 +98,7 @@ struct RunInfo {
   bool realtime = false;
   std::string scene_name;
   std::string scene_xml;  ///< resolved; meshes are named by their files
+  bool commands = false;  ///< it takes commands
 };
 
 /// One publication; the spans are read during the call only.

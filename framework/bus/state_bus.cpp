@@ -15,4 +15,14 @@ std::unique_ptr<Reader> openReader(const BusSettings& settings) {
   return std::unique_ptr<Reader>(reinterpret_cast<Open>(pluginSymbol("bus_dds", "presaOpenBusReader"))(settings));
 }
 
+std::unique_ptr<CommandPost> openPost(const BusSettings& settings) {
+  using Open = CommandPost* (*)(const BusSettings&);
+  return std::unique_ptr<CommandPost>(reinterpret_cast<Open>(pluginSymbol("bus_dds", "presaOpenBusPost"))(settings));
+}
+
+std::unique_ptr<Commander> openCommander(const BusSettings& settings) {
+  using Open = Commander* (*)(const BusSettings&);
+  return std::unique_ptr<Commander>(reinterpret_cast<Open>(pluginSymbol("bus_dds", "presaOpenBusCommander"))(settings));
+}
+
 }  // namespace presa::bus

@@ -2,12 +2,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "framework/bus/samples.h"
 #include "framework/scene/scene.h"
 
 /// A bus carries the state of a run to viewers, in this process, on this machine or on others. What carries it is the
-/// implementation's matter (modules/bus_dds; LocalBus for tests). Nothing ever comes back to the run.
+/// implementation's matter (modules/bus_dds; LocalBus for tests). What comes back are commands, where a run has a CommandPost; none has
+/// one that was not told to.
 namespace presa::bus {
 
 /// The side of the run. Thread: one, never the haptic thread; calls may allocate and may block for a few milliseconds.
@@ -46,9 +48,35 @@ class Reader {
   virtual std::uint64_t overrun() const = 0;
 };
 
+/// Where a run takes commands. Thread: one, never the haptic thread; calls may allocate.
+class CommandPost {
+ public:
+  virtual ~CommandPost() = default;
+  /// What may be set; again whenever it is another value or range.
+  virtual void show(const OpenParameter& parameter) noexcept = 0;
+  /// What has arrived since the last call, for whichever run; does not wait.
+  virtual std::vector<Command> take() = 0;
+  virtual void answer(const Answer& answer) noexcept = 0;
+};
+
+/// Who commands. Thread: one. A command, or its answer, may be lost while both ends find each other: send it again until it is answered.
+class Commander {
+ public:
+  virtual ~Commander() = default;
+  virtual void send(const Command& command) = 0;
+  struct Heard {
+    std::vector<OpenParameter> parameters;
+    std::vector<Answer> answers;  ///< to anybody
+  };
+  /// What has arrived since the last call; does not wait.
+  virtual Heard take() = 0;
+};
+
 /// The bus over the network, through the plug-in bus_dds, which is loaded at the first call. Throws InputError: E590 not in this
 /// installation, E720 the network cannot be used.
 std::unique_ptr<Writer> openWriter(const BusSettings& settings);
 std::unique_ptr<Reader> openReader(const BusSettings& settings);
+std::unique_ptr<CommandPost> openPost(const BusSettings& settings);
+std::unique_ptr<Commander> openCommander(const BusSettings& settings);
 
 }  // namespace presa::bus

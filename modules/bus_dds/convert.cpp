@@ -12,6 +12,10 @@ bus::Stamp fromTopic(const presa_dds_Stamp& stamp) noexcept {
   return {stamp.run, stamp.number, stamp.time, stamp.sent_ns};
 }
 void put(const Vec3& v, presa_dds_Vector& out) noexcept { std::copy_n(v.data(), 3, out); }
+void put(const std::string& name, presa_dds_Name& out) noexcept {
+  static_assert(sizeof(presa_dds_Name) == bus::kLongestParameter + 1);
+  out[name.copy(out, bus::kLongestParameter)] = '\0';
+}
 Vec3 vec3(const presa_dds_Vector& v) noexcept { return {v[0], v[1], v[2]}; }
 
 }  // namespace
@@ -108,10 +112,38 @@ presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept {
           run.period,
           run.realtime,
           const_cast<char*>(run.scene_name.c_str()),
-          const_cast<char*>(run.scene_xml.c_str())};
+          const_cast<char*>(run.scene_xml.c_str()),
+          run.commands};
 }
 bus::RunInfo fromTopic(const presa_dds_SceneInfo& run) {
-  return {run.run, run.scene_hash, run.period, run.realtime, run.scene_name, run.scene_xml};
+  return {run.run, run.scene_hash, run.period, run.realtime, run.scene_name, run.scene_xml, run.commands};
+}
+
+presa_dds_Command toTopic(const bus::Command& command) noexcept {
+  presa_dds_Command out{command.run, command.sender, command.number, {}, command.value};
+  put(command.parameter, out.parameter);
+  return out;
+}
+bus::Command fromTopic(const presa_dds_Command& command) {
+  return {command.run, command.sender, command.number, command.parameter, command.value};
+}
+
+presa_dds_Answer toTopic(const bus::Answer& answer) noexcept {
+  return {answer.run,   answer.sender, answer.number, static_cast<std::int32_t>(answer.verdict),
+          answer.value, answer.least,  answer.most};
+}
+bus::Answer fromTopic(const presa_dds_Answer& answer) noexcept {
+  return {answer.run,   answer.sender, answer.number, static_cast<bus::Answer::Verdict>(answer.verdict),
+          answer.value, answer.least,  answer.most};
+}
+
+presa_dds_Parameter toTopic(const bus::OpenParameter& parameter) noexcept {
+  presa_dds_Parameter out{parameter.run, {}, parameter.value, parameter.least, parameter.most, parameter.of};
+  put(parameter.name, out.name);
+  return out;
+}
+bus::OpenParameter fromTopic(const presa_dds_Parameter& parameter) {
+  return {parameter.run, parameter.name, parameter.value, parameter.least, parameter.most, parameter.of};
 }
 
 }  // namespace presa::bus_dds

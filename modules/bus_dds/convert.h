@@ -10,6 +10,10 @@ presa_dds_ObjectState toTopic(const bus::ObjectSample& sample) noexcept;
 presa_dds_DeviceState toTopic(const bus::FingerSample& sample) noexcept;
 presa_dds_Beat toTopic(const bus::Beat& beat) noexcept;
 presa_dds_Event toTopic(const bus::Event& event) noexcept;
+/// A name longer than bus::kLongestParameter is cut.
+presa_dds_Command toTopic(const bus::Command& command) noexcept;
+presa_dds_Answer toTopic(const bus::Answer& answer) noexcept;
+presa_dds_Parameter toTopic(const bus::OpenParameter& parameter) noexcept;
 /// Its texts are those of `run`, which has to outlive it.
 presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept;
 
@@ -17,6 +21,9 @@ bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept;
 bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept;
 bus::Beat fromTopic(const presa_dds_Beat& beat) noexcept;
 bus::Event fromTopic(const presa_dds_Event& event) noexcept;
+bus::Command fromTopic(const presa_dds_Command& command);
+bus::Answer fromTopic(const presa_dds_Answer& answer) noexcept;
+bus::OpenParameter fromTopic(const presa_dds_Parameter& parameter);
 bus::RunInfo fromTopic(const presa_dds_SceneInfo& run);
 
 }  // namespace presa::bus_dds

@@ -8,5 +8,7 @@ namespace presa::bus_dds {
 /// Throw InputError: E720 the network cannot be used, E721 this process is in that domain on another network already.
 std::unique_ptr<bus::Writer> makeWriter(const BusSettings& settings);
 std::unique_ptr<bus::Reader> makeReader(const BusSettings& settings);
+std::unique_ptr<bus::CommandPost> makePost(const BusSettings& settings);
+std::unique_ptr<bus::Commander> makeCommander(const BusSettings& settings);
 
 }  // namespace presa::bus_dds

@@ -13,6 +13,7 @@ namespace presa::bus_dds {
 namespace {
 
 constexpr int kKept = 32;  // publications
+constexpr int kCommandsKept = 256;
 
 // Everything said here, so that no file and no environment variable of the machine changes where the state goes.
 // - Peers, ParticipantIndex: without multicast the viewers' ports are tried one by one.
@@ -75,7 +76,7 @@ std::shared_ptr<Participant> open(const BusSettings& settings) {
   joined->participant =
       checked(dds_create_participant(id, nullptr, nullptr), ("the network '" + settings.network + "'").c_str());
   const auto topic = [&](const dds_topic_descriptor_t& type, const char* name) {
-    return checked(dds_create_topic(joined->participant, &type, name, nullptr, nullptr), name);
+    return makeTopic(*joined, type, name);
   };
   joined->objects = topic(presa_dds_ObjectState_desc, "presa_object_state");
   joined->fingers = topic(presa_dds_DeviceState_desc, "presa_device_state");
@@ -126,6 +127,16 @@ std::shared_ptr<Participant> join(const BusSettings& settings) {
 Qos stateQos() {
   Qos qos = reliable();
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kKept);
+  return qos;
+}
+
+Entity makeTopic(const Participant& joined, const dds_topic_descriptor_t& type, const char* name) {
+  return checked(dds_create_topic(joined.participant, &type, name, nullptr, nullptr), name);
+}
+
+Qos commandQos() {
+  Qos qos = reliable();
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kCommandsKept);
   return qos;
 }
 

@@ -45,7 +45,11 @@ struct QosDelete {
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDelete>;
 Qos stateQos();
-/// The static part: kept for who comes late.
+/// The static part, and what commands may set: the last of each key is kept for who comes late.
 Qos sceneQos();
+/// Commands and answers: reliable, the last kCommandsKept; beyond that the oldest go, and are sent again by who waits for an answer.
+Qos commandQos();
+/// A topic in this participant, deleted with the entity. Throws InputError E720.
+Entity makeTopic(const Participant& joined, const dds_topic_descriptor_t& type, const char* name);
 
 }  // namespace presa::bus_dds

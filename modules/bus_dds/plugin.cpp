@@ -10,7 +10,8 @@ namespace {
 
 std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
   const BusSettings settings = busOf(*world).value_or(BusSettings{});
-  return std::make_unique<bus::Publisher>(std::move(world), [settings] { return makeWriter(settings); });
+  return std::make_unique<bus::Publisher>(
+      std::move(world), [settings] { return makeWriter(settings); }, [settings] { return makePost(settings); });
 }
 
 std::string library() { return "Cyclone DDS " DDS_VERSION; }
@@ -33,4 +34,14 @@ extern "C" __attribute__((visibility("default"))) presa::bus::Writer* presaOpenB
 extern "C" __attribute__((visibility("default"))) presa::bus::Reader* presaOpenBusReader(
     const presa::BusSettings& settings) {
   return presa::bus_dds::makeReader(settings).release();
+}
+
+extern "C" __attribute__((visibility("default"))) presa::bus::Commander* presaOpenBusCommander(
+    const presa::BusSettings& settings) {
+  return presa::bus_dds::makeCommander(settings).release();
+}
+
+extern "C" __attribute__((visibility("default"))) presa::bus::CommandPost* presaOpenBusPost(
+    const presa::BusSettings& settings) {
+  return presa::bus_dds::makePost(settings).release();
 }

@@ -1,0 +1,100 @@
+#include "modules/bus_dds/convert.h"
+#include "modules/bus_dds/dds_bus.h"
+#include "modules/bus_dds/participant.h"
+
+namespace presa::bus_dds {
+namespace {
+
+constexpr std::size_t kAtOnce = 64;
+
+/// The three topics of commands: there only while somebody takes or gives any.
+struct Topics {
+  explicit Topics(const Participant& joined)
+      : commands(makeTopic(joined, presa_dds_Command_desc, "presa_command")),
+        answers(makeTopic(joined, presa_dds_Answer_desc, "presa_answer")),
+        parameters(makeTopic(joined, presa_dds_Parameter_desc, "presa_parameter")) {}
+  Entity commands, answers, parameters;
+};
+
+Entity writerOf(const Participant& joined, const Entity& topic, const Qos& qos) {
+  return checked(dds_create_writer(joined.participant, topic, qos.get(), nullptr), "a writer");
+}
+Entity readerOf(const Participant& joined, const Entity& topic, const Qos& qos) {
+  return checked(dds_create_reader(joined.participant, topic, qos.get(), nullptr), "a reader");
+}
+
+template <class Topic>
+void send(const Entity& writer, const Topic& sample) noexcept {
+  dds_write(writer, &sample);
+  dds_write_flush(writer);
+}
+
+template <class Topic, class Sample>
+void takeAll(const Entity& reader, std::vector<Sample>& into) {
+  std::array<void*, kAtOnce> samples{};
+  std::array<dds_sample_info_t, kAtOnce> infos;
+  for (;;) {
+    samples[0] = nullptr;  // Cyclone lends its own memory
+    const dds_return_t count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
+    if (count <= 0) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      if (infos[i].valid_data) into.push_back(fromTopic(*static_cast<const Topic*>(samples[i])));
+    }
+    dds_return_loan(reader, samples.data(), count);
+  }
+}
+
+class DdsPost final : public bus::CommandPost {
+ public:
+  explicit DdsPost(const BusSettings& settings)
+      : joined_(join(settings)),
+        topics_(*joined_),
+        commands_(readerOf(*joined_, topics_.commands, commandQos())),
+        answers_(writerOf(*joined_, topics_.answers, commandQos())),
+        parameters_(writerOf(*joined_, topics_.parameters, sceneQos())) {}
+
+  void show(const bus::OpenParameter& parameter) noexcept override { send(parameters_, toTopic(parameter)); }
+  std::vector<bus::Command> take() override {
+    std::vector<bus::Command> commands;
+    takeAll<presa_dds_Command>(commands_, commands);
+    return commands;
+  }
+  void answer(const bus::Answer& answer) noexcept override { send(answers_, toTopic(answer)); }
+
+ private:
+  std::shared_ptr<Participant> joined_;
+  Topics topics_;
+  Entity commands_, answers_, parameters_;
+};
+
+class DdsCommander final : public bus::Commander {
+ public:
+  explicit DdsCommander(const BusSettings& settings)
+      : joined_(join(settings)),
+        topics_(*joined_),
+        commands_(writerOf(*joined_, topics_.commands, commandQos())),
+        answers_(readerOf(*joined_, topics_.answers, commandQos())),
+        parameters_(readerOf(*joined_, topics_.parameters, sceneQos())) {}
+
+  void send(const bus::Command& command) override { bus_dds::send(commands_, toTopic(command)); }
+  Heard take() override {
+    Heard heard;
+    takeAll<presa_dds_Parameter>(parameters_, heard.parameters);
+    takeAll<presa_dds_Answer>(answers_, heard.answers);
+    return heard;
+  }
+
+ private:
+  std::shared_ptr<Participant> joined_;
+  Topics topics_;
+  Entity commands_, answers_, parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<bus::CommandPost> makePost(const BusSettings& settings) { return std::make_unique<DdsPost>(settings); }
+std::unique_ptr<bus::Commander> makeCommander(const BusSettings& settings) {
+  return std::make_unique<DdsCommander>(settings);
+}
+
+}  // namespace presa::bus_dds
