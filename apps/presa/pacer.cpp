@@ -13,10 +13,12 @@ constexpr std::int64_t kBehind = 200'000'000;  // [ns] that a slow machine may b
 void Pacer::step(const Tick& tick) noexcept {
   while (!due(tick.time)) {
     if (control_.stop_requested.load(std::memory_order_relaxed)) return;
-    if (view_ == nullptr) continue;
-    if (view_->wantsStop()) return;
     const std::int64_t next = monotonicNs() + kFrame;
-    view_->refresh();
+    if (meanwhile_) meanwhile_(tick.time);
+    if (view_ != nullptr) {
+      if (view_->wantsStop()) return;
+      view_->refresh();
+    }
     if (wish_.paused) sleepUntilNs(next);
   }
 }

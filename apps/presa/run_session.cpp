@@ -59,8 +59,9 @@ class SignalGuard {
   }, old_term_{};
 };
 
-constexpr int kTripsTold = 6;            // each is a note of its own; the rest is counted
-constexpr double kDefaultDuration = 10;  // [s], for scenes without a script
+constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
+constexpr int kTripsTold = 6;                         // each is a note of its own; the rest is counted
+constexpr double kDefaultDuration = 10;               // [s], for scenes without a script
 
 }  // namespace
 
@@ -105,7 +106,7 @@ Run::Run(const Loaded& loaded, Settings settings)
   if (loaded_.world->scene.assembly) session_options.more.push_back(std::make_unique<AssemblyTap>(live_->filled));
   const bool window = options.view == RunOptions::View::kWindow;
   const bool paced = !options.realtime && (window || settings_.paced) && !drivesHardware(loaded_.plan);
-  if (paced) session_options.more.push_back(std::make_unique<Pacer>(time_wish_, view_, control_));
+  if (paced) session_options.more.push_back(std::make_unique<Pacer>(time_wish_, view_, control_, while_held_));
   if (options.realtime)
     for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
   session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
@@ -116,6 +117,7 @@ Run::Run(const Loaded& loaded, Settings settings)
   view_ = session_->view();
   time_wish_.speed = settings_.speed;
   if (paced && view_ != nullptr) view_->offerTime(time_wish_, 0);
+  offerToCommands(paced);
   if (View* view = session_->view()) {
     std::array<const GroupTiming*, kRateGroupCount> timings{};
     for (int g = 0; g < kRateGroupCount; ++g) {
@@ -131,6 +133,43 @@ Run::Run(const Loaded& loaded, Settings settings)
 }
 
 Run::~Run() = default;
+
+// What commands may set beside the surfaces: what the user at the window may, where this run has it. No force, no limit, and no re-arm:
+// who is elsewhere does not see the finger.
+void Run::offerToCommands(bool paced) {
+  auto* commandable = dynamic_cast<bus::Commandable*>(session_->graph().find("bus_dds"));
+  desk_ = commandable != nullptr ? commandable->desk() : nullptr;
+  if (desk_ == nullptr) return;
+  const auto always = [](double value) { return [value] { return value; }; };
+  if (paced) {
+    while_held_ = [this](double time) { desk_->serve(time); };
+    desk_->offer({"time/held", [this] { return time_wish_.paused ? 1.0 : 0.0; }, always(0), always(1),
+                  [this](double held) { time_wish_.paused = held >= 0.5; }});
+    desk_->offer({"time/speed", [this] { return time_wish_.speed.load(); }, always(kSlowest), always(kFastest),
+                  [this](double speed) { time_wish_.speed = speed; }});
+  }
+  // an undo is no part of a recording, which would not be the same when it is run again
+  if (AssemblyControl* assembly = session_->assembly(); assembly != nullptr && loaded_.world->options.record.empty()) {
+    desk_->offer({"assembly/undone", [this] { return undone_; }, [this] { return undone_; },
+                  [this] { return undone_ + 1; },
+                  [this, assembly](double undone) {
+                    if (undone < undone_ + 1) return;
+                    ++undone_;
+                    assembly->undo();
+                  }});
+  }
+}
+
+void Run::noteCommands() {
+  if (desk_ == nullptr) return;
+  for (const bus::CommandDesk::Done& done : desk_->done()) {
+    std::array<char, 240> text;
+    std::snprintf(text.data(), text.size(), "%.3f s: a command set %s to %g", done.time, done.name.c_str(), done.value);
+    result_.notes.emplace_back(text.data());
+  }
+  if (const std::size_t more = desk_->doneCount() - desk_->done().size(); more > 0)
+    result_.notes.push_back("… and " + std::to_string(more) + " more commands");
+}
 
 void Run::execute() {
   const SignalGuard guard(control_);
@@ -229,6 +268,7 @@ void Run::finish() {
   if (watchdog_trips_ > kTripsTold) {
     result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kTripsTold) + " more of these");
   }
+  noteCommands();
   result_.world = loaded_.world;
   result_.version = kVersion;
   result_.command = settings_.command;

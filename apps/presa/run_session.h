@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/presa/run_result.h"
+#include "framework/bus/command_desk.h"
 #include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
 #include "framework/schedule/executor.h"
@@ -44,12 +45,17 @@ class Run {
   void noteObjectFaults();
   void fail(double time, std::string what);
   void rearm();
+  void offerToCommands(bool paced);
+  void noteCommands();
 
   Loaded loaded_;
   Settings settings_;
   RunControl control_;
   TimeWish time_wish_;
   View* view_ = nullptr;
+  bus::CommandDesk* desk_ = nullptr;        // where the run takes commands
+  std::function<void(double)> while_held_;  // in lockstep: commands are read
+  double undone_ = 0;                       // by commands
   struct Live;
   std::unique_ptr<Live> live_;
   std::unique_ptr<Session> session_;

@@ -37,7 +37,8 @@ struct Held {
   RunControl control;
   CountingView counting{wish};
   View* view = &counting;
-  Pacer pacer{wish, view, control};
+  std::function<void(double)> meanwhile;
+  Pacer pacer{wish, view, control, meanwhile};
   void step(double time) { pacer.step({static_cast<std::uint64_t>(time * 60), time, 1.0 / 60}); }
 };
 
@@ -51,6 +52,22 @@ TEST(Pacer, AHeldRunWaitsForItsUser) {
     held.counting.act = act;
     held.step(1);
     EXPECT_EQ(held.counting.refreshed, held.counting.act_at);
+  }
+}
+
+// Commands are read while it is held, with a window and without: one of them lets it go on.
+TEST(Pacer, AHeldRunReadsCommands) {
+  for (const bool window : {true, false}) {
+    Held held;
+    if (!window) held.view = nullptr;
+    held.wish.paused = true;
+    int read = 0;
+    held.meanwhile = [&](double time) {
+      EXPECT_EQ(time, 1);
+      if (++read == 5) held.wish.paused = false;
+    };
+    held.step(1);
+    EXPECT_EQ(read, 5);
   }
 }
 

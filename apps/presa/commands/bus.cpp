@@ -100,8 +100,11 @@ void addMeasure(CLI::App& app, int& status) {
 }  // namespace
 
 void addBus(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("bus", "The state of a run on the network: who listens, what is lost");
+  CLI::App* command =
+      app.add_subcommand("bus", "Runs on the network: which there are, what is lost, setting their parameters");
   command->require_subcommand(1);
+  addBusList(*command, status);
+  addBusSet(*command, status);
   addListen(*command, status);
   addMeasure(*command, status);
 }

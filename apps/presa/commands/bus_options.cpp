@@ -24,4 +24,9 @@ void addBusOptions(CLI::App& command, std::optional<BusSettings>& bus, const std
       ->check(CLI::Range(kLeastBusDomain, kMostBusDomain));
 }
 
+void addBusCommandsOption(CLI::App& command, bool& open) {
+  command.add_flag("--bus-commands", open,
+                   "let others on the bus set parameters of the run (presa bus set); without it nobody is listened to");
+}
+
 }  // namespace presa

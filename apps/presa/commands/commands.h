@@ -21,6 +21,8 @@ void addCost(CLI::App& app, int& status);
 void addExperiment(CLI::App& app, int& status);
 void addView(CLI::App& app, int& status);
 void addBus(CLI::App& app, int& status);
+void addBusList(CLI::App& bus, int& status);
+void addBusSet(CLI::App& bus, int& status);
 void addDevice(CLI::App& app, int& status);
 void addTemple(CLI::App& app, int& status);
 

@@ -22,7 +22,7 @@ struct Arguments {
   RunOptions options;
   bool lockstep = false, realtime = false, quiet = false;
   std::string view;  ///< empty: choose
-  double speed = 1;
+  double speed = 0;  ///< 0: as is usual
   std::string summary, report;
 };
 
@@ -55,6 +55,7 @@ std::string commandLine(const Arguments& a) {
   }
   for (const std::string& set : a.inputs.sets) line += " --set '" + set + "'";
   if (a.options.bus) line += " --bus " + a.options.bus->network;
+  if (a.options.bus_commands) line += " --bus-commands";
   if (a.options.seed != 1) line += " --seed " + std::to_string(a.options.seed);
   return line;
 }
@@ -71,12 +72,17 @@ int run(Arguments arguments) {
   Diagnostics diagnostics;
   const Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
+  if (!diagnostics.hasErrors() && arguments.options.bus_commands && !busOf(*loaded.world))
+    diagnostics.error(122, {"--bus-commands", 0, 0}, "the run is on no bus that commands could come by",
+                      "add --bus loopback, or --bus lan");
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  Run session(
-      loaded,
-      {.trace_rate = 250, .quiet = arguments.quiet, .command = commandLine(arguments), .speed = arguments.speed});
+  Run session(loaded, {.trace_rate = 250,
+                       .quiet = arguments.quiet,
+                       .command = commandLine(arguments),
+                       .speed = arguments.speed > 0 ? arguments.speed : 1,
+                       .paced = arguments.speed > 0});
   session.execute();
   const RunResult& result = session.result();
   if (!arguments.summary.empty()) writeSummary(result, arguments.summary);
@@ -122,11 +128,14 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--video", a->options.video,
                       "MP4 of the run through ffmpeg, 30 pictures for each simulated second");
   command
-      ->add_option("--speed", a->speed,
-                   "simulated seconds in a second, of a lockstep run with a window (default 1; keys [ and ] change it)")
+      ->add_option(
+          "--speed", a->speed,
+          "simulated seconds in a second, of a lockstep run (default: with a window 1, where the keys [ and ] change\n"
+          "it; without as many as the machine makes)")
       ->check(CLI::PositiveNumber);
   addShowOption(*command, a->options.show);
   addBusOptions(*command, a->options.bus, "publish the state for presa view --join");
+  addBusCommandsOption(*command, a->options.bus_commands);
   command->add_option("--summary", a->summary, "results as JSON");
   command->add_option("--report", a->report, "results as one HTML page with plots");
   command->add_flag("--quiet", a->quiet, "no status line and no closing text");
