@@ -25,6 +25,19 @@ const ForceCommand* commandOf(const Graph& graph) {
   return nullptr;
 }
 
+/// A finger of a recording: gives the recorded samples, ignores forces.
+class RecordedFinger final : public Device {
+ public:
+  RecordedFinger(const Recording& recording, std::size_t finger) : recording_(recording), finger_(finger) {}
+  FingerInput read(const Tick&) noexcept override { return recording_.device[row_++].fingers[finger_]; }
+  void write(const Vec3&, const Tick&) noexcept override {}
+
+ private:
+  const Recording& recording_;
+  std::size_t finger_;
+  std::size_t row_ = 0;
+};
+
 class RecordedSurfaces final : public Module {
  public:
   explicit RecordedSurfaces(const Recording& recording)
@@ -135,9 +148,7 @@ class Replayer {
   ReplayResult result_;
 };
 
-}  // namespace
-
-DeviceList recordedDevices(const Recording& recording) {
+DeviceList devicesOf(const Recording& recording) {
   DeviceList devices;
   const int count = recording.device.empty() ? 0 : recording.device.front().count;
   for (int f = 0; f < count; ++f)
@@ -145,18 +156,35 @@ DeviceList recordedDevices(const Recording& recording) {
   return devices;
 }
 
-std::unique_ptr<Module> recordedSurfaces(const Recording& recording) {
+/// What changed on the way does so again; modules only where something did.
+std::vector<std::unique_ptr<Module>> changesOf(const Recording& recording) {
+  std::vector<std::unique_ptr<Module>> changes;
   const auto& changed = recording.surfaces_changed;
-  if (std::find(changed.begin(), changed.end(), 1) == changed.end()) return nullptr;
-  return std::make_unique<RecordedSurfaces>(recording);
+  if (std::find(changed.begin(), changed.end(), 1) != changed.end())
+    changes.push_back(std::make_unique<RecordedSurfaces>(recording));
+  if (!recording.commands.empty()) changes.push_back(std::make_unique<RecordedCommands>(recording));
+  return changes;
 }
 
-std::unique_ptr<Module> recordedCommands(const Recording& recording) {
-  return recording.commands.empty() ? nullptr : std::make_unique<RecordedCommands>(recording);
+}  // namespace
+
+RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) : recording_(recording) {
+  RunOptions options;
+  options.seed = recording.seed;
+  options.force_share = recording.force_share;
+  options.bus = BusSettings{.network = "none"};  // what is run again is not on show
+  options.bus_commands = !recording.commands.empty();
+  loaded_ = loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+  if (diagnostics.hasErrors()) return;
+  Session::Options session_options;
+  session_options.devices = devicesOf(recording);
+  session_options.more = changesOf(recording);
+  session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
 }
 
-ReplayResult replay(const Recording& recording, Session& session, const RateTable& rates, RunControl& control) {
-  return Replayer(recording, session, rates, control).run();
+ReplayResult RecordedRun::run() {
+  const RateTable rates(loaded_.world->scene.rates);
+  return Replayer(recording_, *session_, rates, control_).run();
 }
 
 }  // namespace presa

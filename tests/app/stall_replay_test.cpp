@@ -37,15 +37,7 @@ Recording recordStalledRun(const std::string& file, double force_share = 1) {
 
 ReplayResult again(const Recording& recording) {
   Diagnostics diagnostics;
-  RunOptions options;
-  options.force_share = recording.force_share;
-  const Loaded loaded =
-      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
-  RunControl control;
-  Session::Options session_options;
-  session_options.devices = recordedDevices(recording);
-  Session session(loaded.world, loaded.plan, control, std::move(session_options));
-  return replay(recording, session, RateTable(loaded.world->scene.rates), control);
+  return RecordedRun(recording, diagnostics).run();
 }
 
 // Which ticks were made up after a stall is part of the recording: with it every force comes again to the bit, without it

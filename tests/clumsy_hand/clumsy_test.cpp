@@ -8,7 +8,7 @@
 #include "apps/presa/temple/visit.h"
 #include "apps/presa/temple/written_scene.h"
 #include "devices/clumsy_hand/clumsy_plan.h"
-#include "framework/temple/proportions.h"
+#include "framework/temple/building.h"
 #include "tests/support/shipped_rig.h"
 
 namespace presa::clumsy {

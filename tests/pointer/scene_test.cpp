@@ -84,15 +84,7 @@ TEST(PointerScene, ARecordingNeedsNoPointer) {
   }
   const Recording recording = recordPlugin().read(options.record);
   Diagnostics diagnostics;
-  RunOptions again;
-  again.seed = recording.seed;
-  const Loaded loaded =
-      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, again, diagnostics);
-  RunControl control;
-  Session::Options session_options;
-  session_options.devices = recordedDevices(recording);
-  Session session(loaded.world, loaded.plan, control, std::move(session_options));
-  const ReplayResult result = replay(recording, session, RateTable(loaded.world->scene.rates), control);
+  const ReplayResult result = RecordedRun(recording, diagnostics).run();
   EXPECT_EQ(result.problem, "");
   EXPECT_EQ(result.ticks, 5000u);
   EXPECT_EQ(result.differing, 0u);

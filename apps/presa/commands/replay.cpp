@@ -77,29 +77,17 @@ int runReplay(const Arguments& arguments) {
     return kExitFault;
   }
   Diagnostics diagnostics;
-  RunOptions options;
-  options.seed = recording.seed;
-  options.force_share = recording.force_share;
-  options.bus = BusSettings{.network = "none"};  // what is run again is not on show
-  options.bus_commands = !recording.commands.empty();
-  const Loaded loaded =
-      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+  RecordedRun run(recording, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  RunControl control;
-  Session::Options session_options;
-  session_options.devices = recordedDevices(recording);
-  if (auto surfaces = recordedSurfaces(recording)) session_options.more.push_back(std::move(surfaces));
-  if (auto commands = recordedCommands(recording)) session_options.more.push_back(std::move(commands));
-  Session session(loaded.world, loaded.plan, control, std::move(session_options));
-  const ReplayResult result = replay(recording, session, RateTable(loaded.world->scene.rates), control);
+  const ReplayResult result = run.run();
   if (!result.problem.empty()) {
     std::fprintf(stderr, "%s: error[E611]: %s\n", arguments.file.c_str(), result.problem.c_str());
     return kExitFault;
   }
   std::printf("replayed %llu ticks, state hash 0x%016llx\n", static_cast<unsigned long long>(result.ticks),
-              static_cast<unsigned long long>(session.monitor().hash()));
+              static_cast<unsigned long long>(run.stateHash()));
   if (!arguments.verify) return kExitOk;
   if (result.differing == 0) {
     std::printf("verified: every commanded force is the same to the bit\n");
