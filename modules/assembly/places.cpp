@@ -12,6 +12,8 @@ using Status = GoalState::Status;
 constexpr double kGravity = 9.81;  // what a weight is [m/s^2]
 constexpr double kWellInside = 0.9,
                  kFarInside = 0.8;  // of the field's size: where a body is let go, where to it is drawn
+constexpr double kCaught = 2;       // [s] on its way back
+constexpr double kClear = 0.01;     // [m]
 constexpr double kDegree = std::numbers::pi / 180;
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -127,23 +129,27 @@ void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns,
                                                       .most = weights * kGravity};
 }
 
-void Places::bringBack(const ObjectState& objects) {
+void Places::bringBack(const ObjectState& objects, double period) {
   state_.brought_back = 0;
   if (!assembly_.field) return;
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
     if (belongs_[body] == 0 || goal_of_[body] != kNoGoal) continue;
     const Vec3& p = objects.bodies[body].X_WB_end.p;
     const auto is_inside = [&](double part) { return nearestInside(*assembly_.field, p, part) == p; };
-    returning_[body] = (returning_[body] != 0 ? !is_inside(kWellInside) : !is_inside(1)) ? 1 : 0;
-    if (returning_[body] == 0) continue;
+    const bool returns = returning_[body] > 0 ? !is_inside(kWellInside) : !is_inside(1);
+    returning_[body] = returns ? returning_[body] + period : 0;
+    if (!returns) continue;
     ++state_.brought_back;
-    attract(body, {nearestInside(*assembly_.field, p, kFarInside), Quat::Identity()}, false, false, kBringBackWeights);
+    Vec3 to = nearestInside(*assembly_.field, p, kFarInside);
+    // what has fallen over an edge is held there by friction as long as it is drawn against it: up first
+    if (returning_[body] > kCaught && p.z() < to.z() - kClear) to.head<2>() = p.head<2>();
+    attract(body, {to, Quat::Identity()}, false, false, kBringBackWeights);
   }
 }
 
 void Places::slowDown(const ObjectState& objects) {
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
-    if (belongs_[body] == 0 || goal_of_[body] != kNoGoal || returning_[body] != 0) continue;
+    if (belongs_[body] == 0 || goal_of_[body] != kNoGoal || returning_[body] > 0) continue;
     const double speed = objects.bodies[body].v_WB.norm();
     if (speed < kRollsFrom || speed > kRollsTo) continue;
     attractions_.bodies[index(attractions_.count++)] = {
@@ -162,7 +168,7 @@ void Places::step(const ObjectState& objects, double period) {
     if (goal.status == Status::kDrawing)
       attract(index(goal.body), placed_[g], false, true, assembly_.pull * std::min(1.0, drawing_[g] / kRise));
   }
-  bringBack(objects);
+  bringBack(objects, period);
   slowDown(objects);
 }
 

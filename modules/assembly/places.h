@@ -43,7 +43,7 @@ class Places {
   void findCandidates(const ObjectState& objects);
   void assign();
   void settle(const ObjectState& objects, double period);
-  void bringBack(const ObjectState& objects);
+  void bringBack(const ObjectState& objects, double period);
   void slowDown(const ObjectState& objects);
   void attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights);
   std::int32_t missing(std::size_t goal) const;
@@ -56,7 +56,7 @@ class Places {
   std::vector<double> drawing_;        // by goal: draws its body for so long [s]
   std::vector<double> settled_;        // by goal: in its place for so long [s]
   std::vector<std::size_t> order_;     // goals as they were filled
-  std::vector<char> returning_;        // by body
+  std::vector<double> returning_;      // by body: brought back for so long [s]
   std::vector<Candidate> candidates_;
   AssemblyState state_;
   Attractions attractions_;

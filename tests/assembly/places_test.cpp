@@ -173,6 +173,24 @@ TEST_F(PlacesTest, WhatLeavesTheFieldIsBroughtBackWellInside) {
   EXPECT_EQ(places->state().brought_back, 0);
 }
 
+// Drawn against the side of the ground over whose edge it fell, friction would hold it there for good.
+TEST_F(PlacesTest, WhatDoesNotComeBackIsLiftedFirst) {
+  assembly.field = Assembly::Field{{0, 0, 0}, {1, 1, 1}};
+  const auto drawn_to = [&](const Vec3& p_W) {
+    const Attraction& back = places->attractions().bodies[0];
+    return places->attractions().count == 1 && (back.X_WB.p - p_W).norm() < 1e-12;
+  };
+  at(0, {0.7, 0.1, -0.49});
+  at(1, {0.2, 0.2, 0});
+  step();
+  EXPECT_TRUE(drawn_to({0.4, 0.1, -0.4}));
+  step(static_cast<int>(std::lround(2 / kPeriod)));
+  EXPECT_TRUE(drawn_to({0.7, 0.1, -0.4})) << "straight up";
+  at(0, {0.7, 0.1, -0.405});
+  step();
+  EXPECT_TRUE(drawn_to({0.4, 0.1, -0.4}));
+}
+
 TEST_F(PlacesTest, WhatRollsIsSlowedAndNothingElse) {
   at(0, {0.3, 0, 0});
   objects.bodies[0].v_WB = {0.05, 0, 0};
