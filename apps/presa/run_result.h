@@ -69,8 +69,9 @@ struct RunResult {
   std::vector<Phase> phases;                        ///< empty for a real hand
   const std::vector<TraceSample>* trace = nullptr;  ///< null: none
   std::vector<Fault> faults;
-  std::vector<std::string> notes;  ///< stiffness bounds, raised damping, skipped parts, …
-  std::string screenshot;          ///< PNG path, may be empty
+  std::vector<std::string> notes;   ///< stiffness bounds, raised damping, skipped parts, …
+  std::string screenshot;           ///< PNG path, may be empty
+  std::optional<double> sharpness;  ///< View::sharpness of the last frame; none: no window
   Recording recording;
   std::vector<std::string> flight_records;  ///< the seconds around each fault, where nothing was recorded
   std::uint64_t solver_fallbacks = 0;       ///< dynamics steps in which the direct solver gave up on an island

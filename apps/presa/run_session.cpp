@@ -300,6 +300,7 @@ void Run::finish() {
                               " rows of the recording were dropped: the disk was too slow");
   }
   if (View* view = session_->view()) {
+    if (options.view == RunOptions::View::kWindow) result_.sharpness = view->sharpness();
     const View::Screenshot shot = view->screenshot();
     if (shot.outcome == View::Screenshot::Outcome::kWritten) result_.screenshot = options.screenshot;
     if (shot.outcome == View::Screenshot::Outcome::kFailed)

@@ -130,6 +130,7 @@ std::string summaryJson(const RunResult& result) {
   json["wall_s"] = result.wall_seconds;
   json["interrupted"] = result.interrupted;
   json["rates"] = rates(result);
+  if (result.sharpness) json["window"] = {{"sharpness", *result.sharpness}};
   json["contact_points"] = contactPoints(result);
   json["objects"] = objects(result);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);

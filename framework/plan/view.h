@@ -31,6 +31,10 @@ class View : public Module {
   virtual std::uint32_t undosWanted() const noexcept = 0;
   virtual std::uint32_t inputs() const noexcept = 0;
 
+  /// Share of the window's width and height in which the last frame's bodies were drawn, so that frames come in time; 1: all of it.
+  /// From any thread.
+  virtual double sharpness() const noexcept = 0;
+
   /// What became of RunOptions::screenshot. Ask after stop().
   struct Screenshot {
     enum class Outcome { kNotAsked, kPending, kWritten, kFailed };

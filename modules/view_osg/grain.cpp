@@ -94,7 +94,7 @@ osg::ref_ptr<osg::Image> makeTile() {
   return tile;
 }
 
-/// Dry earth and grass, as factors of the earth's colour in red, green and blue, a quarter of their value.
+/// Dry earth and grass, as factors of the earth's colour in red, green and blue: the root of a quarter of their value.
 osg::ref_ptr<osg::Image> makeGround() {
   std::mt19937 random(21);
   const Octaves patches = makeOctaves(3, 4, true, random), tufts = makeOctaves(12, 3, true, random),
@@ -110,8 +110,8 @@ osg::ref_ptr<osg::Image> makeGround() {
       const float green = t * t * (3 - 2 * t);
       tile->data(x, y)[3] = 255;
       for (std::size_t c = 0; c < 3; ++c)
-        tile->data(x, y)[c] =
-            static_cast<unsigned char>(std::clamp(255 * shade * (1 + green * (grass[c] - 1)) / 4, 0.0F, 255.0F));
+        tile->data(x, y)[c] = static_cast<unsigned char>(
+            255 * std::sqrt(std::clamp(shade * (1 + green * (grass[c] - 1)) / 4, 0.0F, 1.0F)));
     }
   }
   return tile;

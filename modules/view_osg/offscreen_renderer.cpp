@@ -24,6 +24,7 @@ class OffscreenRenderer final : public Renderer {
     camera->setFinalDrawCallback(grabber_);
     camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
     picture.setSize(kSupersample * kWidth, kSupersample * kHeight);
+    picture.hud().setAspect(static_cast<double>(kWidth) / kHeight);
     viewer_.realize();
   }
 

@@ -29,12 +29,12 @@ Picture::Picture(std::shared_ptr<const World> world)
       glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
       parts_(world_->options.show),
       overlays_(*world_),
-      lighting_(casters_, root_->getOrCreateStateSet()),
+      lighting_(casters_, space_->getOrCreateStateSet()),
       hud_(*world_),
       card_(hud_.right(), *world_),
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
       plots_(hud_.left(), *world_) {
-  addGrain(*root_->getOrCreateStateSet(), world_->scene);
+  addGrain(*space_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
   if (world_->scene.assembly) guides_ = std::make_unique<Guides>(world_->scene, bodies_);
@@ -42,15 +42,17 @@ Picture::Picture(std::shared_ptr<const World> world)
   start.X_WB = startPoses(*world_);
   updateSubject(start, {});
   const double reach = std::max(kFloorRadius, kFloorReach * enclose(subject_).radius);
-  for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
-                          static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()),
-                          patches_.root(), static_cast<osg::Node*>(hud_.camera())})
-    root_->addChild(part);
-  if (guides_) root_->addChild(guides_->root());
-  root_->addChild(makeBackground());
+  for (osg::Node* part :
+       {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
+        static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()), patches_.root()})
+    space_->addChild(part);
+  if (guides_) space_->addChild(guides_->root());
+  space_->addChild(makeBackground());
   floor_center_ = enclose(subject_).center;
   floor_radius_ = reach;
-  root_->addChild(floor_);
+  space_->addChild(floor_);
+  root_->addChild(space_);
+  root_->addChild(hud_.camera());
   setQuick(false);
 }
 
@@ -62,10 +64,7 @@ void Picture::setQuick(bool quick) {
   floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_, kShadows * floor_radius_ / kFloorReach, quick));
 }
 
-void Picture::setSize(int width, int height) {
-  lighting_.setPictureSize(width, height);
-  hud_.setAspect(static_cast<double>(width) / height);
-}
+void Picture::setSize(int width, int height) { lighting_.setPictureSize(width, height); }
 
 void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers) {
   subject_.clear();

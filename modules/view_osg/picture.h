@@ -21,6 +21,8 @@ class Picture {
  public:
   explicit Picture(std::shared_ptr<const World> world);
   osg::Group* root() { return root_; }
+  /// The three-dimensional part of it; the rest is the head-up display's camera.
+  osg::Group* space() { return space_; }
   Hud& hud() { return hud_; }
   TimeBar& timeBar() { return time_bar_; }
   /// What is shown from the next frame on.
@@ -38,6 +40,7 @@ class Picture {
   const std::vector<Ball>& subject() const { return subject_; }
   /// Drawn by the processor: fewer samples, so that frames come in time.
   void setQuick(bool quick);
+  /// Pixels of the three-dimensional part.
   void setSize(int width, int height);
 
  private:
@@ -45,7 +48,7 @@ class Picture {
   void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
 
   std::shared_ptr<const World> world_;
-  osg::ref_ptr<osg::Group> root_ = new osg::Group;
+  osg::ref_ptr<osg::Group> root_ = new osg::Group, space_ = new osg::Group;
   BodyNodes bodies_;
   ContactGlyphs glyphs_;
   ShownParts parts_;

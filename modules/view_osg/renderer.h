@@ -20,6 +20,8 @@ class Renderer {
   /// The user asked for a picture since the last call.
   virtual bool takePictureRequest() = 0;
   virtual Inputs inputs() const { return {}; }
+  /// As View::sharpness.
+  virtual double sharpness() const { return 1; }
 };
 
 /// Without a display: 1280 x 720, drawn at twice the size and averaged down.

@@ -11,6 +11,7 @@
 #include <osgUtil/LineSegmentIntersector>
 
 #include "modules/view_osg/crease_normals.h"
+#include "modules/view_osg/fewer_facets.h"
 #include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/grain.h"
 #include "modules/view_osg/osg_convert.h"
@@ -20,6 +21,7 @@ namespace presa::view {
 namespace {
 
 constexpr double kCreaseAngle = 40 * std::numbers::pi / 180;
+constexpr double kQuickTolerance = 0.0002;  ///< of a surface that a processor draws [m]
 const Vec3 kFloorColor(0.20, 0.225, 0.26);
 
 template <class... Ts>
@@ -37,6 +39,11 @@ osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick)
   if (quick && mesh != nullptr && meshes.haptic && meshes.haptic->triangles.size() < mesh->triangles.size()) {
     shown = &*body.haptic;
     mesh = meshes.haptic.get();
+  }
+  TriMesh fewer;
+  if (quick && mesh != nullptr) {
+    fewer = fewerFacets(*mesh, kQuickTolerance);
+    mesh = &fewer;
   }
   const auto geometry = surfaceOf(shown->shape, mesh, world.scene.materialOf(body).color);
   if (!geometry) return nullptr;
@@ -155,20 +162,40 @@ std::optional<BodyNodes::Hit> BodyNodes::along(const Vec3& eye, const Vec3& ray)
   return std::nullopt;
 }
 
-osg::ref_ptr<osg::Node> makeBackground() {
-  osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows) {
+  osg::ref_ptr<osg::Geometry> sheet = new osg::Geometry;
+  osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
+  osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+  for (int row = 0; row <= rows; ++row) {
+    const float up = static_cast<float>(row) / static_cast<float>(rows);
+    for (const float right : {0.0F, 1.0F}) {
+      places->push_back({right, up});
+      positions->push_back({2 * right - 1, 2 * up - 1, 0});
+    }
+  }
+  sheet->setUseDisplayList(false);
+  sheet->setUseVertexBufferObjects(true);
+  sheet->setVertexArray(positions);
+  sheet->setTexCoordArray(0, places);
+  sheet->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<int>(positions->size())));
   // it lies in clip space: without a bound it neither is culled nor moves the near and far planes
   struct NoBound : osg::Drawable::ComputeBoundingBoxCallback {
     osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
   };
-  quad->setComputeBoundingBoxCallback(new NoBound);
-  quad->setCullingActive(false);
-  osg::StateSet* state = quad->getOrCreateStateSet();
+  sheet->setComputeBoundingBoxCallback(new NoBound);
+  sheet->setCullingActive(false);
+  return sheet;
+}
+
+osg::ref_ptr<osg::Node> makeBackground() {
+  constexpr int kRows = 64;  // between which the sky's colour is as good as straight
+  osg::ref_ptr<osg::Geometry> sky = clipSpaceSheet(kRows);
+  osg::StateSet* state = sky->getOrCreateStateSet();
   state->setAttributeAndModes(shaders::background());
   // after all that hides it: a pixel that nobody sees costs nothing
   state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
   state->setRenderBinDetails(6, "RenderBin");
-  return quad;
+  return sky;
 }
 
 osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius, double shadows, bool quick) {

@@ -49,6 +49,10 @@ const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes);
 /// A shape in its own frame; null for a mesh that is not there.
 osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color);
 
+/// The whole picture, from (-1, -1) to (1, 1), for shaders that take positions in clip space; texture coordinates from 0 to 1. `rows`: one
+/// above the other.
+osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows);
+
 /// Gradient behind everything.
 osg::ref_ptr<osg::Node> makeBackground();
 

@@ -23,23 +23,24 @@ void main() {
 }
 )";
 
+// colour by vertex: a processor that draws has no time for roots and powers at each pixel of the sky
 constexpr const char* kBackgroundVertex = R"(#version 130
-out float height;
+out vec3 color;
+vec3 skyColor(float height);
+vec3 toDisplay(vec3 linear);
 void main() {
-  height = gl_Vertex.y * 0.5 + 0.5;
+  color = toDisplay(skyColor(gl_Vertex.y * 0.5 + 0.5));
   gl_Position = vec4(gl_Vertex.xy, 1.0, 1.0);
 }
 )";
 
 constexpr const char* kSky = R"(#version 130
-uniform vec2 picture_size;
 uniform bool outdoors;
 vec3 skyColor(float height) {
   vec3 low = outdoors ? vec3(0.46, 0.50, 0.52) : vec3(0.300, 0.345, 0.400);
   vec3 high = outdoors ? vec3(0.060, 0.150, 0.330) : vec3(0.030, 0.043, 0.065);
   return mix(low, high, smoothstep(0.05, 1.0, height));
 }
-vec3 skyBehindFragment() { return skyColor(gl_FragCoord.y / picture_size.y); }
 vec3 toDisplay(vec3 linear) {
   // hue stays: the brightest channel is bent towards 1, the others follow
   float top = max(max(linear.r, linear.g), max(linear.b, 1e-6));
@@ -56,14 +57,25 @@ vec3 toDisplay(vec3 linear) {
 }
 )";
 
+constexpr const char* kDaylight = R"(#version 130
+uniform vec3 key_direction;
+uniform float glow;
+// on a surface: share of the key light, and of the sky
+vec3 daylight(vec3 n, float key, float open) {
+  vec3 sky = mix(vec3(0.16, 0.15, 0.15), vec3(0.30, 0.34, 0.40), 0.5 + 0.5 * n.z) * open;
+  vec3 fill = vec3(0.08, 0.10, 0.14) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
+  return mix(vec3(0.98, 0.93, 0.85), vec3(1.55, 1.16, 0.66), glow) * key + sky + fill;
+}
+)";
+
 constexpr const char* kLight = R"(#version 130
 uniform sampler2DShadow key_map;
 uniform sampler2DShadow sky_map;
 uniform mat4 key_matrix;
 uniform mat4 sky_matrix;
 uniform vec3 key_direction;
-uniform float glow;
 uniform int taps;
+vec3 daylight(vec3 n, float key, float open);
 const vec2 kTaps[16] = vec2[](
   vec2(-0.942, -0.399), vec2(0.946, -0.769), vec2(-0.094, -0.929), vec2(0.345, 0.294),
   vec2(-0.916, 0.458), vec2(-0.815, -0.879), vec2(-0.383, 0.277), vec2(0.975, 0.756),
@@ -92,16 +104,19 @@ float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
 }
 #endif
 
-vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
+float keyShare(vec3 n, vec3 p) {
   float facing = dot(n, key_direction);
   float margin = 0.0008 + 0.0015 * (1.0 - max(facing, 0.0));
-  float key = facing > 0.0 ? facing * visibility(key_map, key_matrix, p + n * margin, n, 0.0035) : 0.0;
-  float open = mix(1.0, visibility(sky_map, sky_matrix, p + n * 0.0015, n, 0.022), 0.72 * (0.5 + 0.5 * n.z));
-  vec3 sky = mix(vec3(0.16, 0.15, 0.15), vec3(0.30, 0.34, 0.40), 0.5 + 0.5 * n.z) * open;
-  vec3 fill = vec3(0.08, 0.10, 0.14) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
+  return facing > 0.0 ? facing * visibility(key_map, key_matrix, p + n * margin, n, 0.0035) : 0.0;
+}
+float skyShare(vec3 n, vec3 p) {
+  return mix(1.0, visibility(sky_map, sky_matrix, p + n * 0.0015, n, 0.022), 0.72 * (0.5 + 0.5 * n.z));
+}
+vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
+  float key = keyShare(n, p);
   vec3 half_way = normalize(key_direction + to_eye);
   float shine = gloss > 0.0 ? 0.5 * gloss * pow(max(dot(n, half_way), 0.0), 48.0) * key : 0.0;
-  return albedo * (mix(vec3(0.98, 0.93, 0.85), vec3(1.55, 1.16, 0.66), glow) * key + sky + fill) + vec3(shine);
+  return albedo * daylight(n, key, skyShare(n, p)) + vec3(shine);
 }
 
 float gridLine(vec2 p, float spacing, float strength) {
@@ -119,7 +134,7 @@ in vec3 position_W;
 in vec3 normal_W;
 in vec3 to_eye_W;
 in vec4 base;
-vec3 skyBehindFragment();
+vec3 skyColor(float height);
 vec3 toDisplay(vec3 linear);
 vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss);
 float grid(vec2 p);
@@ -152,12 +167,13 @@ vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W) {
 }
 
 vec3 earth(vec3 albedo, vec3 p) {
+  vec3 near = texture(ground_map, 0.83 * p.xy).rgb;
 #ifdef QUICK
-  return albedo * 4.0 * texture(ground_map, 0.83 * p.xy).rgb;
+  return albedo * 4.0 * near * near;
 #else
   // turned and larger once more, so that the tile does not show
-  vec2 q = vec2(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y);
-  return albedo * 4.0 * texture(ground_map, 0.83 * p.xy).rgb * (0.55 + 1.8 * texture(ground_map, 0.31 * q).g);
+  float far = texture(ground_map, 0.31 * vec2(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y)).g;
+  return albedo * 4.0 * near * near * (0.55 + 1.8 * far * far);
 #endif
 }
 )";
@@ -184,6 +200,7 @@ void main() {
 constexpr const char* kFloor = R"(
 uniform vec3 floor_center;
 uniform float floor_radius;
+uniform vec2 picture_size;
 vec3 earth(vec3 albedo, vec3 p);
 void main() {
 #if GRAIN == 2
@@ -193,7 +210,56 @@ void main() {
 #endif
   vec3 color = lit(albedo, vec3(0, 0, 1), position_W, normalize(to_eye_W), 0.0);
   float far = smoothstep(0.15, 1.0, length(position_W.xy - floor_center.xy) / floor_radius);
-  gl_FragColor = vec4(toDisplay(mix(color, skyBehindFragment(), far)), 1.0);
+  gl_FragColor = vec4(toDisplay(mix(color, skyColor(gl_FragCoord.y / picture_size.y), far)), 1.0);
+}
+)";
+
+// Earth for a processor that draws: light and colours meet as they are shown, where a product of lights is nearly one of what is shown, so
+// that no root is drawn at a pixel.
+constexpr const char* kQuickEarthVertex = R"(#version 130
+uniform mat4 osg_ViewMatrixInverse;
+uniform vec3 key_direction;
+out vec3 position_W;
+out vec3 sunny, shaded, closed;
+out vec2 tile;
+vec3 toDisplay(vec3 linear);
+vec3 daylight(vec3 n, float key, float open);
+void main() {
+  vec4 eye = gl_ModelViewMatrix * gl_Vertex;
+  position_W = (osg_ViewMatrixInverse * eye).xyz;
+  vec3 up = vec3(0, 0, 1);
+  sunny = 2.0 * toDisplay(gl_Color.rgb * daylight(up, key_direction.z, 1.0));
+  shaded = 2.0 * toDisplay(gl_Color.rgb * daylight(up, 0.0, 1.0));
+  closed = 2.0 * toDisplay(gl_Color.rgb * daylight(up, 0.0, 0.28));
+  tile = 0.83 * position_W.xy;
+  gl_Position = gl_ProjectionMatrix * eye;
+}
+)";
+
+constexpr const char* kQuickEarth = R"(#version 130
+uniform sampler2D ground_map;
+uniform sampler2DShadow key_map;
+uniform sampler2DShadow sky_map;
+uniform mat4 key_matrix;
+uniform mat4 sky_matrix;
+uniform vec3 floor_center;
+uniform float floor_radius;
+uniform vec2 picture_size;
+in vec3 position_W;
+in vec3 sunny, shaded, closed;
+in vec2 tile;
+vec3 skyColor(float height);
+vec3 toDisplay(vec3 linear);
+void main() {
+  vec3 color = texture(ground_map, tile).rgb;
+#ifdef OPEN
+  float far = smoothstep(0.15, 1.0, length(position_W.xy - floor_center.xy) / floor_radius);
+  gl_FragColor = vec4(mix(color * sunny, toDisplay(skyColor(gl_FragCoord.y / picture_size.y)), far), 1.0);
+#else
+  vec4 p = vec4(position_W, 1.0);
+  float key = texture(key_map, (key_matrix * p).xyz), open = texture(sky_map, (sky_matrix * p).xyz);
+  gl_FragColor = vec4(color * mix(mix(closed, shaded, open), sunny, key), 1.0);
+#endif
 }
 )";
 
@@ -226,10 +292,22 @@ void main() {
 )";
 
 constexpr const char* kBackground = R"(#version 130
-in float height;
-vec3 skyColor(float height);
-vec3 toDisplay(vec3 linear);
-void main() { gl_FragColor = vec4(toDisplay(skyColor(height)), 1.0); }
+in vec3 color;
+void main() { gl_FragColor = vec4(color, 1.0); }
+)";
+
+constexpr const char* kCopyVertex = R"(#version 130
+out vec2 at;
+void main() {
+  at = gl_MultiTexCoord0.xy;
+  gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kCopy = R"(#version 130
+uniform sampler2D picture;
+in vec2 at;
+void main() { gl_FragColor = texture(picture, at); }
 )";
 
 /// `text` with definitions after its first line, which says the version.
@@ -249,9 +327,19 @@ osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material:
                                   (open ? "#define OPEN\n" : "") +
                                   ("#define GRAIN " + std::to_string(static_cast<int>(texture))) + "\n";
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
-  for (const char* part : {kSky, kLight}) program->addShader(fragments(part, definitions));
+  for (const char* part : {kSky, kDaylight, kLight}) program->addShader(fragments(part, definitions));
   if (texture != Material::Texture::kNone) program->addShader(fragments(kGrain, definitions));
   program->addShader(fragments(std::string(kSurfaceDeclarations) + main, definitions));
+  return program;
+}
+
+osg::ref_ptr<osg::Program> quickEarth(bool open) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName("quick earth");
+  const std::string definitions = std::string("#define QUICK\n") + (open ? "#define OPEN\n" : "");
+  for (const char* part : {kSky, kDaylight, kQuickEarthVertex})
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, part));
+  for (const char* part : {kSky, kQuickEarth}) program->addShader(fragments(part, definitions));
   return program;
 }
 
@@ -261,17 +349,26 @@ osg::ref_ptr<osg::Program> body(Material::Texture texture, bool quick) {
   return surface("body", kBody, texture, quick);
 }
 osg::ref_ptr<osg::Program> floor(Material::Texture texture, bool quick, bool open) {
+  if (quick && texture == Material::Texture::kEarth) return quickEarth(open);
   return surface("floor", kFloor, texture, quick, open);
 }
 osg::ref_ptr<osg::Program> skin() { return surface("skin", kSkin); }
 osg::ref_ptr<osg::Program> glyph() { return surface("glyph", kGlyph); }
 osg::ref_ptr<osg::Program> cone() { return surface("cone", kCone); }
 
+osg::ref_ptr<osg::Program> copy() {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName("copy");
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, kCopyVertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kCopy));
+  return program;
+}
+
 osg::ref_ptr<osg::Program> background() {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName("background");
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kBackgroundVertex));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kSky));
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, kSky));
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kBackground));
   return program;
 }

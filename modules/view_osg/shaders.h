@@ -18,6 +18,8 @@ osg::ref_ptr<osg::Program> skin();
 osg::ref_ptr<osg::Program> glyph();
 /// Friction cone: translucent, denser towards grazing view; uniform `state_color`.
 osg::ref_ptr<osg::Program> cone();
+/// A texture (uniform `picture`) as it is; positions in clip space.
+osg::ref_ptr<osg::Program> copy();
 /// Vertical gradient behind everything.
 osg::ref_ptr<osg::Program> background();
 

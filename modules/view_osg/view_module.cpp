@@ -139,6 +139,7 @@ void ViewModule::drawWindow() {
   if (pointer_) pointer_out_->value = pointer_->state();
   undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);
   inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);
+  sharpness_.store(renderer_->sharpness(), std::memory_order_relaxed);
   if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";

@@ -31,7 +31,6 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
   switch (event.getEventType()) {
     case Event::RESIZE:
       aspect_ = static_cast<double>(event.getWindowWidth()) / std::max(1, event.getWindowHeight());
-      picture_.setSize(event.getWindowWidth(), event.getWindowHeight());
       camera_.setAspect(aspect_);
       return false;
     case Event::PUSH:

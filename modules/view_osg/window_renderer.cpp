@@ -3,6 +3,8 @@
 #include <osgViewer/Viewer>
 #include <stdexcept>
 
+#include "modules/view_osg/coarse_space.h"
+#include "modules/view_osg/frame_budget.h"
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/help_text.h"
 #include "modules/view_osg/osg_convert.h"
@@ -22,7 +24,10 @@ class WindowRenderer final : public Renderer {
       : picture_(picture), input_(new WindowInput(picture, camera_, controls)) {
     const WindowContext window = openWindow(title, kWidth, kHeight);
     window_ = window.context;
-    if (window.software) picture.setQuick(true);
+    if (window.software) {
+      picture.setQuick(true);
+      coarse_.emplace(picture);
+    }
     // what is hidden is not drawn first
     osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
@@ -34,12 +39,12 @@ class WindowRenderer final : public Renderer {
     camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
     camera->setFinalDrawCallback(grabber_);
     viewer_.addEventHandler(input_);
-    viewer_.setSceneData(picture.root());
+    viewer_.setSceneData(coarse_ ? coarse_->root() : picture.root());
     std::vector<std::pair<std::string, std::string>> help;
     for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
       help.emplace_back(line.keys, line.what);
     picture.hud().setHelp(help);
-    picture.setSize(kWidth, kHeight);
+    setSize(kWidth, kHeight, 1);
     viewer_.realize();
     if (!viewer_.isRealized()) throw std::runtime_error("the window opened, but it gives no OpenGL context");
   }
@@ -51,25 +56,46 @@ class WindowRenderer final : public Renderer {
 
   void render() override {
     if (closed()) return;
+    const osg::Timer_t begin = osg::Timer::instance()->tick();
+    draw();
+    const double seconds = osg::Timer::instance()->delta_s(begin, osg::Timer::instance()->tick());
+    if (coarse_ && budget_.add(seconds)) setSize(width_, height_, budget_.share());
+  }
+  osg::ref_ptr<osg::Image> capture() override {
+    if (closed()) return nullptr;
+    setSize(width_, height_, 1);  // what is kept is sharp
+    grabber_->arm();
+    draw();
+    setSize(width_, height_, budget_.share());
+    return grabber_->take();
+  }
+  bool closed() const override { return viewer_.done() || !window_->isRealized(); }
+  Inputs inputs() const override { return input_->inputs; }
+  double sharpness() const override { return budget_.share(); }
+  bool takePictureRequest() override { return std::exchange(input_->picture_requested, false); }
+
+ private:
+  void draw() {
     viewer_.advance();
     viewer_.eventTraversal();
+    const osg::Viewport& window = *viewer_.getCamera()->getViewport();
+    const int width = static_cast<int>(window.width()), height = static_cast<int>(window.height());
+    if (width != width_ || height != height_) setSize(width, height, share_);
     if (input_->following) follow();
     const CameraPose pose = camera_.pose();
     viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
     viewer_.updateTraversal();
     viewer_.renderingTraversals();
   }
-  osg::ref_ptr<osg::Image> capture() override {
-    if (closed()) return nullptr;
-    grabber_->arm();
-    render();
-    return grabber_->take();
+  /// Of the window, and the share of it in which bodies are drawn.
+  void setSize(int width, int height, double share) {
+    width_ = width, height_ = height, share_ = share;
+    picture_.hud().setAspect(static_cast<double>(width) / height);
+    if (coarse_)
+      coarse_->setSize(width, height, share);
+    else
+      picture_.setSize(width, height);
   }
-  bool closed() const override { return viewer_.done() || !window_->isRealized(); }
-  Inputs inputs() const override { return input_->inputs; }
-  bool takePictureRequest() override { return std::exchange(input_->picture_requested, false); }
-
- private:
   /// Keeps bodies and fingers in the picture, gently; at once when asked for.
   void follow() {
     const double now = viewer_.elapsedTime();
@@ -89,6 +115,10 @@ class WindowRenderer final : public Renderer {
   osg::ref_ptr<WindowInput> input_;
   double heading_ = 0;
   double followed_at_ = 0;
+  std::optional<CoarseSpace> coarse_;  // where the processor draws
+  FrameBudget budget_;
+  int width_ = 0, height_ = 0;
+  double share_ = 1;
   osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
   osgViewer::Viewer viewer_;
 };

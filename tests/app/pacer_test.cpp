@@ -15,6 +15,7 @@ class CountingView final : public View {
   bool wantsStop() const noexcept override { return closed; }
   std::uint32_t undosWanted() const noexcept override { return 0; }
   std::uint32_t inputs() const noexcept override { return 0; }
+  double sharpness() const noexcept override { return 1; }
   Screenshot screenshot() const override { return {}; }
   std::string videoTrouble() const override { return {}; }
   void setBanner(const std::string&, bool) override {}
