@@ -227,6 +227,47 @@ TEST(BusCommands, AreRefusedByARunThatTakesNone) {
   EXPECT_EQ(run.end(), 130);
 }
 
+// Runs that are announced here, so that they do what no run does on purpose.
+struct Announced {
+  Announced(const BusSettings& bus, std::uint64_t run) : writer(openWriter(bus)), post(openPost(bus)) {
+    RunInfo info;
+    info.run = run;
+    info.scene_name = "made_up";
+    info.commands = true;
+    writer->announce(info);
+    post->show({run, "material/rubber/stiffness", 1000, 1, 1000, 1});
+  }
+  std::unique_ptr<Writer> writer;
+  std::unique_ptr<CommandPost> post;
+};
+
+// A run that says nothing is told of with a message of its own, two with the question which; Ctrl-C ends the wait for an answer.
+TEST(BusCommands, NeedOneRunThatAnswers) {
+  const BusSettings bus = ownDomain();
+  const Announced first(bus, 0xabc);
+  const Said silent = say(bus, {"bus", "set", "material/rubber/stiffness=700", "--wait", "4"});
+  EXPECT_EQ(silent.status, 3);
+  EXPECT_NE(silent.text.find("error[E725]"), std::string::npos) << silent.text;
+  EXPECT_NE(silent.text.find("0000000000000abc"), std::string::npos) << silent.text;
+
+  const Announced second(bus, 0xdef);
+  const Said which = set(bus, "material/rubber/stiffness=700");
+  EXPECT_EQ(which.status, 2);
+  EXPECT_NE(which.text.find("error[E724]"), std::string::npos) << which.text;
+  EXPECT_NE(which.text.find("0000000000000abc, 0000000000000def"), std::string::npos) << which.text;
+
+  first.post->take();
+  ViewerProcess waits({"bus", "set", "material/rubber/stiffness=700", "--run", "abc", "--wait", "600"}, bus);
+  std::vector<Command> commands;
+  ASSERT_TRUE(within([&] {
+    commands = first.post->take();
+    return !commands.empty();
+  }));
+  EXPECT_EQ(commands[0].run, 0xabcu);
+  waits.signal(SIGINT);
+  EXPECT_EQ(waits.end(), 130) << waits.rest();
+}
+
 TEST(BusCommands, NeedABusAndARun) {
   const Said nobody = say(ownDomain(), {"bus", "set", "material/rubber/stiffness=700", "--wait", "0.2"});
   EXPECT_EQ(nobody.status, 3);

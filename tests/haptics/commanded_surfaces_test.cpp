@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/haptics/module_fixture.h"
+#include "tests/support/alloc_lock_guard.h"
 
 namespace presa {
 namespace {
@@ -125,6 +126,19 @@ TEST(CommandedSurfaces, ChangeFrictionWithoutAStep) {
     last = contact;
     ASSERT_EQ(sticking.tick({1e-4, 0, kHeight - depth}).f_H_W, held) << n;
   }
+}
+
+TEST(CommandedSurfaces, NeitherAllocateNorWait) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  OneFinger finger(openBox());
+  finger.tick({0, 0, kHeight + 0.001});
+  finger.tick({0, 0, kHeight - 0.002});
+  const RealTimeGuard guard;
+  for (int i = 0; i < 1000; ++i) {
+    set(finger, static_cast<std::size_t>(i % 3), i % 3 == 0 ? 500 + i % 100 : 0.5);
+    finger.tick({0, 0, kHeight - 0.002});
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 
 TEST(OpenSurfaces, AreWhatFingersTouchWithinWhatTheSceneLoadedWith) {

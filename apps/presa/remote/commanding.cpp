@@ -43,9 +43,9 @@ void Commanding::hear() {
   RunsOnly heard;
   reader_->take(heard);
   for (const bus::RunInfo& info : heard.runs) {
-    const auto same = [&](const FoundRun& run) { return run.info.run == info.run; };
-    if (std::ranges::any_of(runs_, same)) continue;
-    runs_.push_back({info, {}});
+    const auto at = std::ranges::lower_bound(runs_, info.run, {}, [](const FoundRun& run) { return run.info.run; });
+    if (at != runs_.end() && at->info.run == info.run) continue;
+    runs_.insert(at, {info, {}});
     news_ns_ = monotonicNs();
   }
   const bus::Commander::Heard said = commander_->take();

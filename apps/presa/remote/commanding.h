@@ -18,7 +18,7 @@ class Commanding {
   /// Throws InputError as openReader does.
   explicit Commanding(const BusSettings& settings);
 
-  /// Looks for runs until nothing new has come for a moment, at most `wait` seconds. `id`: until that one is there; 0: any.
+  /// By id. Looks for runs until nothing new has come for a moment, at most `wait` seconds. `id`: until that one is there; 0: any.
   const std::vector<FoundRun>& look(double wait, std::uint64_t id);
   /// Sends it again and again until it is answered, at most `wait` seconds; none then, or on Ctrl-C.
   std::optional<bus::Answer> set(std::uint64_t run, const std::string& parameter, double value, double wait);
