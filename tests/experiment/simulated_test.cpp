@@ -7,6 +7,7 @@
 #include "framework/experiment/read.h"
 #include "framework/subject/traits.h"
 #include "tests/experiment/contents.h"
+#include "tests/experiment/refusal.h"
 
 // A model that takes part is a person of its own under its number, and nothing that it leaves behind passes for a person's.
 namespace presa::experiment {
@@ -56,6 +57,18 @@ TEST(Simulated, IsDrawnFromTheSeedOfTheExperimentAndItsNumber) {
 
 TrialResult runTrial(const Experiment& experiment, const PlannedTrial& trial, const TrialSetting& setting) {
   return present(experiment, presentationsOf(experiment, trial).front(), trial.seed, setting);
+}
+
+// What subjects feel may not be changed by somebody elsewhere: neither the session begins nor a trial.
+TEST(Simulated, AnExperimentTakesNoCommands) {
+  const ScratchFolder folder;
+  std::string rig = contentsOf(kFolder + "rig_simulated.xml");
+  rig.insert(rig.rfind("</rig>"), "<bus network=\"loopback\" commands=\"true\"/>");
+  std::ofstream(folder.file("rig.xml")) << rig;
+  const Experiment open = gripStudy({}, folder.file("rig.xml"));
+  EXPECT_THAT(refusalOf([&] { traitsOf(open, 1); }), HasSubstr("error[E730]"));
+  EXPECT_THAT(refusalOf([&] { runTrial(open, planTrials(open, 1, 1).front(), {.subject = 1}); }),
+              HasSubstr("error[E730]"));
 }
 
 // The trial's seed draws what differs from trial to trial; the person stays.

@@ -10,6 +10,13 @@
 namespace presa::experiment {
 namespace {
 
+/// What subjects feel is the experiment's to say, and in its record.
+void refuseCommands(const World& world, Diagnostics& diagnostics) {
+  if (!takesCommands(world)) return;
+  diagnostics.error(730, {world.scene.file, 0, 0}, "its bus takes commands, which would change what subjects feel",
+                    "take commands=\"true\" out of the <bus> of scene and rig");
+}
+
 double longestOf(const Experiment& experiment) {
   double seconds = 0;
   for (const Phase& phase : experiment.phases) seconds += phase.seconds + 1;
@@ -76,6 +83,7 @@ class TrialRun {
     options.person = personOf(experiment, setting.subject);
     Diagnostics diagnostics;
     Loaded loaded = loadWorld({experiment.scene, experiment.rig, presentation.sets}, options, diagnostics);
+    if (!diagnostics.hasErrors()) refuseCommands(*loaded.world, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     plan = std::move(loaded.plan);
     return loaded.world;
@@ -140,6 +148,7 @@ std::vector<DeviceFact> traitsOf(const Experiment& experiment, int subject) {
   Diagnostics diagnostics;
   const Loaded loaded = loadWorld({experiment.scene, experiment.rig, experiment.sets}, options, diagnostics);
   const DeviceList devices = createDevices(*loaded.world, loaded.plan, diagnostics);
+  if (!diagnostics.hasErrors()) refuseCommands(*loaded.world, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   return factsOf(devices, false);
 }
