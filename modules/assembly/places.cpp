@@ -11,9 +11,9 @@ using Status = GoalState::Status;
 
 constexpr double kGravity = 9.81;  // what a weight is [m/s^2]
 constexpr double kWellInside = 0.9,
-                 kFarInside = 0.8;  // of the field's size: where a body is let go, where to it is drawn
-constexpr double kCaught = 2;       // [s] on its way back
-constexpr double kClear = 0.01;     // [m]
+                 kFarInside = 0.8;          // of the field's size: where a body is let go, where to it is drawn
+constexpr double kCaught = 2, kInVain = 8;  // [s] on its way back
+constexpr double kClear = 0.01;             // [m]
 constexpr double kDegree = std::numbers::pi / 180;
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -33,7 +33,8 @@ Places::Places(const Assembly& assembly, std::size_t bodies)
       placed_(assembly.goals.size()),
       drawing_(assembly.goals.size()),
       settled_(assembly.goals.size()),
-      returning_(bodies) {
+      returning_(bodies),
+      carried_(bodies) {
   std::size_t pairs = 0;
   for (const AssemblyGoal& goal : assembly.goals) {
     pairs += goal.bodies.size();
@@ -129,21 +130,26 @@ void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns,
                                                       .most = weights * kGravity};
 }
 
+// By a pull first; what does not come, because it hangs at the ground's edge or lies under it, is carried: no pull brings it through.
 void Places::bringBack(const ObjectState& objects, double period) {
   state_.brought_back = 0;
   if (!assembly_.field) return;
+  const double ground = assembly_.field->centre.z() - assembly_.field->size.z() / 2;
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
     if (belongs_[body] == 0 || goal_of_[body] != kNoGoal) continue;
-    const Vec3& p = objects.bodies[body].X_WB_end.p;
+    const Pose& X_WB = objects.bodies[body].X_WB_end;
+    const Vec3& p = X_WB.p;
     const auto is_inside = [&](double part) { return nearestInside(*assembly_.field, p, part) == p; };
     const bool returns = returning_[body] > 0 ? !is_inside(kWellInside) : !is_inside(1);
     returning_[body] = returns ? returning_[body] + period : 0;
+    carried_[body] = returns && (carried_[body] != 0 || p.z() < ground || returning_[body] > kInVain) ? 1 : 0;
     if (!returns) continue;
     ++state_.brought_back;
     Vec3 to = nearestInside(*assembly_.field, p, kFarInside);
-    // what has fallen over an edge is held there by friction as long as it is drawn against it: up first
+    // what leans against an edge is held there by friction as long as it is drawn against it: up first
     if (returning_[body] > kCaught && p.z() < to.z() - kClear) to.head<2>() = p.head<2>();
-    attract(body, {to, Quat::Identity()}, false, false, kBringBackWeights);
+    const bool carried = carried_[body] != 0;
+    attract(body, {to, X_WB.q}, carried, carried, kBringBackWeights);
   }
 }
 

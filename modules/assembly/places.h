@@ -57,6 +57,7 @@ class Places {
   std::vector<double> settled_;        // by goal: in its place for so long [s]
   std::vector<std::size_t> order_;     // goals as they were filled
   std::vector<double> returning_;      // by body: brought back for so long [s]
+  std::vector<char> carried_;          // by body: brought back as a fixed one, through whatever is in the way
   std::vector<Candidate> candidates_;
   AssemblyState state_;
   Attractions attractions_;

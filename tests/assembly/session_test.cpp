@@ -89,6 +89,20 @@ TEST(AssemblySession, ABodyThatWasThrownOutComesBack) {
   EXPECT_LT(run.objects.bodies[2].v_WB.norm(), 1e-3);
 }
 
+// The table ends at 1 m and is 0.1 m thick: over its edge, against its side, and under it, where no way leads straight back.
+TEST(AssemblySession, WhatIsBelowTheGroundIsBroughtBack) {
+  const std::string field = R"(<field pos="0 0 0.5" size="1.9 1.9 1"/>)";
+  for (const char* lid : {R"(pos="1.03 0 -0.01" euler_deg="0 70 0")", R"(pos="1.01 0 -0.03" euler_deg="0 90 0")",
+                          R"(pos="0.7 0 -0.2")"}) {
+    const Ended run(scene(lid, R"(pos="0.3 0 0.0302")", field), 60);
+    const Vec3& p = run.objects.bodies[2].X_WB_end.p;
+    EXPECT_GT(p.z(), 0) << lid;
+    EXPECT_LT(p.head<2>().cwiseAbs().maxCoeff(), 0.95) << lid;
+    EXPECT_EQ(run.assembly.brought_back, 0) << lid;
+    EXPECT_TRUE(run.objects.bodies[2].asleep) << lid << ": and lies there";
+  }
+}
+
 TEST(AssemblySession, TheSameRunTwiceIsTheSameToTheBit) {
   const Ended one(scene(kLidNear, kBoxNear), 1), two(scene(kLidNear, kBoxNear), 1);
   for (std::size_t i = 0; i < 3; ++i) {
