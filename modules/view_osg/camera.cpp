@@ -10,7 +10,6 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kElevation = 26 * kDegree;
 constexpr double kUsedHeight = 0.80;  ///< share of the picture's height for the subject
-constexpr double kUsedWidth = 0.52;   ///< the head-up display takes the sides
 
 /// What two planes through the eye, `slope` to either side of the axis, ask of an eye that sees all between them.
 struct Wedge {
@@ -64,14 +63,14 @@ CameraAxes::CameraAxes(double heading, double elevation)
       forward(-std::cos(elevation) * std::sin(heading), std::cos(elevation) * std::cos(heading), -std::sin(elevation)) {
 }
 
-CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading) {
+CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading, double used_width) {
   const Ball all = enclose(balls);
   std::vector<Ball> seen = balls;
   seen.push_back({all.center, 0.02});
   const CameraAxes axes(heading, kElevation);
   const double slope = std::tan(kFieldOfView / 2 * kDegree);
   const Wedge height = fit(seen, axes.up, axes.forward, kUsedHeight * slope);
-  const Wedge width = fit(seen, axes.right, axes.forward, kUsedWidth * aspect * slope);
+  const Wedge width = fit(seen, axes.right, axes.forward, used_width * aspect * slope);
   const double back = std::min(height.back, width.back);
   const Vec3 eye = back * axes.forward + height.aside * axes.up + width.aside * axes.right;
   return {eye, eye + (all.center - eye).dot(axes.forward) * axes.forward};

@@ -31,8 +31,12 @@ Ball enclose(const std::vector<Ball>& balls);
 /// balls' centres further apart, so that opposed fingers do not hide behind the object.
 double chooseHeading(const std::vector<Ball>& balls);
 
-/// View from `heading` and above: the nearest that holds every ball in its picture, with room for the head-up display at the
-/// sides, and with as much room on either side of what is outermost. Not nearer than to see 2 cm.
-CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading);
+/// Share of the picture's width for the subject: between the cards of the head-up display, and where there are none.
+inline constexpr double kBetweenCards = 0.52, kWholeWidth = 0.88;
+
+/// View from `heading` and above: the nearest that holds every ball in its picture, within `used_width` of it,
+/// and with as much room on either side of what is outermost. Not nearer than to see 2 cm.
+CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading,
+                        double used_width = kBetweenCards);
 
 }  // namespace presa::view

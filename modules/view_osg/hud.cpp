@@ -52,7 +52,6 @@ std::string outputWords(std::uint32_t status) {
   if (status & kOutputWatchdog) return "output: data too old, forces off";
   if (status & kOutputWarm) return "output: motors are warm";
   if (status & kOutputMagnitude) return "output: at force limit";
-  if (status & kOutputFading) return "output: fading";
   if (status & kOutputSlew) return "output: at slew limit";
   return {};
 }
@@ -79,10 +78,12 @@ Hud::Hud(const World& world) : world_(world) {
   content_->addChild(right_);
   content_->addChild(center_);
   right_->addChild(right_figures_);
+  left_->addChild(left_figures_);
   center_->addChild(legend_);
   if (world.scene.assembly) {
     assembly_.emplace(*center_);
     right_figures_->setNodeMask(0);
+    left_figures_->setNodeMask(0);
     legend_->setNodeMask(0);
   }
   center_->addChild(help_);
@@ -106,7 +107,9 @@ void Hud::setAspect(double aspect) {
 
 void Hud::toggleHelp() {
   help_->setNodeMask(~help_->getNodeMask());
-  if (assembly_) right_figures_->setNodeMask(help_->getNodeMask());
+  if (!assembly_) return;
+  right_figures_->setNodeMask(help_->getNodeMask());
+  left_figures_->setNodeMask(help_->getNodeMask());
 }
 
 void Hud::tell(const std::string& message) { message_->set(message); }
@@ -128,25 +131,26 @@ void Hud::addTitle(const World& world) {
 void Hud::addCard(std::size_t index) {
   const float top = kCardsTop - kCardPitch * static_cast<float>(index), bottom = top - kCardHeight;
   const float right = kMargin + kCardWidth;
-  left_->addChild(roundedPanel({kMargin, bottom, kCardWidth, kCardHeight}, 8, kPanel));
+  left_figures_->addChild(roundedPanel({kMargin, bottom, kCardWidth, kCardHeight}, 8, kPanel));
   osg::ref_ptr<osg::Geometry> lamp = dot(right - 16, top - 15, 5.5F, kSoftInk);
-  left_->addChild(lamp);
-  Card card{Label(*left_, kMargin + 12, top - 20, 15, kInk, Typeface::kBold),
-            Label(*left_, right - 28, top - 20, 13, kInk, Typeface::kRegular, Label::Align::kRight),
-            Label(*left_, kMargin + 12, top - 38, 13, kInk, Typeface::kMono),
-            Label(*left_, right - 12, top - 54, 11.5F, kSoftInk, Typeface::kRegular, Label::Align::kRight),
-            Bar(*left_, {kMargin + 12, top - 53, 114, 7}),
+  left_figures_->addChild(lamp);
+  Card card{Label(*left_figures_, kMargin + 12, top - 20, 15, kInk, Typeface::kBold),
+            Label(*left_figures_, right - 28, top - 20, 13, kInk, Typeface::kRegular, Label::Align::kRight),
+            Label(*left_figures_, kMargin + 12, top - 38, 13, kInk, Typeface::kMono),
+            Label(*left_figures_, right - 12, top - 54, 11.5F, kSoftInk, Typeface::kRegular, Label::Align::kRight),
+            Bar(*left_figures_, {kMargin + 12, top - 53, 114, 7}),
             lamp};
   cards_.push_back(std::move(card));
 }
 
 void Hud::addGrip() {
   const float top = kCardsTop - kCardPitch * static_cast<float>(cards_.size()), bottom = top - 42;
-  left_->addChild(roundedPanel({kMargin, bottom, kCardWidth, 42}, 8, kPanel));
-  Label name(*left_, kMargin + 12, top - 18, 14, kInk, Typeface::kBold);
+  left_figures_->addChild(roundedPanel({kMargin, bottom, kCardWidth, 42}, 8, kPanel));
+  Label name(*left_figures_, kMargin + 12, top - 18, 14, kInk, Typeface::kBold);
   name.set("grip force");
-  grip_value_.emplace(*left_, kMargin + kCardWidth - 12, top - 18, 13, kInk, Typeface::kMono, Label::Align::kRight);
-  grip_bar_.emplace(*left_, Rect{kMargin + 12, top - 34, kCardWidth - 24, 7});
+  grip_value_.emplace(*left_figures_, kMargin + kCardWidth - 12, top - 18, 13, kInk, Typeface::kMono,
+                      Label::Align::kRight);
+  grip_bar_.emplace(*left_figures_, Rect{kMargin + 12, top - 34, kCardWidth - 24, 7});
 }
 
 void Hud::addRates(const World& world) {

@@ -63,8 +63,8 @@ class Hud {
   osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;   ///< x = 0 is the right edge
   osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;  ///< origin in the middle
   osg::ref_ptr<osg::Group> help_ = new osg::Group;
-  /// Where people put something together the rates come with the help only, and the legend leaves its place to what they are told.
-  osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, legend_ = new osg::Group;
+  /// Where people put something together rates and fingers come with the help only, and the legend leaves its place to what they are told.
+  osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group, legend_ = new osg::Group;
   const World& world_;
   std::optional<AssemblyPanel> assembly_;
   std::optional<Label> time_, banner_, output_, grip_value_, message_;

@@ -37,8 +37,8 @@ class OffscreenRenderer final : public Renderer {
   }
 
   void render() override {
-    const CameraPose pose =
-        frameSubject(picture_.subject(), static_cast<double>(kWidth) / kHeight, chooseHeading(picture_.subject()));
+    const CameraPose pose = frameSubject(picture_.subject(), static_cast<double>(kWidth) / kHeight,
+                                         chooseHeading(picture_.subject()), picture_.usedWidth());
     viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
     viewer_.frame();
   }

@@ -12,6 +12,7 @@ constexpr double kSunset = 2;         ///< in which all that stands comes into t
 constexpr double kMoves = 0.0005;     ///< below it a shadow stays [m]
 constexpr double kArm = 0.05;         ///< at which turns are seen as moves [m]
 constexpr double kFloorReach = 10;    ///< radii of the subject
+constexpr double kGround = 0.3;       ///< of the height of what is put together, under it
 constexpr double kShadows = 1.0;      ///< where a processor draws they fall within so many radii
 constexpr double kLitAround = 2.2;    ///< shadows reach this many radii of the subject
 
@@ -76,8 +77,12 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
     for (const AssemblyGoal& goal : world_->scene.assembly->goals)
       subject_.push_back({goal.X_WB.p, bodies_.radius(goal.bodies.front())});
     // what people are told covers the lower edge: the picture has some ground to give
-    const Ball all = enclose(subject_);
-    subject_.push_back({all.center - Vec3(0, 0, 1.5 * all.radius), 0});
+    double low = 1e300, high = -1e300;
+    for (const Ball& ball : subject_) {
+      low = std::min(low, ball.center.z() - ball.radius);
+      high = std::max(high, ball.center.z() + ball.radius);
+    }
+    subject_.push_back({{subject_.back().center.x(), subject_.back().center.y(), low - kGround * (high - low)}, 0});
   }
   for (const FingerView& finger : fingers) {
     if (!finger.valid) continue;

@@ -38,6 +38,8 @@ class Picture {
   void choose(std::optional<std::size_t> body) { card_.choose(body); }
   /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.
   const std::vector<Ball>& subject() const { return subject_; }
+  /// As frameSubject takes it: where an assembly is put together no cards stand at the sides.
+  double usedWidth() const { return world_->scene.assembly ? kWholeWidth : kBetweenCards; }
   /// Drawn by the processor: fewer samples, so that frames come in time.
   void setQuick(bool quick);
   /// Pixels of the three-dimensional part.

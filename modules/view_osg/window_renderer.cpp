@@ -105,7 +105,8 @@ class WindowRenderer final : public Renderer {
       heading_ = chooseHeading(picture_.subject());
       share = 1;
     }
-    camera_.approach(frameSubject(picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(), heading_),
+    camera_.approach(frameSubject(picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(), heading_,
+                                  picture_.usedWidth()),
                      share);
   }
 
