@@ -130,11 +130,10 @@ void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns,
                                                       .most = weights * kGravity};
 }
 
-// By a pull first; what does not come, because it hangs at the ground's edge or lies under it, is carried: no pull brings it through.
+// By a pull; what does not come in time, because it hangs at the ground's edge or lies under it, is carried: no pull brings it through.
 void Places::bringBack(const ObjectState& objects, double period) {
   state_.brought_back = 0;
   if (!assembly_.field) return;
-  const double ground = assembly_.field->centre.z() - assembly_.field->size.z() / 2;
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
     if (belongs_[body] == 0 || goal_of_[body] != kNoGoal) continue;
     const Pose& X_WB = objects.bodies[body].X_WB_end;
@@ -142,7 +141,7 @@ void Places::bringBack(const ObjectState& objects, double period) {
     const auto is_inside = [&](double part) { return nearestInside(*assembly_.field, p, part) == p; };
     const bool returns = returning_[body] > 0 ? !is_inside(kWellInside) : !is_inside(1);
     returning_[body] = returns ? returning_[body] + period : 0;
-    carried_[body] = returns && (carried_[body] != 0 || p.z() < ground || returning_[body] > kInVain) ? 1 : 0;
+    carried_[body] = returns && (carried_[body] != 0 || returning_[body] > kInVain) ? 1 : 0;
     if (!returns) continue;
     ++state_.brought_back;
     Vec3 to = nearestInside(*assembly_.field, p, kFarInside);

@@ -12,6 +12,7 @@
 namespace presa::view {
 namespace {
 
+constexpr double kGlowsWith = 4;  ///< normal force at which a fingertip is as red as it gets [N]
 constexpr double kHipRadius = 0.0022;
 constexpr double kLinkRadius = 0.0007;
 constexpr double kShaftRadius = 0.0013;
@@ -92,6 +93,8 @@ ContactGlyphs::Finger ContactGlyphs::makeFinger() {
   finger.head = placed(unitConeUp(kArrowColor), *arrows_);
   finger.tip_color = new osg::Uniform("state_color", osg::Vec3());
   finger.tip->getOrCreateStateSet()->addUniform(finger.tip_color);
+  finger.pressure = new osg::Uniform("pressure", 0.0F);
+  finger.tip->getOrCreateStateSet()->addUniform(finger.pressure);
 
   osg::ref_ptr<osg::Group> cone = new osg::Group;
   osg::ref_ptr<osg::Geometry> side = unitFrictionCone(Vec3::Ones());
@@ -119,6 +122,8 @@ void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
     finger.tip->setMatrix(toOsg(Pose{view.p_WP, Quat::Identity()}));
     finger.tip->preMult(osg::Matrixd::scale(view.radius, view.radius, view.radius));
     finger.tip_color->set(osg::Vec3(toOsg(stateColor(view.mode))));
+    const double most = std::min(view.force_limit, kGlowsWith);
+    finger.pressure->set(static_cast<float>(view.touches() ? std::min(1.0, view.normal_force / most) : 0.0));
     updateForce(view, finger);
   }
 }

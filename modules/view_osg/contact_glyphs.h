@@ -28,7 +28,7 @@ class ContactGlyphs {
  private:
   struct Finger {
     osg::ref_ptr<osg::MatrixTransform> hip, link, tip, shaft, head, cone;
-    osg::ref_ptr<osg::Uniform> tip_color, cone_color;
+    osg::ref_ptr<osg::Uniform> tip_color, pressure, cone_color;
   };
   Finger makeFinger();
   void updateForce(const FingerView& view, Finger& finger);

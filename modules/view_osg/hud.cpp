@@ -52,6 +52,7 @@ std::string outputWords(std::uint32_t status) {
   if (status & kOutputWatchdog) return "output: data too old, forces off";
   if (status & kOutputWarm) return "output: motors are warm";
   if (status & kOutputMagnitude) return "output: at force limit";
+  if (status & kOutputFading) return "output: fading";
   if (status & kOutputSlew) return "output: at slew limit";
   return {};
 }
@@ -271,6 +272,8 @@ void Hud::update(const ViewFrame& frame, const std::vector<FingerView>& fingers,
   updateRates(timings);
   if (assembly_ && frame.guidance) assembly_->update(world_.scene, *frame.guidance);
   output_->set(outputWords(frame.forces.status));
+  // at its start and end every run fades
+  output_->setColor((frame.forces.status & ~kOutputFading) == 0 ? kSoftInk : kAlarm);
 }
 
 }  // namespace presa::view

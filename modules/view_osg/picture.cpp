@@ -12,7 +12,7 @@ constexpr double kSunset = 2;         ///< in which all that stands comes into t
 constexpr double kMoves = 0.0005;     ///< below it a shadow stays [m]
 constexpr double kArm = 0.05;         ///< at which turns are seen as moves [m]
 constexpr double kFloorReach = 10;    ///< radii of the subject
-constexpr double kGround = 0.3;       ///< of the height of what is put together, under it
+constexpr double kGround = 0.36;      ///< of the height of what is put together, under it
 constexpr double kShadows = 1.0;      ///< where a processor draws they fall within so many radii
 constexpr double kLitAround = 2.2;    ///< shadows reach this many radii of the subject
 

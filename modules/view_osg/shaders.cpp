@@ -265,10 +265,13 @@ void main() {
 
 constexpr const char* kSkin = R"(
 uniform vec3 state_color;
+uniform float pressure;
 void main() {
   vec3 n = normalize(normal_W), e = normalize(to_eye_W);
   float rim = pow(1.0 - max(dot(n, e), 0.0), 2.2);
-  vec3 color = lit(mix(base.rgb, state_color, 0.18 + 0.72 * rim), n, position_W, e, 0.5);
+  // the pad glows with the force, the rim tells whether it sticks
+  vec3 pad = mix(base.rgb, vec3(1.0, 0.10, 0.04), pressure);
+  vec3 color = lit(mix(pad, state_color, 0.18 * (1.0 - pressure) + 0.72 * rim), n, position_W, e, 0.5);
   gl_FragColor = vec4(toDisplay(color), mix(0.50, 0.95, rim));
 }
 )";

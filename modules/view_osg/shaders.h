@@ -12,7 +12,8 @@ namespace presa::view::shaders {
 osg::ref_ptr<osg::Program> body(Material::Texture texture, bool quick);
 /// Floor: as a body, fading into the background with distance; `open`: where nothing throws a shadow.
 osg::ref_ptr<osg::Program> floor(Material::Texture texture, bool quick, bool open);
-/// Fingertip: translucent skin, rim in the colour of the contact state (uniform `state_color`).
+/// Fingertip: translucent skin, rim in the colour of the contact state (uniform `state_color`), pad the redder
+/// the harder it presses (uniform `pressure`, 0 to 1).
 osg::ref_ptr<osg::Program> skin();
 /// HIP, arrow and links: their own colour, a little shaded; uniform `opacity`.
 osg::ref_ptr<osg::Program> glyph();

@@ -47,6 +47,7 @@ TEST(Clumsy, AMinuteOfItLosesNoBlock) {
     const temple::Rebuilt rebuilt = visited(scene, seed, 60);
     EXPECT_NEAR(rebuilt.simulated_seconds, 60, 0.01) << "to the end";
     EXPECT_EQ(rebuilt.lost, 0);
+    EXPECT_LT(rebuilt.longest_outside, 20);
     EXPECT_EQ(rebuilt.faults, 0U);
     EXPECT_GT(rebuilt.mean_fingertip_depth, 1e-5) << "it did touch something";
     EXPECT_LT(rebuilt.mean_penetration, 0.2e-3);

@@ -8,6 +8,7 @@
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/commands/show_option.h"
 #include "apps/presa/commands/view_choice.h"
 #include "apps/presa/run_session.h"
 #include "apps/presa/scratch_folder.h"
@@ -29,7 +30,8 @@ constexpr double kFinish = 8;            // for who looks on [s]
 constexpr double kOpenEnd = 7 * 86400;   // [s]
 
 struct Arguments {
-  std::string size = "column", parameters, folder, rig, view, screenshot, summary, language = "en";
+  std::string size = "column", parameters, folder, rig, view, screenshot, video, summary, language = "en";
+  std::vector<std::string> show;         // as RunOptions
   std::string visits;                    // where they are kept; empty: the default
   std::string kept;                      // session to go on with
   std::vector<std::string> screenshots;  // seconds, folder
@@ -42,14 +44,14 @@ struct Arguments {
 
   /// Somebody puts it together: not only a picture or a scene is wanted.
   bool visit() const {
-    return automatic || go_on || attract > 0 || limit > 0 || time_scale > 0 || !screenshots.empty() ||
+    return automatic || go_on || attract > 0 || limit > 0 || time_scale > 0 || !screenshots.empty() || !video.empty() ||
            (folder.empty() && screenshot.empty());
   }
   bool realtime() const { return !lockstep && time_scale == 0; }
 };
 
 RunOptions::View viewOf(const Arguments& a) {
-  return chooseView(a.view, !a.lockstep, !a.screenshot.empty() || !a.screenshots.empty());
+  return chooseView(a.view, !a.lockstep, !a.screenshot.empty() || !a.screenshots.empty() || !a.video.empty());
 }
 
 std::string visitFolder(const Arguments& a) {
@@ -64,7 +66,7 @@ void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
         "set DISPLAY for a window, --rig RIG for devices, --auto for simulated fingers; --write DIR writes the "
         "scene, --screenshot FILE.png shows it");
   if (!a.folder.empty()) temple::checkTarget(a.folder, a.overwrite, diagnostics);
-  if (a.view == "none" && !(a.screenshot.empty() && a.screenshots.empty()))
+  if (a.view == "none" && !(a.screenshot.empty() && a.screenshots.empty() && a.video.empty()))
     diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none",
                       "use --view offscreen");
   if (!a.screenshots.empty() && !(std::atof(a.screenshots.front().c_str()) > 0))
@@ -99,6 +101,7 @@ int takePicture(const temple::Building& building, temple::SceneSpec spec, const 
   RunOptions options;
   options.duration = kPictureAfter;
   options.view = RunOptions::View::kOffscreen;
+  options.show = a.show;
   options.screenshot = a.screenshot;
   if (const auto folder = std::filesystem::path(a.screenshot).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder);
@@ -134,6 +137,8 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   options.bound_stiffness = !a.automatic;
   options.view = viewOf(a);
   options.screenshot = a.screenshot;
+  options.video = a.video;
+  options.show = a.show;
   if (!a.screenshots.empty()) {
     options.screenshot_every = std::atof(a.screenshots.front().c_str());
     options.screenshots = a.screenshots.back();
@@ -145,12 +150,14 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
 int told(const temple::Rebuilt& rebuilt, const Arguments& a) {
   if (!a.summary.empty()) writeFileAtomically(a.summary, temple::summaryText(rebuilt, a.size, a.seed));
   std::printf(
-      "%d of %d blocks in their places, at most %.3f mm and %.2f degrees off; %d dropped; %.0f s simulated in %.1f s\n",
+      "%d of %d blocks in their places, at most %.3f mm and %.2f degrees off; %d dropped, %d lost; %.0f s simulated in "
+      "%.1f s\n",
       rebuilt.placed, rebuilt.pieces, 1e3 * rebuilt.worst_position_error,
-      rebuilt.worst_angle_error * 180 / std::numbers::pi, rebuilt.drops, rebuilt.simulated_seconds,
+      rebuilt.worst_angle_error * 180 / std::numbers::pi, rebuilt.drops, rebuilt.lost, rebuilt.simulated_seconds,
       rebuilt.wall_seconds);
   if (rebuilt.interrupted) return kExitInterrupted;
-  return (rebuilt.placed == rebuilt.pieces || !a.automatic) && rebuilt.faults == 0 ? kExitOk : kExitFault;
+  const bool done = rebuilt.placed == rebuilt.pieces || !a.automatic;
+  return done && rebuilt.lost == 0 && rebuilt.faults == 0 ? kExitOk : kExitFault;
 }
 
 temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec spec, const Arguments& a,
@@ -309,6 +316,8 @@ void addTemple(CLI::App& app, int& status) {
                    "has no fingers)")
       ->check(CLI::ExistingFile);
   command->add_option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
+  command->add_option("--video", a->video, "MP4 of the visit through ffmpeg, 30 pictures for each simulated second");
+  addShowOption(*command, a->show);
   command->add_option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every so many simulated seconds")
       ->expected(2);
   command
