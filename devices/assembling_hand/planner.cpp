@@ -110,7 +110,7 @@ void Planner::consider(std::size_t goal, const ObjectState& objects) noexcept {
   if (!std::ranges::all_of(place.after, [&](std::size_t before) { return isFilled(before, objects); })) return;
   const double gap = leavesGap(goal, objects) ? kGap : 0;
   for (const std::size_t body : place.bodies) {
-    if (trials_[body].placed) continue;
+    if (trials_[body].placed || chooser_.surroundings().isOutOfReach(objects, body)) continue;
     Choice choice = chooser_.weigh(objects, goal, body, target().centre, target().yaw, trials_);
     choice.effort += gap;
     if (found_ && choice.effort >= best_.effort) continue;
@@ -144,7 +144,8 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   only_moves_ = choice.only_moves;
   tips_over_ = choice.tips_over;
   tips_ = 0;
-  trials_[body_] = {trials_[body_].count + 1, grasp_.a_B, only_moves_, false};
+  const int again = phase() == kOver ? 0 : 1;  // what rolls was not tried yet
+  trials_[body_] = {trials_[body_].count + again, grasp_.a_B, only_moves_, false};
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);

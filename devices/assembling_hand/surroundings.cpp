@@ -54,6 +54,12 @@ std::size_t Surroundings::bodyAt(const ObjectState& objects, const Vec3& p_W, do
   return kNothing;
 }
 
+bool Surroundings::isOutOfReach(const ObjectState& objects, std::size_t body) const noexcept {
+  if (!field_) return false;
+  const Vec3 outside = (objects.bodies[body].X_WB_end.p - field_->centre).cwiseAbs() - field_->size / 2;
+  return outside.maxCoeff() > 0;
+}
+
 std::size_t Surroundings::coverOf(const ObjectState& objects, std::size_t body) const noexcept {
   const Bounds& bounds = bounds_[body];
   const Pose X_WG = objects.bodies[body].X_WB_end * bounds.X_BG;

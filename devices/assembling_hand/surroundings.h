@@ -14,6 +14,8 @@ class Surroundings {
 
   /// A body other than `but` in that ball, or kNothing.
   std::size_t bodyAt(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept;
+  /// Whether it is where nobody reaches it: out of the field, from where it is brought back.
+  bool isOutOfReach(const ObjectState& objects, std::size_t body) const noexcept;
   /// What lies on `body`: another body, or kNothing.
   std::size_t coverOf(const ObjectState& objects, std::size_t body) const noexcept;
   /// From where `body` is best put to X_WB: a little away from those who stand right beside it there, so that it does not catch on

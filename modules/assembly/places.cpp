@@ -12,7 +12,8 @@ using Status = GoalState::Status;
 constexpr double kGravity = 9.81;  // what a weight is [m/s^2]
 constexpr double kWellInside = 0.9,
                  kFarInside = 0.8;          // of the field's size: where a body is let go, where to it is drawn
-constexpr double kCaught = 2, kInVain = 8;  // [s] on its way back
+constexpr double kCaught = 2, kInVain = 8;  // [s] on its way back, no nearer than before
+constexpr double kProgress = 0.005;         // [m]
 constexpr double kClear = 0.01;             // [m]
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -34,6 +35,7 @@ Places::Places(const Assembly& assembly, std::size_t bodies)
       drawing_(assembly.goals.size()),
       settled_(assembly.goals.size()),
       returning_(bodies),
+      nearest_(bodies),
       carried_(bodies) {
   std::size_t pairs = 0;
   for (const AssemblyGoal& goal : assembly.goals) {
@@ -140,11 +142,17 @@ void Places::bringBack(const ObjectState& objects, double period) {
     const Vec3& p = X_WB.p;
     const auto is_inside = [&](double part) { return nearestInside(*assembly_.field, p, part) == p; };
     const bool returns = returning_[body] > 0 ? !is_inside(kWellInside) : !is_inside(1);
-    returning_[body] = returns ? returning_[body] + period : 0;
+    const Vec3 inside = nearestInside(*assembly_.field, p, kFarInside);
+    const double away = (inside - p).norm();
+    if (!returns || returning_[body] <= 0 || away < nearest_[body] - kProgress) {
+      nearest_[body] = away;
+      returning_[body] = 0;
+    }
+    if (returns) returning_[body] += period;
     carried_[body] = returns && (carried_[body] != 0 || returning_[body] > kInVain) ? 1 : 0;
     if (!returns) continue;
     ++state_.brought_back;
-    Vec3 to = nearestInside(*assembly_.field, p, kFarInside);
+    Vec3 to = inside;
     // what leans against an edge is held there by friction as long as it is drawn against it: up first
     if (returning_[body] > kCaught && p.z() < to.z() - kClear) to.head<2>() = p.head<2>();
     const bool carried = carried_[body] != 0;

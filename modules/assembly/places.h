@@ -56,7 +56,8 @@ class Places {
   std::vector<double> drawing_;        // by goal: draws its body for so long [s]
   std::vector<double> settled_;        // by goal: in its place for so long [s]
   std::vector<std::size_t> order_;     // goals as they were filled
-  std::vector<double> returning_;      // by body: brought back for so long [s]
+  std::vector<double> returning_;      // by body: brought back, for so long without coming nearer [s]
+  std::vector<double> nearest_;        // by body: to where it is drawn, so far [m]
   std::vector<char> carried_;          // by body: brought back as a fixed one, through whatever is in the way
   std::vector<Candidate> candidates_;
   AssemblyState state_;
