@@ -131,7 +131,7 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   options.duration = a.limit > 0   ? a.limit
                      : a.automatic ? kEachBlock * static_cast<double>(building.blocks.size())
                                    : kOpenEnd;
-  options.seed = a.seed;
+  if (!a.rig.empty()) options.seed = a.seed;  // what the rig's fingers draw; the ruins have theirs
   options.realtime = a.realtime();
   options.allow_no_rt = a.allow_no_rt;
   options.bound_stiffness = !a.automatic;
