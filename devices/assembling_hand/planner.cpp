@@ -144,8 +144,7 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   only_moves_ = choice.only_moves;
   tips_over_ = choice.tips_over;
   tips_ = 0;
-  const int again = phase() == kOver ? 0 : 1;  // what rolls was not tried yet
-  trials_[body_] = {trials_[body_].count + again, grasp_.a_B, only_moves_, false};
+  trials_[body_] = {trials_[body_].count + 1, grasp_.a_B, only_moves_, false};
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);

@@ -6,6 +6,7 @@ namespace presa::falcon {
 
 /// Numbers of the findings about a Falcon (E4xx: rigs and devices).
 enum Code : int {
+  kUnevenReplies = 478,
   kBadNumber = 480,
   kFirmwareUnreadable = 481,
   kFirmwareEmpty = 482,

@@ -61,14 +61,26 @@ void FalconDevice::open() {
     if (homing_since == 0) homing_since = monotonicNs();
     if (static_cast<double>(monotonicNs() - homing_since) * 1e-9 < settings_.homing_wait) continue;
     io_.reset();
-    std::string missing;
-    for (int i = 0; i < 3; ++i)
-      if ((status.homed & (1 << i)) == 0) missing += (missing.empty() ? "" : ", ") + std::to_string(i + 1);
-    refuseAt(
-        kNotHomed, settings_.where,
-        who + "the grip was not homed" + (missing.empty() ? "" : " (no reference seen by encoder " + missing + ")"),
-        "while its light is blue, pull the grip all the way out, then push it in; homing_wait sets how long there is");
+    refuseUnhomed(status);
   }
+}
+
+void FalconDevice::refuseUnhomed(const LinkStatus& status) const {
+  const std::string who = "role '" + settings_.role + "': ";
+  std::string missing;
+  for (int i = 0; i < 3; ++i)
+    if ((status.homed & (1 << i)) == 0) missing += (missing.empty() ? "" : ", ") + std::to_string(i + 1);
+  if (missing.empty())
+    refuseAt(
+        kUnevenReplies, settings_.where,
+        who + "the grip is homed, but its replies leave gaps: " + std::to_string(status.replies) + " to " +
+            std::to_string(status.requests) + " requests, never " + std::to_string(FalconLink::kHomedInARow) +
+            " in a row",
+        "this computer is too busy for 1 kHz, or the cable is bad: end other programs, give real-time rights (presa "
+        "device doctor says how), use a port of the computer itself");
+  refuseAt(
+      kNotHomed, settings_.where, who + "the grip was not homed (no reference seen by encoder " + missing + ")",
+      "while its light is blue, pull the grip all the way out, then push it in; homing_wait sets how long there is");
 }
 
 FingerInput FalconDevice::read(const Tick& tick) noexcept {

@@ -30,6 +30,8 @@ class FalconDevice final : public Device {
   }
 
  private:
+  [[noreturn]] void refuseUnhomed(const LinkStatus& status) const;
+
   FalconSettings settings_;
   Connect connect_;
   std::unique_ptr<FalconIo> io_;

@@ -232,6 +232,19 @@ TEST(FalconDevice, NotHomedIsSaidWithTheEncodersThatAreMissing) {
   EXPECT_TRUE(std::all_of(desk.falcon.sent.begin(), desk.falcon.sent.end(), [](auto& s) { return s.zero(); }));
 }
 
+// It moves nobody's fingers before it answers evenly; that this is not the grip's fault is said.
+TEST(FalconDevice, GapsInItsRepliesAreSaidForWhatTheyAre) {
+  Desk desk;
+  desk.falcon.damage = [replies = 0](Bytes reply) mutable { return ++replies % 5 == 0 ? Bytes{} : reply; };
+  FalconSettings settings = settingsOf();
+  settings.homing_wait = 0.05;
+  FalconDevice device(settings, desk.connect());
+  const auto [code, text] = refusal(device);
+  EXPECT_EQ(code, kUnevenReplies);
+  EXPECT_NE(text.find("the grip is homed, but its replies leave gaps"), std::string::npos) << text;
+  EXPECT_TRUE(std::all_of(desk.falcon.sent.begin(), desk.falcon.sent.end(), [](auto& s) { return s.zero(); }));
+}
+
 TEST(FalconDevice, NoFirmwareIsSaidWithTheSettingToAdd) {
   Desk desk;
   desk.falcon.loaded = false;

@@ -94,7 +94,7 @@ TEST(FalconOverUsb, EnumeratesAndClaims) {
   EXPECT_THAT(falcon::describe(later, "1-2"), HasSubstr("another program holds /dev/bus/usb/001/003"));
 }
 
-// Nine times the echo is wrong, each time at another byte; at the tenth attempt the firmware runs.
+// Seven times the echo is wrong, each time at another byte; at the eighth attempt the firmware runs.
 // Ten are allowed, the tenth is tried in virtual time: here a busy machine may spoil one or two more.
 TEST(FalconOverUsb, LoadsFirmwareAfterSevenBadAttempts) {
   ModelSettings settings;
@@ -103,7 +103,7 @@ TEST(FalconOverUsb, LoadsFirmwareAfterSevenBadAttempts) {
     settings.loader.faults.push_back({attempt, static_cast<std::size_t>(attempt * 37), UploadFault::Kind::kWrongEcho});
   Desk desk(settings);
   desk.moveHand();
-  desk.driver.open();
+  OPENED_OR_LATE(desk.driver);
   EXPECT_GE(desk.driver.status().load.attempts, 7);
   EXPECT_EQ(desk.driver.status().state, LinkState::kOperating);
   desk.falcon.with([](FalconModel& model, double) { EXPECT_GE(model.processor().uploads(), 8); });
@@ -139,7 +139,7 @@ TEST(FalconOverUsb, ARefusedSettingIsSaid) {
 
 TEST(FalconOverUsb, ShortAndMergedRepliesAreLivedThrough) {
   Desk desk;
-  desk.driver.open();
+  OPENED_OR_LATE(desk.driver);
   REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
   RandomStream random(1, "replies");
   int mutated = 0;
@@ -159,7 +159,7 @@ TEST(FalconOverUsb, ShortAndMergedRepliesAreLivedThrough) {
 // No reply for half a second of the device's clock: zero meanwhile, and back.
 TEST(FalconOverUsb, SilenceTakesTheForceAwayAndItComesBack) {
   Desk desk;
-  desk.driver.open();
+  OPENED_OR_LATE(desk.driver);
   REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
   desk.falcon.with([](FalconModel& model, double now) { model.mute(now, now + 0.5); });
   EXPECT_TRUE(desk.untilZero());
@@ -170,7 +170,7 @@ TEST(FalconOverUsb, SilenceTakesTheForceAwayAndItComesBack) {
 // A stall ends transfers but not the device: the halt is cleared and the exchange goes on.
 TEST(FalconOverUsb, AStallIsCleared) {
   Desk desk;
-  desk.driver.open();
+  OPENED_OR_LATE(desk.driver);
   REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
   desk.falcon.stallBulk(true);
   EXPECT_TRUE(desk.until([](FalconModel&, const FingerInput& finger) { return !finger.valid; }));
@@ -182,7 +182,7 @@ TEST(FalconOverUsb, AStallIsCleared) {
 
 TEST(FalconOverUsb, PulledOutInTheGraspAndBackItStartsFromTheBeginning) {
   Desk desk;
-  desk.driver.open();
+  OPENED_OR_LATE(desk.driver);
   REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
   const double pulled = desk.falcon.now();
   desk.falcon.unplug();
@@ -196,7 +196,7 @@ TEST(FalconOverUsb, PulledOutInTheGraspAndBackItStartsFromTheBeginning) {
   EXPECT_EQ(desk.falcon.with([](FalconModel& model, double) { return model.requests(); }), requests);
   desk.driver.close();
   desk.moveHand();
-  desk.driver.open();  // firmware and references again
+  OPENED_OR_LATE(desk.driver);  // firmware and references again
   desk.falcon.with([](FalconModel& model, double) { EXPECT_EQ(model.processor().uploads(), 1); });
   REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
   EXPECT_THAT(desk.violations(), IsEmpty());
@@ -205,7 +205,7 @@ TEST(FalconOverUsb, PulledOutInTheGraspAndBackItStartsFromTheBeginning) {
 // Closing takes the force to zero, and says so to the device.
 TEST(FalconOverUsb, ClosedItLeavesZeroBehind) {
   Desk desk;
-  desk.driver.open();
+  OPENED_OR_LATE(desk.driver);
   REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
   desk.driver.close();
   desk.falcon.with([](FalconModel& model, double) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/falcon_device.h"
 #include "framework/schedule/realtime_rights.h"
 #include "tests/falcon_usb/emulated_bus.h"
@@ -52,6 +53,15 @@ inline std::string whyLate() {
 #endif
 }
 
+/// Opens; false: the device never answered evenly, for such a reason.
+inline bool opensInTime(falcon::FalconDevice& driver) try {
+  driver.open();
+  return true;
+} catch (const InputError& error) {
+  if (error.diagnostics().all().at(0).code != falcon::kUnevenReplies || whyLate().empty()) throw;
+  return false;
+}
+
 }  // namespace presa::falcon_model::test
 
 /// Goes on when a force was reached; skips the test where `late` samples say that it could not be, otherwise it failed.
@@ -61,3 +71,7 @@ inline std::string whyLate() {
       FAIL() << "no force was felt, and " << (late) << " samples were late"; \
     GTEST_SKIP() << (late) << " samples were late; " << whyLate();           \
   }
+
+/// Goes on when the device was opened.
+#define OPENED_OR_LATE(driver) \
+  if (!opensInTime(driver)) GTEST_SKIP() << "its replies leave gaps; " << whyLate();

@@ -34,10 +34,11 @@ TEST(TwoFalconsOverUsb, OneIsPulledOutAndTheOtherGoesToZero) {
   index.with([](FalconModel& model, double) { model.limits({.force = 4, .force_rate = 1000, .jitter = 1e-3}); });
   DeviceList devices;
   for (const std::string port : {"1-1", "1-2"}) {
-    devices.push_back(std::make_unique<falcon::FalconDevice>(settingsOf(port), [port] {
+    auto driver = std::make_unique<falcon::FalconDevice>(settingsOf(port), [port] {
       return falcon::connectOverUsb(port, {"desk.xml", 3, 1});
-    }));
-    devices.back()->open();
+    });
+    OPENED_OR_LATE(*driver);
+    devices.push_back(std::move(driver));
   }
   RunControl control;
   GraphBuilder builder;
