@@ -17,6 +17,8 @@ constexpr double kFirm =
     1.6;  // of the grip, while one on its head is shaken: it falls into the fingers, not out of them
 constexpr double kHangs = 0.3;       // no more askew than this it may be put down [rad]
 constexpr double kHangsWell = 0.25;  // what a place draws upright without being helped [rad]
+constexpr double kUpright =
+    0.12;  // what failed once may have touched its neighbours on the way down: shaken until then [rad]
 constexpr int kMostShakes = 8;
 constexpr int kTips = 4;                              // steps of a quarter turn
 constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
@@ -209,6 +211,8 @@ void Planner::shake(double by) noexcept {
   go(kShake, to, kShakeTime);
 }
 
+double Planner::mayHang() const noexcept { return trials_[body_].count > 1 ? kUpright : kHangs; }
+
 // Hanging from loose fingers, or held firmly as long as it is on its head.
 double Planner::swingingGrip(const ObjectState& objects) const noexcept {
   if (isOnItsHead(objects) && !only_moves_) return kFirm * grasp_.force;
@@ -268,7 +272,7 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kLift:
       if (!holds(objects)) return letGo();
       shakes_ = 0;
-      if (!only_moves_ && tilt(objects) < kHangsWell) return carry(objects);
+      if (!only_moves_ && tilt(objects) < std::min(kHangsWell, mayHang())) return carry(objects);
       to.grip = swingingGrip(objects);
       return go(kLoosen, to, 0.3);
     case kLoosen:
@@ -277,7 +281,7 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kSwing:
       if (!holds(objects)) return letGo();
       if (only_moves_) return moveAside(objects);
-      if (tilt(objects) > kHangs && shakes_ < kMostShakes) {
+      if (tilt(objects) > mayHang() && shakes_ < kMostShakes) {
         if (const double grip = swingingGrip(objects); grip != target().grip) {
           to.grip = grip;
           return go(kLoosen, to, 0.3);

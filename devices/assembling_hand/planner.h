@@ -53,6 +53,7 @@ class Planner final : public PairPlan {
   double swingingGrip(const ObjectState& objects) const noexcept;
   bool isOnItsHead(const ObjectState& objects) const noexcept;
   double tilt(const ObjectState& objects) const noexcept;
+  double mayHang() const noexcept;
   bool isFilled(std::size_t goal, const ObjectState& objects) const noexcept;
   bool isPlaced(std::size_t body, const ObjectState& objects) const noexcept;
   double clearHeight(const ObjectState& objects) const noexcept;

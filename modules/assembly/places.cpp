@@ -163,8 +163,8 @@ void Places::bringBack(const ObjectState& objects, double period) {
 void Places::slowDown(const ObjectState& objects) {
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
     if (belongs_[body] == 0 || goal_of_[body] != kNoGoal || returning_[body] > 0) continue;
-    const double speed = objects.bodies[body].v_WB.norm();
-    if (speed < kRollsFrom || speed > kRollsTo) continue;
+    // what sleeps stays asleep; what is awake is held even at rest: let go, it would roll on at what one step gives it
+    if (objects.bodies[body].asleep || objects.bodies[body].v_WB.norm() > kRollsTo) continue;
     attractions_.bodies[index(attractions_.count++)] = {
         .body = static_cast<std::int32_t>(body), .turns = false, .X_WB = objects.bodies[body].X_WB_end, .most = kGrass};
   }

@@ -31,7 +31,7 @@ class Places {
   static constexpr double kRate = 20, kSpeed = 0.1;  ///< of Attraction [1/s, m/s]
   static constexpr double kRise = 0.3;               ///< in which a place comes to its full pull [s]
   /// What rolls is slowed, as by grass: a drum on even ground would never stop [m/s^2, m/s].
-  static constexpr double kGrass = 0.3, kRollsFrom = 2e-5, kRollsTo = 0.5;
+  static constexpr double kGrass = 0.3, kRollsTo = 0.5;
   static constexpr double kBringBackWeights = 1.5;  ///< what friction on the ground does not hold
 
  private:

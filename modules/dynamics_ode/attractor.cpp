@@ -6,6 +6,8 @@
 namespace presa::ode {
 namespace {
 
+constexpr double kMayTouch = 0.002;  // [m] between the bounds of bodies that may lean on each other
+
 /// Turn from `from` to `to` as a rotation vector in W [rad].
 Vec3 turnBetween(const Quat& from, const Quat& to) {
   Quat turn = to * from.conjugate();
@@ -66,19 +68,20 @@ void Attractor::read(const Attractions& attractions, BodySet& bodies, Sleep* sle
     const auto body = static_cast<std::size_t>(attraction.body);
     if (attraction.body >= 0 && body < count) drawn_[body] = &attraction;
   }
-  bool changed = false;
   for (std::size_t i = 0; i < count; ++i) {
     const bool fix = drawn_[i] != nullptr && drawn_[i]->fixed;
     const bool free_to_be_drawn = drawn_[i] != nullptr && !fix && bodies.asleep(i);
     if (sleep != nullptr && (free_to_be_drawn || (fix && bodies.asleep(i)))) sleep->wake(bodies, i);
     if (fix == bodies.isPut(i)) continue;
     fix ? bodies.put(i) : bodies.take(i);
-    changed = true;
+    if (sleep != nullptr) wakeAround(i, bodies, *sleep);
   }
-  if (!changed || sleep == nullptr) return;
-  // what leaned on it, or stood on it, has to find out
-  for (std::size_t i = 0; i < count; ++i) {
-    if (bodies.asleep(i)) sleep->wake(bodies, i);
+}
+
+// What leaned on it, or stood on it, has to find out.
+void Attractor::wakeAround(std::size_t i, BodySet& bodies, Sleep& sleep) {
+  for (std::size_t j = 0; j < bodies.size(); ++j) {
+    if (j != i && bodies.asleep(j) && bodies.areNear(i, j, kMayTouch)) sleep.wake(bodies, j);
   }
 }
 

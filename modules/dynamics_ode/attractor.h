@@ -30,6 +30,8 @@ class Attractor {
   static constexpr double kCarrySpin = 0.2;    ///< [rad/s]
 
  private:
+  static void wakeAround(std::size_t i, BodySet& bodies, Sleep& sleep);
+
   struct Motors {
     dJointID linear = nullptr, angular = nullptr;  ///< null for a fixed body
   };

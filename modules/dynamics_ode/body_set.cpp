@@ -96,6 +96,17 @@ Pose BodySet::centrePose(std::size_t i) const {
   return {state.p_WCm, state.q_WB};
 }
 
+bool BodySet::areNear(std::size_t i, std::size_t j, double distance) const {
+  if (geom(i) == nullptr || geom(j) == nullptr) return false;
+  dReal a[6], b[6];
+  dGeomGetAABB(geom(i), a);
+  dGeomGetAABB(geom(j), b);
+  for (int low = 0; low < 6; low += 2) {
+    if (a[low] - distance > b[low + 1] || b[low] - distance > a[low + 1]) return false;
+  }
+  return true;
+}
+
 Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
   if (!moves(i)) return Vec3::Zero();
   const Entry& entry = bodies_[i];

@@ -31,6 +31,8 @@ class BodySet {
   dGeomID geom(std::size_t i) const noexcept { return bodies_[i].geom; }
   /// Half the diagonal of the physics geometry's bounds at the start [m].
   double extent(std::size_t i) const noexcept { return bodies_[i].extent; }
+  /// Whether the bounds of their physics geometries come within `distance` of each other along every axis of W [m].
+  bool areNear(std::size_t i, std::size_t j, double distance) const;
 
   /// State at the start of the step: pose, mass, inverse inertia in W. Only for bodies that move.
   BodyInertiaState inertiaState(std::size_t i) const;

@@ -5,9 +5,15 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kWindow = 0.5;      // [s]
-constexpr double kMeanMoves = 1e-5;  // [m] between windows, at most
-constexpr double kTrembles = 2e-4;   // [m] from where a window began, at most
+constexpr double kWindow = 0.5;  // [s]
+
+/// What a body may do in a window, and be still [m].
+struct Unrest {
+  double mean_moves = 0;  // from one window to the next
+  double trembles = 0;    // from where the window began
+};
+constexpr Unrest kFew{1e-5, 2e-4}, kInAHeap{4e-4, 8e-4};
+constexpr std::uint32_t kHeap = 16;  // contacts: more are one
 
 Eigen::Matrix<double, 6, 1> displacement(const Pose& from, const Pose& to, double extent) {
   Quat turn = to.q * from.q.conjugate();
@@ -27,10 +33,11 @@ void Sleep::watch(const BodySet& bodies, std::size_t i) {
 }
 
 // The next window counts from here.
-void Sleep::closeWindow(const BodySet& bodies, std::size_t i) {
+void Sleep::closeWindow(const BodySet& bodies, std::size_t i, bool in_a_heap) {
+  const Unrest& allowed = in_a_heap ? kInAHeap : kFew;
   Stillness& body = stillness_[i];
   const Displacement mean = body.sum / std::max(1, window_steps_);
-  body.still = body.farthest < kTrembles && (mean - body.last_mean).norm() < kMeanMoves;
+  body.still = body.farthest < allowed.trembles && (mean - body.last_mean).norm() < allowed.mean_moves;
   const Pose now = bodies.centrePose(i);
   body.last_mean = mean - displacement(body.reference, now, bodies.extent(i));
   body.reference = now;
@@ -48,8 +55,8 @@ void Sleep::afterStep(BodySet& bodies, Islands& islands, double h) {
   may_sleep_.assign(bodies.size(), 1);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies.awake(i)) continue;
-    closeWindow(bodies, i);
     const std::size_t island = islands.of(i);
+    closeWindow(bodies, i, islands[island].contacts > kHeap);
     if (!stillness_[i].still || islands[island].touched) may_sleep_[island] = 0;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -34,13 +34,16 @@ TEST(GoalPose, RoundThingsLeaveOnlyTheTilt) {
   EXPECT_NEAR(nearestTurn({}, 0, tilt * aboutZ(1.234)).q.angularDistance(tilt * aboutZ(1.234)), 0.2, 1e-9);
 }
 
-/// Two places, one above the other, for the same two bodies; a third body belongs nowhere.
+/// Two places, one above the other, for the same two bodies; a third body belongs nowhere. All asleep, so that nothing is slowed.
 class PlacesTest : public testing::Test {
  protected:
   PlacesTest() {
     assembly.goals = {{"lower", {0, 1}, {}, 1, {}}, {"upper", {0, 1}, {{0, 0, 0.1}, Quat::Identity()}, 1, {0}}};
     objects.count = 3;
-    for (std::size_t i = 0; i < 3; ++i) objects.bodies[i].X_WB_end.p = {1 + static_cast<double>(i), 0, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      objects.bodies[i].X_WB_end.p = {1 + static_cast<double>(i), 0, 0};
+      objects.bodies[i].asleep = true;
+    }
   }
   void at(std::size_t body, const Vec3& p, double angle = 0) { objects.bodies[body].X_WB_end = {p, aboutZ(angle)}; }
   void step(int steps = 1) {
@@ -193,9 +196,12 @@ TEST_F(PlacesTest, WhatDoesNotComeBackIsLiftedFirst) {
 
 TEST_F(PlacesTest, WhatRollsIsSlowedAndNothingElse) {
   at(0, {0.3, 0, 0});
-  objects.bodies[0].v_WB = {0.05, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i) objects.bodies[i].asleep = false;
   objects.bodies[1].v_WB = {2, 0, 0};
   objects.bodies[2].v_WB = {0.05, 0, 0};
+  step();
+  ASSERT_EQ(places->attractions().count, 1) << "awake: at rest now, it would roll on otherwise";
+  objects.bodies[0].v_WB = {0.05, 0, 0};
   step();
   ASSERT_EQ(places->attractions().count, 1);
   EXPECT_EQ(places->attractions().bodies[0].body, 0);

@@ -122,5 +122,19 @@ TEST_F(Attracted, APutBodyCarriesOthersAndFallsWhenItIsTaken) {
   EXPECT_LT(state.bodies[1].X_WB_end.p.z(), -0.1) << "woken, and without support";
 }
 
+// A heap elsewhere is none of its business: to wake it costs a second of solving.
+TEST_F(Attracted, WhatIsPutAndTakenWakesOnlyItsNeighbours) {
+  maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
+  const double beside = 0.0605, far = 0.065;  // from centre to centre: gaps of 0.5 and 5 mm
+  for (const double x : {beside, -far}) maker.box({0.06, 0.04, 0.02}, 0.1, {{x, 0, 0}, Quat::Identity()});
+  OdeWorld bodies(maker.world());
+  run(bodies, kStep, 0, 2);
+  for (const std::size_t i : {0U, 2U, 3U}) ASSERT_TRUE(state.bodies[i].asleep) << i;
+  bodies.attract(putAt(state.bodies[0].X_WB_end));
+  bodies.step({}, 2, kStep, state);
+  EXPECT_FALSE(state.bodies[2].asleep);
+  EXPECT_TRUE(state.bodies[3].asleep);
+}
+
 }  // namespace
 }  // namespace presa::ode

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kBaseMemory = 64u << 20;
 constexpr std::size_t kMemoryPerByte = 100;
 /// Processor time: a good megabyte takes below a second even as text, several under valgrind (`presa explain --cost`).
-constexpr unsigned kBaseSeconds = 5;
+constexpr unsigned kBaseSeconds = 2;
 constexpr unsigned kSecondsPerMegabyte = 4;
 
 /// The arrays live as long as the result.
