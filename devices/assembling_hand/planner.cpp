@@ -148,6 +148,7 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   tips_ = 0;
   trials_[body_] = {trials_[body_].count + 1, grasp_.a_B, only_moves_, false};
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
+  lay_ = tilt(objects) > kHangs;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   X_WG_ = nearestTurn(goal.X_WB, goal.fold, X_WB_taken_.q);
   PairTarget to = target();
@@ -211,7 +212,8 @@ void Planner::shake(double by) noexcept {
   go(kShake, to, kShakeTime);
 }
 
-double Planner::mayHang() const noexcept { return trials_[body_].count > 1 ? kUpright : kHangs; }
+// One that lay hangs askew by friction alone; one that did not (a tile, whose place is on a slope) hangs as well as it ever will.
+double Planner::mayHang() const noexcept { return trials_[body_].count > 1 && lay_ ? kUpright : kHangs; }
 
 // Hanging from loose fingers, or held firmly as long as it is on its head.
 double Planner::swingingGrip(const ObjectState& objects) const noexcept {

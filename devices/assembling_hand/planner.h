@@ -75,6 +75,7 @@ class Planner final : public PairPlan {
   Pose X_WG_, X_WB_taken_;
   Grasp grasp_;
   bool only_moves_ = false, tips_over_ = false;
+  bool lay_ = false;  // when it was taken
   int shakes_ = 0;
   int tips_ = 0;
   Vec3 tip_along_ = Vec3::Zero(), tip_about_ = Vec3::Zero();
