@@ -21,6 +21,7 @@ struct Trial {
   Vec3 a_B = Vec3::Zero();  ///< the last grasp's line
   bool only_moves = false;
   bool placed = false;  ///< stands where it belongs, and is left there
+  int stuck = 0;        ///< how often in a row it stayed where it was: neighbours hold it, and it is taken the harder
 };
 
 /// Weighs what two fingers would have to put up with. Thread: any one; no memory after construction.

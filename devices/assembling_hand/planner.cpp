@@ -20,6 +20,7 @@ constexpr double kHangsWell = 0.25;  // what a place draws upright without being
 constexpr double kUpright =
     0.12;  // what failed once may have touched its neighbours on the way down: shaken until then [rad]
 constexpr int kMostShakes = 8;
+constexpr int kHardest = 3;                           // times its grip, on top of it, for one that is stuck
 constexpr int kTips = 4;                              // steps of a quarter turn
 constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
 constexpr double kJerkBy = 0.08;                      // one on its head: 7.4 m/s^2
@@ -146,7 +147,9 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   only_moves_ = choice.only_moves;
   tips_over_ = choice.tips_over;
   tips_ = 0;
-  trials_[body_] = {trials_[body_].count + 1, grasp_.a_B, only_moves_, false};
+  Trial& trial = trials_[body_];
+  trial = {trial.count + 1, grasp_.a_B, only_moves_, false, trial.stuck};
+  grasp_.force = std::min(kMostGrip, (1 + trial.stuck) * grasp_.force);
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   lay_ = tilt(objects) > kHangs;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
@@ -205,9 +208,12 @@ double Planner::tilt(const ObjectState& objects) const noexcept {
 
 bool Planner::isOnItsHead(const ObjectState& objects) const noexcept { return tilt(objects) > kPi / 2; }
 
-// What friction of the fingertips holds askew, or balances on its head, finds its way when it is moved quickly across.
-void Planner::shake(double by) noexcept {
+// What friction of the fingertips holds askew, or balances on its head, finds its way when it is moved quickly across; the last bit by less
+// and less, as a magnet is rid of its magnetism.
+void Planner::shake(const ObjectState& objects) noexcept {
+  double by = isOnItsHead(objects) ? kJerkBy : kShakeBy;
   PairTarget to = target();
+  if (tilt(objects) < kHangs) by *= 1 - static_cast<double>(shakes_) / (kMostShakes + 1);
   to.centre += (shakes_++ % 2 == 0 ? by : -by) * Vec3(-std::sin(target().yaw), std::cos(target().yaw), 0);
   go(kShake, to, kShakeTime);
 }
@@ -272,7 +278,15 @@ void Planner::next(const ObjectState& objects) noexcept {
       to.centre.z() = clearHeight(objects) + 2 * size_[body_];
       return goAt(kLift, to, kFast);
     case kLift:
-      if (!holds(objects)) return letGo();
+      if (!holds(objects)) {
+        // where it was: its neighbours hold it; elsewhere: it was squeezed out, and more force would only throw it farther
+        const bool stayed = (objects.bodies[body_].X_WB_end.p - X_WB_taken_.p).norm() < kMoved;
+        trials_[body_].stuck = stayed ? std::min(trials_[body_].stuck + 1, kHardest) : 0;
+        return letGo();
+      }
+      grasp_.force /= 1 + trials_[body_].stuck;  // free of what held it
+      trials_[body_].stuck = 0;
+      to.grip = grasp_.force;
       shakes_ = 0;
       if (!only_moves_ && tilt(objects) < std::min(kHangsWell, mayHang())) return carry(objects);
       to.grip = swingingGrip(objects);
@@ -288,7 +302,7 @@ void Planner::next(const ObjectState& objects) noexcept {
           to.grip = grip;
           return go(kLoosen, to, 0.3);
         }
-        return shake(isOnItsHead(objects) ? kJerkBy : kShakeBy);
+        return shake(objects);
       }
       if (tilt(objects) <= kHangs) return carry(objects);
       only_moves_ = true;

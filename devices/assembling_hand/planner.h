@@ -49,7 +49,7 @@ class Planner final : public PairPlan {
   void carry(const ObjectState& objects) noexcept;
   void lower(const ObjectState& objects) noexcept;
   void tipOver(const ObjectState& objects) noexcept;
-  void shake(double by) noexcept;
+  void shake(const ObjectState& objects) noexcept;
   double swingingGrip(const ObjectState& objects) const noexcept;
   bool isOnItsHead(const ObjectState& objects) const noexcept;
   double tilt(const ObjectState& objects) const noexcept;

@@ -6,7 +6,8 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kMayTouch = 0.002;  // [m] between the bounds of bodies that may lean on each other
+constexpr double kSamePlace = 1e-4, kSameTurn = 1e-3;  // [m, rad]
+constexpr double kMayTouch = 0.002;                    // [m] between the bounds of bodies that may lean on each other
 
 /// Turn from `from` to `to` as a rotation vector in W [rad].
 Vec3 turnBetween(const Quat& from, const Quat& to) {
@@ -39,7 +40,7 @@ double towards(double way, const Attraction& to, double speed, double h) {
 }  // namespace
 
 Attractor::Attractor(const BodySet& bodies, dWorldID ode_world)
-    : drawn_(bodies.size(), nullptr), motors_(bodies.size()) {
+    : drawn_(bodies.size(), nullptr), before_(bodies.size()), motors_(bodies.size()) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies.moves(i)) continue;
     Motors& motors = motors_[i];
@@ -70,12 +71,27 @@ void Attractor::read(const Attractions& attractions, BodySet& bodies, Sleep* sle
   }
   for (std::size_t i = 0; i < count; ++i) {
     const bool fix = drawn_[i] != nullptr && drawn_[i]->fixed;
-    const bool free_to_be_drawn = drawn_[i] != nullptr && !fix && bodies.asleep(i);
-    if (sleep != nullptr && (free_to_be_drawn || (fix && bodies.asleep(i)))) sleep->wake(bodies, i);
+    // what fell asleep while it was drawn is held by something: it has to find out that it is drawn, or elsewhere
+    if (sleep != nullptr && isNews(i) && bodies.asleep(i)) sleep->wake(bodies, i);
     if (fix == bodies.isPut(i)) continue;
     fix ? bodies.put(i) : bodies.take(i);
     if (sleep != nullptr) wakeAround(i, bodies, *sleep);
   }
+}
+
+// And remembers it.
+bool Attractor::isNews(std::size_t i) {
+  const Attraction* now = drawn_[i];
+  std::optional<Attraction>& before = before_[i];
+  const bool same = now == nullptr || (before && before->fixed == now->fixed && before->most == now->most &&
+                                       (before->X_WB.p - now->X_WB.p).norm() < kSamePlace &&
+                                       before->X_WB.q.angularDistance(now->X_WB.q) < kSameTurn);
+  if (now == nullptr) {
+    before.reset();
+  } else if (!same) {
+    before = *now;
+  }
+  return !same;
 }
 
 // What leaned on it, or stood on it, has to find out.

@@ -1,6 +1,7 @@
 #pragma once
 #include <ode/ode.h>
 
+#include <optional>
 #include <vector>
 
 #include "framework/state/attraction.h"
@@ -30,14 +31,16 @@ class Attractor {
   static constexpr double kCarrySpin = 0.2;    ///< [rad/s]
 
  private:
+  bool isNews(std::size_t i);
   static void wakeAround(std::size_t i, BodySet& bodies, Sleep& sleep);
 
   struct Motors {
     dJointID linear = nullptr, angular = nullptr;  ///< null for a fixed body
   };
   Attractions wanted_;
-  std::vector<const Attraction*> drawn_;  // by body, into wanted_; null: free
-  std::vector<Motors> motors_;            // by body
+  std::vector<const Attraction*> drawn_;           // by body, into wanted_; null: free
+  std::vector<std::optional<Attraction>> before_;  // by body: what it was last woken for
+  std::vector<Motors> motors_;                     // by body
 };
 
 }  // namespace presa::ode

@@ -122,6 +122,21 @@ TEST_F(Attracted, APutBodyCarriesOthersAndFallsWhenItIsTaken) {
   EXPECT_LT(state.bodies[1].X_WB_end.p.z(), -0.1) << "woken, and without support";
 }
 
+// Drawn against a wall it sleeps like anything that stays where it is, until it is drawn elsewhere.
+TEST_F(Attracted, WhatIsHeldUpSleepsUntilThereIsNews) {
+  maker.fixedBox({0.02, 1, 1}, {{0.0401, 0, 0}, Quat::Identity()});
+  OdeWorld bodies(maker.world());
+  bodies.attract(towards({{0.1, 0, 0}, Quat::Identity()}, 0.1, 3));
+  run(bodies, kStep, 0, 2);
+  ASSERT_TRUE(state.bodies[0].asleep);
+  bodies.attract(towards({{0.1, 0, 0}, Quat::Identity()}, 0.1, 3));
+  run(bodies, kStep, 2, 2.1);
+  EXPECT_TRUE(state.bodies[0].asleep) << "nothing new";
+  bodies.attract(towards({{-0.1, 0, 0}, Quat::Identity()}, 0.1, 3));
+  run(bodies, kStep, 2.1, 2.2);
+  EXPECT_LT(state.bodies[0].X_WB_end.p.x(), -0.005);
+}
+
 // A heap elsewhere is none of its business: to wake it costs a second of solving.
 TEST_F(Attracted, WhatIsPutAndTakenWakesOnlyItsNeighbours) {
   maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
