@@ -17,7 +17,7 @@ struct Attraction {
   bool turns = true;   ///< its orientation is drawn, too
   Pose X_WB;           ///< of the body, where it belongs
   double rate = 0;     ///< [1/s]
-  double speed = 0;    ///< [m/s]
+  double speed = 0;    ///< [m/s]; of what is fixed: at least, while it is carried
   double most = 0;     ///< [m/s^2]
 };
 

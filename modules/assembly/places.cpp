@@ -15,6 +15,7 @@ constexpr double kWellInside = 0.9,
 constexpr double kCaught = 2, kInVain = 8;  // [s] on its way back, no nearer than before
 constexpr double kProgress = 0.005;         // [m]
 constexpr double kClear = 0.01;             // [m]
+constexpr double kFar = 0.05;  // [m] from where it is let go: fetched in seconds, at as many m/s as it is metres away
 constexpr double kDegree = std::numbers::pi / 180;
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -122,13 +123,13 @@ void Places::settle(const ObjectState& objects, double period) {
   }
 }
 
-void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights) {
+void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights, double speed) {
   attractions_.bodies[index(attractions_.count++)] = {.body = static_cast<std::int32_t>(body),
                                                       .fixed = fixed,
                                                       .turns = turns,
                                                       .X_WB = X_WB,
                                                       .rate = kRate,
-                                                      .speed = kSpeed,
+                                                      .speed = speed,
                                                       .most = weights * kGravity};
 }
 
@@ -156,7 +157,7 @@ void Places::bringBack(const ObjectState& objects, double period) {
     // what leans against an edge is held there by friction as long as it is drawn against it: up first
     if (returning_[body] > kCaught && p.z() < to.z() - kClear) to.head<2>() = p.head<2>();
     const bool carried = carried_[body] != 0;
-    attract(body, {to, X_WB.q}, carried, carried, kBringBackWeights);
+    attract(body, {to, X_WB.q}, carried, carried, kBringBackWeights, !carried ? kSpeed : away > kFar ? away : 0);
   }
 }
 
@@ -177,9 +178,9 @@ void Places::step(const ObjectState& objects, double period) {
   attractions_.count = 0;
   for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
     const GoalState& goal = state_.goals[g];
-    if (goal.status == Status::kFilled) attract(index(goal.body), placed_[g], true, true, 0);
+    if (goal.status == Status::kFilled) attract(index(goal.body), placed_[g], true, true, 0, 0);
     if (goal.status == Status::kDrawing)
-      attract(index(goal.body), placed_[g], false, true, assembly_.pull * std::min(1.0, drawing_[g] / kRise));
+      attract(index(goal.body), placed_[g], false, true, assembly_.pull * std::min(1.0, drawing_[g] / kRise), kSpeed);
   }
   bringBack(objects, period);
   slowDown(objects);

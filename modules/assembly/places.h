@@ -45,7 +45,7 @@ class Places {
   void settle(const ObjectState& objects, double period);
   void bringBack(const ObjectState& objects, double period);
   void slowDown(const ObjectState& objects);
-  void attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights);
+  void attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights, double speed);
   std::int32_t missing(std::size_t goal) const;
 
   const Assembly& assembly_;

@@ -101,14 +101,18 @@ void Attractor::wakeAround(std::size_t i, BodySet& bodies, Sleep& sleep) {
   }
 }
 
-void Attractor::carry(BodySet& bodies, double h) const {
+void Attractor::carry(BodySet& bodies, Sleep* sleep, double h) const {
   for (std::size_t i = 0; i < drawn_.size(); ++i) {
     if (drawn_[i] == nullptr || !bodies.isPut(i)) continue;
     const Pose X_WB = bodies.pose(i);
     const Pose& goal = drawn_[i]->X_WB;
     const double way = (goal.p - X_WB.p).norm(), turn = turnBetween(X_WB.q, goal.q).norm();
-    const double steps = std::max(way / (kCarrySpeed * h), turn / (kCarrySpin * h));
+    if (way == 0 && turn == 0) continue;
+    const double speed = std::max(kCarrySpeed, drawn_[i]->speed);
+    const double steps = std::max(way / (speed * h), turn / (kCarrySpin * h));
     bodies.place(i, steps > 1 ? interpolate(X_WB, goal, 1 / steps) : goal);
+    // it would go through what sleeps, and let go inside it
+    if (sleep != nullptr && steps > 1) wakeAround(i, bodies, *sleep);
   }
 }
 

@@ -187,7 +187,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   finger_force.fill(Vec3::Zero());
   wakeTouched(exchange);
   done(watch, Stage::kWake);
-  if (attractor) attractor->carry(bodies, period);
+  if (attractor) attractor->carry(bodies, sleep ? &*sleep : nullptr, period);
   if (!bodies.anyAwake()) {
     contacts.clear();
     return;
