@@ -137,6 +137,24 @@ TEST_F(Attracted, WhatIsHeldUpSleepsUntilThereIsNews) {
   EXPECT_LT(state.bodies[0].X_WB_end.p.x(), -0.005);
 }
 
+// It pushes what sleeps in its way before it; gone through that instead, it would be let go inside it, and thrown away.
+TEST_F(Attracted, WhatIsCarriedPushesWhatSleepsInItsWay) {
+  maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
+  maker.box({0.06, 0.04, 0.02}, 0.1, {{0.1, 0, 0}, Quat::Identity()});
+  OdeWorld bodies(maker.world());
+  run(bodies, kStep, 0, 2);
+  ASSERT_TRUE(state.bodies[2].asleep);
+  Attractions carried = putAt({{0.1, 0, 0}, Quat::Identity()});
+  carried.bodies[0].speed = 0.1;
+  bodies.attract(carried);
+  run(bodies, kStep, 2, 3.5);
+  EXPECT_NEAR(state.bodies[0].X_WB_end.p.x(), 0.1, 1e-12);
+  EXPECT_NEAR(state.bodies[2].X_WB_end.p.x(), 0.16, 2e-3);
+  bodies.attract({});
+  run(bodies, kStep, 3.5, 3.6);
+  EXPECT_LT(state.bodies[0].v_WB.norm() + state.bodies[2].v_WB.norm(), 0.05);
+}
+
 // A heap elsewhere is none of its business: to wake it costs a second of solving.
 TEST_F(Attracted, WhatIsPutAndTakenWakesOnlyItsNeighbours) {
   maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
