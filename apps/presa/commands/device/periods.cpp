@@ -21,7 +21,8 @@ void addPeriods(CLI::App& app, int& status) {
   command->add_option("--seed", options->seed, "of the bootstrap")->capture_default_str();
   command->add_option("--out", options->out, "folder for periods.json");
   command->footer(
-      "Leave the machine to it: it is its hitches that this measures. Exit status: 0 compared, 2 bad input, 130 Ctrl-C.\n"
+      "Leave the machine to it: it is its hitches that this measures. Exit status: 0 compared, 2 bad input, 130 "
+      "Ctrl-C.\n"
       "Example:  presa device periods experiments/faults/hold.xml experiments/faults/stack.xml --runs 100");
   command->callback([options, &status] { status = device::comparePeriods(*options); });
 }

@@ -46,8 +46,8 @@ class Desk {
   Wish ending_ = Wish::kNone;
   bool pause_ = false, practice_ = false;
   std::int64_t begin_ns_;
-  std::size_t ended_ = 0;       // trials since begin_ns_
-  std::size_t since_rest_ = 0;  // trials that count
+  std::size_t ended_ = 0;        // trials since begin_ns_
+  std::size_t since_rest_ = 0;   // trials that count
   double least_ = 0, each_ = 0;  // length of a trial [s]: at least; of those that ended, with all between them
 };
 
