@@ -22,7 +22,8 @@ class Attractor {
 
   /// At the start of a period: takes what is asked for now, fixes and frees bodies, and wakes what that concerns.
   void read(const Attractions& attractions, BodySet& bodies, Sleep* sleep);
-  /// Carries what is fixed a bit nearer to its pose: a jump would be felt, and kick its neighbours.
+  /// Carries what is fixed a bit nearer to its pose: a jump would be felt, and kick its neighbours. Wakes what is in
+  /// its way; `sleep` is null where nothing sleeps.
   void carry(BodySet& bodies, Sleep* sleep, double h) const;
   /// Sets the motors for the next sub-step of `h`.
   void drive(const BodySet& bodies, double h);

@@ -11,8 +11,8 @@ namespace presa::ode {
 /// second the mean of its pose moved by less than 10 um, and it never left 0.2 mm around it. The mean tells the trembling of an
 /// iterative solution from a body that slides or rolls slowly (20 um/s keep it awake).
 ///
-/// A heap creeps for ever, at some 0.2 mm/s (0.8 at rims), as contacts come and go: in an island of more than 16 contacts the mean may move by 0.4 mm
-/// and a body tremble by 0.8. What begins to fall, slide or tip is faster than that within a window.
+/// A heap creeps for ever, at some 0.2 mm/s (0.8 at rims), as contacts come and go: in an island of more than 16 contacts the
+/// mean may move by 0.4 mm and a body tremble by 0.8. What begins to fall, slide or tip is faster than that within a window.
 ///
 /// A sleeping body does not move, collides only with those awake, and its whole island wakes in the step in which a finger or a body
 /// that is awake touches one of it.

@@ -220,29 +220,28 @@ TEST(FalconDevice, RefusesVirtualTime) {
   EXPECT_TRUE(desk.falcon.controls.empty());
 }
 
+/// Refused so after `homing_wait`, and nothing but zero was sent.
+void expectUnhomed(Desk& desk, double homing_wait, Code wanted, const std::string& words) {
+  FalconSettings settings = settingsOf();
+  settings.homing_wait = homing_wait;
+  FalconDevice device(settings, desk.connect());
+  const auto [code, text] = refusal(device);
+  EXPECT_EQ(code, wanted);
+  EXPECT_NE(text.find(words), std::string::npos) << text;
+  EXPECT_TRUE(std::all_of(desk.falcon.sent.begin(), desk.falcon.sent.end(), [](auto& s) { return s.zero(); }));
+}
+
 TEST(FalconDevice, NotHomedIsSaidWithTheEncodersThatAreMissing) {
   Desk desk;
   desk.falcon.homed = 2;
-  FalconSettings settings = settingsOf();
-  settings.homing_wait = 0.02;
-  FalconDevice device(settings, desk.connect());
-  const auto [code, text] = refusal(device);
-  EXPECT_EQ(code, kNotHomed);
-  EXPECT_NE(text.find("no reference seen by encoder 1, 3"), std::string::npos) << text;
-  EXPECT_TRUE(std::all_of(desk.falcon.sent.begin(), desk.falcon.sent.end(), [](auto& s) { return s.zero(); }));
+  expectUnhomed(desk, 0.02, kNotHomed, "no reference seen by encoder 1, 3");
 }
 
 // It moves nobody's fingers before it answers evenly; that this is not the grip's fault is said.
 TEST(FalconDevice, GapsInItsRepliesAreSaidForWhatTheyAre) {
   Desk desk;
   desk.falcon.damage = [replies = 0](Bytes reply) mutable { return ++replies % 5 == 0 ? Bytes{} : reply; };
-  FalconSettings settings = settingsOf();
-  settings.homing_wait = 0.05;
-  FalconDevice device(settings, desk.connect());
-  const auto [code, text] = refusal(device);
-  EXPECT_EQ(code, kUnevenReplies);
-  EXPECT_NE(text.find("the grip is homed, but its replies leave gaps"), std::string::npos) << text;
-  EXPECT_TRUE(std::all_of(desk.falcon.sent.begin(), desk.falcon.sent.end(), [](auto& s) { return s.zero(); }));
+  expectUnhomed(desk, 0.05, kUnevenReplies, "the grip is homed, but its replies leave gaps");
 }
 
 TEST(FalconDevice, NoFirmwareIsSaidWithTheSettingToAdd) {

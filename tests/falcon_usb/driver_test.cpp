@@ -103,10 +103,13 @@ TEST(FalconOverUsb, LoadsFirmwareAfterSevenBadAttempts) {
     settings.loader.faults.push_back({attempt, static_cast<std::size_t>(attempt * 37), UploadFault::Kind::kWrongEcho});
   Desk desk(settings);
   desk.moveHand();
-  OPENED_OR_LATE(desk.driver);
+  const bool opened = opensInTime(desk.driver);
+  // the firmware runs and is obeyed whether or not its replies come evenly then
+  desk.falcon.with([](FalconModel& model, double) { EXPECT_GE(model.processor().uploads(), 8); });
+  EXPECT_THAT(desk.violations(), IsEmpty());
+  SKIP_UNLESS_OPENED(opened);
   EXPECT_GE(desk.driver.status().load.attempts, 7);
   EXPECT_EQ(desk.driver.status().state, LinkState::kOperating);
-  desk.falcon.with([](FalconModel& model, double) { EXPECT_GE(model.processor().uploads(), 8); });
   REACHED_OR_LATE(desk.untilFelt(1), desk.late);
   EXPECT_THAT(desk.violations(), IsEmpty());
 }

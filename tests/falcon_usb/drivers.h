@@ -72,6 +72,7 @@ inline bool opensInTime(falcon::FalconDevice& driver) try {
     GTEST_SKIP() << (late) << " samples were late; " << whyLate();           \
   }
 
-/// Goes on when the device was opened.
-#define OPENED_OR_LATE(driver) \
-  if (!opensInTime(driver)) GTEST_SKIP() << "its replies leave gaps; " << whyLate();
+/// Goes on when the device was opened: by opensInTime, or here.
+#define SKIP_UNLESS_OPENED(opened) \
+  if (!(opened)) GTEST_SKIP() << "its replies leave gaps; " << whyLate();
+#define OPENED_OR_LATE(driver) SKIP_UNLESS_OPENED(opensInTime(driver))
