@@ -6,6 +6,8 @@ namespace presa {
 namespace {
 
 constexpr double kFastestRealTime = 10000;  // [Hz]
+/// The haptic tick goes through so many bodies in less time than it takes to look into a list of those near.
+constexpr std::size_t kFewTouchables = 32;
 
 template <class Wanted>
 std::string firstBody(const Scene& scene, const Wanted& wanted) {
@@ -68,9 +70,12 @@ Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Dia
   call(fingers, "haptics_proxy", RateGroup::kHaptic,
        touchable.empty() ? "the scene has devices" : "fingers can touch body '" + touchable + "'",
        "the scene has no device");
-  call(fingers && !mesh.empty(), "collision_fcl", RateGroup::kCollision,
-       "body '" + mesh + "' has a mesh as haptic geometry",
-       fingers ? "every haptic geometry is a primitive, which the haptic tick handles exactly"
+  const auto touchables =
+      static_cast<std::size_t>(std::ranges::count_if(scene.bodies, [](const Body& b) { return b.haptic.has_value(); }));
+  call(fingers && (!mesh.empty() || touchables > kFewTouchables), "collision_fcl", RateGroup::kCollision,
+       mesh.empty() ? std::to_string(touchables) + " bodies can be touched"
+                    : "body '" + mesh + "' has a mesh as haptic geometry",
+       fingers ? "few haptic geometries, and all of them primitives, which the haptic tick handles exactly"
                : "the scene has no device");
   const char* dynamics = dynamicsPlugin(scene);
   if (fingers && !free.empty() && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,6 +33,15 @@ struct Capsule {
   double length = 0;
 };  ///< axis z, centred; length without the caps [m]
 using Shape = std::variant<MeshRef, Box, Sphere, Cylinder, Capsule>;
+
+/// Of the sphere around a primitive, about its own origin [m]; a mesh is not known here and gives 0.
+inline double boundingRadius(const Shape& shape) {
+  if (const auto* box = std::get_if<Box>(&shape)) return (box->size / 2).norm();
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return std::hypot(cylinder->radius, cylinder->length / 2);
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius + capsule->length / 2;
+  return 0;
+}
 
 /// One geometry of a body (visual, haptic or physics), placed in the body frame B.
 struct Geometry {

@@ -72,12 +72,24 @@ World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnost
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
     const Body& body = world.scene.bodies[b];
     const auto& [visual, haptic, physics] = requests[b];
-    world.meshes.push_back({library.get(visual), library.get(haptic), library.get(physics)});
+    world.meshes.push_back({library.get(visual), library.get(haptic), library.get(physics), nullptr});
     // a physics mesh that could not be read has been reported; its mass would only be a second finding
     const bool unread = physics >= 0 && !world.meshes.back().physics;
     world.inertias.push_back(unread ? BodyInertia{} : inertiaOf(body, world.meshes.back().physics.get(), diagnostics));
   }
+  if (!diagnostics.hasErrors()) indexHapticMeshes(world);
   return world;
+}
+
+void indexHapticMeshes(World& world) {
+  if (world.scene.devices.empty()) return;
+  std::map<const TriMesh*, std::shared_ptr<const MeshTree>> trees;  // bodies of one mesh share its hierarchy
+  for (BodyMeshes& meshes : world.meshes) {
+    if (!meshes.haptic) continue;
+    std::shared_ptr<const MeshTree>& tree = trees[meshes.haptic.get()];
+    if (!tree) tree = std::make_shared<const MeshTree>(meshes.haptic);
+    meshes.haptic_tree = tree;
+  }
 }
 
 }  // namespace presa

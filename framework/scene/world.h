@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/geometry/mesh_tree.h"
 #include "framework/geometry/tri_mesh.h"
 #include "framework/scene/scene.h"
 
@@ -46,6 +47,7 @@ struct RunOptions {
 /// Meshes of one body; null where the geometry is a primitive or absent.
 struct BodyMeshes {
   std::shared_ptr<const TriMesh> visual, haptic, physics;
+  std::shared_ptr<const MeshTree> haptic_tree;  ///< over `haptic`; null where no finger can touch it
 };
 
 /// Mass, centre of mass (body frame) and inertia about it (body axes). Zero mass: fixed.
@@ -72,5 +74,8 @@ bool takesCommands(const World& world);
 
 /// Reads every mesh the scene names (each file once) and computes mass properties from the physics geometry.
 World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics);
+
+/// Makes the hierarchies over the haptic meshes, one for each mesh, if the scene has fingers. Part of buildWorld.
+void indexHapticMeshes(World& world);
 
 }  // namespace presa

@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "framework/math/spatial.h"
@@ -9,51 +8,31 @@
 
 namespace presa {
 
-/// One triangle of a patch, in coordinates of its body.
-struct PatchTriangle {
-  std::array<Vec3, 3> v_B;                ///< corners, counter-clockwise seen from outside [m]
-  std::int32_t id = -1;                   ///< index in the body's haptic mesh
-  std::array<std::int32_t, 3> neighbour;  ///< mesh index of the triangle across edge (v[i], v[i+1]); -1: none
-};
-
-/// Sphere around a triangle [m].
-struct BoundingSphere {
-  Vec3 center = Vec3::Zero();
-  double radius = 0;
-};
-inline BoundingSphere boundOf(const std::array<Vec3, 3>& v) {
-  const Vec3 center = (v[0] + v[1] + v[2]) / 3;
-  const double squared =
-      std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
-  return {center, std::sqrt(squared) * (1 + 1e-12)};  // no corner outside by rounding
-}
-
-/// The part of one body's haptic mesh that lies within `radius` of `center_B`. It holds *every*
-/// triangle that close unless `capped`; then `radius` has been shrunk to what is complete.
-struct BodyPatch {
+/// A body near one finger. Of a mesh: the cut, nodes of its hierarchy (MeshTree) that together hold every triangle within
+/// `radius` of `center_B`. A haptic tick starts from the cut while what it looks at lies in that ball, else from the root: it
+/// never lacks a triangle.
+struct NearBody {
   std::int32_t body = kNoBody;
-  std::int32_t first = 0;  ///< range in FingerPatch::triangles
-  std::int32_t count = 0;
+  std::int32_t cut_count = 0;    ///< 0: a primitive, or no cut
   Vec3 center_B = Vec3::Zero();  ///< [m]
   double radius = 0;             ///< [m]
-  bool capped = false;
+  std::array<std::int32_t, kMaxCutNodes> cut;
 };
 
+/// What one finger can reach before the next query: a body that is not listed stays out of its reach as long as everything that
+/// the finger looks at lies within `radius` of `center_W`.
 struct FingerPatch {
   std::uint64_t serial = 0;  ///< of the query that made it: equal serials mean equal patches
+  Vec3 center_W = Vec3::Zero();
+  double radius = -1;  ///< [m]; negative: the list is of no use, every body has to be looked at
   std::int32_t body_count = 0;
-  std::int32_t triangle_count = 0;
-  std::array<BodyPatch, kMaxNearBodies> bodies;
-  std::array<PatchTriangle, kMaxPatchTriangles> triangles;
-  std::array<BoundingSphere, kMaxPatchTriangles> bounds;  ///< of each triangle, body coordinates
+  std::array<NearBody, kMaxNearBodies> bodies;
 };
 
-/// Local geometry around every finger. A mesh body that is not listed for a finger has nothing in reach.
-/// Written by: collision thread.
+/// Bodies near every finger, and where to begin on their meshes. Written by: collision thread.
 struct ContactPatches {
-  double time = 0;                 ///< simulated time of the query [s]
-  std::int32_t count = 0;          ///< fingers
-  std::uint64_t capped_total = 0;  ///< patches cut short since the start
+  double time = 0;         ///< simulated time of the query [s]
+  std::int32_t count = 0;  ///< fingers
   std::array<FingerPatch, kMaxFingers> fingers;
 
   ContactPatches() = default;
@@ -63,15 +42,15 @@ struct ContactPatches {
     if (this == &other) return *this;
     time = other.time;
     count = other.count;
-    capped_total = other.capped_total;
     for (std::size_t f = 0; f < static_cast<std::size_t>(count); ++f) {
-      if (fingers[f].serial == other.fingers[f].serial && other.fingers[f].serial != 0) continue;
-      fingers[f].serial = other.fingers[f].serial;
-      fingers[f].body_count = other.fingers[f].body_count;
-      fingers[f].triangle_count = other.fingers[f].triangle_count;
-      std::copy_n(other.fingers[f].bodies.begin(), other.fingers[f].body_count, fingers[f].bodies.begin());
-      std::copy_n(other.fingers[f].triangles.begin(), other.fingers[f].triangle_count, fingers[f].triangles.begin());
-      std::copy_n(other.fingers[f].bounds.begin(), other.fingers[f].triangle_count, fingers[f].bounds.begin());
+      FingerPatch& mine = fingers[f];
+      const FingerPatch& theirs = other.fingers[f];
+      if (mine.serial == theirs.serial && theirs.serial != 0) continue;
+      mine.serial = theirs.serial;
+      mine.center_W = theirs.center_W;
+      mine.radius = theirs.radius;
+      mine.body_count = theirs.body_count;
+      std::copy_n(theirs.bodies.begin(), theirs.body_count, mine.bodies.begin());
     }
     return *this;
   }

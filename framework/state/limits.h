@@ -2,13 +2,13 @@
 #include <cstdint>
 
 /// Fixed capacities of everything that crosses threads. Exceeding one is refused at load
-/// (fingers, bodies) or counted and reported while running (patch triangles).
+/// (fingers, bodies) or counted and reported while running (bodies near one finger).
 namespace presa {
 
-inline constexpr int kMaxFingers = 8;            ///< contact points of one run
-inline constexpr int kMaxBodies = 256;           ///< bodies of one scene
-inline constexpr int kMaxNearBodies = 4;         ///< mesh bodies one finger can be near at once
-inline constexpr int kMaxPatchTriangles = 1024;  ///< triangles of one finger's patch, all bodies together
+inline constexpr int kMaxFingers = 8;      ///< contact points of one run
+inline constexpr int kMaxBodies = 256;     ///< bodies of one scene
+inline constexpr int kMaxNearBodies = 64;  ///< bodies that the collision thread lists for one finger
+inline constexpr int kMaxCutNodes = 16;    ///< nodes of a mesh's hierarchy that it hands over for one finger and body
 
 inline constexpr std::int32_t kNoBody = -1;
 

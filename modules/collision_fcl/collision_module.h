@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -10,15 +9,16 @@
 #include "framework/state/contact_patch.h"
 #include "framework/state/device_state.h"
 #include "framework/state/object_state.h"
-#include "modules/collision_fcl/triangle_index.h"
+#include "modules/collision_fcl/broad_phase.h"
 
 namespace presa {
 
-/// Collision query: around every finger, the triangles of each mesh body that the finger can reach before the next
-/// query. A patch serves as long as what a finger needs lies within it: then nothing is looked for and nothing is copied.
-/// Bodies with a primitive as haptic geometry are not served: the haptic loop handles those in closed form.
+/// Collision query: which bodies every finger can reach before the next query, and for each mesh among them a cut of its
+/// hierarchy, from which the haptic tick goes on. A patch serves as long as all that a finger needs lies within it: then
+/// nothing is looked for and nothing is copied. Nothing is lost where a patch is late or too small: the tick then looks at
+/// every body, and starts from the root.
 /// In: contact_exchange, device_state, object_state (optional; absent: bodies stay at their start pose).
-/// Out: contact_patches. Thread: collision.
+/// Out: contact_patches. Thread: collision; allocates at construction only.
 class CollisionModule final : public Module, public WatchedStages {
  public:
   explicit CollisionModule(std::shared_ptr<const World> world);
@@ -34,62 +34,39 @@ class CollisionModule final : public Module, public WatchedStages {
   Out<ContactPatches> contact_patches{*this, "contact_patches"};
 
  private:
-  /// A body whose haptic geometry is a mesh.
-  struct MeshBody {
-    std::int32_t body;
+  /// A body that a finger can touch, with its bounding sphere.
+  struct Touchable {
+    std::int32_t body = kNoBody;
+    const MeshTree* tree = nullptr;  ///< null: a primitive
     Pose X_BG;
-    std::shared_ptr<const TriangleIndex> index;
-    std::vector<Vec3> placed;  ///< vertices in body coordinates; empty: those of the mesh itself
-    const std::vector<Vec3>& vertices() const noexcept { return placed.empty() ? index->mesh().vertices : placed; }
-  };
-  /// Sphere around a finger, in body coordinates, within which its patch must be complete, and is.
-  struct Ball {
     Vec3 center_B = Vec3::Zero();
-    double radius = -1;  ///< [m]; negative: none
-    bool full = false;   ///< the capacity of a patch set the radius
-    bool holds(const Ball& other) const noexcept { return (other.center_B - center_B).norm() + other.radius <= radius; }
+    double radius = 0;  ///< [m]
+    bool moves = false;
+    Pose X_WB;           ///< as last placed
+    double travel = -1;  ///< how far it may go until the next patch [m]; as last placed
   };
-  /// What is near one finger on one body, before the finger's capacity is shared out.
-  struct Candidate {
-    const MeshBody* mesh_body = nullptr;
-    Ball needed;
-    Gathered gathered;
-    double nearest = 0;  ///< distance of its nearest triangle [m]
-    std::vector<NearTriangle> triangles;
+  /// Sphere around a finger's HIP that holds all that it can look at until the next patch.
+  struct Ball {
+    Vec3 center_W = Vec3::Zero();
+    double radius = 0;  ///< [m]
   };
 
-  Pose poseOf(std::int32_t body, double time) const noexcept;
-  /// Centre of the query: the proxy in body coordinates, the HIP when there is none.
-  Vec3 centerOf(std::size_t finger, std::int32_t body, const Pose& X_WB) const noexcept;
-  double reachOf(std::size_t finger, std::int32_t body, const Pose& X_WB, const Vec3& center_B,
-                 const Tick& tick) const noexcept;
-  /// What finger must find on a mesh body; no radius when the body is out of its reach.
-  Ball neededOn(const MeshBody& mesh_body, std::size_t finger, const Tick& tick) const noexcept;
+  double horizon(const Tick& tick) const noexcept;
+  /// Places the bodies that have moved in the broad phase.
+  void placeBodies(const Tick& tick) noexcept;
+  Ball ballOf(std::size_t finger, const Tick& tick) const noexcept;
   /// The finger's last patch still has all that it needs.
-  bool lastPatchServes(std::size_t finger, const Tick& tick) const noexcept;
-  void gatherAround(std::size_t finger, const Tick& tick, StageWatch& watch) noexcept;
-  /// Keeps in mind which balls the finger's new patch is complete in; counts the patches that were cut short.
-  std::uint64_t remember(std::size_t finger) noexcept;
-  /// Keeps the nearest bodies; returns how many were left out.
-  std::size_t keepNearestBodies() noexcept;
-  /// Keeps the nearest triangles of all candidates together when they are too many for one finger.
-  void keepNearestTriangles() noexcept;
-  static void write(Candidate& candidate, FingerPatch& patch) noexcept;
+  bool lastPatchServes(std::size_t finger, const Ball& needed) noexcept;
+  void makePatch(const Ball& needed, FingerPatch& patch) noexcept;
 
   std::shared_ptr<const World> world_;
-  std::size_t capacity_;  ///< triangles of one finger's patch
-  std::vector<MeshBody> mesh_bodies_;
+  std::vector<Touchable> touchables_;
+  std::vector<std::int32_t> touchable_of_;  ///< by body; -1: no finger can touch it
+  bool any_moves_ = false;
   double dynamics_period_;
-  std::array<std::vector<Ball>, kMaxFingers> known_;  ///< of each mesh body
   std::uint64_t serial_ = 0;
-  // Reused every step so that a step allocates nothing once they have grown.
-  std::vector<Candidate> candidates_;
-  std::size_t candidate_count_ = 0;
-  struct Contender {
-    NearTriangle triangle;
-    std::size_t candidate;
-  };
-  std::vector<Contender> contenders_;
+  BroadPhase broad_phase_;
+  std::vector<std::int32_t> found_;  // reused every step
 };
 
 }  // namespace presa

@@ -9,9 +9,10 @@ std::unique_ptr<presa::Module> create(std::shared_ptr<const presa::World> world)
   return std::make_unique<presa::CollisionModule>(std::move(world));
 }
 
-const presa::ModulePlugin kPlugin{presa::kPluginAbi, "collision_fcl",
-                                  "local triangle patches around each finger (FCL hierarchy as spatial index)", create,
-                                  [] { return std::string("FCL " FCL_VERSION); }};
+const presa::ModulePlugin kPlugin{
+    presa::kPluginAbi, "collision_fcl",
+    "bodies near each finger (FCL broad phase), and cuts through the hierarchies of their meshes", create,
+    [] { return std::string("FCL " FCL_VERSION); }};
 
 }  // namespace
 

@@ -6,18 +6,9 @@
 namespace presa {
 namespace {
 
-constexpr double kNoTouch = 2.0;
-
 Vec3 unitOr(const Vec3& v, const Vec3& fallback) noexcept {
   const double norm = v.norm();
   return norm > 0 ? Vec3(v / norm) : fallback;
-}
-
-Nearest nearestTriangle(const PreparedTriangle& t, const Vec3& p) noexcept {
-  const Vec3 away = p - closestOnTriangle(p, t);
-  const double distance = away.norm();
-  if (distance > 0) return {away / distance, distance};
-  return {unitOr(t.ab.cross(t.ac), Vec3::UnitZ()), 0};
 }
 
 // p in the geometry frame; so are the following two
@@ -80,25 +71,8 @@ Nearest nearestPrimitive(const Primitive& primitive, const Vec3& p) noexcept {
 }  // namespace
 
 Nearest nearest(const ConvexPiece& piece, const Vec3& p) noexcept {
-  if (const auto* triangle = std::get_if<PreparedTriangle>(&piece.shape)) return nearestTriangle(*triangle, p);
+  if (const auto* triangle = std::get_if<PreparedTriangle>(&piece.shape)) return nearest(*triangle, p);
   return nearestPrimitive(*std::get_if<Primitive>(&piece.shape), p);
-}
-
-double firstTouch(const ConvexPiece& piece, const Nearest& start, const Vec3& x, const Vec3& move, double limit,
-                  double r, double tolerance) noexcept {
-  constexpr int kMaxSteps = 64;  // quadratic convergence; a grazing touch halves the gap each time
-  double s = 0;
-  Nearest at = start;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const double gap = at.distance - r;
-    const double slope = at.nhat.dot(move);
-    if (slope >= 0) return kNoTouch;  // convex: from here on it only grows
-    if (gap <= tolerance) return s;
-    s += gap / -slope;
-    if (s > limit) return kNoTouch;
-    at = nearest(piece, x + s * move);
-  }
-  return s;
 }
 
 }  // namespace presa

@@ -18,9 +18,10 @@ struct Finger {
   bool alive = false;
   std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
   FingertipState tip;
-  bool overlapping = false;
   Vec3 penalty_nhat = Vec3::Zero();  ///< of the tick before, penalty only; zero: no contact
-  double radius = 0;                 ///< of the fingertip [m]
+  double radius = 0;                 ///< of the sphere that is moved [m]
+  double lift = 0;                   ///< by how much that is more than the fingertip's own: a true point needs some [m]
+  Vec3 p_WH = Vec3::Zero();          ///< HIP of the tick before
   std::unique_ptr<Surroundings> near;
 };
 
@@ -42,6 +43,7 @@ struct FingerTick {
   ContactExchange& all;
   const Touchables& touchables;
   double r = 0;
+  double approach = 0;  ///< how much nearer any surface may have come to the finger in a tick [m]
   Pose X_WA;
   Vec3 g = Vec3::Zero();  ///< HIP in A
   ProxyContact contact;

@@ -11,6 +11,7 @@ namespace presa {
 void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
                     const FrictionCone& cone, Surroundings& surroundings) noexcept {
   if (!contact.state.touching) return;
+  surroundings.use(Point::kHeld);
   const Vec3 held = last.touching ? last.x : contact.first_touch;
   contact.state.hold = last.touching ? last.hold : contact.first_touch;
   Vec3 stretch = contact.state.hold - contact.state.god;
@@ -28,12 +29,14 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
     // friction held on to is gone
     contact.state.hold = g + stretch;
     const ProxyMove moved = moveProxy(held, contact.state.hold, r, surroundings);
-    contact.covered = contact.covered && moved.covered;
-    // no surface on the way: nothing bears the normal force there, so friction has nothing to hold on to
-    const bool lost = moved.covered && !moved.touching;
-    contact.state.slipping = contact.state.slipping || lost;
-    contact.state.x = lost ? contact.state.god : moved.x;
-    if (lost) contact.state.hold = contact.state.god;
+    contact.state.x = moved.x;
+    if (!moved.touching) {
+      // no surface on the way: nothing bears the normal force there, so friction has nothing to hold on to. The two points
+      // meet again, by a way that the fingertip can take.
+      contact.state.slipping = true;
+      contact.state.hold = contact.state.god;
+      contact.state.x = moveProxy(moved.x, contact.state.god, r, surroundings).x;
+    }
   }
   contact.x = contact.state.x;
   const Vec3 away = contact.x - g;

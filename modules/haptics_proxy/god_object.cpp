@@ -8,182 +8,233 @@
 namespace presa {
 namespace {
 
-// All relative to the fingertip radius, so that metres and millimetres give the same answer. A gap of e r at an
-// edge tilts the normal by sqrt(2 e): at 1e-10 that is 1.4e-5, no force one could feel; below, rounding would show.
-constexpr double kTouchGap = 3e-11;   // a sweep stops this far off
-constexpr double kInContact = 1e-10;  // a gap below this makes a constraint
-constexpr double kStill = 1e-6;       // a leg shorter than this ends the motion: 8 nm, some 10 uN
-constexpr double kMargin = 0.01;      // how far the fingertip may go before it looks around again
-constexpr double kSpare = 0.25;       // how much farther a new look reaches: it serves until the fingertip left it
-constexpr int kMaxLegs = 64;          // a leg per face, edge or look; curved edges converge by d / r
+// Relative to the fingertip radius, so that metres and millimetres give the same answer. A gap of e r at an edge tilts the
+// normal by sqrt(2 e): at 1e-10 that is 1.4e-5, no force one could feel.
+constexpr double kTouchGap = 3e-11;     // a sweep stops this far off
+constexpr double kInContact = 1e-10;    // a gap below this makes a constraint
+constexpr double kStill = 1e-6;         // a leg shorter than this part of r ends the motion: at 8 mm 8 nm, some 10 uN
+constexpr double kStillOfDepth = 1e-7;  // or than this part of the depth, where the fingertip is small against it
+constexpr double kRounding = 64 * 2.2e-16;  // of the coordinates: no gap is known better
+constexpr double kMargin = 0.01;            // of r: how far the fingertip may go before it looks around again
+constexpr double kFarther = 1.5;            // near a mesh, of how far the HIP moved
+constexpr double kAhead = 5e-3;             // of the last leg: pieces of a mesh that close constrain the next one
+constexpr int kMaxLegs = 256;               // a leg per face or edge; curved edges converge by d / r
 
-// Fraction of `move` after which x leaves the sphere; 1 when it stays inside.
-double insideCover(const Surroundings::Cover& cover, const Vec3& x, const Vec3& move, double r) noexcept {
-  const double limit = cover.radius - r;
-  const Vec3 from = x - cover.center;
-  if ((from + move).squaredNorm() <= limit * limit && limit > 0) return 1;
-  const double a = move.squaredNorm(), b = from.dot(move), c = from.squaredNorm() - limit * limit;
-  if (limit <= 0 || c >= 0) return b < 0 ? 1 : 0;  // outside already: only inwards
-  return std::clamp((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a, 0.0, 1.0);
-}
-
-// What the legs of one motion share.
-struct Legs {
-  Vec3 center;        // of the last look
-  double margin = 0;  // how far from there the fingertip may go
-  int near_count = 0;
-  std::array<int, Surroundings::kCapacity> near;    // NOLINT: pieces that can be met on the way
-  std::array<bool, Surroundings::kCapacity> holds;  // NOLINT: as `near`: the piece constrains the leg
-  HalfSpaces half_spaces;
-  Feasible target;
-
-  void look(const Vec3& x, double r, Surroundings& surroundings) noexcept {
-    center = x;
-    surroundings.lookAround(x, r + margin, kSpare * r);
-    near_count = 0;
-    for (int i = 0; i < surroundings.count(); ++i) {
-      if (surroundings.atLeast(i, x) <= r + margin) near[static_cast<std::size_t>(near_count++)] = i;
-    }
+/// What counts as touching at one place. On a small fingertip rounding of the coordinates is more than a part of r.
+struct Tolerance {
+  Tolerance(const Vec3& x, const Vec3& g, double r) noexcept {
+    const double rounding = kRounding * std::max(x.lpNorm<Eigen::Infinity>(), g.lpNorm<Eigen::Infinity>());
+    touch_gap = std::max(kTouchGap * r, rounding);
+    contact_gap = std::max(kInContact * r, 3 * rounding);
+    still = std::max(kStill * r, kStillOfDepth * (x - g).norm());
   }
+  double touch_gap, contact_gap, still;  // [m]
 };
 
-// Constraints where the fingertip is now; they also push it out of a body that moved into it.
-void findConstraints(const Vec3& x, double r, Surroundings& surroundings, Legs& legs) noexcept {
-  legs.half_spaces.count = 0;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(legs.near_count); ++n) {
-    const int i = legs.near[n];
-    legs.holds[n] = false;
-    if (surroundings.atLeast(i, x) > r * (1 + 2 * kInContact)) continue;
-    const Nearest at = surroundings.nearestTo(i, x);
-    legs.holds[n] = at.distance <= r * (1 + kInContact);
-    if (legs.holds[n]) legs.half_spaces.add({at.nhat, at.nhat.dot(x) + r - at.distance, i}, x);
+/// Everything that the fingertip touches.
+struct Holds {
+  struct Hold {
+    NearPiece piece;
+    double offset = 0;  // nhat . y >= offset keeps the fingertip off
+  };
+  static constexpr int kCapacity = 64;
+  std::array<Hold, kCapacity> item;
+  int count = 0;
+};
+
+// The constraints of one leg and where they let it go.
+struct Leg {
+  Holds holds;
+  bool ahead = false;  // one of them is not touched yet
+  HalfSpaces half_spaces;
+  Feasible target;
+};
+
+// Constraints where the fingertip is now; they also push it out of a body that moved into it. Pieces of a mesh that are no
+// farther than `ahead` are among them: their half-spaces lie on the safe side, and the leg goes down to them and along them
+// at once.
+void findConstraints(const Vec3& x, double r, double ahead, const Tolerance& tolerance, Surroundings& surroundings,
+                     Leg& leg) noexcept {
+  leg.holds.count = 0;
+  leg.ahead = false;
+  surroundings.clearMarks();
+  surroundings.forEachWithin(x, r + std::max(tolerance.contact_gap, ahead), [&](const NearPiece& piece) {
+    const bool touched = piece.at.distance <= r + tolerance.contact_gap;
+    if (!touched && piece.ref.source < 0) return;
+    if (leg.holds.count == Holds::kCapacity) return;  // not marked, so a sweep stops at it
+    leg.holds.item[static_cast<std::size_t>(leg.holds.count++)] = {piece, piece.at.nhat.dot(x) + r - piece.at.distance};
+    leg.ahead = leg.ahead || !touched;
+    surroundings.mark(piece.ref);
+  });
+}
+
+// How far y is on the wrong side of a hold [m].
+double lack(const Holds::Hold& hold, const Vec3& y) noexcept { return hold.offset - hold.piece.at.nhat.dot(y); }
+
+// The programme over all holds. Where they are more than it has room for, those that bind are found one by one: each round
+// takes in the one most violated, and leaves out one that did not bind.
+void solve(const Vec3& x, const Vec3& g, Leg& leg) noexcept {
+  constexpr int kMaxRounds = 64;
+  HalfSpaces& set = leg.half_spaces;
+  set.count = 0;
+  bool all = true;
+  for (int i = 0; i < leg.holds.count; ++i) {
+    const Holds::Hold& hold = leg.holds.item[static_cast<std::size_t>(i)];
+    all = set.add({hold.piece.at.nhat, hold.offset, i}, x) && all;
+  }
+  leg.target = nearestFeasible(set, g);
+  for (int round = 0; !all && round < kMaxRounds; ++round) {
+    int worst = -1;
+    double most = 1e-9 * (leg.target.y - g).norm();
+    for (int i = 0; i < leg.holds.count; ++i) {
+      const double l = lack(leg.holds.item[static_cast<std::size_t>(i)], leg.target.y);
+      if (l > most) {
+        most = l;
+        worst = i;
+      }
+    }
+    if (worst < 0) return;
+    int idle = 0;
+    while (std::ranges::find(leg.target.active, idle) != leg.target.active.end()) ++idle;
+    const Holds::Hold& hold = leg.holds.item[static_cast<std::size_t>(worst)];
+    // the next one that is idle, in turn, so that no two of them replace each other for ever
+    set.item[static_cast<std::size_t>(idle)] = {hold.piece.at.nhat, hold.offset, worst};
+    std::rotate(set.item.begin() + idle, set.item.begin() + idle + 1, set.item.begin() + set.count);
+    leg.target = nearestFeasible(set, g);
   }
 }
 
-// No farther from a surface than a leg round an edge ends.
-bool isNear(const Vec3& x, double r, Surroundings& surroundings, const Legs& legs) noexcept {
-  constexpr double kOffAnEdge = 1e-2;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(legs.near_count); ++n) {
-    const int i = legs.near[n];
-    if (surroundings.atLeast(i, x) <= r * (1 + kOffAnEdge) &&
-        surroundings.nearestTo(i, x).distance <= r * (1 + kOffAnEdge))
-      return true;
+ActiveSet activeSet(const Leg& leg) noexcept {
+  ActiveSet active;
+  for (int a = 0; a < leg.target.active_count; ++a) {
+    const auto n = static_cast<std::size_t>(a);
+    const HalfSpace& half_space = leg.half_spaces.item[static_cast<std::size_t>(leg.target.active[n])];
+    const NearPiece& piece = leg.holds.item[static_cast<std::size_t>(half_space.tag)].piece;
+    active.member[n] = {piece.ref, piece.body, half_space.nhat, leg.target.weight[n]};
   }
-  return false;
+  active.count = leg.target.active_count;
+  return active;
 }
 
 // The body whose constraint holds the proxy back most.
-std::int32_t holdingBody(const Legs& leg, const Vec3& g, const Surroundings& surroundings) noexcept {
+std::int32_t holdingBody(const Leg& leg, const Vec3& g) noexcept {
   std::int32_t body = kNoBody;
   double most = 0;
   for (int a = 0; a < leg.target.active_count; ++a) {
     const HalfSpace& active =
         leg.half_spaces.item[static_cast<std::size_t>(leg.target.active[static_cast<std::size_t>(a)])];
-    if (const double lack = active.offset - active.nhat.dot(g); body == kNoBody || lack > most) {
-      most = lack;
-      body = surroundings.piece(active.tag).body;
+    if (const double l = active.offset - active.nhat.dot(g); body == kNoBody || l > most) {
+      most = l;
+      body = leg.holds.item[static_cast<std::size_t>(active.tag)].piece.body;
     }
   }
   return body;
 }
 
-// Fraction of `move` that the fingertip can go; `covered` turns false when the border of a patch ends it.
-double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, Surroundings& surroundings,
-                    const Legs& leg, bool& covered) noexcept {
-  const double length = move.norm();
-  double reach = std::min(1.0, limit / length);
-  for (int c = 0; c < surroundings.coverCount(); ++c) {
-    if (const double inside = insideCover(surroundings.cover(c), x, move, r); inside < reach) {
-      reach = inside;
-      covered = false;
-    }
+// Where a motion looks: while the fingertip's centre is within `margin` of `center`, what is in focus is all that it can touch.
+struct Look {
+  Vec3 center;
+  double margin;
+
+  void at(const Vec3& x, double r, Surroundings& surroundings) noexcept {
+    center = x;
+    surroundings.focus(x, r + margin);
   }
-  for (std::size_t n = 0; n < static_cast<std::size_t>(leg.near_count); ++n) {
-    const int i = leg.near[n];
-    // the bound is linear: it reaches r within this leg, or nothing does
-    if (surroundings.atLeast(i, x) + std::min(0.0, reach * surroundings.growth(i, move)) > r) continue;
-    // a piece that already constrains the leg cannot be hit by it: its half-space keeps the sphere off
-    if (leg.holds[n]) continue;
-    const Nearest at = surroundings.nearestTo(i, x);
-    if (const double s = firstTouch(surroundings.piece(i), at, x, move, reach, r, kTouchGap * r); s < reach) {
-      reach = s;
-      covered = true;
-    }
+  double room(const Vec3& x) const noexcept { return margin - (x - center).norm(); }
+};
+
+// Fraction of `move` that the fingertip can go, at most `limit`.
+double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, const Tolerance& tolerance,
+                    Surroundings& surroundings, const Leg& leg) noexcept {
+  double reach = std::min(1.0, limit);
+  for (int i = 0; i < leg.holds.count; ++i) {
+    // The half-space of a hold keeps the sphere off it. Where the holds have no common point it may not: then the centre
+    // comes no nearer than half way, since the distance lies above its tangent plane.
+    const Nearest& at = leg.holds.item[static_cast<std::size_t>(i)].piece.at;
+    const double slope = at.nhat.dot(move);
+    if (slope < 0) reach = std::min(reach, (at.distance - 0.5 * std::min(at.distance, r)) / -slope);
   }
-  return reach;
+  return std::min(reach, surroundings.firstTouch(x, move, reach, r, {tolerance.touch_gap, tolerance.contact_gap}));
+}
+
+// No farther from a surface than a leg round an edge ends.
+bool isNear(const Vec3& x, double r, Surroundings& surroundings) noexcept {
+  constexpr double kOffAnEdge = 1e-2;
+  bool near = false;
+  surroundings.focus(x, r * (1 + kOffAnEdge));
+  surroundings.forEachWithin(x, r * (1 + kOffAnEdge), [&](const NearPiece&) { near = true; });
+  return near;
 }
 
 }  // namespace
 
 bool isSupported(const Vec3& x, double r, Surroundings& surroundings) noexcept {
-  surroundings.lookAround(x, r * (1 + 2 * kInContact), kSpare * r);
-  bool touching = false;
-  for (int i = 0; i < surroundings.count(); ++i) {
-    // what touches already spares the exact distance of pieces that cannot overlap
-    if (surroundings.atLeast(i, x) > r * (touching ? 1 - 0.5 * kInContact : 1 + 2 * kInContact)) continue;
-    const double distance = surroundings.nearestTo(i, x).distance;
-    if (distance < r * (1 - kInContact)) return false;
-    touching = touching || distance <= r * (1 + kInContact);
-  }
-  return touching;
+  const Tolerance tolerance(x, x, r);
+  bool touching = false, overlapping = false;
+  surroundings.focus(x, r + tolerance.contact_gap);
+  surroundings.forEachWithin(x, r + tolerance.contact_gap, [&](const NearPiece& piece) {
+    touching = true;
+    overlapping = overlapping || piece.at.distance < r - tolerance.contact_gap;
+  });
+  return touching && !overlapping;
 }
 
 ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& surroundings) noexcept {
   ProxyMove result;
   result.x = start;
-  Legs legs;
-  legs.margin = kMargin * r;
-  legs.look(start, r, surroundings);
+  const Tolerance tolerance(start, g, r);
+  Leg leg;
+  Look look{start, surroundings.meshCount() == 0
+                       ? kMargin * r
+                       : kFarther * surroundings.step() + 0.1 * kMargin * r + 10 * tolerance.still};
+  look.at(start, r, surroundings);
   bool met = false, arrived = false;
-  for (int i = 0; i < kMaxLegs && result.covered; ++i) {
-    if ((result.x - legs.center).norm() > 0.9 * legs.margin) {
-      legs.margin *= 2;  // a long way is looked at in ever larger parts: the number of legs is bounded
-      legs.look(result.x, r, surroundings);
+  double ahead = 0;
+  for (int i = 0; i < kMaxLegs; ++i) {
+    if (look.room(result.x) < 0.1 * look.margin) {
+      look.margin *= 2;  // a long way is looked at in ever larger parts
+      look.at(result.x, r, surroundings);
     }
-    findConstraints(result.x, r, surroundings, legs);
-    if (legs.half_spaces.count > 0 && !met) {
+    findConstraints(result.x, r, ahead, tolerance, surroundings, leg);
+    if (leg.holds.count > 0 && !met) {
       met = true;
       result.first_touch = result.x;
     }
-    legs.target = nearestFeasible(legs.half_spaces, g);
-    result.touching = legs.target.active_count > 0;
-    if (result.touching) result.body = holdingBody(legs, g, surroundings);
-    const Vec3 move = legs.target.y - result.x;
-    arrived = move.norm() <= kStill * r;
-    if (arrived) break;
-    const double room = legs.margin - (result.x - legs.center).norm();
-    result.x += freeFraction(result.x, move, room, r, surroundings, legs, result.covered) * move;
+    solve(result.x, g, leg);
+    result.touching = leg.target.active_count > 0;
+    if (result.touching) {
+      result.body = holdingBody(leg, g);
+      result.active = activeSet(leg);
+    }
+    const Vec3 move = leg.target.y - result.x;
+    const double length = move.norm();
+    arrived = length <= tolerance.still;
+    if (arrived) {
+      // what is not quite touched yet is now; otherwise there is nothing to be gained
+      if (leg.ahead) result.x = leg.target.y;
+      break;
+    }
+    const double limit = look.room(result.x) / length;
+    const double fraction = freeFraction(result.x, move, limit, r, tolerance, surroundings, leg);
+    result.x += fraction * move;
+    ahead = kAhead * fraction * length;
   }
   if (!met) result.first_touch = result.x;
   // out of legs between one edge and the next: what held it last still does, and the next tick goes on from here
-  if (!arrived && result.covered && result.body != kNoBody && isNear(result.x, r, surroundings, legs))
-    result.touching = true;
-  if (!result.touching) result.body = kNoBody;
-  return result;
-}
-
-ProxyHolds proxyHolds(const Vec3& x, const Vec3& g, double r, Surroundings& surroundings) noexcept {
-  Legs legs;
-  legs.margin = kMargin * r;
-  legs.look(x, r, surroundings);
-  findConstraints(x, r, surroundings, legs);
-  const Feasible target = nearestFeasible(legs.half_spaces, g);
-  ProxyHolds holds;
-  for (int a = 0; a < target.active_count; ++a) {
-    const auto n = static_cast<std::size_t>(a);
-    const HalfSpace& active = legs.half_spaces.item[static_cast<std::size_t>(target.active[n])];
-    holds.item[n] = {active.tag, active.nhat, target.weight[n]};
+  if (!arrived && result.body != kNoBody && isNear(result.x, r, surroundings)) result.touching = true;
+  if (!result.touching) {
+    result.body = kNoBody;
+    result.active.count = 0;
   }
-  holds.count = target.active_count;
-  return holds;
+  return result;
 }
 
 ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept {
   ProxyContact contact;
+  surroundings.use(Point::kGodObject);
   // the frictionless point goes on from where it was: it has little way to go, whatever friction holds back
   const ProxyMove bare = moveProxy(last.god, g, r, surroundings);
   contact.x = contact.state.x = contact.state.god = bare.x;
-  contact.covered = bare.covered;
   contact.depth = (bare.x - g).norm();
   if (!bare.touching || !(contact.depth > 0)) {
     contact.depth = 0;
@@ -193,6 +244,7 @@ ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Sur
   contact.first_touch = bare.first_touch;
   contact.body = bare.body;
   contact.nhat = (bare.x - g) / contact.depth;
+  contact.active = bare.active;
   return contact;
 }
 

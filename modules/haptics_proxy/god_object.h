@@ -1,39 +1,41 @@
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "modules/haptics_proxy/surroundings.h"
 
 namespace presa {
 
+/// What holds a proxy: the half-spaces of the active set, at most three. From the goal to the proxy is the sum of weight * nhat.
+struct ActiveSet {
+  struct Member {
+    PieceRef piece;
+    std::int32_t body = kNoBody;
+    Vec3 nhat = Vec3::UnitZ();
+    double weight = 0;  ///< multiplier [m], >= 0
+  };
+  std::array<Member, 3> member;
+  int count = 0;
+};
+
 /// Result of moving a proxy towards its goal.
 struct ProxyMove {
   Vec3 x = Vec3::Zero();            ///< where the fingertip's centre ends
   Vec3 first_touch = Vec3::Zero();  ///< where it first met a surface (x itself when it never did)
   bool touching = false;            ///< a surface keeps it from the goal
-  bool covered = true;              ///< false: it waits at the border of what the patches cover
   std::int32_t body = kNoBody;      ///< the body that holds it back most
+  ActiveSet active;
 };
 
 /// Moves a sphere of radius r from x towards g without passing through any piece, and returns the local
 /// minimum of |x - g|: the god-object with finite radius [Zilles1995], [Ruspini1997]. Exact: each leg goes to the
 /// solution of the active-set programme, stopped by the first new contact (swept, so nothing is jumped over).
-/// Tolerances are relative to r. Thread: haptic; nonblocking.
+/// Whatever the constraints say, a leg keeps the centre at half its distance from each piece: it cannot cross a surface.
+/// Tolerances are relative to r, and never below the rounding of the coordinates. Thread: haptic; nonblocking.
 ProxyMove moveProxy(const Vec3& x, const Vec3& g, double r, Surroundings& surroundings) noexcept;
 
 /// True when a fingertip at x touches a piece and overlaps none.
 bool isSupported(const Vec3& x, double r, Surroundings& surroundings) noexcept;
-
-/// What holds a proxy at rest: g -> x is the sum of weight * nhat over at most three pieces.
-struct ProxyHolds {
-  struct Hold {
-    int piece = -1;  ///< index into the surroundings
-    Vec3 nhat = Vec3::UnitZ();
-    double weight = 0;  ///< [m]
-  };
-  std::array<Hold, 3> item;
-  int count = 0;
-};
-ProxyHolds proxyHolds(const Vec3& x, const Vec3& g, double r, Surroundings& surroundings) noexcept;
 
 /// What a fingertip carries from tick to tick, in the working frame A.
 struct FingertipState {
@@ -52,8 +54,9 @@ struct ProxyContact {
   Vec3 nhat = Vec3::UnitZ();        ///< direction of the frictionless force, body into finger
   double depth = 0;                 ///< (x - g) . nhat
   Vec3 stretch = Vec3::Zero();      ///< x - g without its normal part
-  bool covered = true;
   std::int32_t body = kNoBody;
+  ActiveSet active;   ///< of the frictionless point
+  bool swept = true;  ///< the proxy moves along paths; false: a renderer without memory, which may jump
 };
 
 /// One tick towards the HIP g without friction: the proxy slides freely.

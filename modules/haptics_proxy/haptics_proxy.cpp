@@ -14,6 +14,10 @@ namespace {
 void interpolateBodies(Touchables& touchables, const ObjectState& objects, double time) noexcept {
   touchables.interpolate(objects, time);
 }
+/// A true point is moved as a sphere of this radius, as part of the size of what it touches [-]: far above rounding, far below
+/// what is felt. Its depth and its contact point are those of the point.
+constexpr double kLift = 1e-6;
+
 void holdBodies(Touchables& touchables, const ObjectState& objects, double) noexcept { touchables.hold(objects); }
 
 std::string nameOf(const std::type_info& type) {
@@ -28,8 +32,9 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
     : Module("haptics_proxy", RateGroup::kHaptic), world_(std::move(world)), effects_(effects), touchables_(*world_) {
   for (const DeviceRole& role : world_->scene.devices) {
     Finger finger;
-    finger.radius = role.fingertip_radius;
-    finger.near = std::make_unique<Surroundings>();
+    finger.radius = std::max(role.fingertip_radius, kLift * touchables_.size());
+    finger.lift = finger.radius - role.fingertip_radius;
+    finger.near = std::make_unique<Surroundings>(touchables_.meshCount());
     fingers_.push_back(std::move(finger));
   }
   if (effects.poses == HapticEffects::Poses::kInterpolate) {
@@ -78,11 +83,11 @@ void HapticsProxy::run(const Tick& tick, Watch& watch) noexcept {
   ContactExchange& out = contact_.value;
   out.time = tick.time;
   out.count = device_->count;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, watch);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, tick.period, watch);
 }
 
 template <class Watch>
-void HapticsProxy::stepFinger(std::size_t f, Watch& watch) noexcept {
+void HapticsProxy::stepFinger(std::size_t f, double period, Watch& watch) noexcept {
   const FingerInput& input = device_->fingers[f];
   FingerContact& out = contact_.value.fingers[f];
   Finger& finger = fingers_[f];
@@ -92,16 +97,20 @@ void HapticsProxy::stepFinger(std::size_t f, Watch& watch) noexcept {
   if (!input.valid) return;
   if (!finger.alive) {
     finger.alive = true;
-    finger.tip.x = finger.tip.god = input.p_WH;
+    finger.tip.x = finger.tip.god = finger.p_WH = input.p_WH;
   }
 
-  FingerTick tick{f, input, finger, out, contact_.value, touchables_, finger.radius, {}, Vec3::Zero(), {}};
+  FingerTick tick{f, input, finger, out, contact_.value, touchables_, finger.radius, 0, {}, Vec3::Zero(), {}};
   tick.X_WA = touchables_.frameOf(finger.frame);
   tick.g = tick.X_WA.inverseTimes(input.p_WH);
   const double way = std::max((finger.tip.x - tick.g).norm(), (finger.tip.god - tick.g).norm());
+  const double moved = (input.p_WH - finger.p_WH).norm();
+  finger.p_WH = input.p_WH;
   const bool patched = patches_.hasValue() && f < static_cast<std::size_t>(patches_->count);
-  touchables_.surround(finger, input.p_WH, way + 1.1 * finger.radius,  // 10 %: room to be pushed out of a moving body
-                       patched ? &patches_->fingers[f] : nullptr, patches_.version());
+  // 10 %: room to be pushed out of a moving body
+  tick.approach = touchables_.surround(finger, input.p_WH, way + 1.1 * finger.radius, moved, period,
+                                       patched ? &patches_->fingers[f] : nullptr);
+  finger.near->setStep(moved + tick.approach);
   const std::size_t gathered = commanded_.size() + place_bodies_.size();
   watch.done(gathered);
   for (std::size_t i = 0; i < finger_stages_.size(); ++i) {

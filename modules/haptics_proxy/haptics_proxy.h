@@ -44,7 +44,7 @@ class HapticsProxy final : public Module, public WatchedStages {
   template <class Watch>
   void run(const Tick& tick, Watch& watch) noexcept;
   template <class Watch>
-  void stepFinger(std::size_t finger, Watch& watch) noexcept;
+  void stepFinger(std::size_t finger, double period, Watch& watch) noexcept;
 
   std::shared_ptr<const World> world_;
   HapticEffects effects_;

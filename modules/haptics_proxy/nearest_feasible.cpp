@@ -99,22 +99,23 @@ class Search {
 
 }  // namespace
 
-void HalfSpaces::add(const HalfSpace& half_space, const Vec3& x) noexcept {
+bool HalfSpaces::add(const HalfSpace& half_space, const Vec3& x) noexcept {
   const auto slack = [&x](const HalfSpace& h) { return h.nhat.dot(x) - h.offset; };
   for (int i = 0; i < count; ++i) {
     HalfSpace& other = item[static_cast<std::size_t>(i)];
     if (other.nhat.dot(half_space.nhat) >= kSameNormal) {
       if (slack(half_space) < slack(other)) other = half_space;
-      return;
+      return true;
     }
   }
   if (count < kCapacity) {
     item[static_cast<std::size_t>(count++)] = half_space;
-    return;
+    return true;
   }
   auto* loosest = std::max_element(item.begin(), item.end(),
                                    [&](const HalfSpace& l, const HalfSpace& r) { return slack(l) < slack(r); });
   if (slack(half_space) < slack(*loosest)) *loosest = half_space;
+  return false;
 }
 
 Feasible nearestFeasible(const HalfSpaces& half_spaces, const Vec3& g) noexcept {

@@ -19,8 +19,8 @@ struct HalfSpaces {
   std::array<HalfSpace, kCapacity> item;
   int count = 0;
 
-  /// Adds one unless an equal one is there; when full, keeps those that bind most at `x`.
-  void add(const HalfSpace& half_space, const Vec3& x) noexcept;
+  /// Adds one unless an equal one is there; when full, keeps those that bind most at `x`. False: one was left out.
+  bool add(const HalfSpace& half_space, const Vec3& x) noexcept;
 };
 
 struct Feasible {

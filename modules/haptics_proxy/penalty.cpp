@@ -1,5 +1,5 @@
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include "modules/haptics_proxy/finger_stage.h"
 #include "modules/haptics_proxy/touchables.h"
@@ -18,10 +18,11 @@ struct NearestSurface {
 
 constexpr double kTie = 1e-9;  // relative difference below which two triangles share their nearest point
 
-NearestSurface surfaceOf(const ConvexPiece& piece, const Nearest& at) noexcept {
-  const auto* triangle = std::get_if<PreparedTriangle>(&piece.shape);
-  if (triangle == nullptr) return {piece.body, std::abs(at.distance), at.distance, at.nhat, 1};
-  const Vec3 outward = triangle->ab.cross(triangle->ac).normalized();
+NearestSurface surfaceOf(const NearPiece& piece, const Surroundings::Triangle& triangle, const Mat3& R_AG) noexcept {
+  const Nearest& at = piece.at;
+  if (triangle.facet == nullptr) return {piece.body, std::abs(at.distance), at.distance, at.nhat, 1};
+  const auto corner = [&](std::size_t i) -> const Vec3& { return triangle.tree->corner(*triangle.facet, i); };
+  const Vec3 outward = R_AG * (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
   const double facing = at.nhat.dot(outward);
   const double side = facing < 0 ? -1.0 : 1.0;
   return {piece.body, at.distance, side * at.distance, side * at.nhat, std::abs(facing)};
@@ -34,6 +35,7 @@ class Penalty final : public FingerStage {
  public:
   void apply(FingerTick& tick) noexcept override {
     tick.contact.x = tick.contact.state.x = tick.contact.state.god = tick.g;
+    tick.contact.swept = false;
     const NearestSurface deepest = deepestUnder(tick.g, tick.r, *tick.finger.near);
     if (deepest.body == kNoBody) {
       tick.finger.penalty_nhat.setZero();
@@ -51,25 +53,25 @@ class Penalty final : public FingerStage {
 
  private:
   static NearestSurface deepestUnder(const Vec3& g, double r, Surroundings& near) noexcept {
-    near.lookAround(g, kEverything, kEverything);
-    std::array<NearestSurface, Surroundings::kMaxPrimitives + kMaxNearBodies> bodies;
-    std::size_t count = 0;
-    for (int i = 0; i < near.count(); ++i) {
-      const std::int32_t body = near.piece(i).body;
-      std::size_t b = 0;
-      while (b < count && bodies[b].body != body) ++b;
-      if (b < count && near.atLeast(i, g) > bodies[b].distance * (1 + kTie)) continue;
-      if (b == bodies.size()) continue;
-      const NearestSurface found = surfaceOf(near.piece(i), near.nearestTo(i, g));
-      const bool first = b == count;
-      if (first) ++count;
-      const bool shared = !first && found.distance < bodies[b].distance * (1 + kTie) && found.facing > bodies[b].facing;
-      if (first || shared || found.distance < bodies[b].distance * (1 - kTie)) bodies[b] = found;
-    }
+    near.focus(g, std::numeric_limits<double>::infinity());
     NearestSurface deepest;
     deepest.signed_distance = r;
-    for (std::size_t b = 0; b < count; ++b) {
-      if (bodies[b].signed_distance < deepest.signed_distance) deepest = bodies[b];
+    for (int source = -1; source < near.meshCount(); ++source) {
+      // of a mesh only what is as near as the nearest so far; each primitive is a body of its own
+      NearestSurface nearest;
+      double limit = std::numeric_limits<double>::infinity();
+      near.forEachWithin(source, g, limit, [&](const NearPiece& piece) {
+        const NearestSurface found = surfaceOf(piece, near.triangleOf(piece.ref, g), near.turnOf(piece.ref));
+        if (source < 0) {
+          if (found.signed_distance < deepest.signed_distance) deepest = found;
+          return;
+        }
+        const bool first = nearest.body == kNoBody;
+        const bool shared = !first && found.distance < nearest.distance * (1 + kTie) && found.facing > nearest.facing;
+        if (first || shared || found.distance < nearest.distance * (1 - kTie)) nearest = found;
+        limit = nearest.distance * (1 + kTie);
+      });
+      if (nearest.body != kNoBody && nearest.signed_distance < deepest.signed_distance) deepest = nearest;
     }
     return deepest;
   }
@@ -83,8 +85,6 @@ class Penalty final : public FingerStage {
     }
     tick.finger.penalty_nhat = nhat_W;
   }
-
-  static constexpr double kEverything = 1;  // [m] more than any patch
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "modules/haptics_proxy/finger_stage.h"
 #include "modules/haptics_proxy/touchables.h"
@@ -27,8 +26,9 @@ class Spring final : public FingerStage {
   const char* what() const override { return "spring between proxy and HIP"; }
 
  private:
-  static std::int32_t nearestBody(const Vec3& p, double r, Surroundings& near) noexcept;
-  static void countPopThrough(FingerTick& tick) noexcept;
+  static std::int32_t nearestBody(const FingerTick& tick) noexcept;
+  static void countWhatWentWrong(FingerTick& tick) noexcept;
+  static void share(const FingerTick& tick, FingerContact& out) noexcept;
 
   const SurfacesInForce surfaces_;
 };
@@ -37,61 +37,97 @@ void Spring::apply(FingerTick& tick) noexcept {
   ProxyContact& contact = tick.contact;
   Finger& finger = tick.finger;
   FingerContact& out = tick.out;
-  countPopThrough(tick);
-  if (!contact.covered) ++tick.all.coverage_lost;
+  countWhatWentWrong(tick);
+  const bool touching = contact.state.touching;
+  if (touching) {
+    contact.x -= finger.lift * contact.nhat;
+    contact.depth -= finger.lift;
+    share(tick, out);
+  }
   finger.tip = contact.state;
   out.p_WP = tick.X_WA * contact.x;
-  const bool touching = contact.state.touching;
-  tick.touchables.moveToFrame(finger, contact.x,
-                              touching ? contact.body : nearestBody(contact.state.x, tick.r, *finger.near));
+  tick.touchables.moveToFrame(finger, contact.x, touching ? contact.body : nearestBody(tick));
   if (!touching) {
     out.p_BP = out.p_WP;
     return;
   }
+  const double radius = tick.r - finger.lift;
   const Material& material = surfaces_.of(contact.body);
   out.mode = contact.state.slipping ? ContactMode::kSlip : ContactMode::kStick;
   out.body = contact.body;
   out.nhat_W = tick.X_WA.q * contact.nhat;
   out.nhat_B = tick.touchables.frameOf(contact.body).q.conjugate() * out.nhat_W;
   out.p_BP = contact.x;
-  out.p_BC = out.p_BP - tick.r * out.nhat_B;
+  out.p_BC = out.p_BP - radius * out.nhat_B;
   out.depth = contact.depth;
   out.stiffness = material.stiffness;
   out.normal_force = std::max(0.0, material.stiffness * contact.depth);
-  // a proxy that waits for its patch would drag: then only the normal part is real
-  if (contact.covered) out.tangential_force_W = material.stiffness * (tick.X_WA.q * contact.stretch);
+  out.tangential_force_W = material.stiffness * (tick.X_WA.q * contact.stretch);
 }
 
-// The body next to a free fingertip: kept in its coordinates, the proxy sees it come.
-std::int32_t Spring::nearestBody(const Vec3& p, double r, Surroundings& near) noexcept {
-  near.lookAround(p, kNear * r, r);
-  std::int32_t body = kNoBody;
-  double least = kNear * r;
-  for (int i = 0; i < near.count(); ++i) {
-    if (near.atLeast(i, p) > least) continue;
-    if (const double distance = near.nearestTo(i, p).distance; distance < least) {
-      least = distance;
-      body = near.piece(i).body;
+// What each body bears where several hold the finger: the multipliers of its own constraints, and of the friction as much as
+// its share of the normal force.
+void Spring::share(const FingerTick& tick, FingerContact& out) noexcept {
+  const ProxyContact& contact = tick.contact;
+  const ActiveSet& active = contact.active;
+  double total = 0;
+  for (int a = 0; a < active.count; ++a) {
+    const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
+    if (!(member.weight > 0)) continue;
+    total += member.weight;
+    std::size_t p = 0;
+    while (p < static_cast<std::size_t>(out.part_count) && out.parts[p].body != member.body) ++p;
+    if (p == static_cast<std::size_t>(out.part_count)) {
+      out.parts[p] = {};
+      out.parts[p].body = member.body;
+      ++out.part_count;
     }
+    out.parts[p].stretch_W += member.weight * member.nhat;  // in A until below
   }
+  if (out.part_count < 2) {
+    out.part_count = 0;
+    return;
+  }
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t p = 0; p < static_cast<std::size_t>(out.part_count); ++p) normal += out.parts[p].stretch_W;
+  const Vec3 rest = contact.x - tick.g - normal;
+  for (std::size_t p = 0; p < static_cast<std::size_t>(out.part_count); ++p) {
+    ContactPart& part = out.parts[p];
+    double weight = 0;
+    for (int a = 0; a < active.count; ++a) {
+      const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
+      if (member.body == part.body) weight += member.weight;
+    }
+    const Pose X_BA = tick.touchables.frameOf(part.body).inverse() * tick.X_WA;
+    part.nhat_B = X_BA.q * part.stretch_W.normalized();
+    part.p_BP = X_BA * contact.x;
+    part.stretch_W = tick.X_WA.q * (part.stretch_W + weight / total * rest);
+  }
+}
+
+// The body next to a free fingertip, or the one that will be: kept in its coordinates, the proxy sees it come.
+std::int32_t Spring::nearestBody(const FingerTick& tick) noexcept {
+  constexpr double kTicksAhead = 2;
+  Surroundings& near = *tick.finger.near;
+  near.use(Point::kGodObject);
+  std::int32_t body = kNoBody;
+  double least = std::max(kNear * tick.r, tick.r + kTicksAhead * tick.approach);
+  near.focus(tick.contact.state.x, least);
+  near.forEachWithin(tick.contact.state.x, least, [&](const NearPiece& piece) {
+    if (piece.at.distance >= least) return;
+    least = piece.at.distance;
+    body = piece.body;
+  });
   return body;
 }
 
-// Checked apart from the algorithm that should prevent it: the fingertip's centre must never come within
-// half its radius of a surface.
-void Spring::countPopThrough(FingerTick& tick) noexcept {
+// Judged by the surfaces, apart from the algorithm that should prevent it.
+void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
   Surroundings& near = *tick.finger.near;
-  const Vec3& x = tick.contact.state.x;
-  near.lookAround(x, 0.5 * tick.r, tick.r);
-  bool overlapping = false;
-  for (int i = 0; i < near.count() && !overlapping; ++i) {
-    overlapping = near.atLeast(i, x) < 0.5 * tick.r && nearest(near.piece(i), x).distance < 0.5 * tick.r;
-  }
-  if (overlapping && !tick.finger.overlapping) {
-    ++tick.all.pop_through;
-    ++tick.all.pop_through_by_finger[tick.index];
-  }
-  tick.finger.overlapping = overlapping;
+  if (near.crowded()) ++tick.all.coverage_lost;
+  if (!tick.contact.swept || !near.passedThrough(tick.contact.state.x)) return;
+  ++tick.all.pop_through;
+  ++tick.all.pop_through_by_finger[tick.index];
 }
 
 class Damping final : public FingerStage {

@@ -49,11 +49,12 @@ class Shading final : public FingerStage {
   void apply(FingerTick& tick) noexcept override {
     ProxyContact& contact = tick.contact;
     if (!contact.state.touching || !bodies_[static_cast<std::size_t>(contact.body)].mesh) return;
-    const ProxyHolds holds = proxyHolds(contact.state.god, tick.g, tick.r, *tick.finger.near);
+    Surroundings& near = *tick.finger.near;
+    near.use(Point::kGodObject);
     Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(holds.count); ++i) {
-      const ConvexPiece& piece = tick.finger.near->piece(holds.item[i].piece);
-      sum += holds.item[i].weight * normalOf(piece, holds.item[i].nhat, contact.state.god, tick);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.active.count); ++i) {
+      const ActiveSet::Member& member = contact.active.member[i];
+      sum += member.weight * normalOf(member, near.triangleOf(member.piece, contact.state.god), tick);
     }
     const double length = sum.norm();
     if (!(length > 0) || !(sum.dot(contact.nhat) > kLeastCosine * length)) return;
@@ -71,21 +72,23 @@ class Shading final : public FingerStage {
     std::vector<Vec3> normals;  ///< mesh frame
   };
 
-  // Normal in A of the piece that holds the fingertip at x along nhat.
-  Vec3 normalOf(const ConvexPiece& piece, const Vec3& nhat, const Vec3& x, const FingerTick& tick) const noexcept {
-    const Smooth& body = bodies_[static_cast<std::size_t>(piece.body)];
-    const auto* triangle = std::get_if<PreparedTriangle>(&piece.shape);
-    if (!body.mesh || triangle == nullptr || piece.id < 0) return nhat;
-    const Vec3 weight = cornerWeights(*triangle, closestOnTriangle(x, *triangle));
-    const TriMesh::Triangle& corners = body.mesh->triangles[static_cast<std::size_t>(piece.id)];
+  // Normal in A of the piece that holds the fingertip.
+  Vec3 normalOf(const ActiveSet::Member& member, const Surroundings::Triangle& triangle,
+                const FingerTick& tick) const noexcept {
+    const Smooth& body = bodies_[static_cast<std::size_t>(member.body)];
+    if (!body.mesh || triangle.facet == nullptr) return member.nhat;
+    const MeshTree::Facet& facet = *triangle.facet;
+    const PreparedTriangle prepared(triangle.tree->corner(facet, 0), triangle.tree->corner(facet, 1),
+                                    triangle.tree->corner(facet, 2));
+    const Vec3 weight = cornerWeights(prepared, closestOnTriangle(triangle.x_G, prepared));
     Vec3 normal_G = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
-      normal_G += weight[static_cast<Eigen::Index>(i)] * body.normals[static_cast<std::size_t>(corners[i])];
+      normal_G += weight[static_cast<Eigen::Index>(i)] * body.normals[static_cast<std::size_t>(facet.corners[i])];
     }
-    const Vec3 normal_W = tick.touchables.frameOf(piece.body).q * (body.q_BG * normal_G);
+    const Vec3 normal_W = tick.touchables.frameOf(member.body).q * (body.q_BG * normal_G);
     const Vec3 normal = tick.X_WA.q.conjugate() * normal_W;
     const double length = normal.norm();
-    return length > 0 && normal.dot(nhat) > 0 ? Vec3(normal / length) : nhat;
+    return length > 0 && normal.dot(member.nhat) > 0 ? Vec3(normal / length) : member.nhat;
   }
 
   static constexpr double kLeastCosine = 0.5;  // a force turns by less than 60 degrees

@@ -1,122 +1,155 @@
 #include "modules/haptics_proxy/surroundings.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace presa {
-namespace {
 
-bool same(const Pose& a, const Pose& b) noexcept { return a.p == b.p && a.q.coeffs() == b.q.coeffs(); }
-
-}  // namespace
-
-void Surroundings::begin(std::int32_t frame, std::uint64_t patch_version) noexcept {
-  for (Pick& pick : picks_) {
-    if (frame != frame_ || (!pick.complete && patch_version != patch_version_)) pick.reach = -1;
-  }
-  frame_ = frame;
-  patch_version_ = patch_version;
-  old_source_count_ = source_count_;
-  primitive_count_ = source_count_ = 0;
+Surroundings::Surroundings(std::size_t meshes) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(meshes, kMaxMeshes); ++i)
+    meshes_.push_back(std::make_unique<Mesh>());
 }
 
-void Surroundings::forget() noexcept {
-  for (Pick& pick : picks_) pick.reach = -1;
+void Surroundings::begin() noexcept {
+  ++tick_;
+  primitive_count_ = 0;
+  near_count_ = 0;
+  no_room_ = false;
+  point_ = 0;
 }
 
-void Surroundings::add(const ConvexPiece& piece) noexcept {
+void Surroundings::add(const ConvexPiece& primitive) noexcept {
   if (primitive_count_ == kMaxPrimitives) {
-    ++overflow_;
+    no_room_ = true;
     return;
   }
   const auto i = static_cast<std::size_t>(primitive_count_++);
-  primitives_[i] = piece;
-  tangents_[i] = {};
+  primitives_[i] = primitive;
+  tangents_[i] = {Vec3::Zero(), -std::numeric_limits<double>::infinity()};
 }
 
-void Surroundings::addTriangles(const PatchTriangle* triangles, const BoundingSphere* bounds, int count,
-                                std::int32_t body, const Pose* X_AB, const Cover& cover) noexcept {
-  if (source_count_ == kMaxNearBodies) {
-    ++overflow_;
+// The one kept for that body, else the one that was not needed for the longest time.
+Surroundings::Mesh* Surroundings::meshOf(std::int32_t body) noexcept {
+  Mesh* oldest = nullptr;
+  for (const auto& mesh : meshes_) {
+    if (mesh->body == body) return mesh.get();
+    if (mesh->last_tick != tick_ && (oldest == nullptr || mesh->last_tick < oldest->last_tick)) oldest = mesh.get();
+  }
+  if (oldest != nullptr) {
+    oldest->body = body;
+    oldest->followed = false;
+    for (MeshFront& front : oldest->fronts) front.forget();
+  }
+  return oldest;
+}
+
+void Surroundings::addMesh(std::int32_t body, const MeshTree& tree, const Pose* X_AG, const Pose& X_BG,
+                           const NearBody* cut, const Vec3& p_A, double reach) noexcept {
+  Mesh* mesh = near_count_ == near_.size() ? nullptr : meshOf(body);
+  if (mesh == nullptr) {
+    no_room_ = true;
     return;
   }
-  Source& source = sources_[static_cast<std::size_t>(source_count_)];
-  const bool own = X_AB == nullptr;
-  const Pose placed = own ? Pose{} : *X_AB;
-  // what was picked stays true as long as every body is where it was in A
-  const bool known = source_count_ < old_source_count_ && source.body == body && same(source.X_AB, placed);
-  if (!known) forget();
-  source = {triangles, bounds, count, body, own, placed, cover};
-  ++source_count_;
+  if (mesh->last_tick + 1 != tick_) mesh->followed = false;
+  mesh->last_tick = tick_;
+  mesh->tree = &tree;
+  mesh->own = X_AG == nullptr;
+  mesh->X_AG = mesh->own ? Pose{} : *X_AG;
+  const Vec3 p_G = mesh->toG(p_A);
+  for (std::size_t point = 0; point < mesh->fronts.size(); ++point) {
+    MeshFront& front = mesh->fronts[point];
+    const bool covers = (p_G - mesh->center_G[point]).norm() + reach <= mesh->radius[point];
+    if (!front.seeded() || front.worn() || front.full() || !covers) seed(*mesh, point, cut, X_BG, p_G, reach);
+  }
+  near_[near_count_++] = mesh;
 }
 
-void Surroundings::lookAround(const Vec3& x, double reach, double spare) noexcept {
-  if (source_count_ < old_source_count_) {
-    forget();
-    old_source_count_ = source_count_;
-  }
-  for (Pick& pick : picks_) {
-    if ((x - pick.center).norm() + reach > pick.reach) continue;
-    pick_ = &pick;
-    return;
-  }
-  pick_ = pick_ == &picks_[0] ? &picks_[1] : &picks_[0];
-  fill(*pick_, x, reach + spare);
-}
-
-void Surroundings::fill(Pick& pick, const Vec3& x, double reach) noexcept {
-  pick.center = x;
-  pick.reach = reach;
-  pick.complete = true;
-  pick.count = 0;
-  for (int s = 0; s < source_count_; ++s) {
-    const Source& source = sources_[static_cast<std::size_t>(s)];
-    pick.complete = pick.complete && (x - source.cover.center).norm() + reach <= source.cover.radius;
-    if (!fillFrom(source, pick)) return;
+// From the cut where it holds all that may be looked at, else from the root: slower once, and as right.
+void Surroundings::seed(Mesh& mesh, std::size_t point, const NearBody* cut, const Pose& X_BG, const Vec3& p_G,
+                        double reach) noexcept {
+  static constexpr std::array<std::int32_t, 1> kWhole{MeshTree::kRoot};
+  const Vec3 center_G = cut != nullptr ? X_BG.inverseTimes(cut->center_B) : Vec3::Zero();
+  if (cut != nullptr && cut->cut_count > 0 && (p_G - center_G).norm() + reach <= cut->radius) {
+    mesh.fronts[point].seed(*mesh.tree, {cut->cut.data(), static_cast<std::size_t>(cut->cut_count)}, p_G);
+    mesh.center_G[point] = center_G;
+    mesh.radius[point] = cut->radius;
+  } else {
+    mesh.fronts[point].seed(*mesh.tree, kWhole, p_G);
+    mesh.center_G[point] = p_G;
+    mesh.radius[point] = std::numeric_limits<double>::infinity();
   }
 }
 
-// False when the pick is full.
-bool Surroundings::fillFrom(const Source& source, Pick& pick) noexcept {
-  const Vec3 x_B = source.own ? pick.center : source.X_AB.inverseTimes(pick.center);
-  for (int t = 0; t < source.count; ++t) {
-    const BoundingSphere& bound = source.bounds[t];
-    const Vec3 away_B = x_B - bound.center;
-    const double far = pick.reach + bound.radius, squared = away_B.squaredNorm();
-    if (squared > far * far) continue;
-    if (pick.count == kMaxPatchTriangles) {
-      ++overflow_;
-      pick.complete = false;
-      return false;
-    }
-    const auto i = static_cast<std::size_t>(pick.count++);
-    const PatchTriangle& triangle = source.triangles[t];
-    const auto& v = triangle.v_B;
-    ConvexPiece& piece = pick.pieces[i];
-    piece.body = source.body;
-    piece.id = triangle.id;
-    if (source.own) {
-      piece.shape.emplace<PreparedTriangle>(v[0], v[1], v[2]);
+double Surroundings::firstTouch(const Vec3& x, const Vec3& move, double reach, double r,
+                                const SweepTolerance& tolerance) noexcept {
+  for (int i = 0; i < primitive_count_; ++i) {
+    TangentBound& tangent = tangents_[static_cast<std::size_t>(i)];
+    if (tangent.at(x) + std::min(0.0, reach * tangent.nhat.dot(move)) > r) continue;
+    if (primitive_marks_[static_cast<std::size_t>(i)]) continue;
+    const ConvexPiece& piece = primitives_[static_cast<std::size_t>(i)];
+    const Nearest at = nearest(piece, x);
+    tangent = {at.nhat, at.distance - at.nhat.dot(x)};
+    reach = std::min(reach, presa::firstTouch(piece, at, x, move, reach, r, tolerance.touch));
+  }
+  for (std::size_t m = 0; m < near_count_; ++m) {
+    Mesh& mesh = *near_[m];
+    reach = mesh.fronts[point_].firstTouch(mesh.toG(x), mesh.turnToG(move), reach, r, tolerance);
+  }
+  return reach;
+}
+
+void Surroundings::clearMarks() noexcept {
+  std::fill_n(primitive_marks_.begin(), primitive_count_, false);
+  for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].clearMarks();
+}
+
+void Surroundings::mark(const PieceRef& ref) noexcept {
+  if (ref.source < 0) {
+    primitive_marks_[static_cast<std::size_t>(ref.item)] = true;
+  } else {
+    near_[static_cast<std::size_t>(ref.source)]->fronts[point_].mark(ref.item);
+  }
+}
+
+Surroundings::Triangle Surroundings::triangleOf(const PieceRef& ref, const Vec3& x) const noexcept {
+  if (ref.source < 0) return {};
+  const Mesh& mesh = *near_[static_cast<std::size_t>(ref.source)];
+  const std::int32_t facet = mesh.fronts[point_].facetOf(ref.item);
+  if (facet < 0) return {};
+  return {mesh.tree, &mesh.tree->facet(facet), mesh.toG(x)};
+}
+
+bool Surroundings::passedThrough(const Vec3& x) noexcept {
+  bool inside = false;
+  for (int i = 0; i < primitive_count_ && !inside; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    inside = tangents_[n].at(x) < 0 && nearest(primitives_[n], x).distance < 0;
+  }
+  bool passed = inside && !inside_primitive_;
+  inside_primitive_ = inside;
+  for (std::size_t m = 0; m < near_count_; ++m) {
+    Mesh& mesh = *near_[m];
+    const Vec3 x_G = mesh.toG(x);
+    if (mesh.followed) {
+      const double way = (x_G - mesh.last_x_G).norm();
+      if (way >= mesh.clearance) {  // else there is no surface on the way
+        if (mesh.fronts[point_].crossings(mesh.last_x_G, x_G) != 0) passed = true;
+        mesh.clearance = mesh.fronts[point_].clearance(x_G);
+      } else {
+        mesh.clearance -= way;
+      }
     } else {
-      piece.shape.emplace<PreparedTriangle>(source.X_AB * v[0], source.X_AB * v[1], source.X_AB * v[2]);
+      mesh.clearance = 0;
     }
-    // the distance from the bounding sphere is a first bound; the exact one is taken where it matters
-    Tangent& tangent = pick.tangents[i];
-    const double distance = std::sqrt(squared);
-    if (distance > bound.radius) {
-      tangent.nhat = source.own ? Vec3(away_B / distance) : Vec3(source.X_AB.q * (away_B / distance));
-      tangent.offset = distance - bound.radius - tangent.nhat.dot(pick.center);
-    } else {
-      tangent = {Vec3::Zero(), 0};
-    }
+    mesh.followed = true;
+    mesh.last_x_G = x_G;
   }
-  return true;
+  return passed;
 }
 
-Nearest Surroundings::nearestTo(int i, const Vec3& p) noexcept {
-  const Nearest at = nearest(piece(i), p);
-  // on a triangle the direction is arbitrary and bounds nothing
-  if (at.distance != 0) tangentOf(i) = {at.nhat, at.distance - at.nhat.dot(p)};
-  return at;
+bool Surroundings::crowded() const noexcept {
+  bool full = false;
+  for (std::size_t m = 0; m < near_count_; ++m) full = full || near_[m]->fronts[0].full() || near_[m]->fronts[1].full();
+  return no_room_ || full;
 }
 
 }  // namespace presa

@@ -1,102 +1,159 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "framework/state/contact_patch.h"
 #include "modules/haptics_proxy/convex_piece.h"
+#include "modules/haptics_proxy/mesh_front.h"
 
 namespace presa {
 
-/// What surrounds one fingertip, in the working frame A. The sources are set every tick; the pieces that count are picked
-/// around where the fingertip is, so that a fine mesh costs what is touched, not what is near. A pick serves for many
-/// ticks: the triangles of a mesh stand still in its body's coordinates, whichever patch brought them.
-/// Fixed memory. Thread: haptic; nonblocking.
+/// Which of a fingertip's two points looks around: they part where friction holds one back, and each keeps fronts of its own.
+enum class Point : std::uint8_t {
+  kGodObject,  ///< slides freely
+  kHeld        ///< held by friction
+};
+
+/// One convex piece of what surrounds a fingertip.
+struct PieceRef {
+  std::int16_t source = -1;  ///< mesh; -1: a primitive
+  std::int32_t item = -1;    ///< of the front or of the primitives; holds until the next begin()
+};
+
+/// A piece where it is nearest to some point, in the working frame A.
+struct NearPiece {
+  PieceRef ref;
+  std::int32_t body = kNoBody;
+  Nearest at;
+};
+
+/// What surrounds one fingertip, in the working frame A. Primitives are set every tick; meshes stand still in their own
+/// coordinates, where a front through each one's hierarchy is kept from tick to tick (mesh_front).
+/// Fixed memory after construction. Thread: haptic; nonblocking.
 class Surroundings {
  public:
   static constexpr int kMaxPrimitives = 64;
-  static constexpr int kCapacity = kMaxPatchTriangles + kMaxPrimitives;
-  /// Sphere within which a patch is complete: the fingertip may not leave it.
-  struct Cover {
-    Vec3 center = Vec3::Zero();
-    double radius = 0;
+  static constexpr int kMaxMeshes = 16;
+
+  /// `meshes`: bodies with a mesh that the finger may be near to at once; more than kMaxMeshes are not.
+  explicit Surroundings(std::size_t meshes = 1);
+
+  /// Starts a tick.
+  void begin() noexcept;
+  void add(const ConvexPiece& primitive) noexcept;
+  /// A mesh body; X_AG null when its coordinates are those of A. Everything that is looked at in this tick lies within `reach`
+  /// of p_A. `cut` may be null.
+  void addMesh(std::int32_t body, const MeshTree& tree, const Pose* X_AG, const Pose& X_BG, const NearBody* cut,
+               const Vec3& p_A, double reach) noexcept;
+  /// Whose fronts the calls below look through.
+  void use(Point point) noexcept { point_ = static_cast<std::size_t>(point); }
+
+  /// Picks the pieces that may come within `radius` of x: all that the queries below look through until the next focus().
+  void focus(const Vec3& x, double radius) noexcept {
+    for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].focus(near_[m]->toG(x), radius);
+  }
+  /// How far the HIP came in this tick, as seen from what it touches: how far a fingertip will have to look [m].
+  double step() const noexcept { return step_; }
+  void setStep(double step) noexcept { step_ = step; }
+
+  /// Calls visit(const NearPiece&) for every piece in focus whose distance from x is at most `limit`; a visit may lower it.
+  template <class Visit>
+  void forEachWithin(const Vec3& x, const double& limit, const Visit& visit) noexcept;
+  /// The same of one source alone: mesh 0 … meshCount() - 1, or the primitives, -1.
+  template <class Visit>
+  void forEachWithin(int source, const Vec3& x, const double& limit, const Visit& visit) noexcept;
+  int meshCount() const noexcept { return static_cast<int>(near_count_); }
+  /// First s in [0, reach] at which a sphere of radius r on its way from x along `move` touches a piece in focus that is not
+  /// marked; `reach` when none.
+  double firstTouch(const Vec3& x, const Vec3& move, double reach, double r, const SweepTolerance& tolerance) noexcept;
+  void clearMarks() noexcept;
+  void mark(const PieceRef& ref) noexcept;
+
+  /// A triangle that holds the fingertip: null for a primitive.
+  struct Triangle {
+    const MeshTree* tree = nullptr;
+    const MeshTree::Facet* facet = nullptr;
+    Vec3 x_G = Vec3::Zero();  ///< the point asked for, in mesh coordinates
   };
-
-  /// Starts a tick in the coordinates of body `frame`, with patches of that version.
-  void begin(std::int32_t frame, std::uint64_t patch_version) noexcept;
-  /// A piece that is always looked at.
-  void add(const ConvexPiece& piece) noexcept;
-  /// Triangles of one body's patch, in the body's coordinates; X_AB null when A is the body itself. They must outlive the
-  /// tick.
-  void addTriangles(const PatchTriangle* triangles, const BoundingSphere* bounds, int count, std::int32_t body,
-                    const Pose* X_AB, const Cover& cover) noexcept;
-
-  /// Makes piece(0 … count) hold every piece within `reach` of x. A new pick reaches `spare` farther, for the motion to come.
-  void lookAround(const Vec3& x, double reach, double spare) noexcept;
-  int count() const noexcept { return primitive_count_ + pick_->count; }
-  const ConvexPiece& piece(int i) const noexcept {
-    return i < primitive_count_ ? primitives_[static_cast<std::size_t>(i)]
-                                : pick_->pieces[static_cast<std::size_t>(i - primitive_count_)];
+  Triangle triangleOf(const PieceRef& ref, const Vec3& x) const noexcept;
+  /// Rotation from the coordinates of a piece's mesh to A.
+  Mat3 turnOf(const PieceRef& ref) const noexcept {
+    return ref.source < 0 ? Mat3(Mat3::Identity())
+                          : near_[static_cast<std::size_t>(ref.source)]->X_AG.q.toRotationMatrix();
   }
-  /// nearest(piece(i), p), remembered as a bound.
-  Nearest nearestTo(int i, const Vec3& p) noexcept;
-  /// Lower bound of the distance from piece i to p, by what is known of the piece.
-  double atLeast(int i, const Vec3& p) const noexcept {
-    const Tangent& tangent = tangentOf(i);
-    return tangent.nhat.dot(p) + tangent.offset;
-  }
-  /// How much that bound grows along a way [m].
-  double growth(int i, const Vec3& way) const noexcept { return tangentOf(i).nhat.dot(way); }
 
-  int coverCount() const noexcept { return source_count_; }
-  const Cover& cover(int i) const noexcept { return sources_[static_cast<std::size_t>(i)].cover; }
-  /// Pieces that found no room, since start.
-  std::uint32_t overflow() const noexcept { return overflow_; }
+  /// The fingertip's centre is at x at the end of a tick. True when it came to the other side of a mesh's surface since the end
+  /// of the last one, seen from that mesh, or when it is inside a primitive.
+  bool passedThrough(const Vec3& x) noexcept;
+
+  /// Something in reach found no room in this tick.
+  bool crowded() const noexcept;
 
  private:
-  /// The distance of a convex piece is a convex function of the point, so it lies above each of its tangent planes.
-  struct Tangent {
-    Vec3 nhat = Vec3::Zero();
-    double offset = -std::numeric_limits<double>::infinity();
-  };
-  struct Source {
-    const PatchTriangle* triangles = nullptr;
-    const BoundingSphere* bounds = nullptr;
-    int count = 0;
+  /// A mesh body, kept while it is near.
+  struct Mesh {
     std::int32_t body = kNoBody;
+    const MeshTree* tree = nullptr;
+    std::uint64_t last_tick = 0;
+    // of this tick
     bool own = true;
-    Pose X_AB;
-    Cover cover;
+    Pose X_AG;
+    // what the fronts hold everything in, coordinates G; radius infinite: all of the mesh
+    std::array<Vec3, 2> center_G{Vec3::Zero(), Vec3::Zero()};
+    std::array<double, 2> radius{};
+    std::array<MeshFront, 2> fronts;
+    // the fingertip's centre at the end of the last tick, and how far from there nothing is
+    Vec3 last_x_G = Vec3::Zero();
+    double clearance = -1;
+    bool followed = false;
+
+    Vec3 toG(const Vec3& x) const noexcept { return own ? x : X_AG.inverseTimes(x); }
+    Vec3 turnToG(const Vec3& v) const noexcept { return own ? v : Vec3(X_AG.q.conjugate() * v); }
+    Nearest toA(const Nearest& at) const noexcept { return own ? at : Nearest{X_AG.q * at.nhat, at.distance}; }
   };
-  struct Pick {
-    Vec3 center = Vec3::Zero();
-    double reach = -1;      ///< negative: none
-    bool complete = false;  ///< it holds every triangle of the mesh within reach, not only of the patch
-    int count = 0;
-    std::array<ConvexPiece, kMaxPatchTriangles> pieces;
-    std::array<Tangent, kMaxPatchTriangles> tangents;
-  };
-  const Tangent& tangentOf(int i) const noexcept {
-    return i < primitive_count_ ? tangents_[static_cast<std::size_t>(i)]
-                                : pick_->tangents[static_cast<std::size_t>(i - primitive_count_)];
-  }
-  Tangent& tangentOf(int i) noexcept { return const_cast<Tangent&>(std::as_const(*this).tangentOf(i)); }
-  void forget() noexcept;
-  void fill(Pick& pick, const Vec3& x, double reach) noexcept;
-  bool fillFrom(const Source& source, Pick& pick) noexcept;
+  Mesh* meshOf(std::int32_t body) noexcept;
+  static void seed(Mesh& mesh, std::size_t point, const NearBody* cut, const Pose& X_BG, const Vec3& p_G,
+                   double reach) noexcept;
 
   std::array<ConvexPiece, kMaxPrimitives> primitives_;
-  std::array<Tangent, kMaxPrimitives> tangents_;
-  std::array<Source, kMaxNearBodies> sources_;
-  // one for the frictionless point, one for where friction holds the fingertip
-  std::array<Pick, 2> picks_;
-  Pick* pick_ = picks_.data();
-  int primitive_count_ = 0, source_count_ = 0;
-  int old_source_count_ = 0;  // of the tick before
-  std::int32_t frame_ = kNoBody;
-  std::uint64_t patch_version_ = 0;
-  std::uint32_t overflow_ = 0;
+  std::array<TangentBound, kMaxPrimitives> tangents_;
+  std::array<bool, kMaxPrimitives> primitive_marks_{};
+  int primitive_count_ = 0;
+  bool inside_primitive_ = false;
+  std::vector<std::unique_ptr<Mesh>> meshes_;  // the room there is
+  std::array<Mesh*, kMaxMeshes> near_{};       // those of this tick
+  std::size_t near_count_ = 0;
+  std::size_t point_ = 0;
+  std::uint64_t tick_ = 0;
+  double step_ = 0;
+  bool no_room_ = false;
 };
+
+template <class Visit>
+void Surroundings::forEachWithin(int source, const Vec3& x, const double& limit, const Visit& visit) noexcept {
+  if (source >= 0) {
+    Mesh& mesh = *near_[static_cast<std::size_t>(source)];
+    mesh.fronts[point_].forEachWithin(mesh.toG(x), limit, [&](int item, const Nearest& at) {
+      visit(NearPiece{{static_cast<std::int16_t>(source), item}, mesh.body, mesh.toA(at)});
+    });
+    return;
+  }
+  for (int i = 0; i < primitive_count_; ++i) {
+    TangentBound& tangent = tangents_[static_cast<std::size_t>(i)];
+    if (tangent.at(x) > limit) continue;
+    const ConvexPiece& piece = primitives_[static_cast<std::size_t>(i)];
+    const Nearest at = nearest(piece, x);
+    tangent = {at.nhat, at.distance - at.nhat.dot(x)};
+    if (at.distance <= limit) visit(NearPiece{{-1, i}, piece.body, at});
+  }
+}
+
+template <class Visit>
+void Surroundings::forEachWithin(const Vec3& x, const double& limit, const Visit& visit) noexcept {
+  for (int source = -1; source < meshCount(); ++source) forEachWithin(source, x, limit, visit);
+}
 
 }  // namespace presa

@@ -1,67 +1,101 @@
 #include "modules/haptics_proxy/touchables.h"
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
 
 namespace presa {
 namespace {
 
-/// A mesh has no exact form here: it comes in patches.
-bool makePrimitive(const Geometry& geometry, Primitive& primitive, double& radius) {
+/// None for a mesh, which has no exact form here.
+std::optional<Primitive> primitiveOf(const Geometry& geometry) {
+  Primitive primitive;
   primitive.X_AG = geometry.X_BG;
   if (const auto* box = std::get_if<Box>(&geometry.shape)) {
     primitive.kind = Primitive::Kind::kBox;
     primitive.half = box->size / 2;
-    radius = primitive.half.norm();
   } else if (const auto* sphere = std::get_if<Sphere>(&geometry.shape)) {
     primitive.kind = Primitive::Kind::kSphere;
-    primitive.radius = radius = sphere->radius;
+    primitive.radius = sphere->radius;
   } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry.shape)) {
     primitive.kind = Primitive::Kind::kCylinder;
     primitive.radius = cylinder->radius;
     primitive.half_length = cylinder->length / 2;
-    radius = std::hypot(primitive.radius, primitive.half_length);
   } else if (const auto* capsule = std::get_if<Capsule>(&geometry.shape)) {
     primitive.kind = Primitive::Kind::kCapsule;
     primitive.radius = capsule->radius;
     primitive.half_length = capsule->length / 2;
-    radius = primitive.radius + primitive.half_length;
   } else {
-    return false;
+    return std::nullopt;
   }
-  return true;
+  return primitive;
 }
 
+bool isIdentity(const Pose& X) noexcept { return X.p == Vec3::Zero() && X.q.coeffs() == Quat::Identity().coeffs(); }
+
 }  // namespace
+
+Touchables::Touchable Touchables::touchableOf(const World& world, std::size_t b) {
+  const Geometry& geometry = *world.scene.bodies[b].haptic;
+  Touchable touchable;
+  touchable.body = static_cast<std::int32_t>(b);
+  touchable.X_BG = geometry.X_BG;
+  if (const std::optional<Primitive> primitive = primitiveOf(geometry)) {
+    touchable.primitive = {touchable.body, -1, *primitive};
+    touchable.center_B = geometry.X_BG.p;
+    touchable.radius = boundingRadius(geometry.shape);
+  } else if (const auto& tree = world.meshes[b].haptic_tree) {
+    touchable.tree = tree.get();
+    touchable.center_B = geometry.X_BG * tree->sphereCenter();
+    touchable.radius = tree->sphereRadius();
+  } else {
+    touchable.body = kNoBody;
+  }
+  return touchable;
+}
 
 Touchables::Touchables(const World& world) {
   const Scene& scene = world.scene;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     X_WB_.push_back(scene.bodies[b].X_WB);
-    if (!scene.bodies[b].fixed) moving_.push_back(static_cast<std::int32_t>(b));
-    Primitive primitive;
-    double radius = 0;
-    if (scene.bodies[b].haptic && makePrimitive(*scene.bodies[b].haptic, primitive, radius)) {
-      primitives_.push_back({{static_cast<std::int32_t>(b), -1, primitive}, radius});
-    }
+    moves_.push_back(scene.bodies[b].fixed ? 0 : 1);
+    touchable_of_.push_back(-1);
+    if (!scene.bodies[b].haptic) continue;
+    const Touchable touchable = touchableOf(world, b);
+    if (touchable.body == kNoBody) continue;
+    touchable_of_.back() = static_cast<std::int32_t>(touchables_.size());
+    touchables_.push_back(touchable);
+    size_ = std::max(size_, touchable.radius);
+    mesh_count_ += touchable.tree != nullptr;
   }
+  placed_in_.assign(scene.bodies.size(), 0);
 }
 
 void Touchables::interpolate(const ObjectState& objects, double time) noexcept {
   objects_ = &objects;
-  for (const std::int32_t b : moving_) X_WB_[static_cast<std::size_t>(b)] = objects.poseAt(b, time);
+  time_ = time;
+  at_end_ = false;
+  ++tick_;
 }
 
 void Touchables::hold(const ObjectState& objects) noexcept {
   objects_ = &objects;
-  for (const auto b : moving_) {
-    X_WB_[static_cast<std::size_t>(b)] = objects.bodies[static_cast<std::size_t>(b)].X_WB_end;
+  at_end_ = true;
+  ++tick_;
+}
+
+const Pose& Touchables::placed(std::int32_t body) const noexcept {
+  const auto b = static_cast<std::size_t>(body);
+  if (moves_[b] != 0 && placed_in_[b] != tick_) {
+    placed_in_[b] = tick_;
+    X_WB_[b] = at_end_ ? objects_->bodies[b].X_WB_end : objects_->poseAt(body, time_);
   }
+  return X_WB_[b];
 }
 
 Vec3 Touchables::velocityAt(std::int32_t body, const Vec3& p_W) const noexcept {
   if (objects_ == nullptr || body >= objects_->count) return Vec3::Zero();
   const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(body)];
-  return motion.v_WB + motion.w_WB.cross(p_W - X_WB_[static_cast<std::size_t>(body)].p);
+  return motion.v_WB + motion.w_WB.cross(p_W - placed(body).p);
 }
 
 void Touchables::moveToFrame(Finger& finger, Vec3& point, std::int32_t body) const noexcept {
@@ -74,32 +108,46 @@ void Touchables::moveToFrame(Finger& finger, Vec3& point, std::int32_t body) con
   finger.frame = body;
 }
 
-void Touchables::surround(const Finger& finger, const Vec3& p_WH, double reach, const FingerPatch* patch,
-                          std::uint64_t patch_version) const noexcept {
-  Surroundings& near = *finger.near;
-  near.begin(finger.frame, patch_version);
-  const Pose X_AW = frameOf(finger.frame).inverse();
-  for (const PrimitiveBody& body : primitives_) {
-    const auto& primitive = *std::get_if<Primitive>(&body.piece.shape);
-    const Pose& X_WB = X_WB_[static_cast<std::size_t>(body.piece.body)];
-    if ((X_WB * primitive.X_AG.p - p_WH).norm() > body.radius + reach) continue;
-    ConvexPiece piece = body.piece;
-    if (piece.body != finger.frame) std::get_if<Primitive>(&piece.shape)->X_AG = X_AW * (X_WB * primitive.X_AG);
-    near.add(piece);
-  }
-  if (patch == nullptr) return;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(patch->body_count); ++i) {
-    const BodyPatch& part = patch->bodies[i];
-    const auto first = static_cast<std::size_t>(part.first);
-    const PatchTriangle* triangles = &patch->triangles[first];
-    const BoundingSphere* bounds = &patch->bounds[first];
-    if (part.body == finger.frame) {
-      near.addTriangles(triangles, bounds, part.count, part.body, nullptr, {part.center_B, part.radius});
-    } else {
-      const Pose X_AB = X_AW * frameOf(part.body);
-      near.addTriangles(triangles, bounds, part.count, part.body, &X_AB, {X_AB * part.center_B, part.radius});
+double Touchables::surround(const Finger& finger, const Vec3& p_WH, double reach, double moved, double period,
+                            const FingerPatch* patch) const noexcept {
+  finger.near->begin();
+  const Look look{finger, frameOf(finger.frame).inverse(), p_WH, reach, moved, period};
+  double approach = 0;
+  if (patch != nullptr && (p_WH - patch->center_W).norm() + reach <= patch->radius) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(patch->body_count); ++i) {
+      const NearBody& near = patch->bodies[i];
+      const std::int32_t t = touchable_of_[static_cast<std::size_t>(near.body)];
+      if (t >= 0) approach = std::max(approach, meet(touchables_[static_cast<std::size_t>(t)], look, &near));
     }
+  } else {
+    for (const Touchable& touchable : touchables_) approach = std::max(approach, meet(touchable, look, nullptr));
   }
+  return approach;
+}
+
+double Touchables::meet(const Touchable& touchable, const Look& look, const NearBody* near) const noexcept {
+  constexpr double kTicksAhead = 3;  // a moving body is seen before it can arrive
+  const Pose& X_WB = placed(touchable.body);
+  double approach = 0;
+  if (moves_[static_cast<std::size_t>(touchable.body)] != 0 && objects_ != nullptr) {
+    const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(touchable.body)];
+    const double speed = motion.v_WB.norm() + motion.w_WB.norm() * (look.p_WH - X_WB.p).norm();
+    if (speed > 0) approach = look.moved + look.period * speed;
+  }
+  const double reach = look.reach + kTicksAhead * approach;
+  if ((X_WB * touchable.center_B - look.p_WH).norm() > touchable.radius + reach) return 0;
+  const bool own = touchable.body == look.finger.frame;
+  if (touchable.tree == nullptr) {
+    ConvexPiece piece = touchable.primitive;
+    if (!own) std::get_if<Primitive>(&piece.shape)->X_AG = look.X_AW * (X_WB * touchable.X_BG);
+    look.finger.near->add(piece);
+  } else {
+    const Pose X_AG = own ? touchable.X_BG : look.X_AW * (X_WB * touchable.X_BG);
+    const bool same = own && isIdentity(touchable.X_BG);
+    look.finger.near->addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near,
+                              look.X_AW * look.p_WH, reach);
+  }
+  return approach;
 }
 
 }  // namespace presa

@@ -8,36 +8,64 @@
 
 namespace presa {
 
-/// Every body that a finger can touch, where it is now. Thread: haptic; nonblocking but for construction.
+/// Every body that a finger can touch, where it is now. A moving body is placed once it is asked for: a scene of thousands
+/// costs a tick what is near its fingers. Thread: haptic; nonblocking but for construction.
 class Touchables {
  public:
   explicit Touchables(const World& world);
 
-  /// How moving bodies are placed in a tick; `objects` null: they are where the scene puts them.
+  /// Largest distance of a touchable surface from the middle of its body [m]; 0: nothing can be touched.
+  double size() const noexcept { return size_; }
+  std::size_t meshCount() const noexcept { return mesh_count_; }
+
+  /// How moving bodies are placed in a tick; before the first call they are where the scene puts them.
   void interpolate(const ObjectState& objects, double time) noexcept;
   void hold(const ObjectState& objects) noexcept;
 
-  Pose frameOf(std::int32_t body) const noexcept {
-    return body == kNoBody ? Pose{} : X_WB_[static_cast<std::size_t>(body)];
-  }
+  Pose frameOf(std::int32_t body) const noexcept { return body == kNoBody ? Pose{} : placed(body); }
   /// Velocity of the body's point that is at p_W now [m/s].
   Vec3 velocityAt(std::int32_t body, const Vec3& p_W) const noexcept;
-  /// Sets what the finger can meet while its centre stays within `reach` of the HIP. `patch` null: no mesh near.
-  void surround(const Finger& finger, const Vec3& p_WH, double reach, const FingerPatch* patch,
-                std::uint64_t patch_version) const noexcept;
+  /// Sets what the finger can meet while its centre stays within `reach` of the HIP, which has `moved` since the tick before.
+  /// `patch` null or of no use here: every body is looked at. Returns how much nearer a surface may have come to the HIP in a
+  /// tick of `period` [m].
+  double surround(const Finger& finger, const Vec3& p_WH, double reach, double moved, double period,
+                  const FingerPatch* patch) const noexcept;
   /// Carries the finger, and the point that goes with it, into the coordinates of `body`.
   void moveToFrame(Finger& finger, Vec3& point, std::int32_t body) const noexcept;
 
  private:
-  /// A body with a primitive as haptic geometry.
-  struct PrimitiveBody {
-    ConvexPiece piece;  ///< X_AG holds X_BG
-    double radius = 0;  ///< of its bounding sphere about X_BG.p
+  struct Touchable {
+    std::int32_t body = kNoBody;
+    ConvexPiece primitive;           ///< X_AG holds X_BG
+    const MeshTree* tree = nullptr;  ///< null: a primitive
+    Pose X_BG;
+    Vec3 center_B = Vec3::Zero();  ///< of its bounding sphere
+    double radius = 0;             ///< [m]
   };
-  std::vector<PrimitiveBody> primitives_;
-  std::vector<Pose> X_WB_;
-  std::vector<std::int32_t> moving_;
+  static Touchable touchableOf(const World& world, std::size_t body);
+  const Pose& placed(std::int32_t body) const noexcept;
+  /// What one finger looks for in one tick.
+  struct Look {
+    const Finger& finger;
+    Pose X_AW;
+    Vec3 p_WH;
+    double reach, moved, period;
+  };
+  /// Adds it if it is in reach; returns how much nearer it may have come in a tick [m].
+  double meet(const Touchable& touchable, const Look& look, const NearBody* near) const noexcept;
+
+  std::vector<Touchable> touchables_;
+  std::vector<std::int32_t> touchable_of_;  // by body; -1: it cannot be touched
+  std::vector<char> moves_;                 // by body
+  double size_ = 0;
+  std::size_t mesh_count_ = 0;
   const ObjectState* objects_ = nullptr;  // of this tick
+  double time_ = 0;
+  bool at_end_ = false;
+  // a cache, filled as bodies are asked for: one thread
+  mutable std::vector<Pose> X_WB_;
+  mutable std::vector<std::uint64_t> placed_in_;  // tick
+  std::uint64_t tick_ = 0;
 };
 
 }  // namespace presa

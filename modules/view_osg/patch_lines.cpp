@@ -8,11 +8,13 @@
 namespace presa::view {
 namespace {
 
-constexpr double kLift = 2e-4;  ///< off the surface, so that the lines do not flicker with it [m]
+constexpr double kAround = 0.015;             ///< of a finger [m]
+constexpr std::size_t kMostCorners = 30'000;  ///< 5000 triangles
+constexpr double kLift = 2e-4;                ///< off the surface, so that the lines do not flicker with it [m]
 
 }  // namespace
 
-PatchLines::PatchLines() {
+PatchLines::PatchLines(const World& world) : world_(world) {
   lines_->setName("patches");
   lines_->setDataVariance(osg::Object::DYNAMIC);
   lines_->setUseDisplayList(false);
@@ -32,21 +34,23 @@ void PatchLines::update(bool shown, const ContactPatches* patches, const std::ve
   lines_->setNodeMask(shown ? ~0U : 0U);
   if (!shown) return;
   osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array, normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(patches->count); ++f) {
-    const FingerPatch& finger = patches->fingers[f];
+  for (std::size_t n = 0; n < static_cast<std::size_t>(patches->count); ++n) {
+    const FingerPatch& finger = patches->fingers[n];
     for (std::size_t b = 0; b < static_cast<std::size_t>(finger.body_count); ++b) {
-      const BodyPatch& patch = finger.bodies[b];
-      const auto body = static_cast<std::size_t>(patch.body);
-      if (patch.body < 0 || body >= X_WB.size()) continue;
-      for (auto t = static_cast<std::size_t>(patch.first), end = t + static_cast<std::size_t>(patch.count); t < end;
-           ++t) {
-        const auto& v_B = finger.triangles[t].v_B;
-        const Vec3 nhat_B = (v_B[1] - v_B[0]).cross(v_B[2] - v_B[0]).normalized();
+      const auto body = static_cast<std::size_t>(finger.bodies[b].body);
+      const auto& tree = world_.meshes[body].haptic_tree;
+      if (!tree || body >= X_WB.size()) continue;
+      const Pose X_WG = X_WB[body] * world_.scene.bodies[body].haptic->X_BG;
+      tree->forEachWithin(X_WG.inverseTimes(finger.center_W), kAround, [&](std::int32_t f) {
+        if (corners->size() >= kMostCorners) return;
+        const MeshTree::Facet& facet = tree->facet(f);
+        const auto corner = [&](std::size_t i) -> const Vec3& { return tree->corner(facet, i); };
+        const Vec3 nhat_G = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
         for (std::size_t i : {0, 1, 1, 2, 2, 0}) {
-          corners->push_back(toOsg(X_WB[body] * (v_B[i] + kLift * nhat_B)));
-          normals->push_back(toOsg(X_WB[body].q * nhat_B));
+          corners->push_back(toOsg(X_WG * (corner(i) + kLift * nhat_G)));
+          normals->push_back(toOsg(X_WG.q * nhat_G));
         }
-      }
+      });
     }
   }
   lines_->setVertexArray(corners);

@@ -30,6 +30,7 @@ Picture::Picture(std::shared_ptr<const World> world)
       glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
       parts_(world_->options.show),
       overlays_(*world_),
+      patches_(*world_),
       lighting_(casters_, space_->getOrCreateStateSet()),
       hud_(*world_),
       card_(hud_.right(), *world_),

@@ -1,0 +1,156 @@
+#include "modules/haptics_proxy/mesh_front.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa {
+
+void MeshFront::seed(const MeshTree& tree, std::span<const std::int32_t> nodes, const Vec3& p) noexcept {
+  tree_ = &tree;
+  full_ = false;
+  count_ = near_count_ = fresh_ = 0;
+  for (const std::int32_t node : nodes) {
+    double distance = 0;
+    put(count_++, tree.bound(node, p, distance), node);
+  }
+}
+
+bool MeshFront::open(int item) noexcept {
+  const MeshTree::Node& node = tree_->node(refs_[static_cast<std::size_t>(item)]);
+  const int more = node.isLeaf() ? node.count - 1 : 1;
+  if (count_ + more > kCapacity) {
+    full_ = true;
+    return false;
+  }
+  if (node.isLeaf()) {
+    put(item, {}, ~node.first);
+    for (std::int32_t f = 1; f < node.count; ++f) add({}, ~(node.first + f));
+  } else {
+    put(item, {}, node.first);
+    add({}, node.first + 1);
+  }
+  return true;
+}
+
+Nearest MeshFront::nearestOfDisc(std::int32_t node, const Vec3& p) const noexcept {
+  double distance = 0;
+  const TangentBound bound = tree_->bound(node, p, distance);
+  if (distance > 0) return {bound.nhat, distance};
+  return {MeshTree::axisOf(tree_->node(node)), 0};
+}
+
+void MeshFront::focus(const Vec3& p, double radius) noexcept {
+  near_count_ = 0;
+  for (int begin = 0; begin < count_; begin += kBlock) {
+    std::array<double, kBlock> at;
+    for (int j = 0; j < kBlock; ++j) at[static_cast<std::size_t>(j)] = boundAt(begin + j, p);
+    const int end = std::min(kBlock, count_ - begin);
+    for (int j = 0; j < end; ++j) {
+      near_[static_cast<std::size_t>(near_count_)] = begin + j;
+      near_count_ += at[static_cast<std::size_t>(j)] <= radius;
+    }
+  }
+}
+
+double MeshFront::firstTouch(const Vec3& x, const Vec3& move, double reach, double r,
+                             const SweepTolerance& tolerance) noexcept {
+  const int count = near_count_;
+  for (int n = 0; n < count; ++n) {
+    const int item = near_[static_cast<std::size_t>(n)];
+    const auto i = static_cast<std::size_t>(item);
+    const double growth = nx_[i] * move.x() + ny_[i] * move.y() + nz_[i] * move.z();
+    if (boundAt(item, x) + std::min(0.0, reach * growth) <= r) sweep(item, x, move, reach, r, tolerance);
+  }
+  return reach;
+}
+
+void MeshFront::sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
+                      const SweepTolerance& tolerance) noexcept {
+  const std::int32_t ref = refs_[static_cast<std::size_t>(item)];
+  const bool marked = marks_[static_cast<std::size_t>(item)] == mark_;
+  if (ref < 0) {
+    if (marked) return;
+    const PreparedTriangle piece = triangle(~ref);
+    const Nearest at = nearest(piece, x);
+    bind(item, at.distance != 0 ? TangentBound{at.nhat, at.distance - at.nhat.dot(x)} : TangentBound{});
+    const double s = firstTouchOf([&](const Vec3& p) { return nearest(piece, p); }, at, x, move, reach, r,
+                                  tolerance.touch, tolerance.graze);
+    reach = std::min(reach, s);
+    return;
+  }
+  double distance = 0;
+  const TangentBound bound = tree_->bound(ref, x, distance);
+  bind(item, bound);
+  if (distance > r) {
+    // beyond its nearest approach nothing in it can be met
+    const auto disc = [&](const Vec3& p) { return nearestOfDisc(ref, p); };
+    if (firstTouchOf(disc, {bound.nhat, distance}, x, move, reach, r, tolerance.touch) > reach) return;
+  }
+  const int old_count = count_;
+  if (!open(item)) {
+    if (!marked && distance > r) {
+      const auto disc = [&](const Vec3& p) { return nearestOfDisc(ref, p); };
+      reach = std::min(reach, firstTouchOf(disc, {bound.nhat, distance}, x, move, reach, r, tolerance.touch));
+    }
+    return;
+  }
+  const int new_count = count_;
+  sweep(item, x, move, reach, r, tolerance);
+  for (int child = old_count; child < new_count; ++child) sweep(child, x, move, reach, r, tolerance);
+}
+
+double MeshFront::clearance(const Vec3& p) const noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (int item = 0; item < count_; ++item) least = std::min(least, boundAt(item, p));
+  return least;
+}
+
+int MeshFront::crossings(const Vec3& a, const Vec3& b) noexcept {
+  int sum = 0;
+  const int count = count_;
+  for (int i = 0; i < count; ++i) cross(i, a, b, sum);
+  return sum;
+}
+
+void MeshFront::cross(int item, const Vec3& a, const Vec3& b, int& sum) noexcept {
+  const auto i = static_cast<std::size_t>(item);
+  const Vec3 nhat(nx_[i], ny_[i], nz_[i]);
+  if (std::min(nhat.dot(a), nhat.dot(b)) + offset_[i] > 0)
+    return;  // a crossed triangle is at no distance from the segment
+  if (refs_[i] < 0) {
+    sum += crossing(tree_->facet(~refs_[i]), a, b);
+    return;
+  }
+  const Vec3 middle = 0.5 * (a + b);
+  double distance = 0;
+  bind(item, tree_->bound(refs_[i], middle, distance));
+  if (distance > 0.5 * (b - a).norm()) return;
+  const int old_count = count_;
+  if (!open(item)) return;
+  const int new_count = count_;
+  cross(item, a, b, sum);
+  for (int child = old_count; child < new_count; ++child) cross(child, a, b, sum);
+}
+
+// Two triangles at an edge take its corners in the same order, so that a segment through the edge crosses just one of them.
+int MeshFront::crossing(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept {
+  const Vec3 &u = tree_->corner(facet, 0), &v = tree_->corner(facet, 1), &w = tree_->corner(facet, 2);
+  const Vec3 normal = (v - u).cross(w - u);
+  const bool front_a = normal.dot(a - u) > 0, front_b = normal.dot(b - u) > 0;
+  if (front_a == front_b) return 0;
+  const Vec3 way = b - a;
+  bool all_left = true, all_right = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const bool swapped = facet.corners[i] > facet.corners[j];
+    const Vec3& from = tree_->corner(facet, swapped ? j : i);
+    const Vec3& to = tree_->corner(facet, swapped ? i : j);
+    const bool left = (way.dot((from - a).cross(to - a)) > 0) != swapped;
+    all_left = all_left && left;
+    all_right = all_right && !left;
+  }
+  if (!all_left && !all_right) return 0;
+  return front_a ? 1 : -1;
+}
+
+}  // namespace presa
