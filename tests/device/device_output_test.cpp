@@ -65,7 +65,7 @@ struct Rig {
     objects = &builder.add(std::make_unique<Objects>());
     builder.add(std::make_unique<Patches>());
     output = &builder.add(std::make_unique<DeviceOutput>(
-        devices, std::vector<FingerSafety>{{.watchdog = ages::objects(scene)}}, scene, false));
+        devices, std::vector<FingerSafety>{{.limits = {}, .watchdog = ages::objects(scene)}}, scene, false));
     builder.connectByName();
     graph = builder.build();
   }
