@@ -33,7 +33,7 @@ enum Code {
 };
 
 // Between two steps a held body goes on in a straight line. The scripted grasp of 20 and 200 g at 0.5 to 4 N/mm is the same from
-// 40 Hz on, hops off stiff surfaces when it is let go at 25 and 20 Hz, and is thrown with 13 m/s at 10 Hz.
+// 40 Hz on within 0.5 mm; at 25 and 20 Hz a stiff body wanders up to 16 mm in the fingers, at 10 Hz one reaches 13 m/s.
 constexpr double kHeldBadlyBelow = 40, kHeldNowhereBelow = 20;  // [Hz]
 
 /// Different values of one attribute, in order.
@@ -126,7 +126,7 @@ class SceneCheck {
       if (dynamics < kHeldBadlyBelow) {
         diagnostics_.warning(kSlowDynamics, rates.where("dynamics"),
                              "at a dynamics rate of " + shortText(dynamics) +
-                                 " Hz a body with a stiff surface hops when fingers let it go",
+                                 " Hz a body with a stiff surface wanders in the fingers that hold it",
                              shortText(kHeldBadlyBelow) + " Hz or more does not; 200 is usual");
       }
     }
