@@ -15,6 +15,7 @@ struct LiveValues {
   std::atomic<std::int32_t> phase{-1};
   std::array<std::atomic<double>, kMaxFingers> normal_force{};
   std::array<std::atomic<std::int32_t>, kMaxFingers> mode{};
+  std::atomic<std::uint32_t> losses{0};         ///< ContactExchange::coverage_lost and pop_through
   std::atomic<std::uint32_t> object_faults{0};  ///< ObjectFault bits seen
   std::atomic<double> object_fault_time{-1};    ///< of the last one that came up [s]
 };
@@ -30,6 +31,7 @@ class LiveTap final : public Module {
       values_.normal_force[f].store(contact_->fingers[f].normal_force, std::memory_order_relaxed);
       values_.mode[f].store(static_cast<std::int32_t>(contact_->fingers[f].mode), std::memory_order_relaxed);
     }
+    values_.losses.store(contact_->coverage_lost + contact_->pop_through, std::memory_order_relaxed);
     if (const std::uint32_t faults = object_faults_ | objects_->faults; faults != object_faults_) {
       object_faults_ = faults;
       values_.object_fault_time.store(tick.time, std::memory_order_relaxed);

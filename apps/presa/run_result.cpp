@@ -10,6 +10,7 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
   for (std::size_t f = 0; f < world.scene.devices.size(); ++f) {
     result.contact_points.push_back({world.scene.devices[f].role, monitor.fingers()[f], monitor.slipOnsets(f)});
   }
+  result.coverage_lost = {monitor.coverageLost(), monitor.firstCoverageLost()};
   result.objects.clear();
   const std::vector<std::int32_t>& traced = monitor.tracedBodies();
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {

@@ -44,6 +44,11 @@ struct RunResult {
     double time = 0;  ///< simulated [s]
     std::string text;
   };
+  /// What should not happen, and how often it did.
+  struct Loss {
+    std::uint32_t count = 0;
+    double first = -1;  ///< [s]; -1: never
+  };
   /// How much of the scene's assembly stands in its places.
   struct Assembly {
     int goals = 0, filled = 0;
@@ -64,6 +69,7 @@ struct RunResult {
   std::vector<std::string> realtime_missing;  ///< settings that could not be had ("SCHED_FIFO 80: not permitted")
   std::vector<Rate> rates;                    ///< groups that ran, in the order of RateGroup
   std::vector<ContactPoint> contact_points;   ///< as Scene::devices
+  Loss coverage_lost;  ///< ticks in which a fingertip could not see every surface in its reach, all fingers together
   std::vector<Object> objects;
   std::optional<Assembly> assembly;                 ///< none: the scene has none
   std::vector<Phase> phases;                        ///< empty for a real hand

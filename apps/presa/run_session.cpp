@@ -237,6 +237,7 @@ void Run::showStatus() {
   status.wall_seconds = static_cast<double>(monotonicNs() - live_->start_ns) * 1e-9;
   status.haptic_ticks = executor_->timing(RateGroup::kHaptic).ticks;
   status.haptic_missed = executor_->timing(RateGroup::kHaptic).missed;
+  status.losses = live_->values.losses.load(std::memory_order_relaxed);
   const auto phase = live_->values.phase.load(std::memory_order_relaxed);
   if (phase >= 0 && static_cast<std::size_t>(phase) < result_.phases.size()) {
     status.phase = result_.phases[static_cast<std::size_t>(phase)].name;

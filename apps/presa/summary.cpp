@@ -6,6 +6,7 @@
 
 #include "apps/presa/atomic_file.h"
 #include "apps/presa/grasp_figures.h"
+#include "apps/presa/losses.h"
 
 namespace presa {
 namespace {
@@ -60,6 +61,8 @@ Json reaction(const ActionReaction::Result& result) {
   return {{"worst", result.worst}, {"time_s", result.time}, {"windows", result.windows}};
 }
 
+Json timeOrNull(double time) { return time < 0 ? Json(nullptr) : Json(time); }
+
 Json contactPoints(const RunResult& result) {
   Json all = Json::array();
   for (const RunResult::ContactPoint& point : result.contact_points) {
@@ -69,6 +72,7 @@ Json contactPoints(const RunResult& result) {
                    {"max_normal_force_N", sum.max_normal_force},
                    {"mean_normal_force_N", sum.mean_normal_force},
                    {"pop_through", sum.pop_through},
+                   {"first_pop_through_s", timeOrNull(sum.first_pop_through)},
                    {"slip_onsets", sum.slip_onsets},
                    {"impulse_mismatch", reaction(sum.reaction)}});
   }
@@ -85,7 +89,7 @@ Json objects(const RunResult& result) {
                    {"final_position_m", vector(sum.final)},
                    {"grasped", sum.grasped},
                    {"dropped", sum.dropped},
-                   {"lost_at_s", sum.lost_at < 0 ? Json(nullptr) : Json(sum.lost_at)},
+                   {"lost_at_s", timeOrNull(sum.lost_at)},
                    {"peak_speed_m_s", sum.peak_speed}});
   }
   return all;
@@ -132,6 +136,7 @@ std::string summaryJson(const RunResult& result) {
   json["rates"] = rates(result);
   if (result.sharpness) json["window"] = {{"sharpness", *result.sharpness}};
   json["contact_points"] = contactPoints(result);
+  json["coverage_lost"] = {{"ticks", result.coverage_lost.count}, {"first_s", timeOrNull(result.coverage_lost.first)}};
   json["objects"] = objects(result);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
   if (result.assembly) json["assembly"] = {{"goals", result.assembly->goals}, {"filled", result.assembly->filled}};
@@ -139,6 +144,7 @@ std::string summaryJson(const RunResult& result) {
   json["faults"] = Json::array();
   for (const RunResult::Fault& fault : result.faults)
     json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});
+  json["warnings"] = lossesOf(result);
   json["notes"] = result.notes;
   json["realtime_missing"] = result.realtime_missing;
   if (!result.recording.file.empty()) {

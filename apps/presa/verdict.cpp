@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/presa/grasp_figures.h"
+#include "apps/presa/losses.h"
 
 namespace presa {
 namespace {
@@ -73,6 +74,9 @@ Verdict verdictOf(const RunResult& result) {
   Verdict verdict = figures ? graspVerdict(result, *figures) : plainVerdict(result);
   if (result.interrupted)
     verdict.details.push_back("Stopped by the user at " + fixed(result.simulated_seconds, 3) + " s.");
+  verdict.warnings = lossesOf(result);
+  if (!verdict.warnings.empty() && verdict.outcome == Verdict::Outcome::kGood)
+    verdict.outcome = Verdict::Outcome::kNeutral;
   if (!result.faults.empty()) {
     verdict.outcome = Verdict::Outcome::kBad;
     verdict.details.push_back(std::to_string(result.faults.size()) +

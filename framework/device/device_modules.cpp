@@ -41,8 +41,25 @@ std::vector<std::string> DeviceInput::stages() const {
   return {"read every device into the Device State, check each sample"};
 }
 
-DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, bool realtime)
-    : Module("device_output", RateGroup::kHaptic), devices_(devices), reported_(safety.size(), 0), realtime_(realtime) {
+namespace {
+
+// What `presa explain` shows; each finger keeps to its own.
+double firstWatchdog(const std::vector<FingerSafety>& safety) {
+  double first = In<ObjectState>::kNever;
+  for (const FingerSafety& finger : safety) first = std::min(first, finger.watchdog);
+  return first;
+}
+
+}  // namespace
+
+DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const Rates& rates,
+                           bool realtime)
+    : Module("device_output", RateGroup::kHaptic),
+      devices_(devices),
+      reported_(safety.size(), 0),
+      realtime_(realtime),
+      patch_age_(ages::patches(rates)),
+      objects_(*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kFadeToZero, firstWatchdog(safety)) {
   for (const FingerSafety& finger : safety) {
     stages_.emplace_back(finger.limits);
     watchdog_.push_back(finger.watchdog);
@@ -52,7 +69,7 @@ DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>&
 OutputStage::Trust DeviceOutput::trust(std::size_t finger, const Tick& tick) const noexcept {
   using Trust = OutputStage::Trust;
   if (!device_->fingers[finger].valid || contact_->time < tick.time) return Trust::kDropped;
-  if (patches_.connected() && patches_.age(tick) > kPatchAge) return Trust::kDropped;
+  if (patches_.connected() && patches_.age(tick) > patch_age_) return Trust::kDropped;
   if (objects_.hasValue() && objects_->faults != 0) return Trust::kFading;
   return objects_.connected() && objects_.age(tick) > watchdog_[finger] ? Trust::kFading : Trust::kGood;
 }

@@ -10,6 +10,7 @@
 #include "framework/exchange/event_ring.h"
 #include "framework/graph/port.h"
 #include "framework/graph/stage_watch.h"
+#include "framework/scene/ages.h"
 #include "framework/schedule/executor.h"
 #include "framework/state/contact_exchange.h"
 #include "framework/state/contact_patch.h"
@@ -46,14 +47,14 @@ class DeviceInput final : public Module {
 /// What the output stage of one finger keeps to, and when it stops to trust the dynamics.
 struct FingerSafety {
   OutputLimits limits;
-  double watchdog = 0.020;  ///< age of the Object State at which the force fades [s]
+  double watchdog = ages::kFloor;  ///< age of the Object State at which the force fades [s]
 };
 
 /// The output stages and the devices behind them. Reads the ages of what the command was made from.
 class DeviceOutput final : public Module, public WatchedStages {
  public:
-  /// `safety`: as `devices`. `realtime`: the last fade, after the run, keeps the pace of the clock.
-  DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, bool realtime);
+  /// `safety`: as `devices`. `rates`: of the scene. `realtime`: the last fade, after the run, keeps the pace of the clock.
+  DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const Rates& rates, bool realtime);
   void step(const Tick& tick) noexcept override;
   void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   /// Takes every force down to zero within the slew limit, then lets go.
@@ -64,8 +65,6 @@ class DeviceOutput final : public Module, public WatchedStages {
   /// Main thread: the next fault or watchdog event; false when there is none.
   bool nextEvent(FaultEvent& event) noexcept { return events_.pop(event); }
 
-  /// A contact patch older than this is dropped [s]: two periods of the collision thread, so that zero is reached within three.
-  static constexpr double kPatchAge = 0.020;
   /// A device that gives no sample is at zero force after this [s], where slew allows it.
   static constexpr double kSilentZero = 0.005;
 
@@ -82,13 +81,14 @@ class DeviceOutput final : public Module, public WatchedStages {
   std::vector<double> watchdog_;  ///< [s] per finger
   std::vector<std::uint32_t> reported_;
   bool realtime_;
+  const double patch_age_;  ///< a contact patch older than this is dropped [s]
   Tick last_tick_;
   EventRing<FaultEvent> events_{256};
   In<DeviceState> device_{*this, "device_state"};
   In<ContactExchange> contact_{*this, "contact_exchange"};
   In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}, WhenOld::kFadeToZero,
-                              kPatchAge};
-  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kFadeToZero, kPatchAge};
+                              patch_age_};
+  In<ObjectState> objects_;
   Out<ForceCommand> command_{*this, "force_command"};
 };
 

@@ -75,7 +75,8 @@ struct Monitor::Impl {
   double simulated_time = 0;
   std::uint32_t object_faults = 0;
   double object_fault_time = -1;
-  std::uint32_t pop_through = 0;
+  std::uint32_t pop_through = 0, coverage_lost = 0;
+  double first_coverage_lost = -1;
   StateHash hash;
   std::array<FingerSummary, kMaxFingers> fingers;
   std::array<double, kMaxFingers> force_sum{};
@@ -173,10 +174,13 @@ void Monitor::Impl::sumFingers(const Tick& tick, const ContactExchange& contact,
   std::fill(fingers_on.begin(), fingers_on.end(), 0);
   for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
     sumFinger(f, contact.fingers[f], tick);
+    if (fingers[f].pop_through == 0 && contact.pop_through_by_finger[f] > 0) fingers[f].first_pop_through = tick.time;
     fingers[f].pop_through = contact.pop_through_by_finger[f];
     fingers[f].reaction = reaction.of(f);
   }
   pop_through = contact.pop_through;
+  if (coverage_lost == 0 && contact.coverage_lost > 0) first_coverage_lost = tick.time;
+  coverage_lost = contact.coverage_lost;
 }
 
 template <class Watch>
@@ -244,6 +248,8 @@ std::uint64_t Monitor::hash() const noexcept { return impl_->hash.value(); }
 const std::vector<TraceSample>& Monitor::trace() const noexcept { return impl_->trace; }
 const std::vector<std::int32_t>& Monitor::tracedBodies() const noexcept { return impl_->traced; }
 std::uint32_t Monitor::popThrough() const noexcept { return impl_->pop_through; }
+std::uint32_t Monitor::coverageLost() const noexcept { return impl_->coverage_lost; }
+double Monitor::firstCoverageLost() const noexcept { return impl_->first_coverage_lost; }
 std::uint32_t Monitor::objectFaults() const noexcept { return impl_->object_faults; }
 double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_time; }
 std::uint64_t Monitor::solverFallbacks() const noexcept { return impl_->solver_fallbacks; }

@@ -34,6 +34,7 @@ struct FingerSummary {
   double max_normal_force = 0;      ///< [N]
   double mean_normal_force = 0;     ///< over the ticks in contact [N]
   std::uint32_t pop_through = 0;    ///< times the fingertip got past a surface
+  double first_pop_through = -1;    ///< [s]; -1: never
   std::uint64_t slip_onsets = 0;    ///< changes from stick to slip
   SlipOnset loosening_slip;         ///< the first one at or after loosen_time
   ActionReaction::Result reaction;  ///< impulse given to free bodies against impulse rendered, over any 0.1 s of touch
@@ -86,6 +87,10 @@ class Monitor final : public Module, public WatchedStages {
   /// Scene indices of the bodies in TraceSample::bodies.
   const std::vector<std::int32_t>& tracedBodies() const noexcept;
   std::uint32_t popThrough() const noexcept;
+  /// Ticks in which a fingertip could not see every surface in its reach, those of all fingers together, and when the first came [s];
+  /// -1: none did.
+  std::uint32_t coverageLost() const noexcept;
+  double firstCoverageLost() const noexcept;
   double simulatedTime() const noexcept;
   /// ObjectFault bits seen, and when the first came [s]; -1: none.
   std::uint32_t objectFaults() const noexcept;

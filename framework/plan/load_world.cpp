@@ -40,6 +40,7 @@ Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics
     Diagnostics said;  // all of it already
     loaded.plan = makePlan(scene, rig, options, said);
   }
+  if (options.realtime) checkCommandRate(scene, rig, loaded.plan, diagnostics);
   // meshes are read even when the scene has findings of its own: the user sees all at once
   loaded.world =
       std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));

@@ -5,6 +5,9 @@
 #include "framework/diagnostics/refuse.h"
 #include "framework/plan/plugin.h"
 #include "framework/plan/session.h"
+#include "framework/scene/ages.h"
+#include "framework/supervision/command_keeper.h"
+#include "framework/xml/value_rule.h"
 
 namespace presa {
 namespace {
@@ -19,14 +22,34 @@ std::string refusalOf(const RealtimeRights& rights) {
 
 }  // namespace
 
-bool drivesHardware(const Plan& plan) {
-  return std::any_of(plan.devices.begin(), plan.devices.end(), [](const PlannedDevice& device) {
-    try {
-      return devicePlugin(device.driver).hardware;
-    } catch (const InputError&) {
-      return false;
-    }
-  });
+namespace {
+
+bool isHardware(const PlannedDevice& device) {
+  try {
+    return devicePlugin(device.driver).hardware;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+bool drivesHardware(const Plan& plan) { return std::any_of(plan.devices.begin(), plan.devices.end(), isHardware); }
+
+void checkCommandRate(const Scene& scene, const Rig& rig, const Plan& plan, Diagnostics& diagnostics) {
+  const double lowest = ages::kPeriods / CommandKeeper::kHold;
+  if (scene.rates.haptic >= lowest) return;
+  for (const DeviceBinding& binding : rig.devices) {
+    const auto planned = std::find_if(plan.devices.begin(), plan.devices.end(),
+                                      [&](const PlannedDevice& device) { return device.role == binding.role; });
+    if (planned == plan.devices.end() || !isHardware(*planned)) continue;
+    diagnostics.error(410, binding.where,
+                      "the force of '" + binding.role + "' would go to zero again and again: its driver '" +
+                          binding.driver + "' takes a force away after " + xml::numberText(1e3 * CommandKeeper::kHold) +
+                          " ms without a command, and the haptic rate is " + xml::numberText(scene.rates.haptic) +
+                          " Hz",
+                      "rates/haptic=\"" + xml::numberText(lowest) + "\" or more");
+  }
 }
 
 double forceShare(bool hardware, const RunOptions& options, const RealtimeProbe& probe,

@@ -16,6 +16,10 @@ bool drivesHardware(const Plan& plan);
 double forceShare(bool hardware, const RunOptions& options, const RealtimeProbe& probe,
                   std::vector<std::string>& notes);
 
+/// The supervisor of real hardware takes a force away when no command comes for CommandKeeper::kHold. A haptic rate that gives it
+/// fewer than two in that time contradicts it: E410, at the rig's device. Loads the plug-ins.
+void checkCommandRate(const Scene& scene, const Rig& rig, const Plan& plan, Diagnostics& diagnostics);
+
 inline constexpr double kShareWithoutRights = 0.5;
 
 }  // namespace presa

@@ -116,7 +116,8 @@ Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunContro
   for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
   offerPointer();
   if (!devices_.empty()) {
-    output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world->options.realtime));
+    output_ =
+        &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world->scene.rates, world->options.realtime));
   }
   monitor_ = &builder.add(std::make_unique<Monitor>(world, phaseStart("loosen"), options.trace_rate));
   for (auto& module : options.more) builder.add(std::move(module));

@@ -29,6 +29,8 @@ class RecordedRun {
   ReplayResult run();
   /// Of the states that came again.
   std::uint64_t stateHash() const { return session_->monitor().hash(); }
+  const Monitor& monitor() const { return session_->monitor(); }
+  const std::shared_ptr<const World>& world() const { return loaded_.world; }
 
  private:
   const Recording& recording_;

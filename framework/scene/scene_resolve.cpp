@@ -1,4 +1,6 @@
+#include "framework/scene/ages.h"
 #include "framework/scene/scene_parts.h"
+#include "framework/xml/value_rule.h"
 
 namespace presa {
 namespace {
@@ -25,11 +27,37 @@ void resolveMesh(Element geometry, const std::string& directory) {
   }
 }
 
+/// By device: somebody said at which age its force is to fade.
+std::vector<bool> watchdogsSet(const Element& root) {
+  std::vector<bool> set;
+  for (const Element& device : deviceElements(root)) {
+    set.push_back(false);
+    for (const Element& limits : device.children("limits")) set.back() = limits.hasAttribute("watchdog_ms");
+  }
+  return set;
+}
+
+/// What nobody set follows from the rate of the dynamics: the schema's value is that of the usual rate.
+void resolveWatchdogs(const Element& root, const std::vector<bool>& set) {
+  Rates rates;
+  for (const Element& given : root.children("rates")) rates.dynamics = given.number("dynamics", rates.dynamics);
+  const double watchdog = ages::objects(rates);
+  if (watchdog <= ages::kFloor) return;
+  const std::vector<Element> devices = deviceElements(root);
+  for (std::size_t f = 0; f < devices.size(); ++f) {
+    for (Element limits : devices[f].children("limits")) {
+      if (!set[f]) limits.setAttribute("watchdog_ms", xml::numberText(1e3 * watchdog), limits.where());
+    }
+  }
+}
+
 }  // namespace
 
 void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory) {
+  const std::vector<bool> watchdogs_set = watchdogsSet(document.root());
   document.writeDefaults(schema);
   Element root = document.root();
+  resolveWatchdogs(root, watchdogs_set);
   if (root.hasAttribute("rig")) root.setAttribute("rig", resolvePath(root.attribute("rig"), directory));
   const std::vector<Element> materials = materialElements(root);
   for (const Element& material : materials) {

@@ -1,6 +1,6 @@
 #include "modules/dynamics_ode/dynamics_module.h"
 
-#include "modules/dynamics_ode/finger_row.h"
+#include "framework/scene/ages.h"
 #include "modules/dynamics_ode/ode_runtime.h"
 
 namespace presa::ode {
@@ -30,7 +30,8 @@ const ModulePlugin kPlugin{
 
 DynamicsModule::DynamicsModule(std::shared_ptr<const World> world)
     : Module("dynamics_ode", RateGroup::kDynamics),
-      fingers_(*this, "contact_exchange", In<ContactExchange>::Optional{}, WhenOld::kFadeToZero, kFingerOldAfter),
+      fingers_(*this, "contact_exchange", In<ContactExchange>::Optional{}, WhenOld::kFadeToZero,
+               ages::fingers(world->scene.rates)),
       objects_(*this, "object_state"),
       world_(std::move(world)),
       options_(optionsOf(*world_)),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/scene/ages.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
@@ -33,7 +34,7 @@ constexpr double kTorsionCfm = 1;  // [rad/s / (N m)]
 }  // namespace
 
 FingerJoints::FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world)
-    : coupling_(coupling) {
+    : coupling_(coupling), old_after_(ages::fingers(scene.rates)) {
   active_.reserve(kMaxFingers);
   const auto soft = [](const Material& material) { return material.torsion > 0; };
   if (coupling == DynamicsSettings::Coupling::kExplicit || scene.devices.empty()) return;
@@ -64,7 +65,7 @@ std::size_t FingerJoints::read(const ContactExchange& exchange, double time, dou
   active_.clear();
   for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
   return forEachTouch(exchange, bodies, [&](std::size_t f, std::size_t body) {
-    const auto row = makeFingerRow(exchange.fingers[f], bodies.inertiaState(body), time - exchange.time, h);
+    const auto row = makeFingerRow(exchange.fingers[f], bodies.inertiaState(body), time - exchange.time, old_after_, h);
     if (!row) return;
     active_.push_back({f, body, *row});
     feedback_[f] = {};

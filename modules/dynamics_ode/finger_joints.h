@@ -38,6 +38,7 @@ class FingerJoints {
     FingerRow row;
   };
   const DynamicsSettings::Coupling coupling_;
+  const double old_after_;  ///< of a finger [s]
   std::vector<Active> active_;
   std::array<dJointFeedback, kMaxFingers> feedback_{};
   std::vector<double> torsion_;   // by body [m]; empty where no fingertip is soft

@@ -16,12 +16,12 @@ bool isUsable(const FingerContact& c) {
          std::isfinite(c.friction_dynamic) && c.nhat_B.squaredNorm() > 0.25;
 }
 
-double fingerWeight(double age) { return std::clamp(1 - (age - kFingerOldAfter) / kFingerFade, 0.0, 1.0); }
+double fingerWeight(double age, double old_after) { return std::clamp(1 - (age - old_after) / kFingerFade, 0.0, 1.0); }
 
 std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age,
-                                       double h) {
+                                       double old_after, double h) {
   if (contact.mode == ContactMode::kNone) return std::nullopt;
-  const double weight = fingerWeight(age);
+  const double weight = fingerWeight(age, old_after);
   const double k = weight * contact.stiffness;
   const double d = weight * std::max(0.0, contact.damping);
   if (!(k > 0)) return std::nullopt;
@@ -29,7 +29,7 @@ std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyI
   FingerRow row;
   row.p_WP = body.X_WB * contact.p_BP;
   const Vec3 nhat = (body.X_WB.q * contact.nhat_B).normalized();
-  const Vec3 p_WH = contact.p_WH + std::clamp(age, 0.0, kFingerOldAfter) * contact.v_WH;
+  const Vec3 p_WH = contact.p_WH + std::clamp(age, 0.0, old_after) * contact.v_WH;
   const Vec3 stretch = row.p_WP - p_WH;
   const double depth = stretch.dot(nhat);
   const Vec3 tangential = stretch - depth * nhat;

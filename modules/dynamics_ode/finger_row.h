@@ -45,18 +45,17 @@ struct FingerRow {
   Vec3 expected_force_W = Vec3::Zero();  ///< on the body, at the start of the step, inside the cone [N]
 };
 
-/// Time after which a finger that is no longer reported fades, and the span of the fade [s].
-inline constexpr double kFingerOldAfter = 0.020;
+/// A finger that is no longer reported fades once it is older than `old_after` (ages::fingers), within this [s].
 inline constexpr double kFingerFade = 0.020;
-/// 1 while the contact is fresh, falling to 0 over kFingerFade after kFingerOldAfter.
-double fingerWeight(double age);
+/// 1 while the contact is fresh, falling to 0 over kFingerFade after `old_after`.
+double fingerWeight(double age, double old_after);
 
 /// Every number the rows are made of is finite and the normal is one.
 bool isUsable(const FingerContact& contact);
 
 /// The rows of a usable `contact`, sampled `age` seconds before the step (its HIP is extrapolated with its velocity, at most
-/// kFingerOldAfter), over a step of `h`. Nothing when there is no contact or it has faded.
+/// `old_after`), over a step of `h`. Nothing when there is no contact or it has faded.
 std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age,
-                                       double h);
+                                       double old_after, double h);
 
 }  // namespace presa::ode

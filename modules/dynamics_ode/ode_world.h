@@ -35,7 +35,7 @@ class OdeWorld {
   ~OdeWorld();
 
   /// Advances all bodies from `time` to time + period. `fingers` is what the haptic thread found last, with its time;
-  /// it is extrapolated to `time`, and fades when it is older than kFingerOldAfter. Never throws.
+  /// it is extrapolated to `time`, and fades when it is older than ages::fingers says. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
   /// The same, telling `watch` after each part of it, by its number in Stage.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out, StageWatch& watch) noexcept;

@@ -4,8 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/presa/losses.h"
 #include "apps/presa/report/report.h"
 #include "apps/presa/summary.h"
+#include "apps/presa/terminal/closing.h"
+#include "apps/presa/terminal/status_line.h"
 #include "apps/presa/verdict.h"
 #include "tests/monitor/synthetic_run.h"
 
@@ -126,6 +129,64 @@ TEST(Report, EscapesNamesAndAsksNobody) {
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
   EXPECT_EQ(page.find("http://"), std::string::npos);
   EXPECT_EQ(page.find("https://"), std::string::npos);
+}
+
+// A surface that a finger could not see, or got past, is told wherever a run is told of, with the time; such a run is not good.
+TEST(Losses, AreToldEverywhere) {
+  Grasp grasp;
+  grasp.feed.contact.coverage_lost = 2;
+  grasp.feed.tick();
+  takeMonitor(grasp.feed.monitor, grasp.result);
+  EXPECT_EQ(grasp.result.coverage_lost.count, 2u);
+  EXPECT_DOUBLE_EQ(grasp.result.coverage_lost.first, 6);
+  grasp.result.coverage_lost = {37, 1.204};
+  grasp.result.contact_points[1].summary.pop_through = 1;
+  grasp.result.contact_points[1].summary.first_pop_through = 2.5;
+  const std::string unseen =
+      "the surface near a finger was not fully known in 37 ticks (first at 1.204 s): forces there are not right";
+  const std::string passed =
+      "finger 'index' got past a surface 1 time (first at 2.500 s): what it felt from then on is not right";
+  EXPECT_EQ(lossesOf(grasp.result), (std::vector{unseen, passed}));
+  EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kNeutral);
+  const std::string closing = closingText(grasp.result, "", "", false);
+  EXPECT_NE(closing.find("warning: " + unseen + "\n"), std::string::npos) << closing;
+  EXPECT_NE(closing.find("warning: " + passed + "\n"), std::string::npos) << closing;
+  const std::string page = reportHtml(grasp.result);
+  EXPECT_NE(page.find("<p class=\"warning\">Warning: the surface near a finger was not fully known in 37 ticks"),
+            std::string::npos);
+  EXPECT_NE(page.find("got past a surface 1 time"), std::string::npos);
+  const auto json = nlohmann::json::parse(summaryJson(grasp.result));
+  EXPECT_EQ(json["coverage_lost"]["ticks"], 37);
+  EXPECT_EQ(json["coverage_lost"]["first_s"], 1.204);
+  EXPECT_EQ(json["contact_points"][1]["first_pop_through_s"], 2.5);
+  EXPECT_EQ(json["warnings"], (std::vector{unseen, passed}));
+  LiveStatus status;
+  status.losses = 38;
+  EXPECT_NE(statusText(status, 1, 200, false).find("38 lost"), std::string::npos);
+}
+
+// With one finger it is that one.
+TEST(Losses, NameTheFingerWhereThereIsOne) {
+  Grasp grasp;
+  grasp.result.coverage_lost = {1, 0.5};
+  grasp.result.contact_points.resize(1);
+  EXPECT_EQ(
+      lossesOf(grasp.result).at(0),
+      "the surface near finger 'thumb' was not fully known in 1 tick (first at 0.500 s): forces there are not right");
+}
+
+// A run in which nothing was lost says nothing of it.
+TEST(Losses, WhichThereAreNotAreNotToldOf) {
+  const Grasp grasp;
+  EXPECT_TRUE(lossesOf(grasp.result).empty());
+  EXPECT_EQ(closingText(grasp.result, "", "", false).find("warning"), std::string::npos);
+  EXPECT_EQ(reportHtml(grasp.result).find("class=\"warning\""), std::string::npos);
+  const auto json = nlohmann::json::parse(summaryJson(grasp.result));
+  EXPECT_TRUE(json["warnings"].empty());
+  EXPECT_EQ(json["coverage_lost"]["ticks"], 0);
+  EXPECT_TRUE(json["coverage_lost"]["first_s"].is_null());
+  EXPECT_TRUE(json["contact_points"][0]["first_pop_through_s"].is_null());
+  EXPECT_EQ(statusText({}, 1, 200, false).find("lost"), std::string::npos);
 }
 
 // Losing the object early or a fault turns the verdict, whatever else went well.

@@ -9,6 +9,7 @@
 
 #include <fstream>
 
+#include "framework/plan/load_world.h"
 #include "framework/plan/realtime_policy.h"
 #include "tests/app/support.h"
 
@@ -60,6 +61,32 @@ TEST(RealTimeRights, AreSeenToBeRefused) {
               return rights.granted() || rights.fifo.empty() || rights.memory.empty() ? 1 : 0;
             }),
             0);
+}
+
+// What holds the motors takes a force away after 5 ms without a command: two have to come in that time, or the force would be gone
+// between any two of them. In virtual time nobody holds anything.
+TEST(CommandRate, BelowTwoCommandsInTheSupervisorsPatienceIsRefused) {
+  const std::string rig = falconRig();
+  const auto refusals = [&](const char* haptic, bool realtime) {
+    Diagnostics findings;
+    RunOptions options;
+    options.realtime = realtime;
+    loadWorld({source("config/scenes/cube.xml"), rig, {std::string("rates/haptic=") + haptic}}, options, findings);
+    std::size_t count = 0;
+    for (const Diagnostic& finding : findings.all()) {
+      if (finding.code != 410) continue;
+      ++count;
+      EXPECT_EQ(format(finding).rfind(rig + ":3:", 0) == 0 || format(finding).rfind(rig + ":4:", 0) == 0, true)
+          << format(finding);
+      EXPECT_NE(finding.message.find("after 5 ms without a command, and the haptic rate is 200 Hz"), std::string::npos)
+          << finding.message;
+      EXPECT_EQ(finding.help, "rates/haptic=\"400\" or more");
+    }
+    return count;
+  };
+  EXPECT_EQ(refusals("200", true), 2u);
+  EXPECT_EQ(refusals("200", false), 0u);
+  EXPECT_EQ(refusals("400", true), 0u);
 }
 
 TEST(RealTimeRights, HardwareIsRefusedWithoutThem) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "framework/device/device_modules.h"
 #include "framework/graph/graph_builder.h"
 
@@ -45,23 +47,38 @@ class Objects final : public Module {
   Out<ObjectState> out{*this, "object_state"};
 };
 
+/// Stands for the collision thread.
+class Patches final : public Module {
+ public:
+  Patches() : Module("patches", RateGroup::kCollision) {}
+  void step(const Tick& tick) noexcept override { out.value.time = tick.time; }
+  Out<ContactPatches> out{*this, "contact_patches"};
+};
+
 struct Rig {
-  Rig() {
+  explicit Rig(const Rates& scene = {}) : rates(scene) {
     devices.push_back(std::make_unique<StillFinger>());
     finger = static_cast<StillFinger*>(devices[0].get());
     GraphBuilder builder;
     builder.add(std::make_unique<DeviceInput>(devices, control));
     builder.add(std::make_unique<ConstantForce>());
     objects = &builder.add(std::make_unique<Objects>());
-    output = &builder.add(std::make_unique<DeviceOutput>(devices, std::vector<FingerSafety>{{}}, false));
+    builder.add(std::make_unique<Patches>());
+    output = &builder.add(std::make_unique<DeviceOutput>(
+        devices, std::vector<FingerSafety>{{.limits = {}, .watchdog = ages::objects(scene)}}, scene, false));
     builder.connectByName();
     graph = builder.build();
   }
-  void run(int ticks, bool dynamics = true) {
+  void run(int ticks, bool dynamics = true, bool collision = true) {
     for (; ticks > 0; --ticks, ++i) {
-      if (dynamics && i % 5 == 0) graph.step(RateGroup::kDynamics, rates.tick(RateGroup::kDynamics, i / 5));
+      if (dynamics) stepIfDue(RateGroup::kDynamics);
+      if (collision) stepIfDue(RateGroup::kCollision);
       graph.step(RateGroup::kHaptic, rates.tick(RateGroup::kHaptic, i));
     }
+  }
+  void stepIfDue(RateGroup group) {
+    const auto divisor = static_cast<std::uint64_t>(rates.divisor(group));
+    if (i % divisor == 0) graph.step(group, rates.tick(group, i / divisor));
   }
   /// Ticks made up at one instant after a stall, as an executor runs them.
   void catchUp(int ticks) {
@@ -77,7 +94,7 @@ struct Rig {
   Objects* objects = nullptr;
   DeviceOutput* output = nullptr;
   Graph graph;
-  RateTable rates{Rates{}};
+  RateTable rates;
   std::uint64_t i = 0;
 };
 
@@ -111,6 +128,29 @@ TEST(DeviceOutput, AStalledDynamicsFadesTheForceUntilItIsBack) {
   rig.run(1000);
   EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9);
   EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+// Every rate that a scene may name: a value is as old as its writer's period just before the next one comes. That is its usual age,
+// and the force stays; older than two periods, and than 20 ms, its writer has stopped, and the force goes.
+TEST(DeviceOutput, WhatIsOldFollowsFromTheRateOfItsWriter) {
+  for (const double rate : {10., 20., 40., 50., 100., 200., 1000.}) {
+    const int period = static_cast<int>(std::lround(1000 / rate)), old_after = std::max(20, 2 * period);  // [ticks]
+    for (const bool collision : {true, false}) {
+      Rates scene;
+      (collision ? scene.collision : scene.dynamics) = rate;
+      Rig rig(scene);
+      rig.run(1000);
+      for (int i = 0; i < 5 * period; ++i) {
+        rig.run(1);
+        ASSERT_NEAR(rig.finger->force.x(), 4, 1e-9) << rate << " Hz, tick " << i;
+      }
+      rig.run((period - static_cast<int>(rig.i % static_cast<std::uint64_t>(period))) % period + 1);  // one just came
+      rig.run(old_after - 1, collision, !collision);
+      EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9) << rate << " Hz: not old yet";
+      rig.run(12, collision, !collision);
+      EXPECT_LT(rig.finger->force.x(), 3) << rate << " Hz: its writer has stopped";
+    }
+  }
 }
 
 // A device that gives no sample: the force is held for a tick and is zero at 5 ms, from 4 N at 1 N/ms; softly back with the samples.

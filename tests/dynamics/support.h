@@ -30,6 +30,11 @@ class WorldMaker {
     world_.scene.gravity = g;
     return *this;
   }
+  WorldMaker& rates(double haptic, double dynamics) {
+    world_.scene.rates.haptic = haptic;
+    world_.scene.rates.dynamics = dynamics;
+    return *this;
+  }
   /// Bodies added from now on have this friction.
   WorldMaker& friction(double mu_static, double mu_dynamic) {
     Material material;

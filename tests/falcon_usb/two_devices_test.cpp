@@ -45,7 +45,7 @@ TEST(TwoFalconsOverUsb, OneIsPulledOutAndTheOtherGoesToZero) {
   builder.add(std::make_unique<DeviceInput>(devices, control));
   const ConstantForce& rendering = builder.add(std::make_unique<ConstantForce>());
   const FingerSafety safety{.limits = {.force = 4, .soft_start = 0.1}};
-  builder.add(std::make_unique<DeviceOutput>(devices, std::vector{safety, safety}, false));
+  builder.add(std::make_unique<DeviceOutput>(devices, std::vector{safety, safety}, Rates{}, false));
   builder.connectByName();
   Graph graph = builder.build();
 

@@ -43,6 +43,26 @@ TEST(Monitor, TickNeverAllocates) {
   EXPECT_EQ(feed.monitor.fingers()[0].slip_onsets, 300u);
 }
 
+// What should not happen is kept with the time of its first tick, by finger where the contact state tells.
+TEST(Monitor, KeepsWhenASurfaceWasFirstLostAndFirstPassed) {
+  Feed feed(pinchWorld(1));
+  feed.ticks(100);
+  EXPECT_EQ(feed.monitor.coverageLost(), 0u);
+  EXPECT_EQ(feed.monitor.firstCoverageLost(), -1);
+  EXPECT_EQ(feed.monitor.fingers()[1].first_pop_through, -1);
+  for (std::uint32_t lost = 1; lost <= 37; ++lost) {
+    feed.contact.coverage_lost = lost;
+    feed.tick();
+  }
+  feed.contact.pop_through = feed.contact.pop_through_by_finger[1] = 2;
+  feed.ticks(100);
+  EXPECT_EQ(feed.monitor.coverageLost(), 37u);
+  EXPECT_DOUBLE_EQ(feed.monitor.firstCoverageLost(), 0.100);
+  EXPECT_EQ(feed.monitor.fingers()[1].pop_through, 2u);
+  EXPECT_DOUBLE_EQ(feed.monitor.fingers()[1].first_pop_through, 0.137);
+  EXPECT_EQ(feed.monitor.fingers()[0].first_pop_through, -1);
+}
+
 // Time in each mode is a count of ticks: it adds up to the run. 1e-12 s is the rounding of 400 additions of 1 ms.
 TEST(Monitor, SecondsByModeAddUpAndForcesAreOverTheTicksInContact) {
   Feed feed(pinchWorld(1));

@@ -1,3 +1,4 @@
+#include "framework/scene/ages.h"
 #include "tests/scene/scene_text.h"
 
 namespace presa::scene_test {
@@ -103,6 +104,69 @@ TEST(Override, WrongValueIsToldWithItsPlaceOnTheCommandLine) {
   EXPECT_EQ(onlyFinding("rates/dynamics", "300").code, 209);
   EXPECT_EQ(onlyFinding("body/cube/material", "ruber").code, 204);
   EXPECT_EQ(onlyFinding("body/cube/name", "table").code, 203);
+}
+
+// A watchdog that somebody set is not changed behind his back: with a slower dynamics it would bark all the time, and the place
+// where it stands is told. Two periods are enough; without a body that moves there is nothing to watch.
+TEST(Override, ASlowDynamicsIsRefusedWhereAWatchdogWouldNotBearIt) {
+  const Diagnostic finding = onlyFinding("rates/dynamics", "50");
+  EXPECT_EQ(finding.code, 222);
+  const Marked place = marked(edited(kScene, "watchdog_ms", "@watchdog_ms"));
+  EXPECT_EQ(finding.where.line, place.line) << format(finding);
+  EXPECT_EQ(finding.where.column, place.column) << format(finding);
+  EXPECT_NE(finding.message.find("found 20 ms at 50 Hz"), std::string::npos) << finding.message;
+  EXPECT_NE(finding.help.find("\"40\""), std::string::npos) << finding.help;
+  EXPECT_FALSE(findingsOf(kScene, {{"rates/dynamics", "100"}}).hasErrors());
+  EXPECT_FALSE(findingsOf(kScene, {{"rates/dynamics", "50"}, {"device/thumb/limits/watchdog_ms", "40"}}).hasErrors());
+  EXPECT_EQ(findingsOf(kScene, {{"rates/dynamics", "50"}, {"device/thumb/limits/watchdog_ms", "39"}}).errorCount(), 1U);
+}
+
+// Fingers cannot hold a body that stands still for 100 ms at a time; a slow one that they can hold badly is warned of. Without
+// fingers, or without a body that moves, any rate will do.
+TEST(Override, ADynamicsTooSlowToHoldABodyIsRefused) {
+  const std::string free = edited(kScene, " watchdog_ms=\"20\"", "");
+  const Diagnostics slow = findingsOf(free, {{"rates/dynamics", "10"}});
+  ASSERT_EQ(slow.all().size(), 1U) << slow.text();
+  EXPECT_EQ(format(slow.all()[0]).rfind("--set rates/dynamics=10: error[E223]: ", 0), 0U) << slow.text();
+  const Diagnostics slowish = findingsOf(free, {{"rates/dynamics", "25"}});
+  ASSERT_EQ(slowish.all().size(), 1U) << slowish.text();
+  EXPECT_EQ(format(slowish.all()[0]).rfind("--set rates/dynamics=25: warning[W223]: ", 0), 0U) << slowish.text();
+  EXPECT_TRUE(findingsOf(free, {{"rates/dynamics", "40"}}).all().empty());
+  EXPECT_FALSE(
+      findingsOf(edited(free, "<body name=\"cube\"", "<body name=\"cube\" fixed=\"true\""), {{"rates/dynamics", "1"}})
+          .hasErrors());
+}
+
+// What nobody set is two periods of the dynamics, and never under 20 ms; it stands in the resolved scene, which is read again.
+TEST(Override, AWatchdogThatNobodySetFollowsTheDynamics) {
+  const std::string scene = edited(kScene, " watchdog_ms=\"20\"", "");
+  for (const auto& [rate, watchdog_ms] :
+       {std::pair{"40", 50.}, {"50", 40.}, {"100", 20.}, {"200", 20.}, {"1000", 20.}}) {
+    const Scene loaded = load({{"rates/dynamics", rate}}, scene);
+    Diagnostics findings;
+    const Scene again = parseScene(loaded.resolved_xml, "again", "/", {}, findings);
+    EXPECT_TRUE(findings.all().empty()) << findings.text();
+    for (const Scene* one : {&loaded, &again}) {
+      for (const DeviceRole& device : one->devices) EXPECT_DOUBLE_EQ(device.limits.watchdog_ms, watchdog_ms) << rate;
+    }
+  }
+}
+
+// At the usual rates every age is 20 ms to the bit: what ran before runs the same.
+TEST(Ages, AreTwoPeriodsOfTheWriterAndNeverUnderTwentyMilliseconds) {
+  const Rates usual;
+  EXPECT_EQ(ages::patches(usual), 0.020);
+  EXPECT_EQ(ages::objects(usual), 0.020);
+  EXPECT_EQ(ages::fingers(usual), 0.020);
+  Rates slow;
+  slow.collision = 10, slow.dynamics = 40;
+  EXPECT_DOUBLE_EQ(ages::patches(slow), 0.200);
+  EXPECT_DOUBLE_EQ(ages::objects(slow), 0.050);
+  EXPECT_DOUBLE_EQ(ages::fingers(slow), 0.027);  // two haptic ticks, and the step that is solved meanwhile
+  Rates fast;
+  fast.haptic = 4000, fast.collision = fast.dynamics = 1000;
+  EXPECT_EQ(ages::patches(fast), 0.020);
+  EXPECT_EQ(ages::objects(fast), 0.020);
 }
 
 }  // namespace

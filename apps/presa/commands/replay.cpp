@@ -5,6 +5,7 @@
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/commands/show_option.h"
 #include "apps/presa/commands/view_choice.h"
+#include "apps/presa/losses.h"
 #include "apps/presa/playback/player.h"
 #include "apps/presa/report/recording_page.h"
 #include "framework/plan/load_world.h"
@@ -39,6 +40,14 @@ int showRecording(const Arguments& arguments, const Recording& recording, const 
 
 void printFaults(const std::vector<std::string>& faults) {
   for (const std::string& fault : faults) std::printf("  fault at %s\n", fault.c_str());
+}
+
+/// What was lost in the run is lost in its replay as well.
+void printLosses(const RecordedRun& run) {
+  RunResult result;
+  result.world = run.world();
+  takeMonitor(run.monitor(), result);
+  for (const std::string& loss : lossesOf(result)) std::printf("  warning: %s\n", loss.c_str());
 }
 
 /// A recording that begins in the middle of a run, at a fault: to be seen, not to be run again.
@@ -88,6 +97,7 @@ int runReplay(const Arguments& arguments) {
   }
   std::printf("replayed %llu ticks, state hash 0x%016llx\n", static_cast<unsigned long long>(result.ticks),
               static_cast<unsigned long long>(run.stateHash()));
+  printLosses(run);
   if (!arguments.verify) return kExitOk;
   if (result.differing == 0) {
     std::printf("verified: every commanded force is the same to the bit\n");

@@ -45,7 +45,7 @@ th.words, td.words { white-space: normal; text-align: left; } td.good { color: v
 a { color: inherit; text-decoration-color: var(--soft); }
 .caption, .empty { color: var(--soft); font-size: 14px; }
 ul { margin: 6px 0; padding-left: 20px; }
-.fault { color: var(--bad); }
+.fault { color: var(--bad); } .warning { color: var(--limit); }
 code { font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
 pre { background: var(--card); border-radius: 4px; padding: 10px 14px; white-space: pre-wrap; overflow-wrap: anywhere; margin: 8px 0; }
 img { max-width: 100%; border-radius: 4px; display: block; }

@@ -25,6 +25,8 @@ std::string verdictBlock(const RunResult& result) {
                                                                       : "neutral";
   std::string out = "<div class=\"verdict " + std::string(css_class) + "\"><b>" + escape(verdict.headline) + "</b>\n";
   for (const std::string& detail : verdict.details) out += "<p>" + escape(detail) + "</p>\n";
+  for (const std::string& warning : verdict.warnings)
+    out += "<p class=\"warning\">Warning: " + escape(warning) + "</p>\n";
   return out + "</div>\n";
 }
 

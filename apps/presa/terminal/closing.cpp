@@ -60,6 +60,8 @@ std::string closingText(const RunResult& result, const std::string& summary_file
   const Verdict verdict = verdictOf(result);
   std::string out = styled(verdict.headline, styleOf(verdict.outcome), color) + "\n";
   for (const std::string& detail : verdict.details) out += "  " + detail + "\n";
+  for (const std::string& warning : verdict.warnings)
+    out += "  " + styled("warning: " + warning, Style::kWarning, color) + "\n";
   out += contactTable(result) + rateTable(result);
   const double speed = result.wall_seconds > 0 ? result.simulated_seconds / result.wall_seconds : 0;
   out += format("  %.3f s simulated in %.3f s (%.1fx), state hash %s\n", result.simulated_seconds, result.wall_seconds,

@@ -83,6 +83,7 @@ std::string statusText(const LiveStatus& status, double rate, std::size_t column
     line.add(terminal::format("%s %5.2f N %s", finger.name.c_str(), finger.normal_force, nameOf(finger.mode)),
              styleOf(finger.mode));
   }
+  if (status.losses > 0) line.add(terminal::format("%u lost", status.losses), Style::kWarning);
   line.add(status.realtime ? terminal::format("%.0f Hz", rate) : terminal::format("%.1fx", rate));
   if (status.haptic_missed > 0) {
     line.add(terminal::format("%llu late", static_cast<unsigned long long>(status.haptic_missed)), Style::kWarning);

@@ -21,7 +21,8 @@ struct LiveStatus {
   double wall_seconds = 0;         ///< since the start
   std::uint64_t haptic_ticks = 0;  ///< since the start
   std::uint64_t haptic_missed = 0;
-  std::string phase;  ///< of a scripted motion, may be empty
+  std::uint32_t losses = 0;  ///< ticks with a surface not fully known, and surfaces got past
+  std::string phase;         ///< of a scripted motion, may be empty
   std::vector<Finger> fingers;
 };
 

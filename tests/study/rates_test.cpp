@@ -1,0 +1,79 @@
+// Rates that a scene may name: what counts as old follows them, so that a grasp stays a grasp. In virtual time.
+#include <gtest/gtest.h>
+
+#include "framework/plan/load_world.h"
+#include "framework/study/study_run.h"
+
+namespace presa {
+namespace {
+
+/// What of a grasp must not hang on the rates.
+struct Grasp {
+  double highest = 0, lost_at = 0, stick = 0, force = 0, speed = 0;
+  bool dropped = true;
+  std::uint32_t held_status = 0;  ///< of the output stages, from the lift to the end of the hold
+};
+
+Grasp graspOf(const std::string& scene, const std::vector<std::string>& sets) {
+  StudyRun run({.scene = std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene + ".xml", .sets = sets});
+  Grasp grasp;
+  run.observe([&](const StudySample& sample) {
+    if (sample.tick.time > 2.5 && sample.tick.time < 7) grasp.held_status |= sample.command.status;
+  });
+  run.run();
+  const ObjectSummary& object = run.monitor().objects().at(1);
+  const FingerSummary& finger = run.monitor().fingers()[0];
+  grasp.highest = object.highest.z() - object.start.z();
+  grasp.lost_at = object.lost_at;
+  grasp.dropped = object.dropped;
+  grasp.speed = object.peak_speed;
+  grasp.stick = finger.seconds[1];
+  grasp.force = finger.max_normal_force;
+  return grasp;
+}
+
+void expectTheSame(const Grasp& grasp, const Grasp& usual, const std::string& what) {
+  EXPECT_FALSE(grasp.dropped) << what;
+  EXPECT_NEAR(grasp.highest, usual.highest, 0.5e-3) << what;  // as the issue of the rates asks of the haptic one
+  EXPECT_NEAR(grasp.force, usual.force, 0.01 * usual.force) << what;
+  EXPECT_NEAR(grasp.stick, usual.stick, 0.1) << what;  // let go within some periods of the slowest
+  EXPECT_NEAR(grasp.lost_at, usual.lost_at, 0.1) << what;
+  EXPECT_LT(grasp.speed, 1.2 * usual.speed) << what;  // fallen, not thrown
+  EXPECT_EQ(grasp.held_status, 0u) << what << ": the force of a held object is nowhere faded or cut";
+}
+
+// The collision thread from 10 Hz to the haptic rate: its patches are never taken for old while it runs.
+TEST(Rates, AnyCollisionRateHoldsTheAmphora) {
+  const Grasp usual = graspOf("pinch_and_lift", {});
+  for (const char* rate : {"10", "20", "40", "50", "200", "500", "1000"}) {
+    const std::string set = std::string("rates/collision=") + rate;
+    expectTheSame(graspOf("pinch_and_lift", {set}), usual, set);
+  }
+}
+
+// The dynamics from 40 Hz on, with the watchdog that goes with it.
+TEST(Rates, ADynamicsFromFortyHertzOnHoldsWhatItIsGiven) {
+  for (const char* scene : {"cube", "pinch_and_lift"}) {
+    const Grasp usual = graspOf(scene, {});
+    for (const char* rate : {"40", "50", "100", "500"}) {
+      std::vector<std::string> sets{std::string("rates/dynamics=") + rate};
+      for (const char* role : {"thumb", "index"})
+        sets.push_back(std::string("device/") + role + "/limits/watchdog_ms=50");
+      expectTheSame(graspOf(scene, sets), usual, std::string(scene) + " " + sets.front());
+    }
+  }
+}
+
+// With the watchdogs that the scene sets it is refused, instead of being thrown about: each of them is told.
+TEST(Rates, AWatchdogTooShortForTheDynamicsIsRefused) {
+  for (const char* rate : {"40", "50"}) {
+    Diagnostics findings;
+    loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml", "", {std::string("rates/dynamics=") + rate}},
+              {}, findings);
+    EXPECT_EQ(findings.errorCount(), 2u) << findings.text();
+    for (const Diagnostic& finding : findings.all()) EXPECT_EQ(finding.code, 222);
+  }
+}
+
+}  // namespace
+}  // namespace presa
