@@ -87,7 +87,7 @@ void CollisionModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept 
 }
 
 Pose CollisionModule::poseOf(std::int32_t body, double time) const noexcept {
-  if (object_state.hasValue() && body < object_state->count) return object_state->poseAt(body, time);
+  if (object_state.hasValue() && body < object_state->count()) return object_state->poseAt(body, time);
   return world_->scene.bodies[static_cast<std::size_t>(body)].X_WB;
 }
 
@@ -108,7 +108,7 @@ double CollisionModule::reachOf(std::size_t finger, std::int32_t body, const Pos
   const double least = stretch + world_->scene.devices[finger].fingertip_radius;
   if (world_->scene.collision.margin > 0) return least + world_->scene.collision.margin;
   RelativeMotion motion{input.p_WH - X_WB.p, input.v_WH, Vec3::Zero(), Vec3::Zero()};
-  if (object_state.hasValue() && body < object_state->count) {
+  if (object_state.hasValue() && body < object_state->count()) {
     const BodyMotion& moving = object_state->bodies[static_cast<std::size_t>(body)];
     motion.v_WB = moving.v_WB;
     motion.w_WB = moving.w_WB;

@@ -153,7 +153,7 @@ void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
 
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {
   const std::int32_t index = free_bodies_[slot];
-  const bool known = objects_.hasValue() && index < objects_->count;
+  const bool known = objects_.hasValue() && index < objects_->count();
   const Pose X_WB =
       known ? objects_->poseAt(index, tick.time) : world_->scene.bodies[static_cast<std::size_t>(index)].X_WB;
   BodyRow row;
