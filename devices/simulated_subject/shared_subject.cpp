@@ -29,7 +29,7 @@ SharedSubject::SharedSubject(const Grasp& grasp, const SubjectSettings& settings
              streamOf(settings, "perception"), period) {}
 
 void SharedSubject::see(const ObjectState& objects, const Tick& tick) noexcept {
-  if (grasp_.body >= objects.count) return;
+  if (grasp_.body >= objects.count()) return;
   const Vec3 moved = objects.poseAt(grasp_.body, tick.time).p - grasp_.p_WB;
   seen_height_ = moved.z();
   senses_.sight.aside = moved.dot(grasp_.inward_W);

@@ -81,7 +81,7 @@ void Publisher::stop() {
 void Publisher::fillObjects(const Stamp& stamp) noexcept {
   for (ObjectSample& sample : object_samples_) {
     sample.stamp = stamp;
-    if (!objects_.hasValue() || sample.body >= objects_->count) continue;
+    if (!objects_.hasValue() || sample.body >= objects_->count()) continue;
     const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(sample.body)];
     sample.X_WB = objects_->poseAt(sample.body, stamp.time);
     sample.v_WB = motion.v_WB;

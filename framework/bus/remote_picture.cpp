@@ -173,8 +173,8 @@ Pose RemotePicture::poseOf(std::size_t body) const noexcept {
 void RemotePicture::fill(ObjectState& objects, DeviceState& device, ContactExchange& contact,
                          ForceCommand& command) const noexcept {
   objects.time_begin = objects.time_end = device.time = contact.time = command.time = time_;
-  objects.count = static_cast<std::int32_t>(std::min(objects_.size(), objects.bodies.size()));
-  for (std::size_t b = 0; b < static_cast<std::size_t>(objects.count); ++b) {
+  objects.bodies.resize(objects_.size());
+  for (std::size_t b = 0; b < objects_.size(); ++b) {
     BodyMotion& motion = objects.bodies[b];
     motion.X_WB_begin = motion.X_WB_end = poseOf(b);
     if (const ObjectSample* newest = objects_[b].around(time_).first; newest != nullptr) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <atomic>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -12,13 +14,31 @@ template <class T>
 concept PlainData =
     std::is_trivially_destructible_v<T> && std::is_default_constructible_v<T> && std::is_copy_assignable_v<T>;
 
+/// Data whose memory the scene decides: its writer sizes it at load, and from then on an assignment between two values
+/// that were sized alike takes no memory. `roomBytes()` is that memory; declaring it is the promise.
+template <class T>
+concept SizedAtLoad = std::default_initializable<T> && std::is_copy_assignable_v<T> && requires(const T& value) {
+  { value.roomBytes() }
+  noexcept->std::same_as<std::size_t>;
+};
+
+/// What ports carry.
+template <class T>
+concept ExchangedData = PlainData<T> || SizedAtLoad<T>;
+
 /// Wait-free hand-over of the latest value from one writer thread to one reader thread (triple
 /// buffer). The writer never waits and never fails; the reader sees whole values in order and may
 /// miss some. Each value carries a version (1, 2, 3 …) and the writer's simulated time.
-/// Several readers need one LatestValue each.
-template <PlainData T>
+/// Several readers need one LatestValue each. It takes memory at construction only, given a value as large as those to come.
+template <ExchangedData T>
 class LatestValue {
  public:
+  LatestValue() = default;
+  /// Before either thread uses it: `sized` is what publish() will be given, as far as size goes.
+  explicit LatestValue(const T& sized) {
+    for (Slot& slot : slots_) slot.value = sized;
+  }
+
   /// Writer: copies `value` in and makes it the latest.
   void publish(const T& value, double time) noexcept {
     Slot& slot = slots_[write_];
@@ -36,7 +56,7 @@ class LatestValue {
     return true;
   }
 
-  /// Reader: the value last taken; version 0 and a default T before the first.
+  /// Reader: the value last taken; version 0 and what construction left, a default T or `sized`, before the first.
   const T& value() const noexcept { return slots_[read_].value; }
   std::uint64_t version() const noexcept { return slots_[read_].version; }
   double time() const noexcept { return slots_[read_].time; }

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,7 +15,7 @@ namespace presa::experiment {
 class Names {
  public:
   Names() = default;
-  explicit Names(std::vector<std::string> names) : names_(std::move(names)) {}
+  explicit Names(std::vector<std::string> names);
   /// The slot of `name`, taken anew when it is not known.
   std::size_t add(const std::string& name);
   std::optional<std::size_t> find(const std::string& name) const;
@@ -23,6 +24,7 @@ class Names {
 
  private:
   std::vector<std::string> names_;
+  std::map<std::string, std::size_t> slots_;  // a crowd of bodies has tens of thousands of names
 };
 
 /// What a trial's samples come to: mean(hold, thumb.fn), first(release, index.state == 2, index.fn), …

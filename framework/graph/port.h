@@ -72,12 +72,12 @@ class InPortBase {
   bool connected_ = false;
 };
 
-template <PlainData T>
+template <ExchangedData T>
 class Out;
 
 /// Input port. Same rate: reads the writer's value in place. Across rates: the latest value pulled before
 /// this group's step, with its age.
-template <PlainData T>
+template <ExchangedData T>
 class In final : public InPortBase {
  public:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -98,9 +98,9 @@ class In final : public InPortBase {
   bool old(const Tick& now) const noexcept { return age(now) > old_after_; }
 
  private:
-  template <PlainData U>
+  template <ExchangedData U>
   friend class Out;
-  template <PlainData U>
+  template <ExchangedData U>
   friend class Bridge;
   inline static const T kDefault{};
   const T* value_ = &kDefault;
@@ -109,10 +109,11 @@ class In final : public InPortBase {
   bool direct_ = false;
 };
 
-template <PlainData T>
+template <ExchangedData T>
 class Bridge final : public BridgeBase {
  public:
-  explicit Bridge(const T& source) : source_(source) {}
+  /// `source` has the size that it will have.
+  explicit Bridge(const T& source) : source_(source), latest_(source) {}
 
   void addReader(InPortBase& reader) override { readers_.push_back(static_cast<In<T>*>(&reader)); }
   std::uint64_t pull() noexcept override {
@@ -122,9 +123,16 @@ class Bridge final : public BridgeBase {
   void push(double time) noexcept override {
     if (history_.empty()) return latest_.publish(source_, time);
     Kept& kept = history_[++pushed_ % history_.size()];
-    kept = {source_, pushed_, time};
+    kept.value = source_;
+    kept.version = pushed_;
+    kept.time = time;
   }
-  void keepHistory(std::size_t bytes) override { history_.resize(bytes / sizeof(Kept) + 64); }
+  void keepHistory(std::size_t bytes) override {
+    std::size_t each = sizeof(Kept);
+    if constexpr (SizedAtLoad<T>) each += source_.roomBytes();
+    history_.resize(bytes / each + 64);
+    for (Kept& kept : history_) kept.value = source_;
+  }
   bool pullVersion(std::uint64_t version) noexcept override {
     if (version == 0) return true;
     const Kept& kept = history_[version % history_.size()];
@@ -153,8 +161,9 @@ class Bridge final : public BridgeBase {
   std::uint64_t pushed_ = 0;
 };
 
-/// Output port: the module writes `value` in its step; the graph publishes it.
-template <PlainData T>
+/// Output port: the module writes `value` in its step; the graph publishes it. What is SizedAtLoad the module sizes in its
+/// constructor: the exchange makes room for it as it finds it, when the graph is built.
+template <ExchangedData T>
 class Out final : public OutPortBase {
  public:
   Out(Module& owner, std::string name) : OutPortBase(owner, std::move(name), typeid(T)) {}

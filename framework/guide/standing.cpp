@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include "framework/scene/goal_pose.h"
 
@@ -23,16 +24,16 @@ Way wayTo(const AssemblyGoal& goal, const Pose& X_WB) {
 AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
   AssemblyState state;
   state.time = objects.time_end;
-  state.count = static_cast<std::int32_t>(assembly.goals.size());
-  std::array<bool, kMaxBodies> taken{};
+  state.goals.resize(assembly.goals.size());
+  std::vector<char> taken(objects.bodies.size());
   for (std::size_t g = 0; g < assembly.goals.size(); ++g) {
     for (const std::size_t body : assembly.goals[g].bodies) {
       const BodyMotion& motion = objects.bodies[body];
       const Way way = wayTo(assembly.goals[g], motion.X_WB_end);
-      if (taken[body] || motion.v_WB.norm() > kSlow || way.distance > kSlack * assembly.tolerance ||
+      if (taken[body] != 0 || motion.v_WB.norm() > kSlow || way.distance > kSlack * assembly.tolerance ||
           way.angle > kSlack * assembly.tolerance_angle_deg * kDegree)
         continue;
-      taken[body] = true;
+      taken[body] = 1;
       state.goals[g] = {Status::kFilled, static_cast<std::int32_t>(body), kNoGoal};
       ++state.filled;
       break;
@@ -44,7 +45,7 @@ AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
         assembly.goals[g].after, [&](std::size_t before) { return state.goals[before].status != Status::kFilled; });
     for (const std::size_t body : assembly.goals[g].bodies) {
       const Way way = wayTo(assembly.goals[g], objects.bodies[body].X_WB_end);
-      if (taken[body] || way.distance > assembly.reach || way.angle > assembly.reach_angle_deg * kDegree) continue;
+      if (taken[body] != 0 || way.distance > assembly.reach || way.angle > assembly.reach_angle_deg * kDegree) continue;
       const bool blocked = waits != assembly.goals[g].after.end();
       state.goals[g] = {blocked ? Status::kBlocked : Status::kDrawing, static_cast<std::int32_t>(body),
                         blocked ? static_cast<std::int32_t>(*waits) : kNoGoal};

@@ -38,9 +38,12 @@ struct Monitor::Impl {
     fingers_on.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       objects[i].start = objects[i].highest = objects[i].final = bodies[i].X_WB.p;
-      if (!bodies[i].fixed && traced.size() < TraceSample{}.bodies.size())
-        traced.push_back(static_cast<std::int32_t>(i));
+      if (bodies[i].fixed) continue;
+      free.push_back(i);
+      if (traced.size() < TraceSample{}.bodies.size()) traced.push_back(static_cast<std::int32_t>(i));
     }
+    moving.reserve(free.size());
+    grasped.reserve(free.size());
     for (auto& list : slip_onsets) list.reserve(kMaxSlipOnsets);
     if (!(trace_rate > 0)) return;
     stride = traceStride(*world, trace_rate);
@@ -58,12 +61,14 @@ struct Monitor::Impl {
   void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
   void sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept;
   void noteSlip(std::size_t f, const FingerContact& now, double time) noexcept;
-  void sumObjects(const Tick& tick, const ObjectState* state, bool fresh) noexcept;
+  void sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
+  void follow(std::size_t i, const ObjectState& state, double time) noexcept;
+  void noteGrasp(std::size_t i, double time) noexcept;
   void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
               const ObjectState* state) noexcept;
   Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
-    return state && body < state->count ? state->poseAt(body, time)
-                                        : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
+    return state && body < state->count() ? state->poseAt(body, time)
+                                          : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
   }
 
   std::shared_ptr<const World> world;
@@ -85,6 +90,8 @@ struct Monitor::Impl {
   std::array<std::vector<SlipOnset>, kMaxFingers> slip_onsets;
   std::vector<ObjectSummary> objects;
   std::vector<std::int32_t> fingers_on;  ///< by body, this tick
+  // of thousands of bodies few move and few are held: only those are looked at in every tick
+  std::vector<std::size_t> free, moving, grasped;
   std::vector<std::int32_t> traced;
   std::vector<TraceSample> trace;
 };
@@ -121,27 +128,46 @@ void Monitor::Impl::noteSlip(std::size_t f, const FingerContact& now, double tim
   if (time >= loosen_time && sum.loosening_slip.time < 0) sum.loosening_slip = onset;
 }
 
-void Monitor::Impl::sumObjects(const Tick& tick, const ObjectState* state, bool fresh) noexcept {
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (world->scene.bodies[i].fixed) continue;
-    ObjectSummary& object = objects[i];
-    const auto body = static_cast<std::int32_t>(i);
-    object.final = poseOf(body, state, tick.time).p;
-    if (object.final.z() > object.highest.z()) object.highest = object.final;
-    if (fresh && body < state->count) object.peak_speed = std::max(object.peak_speed, state->bodies[i].v_WB.norm());
-    if (fingers_on[i] >= 2) {
-      object.grasped = true;
-      // a stiff contact may bounce once before it holds: that is no loss
-      if (object.lost_at >= 0 && tick.time - object.lost_at < kBounceTime) {
-        object.lost_at = -1;
-        object.dropped = false;
-      }
-    }
-    if (object.grasped && object.lost_at < 0 && fingers_on[i] == 0) {
-      object.lost_at = tick.time;
-      object.dropped = tick.time < loosen_time;
+void Monitor::Impl::follow(std::size_t i, const ObjectState& state, double time) noexcept {
+  ObjectSummary& object = objects[i];
+  object.final = poseOf(static_cast<std::int32_t>(i), &state, time).p;
+  if (object.final.z() > object.highest.z()) object.highest = object.final;
+}
+
+void Monitor::Impl::noteGrasp(std::size_t i, double time) noexcept {
+  ObjectSummary& object = objects[i];
+  // a stiff contact may bounce once before it holds: that is no loss
+  if (fingers_on[i] >= 2 && object.lost_at >= 0 && time - object.lost_at < kBounceTime) {
+    object.lost_at = -1;
+    object.dropped = false;
+  }
+  if (object.lost_at < 0 && fingers_on[i] == 0) {
+    object.lost_at = time;
+    object.dropped = time < loosen_time;
+  }
+}
+
+void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                               bool fresh) noexcept {
+  if (!fresh && state != nullptr) {
+    for (const std::size_t i : moving) follow(i, *state, tick.time);
+  } else if (fresh) {
+    moving.clear();
+    for (const std::size_t i : free) {
+      follow(i, *state, tick.time);
+      if (i >= state->bodies.size()) continue;
+      const BodyMotion& motion = state->bodies[i];
+      objects[i].peak_speed = std::max(objects[i].peak_speed, motion.v_WB.norm());
+      if (motion.X_WB_begin.p != motion.X_WB_end.p) moving.push_back(i);
     }
   }
+  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    const auto i = static_cast<std::size_t>(contact.fingers[f].body);
+    if (i >= objects.size() || fingers_on[i] < 2 || objects[i].grasped || world->scene.bodies[i].fixed) continue;
+    objects[i].grasped = true;
+    grasped.push_back(i);
+  }
+  for (const std::size_t i : grasped) noteGrasp(i, tick.time);
 }
 
 void Monitor::Impl::sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
@@ -198,7 +224,7 @@ void Monitor::Impl::observe(const Tick& tick, const DeviceState& device, const C
     object_faults |= state->faults;
   }
   if (fresh) solver_fallbacks = state->fallback_steps;
-  sumObjects(tick, state, fresh);
+  sumObjects(tick, contact, state, fresh);
   simulated_time = static_cast<double>(tick.index + 1) * tick.period;
   watch.done(2);
   if (stride == 0) return;

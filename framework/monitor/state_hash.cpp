@@ -62,15 +62,14 @@ void StateHash::add(const ContactExchange& state) noexcept {
 void StateHash::add(const ObjectState& state) noexcept {
   add(state.time_begin);
   add(state.time_end);
-  add(state.count);
+  add(state.count());
   add(state.faults);
   addWord(state.fallback_steps);
   add(state.penetration.points);
   add(state.penetration.mean);
   add(state.penetration.worst);
   for (const Vec3& impulse_W : state.finger_impulse_W) add(impulse_W);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(state.count); ++i) {
-    const BodyMotion& body = state.bodies[i];
+  for (const BodyMotion& body : state.bodies) {
     add(body.X_WB_begin);
     add(body.X_WB_end);
     add(body.v_WB);

@@ -1,5 +1,6 @@
 #pragma once
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "framework/state/contact_exchange.h"
@@ -24,12 +25,21 @@ class StateHash {
 
   void addByte(std::uint8_t byte) noexcept {
     hash_ ^= byte;
-    hash_ *= 0x100000001b3ULL;
+    hash_ *= kPrime;
   }
 
  private:
+  static constexpr std::uint64_t kPrime = 0x100000001b3ULL;
+  static constexpr std::uint64_t power(std::uint64_t base, std::size_t exponent) {
+    return exponent == 0 ? 1 : base * power(base, exponent - 1);
+  }
   template <class Word>
   void addWord(Word word) noexcept {
+    if (word == 0) {  // as byte by byte, which only multiplies; most of thousands of bodies do not move
+      constexpr std::uint64_t kAll = power(kPrime, sizeof(Word));
+      hash_ *= kAll;
+      return;
+    }
     for (unsigned shift = 0; shift < 8 * sizeof(Word); shift += 8) addByte(static_cast<std::uint8_t>(word >> shift));
   }
   void add(double value) noexcept { addWord(std::bit_cast<std::uint64_t>(value)); }

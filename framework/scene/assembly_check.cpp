@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "framework/scene/scene_parts.h"
@@ -27,7 +28,9 @@ class AssemblyCheck {
       bodies_.push_back(body.attribute("name"));
       if (body.boolean("fixed", false)) fixed_.insert(bodies_.back());
     }
+    known_bodies_ = {bodies_.begin(), bodies_.end()};
     for (const Element& goal : goals_) names_.push_back(goal.attribute("name"));
+    known_goals_ = {names_.begin(), names_.end()};
     for (const Element& words : assembly.children("words")) {
       checkWords(words, diagnostics);
       for (const Element& element : words.children("element")) elements_.push_back(element.attribute("name"));
@@ -35,8 +38,9 @@ class AssemblyCheck {
   }
 
   void run() {
+    std::set<std::string> before;
     for (std::size_t g = 0; g < goals_.size(); ++g) {
-      checkName(g);
+      checkName(g, before);
       checkBodies(goals_[g]);
       checkAfter(goals_[g]);
       checkElement(goals_[g]);
@@ -46,15 +50,14 @@ class AssemblyCheck {
   }
 
  private:
-  void checkName(std::size_t g) {
-    const auto first = std::find(names_.begin(), names_.end(), names_[g]);
-    if (names_[g].empty() || first == names_.begin() + static_cast<std::ptrdiff_t>(g)) return;
+  void checkName(std::size_t g, std::set<std::string>& before) {
+    if (before.insert(names_[g]).second || names_[g].empty()) return;
     diagnostics_.error(kDuplicateGoal, goals_[g].where("name"), "a second goal is named " + quote(names_[g]));
   }
 
   void checkBodies(const Element& goal) {
     for (const std::string& body : splitWords(goal.attribute("bodies"))) {
-      if (std::find(bodies_.begin(), bodies_.end(), body) == bodies_.end()) {
+      if (!known_bodies_.contains(body)) {
         diagnostics_.error(
             kUnknownBody, goal.where("bodies"),
             goal.label() + " is for body " + quote(body) + ", which does not exist" + didYouMean(body, bodies_));
@@ -68,7 +71,7 @@ class AssemblyCheck {
 
   void checkAfter(const Element& goal) {
     for (const std::string& before : splitWords(goal.attribute("after"))) {
-      if (std::find(names_.begin(), names_.end(), before) != names_.end()) continue;
+      if (known_goals_.contains(before)) continue;
       diagnostics_.error(
           kUnknownGoal, goal.where("after"),
           goal.label() + " comes after goal " + quote(before) + ", which does not exist" + didYouMean(before, names_));
@@ -86,31 +89,37 @@ class AssemblyCheck {
 
   /// Whatever can be filled is filled, until nothing more can: what is left waits for itself.
   void checkOrder() {
+    std::map<std::string, std::vector<std::size_t>> waiting;  // by what they wait for
+    std::vector<std::size_t> missing(goals_.size()), ready;
+    for (std::size_t g = 0; g < goals_.size(); ++g) {
+      for (const std::string& before : splitWords(goals_[g].attribute("after"))) {
+        if (!known_goals_.contains(before)) continue;  // has been reported
+        waiting[before].push_back(g);
+        ++missing[g];
+      }
+      if (missing[g] == 0) ready.push_back(g);
+    }
     std::set<std::string> filled;
-    for (bool more = true; more;) {
-      more = false;
-      for (const Element& goal : goals_)
-        more = (mayBeFilled(goal, filled) && filled.insert(goal.attribute("name")).second) || more;
+    while (!ready.empty()) {
+      const std::string& name = names_[ready.back()];
+      ready.pop_back();
+      if (!filled.insert(name).second) continue;
+      for (const std::size_t next : waiting[name]) {
+        if (--missing[next] == 0) ready.push_back(next);
+      }
     }
-    for (const Element& goal : goals_) {
-      if (filled.contains(goal.attribute("name"))) continue;
-      diagnostics_.error(kGoalLoop, goal.where("after"), goal.label() + " can never be filled: it waits for itself",
-                         "after=" + quote(goal.attribute("after")));
+    for (std::size_t g = 0; g < goals_.size(); ++g) {
+      if (filled.contains(names_[g])) continue;
+      diagnostics_.error(kGoalLoop, goals_[g].where("after"),
+                         goals_[g].label() + " can never be filled: it waits for itself",
+                         "after=" + quote(goals_[g].attribute("after")));
     }
-  }
-
-  bool mayBeFilled(const Element& goal, const std::set<std::string>& filled) const {
-    const std::vector<std::string> after = splitWords(goal.attribute("after"));
-    return std::all_of(after.begin(), after.end(), [&](const std::string& name) {
-      const bool exists = std::find(names_.begin(), names_.end(), name) != names_.end();
-      return !exists || filled.contains(name);  // one that does not exist has been reported
-    });
   }
 
   Diagnostics& diagnostics_;
   std::vector<Element> goals_;
   std::vector<std::string> bodies_, names_, elements_;
-  std::set<std::string> fixed_;
+  std::set<std::string> known_bodies_, known_goals_, fixed_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "framework/scene/ages.h"
 #include "framework/scene/scene_parts.h"
@@ -39,10 +40,10 @@ constexpr double kHeldBadlyBelow = 40, kHeldNowhereBelow = 20;  // [Hz]
 /// Different values of one attribute, in order.
 std::vector<std::string> valuesOf(const std::vector<Element>& elements, const std::string& attribute) {
   std::vector<std::string> values;
+  std::set<std::string> known;
   for (const Element& element : elements) {
     const std::string value = element.attribute(attribute);
-    const bool is_new = std::find(values.begin(), values.end(), value) == values.end();
-    if (is_new && element.hasAttribute(attribute)) values.push_back(value);
+    if (element.hasAttribute(attribute) && known.insert(value).second) values.push_back(value);
   }
   return values;
 }
@@ -60,7 +61,11 @@ std::string lineText(const SourceLocation& where) {
 class SceneCheck {
  public:
   SceneCheck(const Element& root, Diagnostics& diagnostics)
-      : root_(root), diagnostics_(diagnostics), materials_(materialElements(root)) {}
+      : root_(root),
+        diagnostics_(diagnostics),
+        materials_(materialElements(root)),
+        material_names_(valuesOf(materials_, "name")),
+        known_materials_(material_names_.begin(), material_names_.end()) {}
 
   void run() {
     const std::vector<Element> bodies = root_.children("body"), devices = deviceElements(root_);
@@ -217,22 +222,19 @@ class SceneCheck {
   }
 
   void checkMaterial(const Element& body) {
-    const std::vector<std::string> names = valuesOf(materials_, "name");
     if (materials_.empty() || body.flawed("material")) return;
     if (!body.hasAttribute("material")) {
       if (materials_.size() == 1) return;
       diagnostics_.error(kNoMaterial, body.where(), body.label() + " has no 'material', and there are several",
-                         "materials: " + listed(names));
+                         "materials: " + listed(material_names_));
       return;
     }
     const std::string material = body.attribute("material");
-    for (const std::string& name : names) {
-      if (name == material) return;
-    }
-    diagnostics_.error(
-        kUnknownMaterial, body.where("material"),
-        body.label() + " has material " + quote(material) + ", which does not exist" + didYouMean(material, names),
-        "materials: " + listed(names));
+    if (known_materials_.contains(material)) return;
+    diagnostics_.error(kUnknownMaterial, body.where("material"),
+                       body.label() + " has material " + quote(material) + ", which does not exist" +
+                           didYouMean(material, material_names_),
+                       "materials: " + listed(material_names_));
   }
 
   void checkFixedPhysics(const Element& physics) {
@@ -269,6 +271,8 @@ class SceneCheck {
   Element root_;
   Diagnostics& diagnostics_;
   std::vector<Element> materials_;
+  std::vector<std::string> material_names_;
+  std::set<std::string> known_materials_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "framework/scene/scene_parts.h"
@@ -96,14 +97,28 @@ Material readMaterial(const Element& element) {
   return material;
 }
 
-Body readBody(const Element& element, const std::vector<Material>& materials, const std::string& directory) {
+/// Where each name stands: a list of thousands is not searched for each of thousands.
+using Places = std::map<std::string, std::size_t>;
+
+template <class Named>
+Places placesOf(const std::vector<Named>& all) {
+  Places places;
+  for (std::size_t i = 0; i < all.size(); ++i) places.try_emplace(all[i].name, i);
+  return places;
+}
+
+std::vector<std::size_t> indicesOf(const std::vector<std::string>& names, const Places& places) {
+  std::vector<std::size_t> indices;
+  for (const std::string& name : names) indices.push_back(places.at(name));
+  return indices;
+}
+
+Body readBody(const Element& element, const Places& materials, const std::string& directory) {
   Body body;
   body.name = element.attribute("name");
   body.fixed = element.boolean("fixed", false);
   body.X_WB = readPose(element);
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i].name == element.attribute("material")) body.material = i;
-  }
+  body.material = materials.at(element.attribute("material"));
   body.visual = readGeometry(element, "visual", directory);
   body.haptic = readGeometry(element, "haptic", directory);
   body.physics = readGeometry(element, "physics", directory);
@@ -121,16 +136,6 @@ Body readBody(const Element& element, const std::vector<Material>& materials, co
   return body;
 }
 
-template <class Named>
-std::vector<std::size_t> indicesOf(const std::vector<std::string>& names, const std::vector<Named>& of) {
-  std::vector<std::size_t> indices;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(of.begin(), of.end(), [&](const Named& one) { return one.name == name; });
-    indices.push_back(static_cast<std::size_t>(found - of.begin()));
-  }
-  return indices;
-}
-
 Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
   Assembly assembly;
   assembly.reach = element.number("reach", assembly.reach);
@@ -142,19 +147,20 @@ Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
     assembly.field = {readVec3(field, "pos", Vec3::Zero()), readVec3(field, "size", Vec3::Zero())};
   assembly.spent = element.number("spent", assembly.spent);
   for (const Element& words : element.children("words")) assembly.words = readWords(words);
-  std::vector<AssemblyWords::Element>& elements = assembly.words.elements;
+  const Places elements = placesOf(assembly.words.elements), body_places = placesOf(bodies);
   const std::vector<Element> goals = element.children("goal");
   for (const Element& goal : goals) {
     assembly.goals.push_back({.name = goal.attribute("name"),
-                              .bodies = indicesOf(xml::splitWords(goal.attribute("bodies")), bodies),
+                              .bodies = indicesOf(xml::splitWords(goal.attribute("bodies")), body_places),
                               .X_WB = readPose(goal),
                               .fold = static_cast<std::size_t>(goal.number("fold", 1)),
                               .after = {}});
     if (const std::string name = goal.attribute("element"); !name.empty())
       assembly.goals.back().element = indicesOf({name}, elements).front();
   }
+  const Places goal_places = placesOf(assembly.goals);
   for (std::size_t g = 0; g < goals.size(); ++g)
-    assembly.goals[g].after = indicesOf(xml::splitWords(goals[g].attribute("after")), assembly.goals);
+    assembly.goals[g].after = indicesOf(xml::splitWords(goals[g].attribute("after")), goal_places);
   return assembly;
 }
 
@@ -238,7 +244,8 @@ Scene readScene(const Element& root, const std::string& file, const std::string&
   for (const Element& collision : root.children("collision")) scene.collision = readCollision(collision);
   for (const Element& dynamics : root.children("dynamics")) scene.dynamics = readDynamics(dynamics);
   for (const Element& material : materialElements(root)) scene.materials.push_back(readMaterial(material));
-  for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, scene.materials, directory));
+  const Places materials = placesOf(scene.materials);
+  for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, materials, directory));
   for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));
   for (const Element& assembly : root.children("assembly")) scene.assembly = readAssembly(assembly, scene.bodies);
   scene.bus = readBus(root);

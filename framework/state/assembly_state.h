@@ -1,7 +1,7 @@
 #pragma once
-#include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "framework/state/limits.h"
 
@@ -25,24 +25,13 @@ struct GoalState {
 /// How far an assembly has come; goals in scene order. Written by: collision thread (assembly).
 struct AssemblyState {
   double time = 0;  ///< [s]
-  std::int32_t count = 0, filled = 0;
+  std::int32_t filled = 0;
   std::int32_t last_filled = kNoGoal;  ///< what an undo would take out
   std::int32_t brought_back = 0;       ///< bodies that are on their way back into the field
-  std::array<GoalState, kMaxBodies> goals;
+  std::vector<GoalState> goals;        ///< none before the assembly's module sized it by the scene
 
-  AssemblyState() = default;
-  AssemblyState(const AssemblyState& other) { *this = other; }
-  /// Copies only those in use.
-  AssemblyState& operator=(const AssemblyState& other) {
-    if (this == &other) return *this;
-    time = other.time;
-    count = other.count;
-    filled = other.filled;
-    last_filled = other.last_filled;
-    brought_back = other.brought_back;
-    std::copy_n(other.goals.begin(), other.count, goals.begin());
-    return *this;
-  }
+  /// Memory beside the struct itself (SizedAtLoad).
+  std::size_t roomBytes() const noexcept { return goals.capacity() * sizeof(GoalState); }
 };
 
 }  // namespace presa

@@ -1,7 +1,7 @@
 #pragma once
-#include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "framework/math/spatial.h"
 #include "framework/state/limits.h"
@@ -23,20 +23,21 @@ struct Attraction {
 
 /// What bodies are drawn or fixed now; a body that is not named is free. Written by: collision thread (assembly).
 struct Attractions {
-  double time = 0;  ///< [s]
-  std::int32_t count = 0;
-  std::array<Attraction, kMaxBodies> bodies;
+  double time = 0;                 ///< [s]
+  std::vector<Attraction> bodies;  ///< those it is about: more and fewer of them, in room made at load
 
   Attractions() = default;
   Attractions(const Attractions& other) { *this = other; }
-  /// Copies only those in use.
+  /// The room comes along, so that a copy has place for whatever the original comes to hold.
   Attractions& operator=(const Attractions& other) {
-    if (this == &other) return *this;
+    bodies.reserve(other.bodies.capacity());
+    bodies = other.bodies;
     time = other.time;
-    count = other.count;
-    std::copy_n(other.bodies.begin(), other.count, bodies.begin());
     return *this;
   }
+
+  /// Memory beside the struct itself (SizedAtLoad).
+  std::size_t roomBytes() const noexcept { return bodies.capacity() * sizeof(Attraction); }
 };
 
 }  // namespace presa

@@ -1,8 +1,10 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "framework/math/spatial.h"
 #include "framework/state/limits.h"
@@ -37,36 +39,26 @@ struct BodyPenetration {
 /// Object State: every body of the scene (fixed ones too, in scene order), over the step just solved.
 /// It says for which time it is valid; a reader interpolates to its own "now", so that no pose jumps
 /// ahead when it is published (a jump of one 5 ms step costs a factor five in stable stiffness).
+/// A default one has no bodies; the dynamics has sized it by the scene before the first step, and its length stays.
 /// Written by: dynamics thread.
 struct ObjectState {
-  double time_begin = 0;  ///< [s]
-  double time_end = 0;    ///< [s], time_begin + dynamics period
-  std::int32_t count = 0;
+  double time_begin = 0;     ///< [s]
+  double time_end = 0;       ///< [s], time_begin + dynamics period
   std::uint32_t faults = 0;  ///< ObjectFault bits since the start; forces fade for good when any is set
   /// Steps since the start in which an island had to change from the direct to the iterative solver.
   std::uint64_t fallback_steps = 0;
   BodyPenetration penetration;
   /// By finger: what it gave to the bodies since the start, in W [N s]. Its difference over a time is the mean force.
   std::array<Vec3, kMaxFingers> finger_impulse_W;
-  std::array<BodyMotion, kMaxBodies> bodies;
+  std::vector<BodyMotion> bodies;
 
   ObjectState() { finger_impulse_W.fill(Vec3::Zero()); }
-  ObjectState(const ObjectState& other) { *this = other; }
-  /// Copies only the bodies in use: this runs at every publication.
-  ObjectState& operator=(const ObjectState& other) {
-    if (this == &other) return *this;
-    time_begin = other.time_begin;
-    time_end = other.time_end;
-    count = other.count;
-    faults = other.faults;
-    fallback_steps = other.fallback_steps;
-    penetration = other.penetration;
-    finger_impulse_W = other.finger_impulse_W;
-    std::copy_n(other.bodies.begin(), other.count, bodies.begin());
-    return *this;
-  }
 
-  /// Pose of body i at time t; t outside [time_begin, time_end] is held at the nearer end.
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(bodies.size()); }
+  /// Memory beside the struct itself (SizedAtLoad).
+  std::size_t roomBytes() const noexcept { return bodies.capacity() * sizeof(BodyMotion); }
+
+  /// Pose of body i, one of those there are, at time t; t outside [time_begin, time_end] is held at the nearer end.
   Pose poseAt(std::int32_t i, double t) const {
     const BodyMotion& body = bodies[static_cast<std::size_t>(i)];
     const double span = time_end - time_begin;

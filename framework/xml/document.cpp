@@ -1,6 +1,7 @@
 #include <libxml/xmlschemastypes.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -124,9 +125,10 @@ std::unique_ptr<Document> Document::load(const std::string& file, Diagnostics& d
   std::ifstream stream(file, std::ios::binary);
   std::string text;
   if (stream) {
-    text.resize(kMaxBytes + 1);  // one more than allowed shows that there is more
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    // not by the file's size, which a pipe has none of; one byte more than allowed shows that there is more
+    std::array<char, 1 << 16> part;
+    while (text.size() <= kMaxBytes && (stream.read(part.data(), part.size()) || stream.gcount() > 0))
+      text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
   }
   if (!stream.is_open() || stream.bad()) {
     const std::string reason = errno != 0 ? std::strerror(errno) : "read error";

@@ -34,7 +34,8 @@ class Document {
   std::string text() const;
   const std::string& name() const;
 
-  static constexpr std::size_t kMaxBytes = std::size_t{2} << 20U;  ///< meshes live in their own files
+  /// 100 000 bodies with all defaults written out; meshes live in their own files.
+  static constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
 
  private:
   explicit Document(std::unique_ptr<DocumentData> data);

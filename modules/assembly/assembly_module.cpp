@@ -8,7 +8,10 @@ AssemblyModule::AssemblyModule(std::shared_ptr<const World> world)
       attractions_(*this, "attractions"),
       state_(*this, "assembly_state"),
       world_(std::move(world)),
-      places_(*world_->scene.assembly, world_->scene.bodies.size()) {}
+      places_(*world_->scene.assembly, world_->scene.bodies.size()) {
+  attractions_.value = places_.attractions();
+  state_.value = places_.state();
+}
 
 void AssemblyModule::step(const Tick& tick) noexcept {
   if (!objects_.hasValue()) return;

@@ -45,7 +45,8 @@ Places::Places(const Assembly& assembly, std::size_t bodies)
   }
   candidates_.reserve(pairs);
   order_.reserve(assembly.goals.size());
-  state_.count = static_cast<std::int32_t>(assembly.goals.size());
+  state_.goals.resize(assembly.goals.size());
+  attractions_.bodies.reserve(static_cast<std::size_t>(std::ranges::count(belongs_, 1)));  // each once
 }
 
 std::int32_t Places::missing(std::size_t goal) const {
@@ -124,13 +125,13 @@ void Places::settle(const ObjectState& objects, double period) {
 }
 
 void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights, double speed) {
-  attractions_.bodies[index(attractions_.count++)] = {.body = static_cast<std::int32_t>(body),
-                                                      .fixed = fixed,
-                                                      .turns = turns,
-                                                      .X_WB = X_WB,
-                                                      .rate = kRate,
-                                                      .speed = speed,
-                                                      .most = weights * kGravity};
+  attractions_.bodies.push_back({.body = static_cast<std::int32_t>(body),
+                                 .fixed = fixed,
+                                 .turns = turns,
+                                 .X_WB = X_WB,
+                                 .rate = kRate,
+                                 .speed = speed,
+                                 .most = weights * kGravity});
 }
 
 // By a pull; what does not come in time, because it hangs at the ground's edge or lies under it, is carried: no pull brings it through.
@@ -166,8 +167,10 @@ void Places::slowDown(const ObjectState& objects) {
     if (belongs_[body] == 0 || goal_of_[body] != kNoGoal || returning_[body] > 0) continue;
     // what sleeps stays asleep; what is awake is held even at rest: let go, it would roll on at what one step gives it
     if (objects.bodies[body].asleep || objects.bodies[body].v_WB.norm() > kRollsTo) continue;
-    attractions_.bodies[index(attractions_.count++)] = {
-        .body = static_cast<std::int32_t>(body), .turns = false, .X_WB = objects.bodies[body].X_WB_end, .most = kGrass};
+    attractions_.bodies.push_back({.body = static_cast<std::int32_t>(body),
+                                   .turns = false,
+                                   .X_WB = objects.bodies[body].X_WB_end,
+                                   .most = kGrass});
   }
 }
 
@@ -175,7 +178,7 @@ void Places::step(const ObjectState& objects, double period) {
   findCandidates(objects);
   assign();
   settle(objects, period);
-  attractions_.count = 0;
+  attractions_.bodies.clear();
   for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
     const GoalState& goal = state_.goals[g];
     if (goal.status == Status::kFilled) attract(index(goal.body), placed_[g], true, true, 0, 0);

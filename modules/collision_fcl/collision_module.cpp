@@ -90,7 +90,7 @@ void CollisionModule::placeBodies(const Tick& tick) noexcept {
     if (!touchable.moves) continue;
     double speed = 0;
     Pose X_WB = touchable.X_WB;
-    if (object_state.hasValue() && touchable.body < object_state->count) {
+    if (object_state.hasValue() && touchable.body < object_state->count()) {
       const BodyMotion& motion = object_state->bodies[static_cast<std::size_t>(touchable.body)];
       X_WB = object_state->poseAt(touchable.body, tick.time);
       speed = motion.v_WB.norm() + motion.w_WB.norm() * touchable.center_B.norm();

@@ -39,6 +39,7 @@ class DynamicsBullet final : public Module {
  public:
   explicit DynamicsBullet(std::shared_ptr<const World> world)
       : Module("dynamics_bullet", RateGroup::kDynamics), scene_world_(std::move(world)) {
+    objects_.value.bodies.resize(scene_world_->scene.bodies.size());
     const DynamicsSettings& settings = scene_world_->scene.dynamics;
     substeps_ = static_cast<int>(std::max<std::size_t>(1, settings.substeps));
     bullet_.setGravity(toBullet(scene_world_->scene.gravity));
@@ -113,7 +114,6 @@ class DynamicsBullet final : public Module {
 
   void write(ObjectState& out) noexcept {
     const std::vector<Body>& bodies = scene_world_->scene.bodies;
-    out.count = static_cast<std::int32_t>(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       BodyMotion& motion = out.bodies[i];
       motion.X_WB_begin = motion.X_WB_end;

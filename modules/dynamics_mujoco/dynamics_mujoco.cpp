@@ -38,6 +38,7 @@ class DynamicsMujoco final : public Module {
  public:
   explicit DynamicsMujoco(std::shared_ptr<const World> world)
       : Module("dynamics_mujoco", RateGroup::kDynamics), world_(std::move(world)) {
+    objects_.value.bodies.resize(world_->scene.bodies.size());
     substeps_ = std::max<std::size_t>(1, world_->scene.dynamics.substeps);
     step_ = 1 / (world_->scene.rates.dynamics * static_cast<double>(substeps_));
     model_.reset(compile(mjcfOf(*world_, step_)));
@@ -84,7 +85,6 @@ class DynamicsMujoco final : public Module {
 
   void write(ObjectState& out) noexcept {
     const std::vector<Body>& bodies = world_->scene.bodies;
-    out.count = static_cast<std::int32_t>(bodies.size());
     int q = 0, v = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       BodyMotion& motion = out.bodies[i];

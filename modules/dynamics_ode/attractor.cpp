@@ -64,8 +64,7 @@ void Attractor::read(const Attractions& attractions, BodySet& bodies, Sleep* sle
   const std::vector<const Attraction*>::size_type count = drawn_.size();
   std::fill(drawn_.begin(), drawn_.end(), nullptr);
   wanted_ = attractions;
-  for (std::int32_t i = 0; i < wanted_.count; ++i) {
-    const Attraction& attraction = wanted_.bodies[static_cast<std::size_t>(i)];
+  for (const Attraction& attraction : wanted_.bodies) {
     const auto body = static_cast<std::size_t>(attraction.body);
     if (attraction.body >= 0 && body < count) drawn_[body] = &attraction;
   }

@@ -289,7 +289,7 @@ void BodySet::freezeAll() {
 }
 
 void BodySet::write(ObjectState& out) {
-  out.count = static_cast<std::int32_t>(bodies_.size());
+  out.bodies.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Entry& entry = bodies_[i];
     BodyMotion& motion = out.bodies[i];

@@ -36,6 +36,7 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world)
       world_(std::move(world)),
       options_(optionsOf(*world_)),
       stages_(listStages(options_)) {
+  objects_.value.bodies.resize(world_->scene.bodies.size());
   if (world_->scene.assembly) attractions_.emplace(*this, "attractions", In<Attractions>::Optional{});
 }
 

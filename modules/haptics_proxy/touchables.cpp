@@ -93,7 +93,7 @@ const Pose& Touchables::placed(std::int32_t body) const noexcept {
 }
 
 Vec3 Touchables::velocityAt(std::int32_t body, const Vec3& p_W) const noexcept {
-  if (objects_ == nullptr || body >= objects_->count) return Vec3::Zero();
+  if (objects_ == nullptr || body >= objects_->count()) return Vec3::Zero();
   const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(body)];
   return motion.v_WB + motion.w_WB.cross(p_W - placed(body).p);
 }

@@ -116,7 +116,7 @@ void ViewModule::copyPorts(const Tick& tick) {
   if (patches_ && patches_->hasValue()) frame_.patches = &patches_->value();
   if (!object_state_.hasValue()) return;
   const ObjectState& objects = object_state_.value();
-  const std::size_t count = std::min(frame_.X_WB.size(), static_cast<std::size_t>(objects.count));
+  const std::size_t count = std::min(frame_.X_WB.size(), objects.bodies.size());
   for (std::size_t i = 0; i < count; ++i) {
     frame_.X_WB[i] = objects.poseAt(static_cast<std::int32_t>(i), tick.time);
     frame_.asleep[i] = objects.bodies[i].asleep;

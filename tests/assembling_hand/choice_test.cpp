@@ -22,6 +22,7 @@ class Table {
     world_.scene.assembly->goals[0].bodies = {0};
     world_.scene.assembly->goals[0].X_WB.p = place;
     poses.push_back({{0, 0, -0.05}, Quat::Identity()});
+    objects_.bodies.resize(poses.size());
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const bool ground = i + 1 == poses.size();
       Body& body = world_.scene.bodies.emplace_back();
@@ -31,7 +32,6 @@ class Table {
       world_.inertias.push_back({0.1, Vec3::Zero(), Mat3::Identity()});
     }
     world_.meshes.resize(poses.size());
-    objects_.count = static_cast<std::int32_t>(poses.size());
   }
 
   Choice weigh(const Trial& before = {}, const Trial& other = {}) const {

@@ -39,7 +39,7 @@ class PlacesTest : public testing::Test {
  protected:
   PlacesTest() {
     assembly.goals = {{"lower", {0, 1}, {}, 1, {}}, {"upper", {0, 1}, {{0, 0, 0.1}, Quat::Identity()}, 1, {0}}};
-    objects.count = 3;
+    objects.bodies.resize(3);
     for (std::size_t i = 0; i < 3; ++i) {
       objects.bodies[i].X_WB_end.p = {1 + static_cast<double>(i), 0, 0};
       objects.bodies[i].asleep = true;
@@ -60,14 +60,14 @@ class PlacesTest : public testing::Test {
 
 TEST_F(PlacesTest, NothingNearNothingDrawn) {
   step();
-  EXPECT_EQ(places->attractions().count, 0);
+  EXPECT_EQ(places->attractions().bodies.size(), 0);
   EXPECT_EQ(status(0), Status::kOpen);
 }
 
 TEST_F(PlacesTest, DrawsWhatIsInReachOfDistanceAndAngle) {
   at(0, {0.019, 0, 0}, 29 * kPi / 180);
   step();
-  ASSERT_EQ(places->attractions().count, 1);
+  ASSERT_EQ(places->attractions().bodies.size(), 1);
   EXPECT_EQ(places->attractions().bodies[0].body, 0);
   EXPECT_FALSE(places->attractions().bodies[0].fixed);
   EXPECT_NEAR(places->attractions().bodies[0].most, 1.5 * 9.81 * kPeriod / Places::kRise, 1e-12) << "rises softly";
@@ -75,7 +75,7 @@ TEST_F(PlacesTest, DrawsWhatIsInReachOfDistanceAndAngle) {
   EXPECT_EQ(places->attractions().bodies[0].most, 1.5 * 9.81);
   at(0, {0.019, 0, 0}, 45 * kPi / 180);
   step();
-  EXPECT_EQ(places->attractions().count, 0) << "turned away";
+  EXPECT_EQ(places->attractions().bodies.size(), 0) << "turned away";
 }
 
 TEST_F(PlacesTest, LetsGoALittleFartherThanItTakes) {
@@ -97,7 +97,7 @@ TEST_F(PlacesTest, OfTwoAlikeTheNearerIsTaken) {
   at(1, {0, 0.010, 0});
   step();
   EXPECT_EQ(places->state().goals[0].body, 1);
-  EXPECT_EQ(places->attractions().count, 1);
+  EXPECT_EQ(places->attractions().bodies.size(), 1);
 }
 
 TEST_F(PlacesTest, WhatMustWaitSaysForWhat) {
@@ -105,7 +105,7 @@ TEST_F(PlacesTest, WhatMustWaitSaysForWhat) {
   step();
   EXPECT_EQ(status(1), Status::kBlocked);
   EXPECT_EQ(places->state().goals[1].missing, 0);
-  EXPECT_EQ(places->attractions().count, 0) << "not drawn";
+  EXPECT_EQ(places->attractions().bodies.size(), 0) << "not drawn";
   at(1, Vec3::Zero());
   step(kArrives + 1);
   EXPECT_EQ(status(0), Status::kFilled);
@@ -158,21 +158,21 @@ TEST_F(PlacesTest, WhatLeavesTheFieldIsBroughtBackWellInside) {
   at(0, {0.4, 0, 0});
   at(1, {0.2, 0.2, 0});
   step();
-  EXPECT_EQ(places->attractions().count, 0);
+  EXPECT_EQ(places->attractions().bodies.size(), 0);
   at(0, {0.7, 0.1, 0});
   at(2, {5, 0, 0});
   step();
-  ASSERT_EQ(places->attractions().count, 1) << "what belongs nowhere may go where it likes";
+  ASSERT_EQ(places->attractions().bodies.size(), 1) << "what belongs nowhere may go where it likes";
   const Attraction& back = places->attractions().bodies[0];
   EXPECT_EQ(back.body, 0);
   EXPECT_FALSE(back.turns);
   EXPECT_LT((back.X_WB.p - Vec3(0.4, 0.1, 0)).norm(), 1e-12);
   at(0, {0.48, 0.1, 0});
   step();
-  EXPECT_EQ(places->attractions().count, 1) << "not yet";
+  EXPECT_EQ(places->attractions().bodies.size(), 1) << "not yet";
   at(0, {0.45, 0.1, 0});
   step();
-  EXPECT_EQ(places->attractions().count, 0);
+  EXPECT_EQ(places->attractions().bodies.size(), 0);
   EXPECT_EQ(places->state().brought_back, 0);
 }
 
@@ -181,7 +181,7 @@ TEST_F(PlacesTest, WhatDoesNotComeBackIsLiftedFirst) {
   assembly.field = Assembly::Field{{0, 0, 0}, {1, 1, 1}};
   const auto drawn_to = [&](const Vec3& p_W) {
     const Attraction& back = places->attractions().bodies[0];
-    return places->attractions().count == 1 && (back.X_WB.p - p_W).norm() < 1e-12;
+    return places->attractions().bodies.size() == 1 && (back.X_WB.p - p_W).norm() < 1e-12;
   };
   at(0, {0.7, 0.1, -0.49});
   at(1, {0.2, 0.2, 0});
@@ -200,10 +200,10 @@ TEST_F(PlacesTest, WhatRollsIsSlowedAndNothingElse) {
   objects.bodies[1].v_WB = {2, 0, 0};
   objects.bodies[2].v_WB = {0.05, 0, 0};
   step();
-  ASSERT_EQ(places->attractions().count, 1) << "awake: at rest now, it would roll on otherwise";
+  ASSERT_EQ(places->attractions().bodies.size(), 1) << "awake: at rest now, it would roll on otherwise";
   objects.bodies[0].v_WB = {0.05, 0, 0};
   step();
-  ASSERT_EQ(places->attractions().count, 1);
+  ASSERT_EQ(places->attractions().bodies.size(), 1);
   EXPECT_EQ(places->attractions().bodies[0].body, 0);
   EXPECT_EQ(places->attractions().bodies[0].speed, 0);
   EXPECT_EQ(places->attractions().bodies[0].most, Places::kGrass);

@@ -191,7 +191,7 @@ void BM_SleepingPile(benchmark::State& state) {
       if (n >= 2500) times.push_back(threadCpuNs() - begin);
     }
     asleep = 0;
-    for (std::int32_t i = 0; i < out.count; ++i) asleep += out.bodies[static_cast<std::size_t>(i)].asleep ? 1 : 0;
+    for (const BodyMotion& body : out.bodies) asleep += body.asleep ? 1 : 0;
     std::nth_element(times.begin(), times.begin() + 250, times.end());
     return static_cast<double>(times[250]) * 1e-3;
   };

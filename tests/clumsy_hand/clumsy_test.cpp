@@ -76,7 +76,7 @@ std::shared_ptr<const World> oneBlock() {
 
 TEST(Clumsy, DoesEverythingAtABoundedSpeedAndTheSameForTheSameSeed) {
   ObjectState objects;
-  objects.count = 1;
+  objects.bodies.resize(1);
   ClumsyPlan one(oneBlock(), 0.008, 7), same(oneBlock(), 0.008, 7), other(oneBlock(), 0.008, 8);
   double fastest = 0;
   EXPECT_EQ(phasesOf(one, objects, 600, &fastest).size(), ClumsyPlan::phaseNames().size());
@@ -95,7 +95,7 @@ TEST(Clumsy, ItsTickNeitherAllocatesNorLocks) {
   ASSERT_TRUE(device) << diagnostics.text();
   ASSERT_TRUE(device->looks());
   ObjectState objects;
-  objects.count = 2;
+  objects.bodies.resize(2);
   const RealTimeGuard guard;
   for (std::uint64_t i = 0; i < 60000; ++i) {
     const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};

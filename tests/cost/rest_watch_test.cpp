@@ -25,7 +25,7 @@ std::shared_ptr<const World> stack() {
 /// The step that ends at `end` [s], 5 ms long, with the cubes at these heights before and after.
 ObjectState step(double end, double low_from, double low_to, double high) {
   ObjectState state;
-  state.count = 3;
+  state.bodies.resize(3);
   state.time_begin = end - 0.005;
   state.time_end = end;
   state.bodies[0].X_WB_begin.p = state.bodies[0].X_WB_end.p = Vec3(0, 0, -0.05);

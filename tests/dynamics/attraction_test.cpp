@@ -11,8 +11,7 @@ constexpr double kRate = 20;  // [1/s]
 
 Attractions towards(const Pose& X_WB, double speed, double most, std::int32_t body = 0) {
   Attractions attractions;
-  attractions.count = 1;
-  attractions.bodies[0] = {.body = body, .X_WB = X_WB, .rate = kRate, .speed = speed, .most = most};
+  attractions.bodies.push_back({.body = body, .X_WB = X_WB, .rate = kRate, .speed = speed, .most = most});
   return attractions;
 }
 

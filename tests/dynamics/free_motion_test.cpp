@@ -27,7 +27,7 @@ TEST(FreeMotion, EachStateBeginsWhereTheLastEnded) {
   for (int n = 0; n < 10; ++n) {
     const ObjectState before = runner.state;
     runner.step();
-    EXPECT_EQ(runner.state.count, 2);
+    EXPECT_EQ(runner.state.count(), 2);
     EXPECT_EQ(runner.state.time_begin, before.time_end);
     EXPECT_EQ(runner.state.time_end, before.time_end + kStep);
     EXPECT_EQ(runner[0].X_WB_begin.p, before.bodies[0].X_WB_end.p);

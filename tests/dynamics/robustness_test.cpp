@@ -23,8 +23,8 @@ std::shared_ptr<const World> heap(int n) {
 }
 
 bool sameBits(const ObjectState& a, const ObjectState& b) {
-  bool same = a.count == b.count && a.time_end == b.time_end;
-  for (std::size_t i = 0; same && i < static_cast<std::size_t>(a.count); ++i) {
+  bool same = a.count() == b.count() && a.time_end == b.time_end;
+  for (std::size_t i = 0; same && i < a.bodies.size(); ++i) {
     same = a.bodies[i].X_WB_end.p == b.bodies[i].X_WB_end.p &&
            a.bodies[i].X_WB_end.q.coeffs() == b.bodies[i].X_WB_end.q.coeffs() && a.bodies[i].v_WB == b.bodies[i].v_WB &&
            a.bodies[i].w_WB == b.bodies[i].w_WB;
@@ -166,7 +166,7 @@ TEST(Module, PublishesTheStateOfItsWorld) {
   const Graph graph = builder.build();
   const auto& out = static_cast<const Out<ObjectState>&>(*module.outputs().at(0));
   module.start();
-  EXPECT_EQ(out.value.count, 2);
+  EXPECT_EQ(out.value.count(), 2);
   Runner runner(world);
   for (std::uint64_t n = 0; n < 50; ++n) {
     module.step({n, static_cast<double>(n) * kStep, kStep});

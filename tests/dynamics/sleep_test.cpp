@@ -18,7 +18,7 @@ WorldMaker pile(int n) {
 
 int asleep(const Runner& runner) {
   int count = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(runner.state.count); ++i) count += runner[i].asleep ? 1 : 0;
+  for (const BodyMotion& body : runner.state.bodies) count += body.asleep ? 1 : 0;
   return count;
 }
 

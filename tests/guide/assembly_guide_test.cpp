@@ -25,8 +25,8 @@ class GuideTest : public testing::Test {
                       {.name = "shaft", .bodies = {0, 1}, .X_WB = at(0, 0.09), .after = {0}, .element = 0},
                       {.name = "head", .bodies = {2}, .X_WB = at(0, 0.14), .after = {1}, .element = 1}};
     scene_.assembly = assembly;
-    state_.count = 3;
-    objects_.count = 4;
+    state_.goals.resize(3);
+    objects_.bodies.resize(4);
     contacts_.count = 2;
     place(0, 0.2, 0.03);
     place(1, 0.3, 0.03);

@@ -51,7 +51,7 @@ class OneFinger {
     surfaces_ = &builder.add(std::make_unique<Source<SurfaceChange>>("surface_change"));
     settings_ = &builder.add(std::make_unique<Source<SurfaceSettings>>("surface_settings"));
     objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));
-    objects_->out.value.count = static_cast<std::int32_t>(world_->scene.bodies.size());
+    objects_->out.value.bodies.resize(world_->scene.bodies.size());
     for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
       objects_->out.value.bodies[b].X_WB_begin = objects_->out.value.bodies[b].X_WB_end = world_->scene.bodies[b].X_WB;
     }

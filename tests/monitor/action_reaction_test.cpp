@@ -24,7 +24,7 @@ ActionReaction::Result run(double share, bool fixed = false, double touch = 0) {
   ContactExchange contact;
   contact.count = 1;
   auto objects = std::make_unique<ObjectState>();
-  objects->count = 1;
+  objects->bodies.resize(1);
   const auto force = [touch](double t) { return t < touch ? 0.0 : 2 + std::sin(40 * t); };
   for (int i = 0; i < 500; ++i) {
     const double time = i * kTick;

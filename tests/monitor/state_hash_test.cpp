@@ -44,7 +44,7 @@ struct States {
 States filledStates() {
   States s;
   s.device.count = s.contact.count = 2;
-  s.objects.count = 2;
+  s.objects.bodies.resize(2);
   return s;
 }
 
@@ -81,7 +81,7 @@ TEST(StateHash, EveryFieldCounts) {
       [](States& s) { s.contact.fingers[1].f_H_W.y() = 1; },
       [](States& s) { s.objects.time_begin = 1; },
       [](States& s) { s.objects.time_end = 1; },
-      [](States& s) { s.objects.count = 1; },
+      [](States& s) { s.objects.bodies.resize(1); },
       [](States& s) { s.objects.faults = kFaultBadFinger; },
       [](States& s) { s.objects.fallback_steps = 1ULL << 40; },
       [](States& s) { s.objects.penetration.points = 1; },
@@ -125,10 +125,11 @@ TEST(StateHash, PaddingAndUnusedEntriesDoNotCount) {
     // default-initialised, so that padding keeps the fill
     States* s = new (memory.data()) States;
     s->device.count = s->contact.count = 1;
-    s->objects.count = 1;
+    s->objects.bodies.resize(2);
+    s->objects.bodies[1].v_WB = Vec3::Constant(fill);
+    s->objects.bodies.resize(1);
     s->device.fingers[5].p_WH = Vec3::Constant(fill);
     s->contact.fingers[6].depth = fill;
-    s->objects.bodies[200].v_WB = Vec3::Constant(fill);
     hashes.push_back(s->hash());
     s->~States();
   }

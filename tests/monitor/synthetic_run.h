@@ -46,7 +46,7 @@ struct Feed {
       : world(std::move(shared_world)), monitor(world, loosen_time, trace_rate) {
     device.count = contact.count = command.count = 2;
     for (auto& force : command.f_H_W) force.setZero();
-    objects.count = 2;
+    objects.bodies.resize(2);
     place(Vec3(0, 0, 0.035));
   }
 

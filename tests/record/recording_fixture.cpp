@@ -56,7 +56,7 @@ ObjectState objectsAt(std::uint64_t tick, double time) {
   ObjectState state;
   state.time_begin = time - 0.001;
   state.time_end = time + 0.003;
-  state.count = 2;
+  state.bodies.resize(2);
   BodyMotion& cube = state.bodies[1];
   const auto height = static_cast<double>(tick);
   cube.X_WB_begin = {Vec3(0, 0, height), Quat::Identity()};

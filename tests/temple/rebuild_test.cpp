@@ -66,7 +66,7 @@ struct Watched {
     made->scene.assembly->field = Assembly::Field{{0, 0, 0.5}, {2, 2, 1}};
     made->scene.assembly->goals.emplace_back().bodies = {1};
     watch = std::make_unique<BlockWatch>(std::move(made));
-    state.count = 2;
+    state.bodies.resize(2);
   }
   void at(const Vec3& p, int steps, const BodyPenetration& in = {0, 0, 0}) {
     state.bodies[1].X_WB_end.p = p;

@@ -44,7 +44,7 @@ std::shared_ptr<World> makePinchWorld(RunOptions::View view, const std::string& 
 PinchStates makePinchStates(const World& world, const Vec3& p_WO, double yaw) {
   PinchStates states;
   const Pose X_WO{p_WO, Quat(Eigen::AngleAxisd(yaw, Vec3::UnitZ()))};
-  states.objects.count = 2;
+  states.objects.bodies.resize(2);
   states.objects.time_end = 1;
   states.objects.bodies[0].X_WB_begin = states.objects.bodies[0].X_WB_end = world.scene.bodies[0].X_WB;
   states.objects.bodies[1].X_WB_begin = states.objects.bodies[1].X_WB_end = X_WO;

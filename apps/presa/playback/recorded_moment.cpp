@@ -1,6 +1,7 @@
 #include "apps/presa/playback/recorded_moment.h"
 
 #include <algorithm>
+#include <map>
 
 namespace presa {
 namespace {
@@ -27,11 +28,12 @@ RecordedMoment::RecordedMoment(const RecordedSamples& samples, const World& worl
                         &t.values("normal_force"), &t.values("phase"), &t.values("valid"), &t.values("mode"),
                         &t.values("body")});
   }
-  const auto& bodies = world.scene.bodies;
+  std::map<std::string, std::size_t> bodies;
+  for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) bodies.try_emplace(world.scene.bodies[b].name, b);
   for (const RecordedTable& t : samples.bodies) {
-    const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == t.name; });
+    const auto body = bodies.find(t.name);
     if (body == bodies.end()) continue;
-    moved_.push_back({static_cast<std::size_t>(body - bodies.begin()),
+    moved_.push_back({body->second,
                       vectorOf(t, "p_WB"),
                       vectorOf(t, "v_WB"),
                       vectorOf(t, "w_WB"),
@@ -44,7 +46,7 @@ void RecordedMoment::fill(double time, ObjectState& objects, DeviceState& device
   const auto later = std::upper_bound(samples_.time.begin(), samples_.time.end(), time);
   const auto row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, later - samples_.time.begin() - 1));
   objects.time_begin = objects.time_end = device.time = contacts.time = command.time = samples_.time[row];
-  objects.count = static_cast<std::int32_t>(world_.scene.bodies.size());
+  objects.bodies.resize(world_.scene.bodies.size());
   for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i)
     objects.bodies[i].X_WB_begin = objects.bodies[i].X_WB_end = world_.scene.bodies[i].X_WB;
   for (const Moved& moved : moved_) {
@@ -78,7 +80,7 @@ void RecordedMoment::fillFinger(const Finger& finger, std::size_t row, const Obj
   contact.normal_force = (*finger.normal)[row];
   contact.tangential_force_W = at(finger.tangential, row);
   contact.f_H_W = at(finger.rendered, row);
-  if (contact.body < 0 || contact.body >= objects.count) return;
+  if (contact.body < 0 || contact.body >= objects.count()) return;
   const auto body = static_cast<std::size_t>(contact.body);
   contact.nhat_B = objects.bodies[body].X_WB_end.q.conjugate() * contact.nhat_W;
   const Material& material = world_.scene.materialOf(world_.scene.bodies[body]);

@@ -96,7 +96,7 @@ Rebuilt measure(const Assembly& assembly, const Witness& witness) {
   Rebuilt rebuilt;
   rebuilt.pieces = static_cast<int>(assembly.goals.size());
   rebuilt.placed = witness.assembly().filled;
-  for (std::size_t g = 0; g < assembly.goals.size(); ++g) {
+  for (std::size_t g = 0; g < witness.assembly().goals.size(); ++g) {  // none before the first step
     const GoalState& state = witness.assembly().goals[g];
     if (state.status != GoalState::Status::kFilled) continue;
     const Pose& X_WB = witness.objects().bodies[static_cast<std::size_t>(state.body)].X_WB_end;

@@ -50,7 +50,7 @@ FileRecorder::FileRecorder(std::shared_ptr<const World> world, WriterSettings se
       capacity_(ringRows(*world_, layout_.bytes())),
       ring_(layout_.words(), capacity_),
       row_(layout_.words()),
-      block_(layout_.words() * kBlockRows),
+      block_(layout_.words() * std::min(kBlockRows, capacity_)),
       schedule_block_(kBlockRows),
       flushed_at_(std::chrono::steady_clock::now()) {
   if (takesCommands(*world_)) commanded_.emplace(*this, "surface_settings", In<SurfaceSettings>::Optional{});
@@ -153,7 +153,7 @@ void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
 
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {
   const std::int32_t index = free_bodies_[slot];
-  const bool known = objects_.hasValue() && index < objects_->count;
+  const bool known = objects_.hasValue() && index < objects_->count();
   const Pose X_WB =
       known ? objects_->poseAt(index, tick.time) : world_->scene.bodies[static_cast<std::size_t>(index)].X_WB;
   BodyRow row;
@@ -223,7 +223,7 @@ void FileRecorder::drain() {
 }
 
 std::size_t FileRecorder::drainBlock() {
-  const std::size_t rows = ring_.pop(block_.data(), kBlockRows);
+  const std::size_t rows = ring_.pop(block_.data(), block_.size() / layout_.words());
   if (!realtime_) {
     { const std::scoped_lock lock(mutex_); }  // step() is either before its test for space or in its wait
     space_.notify_one();

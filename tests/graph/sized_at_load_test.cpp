@@ -1,0 +1,114 @@
+// Values whose memory the scene decides: room for them is made when the graph is built, and never again.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "framework/graph/graph_builder.h"
+#include "framework/state/assembly_state.h"
+#include "framework/state/attraction.h"
+#include "framework/state/object_state.h"
+#include "tests/support/alloc_lock_guard.h"
+
+namespace presa {
+namespace {
+
+static_assert(SizedAtLoad<ObjectState> && SizedAtLoad<Attractions> && SizedAtLoad<AssemblyState>);
+static_assert(!ExchangedData<std::vector<int>>, "what says nothing of its room may take some at any time");
+
+constexpr std::size_t kBodies = 5000;
+
+/// Bodies that all have gone as far as there were steps.
+class Bodies final : public Module {
+ public:
+  Bodies() : Module("bodies", RateGroup::kDynamics) { out.value.bodies.resize(kBodies); }
+  void step(const Tick& tick) noexcept override {
+    for (BodyMotion& body : out.value.bodies) body.X_WB_end.p.x() = static_cast<double>(tick.index + 1);
+  }
+  Out<ObjectState> out{*this, "object_state"};
+};
+
+class Reader final : public Module {
+ public:
+  Reader() : Module("reader", RateGroup::kHaptic) {}
+  void step(const Tick&) noexcept override {
+    count = in->count();
+    way = count > 0 ? in->bodies.back().X_WB_end.p.x() : 0;
+  }
+  In<ObjectState> in{*this, "object_state"};
+  std::int32_t count = -1;
+  double way = -1;
+};
+
+struct Pair {
+  Pair() {
+    GraphBuilder builder;
+    builder.add(std::make_unique<Bodies>());
+    reader = &builder.add(std::make_unique<Reader>());
+    builder.connectByName();
+    graph = builder.build();
+  }
+  Graph graph;
+  Reader* reader = nullptr;
+};
+
+TEST(SizedAtLoad, TakesNoMemoryFromTheFirstPublicationOn) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  Pair pair;
+  const RealTimeGuard guard;
+  // seven steps and seven looks: each of the three slots is written and read more than once
+  for (std::uint64_t n = 0; n < 7; ++n) {
+    pair.graph.step(RateGroup::kDynamics, {n, 0, 0.005});
+    pair.graph.step(RateGroup::kHaptic, {n, 0, 0.001});
+    EXPECT_EQ(pair.reader->way, static_cast<double>(n + 1));
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+  EXPECT_EQ(pair.reader->count, static_cast<std::int32_t>(kBodies));
+}
+
+// Room is not news: who looks before the first step finds no bodies, not some at the origin.
+TEST(SizedAtLoad, HasNoBodiesBeforeTheFirstPublication) {
+  Pair pair;
+  pair.graph.step(RateGroup::kHaptic, {0, 0, 0.001});
+  EXPECT_EQ(pair.reader->count, 0);
+  EXPECT_FALSE(pair.reader->in.hasValue());
+}
+
+TEST(SizedAtLoad, AReplayReadsTheVersionsItIsToldAndTakesNoMemoryOnTheWay) {
+  Pair pair;
+  pair.graph.keepHistory(0);
+  const RealTimeGuard guard;
+  for (std::uint64_t n = 0; n < 100; ++n) ASSERT_TRUE(pair.graph.replayStep(RateGroup::kDynamics, {n, 0, 0.005}, {}));
+  ScheduleRow row;
+  for (const std::uint64_t version : {100, 37, 40}) {
+    row.versions[0] = version;
+    ASSERT_TRUE(pair.graph.replayStep(RateGroup::kHaptic, {0, 0, 0.001}, row));
+    EXPECT_EQ(pair.reader->way, static_cast<double>(version));
+  }
+  row.versions[0] = 36;  // 64 are kept
+  EXPECT_FALSE(pair.graph.replayStep(RateGroup::kHaptic, {0, 0, 0.001}, row));
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+}
+
+// How many bodies are drawn changes all the time, how many there may be does not.
+TEST(SizedAtLoad, AttractionsComeAndGoInTheRoomThatWasMade) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  Attractions wanted;
+  wanted.bodies.reserve(kBodies);
+  LatestValue<Attractions> latest(wanted);
+  const RealTimeGuard guard;
+  for (const std::size_t count : {std::size_t{0}, std::size_t{3}, kBodies, std::size_t{1}, kBodies}) {
+    wanted.bodies.clear();
+    for (std::size_t i = 0; i < count; ++i) wanted.bodies.emplace_back().body = static_cast<std::int32_t>(i);
+    latest.publish(wanted, 0);
+    ASSERT_TRUE(latest.update());
+    ASSERT_EQ(latest.value().bodies.size(), count);
+    if (count > 0) {
+      EXPECT_EQ(latest.value().bodies.back().body, static_cast<std::int32_t>(count - 1));
+    }
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+}
+
+}  // namespace
+}  // namespace presa
