@@ -30,7 +30,11 @@ def main(file):
             continue
         bound = bound_of(name, found)
         row = f"{name:{width}} {figure(benchmark):12.2f}"
-        print(row + (f" {bound:9.2f} {figure(benchmark) / bound:7.1f}" if bound else ""))
+        row += f" {bound:9.2f} {figure(benchmark) / bound:7.1f}" if bound else ""
+        for share in ("touching", "slipping"):
+            if benchmark.get(share, 1) < 0.99:
+                row += f"  ({share} in only {benchmark[share]:.0%} of the ticks)"
+        print(row)
 
 
 main(sys.argv[1])
