@@ -1,0 +1,92 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "framework/graph/graph.h"
+#include "framework/scene/world.h"
+#include "framework/state/contact_exchange.h"
+
+// Worlds made in memory, fingers that slide over them, and the two modules that render this, driven by a graph as in
+// a run.
+namespace presa::bench {
+
+inline constexpr double kSphere = 0.05;  ///< radius of every sphere [m]
+inline constexpr double kDepth = 1e-3;   ///< of the HIP below where the fingertip would rest [m]
+inline constexpr double kSpeed = 0.1;    ///< of the HIP along the surface [m/s]
+
+/// An icosphere of kSphere with that many triangles, 20 * 4^k, each made once. `bumpy`: with bumps of 0.5 mm.
+std::shared_ptr<const TriMesh> sphereMesh(int triangles, bool bumpy = false);
+
+/// A body to be touched: a mesh, or a box.
+struct Touched {
+  std::shared_ptr<const TriMesh> mesh;  ///< null: the box
+  Vec3 box = Vec3::Zero();              ///< full edge lengths [m]
+  Vec3 p_WB = Vec3::Zero();
+  bool fixed = true;
+};
+/// These bodies of one material, 1 N/mm with friction 0.6/0.4, and `fingers` fingertips of that radius. The only place
+/// where the benchmarks make a World.
+std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers = 1);
+/// Whether an Object State has room for so many.
+bool roomFor(std::size_t bodies);
+
+/// A smooth closed way around the unit sphere, up and down, that comes nowhere near itself: one point per haptic tick, at
+/// constant speed, which on a sphere of that radius is kSpeed. A whole number of collision periods.
+std::vector<Vec3> wayAround(double radius);
+
+/// What fingers and bodies do. It is periodic: one period is a lap.
+struct Motion {
+  std::size_t lap = 0;  ///< haptic ticks
+  /// Where a finger's HIP is at that tick of the lap, in coordinates of body `carrier`, raised by `height`.
+  std::function<Vec3(std::size_t finger, std::size_t tick, double height)> p_BH;
+  std::size_t carrier = 0;
+  std::vector<std::size_t> swinging;  ///< bodies that swing by 5 mm and 0.2 rad, four times a lap
+};
+/// Fingers around a sphere, the second half a lap ahead of the first.
+Motion aroundSphere(double fingertip_radius);
+
+/// HapticsProxy and CollisionModule in one graph with sources of what they read, stepped by hand. A pass: fingers lift
+/// off, come down again and slide, then do the lap that is timed, its ticks counted from 0. Every pass does the same; its
+/// time begins anew.
+class Rig {
+ public:
+  Rig(std::shared_ptr<const World> world, Motion motion);
+  ~Rig();
+  Rig(const Rig&) = delete;
+  Rig& operator=(const Rig&) = delete;
+
+  std::ptrdiff_t lap() const { return static_cast<std::ptrdiff_t>(motion_.lap); }
+  /// All that comes before the lap.
+  void comeDown();
+  /// What is not under test and comes before a tick: the dynamics' and the hands' part, in this order.
+  void moveBodies(std::ptrdiff_t tick) noexcept;
+  void moveFingers(std::ptrdiff_t tick) noexcept;
+  void collide(std::ptrdiff_t tick) noexcept;  ///< a step of the collision group
+  void haptic(std::ptrdiff_t tick) noexcept;   ///< a step of the haptic group
+  const ContactExchange& contacts() const;
+
+  static constexpr std::ptrdiff_t kDynamics = 5, kCollision = 10;  ///< haptic ticks per step
+
+ private:
+  struct Hands;
+  struct Bodies;
+  struct Watcher;
+  Pose swung(std::size_t body, std::ptrdiff_t tick) const;
+  void fillPass();
+
+  std::shared_ptr<const World> world_;
+  Motion motion_;
+  Graph graph_;
+  Hands* hands_ = nullptr;
+  Bodies* bodies_ = nullptr;
+  Watcher* watcher_ = nullptr;
+  struct Held {
+    Vec3 p_WH, v_WH;
+  };
+  std::vector<Held> held_;  ///< of each finger, tick by tick of a pass
+  bool fresh_ = true;
+};
+
+}  // namespace presa::bench
