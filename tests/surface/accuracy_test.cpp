@@ -21,11 +21,19 @@ namespace {
 
 constexpr double kStiffness = 2000, kPress = 1e-3, kRadii[] = {0, 0.1e-3, 1e-3, 8e-3, 15e-3};
 
+/// How far rounding moves the exact answer [m]. With the HIP almost at the solid, the fingertip's centre can go round it at
+/// almost the same distance: this is how far it goes while that changes by 1e-14 m, a thousandth of an atom.
+double illPosed(const MeshOracle& mesh, bool inside, const Vec3& h, double r) {
+  if (inside) return 0;
+  return r * std::sqrt(2e-14 / std::max(1e-13, mesh.nearest(h).distance));
+}
+
 /// The exact answer that is nearest to where the proxy is.
 Vec3 exactAnswer(const MeshOracle& mesh, bool inside, const Vec3& h, double r, const Vec3& proxy) {
   if (!inside) {
     const MeshOracle::Nearest nearest = mesh.nearest(h);
     if (nearest.distance >= r) return h;
+    if (nearest.distance < 1e-12) return nearest.point + r * mesh.normal(nearest.triangle);  // on the surface, by rounding
     return nearest.point + r / nearest.distance * (h - nearest.point);
   }
   static std::vector<std::int32_t> found;
@@ -55,9 +63,7 @@ struct Errors {
   std::uint32_t lost = 0, popped = 0;
 };
 
-void keepWorst(double& worst, double value) {
-  worst = std::isnan(value) ? 1e300 : std::max(worst, value);
-}
+void keepWorst(double& worst, double value) { worst = std::isnan(value) ? 1e300 : std::max(worst, value); }
 
 /// Down at 0.2 m/s, still for 30 ms, sliding for 50 ms; `inside`: whether the HIP is then in the solid.
 void touchAt(FingerRig& rig, const MeshOracle& mesh, const Place& place, Errors& errors) {
@@ -65,21 +71,28 @@ void touchAt(FingerRig& rig, const MeshOracle& mesh, const Place& place, Errors&
   const bool inside = r < kPress;
   Vec3 h;
   Vec3 last_force = Vec3::Zero(), last_exact = Vec3::Zero();
+  double last_slack = 0;
   const auto judge = [&](bool& first, bool still) {
     const FingerContact& felt = rig.tick(h);
     const Vec3 exact = exactAnswer(mesh, inside, h, r, felt.p_WP), exact_force = kStiffness * (exact - h);
-    keepWorst(errors.proxy, (felt.p_WP - exact).norm());
+    const double slack = illPosed(mesh, inside, h, r);
+    keepWorst(errors.proxy, (felt.p_WP - exact).norm() - slack);
     keepWorst(errors.force, std::abs(felt.f_H_W.dot(place.normal) - exact_force.dot(place.normal)));
     const Vec3 difference = felt.f_H_W - exact_force;
-    keepWorst(errors.tangential, (difference - difference.dot(place.normal) * place.normal).norm());
+    keepWorst(errors.tangential,
+              (difference - difference.dot(place.normal) * place.normal).norm() - kStiffness * slack);
     if (still) keepWorst(errors.ideal, (felt.f_H_W - felt.f_H_W.dot(place.normal) * place.normal).norm());
     if (!first) {
       if (still) keepWorst(errors.chatter, (felt.f_H_W - last_force).norm());
-      if (!still) keepWorst(errors.step, (felt.f_H_W - last_force).norm() - (exact_force - last_exact).norm());
+      if (!still) {
+        const double exact_step = (exact_force - last_exact).norm() + kStiffness * (slack + last_slack);
+        keepWorst(errors.step, (felt.f_H_W - last_force).norm() - exact_step);
+      }
     }
     first = false;
     last_force = felt.f_H_W;
     last_exact = exact_force;
+    last_slack = slack;
   };
   rig.place(place.on + (r + 5e-3) * place.normal);
   for (double way = 5e-3; way > 0; way -= 0.2e-3) rig.tick(place.on + (r - kPress + way) * place.normal);
@@ -182,13 +195,15 @@ TEST(Accuracy, OneMillimetreIsTwoNewtons) {
 }
 
 // With shading the facets are gone: no force along the ideal sphere. 0.1 % of the force: the normals at corners are means over
-// facets, exact but for their unequal shapes.
+// facets, exact but for their unequal shapes. What is left of the facets is where they are touched: a facet that is turned by
+// an angle is touched to the side of where the sphere would be, by the angle times the distance from there to the HIP.
 TEST(Accuracy, ASmoothSphereHasNoFacets) {
   for (const int n : {kCoarse, kFine}) {
     for (const double radius : kRadii) {
       SCOPED_TRACE(testing::Message() << 20 * n * n << " triangles, radius " << radius * 1e3 << " mm");
       const Errors errors = measure(sphereOf(n), radius, true);
-      EXPECT_LE(errors.ideal, 0.002);
+      const double aside = std::max(0.0, radius - kPress) * facetAngle(n);
+      EXPECT_LE(errors.ideal, std::max(0.002, kStiffness * kPress * aside / 0.05));
       EXPECT_LE(errors.chatter, 1e-12);
     }
   }
