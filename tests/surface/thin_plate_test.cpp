@@ -20,7 +20,7 @@ constexpr double kSide = 0.12, kDepth = 0.1, kPeriod = 1e-3;
 
 struct Approach {
   Vec3 aim, direction;  ///< a point of the plate's surface, and the way of the HIP there and 100 mm on
-  double lead = 0;      ///< of the way before it touches [m]
+  double before = 0;    ///< of the way, so that the fingertip is free at its start [m]
 };
 
 struct Count {
@@ -42,7 +42,7 @@ class Plate {
     Count count;
     for (int i = 0; i < times; ++i) {
       const Approach one = random();
-      comeTo(one.aim - (rig_.touch().radius + 1e-3 + one.lead) * one.direction, count);
+      comeTo(one.aim - one.before * one.direction, count);
       push(one, count);
       ++count.approaches;
     }
@@ -61,7 +61,6 @@ class Plate {
   /// Half of them at a face, a quarter at its edges, the rest at its corners and narrow sides.
   Approach random() {
     Approach approach;
-    approach.lead = uniform(0, speed_ * kPeriod);
     const double which = uniform(0, 1), up = uniform(0, 1) < 0.5 ? -1 : 1;
     approach.aim = {uniform(-half_.x(), half_.x()), uniform(-half_.y(), half_.y()), up * half_.z()};
     if (which > 0.5) approach.aim.x() = std::copysign(half_.x(), approach.aim.x());
@@ -75,6 +74,8 @@ class Plate {
     } while (approach.direction.dot(outwards) > -0.1 * outwards.norm() ||
              (which <= 0.75 && approach.direction.z() * up > -0.1));
     if (uniform(0, 1) < 0.2) approach.direction = {0, 0, -up};  // head-on
+    const double free = rig_.touch().radius + 0.1e-3 + uniform(0, speed_ * kPeriod);
+    while (distance(approach.aim - approach.before * approach.direction) < free) approach.before += 0.1e-3;
     return approach;
   }
 
@@ -94,8 +95,8 @@ class Plate {
   }
 
   void push(const Approach& one, Count& count) {
-    const double way = kDepth + one.lead + 1e-3, stride = speed_ * kPeriod;
-    const Vec3 start = one.aim - (rig_.touch().radius + 1e-3 + one.lead) * one.direction;
+    const double way = kDepth + one.before, stride = speed_ * kPeriod;
+    const Vec3 start = one.aim - one.before * one.direction;
     bool through = false, overlapping = false;
     const int ticks = static_cast<int>(std::ceil(way / stride)) + 2;
     if (moving_) {
@@ -128,12 +129,16 @@ class Plate {
     last_P_ = proxy_;
   }
 
+  /// From the plate; negative inside of it.
+  double distance(const Vec3& p) const {
+    const Vec3 beyond = p.cwiseAbs() - half_;
+    const double outside = beyond.cwiseMax(Vec3::Zero()).norm();
+    return outside > 0 ? outside : beyond.maxCoeff();
+  }
   bool over(const Vec3& p) const { return std::abs(p.x()) < half_.x() && std::abs(p.y()) < half_.y(); }
 
   void judge(const Vec3& before, const Vec3& after, const Vec3& h, bool& through, bool& overlapping, double& deepest) {
-    const Vec3 beyond = after.cwiseAbs() - half_;
-    const double outside = beyond.cwiseMax(Vec3::Zero()).norm(), distance = outside > 0 ? outside : beyond.maxCoeff();
-    const double overlap = rig_.touch().radius - distance;
+    const double overlap = rig_.touch().radius - distance(after);
     deepest = std::max(deepest, overlap);
     // 1 % of the radius: beyond any tolerance that is relative to it; 0.1 um for a point
     if (!(overlap <= std::max(1e-7, 0.01 * rig_.touch().radius))) overlapping = true;

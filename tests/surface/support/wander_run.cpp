@@ -27,8 +27,8 @@ void WanderRun::run(int ticks, const std::function<void(const FingerContact&)>& 
     const double depth = (felt.p_WP - p_WH).norm(), force = felt.f_H_W.norm();
     // rounding of coordinates of 0.1 m
     if (force > touch.stiffness * (depth * (1 + 1e-9) + 1e-12)) ++faults_.too_strong;
-    const double jump = (felt.f_H_W - force_).norm() - touch.stiffness * (p_WH - before_H).norm();
-    faults_.worst_jump = std::max(faults_.worst_jump, jump);
+    faults_.worst_growth = std::max(faults_.worst_growth, depth - depth_ - (p_WH - before_H).norm());
+    depth_ = depth;
     if (closed_ && watch_.update(felt.p_WP)) {
       ++faults_.inside;
       if (faults_.first_inside < 0) faults_.first_inside = time;

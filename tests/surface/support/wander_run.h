@@ -18,7 +18,9 @@ struct WanderFaults {
   std::int64_t too_strong = 0;      ///< ticks with more force than k |p_WP - p_WH|
   std::int64_t not_finite = 0;      ///< ticks
   std::uint32_t popped = 0, lost = 0;  ///< as the renderer counted
-  double worst_jump = 0;            ///< of the force beyond what the HIP's motion explains [N]
+  /// By how much the distance from proxy to HIP grew in a tick, beyond the HIP's way in that tick [m]. Without friction the
+  /// proxy itself only ever comes nearer: more is a jump that nothing explains.
+  double worst_growth = 0;
   bool any() const { return inside + overlapping + too_strong + not_finite + popped + lost > 0; }
 };
 
@@ -42,6 +44,7 @@ class WanderRun {
   bool closed_;
   WanderFaults faults_;
   Vec3 force_ = Vec3::Zero();
+  double depth_ = 0;
 };
 
 }  // namespace presa::test

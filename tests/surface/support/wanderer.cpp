@@ -12,15 +12,16 @@ Wanderer::Wanderer(const TriMesh& mesh, std::uint64_t seed, bool stiff)
   const Vec3 middle = (room_.low + room_.high) / 2;
   std::normal_distribution<double> normal;
   const double x = normal(random_), y = normal(random_), z = normal(random_);
-  goal_ = middle + ((room_.high - room_.low).norm() / 2 + 0.03) * Vec3(x, y, z).normalized();
+  goal_ = middle + ((room_.high - room_.low).norm() / 2 + 0.02) * Vec3(x, y, z).normalized();
   x_ = goal_;
   choose();
+  speed_ = 0.5;  // soon there
 }
 
 double Wanderer::uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
 
 void Wanderer::choose() {
-  speed_ = std::exp(uniform(std::log(0.01), std::log(1.0)));
+  speed_ = std::exp(uniform(std::log(0.02), std::log(1.0)));
   rest_ = uniform(0, 1) < 0.2 ? static_cast<int>(uniform(0, 100)) : 0;
   if (uniform(0, 1) < 0.15) {
     for (int i = 0; i < 3; ++i) target_[i] = uniform(room_.low[i] - 0.01, room_.high[i] + 0.01);
