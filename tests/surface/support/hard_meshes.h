@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@ namespace presa::test {
 struct HardMesh {
   std::string name;
   std::shared_ptr<const TriMesh> mesh;
+  bool is_wide = true;  ///< a wandering point finds it; else it may go between
 };
+inline std::ostream& operator<<(std::ostream& out, const HardMesh& mesh) { return out << mesh.name; }
 std::vector<HardMesh> hardMeshes();
 
 /// Level strips of 10 mm along y, side by side in x, facing +z, with gaps of this width between them.
