@@ -1,12 +1,12 @@
 // Where the proxy is and what is felt, against exact answers: the finer the mesh, the better, never worse.
 //
-// Which point is exact: let K be the convex solid under the finger, h the HIP, r the fingertip's radius. The fingertip's centre
-// may be anywhere at least r from K, and a god-object is at a local minimum of its distance to h.
-// - h outside of K, d = dist(h, K) < r at the point q: distance to K grows by at most 1 m a metre, and does so along h - q. So
-//   q + r (h - q) / d, at the distance r - d, is the only minimum.
-// - h inside K: from a point over an edge or a corner the distance to h falls towards one of the facets beside it. What is left
-//   are points over facets: h + (s + r) n for each facet (unit normal n, h at the depth s below its plane) that has h + s n in
-//   it. Near an edge both facets have one, and which it is depends on the way; both are exact.
+// Which point is exact: let K be the convex solid under the finger, h the HIP, r the fingertip's radius. The
+// fingertip's centre may be anywhere at least r from K, and a god-object is at a local minimum of its distance to h.
+// - h outside of K, d = dist(h, K) < r at the point q: distance to K grows by at most 1 m a metre, and does so along h
+//   - q. So q + r (h - q) / d, at the distance r - d, is the only minimum.
+// - h inside K: from a point over an edge or a corner the distance to h falls towards one of the facets beside it. What
+//   is left are points over facets: h + (s + r) n for each facet (unit normal n, h at the depth s below its plane) that
+//   has h + s n in it. Near an edge both facets have one, and which it is depends on the way; both are exact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kStiffness = 2000, kPress = 1e-3, kRadii[] = {0, 0.1e-3, 1e-3, 8e-3, 15e-3};
 
-/// How far rounding moves the exact answer [m]. With the HIP almost at the solid, the fingertip's centre can go round it at
-/// almost the same distance: this is how far it goes while that changes by 1e-14 m, a thousandth of an atom.
+/// How far rounding moves the exact answer [m]. With the HIP almost at the solid, the fingertip's centre can go round
+/// it at almost the same distance: this is how far it goes while that changes by 1e-14 m, a thousandth of an atom.
 double illPosed(const MeshOracle& mesh, bool inside, const Vec3& h, double r) {
   if (inside) return 0;
   return r * std::sqrt(2e-14 / std::max(1e-13, mesh.nearest(h).distance));
@@ -33,7 +33,8 @@ Vec3 exactAnswer(const MeshOracle& mesh, bool inside, const Vec3& h, double r, c
   if (!inside) {
     const MeshOracle::Nearest nearest = mesh.nearest(h);
     if (nearest.distance >= r) return h;
-    if (nearest.distance < 1e-12) return nearest.point + r * mesh.normal(nearest.triangle);  // on the surface, by rounding
+    if (nearest.distance < 1e-12)
+      return nearest.point + r * mesh.normal(nearest.triangle);  // on the surface, by rounding
     return nearest.point + r / nearest.distance * (h - nearest.point);
   }
   static std::vector<std::int32_t> found;
@@ -163,11 +164,11 @@ void expectExact(const Ideal& ideal) {
     const Errors errors = measure(ideal, radius);
     EXPECT_EQ(errors.lost, 0u);
     EXPECT_EQ(errors.popped, 0u);
-    EXPECT_LE(errors.proxy, 1e-6);       // a thousandth of the depth
-    EXPECT_LE(errors.force, 0.002);      // the same, times the stiffness
+    EXPECT_LE(errors.proxy, 1e-6);        // a thousandth of the depth
+    EXPECT_LE(errors.force, 0.002);       // the same, times the stiffness
     EXPECT_LE(errors.tangential, 0.005);  // a quarter of a percent of the force: below what a hand tells apart
-    EXPECT_LE(errors.chatter, 1e-12);    // rounding
-    EXPECT_LE(errors.step, 0.004);       // two proxies, each 1 um off
+    EXPECT_LE(errors.chatter, 1e-12);     // rounding
+    EXPECT_LE(errors.step, 0.004);        // two proxies, each 1 um off
   }
 }
 
@@ -194,9 +195,10 @@ TEST(Accuracy, OneMillimetreIsTwoNewtons) {
   }
 }
 
-// With shading the facets are gone: no force along the ideal sphere. 0.1 % of the force: the normals at corners are means over
-// facets, exact but for their unequal shapes. What is left of the facets is where they are touched: a facet that is turned by
-// an angle is touched to the side of where the sphere would be, by the angle times the distance from there to the HIP.
+// With shading the facets are gone: no force along the ideal sphere. 0.1 % of the force: the normals at corners are
+// means over facets, exact but for their unequal shapes. What is left of the facets is where they are touched: a facet
+// that is turned by an angle is touched to the side of where the sphere would be, by the angle times the distance from
+// there to the HIP.
 TEST(Accuracy, ASmoothSphereHasNoFacets) {
   for (const int n : {kCoarse, kFine}) {
     for (const double radius : kRadii) {

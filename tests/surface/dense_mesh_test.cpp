@@ -25,8 +25,8 @@ struct Felt {
   double worst_step = 0;        ///< of the force from tick to tick [N]
 };
 
-/// From above down to the surface, then along a great circle that follows no row of triangles, speed ramped up in 0.1 s. The
-/// fingertip's centre stays outside of the sphere, so that the exact answer is its projection onto it: depth is
+/// From above down to the surface, then along a great circle that follows no row of triangles, speed ramped up in 0.1
+/// s. The fingertip's centre stays outside of the sphere, so that the exact answer is its projection onto it: depth is
 /// radius + sphere - |p_WH|.
 Felt slide(FingerRig& rig, const Slide& how) {
   const double radius = rig.touch().radius, orbit = kSphere + radius - how.press;

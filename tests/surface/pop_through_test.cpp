@@ -58,7 +58,8 @@ Way follow(const std::string& motion) {
   return way;
 }
 
-// The way of a finger that was found inside 50.621 s after it set out, 2 mm deep in one tick, from 0.6 s before that on.
+// The way of a finger that was found inside 50.621 s after it set out, 2 mm deep in one tick, from 0.6 s before that
+// on.
 TEST(PopThrough, NeverHappensOnTheWayWhereItOnceDid) {
   const Way way = follow(PRESA_SOURCE_DIR "/tests/surface/man_path.csv");
   EXPECT_EQ(way.first_inside, -1) << "[s]";

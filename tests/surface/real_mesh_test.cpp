@@ -15,7 +15,7 @@ class RealMesh : public testing::TestWithParam<std::string> {
   void SetUp() override {
     mesh_ = std::make_shared<const TriMesh>(realMesh(GetParam()));  // says which package is missing
     oracle_ = std::make_unique<const MeshOracle>(*mesh_);
-    closed_ = checkMesh(*mesh_).closed();
+    closed_ = checkMesh(*mesh_).open_edges == 0;
   }
   std::shared_ptr<const TriMesh> mesh_;
   std::unique_ptr<const MeshOracle> oracle_;
@@ -41,16 +41,16 @@ TEST_P(RealMesh, IsNeverEntered) {
   }
 }
 
-/// Whether the fingertip's centre could come nearer to the HIP by a step of 1 to 10 um: sampled over the cone of directions that
-/// lead nearer, up to 80 degrees from straight on.
+/// Whether the fingertip's centre could come nearer to the HIP by a step of 1 to 10 um: sampled over the cone of
+/// directions that lead nearer, up to 80 degrees from straight on.
 bool couldComeNearer(const MeshOracle& mesh, const Vec3& p, const Vec3& h, double r) {
   const Vec3 straight = (h - p).normalized(), side = straight.unitOrthogonal(), other = straight.cross(side);
   for (const double angle_deg : {0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 80.0}) {
     const double angle = angle_deg * std::numbers::pi / 180;
     for (int k = 0; k < (angle_deg == 0 ? 1 : 16); ++k) {
       const double turn = k * std::numbers::pi / 8;
-      const Vec3 direction = std::cos(angle) * straight +
-                             std::sin(angle) * (std::cos(turn) * side + std::sin(turn) * other);
+      const Vec3 direction =
+          std::cos(angle) * straight + std::sin(angle) * (std::cos(turn) * side + std::sin(turn) * other);
       for (const double step : {1e-6, 3e-6, 10e-6}) {
         const Vec3 x = p + step * direction;
         if (mesh.nearest(x, r * (1 - 1e-6)).triangle < 0 && !mesh.crosses(p, x)) return true;
@@ -78,8 +78,8 @@ TEST_P(RealMesh, HoldsTheProxyAtALocalMinimum) {
   expectNone(run.faults());
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTwenty, RealMesh, testing::ValuesIn(realMeshes()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(OfTwenty, RealMesh, testing::ValuesIn(realMeshes()), [](const auto& of) {
+  std::string name = of.param;
   std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
   return name;
 });

@@ -1,10 +1,12 @@
-// A sheet of paper holds like a wall: no fingertip gets through, from whatever side, over edges and corners, fast and deep.
+// A sheet of paper holds like a wall: no fingertip gets through, from whatever side, over edges and corners, fast and
+// deep.
 //
 // What is judged, in coordinates of the plate, by closed forms of a box:
 // - the fingertip never overlaps the plate;
-// - it never changes sides where it had no way round. A god-object goes downhill towards the HIP. If both it and the HIP lie
-//   over the plate's face (within its outline), downhill leads along the face and never past its edge, so that a proxy that
-//   is on the other side afterwards went through. The same holds when all of an approach stays over the face.
+// - it never changes sides where it had no way round. A god-object goes downhill towards the HIP. If both it and the
+//   HIP lie over the plate's face (within its outline), downhill leads along the face and never past its edge, so that
+//   a proxy that is on the other side afterwards went through. The same holds when all of an approach stays over the
+//   face.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +27,7 @@ struct Approach {
 
 struct Count {
   int approaches = 0, through = 0, overlapping = 0, popped = 0;
-  int not_free = 0;  ///< starts to which the free fingertip did not come
+  int not_free = 0;    ///< starts to which the free fingertip did not come
   double deepest = 0;  ///< overlap [m]
 };
 
@@ -108,9 +110,7 @@ class Plate {
       Vec3 h_P = start + gone(i) * one.direction, h_W = h_P;
       if (moving_) {
         h_W = start;
-        const auto poseAfter = [&](double steps) {
-          return Pose{-gone(steps) * one.direction, Quat::Identity()};
-        };
+        const auto poseAfter = [&](double steps) { return Pose{-gone(steps) * one.direction, Quat::Identity()}; };
         if (rig_.atDynamicsStep()) {
           begin_ = poseAfter(i - 1);
           end_ = poseAfter(i + 4);

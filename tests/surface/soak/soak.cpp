@@ -1,5 +1,6 @@
-// ./dev soak: fingers wander, press and slide over twenty real meshes, as long as is asked for. Every simulated minute is a run of
-// its own, made from a mesh and a seed, and judged by the oracles of tests/surface tick by tick.
+// ./dev soak: fingers wander, press and slide over twenty real meshes, as long as is asked for. Every simulated minute
+// is a run of its own, made from a mesh and a seed, and judged by the oracles of tests/surface tick by tick.
+#include <unistd.h>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -10,7 +11,6 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <unistd.h>
 
 #include "tests/surface/support/mesh_files.h"
 #include "tests/surface/support/wander_run.h"
@@ -111,9 +111,18 @@ class Soak {
       std::printf("BAD  --mesh %s --seed %llu (radius %g mm, friction %g, %s): ", name.c_str(),
                   static_cast<unsigned long long>(seed), touch.radius * 1e3, touch.friction,
                   isStiff(seed) ? "stiff" : "yielding");
-      if (faults.inside > 0) std::printf("inside %lld ticks from %.3f s on; ", static_cast<long long>(faults.inside), faults.first_inside);
+      if (faults.inside > 0) {
+        const MeshOracle& oracle = *groundOf(name).oracle;
+        std::printf(
+            "inside %lld ticks from %.3f s on, in one tick from %.2f mm outside (winding number %.3f) to %.2f mm "
+            "inside (%.3f); ",
+            static_cast<long long>(faults.inside), faults.first_inside, oracle.nearest(faults.before).distance * 1e3,
+            oracle.solidAngles(faults.before), oracle.nearest(faults.after).distance * 1e3,
+            oracle.solidAngles(faults.after));
+      }
       if (faults.overlapping > 0)
-        std::printf("overlapping %lld ticks by up to %.0f um; ", static_cast<long long>(faults.overlapping), faults.deepest * 1e6);
+        std::printf("overlapping %lld ticks by up to %.0f um; ", static_cast<long long>(faults.overlapping),
+                    faults.deepest * 1e6);
       std::printf("pop_through %u, force above k depth %lld, not finite %lld, coverage_lost %u\n", faults.popped,
                   static_cast<long long>(faults.too_strong), static_cast<long long>(faults.not_finite), faults.lost);
     }
@@ -145,7 +154,8 @@ class Soak {
     double ticks = 0;
     for (const auto& [name, sum] : sums_) {
       ticks += static_cast<double>(sum.ticks);
-      std::printf("%-12s %8.1f %7.0f %% %8s %8d %8llu %8lld %8llu\n", name.c_str(), static_cast<double>(sum.ticks) / 60e3,
+      std::printf("%-12s %8.1f %7.0f %% %8s %8d %8llu %8lld %8llu\n", name.c_str(),
+                  static_cast<double>(sum.ticks) / 60e3,
                   100.0 * static_cast<double>(sum.touching) / static_cast<double>(std::max<std::int64_t>(1, sum.ticks)),
                   sum.closed ? std::to_string(sum.inside).c_str() : "open", sum.overlapping,
                   static_cast<unsigned long long>(sum.popped), static_cast<long long>(sum.too_strong),
@@ -172,12 +182,13 @@ class Soak {
 };
 
 [[noreturn]] void usage(int code) {
-  std::printf("usage: ./dev soak [MINUTES] [--mesh NAME] [--seed N] [--jobs N] [--list]\n"
-              "  MINUTES   simulated, 1000 when nothing is said\n"
-              "  --mesh    one mesh instead of twenty in turn\n"
-              "  --seed    of the first minute; each further minute has the next (default 1)\n"
-              "  --list    the meshes, and which of them are closed\n"
-              "To see a run again: ./dev soak 1 --mesh NAME --seed N\n");
+  std::printf(
+      "usage: ./dev soak [MINUTES] [--mesh NAME] [--seed N] [--jobs N] [--list]\n"
+      "  MINUTES   simulated, 1000 when nothing is said\n"
+      "  --mesh    one mesh instead of twenty in turn\n"
+      "  --seed    of the first minute; each further minute has the next (default 1)\n"
+      "  --list    the meshes, and which of them are closed\n"
+      "To see a run again: ./dev soak 1 --mesh NAME --seed N\n");
   std::exit(code);
 }
 

@@ -22,8 +22,8 @@ struct Touch {
 /// The only place in these tests that makes a world: one body, felt as `mesh`, whose adjacency is built.
 World worldOf(std::shared_ptr<const TriMesh> mesh, const Touch& touch);
 
-/// The haptic renderer and the collision query in a graph, stepped as the lockstep executor steps them, without a device: the
-/// finger is where the test says.
+/// The haptic renderer and the collision query in a graph, stepped as the lockstep executor steps them, without a
+/// device: the finger is where the test says.
 class FingerRig {
  public:
   FingerRig(std::shared_ptr<const TriMesh> mesh, const Touch& touch);
@@ -36,7 +36,7 @@ class FingerRig {
   /// Where the moving body is at a time [s] and how fast; from now on.
   void moveBody(const Pose& X_WB_begin, const Pose& X_WB_end, const Vec3& v_WB);
 
-  double time() const;  ///< of the next tick [s]
+  double time() const;                                     ///< of the next tick [s]
   bool atDynamicsStep() const { return index_ % 5 == 0; }  ///< the next tick is one of the 200 Hz
   const ContactExchange& all() const;
   const Touch& touch() const { return touch_; }

@@ -28,7 +28,8 @@ TriMesh needles() {
   std::mt19937_64 random(1);
   TriMesh mesh;
   for (int i = 0; i < 60; ++i) {
-    const Vec3 from = somewhere(random, 0.04), way = somewhere(random, 1).normalized(), side = 20e-6 * way.unitOrthogonal();
+    const Vec3 from = somewhere(random, 0.04), way = somewhere(random, 1).normalized(),
+               side = 20e-6 * way.unitOrthogonal();
     const Index a = add(mesh, from), b = add(mesh, from + side), c = add(mesh, from + way.cross(side)),
                 tip = add(mesh, from + 0.08 * way);
     for (const TriMesh::Triangle& t : {TriMesh::Triangle{a, c, b}, {a, b, tip}, {b, c, tip}, {c, a, tip}})
@@ -37,7 +38,8 @@ TriMesh needles() {
   return mesh;
 }
 
-/// A sheet of triangles 100 mm long and 25 um wide, and others along its surface whose corners lie in one line but for 1 nm.
+/// A sheet of triangles 100 mm long and 25 um wide, and others along its surface whose corners lie in one line but for
+/// 1 nm.
 TriMesh slivers() {
   std::mt19937_64 random(2);
   TriMesh mesh;
@@ -52,8 +54,7 @@ TriMesh slivers() {
   for (int i = 0; i < 500; ++i) {
     const Vec3 from(uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05), 0),
         to(uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05), 0);
-    mesh.triangles.push_back(
-        {add(mesh, from), add(mesh, to), add(mesh, 0.3 * from + 0.7 * to + Vec3(1e-9, 0, 1e-9))});
+    mesh.triangles.push_back({add(mesh, from), add(mesh, to), add(mesh, 0.3 * from + 0.7 * to + Vec3(1e-9, 0, 1e-9))});
   }
   return mesh;
 }
@@ -64,8 +65,8 @@ TriMesh withoutArea() {
   const std::size_t count = mesh.triangles.size();
   for (std::size_t t = 0; t < count; t += 3) {
     const TriMesh::Triangle at = mesh.triangles[t];
-    const Index middle = add(mesh, (mesh.vertices[static_cast<std::size_t>(at[0])] +
-                                    mesh.vertices[static_cast<std::size_t>(at[1])]) / 2);
+    const Index middle = add(
+        mesh, (mesh.vertices[static_cast<std::size_t>(at[0])] + mesh.vertices[static_cast<std::size_t>(at[1])]) / 2);
     mesh.triangles.push_back({at[0], at[1], at[1]});
     mesh.triangles.push_back({at[0], middle, at[1]});
     mesh.triangles.push_back({at[2], at[2], at[2]});
@@ -93,7 +94,8 @@ TriMesh tJunctions() {
   append(mesh, cutBox({0.1, 0.1, 0.05}, 5), {0, 0, -0.025});
   // the two faces in the middle go: what is left is one box with T-junctions round its waist
   std::erase_if(mesh.triangles, [&](const TriMesh::Triangle& t) {
-    return std::ranges::all_of(t, [&](Index v) { return std::abs(mesh.vertices[static_cast<std::size_t>(v)].z()) < 1e-9; });
+    return std::ranges::all_of(
+        t, [&](Index v) { return std::abs(mesh.vertices[static_cast<std::size_t>(v)].z()) < 1e-9; });
   });
   return mesh;
 }
@@ -125,7 +127,8 @@ TriMesh soup() {
   TriMesh mesh;
   for (int i = 0; i < 2000; ++i) {
     const Vec3 at = somewhere(random, 0.05);
-    const Index a = add(mesh, at), b = add(mesh, at + somewhere(random, 0.01)), c = add(mesh, at + somewhere(random, 0.01));
+    const Index a = add(mesh, at), b = add(mesh, at + somewhere(random, 0.01)),
+                c = add(mesh, at + somewhere(random, 0.01));
     mesh.triangles.push_back({a, b, c});
   }
   return mesh;

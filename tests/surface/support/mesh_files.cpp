@@ -86,8 +86,8 @@ std::filesystem::path packagedMesh(const std::string& name) {
 
 const std::vector<std::string>& realMeshes() {
   static const std::vector<std::string> names{
-      "man",   "armadillo", "bear", "blade",   "bones",    "bull",   "camel",   "cow",        "dino",    "elephant",
-      "femur", "hand",      "head", "fandisk", "homer",    "knot2",  "mushroom", "triceratops", "pinion", "OFF/Wuson"};
+      "man",   "armadillo", "bear",    "turbine", "bones", "bull",  "camel",  "cow",         "dino",   "elephant",
+      "femur", "hand",      "bunny00", "fandisk", "homer", "knot2", "cheese", "triceratops", "pinion", "OFF/Wuson"};
   return names;
 }
 

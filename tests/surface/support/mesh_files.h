@@ -13,8 +13,8 @@ TriMesh readOff(const std::filesystem::path& file);
 void scaleTo(TriMesh& mesh, double size);
 void writeObj(const TriMesh& mesh, const std::filesystem::path& file);
 
-/// Where a mesh of Debian's libcgal-demo or assimp-testmodels lies. Throws std::runtime_error, with what to install, where
-/// it is not there.
+/// Where a mesh of Debian's libcgal-demo or assimp-testmodels lies. Throws std::runtime_error, with what to install,
+/// where it is not there.
 std::filesystem::path packagedMesh(const std::string& name);
 
 /// The twenty meshes that fingers wander over: closed or nearly, folded, thin, coarse and fine.

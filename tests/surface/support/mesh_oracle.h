@@ -6,8 +6,8 @@
 
 namespace presa::test {
 
-/// What is true of a mesh, found without Presa's own geometry: distances, crossings and winding numbers by a tree of boxes
-/// of its own and formulas of its own. Mesh coordinates.
+/// What is true of a mesh, found without Presa's own geometry: distances, crossings and winding numbers by a tree of
+/// boxes of its own and formulas of its own. Mesh coordinates.
 class MeshOracle {
  public:
   explicit MeshOracle(const TriMesh& mesh);
@@ -23,8 +23,8 @@ class MeshOracle {
   bool crosses(const Vec3& a, const Vec3& b) const;
   /// Triangles whose boxes come within `radius` of p.
   void near(const Vec3& p, double radius, std::vector<std::int32_t>& found) const;
-  /// How often the surface winds around p: 0 outside of a closed mesh. Signed crossings of three rays; where these disagree
-  /// (an edge was hit, the mesh is open) the solid angle of every triangle, rounded [Jacobson2013].
+  /// How often the surface winds around p: 0 outside of a closed mesh. Signed crossings of three rays; where these
+  /// disagree (an edge was hit, the mesh is open) the solid angle of every triangle, rounded [Jacobson2013].
   int winding(const Vec3& p) const;
   /// Sum of the signed solid angles of all triangles over 4 pi.
   double solidAngles(const Vec3& p) const;
@@ -54,8 +54,8 @@ class MeshOracle {
 /// The point of triangle abc nearest to p, by clamping to its plane, edges and corners.
 Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Watches a moving point: whether it has got inside a mesh. A point cannot get in without its way crossing the surface, so
-/// winding numbers are asked for only where it does (a chord over a corner crosses, too, and is no fault).
+/// Watches a moving point: whether it has got inside a mesh. A point cannot get in without its way crossing the
+/// surface, so winding numbers are asked for only where it does (a chord over a corner crosses, too, and is no fault).
 class InsideWatch {
  public:
   explicit InsideWatch(const MeshOracle& mesh) : mesh_(mesh) {}

@@ -16,16 +16,16 @@ class Icosphere {
  public:
   Icosphere(int n, double radius) : n_(n), radius_(radius) {
     const double g = (1 + std::sqrt(5.0)) / 2;
-    for (const Vec3& corner : {Vec3(-1, g, 0), Vec3(1, g, 0), Vec3(-1, -g, 0), Vec3(1, -g, 0), Vec3(0, -1, g),
-                               Vec3(0, 1, g), Vec3(0, -1, -g), Vec3(0, 1, -g), Vec3(g, 0, -1), Vec3(g, 0, 1),
-                               Vec3(-g, 0, -1), Vec3(-g, 0, 1)}) {
+    for (const Vec3& corner :
+         {Vec3(-1, g, 0), Vec3(1, g, 0), Vec3(-1, -g, 0), Vec3(1, -g, 0), Vec3(0, -1, g), Vec3(0, 1, g),
+          Vec3(0, -1, -g), Vec3(0, 1, -g), Vec3(g, 0, -1), Vec3(g, 0, 1), Vec3(-g, 0, -1), Vec3(-g, 0, 1)}) {
       corners_.push_back(corner);
       add(corner);
     }
-    constexpr Index kFaces[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11},
-                                     {1, 5, 9},   {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                     {3, 9, 4},   {3, 4, 2},  {3, 2, 6},  {3, 6, 8},  {3, 8, 9},
-                                     {4, 9, 5},   {2, 4, 11}, {6, 2, 10}, {8, 6, 7},  {9, 8, 1}};
+    constexpr Index kFaces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                     {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                     {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                     {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
     for (const auto& face : kFaces) cut(face[0], face[1], face[2]);
   }
   TriMesh mesh;

@@ -31,8 +31,12 @@ void WanderRun::run(int ticks, const std::function<void(const FingerContact&)>& 
     depth_ = depth;
     if (closed_ && watch_.update(felt.p_WP)) {
       ++faults_.inside;
-      if (faults_.first_inside < 0) faults_.first_inside = time;
+      if (faults_.first_inside < 0) {
+        faults_.first_inside = time;
+        faults_.after = felt.p_WP;
+      }
     }
+    if (faults_.first_inside < 0) faults_.before = felt.p_WP;
     const double overlap = touch.radius - oracle_.nearest(felt.p_WP, touch.radius).distance;
     faults_.deepest = std::max(faults_.deepest, overlap);
     if (overlap > 0.01 * touch.radius) ++faults_.overlapping;

@@ -6,9 +6,9 @@
 
 namespace presa::test {
 
-/// Where a finger goes that wanders over a body, presses and slides, from a seed: mostly to points up to 10 mm below the surface
-/// or little above it, sometimes straight through the body, at 0.02 to 1 m/s. It is a mass on a spring that follows such a way,
-/// and so yields to what it feels; with `stiff` it goes exactly there.
+/// Where a finger goes that wanders over a body, presses and slides, from a seed: mostly to points up to 10 mm below
+/// the surface or little above it, sometimes straight through the body, at 0.02 to 1 m/s. It is a mass on a spring that
+/// follows such a way, and so yields to what it feels; with `stiff` it goes exactly there.
 class Wanderer {
  public:
   Wanderer(const TriMesh& mesh, std::uint64_t seed, bool stiff);
