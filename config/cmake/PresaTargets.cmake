@@ -18,6 +18,7 @@ add_library(presa_options INTERFACE)
 # no -ffast-math and no -march: results are the same to the bit on every x86-64
 target_compile_options(presa_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wno-restrict -Werror=return-type
   -ffp-contract=off -fno-math-errno
+  -fno-semantic-interposition # nobody replaces our functions at load time: they may be inlined within their library
   -fPIC) # programs, too: one set of precompiled headers serves all
 target_include_directories(presa_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(presa_options INTERFACE Eigen3::Eigen Boost::headers Threads::Threads)

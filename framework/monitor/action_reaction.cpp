@@ -30,7 +30,8 @@ void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const
   pair(tick);
   for (std::size_t f = 0; f < static_cast<std::size_t>(fingers_); ++f) {
     const FingerContact& finger = contact.fingers[f];
-    if (finger.body != body_[f] || finger.mode == ContactMode::kNone) ++sums_.grasp[f];
+    // a finger that several bodies hold gives each its part: the sum over the free ones is not what is rendered
+    if (finger.body != body_[f] || finger.mode == ContactMode::kNone || finger.part_count > 1) ++sums_.grasp[f];
     body_[f] = finger.body;
     force_[f] = finger.f_H_W;
     sums_.rendered[f] += tick.period * finger.f_H_W;

@@ -35,7 +35,7 @@ constexpr double kTorsionCfm = 1;  // [rad/s / (N m)]
 
 FingerJoints::FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world)
     : coupling_(coupling), old_after_(ages::fingers(scene.rates)) {
-  active_.reserve(kMaxFingers);
+  active_.reserve(kMaxFingers * kMaxContactParts);
   const auto soft = [](const Material& material) { return material.torsion > 0; };
   if (coupling == DynamicsSettings::Coupling::kExplicit || scene.devices.empty()) return;
   if (std::ranges::none_of(scene.materials, soft)) return;
@@ -64,21 +64,24 @@ void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const Fin
 std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
   active_.clear();
   for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
-  return forEachTouch(exchange, bodies, [&](std::size_t f, std::size_t body) {
-    const auto row = makeFingerRow(exchange.fingers[f], bodies.inertiaState(body), time - exchange.time, old_after_, h);
+  return forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
+    const auto row = makeFingerRow(contact, bodies.inertiaState(body), time - exchange.time, old_after_, h);
     if (!row) return;
+    const bool first = active_.empty() || active_.back().finger != f;
+    feedback_[active_.size()] = {};
     active_.push_back({f, body, *row});
-    feedback_[f] = {};
-    if (!motors_.empty()) resistTurning(f, body, *row, bodies);
+    // the motor of a soft fingertip goes with the body that is touched first
+    if (!motors_.empty() && first) resistTurning(f, body, *row, bodies);
     if (coupling_ == DynamicsSettings::Coupling::kExplicit) bodies.addForce(body, row->expected_force_W, row->p_WP);
   });
 }
 
 void FingerJoints::addTo(Engine& engine, BodySet& bodies, Islands& islands, const std::vector<char>& wanted) {
   if (coupling_ == DynamicsSettings::Coupling::kExplicit) return;
-  for (const Active& active : active_) {
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const Active& active = active_[i];
     if (wanted[islands.of(active.body)] == 0) continue;
-    engine.addContact(jointOf(active.row), bodies.body(active.body), nullptr, &feedback_[active.finger]);
+    engine.addContact(jointOf(active.row), bodies.body(active.body), nullptr, &feedback_[i]);
   }
 }
 
@@ -87,25 +90,27 @@ bool FingerJoints::letGo(Islands& islands, std::vector<char>& wanted) {
   std::fill(wanted.begin(), wanted.end(), 0);
   if (coupling_ == DynamicsSettings::Coupling::kExplicit) return false;
   bool any = false;
-  for (Active& active : active_) {
-    FingerRow& row = active.row;
-    const Vec3 force = toVec3(feedback_[active.finger].f1);
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    FingerRow& row = active_[i].row;
+    const Vec3 force = toVec3(feedback_[i].f1);
     const double f_n = force.dot(row.n_in);
     const bool at_bound = f_n > 0 && force.dot(row.t1) >= kAtBound * row.mu * f_n;
     if (!at_bound || !(row.mu_dynamic < row.mu)) continue;
     row.mu = row.mu_dynamic;
-    wanted[islands.of(active.body)] = 1;
+    wanted[islands.of(active_[i].body)] = 1;
     any = true;
   }
   return any;
 }
 
 Vec3 FingerJoints::force(std::size_t f) const {
-  for (const Active& active : active_) {
-    if (active.finger != f) continue;
-    return coupling_ == DynamicsSettings::Coupling::kExplicit ? active.row.expected_force_W : toVec3(feedback_[f].f1);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (active_[i].finger != f) continue;
+    sum +=
+        coupling_ == DynamicsSettings::Coupling::kExplicit ? active_[i].row.expected_force_W : toVec3(feedback_[i].f1);
   }
-  return Vec3::Zero();
+  return sum;
 }
 
 }  // namespace presa::ode

@@ -27,7 +27,7 @@ class FingerJoints {
   /// After the solve: fingers whose friction came to its static bound within the step slip at its end, as the haptic side will
   /// render. Gives them their dynamic coefficient and marks their islands in `wanted`; false when there is none.
   bool letGo(Islands& islands, std::vector<char>& wanted);
-  /// After the solve: the mean force of finger `f` on its body [N]; zero without contact.
+  /// After the solve: the mean force of finger `f` on its bodies, all together [N]; zero without contact.
   Vec3 force(std::size_t f) const;
 
  private:
@@ -40,24 +40,31 @@ class FingerJoints {
   const DynamicsSettings::Coupling coupling_;
   const double old_after_;  ///< of a finger [s]
   std::vector<Active> active_;
-  std::array<dJointFeedback, kMaxFingers> feedback_{};
+  std::array<dJointFeedback, kMaxFingers * kMaxContactParts> feedback_{};  // as active_
   std::vector<double> torsion_;   // by body [m]; empty where no fingertip is soft
   std::vector<dJointID> motors_;  // by finger: hold it from turning about its normal, with a bounded torque
 };
 
-/// Calls use(finger, body) for each finger that touches a body that moves; returns how many made no sense.
+/// Calls use(finger, contact, body) for each touch of a moving body: one for a finger on one body, and one for each part of a
+/// finger that several bodies hold. Returns how many made no sense.
 template <class Use>
 std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies, Use use) {
   std::size_t nonsense = 0;
-  const auto count = static_cast<std::size_t>(std::clamp(exchange.count, 0, kMaxFingers));
-  for (std::size_t f = 0; f < count; ++f) {
-    const FingerContact& contact = exchange.fingers[f];
-    if (contact.mode == ContactMode::kNone) continue;
+  const auto judge = [&](std::size_t finger, const FingerContact& contact) {
     const auto body = static_cast<std::size_t>(contact.body);
     if (contact.body < 0 || body >= bodies.size() || !isUsable(contact)) {
       ++nonsense;
     } else if (bodies.moves(body)) {
-      use(f, body);
+      use(finger, contact, body);
+    }
+  };
+  const auto count = static_cast<std::size_t>(std::clamp(exchange.count, 0, kMaxFingers));
+  for (std::size_t f = 0; f < count; ++f) {
+    const FingerContact& contact = exchange.fingers[f];
+    if (contact.mode == ContactMode::kNone) continue;
+    if (contact.part_count < 2) judge(f, contact);
+    for (std::int32_t p = 0; p < contact.part_count && contact.part_count > 1; ++p) {
+      judge(f, contactOf(contact, contact.parts[static_cast<std::size_t>(p)]));
     }
   }
   return nonsense;

@@ -16,6 +16,16 @@ bool isUsable(const FingerContact& c) {
          std::isfinite(c.friction_dynamic) && c.nhat_B.squaredNorm() > 0.25;
 }
 
+FingerContact contactOf(const FingerContact& contact, const ContactPart& part) {
+  FingerContact own = contact;
+  own.body = part.body;
+  own.p_WH = contact.p_WP - part.stretch_W;
+  own.p_BP = own.p_BC = part.p_BP;
+  own.nhat_B = part.nhat_B;
+  own.part_count = 0;
+  return own;
+}
+
 double fingerWeight(double age, double old_after) { return std::clamp(1 - (age - old_after) / kFingerFade, 0.0, 1.0); }
 
 std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age,

@@ -53,6 +53,9 @@ double fingerWeight(double age, double old_after);
 /// Every number the rows are made of is finite and the normal is one.
 bool isUsable(const FingerContact& contact);
 
+/// A part of a contact as a contact of its own: its body, and the HIP where that part of the spring ends.
+FingerContact contactOf(const FingerContact& contact, const ContactPart& part);
+
 /// The rows of a usable `contact`, sampled `age` seconds before the step (its HIP is extrapolated with its velocity, at most
 /// `old_after`), over a step of `h`. Nothing when there is no contact or it has faded.
 std::optional<FingerRow> makeFingerRow(const FingerContact& contact, const BodyInertiaState& body, double age,

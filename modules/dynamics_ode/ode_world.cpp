@@ -105,7 +105,8 @@ void OdeWorld::Impl::lookAhead() {
 
 void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
   islands.reset();
-  forEachTouch(exchange, bodies, [&](std::size_t, std::size_t body) { islands.touchByFinger(body); });
+  forEachTouch(exchange, bodies,
+               [&](std::size_t, const FingerContact&, std::size_t body) { islands.touchByFinger(body); });
   const auto add = [&](const BodyContact& contact) {
     const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
     bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
@@ -177,7 +178,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
 }
 
 void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
-  const std::size_t nonsense = forEachTouch(exchange, bodies, [&](std::size_t, std::size_t body) {
+  const std::size_t nonsense = forEachTouch(exchange, bodies, [&](std::size_t, const FingerContact&, std::size_t body) {
     if (bodies.asleep(body)) sleep->wake(bodies, body);
   });
   if (nonsense > 0) fault(Faults::kBadFinger, nonsense);

@@ -65,6 +65,7 @@ class Surroundings {
   /// The same of one source alone: mesh 0 … meshCount() - 1, or the primitives, -1.
   template <class Visit>
   void forEachWithin(int source, const Vec3& x, const double& limit, const Visit& visit) noexcept;
+  const ConvexPiece& primitive(int i) const noexcept { return primitives_[static_cast<std::size_t>(i)]; }
   int meshCount() const noexcept { return static_cast<int>(near_count_); }
   /// First s in [0, reach] at which a sphere of radius r on its way from x along `move` touches a piece in focus that is not
   /// marked; `reach` when none.

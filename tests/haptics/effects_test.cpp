@@ -131,7 +131,6 @@ TEST(Penalty, PopsThroughAThinPlateWhichTheGodObjectHolds) {
     OneFinger penalty(world);
     Vec3 held = Vec3::Zero(), popped = Vec3::Zero();
     for (OneFinger* finger : {&god, &penalty}) {
-      if (mesh) test::fillPatch(finger->patches(), plate);
       for (double z = 0.02; z > -0.003; z -= 1e-4) (finger == &god ? held : popped) = finger->tick({0, 0, z}).f_H_W;
     }
     const double z = -0.003 + 1e-4;  // last height above -3 mm, up to rounding
@@ -153,8 +152,6 @@ TEST(Shading, TurnsTheForceIntoTheInterpolatedNormal) {
   OneFinger faceted(world);
   world.scene.bodies[0].haptic->smooth = true;
   OneFinger smooth(world);
-  test::fillPatch(faceted.patches(), *mesh);
-  test::fillPatch(smooth.patches(), *mesh);
   double worst_faceted = 0;
   for (int i = -1; i < 1000; ++i) {
     const double a = 0.002 * i;

@@ -116,7 +116,7 @@ TEST(GodObject, NeverPassesAThinPlate) {
       for (int tick = 0; tick < 200 && g.norm() < 0.08; ++tick) {
         g += step;
         x = moveProxy(x, g, kR, *s).x;
-        ASSERT_GE(nearest(s->piece(0), x).distance, kR * (1 - 1e-6)) << speed << ' ' << angle;
+        ASSERT_GE(nearest(s->primitive(0), x).distance, kR * (1 - 1e-6)) << speed << ' ' << angle;
         ASSERT_GT(x.z(), 0);
       }
     }
@@ -131,18 +131,9 @@ TEST(GodObject, GoesRoundTheEdgeOfABox) {
     g += Vec3(0.001, 0, 0);  // sideways past the edge at x = 0.05
     if (g.x() > 0.056) g.z() -= 0.002;
     x = moveProxy(x, g, kR, *s).x;
-    ASSERT_GE(nearest(s->piece(0), x).distance, kR * (1 - 1e-6));
+    ASSERT_GE(nearest(s->primitive(0), x).distance, kR * (1 - 1e-6));
   }
   EXPECT_NEAR((x - g).norm(), 0, 1e-9);  // it came free
-}
-
-// A patch that ends is a wall of ignorance: the proxy waits at its border and says so.
-TEST(GodObject, WaitsWhereThePatchEnds) {
-  const auto s = plate();
-  s->addTriangles(nullptr, nullptr, 0, 0, nullptr, {{0, 0, 0}, 0.02});
-  const ProxyMove move = moveProxy({0, 0, 0.01}, {0.05, 0, 0.01}, kR, *s);
-  EXPECT_FALSE(move.covered);
-  EXPECT_NEAR(move.x.norm() + kR, 0.02, 1e-9);
 }
 
 // Without friction no force acts along the surface, at any depth and speed: the floor of every friction study.
@@ -275,7 +266,8 @@ TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
     if (!tip.touching) continue;
     ++touching;
     stuck += tip.slipping ? 0 : 1;
-    const double off = std::min(nearest(s->piece(0), tip.x).distance, nearest(s->piece(1), tip.x).distance) - kR;
+    const double off =
+        std::min(nearest(s->primitive(0), tip.x).distance, nearest(s->primitive(1), tip.x).distance) - kR;
     ASSERT_LE(off, 1e-4 * kR) << tick;
   }
   EXPECT_GT(touching, 5000);

@@ -23,12 +23,8 @@ struct Sink final : Module {
 /// One finger over a world, rendered by the module as the graph runs it.
 class OneFinger {
  public:
-  explicit OneFinger(World world) : world_(std::make_shared<const World>(std::move(world))) {
-    build(effectsOf(*world_));
-  }
-  OneFinger(World world, const HapticEffects& effects) : world_(std::make_shared<const World>(std::move(world))) {
-    build(effects);
-  }
+  explicit OneFinger(World world) : world_(indexed(std::move(world))) { build(effectsOf(*world_)); }
+  OneFinger(World world, const HapticEffects& effects) : world_(indexed(std::move(world))) { build(effects); }
 
   const FingerContact& tick(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero(), double time = 0) {
     device_->out.value.count = 1;
@@ -44,6 +40,10 @@ class OneFinger {
   std::vector<std::string> stages() const { return graph_.find("haptics_proxy")->stages(); }
 
  private:
+  static std::shared_ptr<const World> indexed(World world) {
+    indexHapticMeshes(world);
+    return std::make_shared<const World>(std::move(world));
+  }
   void build(const HapticEffects& effects) {
     GraphBuilder builder;
     device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
@@ -86,22 +86,6 @@ inline World worldOf(const Shape& shape, bool fixed = true) {
   world.meshes.resize(1);
   world.inertias.resize(1);
   return world;
-}
-
-/// The whole mesh as the patch of the one finger.
-inline void fillPatch(ContactPatches& patches, const TriMesh& mesh) {
-  patches.count = 1;
-  FingerPatch& patch = patches.fingers[0];
-  patch.body_count = 1;
-  patch.triangle_count = static_cast<std::int32_t>(mesh.triangles.size());
-  patch.bodies[0] = {0, 0, patch.triangle_count, Vec3::Zero(), 1, false};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      patch.triangles[t].v_B[i] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][i])];
-    }
-    patch.triangles[t].id = static_cast<std::int32_t>(t);
-    patch.bounds[t] = boundOf(patch.triangles[t].v_B);
-  }
 }
 
 }  // namespace presa::test
