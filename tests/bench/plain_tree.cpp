@@ -92,9 +92,10 @@ std::int32_t PlainTree::addLeaf(const std::vector<std::int32_t>& order, std::siz
         std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()});
     spheres.radius[i - begin] = static_cast<float>(std::sqrt(squared) * (1 + 1e-5));
   }
-  triangles_.resize(kLeaf * (spheres_.size() + 1));
+  const auto leaf = static_cast<std::int32_t>(spheres_.size());
   spheres_.push_back(spheres);
-  return ~static_cast<std::int32_t>(spheres_.size() - 1);
+  triangles_.resize(kLeaf * spheres_.size());
+  return ~leaf;
 }
 
 void PlainTree::bound(Node& node, std::size_t side, std::vector<std::int32_t>& order, std::size_t begin,
@@ -175,7 +176,8 @@ void PlainTree::query(const Vec3& p, double radius, Found& found) const {
       if (near > most) goto next;
       at = first;
     }
-    leaf(static_cast<std::size_t>(~at));
+    at = ~at;
+    leaf(static_cast<std::size_t>(at));
   next:
     do {
       if (count == 0) {

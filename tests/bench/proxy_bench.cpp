@@ -151,11 +151,13 @@ std::unique_ptr<Rig> manyBodies(int count, Touched body, Motion motion) {
   std::vector<Touched> bodies;
   body.fixed = false;
   for (int i = 0; i < count; ++i) {
-    body.p_WB = 0.15 * Vec3(i % side, i / side, 0);
+    const int row = i / side;
+    body.p_WB = 0.15 * Vec3(i % side, row, 0);
     bodies.push_back(body);
     if (i % 10 == 5) motion.swinging.push_back(static_cast<std::size_t>(i));
   }
-  motion.carrier = static_cast<std::size_t>((side + 1) * (side / 2));  // in the middle
+  const int middle = side / 2 * (side + 1);
+  motion.carrier = static_cast<std::size_t>(middle);
   return std::make_unique<Rig>(worldOf(bodies, 8e-3), std::move(motion));
 }
 
