@@ -52,24 +52,21 @@ ForceCommand commandAt(std::uint64_t tick) {
   return command;
 }
 
-ObjectState objectsAt(std::uint64_t tick, double time) {
-  ObjectState state;
+void setObjects(ObjectState& state, std::uint64_t tick, double time) {
   state.time_begin = time - 0.001;
   state.time_end = time + 0.003;
-  state.bodies.resize(2);
   BodyMotion& cube = state.bodies[1];
   const auto height = static_cast<double>(tick);
   cube.X_WB_begin = {Vec3(0, 0, height), Quat::Identity()};
   cube.X_WB_end = {Vec3(0, 0, height + 4), Quat(0, 0, 0, 1)};
   cube.v_WB = Vec3(1, 2, 3);
   cube.w_WB = Vec3(4, 5, 6);
-  return state;
 }
 
 void Source::step(const Tick& tick) noexcept {
   device.value = deviceAt(tick.index);
   command.value = commandAt(tick.index);
-  objects.value = objectsAt(tick.index, tick.time);
+  setObjects(objects.value, tick.index, tick.time);
   contact.value.count = 2;
   contact.value.fingers[0].mode = ContactMode::kSlip;
   contact.value.fingers[0].body = 1;

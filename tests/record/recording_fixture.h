@@ -27,12 +27,12 @@ inline Vec3 vectorAt(std::uint64_t tick, std::uint64_t place) {
 DeviceState deviceAt(std::uint64_t tick);
 ForceCommand commandAt(std::uint64_t tick);
 /// Ordinary numbers: the cube falls and turns, so that poses can be checked by formula.
-ObjectState objectsAt(std::uint64_t tick, double time);
+void setObjects(ObjectState& state, std::uint64_t tick, double time);
 
 /// Plays the whole haptic and dynamics side.
 class Source final : public Module {
  public:
-  Source() : Module("source", RateGroup::kHaptic) {}
+  Source() : Module("source", RateGroup::kHaptic) { objects.value.bodies.resize(2); }
   void step(const Tick& tick) noexcept override;
   Out<DeviceState> device{*this, "device_state"};
   Out<ContactExchange> contact{*this, "contact_exchange"};
