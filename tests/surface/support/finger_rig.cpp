@@ -8,12 +8,18 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-/// Meshes that bring a tree for the fingers get it here.
+/// Meshes that bring a tree for the fingers get it here, the one of the last world where the mesh is the same.
 template <class Meshes>
 void plant(Meshes& meshes) {
   if constexpr (requires { meshes.haptic_tree; }) {
     using Tree = typename decltype(meshes.haptic_tree)::element_type;
-    meshes.haptic_tree = std::make_shared<Tree>(meshes.haptic);
+    thread_local Meshes last;
+    if (last.haptic != meshes.haptic) {
+      last = {};
+      meshes.haptic_tree = std::make_shared<Tree>(meshes.haptic);
+      last = meshes;
+    }
+    meshes.haptic_tree = last.haptic_tree;
   }
 }
 
