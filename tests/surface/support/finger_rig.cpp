@@ -1,5 +1,7 @@
 #include "tests/surface/support/finger_rig.h"
 
+#include <cmath>
+
 #include "modules/collision_fcl/collision_module.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
@@ -80,7 +82,7 @@ double FingerRig::time() const { return static_cast<double>(index_) * kPeriod; }
 const ContactExchange& FingerRig::all() const { return sink_->contact.value(); }
 
 const FingerContact& FingerRig::tick(const Vec3& p_WH) {
-  const auto ticks_per_query = static_cast<std::uint64_t>(1 / (kPeriod * touch_.collision_hz) + 0.5);
+  const auto ticks_per_query = static_cast<std::uint64_t>(std::lround(1 / (kPeriod * touch_.collision_hz)));
   const double time = FingerRig::time();
   if (index_ % ticks_per_query == 0) {
     graph_.step(RateGroup::kCollision,
