@@ -2,8 +2,8 @@
 //
 // Which point is exact: let K be the convex solid under the finger, h the HIP, r the fingertip's radius. The
 // fingertip's centre may be anywhere at least r from K, and a god-object is at a local minimum of its distance to h.
-// - h outside of K, d = dist(h, K) < r at the point q: distance to K grows by at most 1 m a metre, and does so along h
-//   - q. So q + r (h - q) / d, at the distance r - d, is the only minimum.
+// - h outside of K, d = dist(h, K) < r at the point q: distance to K grows by at most 1 m a metre, and does so along
+//   (h - q) / d. So q + r (h - q) / d, at the distance r - d, is the only minimum.
 // - h inside K: from a point over an edge or a corner the distance to h falls towards one of the facets beside it. What
 //   is left are points over facets: h + (s + r) n for each facet (unit normal n, h at the depth s below its plane) that
 //   has h + s n in it. Near an edge both facets have one, and which it is depends on the way; both are exact.
@@ -19,7 +19,7 @@
 namespace presa::test {
 namespace {
 
-constexpr double kStiffness = 2000, kPress = 1e-3, kRadii[] = {0, 0.1e-3, 1e-3, 8e-3, 15e-3};
+constexpr double kStiffness = 2000, kPress = 1e-3, kFar = 0.25, kRadii[] = {0, 0.1e-3, 1e-3, 8e-3, 15e-3};
 
 /// How far rounding moves the exact answer [m]. With the HIP almost at the solid, the fingertip's centre can go round
 /// it at almost the same distance: this is how far it goes while that changes by 1e-14 m, a thousandth of an atom.
@@ -66,6 +66,14 @@ struct Errors {
 
 void keepWorst(double& worst, double value) { worst = std::isnan(value) ? 1e300 : std::max(worst, value); }
 
+/// To a free place straight from the middle, by a way far from everything: no way leads through the body.
+void comeTo(FingerRig& rig, const Vec3& to) {
+  const Vec3 from = rig.at(), out = from.norm() > 0 ? Vec3(from.normalized()) : Vec3(Vec3::UnitZ());
+  const Quat turn = Quat::FromTwoVectors(out, to);
+  for (int i = 0; i <= 8; ++i) rig.place(kFar * (Quat::Identity().slerp(i / 8.0, turn) * out));
+  rig.place(to);
+}
+
 /// Down at 0.2 m/s, still for 30 ms, sliding for 50 ms; `inside`: whether the HIP is then in the solid.
 void touchAt(FingerRig& rig, const MeshOracle& mesh, const Place& place, Errors& errors) {
   const double r = rig.touch().radius;
@@ -95,7 +103,8 @@ void touchAt(FingerRig& rig, const MeshOracle& mesh, const Place& place, Errors&
     last_exact = exact_force;
     last_slack = slack;
   };
-  rig.place(place.on + (r + 5e-3) * place.normal);
+  comeTo(rig, place.on + (r + 5e-3) * place.normal);
+  const std::uint32_t lost = rig.all().coverage_lost;
   for (double way = 5e-3; way > 0; way -= 0.2e-3) rig.tick(place.on + (r - kPress + way) * place.normal);
   h = place.on + (r - kPress) * place.normal;
   for (int i = 0; i < 10; ++i) rig.tick(h);
@@ -106,7 +115,8 @@ void touchAt(FingerRig& rig, const MeshOracle& mesh, const Place& place, Errors&
     h += 0.1e-3 * place.along;
     judge(first, false);
   }
-  rig.place(h + 10e-3 * place.normal);
+  errors.lost += rig.all().coverage_lost - lost;
+  comeTo(rig, kFar * place.normal);
 }
 
 /// A mesh with its ideal surface.
@@ -146,22 +156,23 @@ Ideal boxOf(int n) {
   return {"box", share(cutBox({0.1, 0.1, 0.1}, m)), [](std::mt19937_64& random) { return onTop(random, 0.05); }};
 }
 
-Errors measure(const Ideal& ideal, double radius, bool smooth = false) {
-  const MeshOracle oracle(*ideal.mesh);
+Errors measure(const Ideal& ideal, const MeshOracle& oracle, double radius, bool smooth = false) {
   FingerRig rig(ideal.mesh, {.radius = radius, .stiffness = kStiffness, .smooth = smooth});
   std::mt19937_64 random(7);
   Errors errors;
   for (int i = 0; i < 8; ++i) touchAt(rig, oracle, ideal.place(random), errors);
-  errors.lost = rig.all().coverage_lost;
   errors.popped = rig.all().pop_through;
   return errors;
 }
 
 void expectExact(const Ideal& ideal) {
+  const MeshOracle oracle(*ideal.mesh);
+  const bool finest = ideal.mesh->triangles.size() > 1'000'000;
   for (const double radius : kRadii) {
+    if (finest && (radius == 1e-3 || radius == 15e-3)) continue;  // for time: they differ by nothing but the radius
     SCOPED_TRACE(testing::Message() << ideal.name << " of " << ideal.mesh->triangles.size() << " triangles, radius "
                                     << radius * 1e3 << " mm");
-    const Errors errors = measure(ideal, radius);
+    const Errors errors = measure(ideal, oracle, radius);
     EXPECT_EQ(errors.lost, 0u);
     EXPECT_EQ(errors.popped, 0u);
     EXPECT_LE(errors.proxy, 1e-6);        // a thousandth of the depth
@@ -201,9 +212,11 @@ TEST(Accuracy, OneMillimetreIsTwoNewtons) {
 // there to the HIP.
 TEST(Accuracy, ASmoothSphereHasNoFacets) {
   for (const int n : {kCoarse, kFine}) {
+    const Ideal ideal = sphereOf(n);
+    const MeshOracle oracle(*ideal.mesh);
     for (const double radius : kRadii) {
       SCOPED_TRACE(testing::Message() << 20 * n * n << " triangles, radius " << radius * 1e3 << " mm");
-      const Errors errors = measure(sphereOf(n), radius, true);
+      const Errors errors = measure(ideal, oracle, radius, true);
       const double aside = std::max(0.0, radius - kPress) * facetAngle(n);
       EXPECT_LE(errors.ideal, std::max(0.002, kStiffness * kPress * aside / 0.05));
       EXPECT_LE(errors.chatter, 1e-12);

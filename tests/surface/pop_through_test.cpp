@@ -13,9 +13,13 @@ namespace {
 const char* const kScene = R"(<?xml version="1.0" encoding="UTF-8"?>
 <scene version="1.0" name="man" rig="man_rig.xml">
   <world gravity="0 0 -9.81"/>
-  <materials><material name="rubber" stiffness="1000" damping="1"><friction static="0.5" dynamic="0.4"/></material></materials>
+  <materials>
+    <material name="rubber" stiffness="1000" damping="1"><friction static="0.5" dynamic="0.4"/></material>
+  </materials>
   <body name="man" material="rubber" fixed="true"><haptic><mesh file="man.obj"/></haptic></body>
-  <devices><device role="finger" fingertip_radius="0.002"><limits force="40" force_rate="4000" watchdog_ms="20"/></device></devices>
+  <devices>
+    <device role="finger" fingertip_radius="0.002"><limits force="40" force_rate="4000" watchdog_ms="20"/></device>
+  </devices>
 </scene>
 )";
 

@@ -77,6 +77,7 @@ class Soak {
       if (options_.mesh.empty() || name == options_.mesh) static_cast<void>(packagedMesh(name));  // all there?
     }
     std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(options_.jobs));
     for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { work(); });
     for (std::thread& thread : threads) thread.join();
     return summary();

@@ -1,5 +1,7 @@
 #include "tests/surface/support/finger_rig.h"
 
+#include <cmath>
+
 #include "modules/collision_fcl/collision_module.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
@@ -8,12 +10,18 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-/// Meshes that bring a tree for the fingers get it here.
+/// Meshes that bring a tree for the fingers get it here, the one of the last world where the mesh is the same.
 template <class Meshes>
 void plant(Meshes& meshes) {
   if constexpr (requires { meshes.haptic_tree; }) {
     using Tree = typename decltype(meshes.haptic_tree)::element_type;
-    meshes.haptic_tree = std::make_shared<Tree>(meshes.haptic);
+    thread_local Meshes last;
+    if (last.haptic != meshes.haptic) {
+      last = {};
+      meshes.haptic_tree = std::make_shared<Tree>(meshes.haptic);
+      last = meshes;
+    }
+    meshes.haptic_tree = last.haptic_tree;
   }
 }
 
@@ -74,7 +82,7 @@ double FingerRig::time() const { return static_cast<double>(index_) * kPeriod; }
 const ContactExchange& FingerRig::all() const { return sink_->contact.value(); }
 
 const FingerContact& FingerRig::tick(const Vec3& p_WH) {
-  const auto ticks_per_query = static_cast<std::uint64_t>(1 / (kPeriod * touch_.collision_hz) + 0.5);
+  const auto ticks_per_query = static_cast<std::uint64_t>(std::lround(1 / (kPeriod * touch_.collision_hz)));
   const double time = FingerRig::time();
   if (index_ % ticks_per_query == 0) {
     graph_.step(RateGroup::kCollision,

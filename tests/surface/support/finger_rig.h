@@ -36,6 +36,7 @@ class FingerRig {
   /// Where the moving body is at a time [s] and how fast; from now on.
   void moveBody(const Pose& X_WB_begin, const Pose& X_WB_end, const Vec3& v_WB);
 
+  const Vec3& at() const { return last_; }                 ///< where the finger was last
   double time() const;                                     ///< of the next tick [s]
   bool atDynamicsStep() const { return index_ % 5 == 0; }  ///< the next tick is one of the 200 Hz
   const ContactExchange& all() const;

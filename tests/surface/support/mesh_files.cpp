@@ -76,7 +76,7 @@ void writeObj(const TriMesh& mesh, const std::filesystem::path& file) {
 
 std::filesystem::path packagedMesh(const std::string& name) {
   const bool assimp = name.find('/') != std::string::npos;  // OFF/Wuson
-  const std::filesystem::path file =
+  std::filesystem::path file =
       std::filesystem::path(assimp ? PRESA_ASSIMP_MESHES : PRESA_CGAL_MESHES) / (name + ".off");
   if (std::filesystem::exists(file)) return file;
   throw std::runtime_error("no mesh " + name + " here: the Debian package " +
