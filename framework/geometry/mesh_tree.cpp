@@ -22,6 +22,12 @@ struct Center {
 std::array<float, 3> toFloats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
+/// What a query will read. GCC 12 vectorises double -> float -> double into nothing, and the disc would be fitted around a
+/// centre that was never rounded.
+std::array<float, 3> stored(const std::array<float, 3>& v) {
+  const volatile float x = v[0], y = v[1], z = v[2];
+  return {x, y, z};
+}
 float roundUp(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
@@ -66,7 +72,7 @@ class Builder {
       area += split(left + 1, middle, end);
     }
     const double size = area.norm();
-    nodes_[at].axis = toFloats(size > 0 ? Vec3(area / size) : Vec3::UnitZ());
+    nodes_[at].axis = stored(toFloats(size > 0 ? Vec3(area / size) : Vec3::UnitZ()));
     if (nodes_[at].isLeaf() || end - begin <= kExactDiscs) {
       fitDisc(nodes_[at], begin, end);
     } else {
@@ -121,7 +127,7 @@ class Builder {
       high = std::max(high, axis.dot(v));
     });
     const Vec3 middle = 0.5 * (box.low + box.high);
-    node.center = toFloats(middle + (0.5 * (low + high) - axis.dot(middle)) * axis);
+    node.center = stored(toFloats(middle + (0.5 * (low + high) - axis.dot(middle)) * axis));
     const Vec3 center = MeshTree::centerOf(node);
     double half = 0, squared = 0;
     forEachVertex(begin, end, [&](const Vec3& v) {
@@ -137,7 +143,7 @@ class Builder {
     const Vec3 axis = MeshTree::axisOf(node);
     const Node& left = nodes_[static_cast<std::size_t>(node.first)];
     const Node& right = nodes_[static_cast<std::size_t>(node.first) + 1];
-    node.center = toFloats(0.5 * (MeshTree::centerOf(left) + MeshTree::centerOf(right)));
+    node.center = stored(toFloats(0.5 * (MeshTree::centerOf(left) + MeshTree::centerOf(right))));
     const Vec3 center = MeshTree::centerOf(node);
     double radius = 0, half = 0;
     for (const Node* child : {&left, &right}) {

@@ -217,6 +217,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     const double limit = look.room(result.x) / length;
     const double fraction = freeFraction(result.x, move, limit, r, tolerance, surroundings, leg);
     result.x += fraction * move;
+    surroundings.leaveTrail(result.x);
     ahead = kAhead * fraction * length;
   }
   if (!met) result.first_touch = result.x;

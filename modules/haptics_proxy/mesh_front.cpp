@@ -105,39 +105,36 @@ double MeshFront::clearance(const Vec3& p) const noexcept {
   return least;
 }
 
-int MeshFront::crossings(const Vec3& a, const Vec3& b) noexcept {
-  int sum = 0;
-  const int count = count_;
-  for (int i = 0; i < count; ++i) cross(i, a, b, sum);
-  return sum;
-}
-
-void MeshFront::cross(int item, const Vec3& a, const Vec3& b, int& sum) noexcept {
-  const auto i = static_cast<std::size_t>(item);
-  const Vec3 nhat(nx_[i], ny_[i], nz_[i]);
-  if (std::min(nhat.dot(a), nhat.dot(b)) + offset_[i] > 0)
-    return;  // a crossed triangle is at no distance from the segment
-  if (refs_[i] < 0) {
-    sum += crossing(tree_->facet(~refs_[i]), a, b);
-    return;
+bool MeshFront::crosses(const Vec3& a, const Vec3& b, bool focused) noexcept {
+  const int count = focused ? near_count_ : count_;
+  for (int n = 0; n < count; ++n) {
+    if (crossesItem(focused ? near_[static_cast<std::size_t>(n)] : n, a, b)) return true;
   }
-  const Vec3 middle = 0.5 * (a + b);
-  double distance = 0;
-  bind(item, tree_->bound(refs_[i], middle, distance));
-  if (distance > 0.5 * (b - a).norm()) return;
-  const int old_count = count_;
-  if (!open(item)) return;
-  const int new_count = count_;
-  cross(item, a, b, sum);
-  for (int child = old_count; child < new_count; ++child) cross(child, a, b, sum);
+  return false;
 }
 
-// Two triangles at an edge take its corners in the same order, so that a segment through the edge crosses just one of them.
-int MeshFront::crossing(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept {
+bool MeshFront::crossesItem(int item, const Vec3& a, const Vec3& b) noexcept {
+  constexpr double kRounding = 1e-14;  // of the coordinates
+  // a triangle that is crossed is at no distance from a point of the segment
+  if (std::min(boundAt(item, a), boundAt(item, b)) > kRounding * (a.norm() + b.norm())) return false;
+  const std::int32_t ref = refs_[static_cast<std::size_t>(item)];
+  if (ref < 0) return crossesFacet(tree_->facet(~ref), a, b);
+  double distance = 0;
+  bind(item, tree_->bound(ref, 0.5 * (a + b), distance));
+  if (distance > 0.5 * (b - a).norm() * (1 + 1e-9)) return false;
+  const int old_count = count_;
+  if (!open(item)) return false;  // it is solid now, and told as lost coverage
+  const int new_count = count_;
+  bool crossed = crossesItem(item, a, b);
+  for (int child = old_count; child < new_count && !crossed; ++child) crossed = crossesItem(child, a, b);
+  return crossed;
+}
+
+// Two triangles at an edge take its corners in the same order, so that a segment through the edge does not slip between them.
+bool MeshFront::crossesFacet(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept {
   const Vec3 &u = tree_->corner(facet, 0), &v = tree_->corner(facet, 1), &w = tree_->corner(facet, 2);
   const Vec3 normal = (v - u).cross(w - u);
-  const bool front_a = normal.dot(a - u) > 0, front_b = normal.dot(b - u) > 0;
-  if (front_a == front_b) return 0;
+  if ((normal.dot(a - u) > 0) == (normal.dot(b - u) > 0)) return false;
   const Vec3 way = b - a;
   bool all_left = true, all_right = true;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -149,8 +146,7 @@ int MeshFront::crossing(const MeshTree::Facet& facet, const Vec3& a, const Vec3&
     all_left = all_left && left;
     all_right = all_right && !left;
   }
-  if (!all_left && !all_right) return 0;
-  return front_a ? 1 : -1;
+  return all_left || all_right;
 }
 
 }  // namespace presa

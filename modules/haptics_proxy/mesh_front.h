@@ -61,9 +61,8 @@ class MeshFront {
   }
   /// Lower bound of the distance of p from everything [m].
   double clearance(const Vec3& p) const noexcept;
-  /// Sum over all triangles that the segment from a to b crosses: +1 from front to back, -1 from back to front. Not zero: b
-  /// lies on the other side of the surface than a.
-  int crossings(const Vec3& a, const Vec3& b) noexcept;
+  /// True when the segment from a to b crosses a triangle. `focused`: it lies where everything is in focus.
+  bool crosses(const Vec3& a, const Vec3& b, bool focused) noexcept;
 
  private:
   static constexpr int kBlock = 8;
@@ -105,8 +104,8 @@ class MeshFront {
   void lookAt(int item, const Vec3& p, const double& limit, const Visit& visit) noexcept;
   void sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
              const SweepTolerance& tolerance) noexcept;
-  void cross(int item, const Vec3& a, const Vec3& b, int& sum) noexcept;
-  int crossing(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept;
+  bool crossesItem(int item, const Vec3& a, const Vec3& b) noexcept;
+  bool crossesFacet(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept;
 
   // one array for each coordinate: a pass over the bounds goes through them in step
   std::array<double, kCapacity> nx_{}, ny_{}, nz_{}, offset_{};

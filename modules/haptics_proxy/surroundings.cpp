@@ -128,22 +128,30 @@ bool Surroundings::passedThrough(const Vec3& x) noexcept {
   inside_primitive_ = inside;
   for (std::size_t m = 0; m < near_count_; ++m) {
     Mesh& mesh = *near_[m];
-    const Vec3 x_G = mesh.toG(x);
-    if (mesh.followed) {
-      const double way = (x_G - mesh.last_x_G).norm();
-      if (way >= mesh.clearance) {  // else there is no surface on the way
-        if (mesh.fronts[point_].crossings(mesh.last_x_G, x_G) != 0) passed = true;
-        mesh.clearance = mesh.fronts[point_].clearance(x_G);
-      } else {
-        mesh.clearance -= way;
-      }
-    } else {
-      mesh.clearance = 0;
-    }
-    mesh.followed = true;
-    mesh.last_x_G = x_G;
+    for (int i = 0; i < trail_count_; ++i) passed = follow(mesh, trail_[static_cast<std::size_t>(i)]) || passed;
+    passed = follow(mesh, x) || passed;
   }
   return passed;
+}
+
+bool Surroundings::follow(Mesh& mesh, const Vec3& x) noexcept {
+  const Vec3 x_G = mesh.toG(x), from_G = mesh.last_x_G;
+  mesh.last_x_G = x_G;
+  if (!mesh.followed) {
+    mesh.followed = true;
+    mesh.clearance = 0;
+    return false;
+  }
+  const double way = (x_G - from_G).norm();
+  mesh.clearance -= way;
+  if (mesh.clearance > 0 || way == 0) return false;  // there is no surface on the way
+  MeshFront& front = mesh.fronts[point_];
+  const Vec3 from = mesh.own ? from_G : mesh.X_AG * from_G;
+  const bool focused = inFocus(x) && inFocus(from);
+  const bool crossed = front.crosses(from_G, x_G, focused);
+  // worth its while only where the fingertip keeps off the surface by more than it moves
+  if (!focused || way < 0.1 * focus_radius_) mesh.clearance = front.clearance(x_G);
+  return crossed;
 }
 
 bool Surroundings::crowded() const noexcept {

@@ -49,10 +49,16 @@ class Surroundings {
   void addMesh(std::int32_t body, const MeshTree& tree, const Pose* X_AG, const Pose& X_BG, const NearBody* cut,
                const Vec3& p_A, double reach) noexcept;
   /// Whose fronts the calls below look through.
-  void use(Point point) noexcept { point_ = static_cast<std::size_t>(point); }
+  void use(Point point) noexcept {
+    point_ = static_cast<std::size_t>(point);
+    trail_count_ = 0;
+    focus_radius_ = -1;
+  }
 
   /// Picks the pieces that may come within `radius` of x: all that the queries below look through until the next focus().
   void focus(const Vec3& x, double radius) noexcept {
+    focus_center_ = x;
+    focus_radius_ = radius;
     for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].focus(near_[m]->toG(x), radius);
   }
   /// How far the HIP came in this tick, as seen from what it touches: how far a fingertip will have to look [m].
@@ -86,8 +92,13 @@ class Surroundings {
                           : near_[static_cast<std::size_t>(ref.source)]->X_AG.q.toRotationMatrix();
   }
 
-  /// The fingertip's centre is at x at the end of a tick. True when it came to the other side of a mesh's surface since the end
-  /// of the last one, seen from that mesh, or when it is inside a primitive.
+  /// The point in use goes by way of x in this tick.
+  void leaveTrail(const Vec3& x) noexcept {
+    if (trail_count_ == static_cast<int>(trail_.size())) --trail_count_;  // the way is judged the more coarsely
+    trail_[static_cast<std::size_t>(trail_count_++)] = x;
+  }
+  /// The fingertip's centre is at x at the end of a tick. True when its way since the end of the last one, seen from a mesh,
+  /// crosses a triangle of it, or when it is inside a primitive now: judged by the surfaces, not by what moved it.
   bool passedThrough(const Vec3& x) noexcept;
 
   /// Something in reach found no room in this tick.
@@ -116,6 +127,9 @@ class Surroundings {
     Nearest toA(const Nearest& at) const noexcept { return own ? at : Nearest{X_AG.q * at.nhat, at.distance}; }
   };
   Mesh* meshOf(std::int32_t body) noexcept;
+  /// Goes on to x; true when a triangle of the mesh is crossed on the way.
+  bool follow(Mesh& mesh, const Vec3& x) noexcept;
+  bool inFocus(const Vec3& x) const noexcept { return (x - focus_center_).norm() <= 0.5 * focus_radius_; }
   static void seed(Mesh& mesh, std::size_t point, const NearBody* cut, const Pose& X_BG, const Vec3& p_G,
                    double reach) noexcept;
 
@@ -130,6 +144,10 @@ class Surroundings {
   std::size_t point_ = 0;
   std::uint64_t tick_ = 0;
   double step_ = 0;
+  Vec3 focus_center_ = Vec3::Zero();
+  double focus_radius_ = -1;
+  std::array<Vec3, 64> trail_;
+  int trail_count_ = 0;
   bool no_room_ = false;
 };
 

@@ -129,7 +129,8 @@ double Touchables::meet(const Touchable& touchable, const Look& look, const Near
   constexpr double kTicksAhead = 3;  // a moving body is seen before it can arrive
   const Pose& X_WB = placed(touchable.body);
   double approach = 0;
-  if (moves_[static_cast<std::size_t>(touchable.body)] != 0 && objects_ != nullptr && touchable.body < objects_->count()) {
+  if (moves_[static_cast<std::size_t>(touchable.body)] != 0 && objects_ != nullptr &&
+      touchable.body < objects_->count()) {
     const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(touchable.body)];
     const double speed = motion.v_WB.norm() + motion.w_WB.norm() * (look.p_WH - X_WB.p).norm();
     if (speed > 0) approach = look.moved + look.period * speed;

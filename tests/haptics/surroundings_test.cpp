@@ -125,9 +125,9 @@ TEST(MeshFront, FindsEveryTriangleWithinADistance) {
   EXPECT_FALSE(front->full());
 }
 
-// A segment between two sides of a closed surface crosses it once, net, also where it passes exactly through edges and
-// corners. Oracle: a box knows what is inside.
-TEST(MeshFront, KnowsWhenTheSideChanges) {
+// A segment between two sides of a closed surface crosses it, also where it passes exactly through edges and corners; one
+// that stays away from it does not. Oracle: a box knows what is inside.
+TEST(MeshFront, KnowsWhenASegmentCrosses) {
   const auto mesh = std::make_shared<const TriMesh>(makeBox({0.02, 0.02, 0.02}));
   const MeshTree tree(mesh);
   const std::array<std::int32_t, 1> root{MeshTree::kRoot};
@@ -135,16 +135,26 @@ TEST(MeshFront, KnowsWhenTheSideChanges) {
   std::mt19937_64 random(4);
   std::uniform_int_distribution<int> grid(-3, 3);  // edges, corners and diagonals lie on it
   const auto inside = [](const Vec3& p) { return p.cwiseAbs().maxCoeff() < 0.01; };
-  int changed = 0;
+  const auto onSurface = [](const Vec3& p) { return std::abs(p.cwiseAbs().maxCoeff() - 0.01) < 1e-9; };
+  int changed = 0, clear = 0;
   for (int trial = 0; trial < 20'000; ++trial) {
-    const auto point = [&] { return Vec3(grid(random), grid(random), grid(random)) * 0.005; };
+    const auto point = [&]() -> Vec3 { return Vec3(grid(random), grid(random), grid(random)) * 0.005; };
     const Vec3 a = point(), b = point();
-    if (std::abs(a.cwiseAbs().maxCoeff() - 0.01) < 1e-9 || std::abs(b.cwiseAbs().maxCoeff() - 0.01) < 1e-9) continue;
+    if (onSurface(a) || onSurface(b)) continue;
     front->seed(tree, root, a);
-    ASSERT_EQ(front->crossings(a, b), static_cast<int>(inside(b)) - static_cast<int>(inside(a))) << a << "\n" << b;
-    changed += inside(a) != inside(b);
+    const bool crosses = front->crosses(a, b, false);
+    if (inside(a) != inside(b)) {
+      ASSERT_TRUE(crosses) << a << "\n" << b;
+      ++changed;
+    } else if (inside(a)) {
+      ASSERT_FALSE(crosses) << a << "\n" << b;  // the box is convex
+    } else if ((a.array() * b.array()).maxCoeff() > 1e-4) {
+      ASSERT_FALSE(crosses) << a << "\n" << b;  // both beyond one face
+      ++clear;
+    }
   }
-  EXPECT_GT(changed, 100);
+  EXPECT_GT(changed, 1000);
+  EXPECT_GT(clear, 1000);
 }
 
 // A spherical socket of the fingertip's own radius: every triangle is touched at once, more than there is room for. Nodes
