@@ -7,11 +7,43 @@
 
 namespace presa {
 
+namespace {
+
+/// The fingertip is where it is held: that is what is rendered. Where the frictionless point has gone another way, round an edge
+/// or out of a fold that the fingertip still is in, it starts again from the fingertip, which goes on from `x` without friction.
+void startAgainFrom(const Vec3& x, const Vec3& g, double r, ProxyContact& contact,
+                    Surroundings& surroundings) noexcept {
+  const ProxyMove free = moveProxy(x, g, r, surroundings);
+  contact.state.x = contact.state.god = contact.state.hold = free.x;
+  contact.state.touching = contact.state.slipping = free.touching;
+  contact.depth = free.touching ? (free.x - g).norm() : 0;
+  contact.body = free.body;
+  contact.first_touch = free.first_touch;
+  contact.active = free.active;
+  if (contact.depth > 0) contact.nhat = (free.x - g) / contact.depth;
+}
+
+constexpr double kSameSide = 0.5;  // cosine between the normals of two points that are on one side of a thing
+
+bool meets(const Vec3& a, const Vec3& b, double r) noexcept {
+  constexpr double kSame = 1e-4;  // of r: two motions to one place end no farther apart
+  return (a - b).norm() <= kSame * r;
+}
+
+}  // namespace
+
 // The base of the cone is the frictionless point, its apex the HIP, its radius mu * depth.
 void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
                     const FrictionCone& cone, Surroundings& surroundings) noexcept {
-  if (!contact.state.touching) return;
+  if (!contact.state.touching && !last.touching) return;
   surroundings.use(Point::kHeld);
+  if (!contact.state.touching) {
+    // let go: the fingertip follows the frictionless point, if there is a way
+    const ProxyMove back = moveProxy(last.x, contact.state.god, r, surroundings);
+    if (!meets(back.x, contact.state.god, r)) startAgainFrom(back.x, g, r, contact, surroundings);
+    contact.x = contact.state.x;
+    return;
+  }
   const Vec3 held = last.touching ? last.x : contact.first_touch;
   contact.state.hold = last.touching ? last.hold : contact.first_touch;
   Vec3 stretch = contact.state.hold - contact.state.god;
@@ -30,12 +62,16 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
     contact.state.hold = g + stretch;
     const ProxyMove moved = moveProxy(held, contact.state.hold, r, surroundings);
     contact.state.x = moved.x;
+    const Vec3 normal = moved.x - contact.state.hold;
     if (!moved.touching) {
-      // no surface on the way: nothing bears the normal force there, so friction has nothing to hold on to. The two points
-      // meet again, by a way that the fingertip can take.
+      // no surface on the way: nothing bears the normal force there, so friction has nothing to hold on to
       contact.state.slipping = true;
       contact.state.hold = contact.state.god;
-      contact.state.x = moveProxy(moved.x, contact.state.god, r, surroundings).x;
+      const ProxyMove back = moveProxy(moved.x, contact.state.god, r, surroundings);
+      contact.state.x = contact.state.god;
+      if (!meets(back.x, contact.state.god, r)) startAgainFrom(back.x, g, r, contact, surroundings);
+    } else if (normal.dot(contact.nhat) < kSameSide * normal.norm()) {
+      startAgainFrom(moved.x, g, r, contact, surroundings);
     }
   }
   contact.x = contact.state.x;
@@ -48,6 +84,7 @@ namespace {
 
 void applyFriction(FingerTick& tick, const FrictionCone& cone) noexcept {
   holdByFriction(tick.contact, tick.finger.tip, tick.g, tick.r, cone, *tick.finger.near);
+  if (!tick.contact.state.touching) return;
   tick.out.friction_static = cone.mu_static;
   tick.out.friction_dynamic = cone.mu_dynamic;
 }
@@ -58,8 +95,9 @@ class Friction final : public FingerStage {
  public:
   explicit Friction(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
   void apply(FingerTick& tick) noexcept override {
-    if (!tick.contact.state.touching) return;
-    applyFriction(tick, coneOf(surfaces_.of(tick.contact.body)));
+    const std::int32_t body = tick.contact.body != kNoBody ? tick.contact.body : tick.finger.frame;
+    if (body == kNoBody) return;
+    applyFriction(tick, coneOf(surfaces_.of(body)));
   }
   const char* what() const override { return "friction: two-state cone"; }
 
@@ -78,8 +116,9 @@ class ChangingFriction final : public FingerStage {
     }
   }
   void apply(FingerTick& tick) noexcept override {
-    if (!tick.contact.state.touching) return;
-    applyFriction(tick, cones_[static_cast<std::size_t>(tick.contact.body)][change_->happened ? 1 : 0]);
+    const std::int32_t body = tick.contact.body != kNoBody ? tick.contact.body : tick.finger.frame;
+    if (body == kNoBody) return;
+    applyFriction(tick, cones_[static_cast<std::size_t>(body)][change_->happened ? 1 : 0]);
   }
   const char* what() const override { return "friction: two-state cone, another after the surfaces have changed"; }
 

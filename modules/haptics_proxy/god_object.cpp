@@ -18,7 +18,9 @@ constexpr double kRounding = 64 * 2.2e-16;  // of the coordinates: no gap is kno
 constexpr double kMargin = 0.01;            // of r: how far the fingertip may go before it looks around again
 constexpr double kFarther = 1.5;            // near a mesh, of how far the HIP moved
 constexpr double kAhead = 5e-3;             // of the last leg: pieces of a mesh that close constrain the next one
-constexpr int kMaxLegs = 256;               // a leg per face or edge; curved edges converge by d / r
+constexpr double kMaxAhead = 3e-4;          // of r
+constexpr int kMaxRenewals = 8;
+constexpr int kMaxLegs = 256;  // a leg per face or edge; curved edges converge by d / r
 
 /// What counts as touching at one place. On a small fingertip rounding of the coordinates is more than a part of r.
 struct Tolerance {
@@ -190,7 +192,13 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   look.at(start, r, surroundings);
   bool met = false, arrived = false;
   double ahead = 0;
+  int renewals = 0;
   for (int i = 0; i < kMaxLegs; ++i) {
+    if (surroundings.full() && renewals < kMaxRenewals) {
+      surroundings.renew(result.x);
+      ++renewals;
+      look.at(result.x, r, surroundings);
+    }
     if (look.room(result.x) < 0.1 * look.margin) {
       look.margin *= 2;  // a long way is looked at in ever larger parts
       look.at(result.x, r, surroundings);
@@ -209,6 +217,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     const Vec3 move = leg.target.y - result.x;
     const double length = move.norm();
     arrived = length <= tolerance.still;
+    if (arrived && surroundings.full() && renewals < kMaxRenewals) continue;  // by what has no room: look again
     if (arrived) {
       // what is not quite touched yet is now; otherwise there is nothing to be gained
       if (leg.ahead) result.x = leg.target.y;
@@ -218,7 +227,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     const double fraction = freeFraction(result.x, move, limit, r, tolerance, surroundings, leg);
     result.x += fraction * move;
     surroundings.leaveTrail(result.x);
-    ahead = kAhead * fraction * length;
+    ahead = std::min(kAhead * fraction * length, kMaxAhead * r);
   }
   if (!met) result.first_touch = result.x;
   // out of legs between one edge and the next: what held it last still does, and the next tick goes on from here

@@ -7,6 +7,8 @@ namespace presa {
 
 void MeshFront::seed(const MeshTree& tree, std::span<const std::int32_t> nodes, const Vec3& p) noexcept {
   tree_ = &tree;
+  seed_count_ = static_cast<int>(nodes.size());
+  if (nodes.data() != seeds_.data()) std::ranges::copy(nodes, seeds_.begin());
   full_ = false;
   count_ = near_count_ = fresh_ = 0;
   for (const std::int32_t node : nodes) {
@@ -130,21 +132,19 @@ bool MeshFront::crossesItem(int item, const Vec3& a, const Vec3& b) noexcept {
   return crossed;
 }
 
-// Two triangles at an edge take its corners in the same order, so that a segment through the edge does not slip between them.
+// Edges belong to both of their triangles: a segment through one does not slip between them.
 bool MeshFront::crossesFacet(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept {
+  constexpr double kRounding = 1e-13;
   const Vec3 &u = tree_->corner(facet, 0), &v = tree_->corner(facet, 1), &w = tree_->corner(facet, 2);
   const Vec3 normal = (v - u).cross(w - u);
   if ((normal.dot(a - u) > 0) == (normal.dot(b - u) > 0)) return false;
   const Vec3 way = b - a;
   bool all_left = true, all_right = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const bool swapped = facet.corners[i] > facet.corners[j];
-    const Vec3& from = tree_->corner(facet, swapped ? j : i);
-    const Vec3& to = tree_->corner(facet, swapped ? i : j);
-    const bool left = (way.dot((from - a).cross(to - a)) > 0) != swapped;
-    all_left = all_left && left;
-    all_right = all_right && !left;
+    const Vec3 from = tree_->corner(facet, i) - a, to = tree_->corner(facet, (i + 1) % 3) - a;
+    const double side = way.dot(from.cross(to)), rounding = kRounding * way.norm() * from.norm() * to.norm();
+    all_left = all_left && side >= -rounding;
+    all_right = all_right && side <= rounding;
   }
   return all_left || all_right;
 }

@@ -25,7 +25,9 @@ class MeshFront {
  public:
   static constexpr int kCapacity = 2048;
 
-  /// Starts again from nodes that hold all that can be reached.
+  static constexpr std::size_t kMaxSeeds = 16;
+
+  /// Starts again from nodes that hold all that can be reached, at most kMaxSeeds.
   void seed(const MeshTree& tree, std::span<const std::int32_t> nodes, const Vec3& p) noexcept;
   bool seeded() const noexcept { return tree_ != nullptr; }
   void forget() noexcept { tree_ = nullptr; }
@@ -38,6 +40,10 @@ class MeshFront {
   bool full() const noexcept { return full_; }
   int count() const noexcept { return count_; }
 
+  /// Starts again from the same nodes where it is full: on a long way most of it lies behind.
+  void renew(const Vec3& p) noexcept {
+    if (full_) seed(*tree_, {seeds_.data(), static_cast<std::size_t>(seed_count_)}, p);
+  }
   /// Picks what may come within `radius` of p: all that the queries below look through, until the next focus().
   void focus(const Vec3& p, double radius) noexcept;
 
@@ -115,6 +121,8 @@ class MeshFront {
   int near_count_ = 0;
   int fresh_ = 0;  // size after the first tick since seed()
   const MeshTree* tree_ = nullptr;
+  std::array<std::int32_t, kMaxSeeds> seeds_{};
+  int seed_count_ = 0;
   int count_ = 0;
   std::uint32_t mark_ = 1;
   bool full_ = false;

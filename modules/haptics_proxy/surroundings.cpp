@@ -154,6 +154,11 @@ bool Surroundings::follow(Mesh& mesh, const Vec3& x) noexcept {
   return crossed;
 }
 
+bool Surroundings::full() const noexcept {
+  return std::any_of(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(near_count_),
+                     [&](const Mesh* mesh) { return mesh->fronts[point_].full(); });
+}
+
 bool Surroundings::crowded() const noexcept {
   bool full = false;
   for (std::size_t m = 0; m < near_count_; ++m) full = full || near_[m]->fronts[0].full() || near_[m]->fronts[1].full();

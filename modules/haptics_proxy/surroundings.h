@@ -101,6 +101,12 @@ class Surroundings {
   /// crosses a triangle of it, or when it is inside a primitive now: judged by the surfaces, not by what moved it.
   bool passedThrough(const Vec3& x) noexcept;
 
+  /// Something that the point in use can reach found no room.
+  bool full() const noexcept;
+  /// Makes room by leaving behind what was passed on the way to x.
+  void renew(const Vec3& x) noexcept {
+    for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].renew(near_[m]->toG(x));
+  }
   /// Something in reach found no room in this tick.
   bool crowded() const noexcept;
 

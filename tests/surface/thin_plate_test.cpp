@@ -135,7 +135,8 @@ class Plate {
     const double outside = beyond.cwiseMax(Vec3::Zero()).norm();
     return outside > 0 ? outside : beyond.maxCoeff();
   }
-  bool over(const Vec3& p) const { return std::abs(p.x()) < half_.x() && std::abs(p.y()) < half_.y(); }
+  /// Over a face, and not at a narrow side, down which a fingertip may go: by more than a point is lifted off it, 0.1 um.
+  bool over(const Vec3& p) const { return std::abs(p.x()) < half_.x() - 1e-7 && std::abs(p.y()) < half_.y() - 1e-7; }
 
   void judge(const Vec3& before, const Vec3& after, const Vec3& h, bool& through, bool& overlapping, double& deepest) {
     const double overlap = rig_.touch().radius - distance(after);
