@@ -11,8 +11,8 @@ using Node = MeshTree::Node;
 using Facet = MeshTree::Facet;
 
 constexpr double kRounding = 1e-12;  ///< of lengths within a node [-]; the rest is rounded up to single precision
-/// Discs of larger nodes are made from those of their children: looser, and a pass over all vertices per level is spared.
-constexpr std::int32_t kExactDiscs = 256;
+/// Boxes of larger nodes are made from those of their children: looser, and a pass over all vertices per level is spared.
+constexpr std::int32_t kExactBoxes = 256;
 
 struct Center {
   std::array<float, 3> at;
@@ -22,7 +22,7 @@ struct Center {
 std::array<float, 3> toFloats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
-/// What a query will read. GCC 12 vectorises double -> float -> double into nothing, and the disc would be fitted around a
+/// What a query will read. GCC 12 vectorises double -> float -> double into nothing, and the box would be fitted around a
 /// centre that was never rounded.
 std::array<float, 3> stored(const std::array<float, 3>& v) {
   const volatile float x = v[0], y = v[1], z = v[2];
@@ -31,6 +31,8 @@ std::array<float, 3> stored(const std::array<float, 3>& v) {
 float roundUp(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
+
+float sizeOf(const Node& node) { return std::max({node.half[0], node.half[1], node.half[2]}); }
 
 /// Splits at the median of the centres along the longest axis: the same tree with every standard library, since ids decide ties.
 class Builder {
@@ -72,11 +74,12 @@ class Builder {
       area += split(left + 1, middle, end);
     }
     const double size = area.norm();
-    nodes_[at].axis = stored(toFloats(size > 0 ? Vec3(area / size) : Vec3::UnitZ()));
-    if (nodes_[at].isLeaf() || end - begin <= kExactDiscs) {
-      fitDisc(nodes_[at], begin, end);
+    const Vec3 normal = size > 0 ? Vec3(area / size) : Vec3(Vec3::UnitZ());
+    nodes_[at].normal = stored(toFloats(normal));
+    if (nodes_[at].isLeaf() || end - begin <= kExactBoxes) {
+      fitBox(nodes_[at], normal, begin, end);
     } else {
-      joinDiscs(nodes_[at]);
+      joinBoxes(nodes_[at], normal);
     }
     return area;
   }
@@ -115,51 +118,89 @@ class Builder {
     return area;
   }
 
-  // Around the vertices, as they lie against the rounded axis and centre.
-  void fitDisc(Node& node, std::int32_t begin, std::int32_t end) const {
-    const Vec3 axis = MeshTree::axisOf(node);
-    AxisBox box;
-    double low = 1e300, high = -1e300;
-    forEachVertex(begin, end, [&](const Vec3& v) {
-      box.low = box.low.cwiseMin(v);
-      box.high = box.high.cwiseMax(v);
-      low = std::min(low, axis.dot(v));
-      high = std::max(high, axis.dot(v));
-    });
-    const Vec3 middle = 0.5 * (box.low + box.high);
-    node.center = stored(toFloats(middle + (0.5 * (low + high) - axis.dot(middle)) * axis));
-    const Vec3 center = MeshTree::centerOf(node);
-    double half = 0, squared = 0;
-    forEachVertex(begin, end, [&](const Vec3& v) {
-      const Vec3 from = v - center;
-      const double z = axis.dot(from);
-      half = std::max(half, std::abs(z));
-      squared = std::max(squared, (from - z * axis).squaredNorm());
-    });
-    setSize(node, std::sqrt(squared), half);
+  /// Sets the long axis of a box: `along`, made orthogonal to the normal.
+  static void setAlong(Node& node, const Vec3& normal, const Vec3& along) {
+    const Vec3 flat = along - normal.dot(along) * normal;
+    const double length = flat.norm();
+    node.along = stored(toFloats(length > 1e-6 * along.norm() ? Vec3(flat / length) : normal.unitOrthogonal()));
   }
 
-  void joinDiscs(Node& node) const {
-    const Vec3 axis = MeshTree::axisOf(node);
+  // The longest edge says how a few triangles lie, slivers above all; many lie as their vertices spread.
+  Vec3 longAxis(const Node& node, const Vec3& normal, std::int32_t begin, std::int32_t end) const {
+    Vec3 longest = Vec3::Zero();
+    if (node.isLeaf()) {
+      for (std::int32_t i = begin; i < end; ++i) {
+        const TriMesh::Triangle& corners = facets_[static_cast<std::size_t>(i)].corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec3 edge = mesh_.vertices[static_cast<std::size_t>(corners[(k + 1) % 3])] -
+                            mesh_.vertices[static_cast<std::size_t>(corners[k])];
+          if (edge.squaredNorm() > longest.squaredNorm()) longest = edge;
+        }
+      }
+      return longest;
+    }
+    const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    double count = 0, sum_u = 0, sum_v = 0, uu = 0, vv = 0, uv = 0;
+    const Vec3 origin = mesh_.vertices[static_cast<std::size_t>(facets_[static_cast<std::size_t>(begin)].corners[0])];
+    forEachVertex(begin, end, [&](const Vec3& vertex) {
+      const double x = u.dot(vertex - origin), y = v.dot(vertex - origin);
+      count += 1, sum_u += x, sum_v += y, uu += x * x, vv += y * y, uv += x * y;
+    });
+    const double spread_u = uu - sum_u * sum_u / count, spread_v = vv - sum_v * sum_v / count;
+    const double angle = 0.5 * std::atan2(2 * (uv - sum_u * sum_v / count), spread_u - spread_v);
+    return std::cos(angle) * u + std::sin(angle) * v;
+  }
+
+  // Around the vertices, as they lie against the rounded axes and centre.
+  void fitBox(Node& node, const Vec3& normal, std::int32_t begin, std::int32_t end) const {
+    setAlong(node, normal, longAxis(node, normal, begin, end));
+    const Mat3 to_box = MeshTree::axesOf(node).transpose();
+    AxisBox box;
+    forEachVertex(begin, end, [&](const Vec3& vertex) {
+      const Vec3 at = to_box * vertex;
+      box.low = box.low.cwiseMin(at);
+      box.high = box.high.cwiseMax(at);
+    });
+    node.center = stored(toFloats(to_box.transpose() * (0.5 * (box.low + box.high))));
+    const Vec3 center = MeshTree::centerOf(node);
+    Vec3 half = Vec3::Zero();
+    forEachVertex(begin, end,
+                  [&](const Vec3& vertex) { half = half.cwiseMax((to_box * (vertex - center)).cwiseAbs()); });
+    setHalf(node, half);
+  }
+
+  void joinBoxes(Node& node, const Vec3& normal) const {
     const Node& left = nodes_[static_cast<std::size_t>(node.first)];
     const Node& right = nodes_[static_cast<std::size_t>(node.first) + 1];
-    node.center = stored(toFloats(0.5 * (MeshTree::centerOf(left) + MeshTree::centerOf(right))));
-    const Vec3 center = MeshTree::centerOf(node);
-    double radius = 0, half = 0;
-    for (const Node* child : {&left, &right}) {
-      const Vec3 from = MeshTree::centerOf(*child) - center, other = MeshTree::axisOf(*child);
-      const double along = std::min(1.0, std::abs(axis.dot(other))), across = std::min(1.0, axis.cross(other).norm());
-      const double z = axis.dot(from);
-      half = std::max(half, std::abs(z) + along * child->half + across * child->radius);
-      radius = std::max(radius, (from - z * axis).norm() + child->radius + across * child->half);
-    }
-    setSize(node, radius, half);
+    setAlong(node, normal, MeshTree::centerOf(right) - MeshTree::centerOf(left));
+    const Mat3 to_box = MeshTree::axesOf(node).transpose();
+    AxisBox box;
+    forEachChild(left, right, to_box, Vec3::Zero(), [&](const Vec3& at, const Vec3& half) {
+      box.low = box.low.cwiseMin(at - half);
+      box.high = box.high.cwiseMax(at + half);
+    });
+    node.center = stored(toFloats(to_box.transpose() * (0.5 * (box.low + box.high))));
+    Vec3 sum = Vec3::Zero();
+    forEachChild(left, right, to_box, MeshTree::centerOf(node),
+                 [&](const Vec3& at, const Vec3& half) { sum = sum.cwiseMax(at.cwiseAbs() + half); });
+    setHalf(node, sum);
   }
 
-  static void setSize(Node& node, double radius, double half) {
-    const double slack = kRounding * (radius + half);
-    node.radius = roundUp(radius + slack);
-    node.half = roundUp(half + slack);
+  /// Calls visit(centre, half extents) for both children's boxes, along the axes of another, from `origin`.
+  template <class Visit>
+  static void forEachChild(const Node& left, const Node& right, const Mat3& to_box, const Vec3& origin,
+                           const Visit& visit) {
+    for (const Node* child : {&left, &right}) {
+      const Mat3 turned = to_box * MeshTree::axesOf(*child);
+      const Vec3 half(child->half[0], child->half[1], child->half[2]);
+      visit(Vec3(to_box * (MeshTree::centerOf(*child) - origin)), Vec3(turned.cwiseAbs() * half));
+    }
+  }
+
+  static void setHalf(Node& node, const Vec3& half) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      node.half[i] = roundUp(half[static_cast<Eigen::Index>(i)] + kRounding * half.sum());
+    }
   }
 
   template <class Visit>
@@ -199,7 +240,7 @@ std::size_t MeshTree::cut(const Vec3& center, double radius, std::span<std::int3
     for (std::size_t i = 0; i < count; ++i) {
       const Node& n = node(out[i]);
       if (n.isLeaf()) continue;
-      if (largest == count || n.radius > node(out[largest]).radius) largest = i;
+      if (largest == count || sizeOf(n) > sizeOf(node(out[largest]))) largest = i;
     }
     if (largest == count) return count;
     const std::int32_t left = node(out[largest]).first;

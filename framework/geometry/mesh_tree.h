@@ -19,22 +19,21 @@ struct TangentBound {
   double at(const Vec3& p) const noexcept { return nhat.dot(p) + offset; }
 };
 
-/// Immutable hierarchy over the triangles of one mesh, shared by every thread. Each node is bounded by a disc: a flat cylinder
-/// along the mean normal of its triangles. A patch of a smooth surface of size s is s^2 / 8R thick, so a disc lies closer than
-/// a box, whichever way the surface faces: few nodes come near a fingertip that touches.
+/// Immutable hierarchy over the triangles of one mesh, shared by every thread. Each node is bounded by an oriented box, flat
+/// along the mean normal of its triangles. A patch of a smooth surface of size s is s^2 / 8R thick, so such a box lies closer than
+/// one along the coordinate axes, whichever way the surface faces: few nodes come near a fingertip that touches.
 /// Frame: mesh coordinates. Thread: any; queries are const, allocate nothing and take no lock.
 /// Throws std::invalid_argument when the mesh is empty or has a vertex that is not finite.
 class MeshTree {
  public:
   static constexpr int kLeafTriangles = 6;
 
-  /// Single precision halves the memory; `radius` and `half` are rounded up for the axis and centre as they are rounded.
+  /// Single precision halves the memory; `half` is rounded up for the centre and the axes as they are rounded.
   struct Node {
-    std::array<float, 3> center{}, axis{0, 0, 1};
-    float radius = 0;        ///< of the disc [m]
-    float half = 0;          ///< half of its thickness [m]
-    std::int32_t first = 0;  ///< inner: the left child, the right one is the next; leaf: its first facet
-    std::int32_t count = 0;  ///< facets of a leaf; 0: inner
+    std::array<float, 3> center{}, normal{0, 0, 1}, along{1, 0, 0};
+    std::array<float, 3> half{};  ///< of the box: along the normal, along, and across both [m]
+    std::int32_t first = 0;       ///< inner: the left child, the right one is the next; leaf: its first facet
+    std::int32_t count = 0;       ///< facets of a leaf; 0: inner
     bool isLeaf() const noexcept { return count > 0; }
   };
   /// A triangle, in the order of the leaves.
@@ -54,14 +53,21 @@ class MeshTree {
     return mesh_->vertices[static_cast<std::size_t>(facet.corners[i])];
   }
 
-  /// To double precision, with one step of Newton's method towards unit length.
-  static Vec3 axisOf(const Node& node) noexcept {
-    const Vec3 axis(node.axis[0], node.axis[1], node.axis[2]);
-    return axis * (1.5 - 0.5 * axis.squaredNorm());
+  /// The axes of a node's box as columns: normal, along, across; orthonormal to double precision.
+  static Mat3 axesOf(const Node& node) noexcept {
+    const auto unit = [](const Vec3& v) -> Vec3 {
+      return v * (1.5 - 0.5 * v.squaredNorm());
+    };  // Newton: v is nearly one
+    Mat3 axes;
+    axes.col(0) = unit({node.normal[0], node.normal[1], node.normal[2]});
+    const Vec3 along(node.along[0], node.along[1], node.along[2]);
+    axes.col(1) = unit(along - axes.col(0).dot(along) * axes.col(0));
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    return axes;
   }
   static Vec3 centerOf(const Node& node) noexcept { return {node.center[0], node.center[1], node.center[2]}; }
 
-  /// Tangent bound of a node's triangles, taken at p; its value there is `distance`, 0 where p is inside the disc.
+  /// Tangent bound of a node's triangles, taken at p; its value there is `distance`, 0 where p is inside the box.
   TangentBound bound(std::int32_t node, const Vec3& p, double& distance) const noexcept;
 
   /// Nodes that together hold every triangle within `radius` of `center`, at most out.size() of them, largest split first.
@@ -96,24 +102,15 @@ class MeshTree {
 inline TangentBound MeshTree::bound(std::int32_t index, const Vec3& p, double& distance) const noexcept {
   constexpr double kSlack = 1e-13;  // of the lengths below: rounding
   const Node& n = node(index);
-  const Vec3 axis = axisOf(n), from = p - centerOf(n);
-  const double z = axis.dot(from);
-  const Vec3 across = from - z * axis;
-  const double rho = across.norm();
-  const double over = std::abs(z) - n.half, beside = rho - n.radius;
-  const double slack = kSlack * (std::abs(z) + rho + n.radius);
+  const Mat3 axes = axesOf(n);
+  const Vec3 from = p - centerOf(n), at = axes.transpose() * from, half(n.half[0], n.half[1], n.half[2]);
+  const Vec3 beyond = (at - half).cwiseMax(0.0) + (at + half).cwiseMin(0.0);
+  const double d = beyond.norm(), slack = kSlack * (at.cwiseAbs().sum() + half.sum());
   TangentBound result;
   distance = 0;
-  if (beside <= 0) {
-    if (!(over > slack)) return result;
-    result.nhat = z > 0 ? axis : Vec3(-axis);
-    distance = over - slack;
-  } else {
-    const double up = std::max(over, 0.0), d = std::sqrt(up * up + beside * beside);
-    if (!(d > slack)) return result;
-    result.nhat = ((z > 0 ? up : -up) / d) * axis + (beside / (d * rho)) * across;
-    distance = d - slack;
-  }
+  if (!(d > slack)) return result;
+  distance = d - slack;
+  result.nhat = axes * (beyond / d);
   result.offset = distance - result.nhat.dot(p);
   return result;
 }

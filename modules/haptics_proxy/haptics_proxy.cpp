@@ -14,10 +14,6 @@ namespace {
 void interpolateBodies(Touchables& touchables, const ObjectState& objects, double time) noexcept {
   touchables.interpolate(objects, time);
 }
-/// A true point is moved as a sphere of this radius, as part of the size of what it touches [-]: far above rounding, far below
-/// what is felt. Its depth and its contact point are those of the point.
-constexpr double kLift = 1e-6;
-
 void holdBodies(Touchables& touchables, const ObjectState& objects, double) noexcept { touchables.hold(objects); }
 
 std::string nameOf(const std::type_info& type) {
@@ -32,7 +28,7 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
     : Module("haptics_proxy", RateGroup::kHaptic), world_(std::move(world)), effects_(effects), touchables_(*world_) {
   for (const DeviceRole& role : world_->scene.devices) {
     Finger finger;
-    finger.radius = std::max(role.fingertip_radius, kLift * touchables_.size());
+    finger.radius = std::max(role.fingertip_radius, touchables_.lift());
     finger.lift = finger.radius - role.fingertip_radius;
     finger.near = std::make_unique<Surroundings>(touchables_.meshCount());
     fingers_.push_back(std::move(finger));

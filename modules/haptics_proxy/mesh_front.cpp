@@ -34,11 +34,11 @@ bool MeshFront::open(int item) noexcept {
   return true;
 }
 
-Nearest MeshFront::nearestOfDisc(std::int32_t node, const Vec3& p) const noexcept {
+Nearest MeshFront::nearestOfNode(std::int32_t node, const Vec3& p) const noexcept {
   double distance = 0;
   const TangentBound bound = tree_->bound(node, p, distance);
   if (distance > 0) return {bound.nhat, distance};
-  return {MeshTree::axisOf(tree_->node(node)), 0};
+  return {MeshTree::axesOf(tree_->node(node)).col(0), 0};
 }
 
 void MeshFront::focus(const Vec3& p, double radius) noexcept {
@@ -85,14 +85,14 @@ void MeshFront::sweep(int item, const Vec3& x, const Vec3& move, double& reach, 
   bind(item, bound);
   if (distance > r) {
     // beyond its nearest approach nothing in it can be met
-    const auto disc = [&](const Vec3& p) { return nearestOfDisc(ref, p); };
-    if (firstTouchOf(disc, {bound.nhat, distance}, x, move, reach, r, tolerance.touch) > reach) return;
+    const auto box = [&](const Vec3& p) { return nearestOfNode(ref, p); };
+    if (firstTouchOf(box, {bound.nhat, distance}, x, move, reach, r, tolerance.touch) > reach) return;
   }
   const int old_count = count_;
   if (!open(item)) {
     if (!marked && distance > r) {
-      const auto disc = [&](const Vec3& p) { return nearestOfDisc(ref, p); };
-      reach = std::min(reach, firstTouchOf(disc, {bound.nhat, distance}, x, move, reach, r, tolerance.touch));
+      const auto box = [&](const Vec3& p) { return nearestOfNode(ref, p); };
+      reach = std::min(reach, firstTouchOf(box, {bound.nhat, distance}, x, move, reach, r, tolerance.touch));
     }
     return;
   }

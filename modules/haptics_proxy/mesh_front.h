@@ -36,7 +36,7 @@ class MeshFront {
     if (fresh_ == 0) fresh_ = count_;
     return count_ > 2 * fresh_ + kBlock;
   }
-  /// A node found no room for its children since the last seed(): it stands for them, as a solid disc.
+  /// A node found no room for its children since the last seed(): it stands for them, as a solid box.
   bool full() const noexcept { return full_; }
   int count() const noexcept { return count_; }
 
@@ -104,8 +104,8 @@ class MeshFront {
     const MeshTree::Facet& f = tree_->facet(facet);
     return {tree_->corner(f, 0), tree_->corner(f, 1), tree_->corner(f, 2)};
   }
-  /// Nearest of a node's disc, for a front that is full.
-  Nearest nearestOfDisc(std::int32_t node, const Vec3& p) const noexcept;
+  /// Nearest of a node's box, for a front that is full.
+  Nearest nearestOfNode(std::int32_t node, const Vec3& p) const noexcept;
   template <class Visit>
   void lookAt(int item, const Vec3& p, const double& limit, const Visit& visit) noexcept;
   void sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
@@ -152,7 +152,7 @@ void MeshFront::lookAt(int item, const Vec3& p, const double& limit, const Visit
   if (distance > limit) return;
   const int old_count = count_;
   if (!open(item)) {
-    visit(item, nearestOfDisc(ref, p));
+    visit(item, nearestOfNode(ref, p));
     return;
   }
   const int new_count = count_;

@@ -64,7 +64,8 @@ Touchables::Touchables(const World& world) {
     if (touchable.body == kNoBody) continue;
     touchable_of_.back() = static_cast<std::int32_t>(touchables_.size());
     touchables_.push_back(touchable);
-    size_ = std::max(size_, touchable.radius);
+    largest_ = std::max(largest_, touchable.radius);
+    smallest_ = smallest_ > 0 ? std::min(smallest_, touchable.radius) : touchable.radius;
     mesh_count_ += touchable.tree != nullptr;
   }
   placed_in_.assign(scene.bodies.size(), 0);

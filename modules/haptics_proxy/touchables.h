@@ -14,8 +14,9 @@ class Touchables {
  public:
   explicit Touchables(const World& world);
 
-  /// Largest distance of a touchable surface from the middle of its body [m]; 0: nothing can be touched.
-  double size() const noexcept { return size_; }
+  /// A true point is moved as a sphere of this radius [m]: far above the rounding of the largest body, far below what is felt of
+  /// the smallest. Its depth and its contact point are those of the point.
+  double lift() const noexcept { return std::max(1e-6 * largest_, 1e-5 * smallest_); }
   std::size_t meshCount() const noexcept { return mesh_count_; }
 
   /// How moving bodies are placed in a tick; before the first call they are where the scene puts them.
@@ -57,7 +58,7 @@ class Touchables {
   std::vector<Touchable> touchables_;
   std::vector<std::int32_t> touchable_of_;  // by body; -1: it cannot be touched
   std::vector<char> moves_;                 // by body
-  double size_ = 0;
+  double largest_ = 0, smallest_ = 0;       // radius of a body's bounding sphere [m]
   std::size_t mesh_count_ = 0;
   const ObjectState* objects_ = nullptr;  // of this tick
   double time_ = 0;
