@@ -1,13 +1,6 @@
 #include "framework/geometry/closest_point.h"
 
 namespace presa {
-namespace {
-
-// Below this sine of the angle at a corner, rounding may put the point into the wrong region.
-constexpr double kSliverSine = 1e-4;
-
-}  // namespace
-
 Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double along = ab.dot(p - a);
@@ -15,21 +8,6 @@ Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   if (!(along > 0)) return a;
   if (!(along < length_squared)) return b;
   return a + (along / length_squared) * ab;
-}
-
-PreparedTriangle::PreparedTriangle(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c)
-    : a(corner_a),
-      b(corner_b),
-      c(corner_c),
-      ab(corner_b - corner_a),
-      ac(corner_c - corner_a),
-      ab_ab(ab.squaredNorm()),
-      ac_ac(ac.squaredNorm()),
-      ab_ac(ab.dot(ac)) {
-  // (twice the area)^2 against the two longest edges: small for needles and for flat triangles alike
-  const double area = ab_ab * ac_ac - ab_ac * ab_ac;
-  const double longest = std::max({ab_ab, ac_ac, (c - b).squaredNorm()});
-  sliver = !(area > kSliverSine * kSliverSine * longest * longest);
 }
 
 Vec3 detail::closestOnSliver(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -10,8 +10,24 @@ Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b);
 
 /// A triangle with all that a closest-point query needs of it alone: for many queries of one triangle.
 struct PreparedTriangle {
+  /// Below this sine of the angle at a corner, rounding may put a point into the wrong region.
+  static constexpr double kSliverSine = 1e-4;
+
   PreparedTriangle() = default;
-  PreparedTriangle(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c);
+  PreparedTriangle(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c)
+      : a(corner_a),
+        b(corner_b),
+        c(corner_c),
+        ab(corner_b - corner_a),
+        ac(corner_c - corner_a),
+        ab_ab(ab.squaredNorm()),
+        ac_ac(ac.squaredNorm()),
+        ab_ac(ab.dot(ac)) {
+    // (twice the area)^2 against the two longest edges: small for needles and for flat triangles alike
+    const double area = ab_ab * ac_ac - ab_ac * ab_ac;
+    const double longest = std::max({ab_ab, ac_ac, (c - b).squaredNorm()});
+    sliver = !(area > kSliverSine * kSliverSine * longest * longest);
+  }
   Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
   Vec3 ab = Vec3::Zero(), ac = Vec3::Zero();
   double ab_ab = 0, ac_ac = 0, ab_ac = 0;

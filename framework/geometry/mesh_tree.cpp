@@ -225,6 +225,18 @@ MeshTree::MeshTree(std::shared_ptr<const TriMesh> mesh) : mesh_(std::move(mesh))
   if (!std::ranges::all_of(mesh_->vertices, finite))
     throw std::invalid_argument("the mesh has a vertex that is not finite");
   Builder(*mesh_, nodes_, facets_).build();
+  std::vector<std::int32_t> place(mesh_->vertices.size(), -1);
+  vertices_.reserve(mesh_->vertices.size());
+  for (Facet& facet : facets_) {
+    for (std::int32_t& corner : facet.corners) {
+      std::int32_t& at = place[static_cast<std::size_t>(corner)];
+      if (at < 0) {
+        at = static_cast<std::int32_t>(vertices_.size());
+        vertices_.push_back(mesh_->vertices[static_cast<std::size_t>(corner)]);
+      }
+      corner = at;
+    }
+  }
   const AxisBox box = boundsOf(*mesh_);
   sphere_center_ = 0.5 * (box.low + box.high);
   for (const Vec3& vertex : mesh_->vertices)

@@ -38,7 +38,7 @@ class MeshTree {
   };
   /// A triangle, in the order of the leaves.
   struct Facet {
-    TriMesh::Triangle corners{};  ///< vertices
+    TriMesh::Triangle corners{};  ///< vertices in the order of the leaves: corner()
     std::int32_t id = -1;         ///< triangle of the mesh
   };
 
@@ -50,18 +50,15 @@ class MeshTree {
   std::size_t nodeCount() const noexcept { return nodes_.size(); }
   const Facet& facet(std::int32_t i) const noexcept { return facets_[static_cast<std::size_t>(i)]; }
   const Vec3& corner(const Facet& facet, std::size_t i) const noexcept {
-    return mesh_->vertices[static_cast<std::size_t>(facet.corners[i])];
+    return vertices_[static_cast<std::size_t>(facet.corners[i])];
   }
 
-  /// The axes of a node's box as columns: normal, along, across; orthonormal to double precision.
+  /// The axes of a node's box as columns: normal, along, across. Orthonormal to single precision only; the box is what lies
+  /// between these very planes.
   static Mat3 axesOf(const Node& node) noexcept {
-    const auto unit = [](const Vec3& v) -> Vec3 {
-      return v * (1.5 - 0.5 * v.squaredNorm());
-    };  // Newton: v is nearly one
     Mat3 axes;
-    axes.col(0) = unit({node.normal[0], node.normal[1], node.normal[2]});
-    const Vec3 along(node.along[0], node.along[1], node.along[2]);
-    axes.col(1) = unit(along - axes.col(0).dot(along) * axes.col(0));
+    axes.col(0) << node.normal[0], node.normal[1], node.normal[2];
+    axes.col(1) << node.along[0], node.along[1], node.along[2];
     axes.col(2) = axes.col(0).cross(axes.col(1));
     return axes;
   }
@@ -95,23 +92,27 @@ class MeshTree {
   std::shared_ptr<const TriMesh> mesh_;
   std::vector<Node> nodes_;
   std::vector<Facet> facets_;
+  std::vector<Vec3> vertices_;  // a copy in the order of the leaves: neighbours share a line of the cache
   Vec3 sphere_center_ = Vec3::Zero();
   double sphere_radius_ = 0;
 };
 
 inline TangentBound MeshTree::bound(std::int32_t index, const Vec3& p, double& distance) const noexcept {
-  constexpr double kSlack = 1e-13;  // of the lengths below: rounding
+  // The axes are a little more or less than unit vectors, so that the plane may seem farther than it is: by this much less [-].
+  constexpr double kShorter = 1 - 5e-7;
   const Node& n = node(index);
   const Mat3 axes = axesOf(n);
-  const Vec3 from = p - centerOf(n), at = axes.transpose() * from, half(n.half[0], n.half[1], n.half[2]);
+  const Vec3 center = centerOf(n), at = axes.transpose() * (p - center), half(n.half[0], n.half[1], n.half[2]);
   const Vec3 beyond = (at - half).cwiseMax(0.0) + (at + half).cwiseMin(0.0);
-  const double d = beyond.norm(), slack = kSlack * (at.cwiseAbs().sum() + half.sum());
+  const double squared = beyond.squaredNorm();
   TangentBound result;
   distance = 0;
-  if (!(d > slack)) return result;
-  distance = d - slack;
-  result.nhat = axes * (beyond / d);
-  result.offset = distance - result.nhat.dot(p);
+  if (!(squared > 0)) return result;
+  // for every q of the box beyond . axes^T (q - center) is at most |beyond| . half: a plane, whatever the axes are
+  const double inverse = kShorter / std::sqrt(squared);
+  result.nhat = axes * (inverse * beyond);
+  result.offset = -result.nhat.dot(center) - inverse * beyond.cwiseAbs().dot(half);
+  distance = std::max(0.0, result.at(p));
   return result;
 }
 

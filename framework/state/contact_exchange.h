@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -55,6 +56,20 @@ struct ContactExchange {
   std::uint32_t pop_through = 0;  ///< times the centre of a fingertip crossed a surface, since start
   std::array<std::uint32_t, kMaxFingers> pop_through_by_finger{};  ///< the same, finger by finger
   std::array<FingerContact, kMaxFingers> fingers;
+
+  ContactExchange() = default;
+  ContactExchange(const ContactExchange& other) { *this = other; }
+  /// Copies only the fingers in use.
+  ContactExchange& operator=(const ContactExchange& other) {
+    if (this == &other) return *this;
+    time = other.time;
+    count = other.count;
+    coverage_lost = other.coverage_lost;
+    pop_through = other.pop_through;
+    pop_through_by_finger = other.pop_through_by_finger;
+    std::copy_n(other.fingers.begin(), std::clamp(other.count, 0, kMaxFingers), fingers.begin());
+    return *this;
+  }
 };
 
 }  // namespace presa

@@ -29,8 +29,8 @@ struct ConvexPiece {
 
 /// Where a piece is nearest to a point.
 struct Nearest {
-  Vec3 nhat = Vec3::UnitZ();  ///< unit, from the piece towards the point (outward when inside a primitive)
-  double distance = 0;        ///< >= 0 outside; negative inside a primitive
+  Vec3 nhat;        ///< unit, from the piece towards the point (outward when inside a primitive)
+  double distance;  ///< >= 0 outside; negative inside a primitive
 };
 
 /// Distance of p from a triangle: two-sided; for a point on it the normal is its own.
@@ -51,23 +51,17 @@ inline constexpr double kNoTouch = 2.0;
 /// First s in [0, limit] at which a sphere of radius r, moving its centre from x along `move`, touches a convex set whose
 /// distance is `nearest_to(p)`; kNoTouch when it does not. `at` is nearest_to(x). The distance is convex along the line, so
 /// Newton's method from s = 0 comes up to the first root from below and never passes it: thin plates hold at any speed.
-/// `tolerance`: gap taken as touch [m]. A touch that grazes is none: where the way dips no deeper than `graze` [m] it goes on.
+/// `tolerance`: gap taken as touch [m].
 template <class NearestTo>
 double firstTouchOf(const NearestTo& nearest_to, Nearest at, const Vec3& x, const Vec3& move, double limit, double r,
-                    double tolerance, double graze = 0) noexcept {
+                    double tolerance) noexcept {
   constexpr int kMaxSteps = 64;  // quadratic convergence; a grazing touch halves the gap each time
   double s = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
     const double gap = at.distance - r;
     const double slope = at.nhat.dot(move);
     if (slope >= 0) return kNoTouch;  // convex: from here on it only grows
-    if (gap <= tolerance) {
-      if (!(graze > 0)) return s;
-      // beyond the nearest approach to a point at this distance; two tangents bound how deep the way dips between
-      const double ahead = std::min(1.5 * at.distance * -slope / move.squaredNorm(), limit - s);
-      const double rise = nearest_to(x + (s + ahead) * move).nhat.dot(move);
-      return rise >= 0 && -slope * ahead <= graze ? kNoTouch : s;
-    }
+    if (gap <= tolerance) return s;
     s += gap / -slope;
     if (s > limit) return kNoTouch;
     at = nearest_to(x + s * move);

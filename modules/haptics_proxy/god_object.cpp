@@ -37,7 +37,7 @@ struct Tolerance {
 struct Holds {
   struct Hold {
     NearPiece piece;
-    double offset = 0;  // nhat . y >= offset keeps the fingertip off
+    double offset;  // nhat . y >= offset keeps the fingertip off
   };
   static constexpr int kCapacity = 64;
   std::array<Hold, kCapacity> item;

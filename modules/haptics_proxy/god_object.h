@@ -10,9 +10,9 @@ namespace presa {
 struct ActiveSet {
   struct Member {
     PieceRef piece;
-    std::int32_t body = kNoBody;
-    Vec3 nhat = Vec3::UnitZ();
-    double weight = 0;  ///< multiplier [m], >= 0
+    std::int32_t body;
+    Vec3 nhat;
+    double weight;  ///< multiplier [m], >= 0
   };
   std::array<Member, 3> member;
   int count = 0;

@@ -10,6 +10,7 @@ void MeshFront::seed(const MeshTree& tree, std::span<const std::int32_t> nodes, 
   seed_count_ = static_cast<int>(nodes.size());
   if (nodes.data() != seeds_.data()) std::ranges::copy(nodes, seeds_.begin());
   full_ = false;
+  focus_radius_ = -1;
   count_ = near_count_ = fresh_ = 0;
   for (const std::int32_t node : nodes) {
     double distance = 0;
@@ -41,7 +42,13 @@ Nearest MeshFront::nearestOfNode(std::int32_t node, const Vec3& p) const noexcep
   return {MeshTree::axesOf(tree_->node(node)).col(0), 0};
 }
 
-void MeshFront::focus(const Vec3& p, double radius) noexcept {
+void MeshFront::focus(const Vec3& p, double radius, double step) noexcept {
+  constexpr double kStepsAhead = 3;
+  constexpr int kFew = 24;
+  if ((p - focus_).norm() + radius <= focus_radius_) return;
+  if (near_count_ < kFew) radius += kStepsAhead * step;
+  focus_ = p;
+  focus_radius_ = radius;
   near_count_ = 0;
   for (int begin = 0; begin < count_; begin += kBlock) {
     std::array<double, kBlock> at;
@@ -56,14 +63,64 @@ void MeshFront::focus(const Vec3& p, double radius) noexcept {
 
 double MeshFront::firstTouch(const Vec3& x, const Vec3& move, double reach, double r,
                              const SweepTolerance& tolerance) noexcept {
+  const double length = move.norm();
   const int count = near_count_;
+  // what is nearest goes first: where it is hit, the rest is out of reach
+  int first = -1;
+  double nearest_bound = std::numeric_limits<double>::infinity();
   for (int n = 0; n < count; ++n) {
     const int item = near_[static_cast<std::size_t>(n)];
+    const double here = boundAt(item, x);
+    if (here >= nearest_bound || marks_[static_cast<std::size_t>(item)] == mark_) continue;
+    nearest_bound = here;
+    first = item;
+  }
+  const auto reaches = [&](int item) {
+    const double here = boundAt(item, x);
+    if (here > r + reach * length) return false;
     const auto i = static_cast<std::size_t>(item);
     const double growth = nx_[i] * move.x() + ny_[i] * move.y() + nz_[i] * move.z();
-    if (boundAt(item, x) + std::min(0.0, reach * growth) <= r) sweep(item, x, move, reach, r, tolerance);
+    return here + std::min(0.0, reach * growth) <= r;
+  };
+  if (first >= 0 && reaches(first)) sweep(first, x, move, reach, r, tolerance);
+  for (int n = 0; n < count; ++n) {
+    const int item = near_[static_cast<std::size_t>(n)];
+    if (item != first && reaches(item)) sweep(item, x, move, reach, r, tolerance);
   }
   return reach;
+}
+
+namespace {
+
+/// Least value on [0, limit] of the higher of two lines, by value and slope at 0 and at `limit`: a convex function lies above its
+/// tangents.
+double leastOfTangents(double at_begin, double falls, double at_end, double rises, double limit) noexcept {
+  if (falls >= 0) return std::max(at_begin, at_end - rises * limit);
+  if (rises <= 0) return std::max(at_end, at_begin + falls * limit);
+  const double s = (at_end - at_begin - rises * limit) / (falls - rises);  // where they meet
+  return at_begin + falls * std::clamp(s, 0.0, limit);
+}
+
+}  // namespace
+
+bool MeshFront::staysClear(int item, const Vec3& x, const Vec3& move, double reach, double r) noexcept {
+  const std::int32_t ref = refs_[static_cast<std::size_t>(item)];
+  const auto i = static_cast<std::size_t>(item);
+  const Vec3 nhat(nx_[i], ny_[i], nz_[i]);
+  const double here = nhat.dot(x) + offset_[i], falls = nhat.dot(move);
+  // the tangent at the end of the way beside the one that is known; it is what the next leg will ask for
+  const Vec3 end = x + reach * move;
+  TangentBound bound;
+  double distance = 0;
+  if (ref < 0) {
+    const Nearest at = nearest(triangle(~ref), end);
+    distance = at.distance;
+    if (distance != 0) bound = {at.nhat, distance - at.nhat.dot(end)};
+  } else {
+    bound = tree_->bound(ref, end, distance);
+  }
+  bind(item, bound);
+  return leastOfTangents(here, falls, distance, bound.nhat.dot(move), reach) >= r;
 }
 
 void MeshFront::sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
@@ -71,29 +128,25 @@ void MeshFront::sweep(int item, const Vec3& x, const Vec3& move, double& reach, 
   const std::int32_t ref = refs_[static_cast<std::size_t>(item)];
   const bool marked = marks_[static_cast<std::size_t>(item)] == mark_;
   if (ref < 0) {
-    if (marked) return;
+    if (marked || staysClear(item, x, move, reach, r - tolerance.graze)) return;
     const PreparedTriangle piece = triangle(~ref);
-    const Nearest at = nearest(piece, x);
+    const auto nearest_to = [&](const Vec3& p) { return nearest(piece, p); };
+    const Nearest at = nearest_to(x);
     bind(item, at.distance != 0 ? TangentBound{at.nhat, at.distance - at.nhat.dot(x)} : TangentBound{});
-    const double s = firstTouchOf([&](const Vec3& p) { return nearest(piece, p); }, at, x, move, reach, r,
-                                  tolerance.touch, tolerance.graze);
-    reach = std::min(reach, s);
+    if (at.distance > r - tolerance.graze && staysClear(item, x, move, reach, r - tolerance.graze)) return;
+    reach = std::min(reach, firstTouchOf(nearest_to, at, x, move, reach, r, tolerance.touch));
     return;
   }
+  if (staysClear(item, x, move, reach, r * (1 + 1e-12))) return;
   double distance = 0;
   const TangentBound bound = tree_->bound(ref, x, distance);
   bind(item, bound);
-  if (distance > r) {
-    // beyond its nearest approach nothing in it can be met
-    const auto box = [&](const Vec3& p) { return nearestOfNode(ref, p); };
-    if (firstTouchOf(box, {bound.nhat, distance}, x, move, reach, r, tolerance.touch) > reach) return;
-  }
+  if (distance > r && staysClear(item, x, move, reach, r * (1 + 1e-12))) return;
   const int old_count = count_;
   if (!open(item)) {
-    if (!marked && distance > r) {
-      const auto box = [&](const Vec3& p) { return nearestOfNode(ref, p); };
-      reach = std::min(reach, firstTouchOf(box, {bound.nhat, distance}, x, move, reach, r, tolerance.touch));
-    }
+    const auto nearest_to = [&](const Vec3& p) { return nearestOfNode(ref, p); };
+    if (!marked && distance > r)
+      reach = std::min(reach, firstTouchOf(nearest_to, {bound.nhat, distance}, x, move, reach, r, tolerance.touch));
     return;
   }
   const int new_count = count_;

@@ -44,8 +44,9 @@ class MeshFront {
   void renew(const Vec3& p) noexcept {
     if (full_) seed(*tree_, {seeds_.data(), static_cast<std::size_t>(seed_count_)}, p);
   }
-  /// Picks what may come within `radius` of p: all that the queries below look through, until the next focus().
-  void focus(const Vec3& p, double radius) noexcept;
+  /// Picks what may come within `radius` of p: all that the queries below look through, until the next focus(). Where little is
+  /// near, it picks for some steps of length `step` ahead, and the next calls have nothing to do.
+  void focus(const Vec3& p, double radius, double step) noexcept;
 
   /// Calls visit(item, nearest) for everything in focus whose distance from p is at most `limit`. `limit` is read again and
   /// again: a visit may lower it.
@@ -108,6 +109,8 @@ class MeshFront {
   Nearest nearestOfNode(std::int32_t node, const Vec3& p) const noexcept;
   template <class Visit>
   void lookAt(int item, const Vec3& p, const double& limit, const Visit& visit) noexcept;
+  /// The way from x to x + reach move keeps farther than r from an item, as two tangents of its distance tell.
+  bool staysClear(int item, const Vec3& x, const Vec3& move, double reach, double r) noexcept;
   void sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
              const SweepTolerance& tolerance) noexcept;
   bool crossesItem(int item, const Vec3& a, const Vec3& b) noexcept;
@@ -119,7 +122,9 @@ class MeshFront {
   std::array<std::uint32_t, kCapacity> marks_{};  // == mark_: marked
   std::array<std::int32_t, kCapacity> near_{};    // items in focus
   int near_count_ = 0;
-  int fresh_ = 0;  // size after the first tick since seed()
+  Vec3 focus_ = Vec3::Zero();
+  double focus_radius_ = -1;  // about focus_ everything in it is in near_
+  int fresh_ = 0;             // size after the first tick since seed()
   const MeshTree* tree_ = nullptr;
   std::array<std::int32_t, kMaxSeeds> seeds_{};
   int seed_count_ = 0;

@@ -8,9 +8,9 @@ namespace presa {
 
 /// Half-space nhat . y >= offset.
 struct HalfSpace {
-  Vec3 nhat = Vec3::UnitZ();
-  double offset = 0;
-  std::int32_t tag = -1;  ///< whose it is
+  Vec3 nhat;
+  double offset;
+  std::int32_t tag;  ///< whose it is
 };
 
 /// Few half-spaces, fixed memory.

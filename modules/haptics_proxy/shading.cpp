@@ -81,9 +81,10 @@ class Shading final : public FingerStage {
     const PreparedTriangle prepared(triangle.tree->corner(facet, 0), triangle.tree->corner(facet, 1),
                                     triangle.tree->corner(facet, 2));
     const Vec3 weight = cornerWeights(prepared, closestOnTriangle(triangle.x_G, prepared));
+    const TriMesh::Triangle& corners = body.mesh->triangles[static_cast<std::size_t>(facet.id)];
     Vec3 normal_G = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
-      normal_G += weight[static_cast<Eigen::Index>(i)] * body.normals[static_cast<std::size_t>(facet.corners[i])];
+      normal_G += weight[static_cast<Eigen::Index>(i)] * body.normals[static_cast<std::size_t>(corners[i])];
     }
     const Vec3 normal_W = tick.touchables.frameOf(member.body).q * (body.q_BG * normal_G);
     const Vec3 normal = tick.X_WA.q.conjugate() * normal_W;

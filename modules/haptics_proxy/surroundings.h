@@ -19,14 +19,14 @@ enum class Point : std::uint8_t {
 
 /// One convex piece of what surrounds a fingertip.
 struct PieceRef {
-  std::int16_t source = -1;  ///< mesh; -1: a primitive
-  std::int32_t item = -1;    ///< of the front or of the primitives; holds until the next begin()
+  std::int16_t source;  ///< mesh; -1: a primitive
+  std::int32_t item;    ///< of the front or of the primitives; holds until the next begin()
 };
 
 /// A piece where it is nearest to some point, in the working frame A.
 struct NearPiece {
   PieceRef ref;
-  std::int32_t body = kNoBody;
+  std::int32_t body;
   Nearest at;
 };
 
@@ -37,6 +37,7 @@ class Surroundings {
  public:
   static constexpr int kMaxPrimitives = 64;
   static constexpr int kMaxMeshes = 16;
+  static constexpr std::size_t kTrail = 520;  ///< two motions of all the legs there may be
 
   /// `meshes`: bodies with a mesh that the finger may be near to at once; more than kMaxMeshes are not.
   explicit Surroundings(std::size_t meshes = 1);
@@ -59,7 +60,7 @@ class Surroundings {
   void focus(const Vec3& x, double radius) noexcept {
     focus_center_ = x;
     focus_radius_ = radius;
-    for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].focus(near_[m]->toG(x), radius);
+    for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].focus(near_[m]->toG(x), radius, step_);
   }
   /// How far the HIP came in this tick, as seen from what it touches: how far a fingertip will have to look [m].
   double step() const noexcept { return step_; }
@@ -152,7 +153,7 @@ class Surroundings {
   double step_ = 0;
   Vec3 focus_center_ = Vec3::Zero();
   double focus_radius_ = -1;
-  std::array<Vec3, 64> trail_;
+  std::array<Vec3, kTrail> trail_;
   int trail_count_ = 0;
   bool no_room_ = false;
 };

@@ -104,7 +104,7 @@ TEST(MeshFront, FindsEveryTriangleWithinADistance) {
     }
     const double limit = 0.003 * (1 + uniform(random));
     std::vector<std::int32_t> found, expected;
-    front->focus(p, limit);
+    front->focus(p, limit, 0);
     front->forEachWithin(p, limit, [&](int item, const Nearest& at) {
       found.push_back(tree.facet(front->facetOf(item)).id);
       EXPECT_LE(at.distance, limit);
