@@ -96,7 +96,7 @@ struct DeviceLimits {
 /// A device role: what the scene asks for. The rig says which hardware plays it.
 struct DeviceRole {
   std::string role;
-  double fingertip_radius = 0.008;  ///< [m], > 0
+  double fingertip_radius = 0.008;  ///< [m]; 0: a point
   DeviceLimits limits;
   SourceLocation where;
 };
@@ -119,7 +119,7 @@ struct HapticSettings {
 
 struct CollisionSettings {
   double margin = 0;              ///< of the patch beyond the fingertip [m]; 0: from the finger's motion
-  std::size_t max_triangles = 0;  ///< of one patch; 0: all there is room for
+  std::size_t max_triangles = 0;  ///< without effect; accepted for the sake of older scenes
 };
 
 /// How moving bodies are stepped. The defaults are Presa's methods, the others what they replace.

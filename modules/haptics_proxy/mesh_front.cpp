@@ -92,10 +92,10 @@ double MeshFront::firstTouch(const Vec3& x, const Vec3& move, double reach, doub
 
 namespace {
 
-/// Least value on [0, limit] of the higher of two lines, by value and slope at 0 and at `limit`: a convex function lies above its
-/// tangents.
+/// Lower bound on [0, limit] of the higher of two lines, by value and slope at 0 and at `limit`. A convex function lies above
+/// both, whether they touch it there or not.
 double leastOfTangents(double at_begin, double falls, double at_end, double rises, double limit) noexcept {
-  if (falls >= 0) return std::max(at_begin, at_end - rises * limit);
+  if (falls >= 0) return std::max(at_begin, at_end - std::max(rises, 0.0) * limit);
   if (rises <= 0) return std::max(at_end, at_begin + falls * limit);
   const double s = (at_end - at_begin - rises * limit) / (falls - rises);  // where they meet
   return at_begin + falls * std::clamp(s, 0.0, limit);

@@ -32,7 +32,6 @@ constexpr KnownKnob kKnobs[] = {
     {"renderer", "haptics/renderer"},
     {"pose", "haptics/pose"},
     {"patch_margin", "collision/margin"},
-    {"patch_triangles", "collision/max_triangles"},
     {"fingertip_radius", "device/*/fingertip_radius"},
 };
 
@@ -338,7 +337,6 @@ std::vector<Knob> defaultKnobs(const Loaded& base, const std::string& folder, bo
   if (moves && solid > 1) add("friction", {"isotropic", "pyramid"});
   if (meshes) {
     add("haptic_mesh", {"1/2", "1/8", "1/32"});
-    add("patch_triangles", {"16", "64", "256"});
     add("patch_margin", {"0.001", "0.002", "0.004"});
     add("fingertip_radius", {"0.002", "0.004", "0.008", "0.012"});
   }

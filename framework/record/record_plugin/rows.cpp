@@ -52,7 +52,7 @@ Table tickTable() {
       .add("output_status", offsetof(R, output_status), Cell::kU32, "1",
            "bits of the output stage, all fingers together")
       .add("coverage_lost", offsetof(R, coverage_lost), Cell::kU32, "1",
-           "ticks a proxy waited for geometry, since start")
+           "ticks in which a fingertip could not see every surface in its reach, since start")
       .add("pop_through", offsetof(R, pop_through), Cell::kU32, "1", "surfaces passed without contact, since start");
   return {sizeof(R), c.take()};
 }
