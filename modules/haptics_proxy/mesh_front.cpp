@@ -65,27 +65,28 @@ double MeshFront::firstTouch(const Vec3& x, const Vec3& move, double reach, doub
                              const SweepTolerance& tolerance) noexcept {
   const double length = move.norm();
   const int count = near_count_;
-  // what is nearest goes first: where it is hit, the rest is out of reach
-  int first = -1;
-  double nearest_bound = std::numeric_limits<double>::infinity();
-  for (int n = 0; n < count; ++n) {
-    const int item = near_[static_cast<std::size_t>(n)];
-    const double here = boundAt(item, x);
-    if (here >= nearest_bound || marks_[static_cast<std::size_t>(item)] == mark_) continue;
-    nearest_bound = here;
-    first = item;
+  if (here_at_ != x) {
+    for (int n = 0; n < count; ++n) here_[static_cast<std::size_t>(n)] = boundAt(near_[static_cast<std::size_t>(n)], x);
+    here_at_ = x;
   }
-  const auto reaches = [&](int item) {
-    const double here = boundAt(item, x);
-    if (here > r + reach * length) return false;
+  const auto look = [&](std::size_t n) {
+    const int item = near_[n];
     const auto i = static_cast<std::size_t>(item);
     const double growth = nx_[i] * move.x() + ny_[i] * move.y() + nz_[i] * move.z();
-    return here + std::min(0.0, reach * growth) <= r;
+    if (here_[n] + std::min(0.0, reach * growth) <= r) sweep(item, x, move, reach, r, tolerance);
   };
-  if (first >= 0 && reaches(first)) sweep(first, x, move, reach, r, tolerance);
-  for (int n = 0; n < count; ++n) {
-    const int item = near_[static_cast<std::size_t>(n)];
-    if (item != first && reaches(item)) sweep(item, x, move, reach, r, tolerance);
+  // what is nearest goes first: where it is hit, the rest is out of reach
+  std::size_t first = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    if (here_[n] >= least || marks_[static_cast<std::size_t>(near_[n])] == mark_) continue;
+    least = here_[n];
+    first = n;
+  }
+  if (least > r + reach * length) return reach;
+  look(first);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    if (here_[n] <= r + reach * length && n != first) look(n);
   }
   return reach;
 }

@@ -121,6 +121,8 @@ class MeshFront {
   std::array<std::int32_t, kCapacity> refs_{};    // >= 0: node; < 0: ~facet
   std::array<std::uint32_t, kCapacity> marks_{};  // == mark_: marked
   std::array<std::int32_t, kCapacity> near_{};    // items in focus
+  std::array<double, kCapacity> here_{};          // their bounds at here_at_
+  Vec3 here_at_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   int near_count_ = 0;
   Vec3 focus_ = Vec3::Zero();
   double focus_radius_ = -1;  // about focus_ everything in it is in near_
@@ -137,9 +139,16 @@ template <class Visit>
 void MeshFront::forEachWithin(const Vec3& p, const double& limit, const Visit& visit) noexcept {
   const int count = near_count_;  // what is opened on the way is looked at at once
   for (int n = 0; n < count; ++n) {
-    const int item = near_[static_cast<std::size_t>(n)];
-    if (boundAt(item, p) <= limit) lookAt(item, p, limit, visit);
+    const auto i = static_cast<std::size_t>(n);
+    const int item = near_[i];
+    here_[i] = boundAt(item, p);
+    if (here_[i] > limit) continue;
+    lookAt(item, p, limit, visit);
+    here_[i] = boundAt(item, p);
   }
+  for (int n = count; n < near_count_; ++n)
+    here_[static_cast<std::size_t>(n)] = boundAt(near_[static_cast<std::size_t>(n)], p);
+  here_at_ = p;
 }
 
 template <class Visit>

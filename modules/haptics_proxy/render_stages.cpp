@@ -108,10 +108,12 @@ void Spring::share(const FingerTick& tick, FingerContact& out) noexcept {
 // The body next to a free fingertip, or the one that will be: kept in its coordinates, the proxy sees it come.
 std::int32_t Spring::nearestBody(const FingerTick& tick) noexcept {
   constexpr double kTicksAhead = 2;
+  constexpr double kFast =
+      0.25;  // of r in a tick: what comes slower and overlaps is still on the side that it came from
   Surroundings& near = *tick.finger.near;
   near.use(Point::kGodObject);
   std::int32_t body = kNoBody;
-  double least = std::max(kNear * tick.r, tick.r + kTicksAhead * tick.approach);
+  double least = tick.approach > kFast * tick.r ? tick.r + kTicksAhead * tick.approach : kNear * tick.r;
   near.focus(tick.contact.state.x, least);
   near.forEachWithin(tick.contact.state.x, least, [&](const NearPiece& piece) {
     if (piece.at.distance >= least) return;
