@@ -57,15 +57,19 @@ struct Monitor::Impl {
   template <class Watch>
   void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
                const ObjectState* state, std::uint64_t version, Watch& watch) noexcept;
-  void addToHash(const DeviceState& device, const ContactExchange& contact, const ObjectState* fresh) noexcept;
-  void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
+  // not inlined: each is a row of `explain --cost`
+  [[gnu::noinline]] void addToHash(const DeviceState& device, const ContactExchange& contact,
+                                   const ObjectState* fresh) noexcept;
+  [[gnu::noinline]] void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                                    bool fresh) noexcept;
   void sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept;
   void noteSlip(std::size_t f, const FingerContact& now, double time) noexcept;
-  void sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
+  [[gnu::noinline]] void sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                                    bool fresh) noexcept;
   void follow(std::size_t i, const ObjectState& state, double time) noexcept;
   void noteGrasp(std::size_t i, double time) noexcept;
-  void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
-              const ObjectState* state) noexcept;
+  [[gnu::noinline]] void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                                const ForceCommand& command, const ObjectState* state) noexcept;
   Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
     return state && body < state->count() ? state->poseAt(body, time)
                                           : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;

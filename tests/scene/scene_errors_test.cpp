@@ -95,7 +95,7 @@ const Slip kValues[] = {
     {"Radius", 117, "radius=\"0.035\"", "@radius=\"-0.035\"", "[m]"},
     {"Size", 117, "<physics><box size=\"0.6 0.4 0.04\"", "<physics><box @size=\"0.6 0 0.04\"",
      "3 numbers > 0, found '0'"},
-    {"Fingertip", 117, "fingertip_radius=\"0.008\"", "@fingertip_radius=\"0\"", "[m]"},
+    {"Fingertip", 117, "fingertip_radius=\"0.008\"", "@fingertip_radius=\"-0.001\"", "[m]"},
     {"Watchdog", 117, "watchdog_ms=\"20\"", "@watchdog_ms=\"-20\"", "[ms]"},
     {"CollisionRateTooLow", 117, "collision=\"100\"", "@collision=\"8\"", "[10, 40000]"},
     {"HapticRate", 117, "haptic=\"1000\"", "@haptic=\"50\"", "[100, 40000]"},

@@ -44,6 +44,7 @@ void makeBall(Loaded& loaded, bool smooth) {
   world.meshes[0].haptic = std::make_shared<const TriMesh>(makeSphere(0.05, 3));
   world.scene.bodies[0].haptic->shape = MeshRef{};
   world.scene.bodies[0].haptic->smooth = smooth;
+  indexHapticMeshes(world);
   loaded.world = std::make_shared<const World>(std::move(world));
   loaded.plan.modules.push_back({"collision_fcl", RateGroup::kCollision, "the ball is a mesh"});
 }
