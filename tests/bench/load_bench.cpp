@@ -16,10 +16,6 @@
 #include "modules/haptics_proxy/haptics_proxy.h"
 #include "tests/bench/lap_timer.h"
 #include "tests/bench/touched.h"
-#if __has_include("framework/geometry/mesh_tree.h")
-#include "framework/geometry/mesh_tree.h"
-#define PRESA_BENCH_HAS_MESH_TREE
-#endif
 
 // What comes before a run: the collision thread's hierarchy, and a big mesh read from its file.
 namespace presa::bench {
@@ -38,18 +34,10 @@ void timeEach(benchmark::State& state, const Build& build) {
   report(state, us);
 }
 
-/// CollisionModule's constructor.
-void buildHierarchy(benchmark::State& state, int triangles) {
-  const auto world = worldOf({{.mesh = sphereMesh(triangles)}}, 8e-3);
-  timeEach(state, [&] { benchmark::DoNotOptimize(std::make_unique<CollisionModule>(world)); });
-}
-
-#ifdef PRESA_BENCH_HAS_MESH_TREE
 void buildMeshTree(benchmark::State& state, int triangles) {
   const auto mesh = sphereMesh(triangles);
   timeEach(state, [&] { benchmark::DoNotOptimize(std::make_shared<const MeshTree>(mesh)); });
 }
-#endif
 
 std::string writeObj(const TriMesh& mesh) {
   std::string file = std::filesystem::temp_directory_path() / "presa_bench_XXXXXX.obj";
@@ -129,10 +117,7 @@ const bool kRegistered = [] {
   };
   add("load", loadSphere, 1'310'720);
   for (const int n : {20'480, 327'680, 1'310'720}) {
-    add("bvh_build", buildHierarchy, n);
-#ifdef PRESA_BENCH_HAS_MESH_TREE
-    add("mesh_tree_build", buildMeshTree, n);
-#endif
+    add("bvh_build", buildMeshTree, n);
   }
   return true;
 }();

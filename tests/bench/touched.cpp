@@ -14,10 +14,6 @@
 #include "framework/state/object_state.h"
 #include "modules/collision_fcl/collision_module.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
-#if __has_include("framework/geometry/mesh_tree.h")
-#include "framework/geometry/mesh_tree.h"
-#define PRESA_BENCH_HAS_MESH_TREE
-#endif
 
 namespace presa::bench {
 namespace {
@@ -27,33 +23,13 @@ using std::numbers::pi;
 BodyMeshes hapticMesh(const std::shared_ptr<const TriMesh>& mesh) {
   BodyMeshes meshes;
   meshes.haptic = mesh;
-#ifdef PRESA_BENCH_HAS_MESH_TREE
   if (mesh) {
     static std::map<std::shared_ptr<const TriMesh>, std::shared_ptr<const MeshTree>> made;
     std::shared_ptr<const MeshTree>& tree = made[mesh];
     if (!tree) tree = std::make_shared<const MeshTree>(mesh);
     meshes.haptic_tree = tree;
   }
-#endif
   return meshes;
-}
-
-// Object State holds its bodies in an array of fixed size, or is sized at load.
-template <class State>
-bool holds(const State& state, std::size_t bodies) {
-  if constexpr (requires(State s) { s.bodies.resize(bodies); }) {
-    return true;
-  } else {
-    return bodies <= state.bodies.size();
-  }
-}
-template <class State>
-void size(State& state, std::size_t bodies) {
-  if constexpr (requires { state.bodies.resize(bodies); }) {
-    state.bodies.resize(bodies);
-  } else {
-    state.count = static_cast<std::int32_t>(bodies);
-  }
 }
 
 // A pass before its lap: off the surface, back along the way, down on it again, and sliding until all is steady [ticks].
@@ -103,8 +79,6 @@ std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double 
   return world;
 }
 
-bool roomFor(std::size_t bodies) { return holds(ObjectState{}, bodies); }
-
 std::vector<Vec3> wayAround(double radius) {
   const auto at = [](double s) {
     return Vec3(std::cos(s), std::sin(s), 0.5 * std::sin(2 * s) + 0.2 * std::cos(3 * s)).normalized();
@@ -145,7 +119,7 @@ struct Rig::Hands final : Module {
 };
 
 struct Rig::Bodies final : Module {
-  explicit Bodies(std::size_t count) : Module("bodies", RateGroup::kDynamics) { size(out.value, count); }
+  explicit Bodies(std::size_t count) : Module("bodies", RateGroup::kDynamics) { out.value.bodies.resize(count); }
   void step(const Tick&) noexcept override {}
   Out<ObjectState> out{*this, "object_state"};
 };

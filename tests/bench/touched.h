@@ -29,8 +29,6 @@ struct Touched {
 /// These bodies of one material, 1 N/mm with friction 0.6/0.4, and `fingers` fingertips of that radius. The only place
 /// where the benchmarks make a World.
 std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers = 1);
-/// Whether an Object State has room for so many.
-bool roomFor(std::size_t bodies);
 
 /// A smooth closed way around the unit sphere, up and down, that comes nowhere near itself: one point per haptic tick, at
 /// constant speed, which on a sphere of that radius is kSpeed. A whole number of collision periods.

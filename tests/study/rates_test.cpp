@@ -64,14 +64,18 @@ TEST(Rates, ADynamicsFromFortyHertzOnHoldsWhatItIsGiven) {
   }
 }
 
-// With the watchdogs that the scene sets it is refused, instead of being thrown about: each of them is told.
+// With watchdogs of 20 ms it is refused, instead of being thrown about: each of them is told. Without any it follows the rate.
 TEST(Rates, AWatchdogTooShortForTheDynamicsIsRefused) {
   for (const char* rate : {"40", "50"}) {
     Diagnostics findings;
-    loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml", "", {std::string("rates/dynamics=") + rate}},
+    const std::string cube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml", dynamics = "rates/dynamics=";
+    loadWorld({cube, "", {dynamics + rate, "device/thumb/limits/watchdog_ms=20", "device/index/limits/watchdog_ms=20"}},
               {}, findings);
     EXPECT_EQ(findings.errorCount(), 2u) << findings.text();
     for (const Diagnostic& finding : findings.all()) EXPECT_EQ(finding.code, 222);
+    Diagnostics none;
+    loadWorld({cube, "", {dynamics + rate}}, {}, none);
+    EXPECT_FALSE(none.hasErrors()) << none.text();
   }
 }
 

@@ -10,19 +10,14 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-/// Meshes that bring a tree for the fingers get it here, the one of the last world where the mesh is the same.
-template <class Meshes>
-void plant(Meshes& meshes) {
-  if constexpr (requires { meshes.haptic_tree; }) {
-    using Tree = typename decltype(meshes.haptic_tree)::element_type;
-    thread_local Meshes last;
-    if (last.haptic != meshes.haptic) {
-      last = {};
-      meshes.haptic_tree = std::make_shared<Tree>(meshes.haptic);
-      last = meshes;
-    }
-    meshes.haptic_tree = last.haptic_tree;
+/// The hierarchy over a mesh: the one of the last world where the mesh is the same.
+std::shared_ptr<const MeshTree> treeOf(const std::shared_ptr<const TriMesh>& mesh) {
+  thread_local std::shared_ptr<const MeshTree> last;
+  if (!last || &last->mesh() != mesh.get()) {
+    last.reset();
+    last = std::make_shared<const MeshTree>(mesh);
   }
+  return last;
 }
 
 }  // namespace
@@ -44,7 +39,7 @@ World worldOf(std::shared_ptr<const TriMesh> mesh, const Touch& touch) {
   world.scene.devices[0].fingertip_radius = touch.radius;
   world.meshes.resize(1);
   world.meshes[0].haptic = std::move(mesh);
-  plant(world.meshes[0]);
+  world.meshes[0].haptic_tree = treeOf(world.meshes[0].haptic);
   world.inertias.resize(1);
   return world;
 }
