@@ -37,7 +37,8 @@ std::vector<Vec3> points(const MeshTree& tree, int count) {
   std::vector<Vec3> result;
   for (int i = 0; i < count; ++i) {
     const double reach = tree.sphereRadius() * (i % 3 == 0 ? 3 : i % 3 == 1 ? 1 : 0.1);
-    const Vec3 from = i % 2 == 0 ? tree.sphereCenter() : tree.mesh().vertices[static_cast<std::size_t>(i)];
+    const Vec3 from = i % 2 == 0 ? tree.sphereCenter()
+                                 : tree.mesh().vertices[static_cast<std::size_t>(i) % tree.mesh().vertices.size()];
     result.push_back(from + reach * Vec3(uniform(random), uniform(random), uniform(random)));
   }
   return result;
