@@ -165,7 +165,7 @@ TEST(Surroundings, AreFullWhereEverythingTouches) {
   const MeshTree tree(std::make_shared<const TriMesh>(socket));
   auto s = std::make_unique<Surroundings>();
   FingertipState tip{Vec3::Zero(), Vec3::Zero()};
-  for (int tick = 0; tick < 20; ++tick) {
+  for (int tick = 0; tick < 5; ++tick) {
     const Vec3 g(1e-4 * tick, 0, 5e-5 * tick);
     s->begin();
     s->setStep(2e-4);
