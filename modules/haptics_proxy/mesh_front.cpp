@@ -50,6 +50,7 @@ void MeshFront::focus(const Vec3& p, double radius, double step) noexcept {
   focus_ = p;
   focus_radius_ = radius;
   near_count_ = 0;
+  here_at_.setConstant(std::numeric_limits<double>::quiet_NaN());  // those bounds were of other items
   for (int begin = 0; begin < count_; begin += kBlock) {
     std::array<double, kBlock> at;
     for (int j = 0; j < kBlock; ++j) at[static_cast<std::size_t>(j)] = boundAt(begin + j, p);

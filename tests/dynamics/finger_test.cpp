@@ -216,18 +216,20 @@ TEST(Finger, LetsGoInTheStepInWhichItsStaticBoundIsReached) {
   EXPECT_NEAR(friction(0.0017), 0.6 * 2, 1e-6);
 }
 
+// Of a finger on a heavy cube, 2 N, last heard of so long before the step [N].
+double forceAtAge(WorldMaker maker, double age) {
+  maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+  Runner runner(maker.world());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, 1000, 1);
+  ContactExchange exchange = exchangeOf(fingers, runner);
+  exchange.time = -age;
+  runner.step(exchange);
+  return runner.bodies.fingerForce(0).norm();
+}
+
 // Reported ten times as seldom, a finger is older before it is missed: two haptic periods and the step that is being solved, 45 ms.
 TEST(Finger, ThatIsReportedSeldomFadesLater) {
-  const auto force = [&](double age) {
-    WorldMaker maker;
-    maker.rates(100, 40).gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
-    Runner runner(maker.world());
-    std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, 1000, 1);
-    ContactExchange exchange = exchangeOf(fingers, runner);
-    exchange.time = -age;
-    runner.step(exchange);
-    return runner.bodies.fingerForce(0).norm();
-  };
+  const auto force = [](double age) { return forceAtAge(WorldMaker().rates(100, 40), age); };
   EXPECT_NEAR(force(0.044), 2, 1e-6);
   EXPECT_NEAR(force(0.055), 1, 1e-6);  // half of the 20 ms in which it fades
   EXPECT_EQ(force(0.066), 0);
@@ -235,16 +237,7 @@ TEST(Finger, ThatIsReportedSeldomFadesLater) {
 
 // Fingers that are no longer reported must let go smoothly, not hold for ever: full up to 20 ms, gone at 40 ms.
 TEST(Finger, FadesWhenNoLongerReported) {
-  const auto force = [&](double age) {
-    WorldMaker maker;
-    maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
-    Runner runner(maker.world());
-    std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, 1000, 1);
-    ContactExchange exchange = exchangeOf(fingers, runner);
-    exchange.time = -age;
-    runner.step(exchange);
-    return runner.bodies.fingerForce(0).norm();
-  };
+  const auto force = [](double age) { return forceAtAge(WorldMaker(), age); };
   EXPECT_NEAR(force(0.020), 2, 1e-9);
   EXPECT_NEAR(force(0.030), 1, 1e-9);
   EXPECT_EQ(force(0.040), 0);
