@@ -162,28 +162,40 @@ double MeshFront::clearance(const Vec3& p) const noexcept {
   return least;
 }
 
-bool MeshFront::crosses(const Vec3& a, const Vec3& b, bool focused) noexcept {
+bool MeshFront::crosses(std::span<const Vec3> way, bool focused) noexcept {
+  constexpr double kRounding = 2e-14;  // of the coordinates
+  double largest = 0;
+  for (const Vec3& p : way) largest = std::max(largest, p.lpNorm<Eigen::Infinity>());
+  const double rounding = kRounding * largest;
   const int count = focused ? near_count_ : count_;
   for (int n = 0; n < count; ++n) {
-    if (crossesItem(focused ? near_[static_cast<std::size_t>(n)] : n, a, b)) return true;
+    const int item = focused ? near_[static_cast<std::size_t>(n)] : n;
+    if (comesNear(item, way, rounding) && crossesItem(item, way, rounding)) return true;
   }
   return false;
 }
 
-bool MeshFront::crossesItem(int item, const Vec3& a, const Vec3& b) noexcept {
-  constexpr double kRounding = 1e-14;  // of the coordinates
-  // a triangle that is crossed is at no distance from a point of the segment
-  if (std::min(boundAt(item, a), boundAt(item, b)) > kRounding * (a.norm() + b.norm())) return false;
+bool MeshFront::crossesItem(int item, std::span<const Vec3> way, double rounding) noexcept {
   const std::int32_t ref = refs_[static_cast<std::size_t>(item)];
-  if (ref < 0) return crossesFacet(tree_->facet(~ref), a, b);
+  if (ref < 0) {
+    bool crossed = false;
+    for (std::size_t k = 1; k < way.size() && !crossed; ++k)
+      crossed = crossesFacet(tree_->facet(~ref), way[k - 1], way[k]);
+    return crossed;
+  }
+  Vec3 low = way[0], high = way[0];
+  for (const Vec3& p : way) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   double distance = 0;
-  bind(item, tree_->bound(ref, 0.5 * (a + b), distance));
-  if (distance > 0.5 * (b - a).norm() * (1 + 1e-9)) return false;
+  bind(item, tree_->bound(ref, 0.5 * (low + high), distance));
+  if (distance > 0.5 * (high - low).norm() * (1 + 1e-9) || !comesNear(item, way, rounding)) return false;
   const int old_count = count_;
   if (!open(item)) return false;  // it is solid now, and told as lost coverage
   const int new_count = count_;
-  bool crossed = crossesItem(item, a, b);
-  for (int child = old_count; child < new_count && !crossed; ++child) crossed = crossesItem(child, a, b);
+  bool crossed = crossesItem(item, way, rounding);
+  for (int child = old_count; child < new_count && !crossed; ++child) crossed = crossesItem(child, way, rounding);
   return crossed;
 }
 

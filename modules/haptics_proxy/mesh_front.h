@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -68,8 +69,8 @@ class MeshFront {
   }
   /// Lower bound of the distance of p from everything [m].
   double clearance(const Vec3& p) const noexcept;
-  /// True when the segment from a to b crosses a triangle. `focused`: it lies where everything is in focus.
-  bool crosses(const Vec3& a, const Vec3& b, bool focused) noexcept;
+  /// True when the way from point to point crosses a triangle. `focused`: all of it lies where everything is in focus.
+  bool crosses(std::span<const Vec3> way, bool focused) noexcept;
 
  private:
   static constexpr int kBlock = 8;
@@ -113,7 +114,13 @@ class MeshFront {
   bool staysClear(int item, const Vec3& x, const Vec3& move, double reach, double r) noexcept;
   void sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
              const SweepTolerance& tolerance) noexcept;
-  bool crossesItem(int item, const Vec3& a, const Vec3& b) noexcept;
+  /// A triangle that is crossed is at no distance from a point of the way.
+  bool comesNear(int item, std::span<const Vec3> way, double rounding) const noexcept {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : way) least = std::min(least, boundAt(item, p));
+    return least <= rounding;
+  }
+  bool crossesItem(int item, std::span<const Vec3> way, double rounding) noexcept;
   bool crossesFacet(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept;
 
   // one array for each coordinate: a pass over the bounds goes through them in step

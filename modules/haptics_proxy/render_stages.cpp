@@ -127,7 +127,7 @@ std::int32_t Spring::nearestBody(const FingerTick& tick) noexcept {
 void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
   Surroundings& near = *tick.finger.near;
   if (near.crowded()) ++tick.all.coverage_lost;
-  if (!tick.contact.swept || !near.passedThrough(tick.contact.state.x)) return;
+  if (!tick.contact.swept || !near.passedThrough(tick.contact.state.x, tick.r)) return;
   ++tick.all.pop_through;
   ++tick.all.pop_through_by_finger[tick.index];
 }

@@ -118,7 +118,7 @@ Surroundings::Triangle Surroundings::triangleOf(const PieceRef& ref, const Vec3&
   return {mesh.tree, &mesh.tree->facet(facet), mesh.toG(x)};
 }
 
-bool Surroundings::passedThrough(const Vec3& x) noexcept {
+bool Surroundings::passedThrough(const Vec3& x, double r) noexcept {
   bool inside = false;
   for (int i = 0; i < primitive_count_ && !inside; ++i) {
     const auto n = static_cast<std::size_t>(i);
@@ -126,31 +126,39 @@ bool Surroundings::passedThrough(const Vec3& x) noexcept {
   }
   bool passed = inside && !inside_primitive_;
   inside_primitive_ = inside;
-  for (std::size_t m = 0; m < near_count_; ++m) {
-    Mesh& mesh = *near_[m];
-    for (int i = 0; i < trail_count_; ++i) passed = follow(mesh, trail_[static_cast<std::size_t>(i)]) || passed;
-    passed = follow(mesh, x) || passed;
-  }
+  for (std::size_t m = 0; m < near_count_; ++m) passed = follow(*near_[m], x, r) || passed;
   return passed;
 }
 
-bool Surroundings::follow(Mesh& mesh, const Vec3& x) noexcept {
-  const Vec3 x_G = mesh.toG(x), from_G = mesh.last_x_G;
-  mesh.last_x_G = x_G;
+bool Surroundings::follow(Mesh& mesh, const Vec3& x, double r) noexcept {
   if (!mesh.followed) {
     mesh.followed = true;
     mesh.clearance = 0;
+    mesh.last_x_G = mesh.toG(x);
     return false;
   }
-  const double way = (x_G - from_G).norm();
-  mesh.clearance -= way;
-  if (mesh.clearance > 0 || way == 0) return false;  // there is no surface on the way
+  std::size_t count = 0;
+  bool focused = inFocus(x) && inFocus(mesh.own ? mesh.last_x_G : mesh.X_AG * mesh.last_x_G);
+  double length = 0;
+  way_[count++] = mesh.last_x_G;
+  const auto go = [&](const Vec3& p_G) {
+    const double leg = (p_G - way_[count - 1]).norm();
+    if (leg == 0) return;
+    length += leg;
+    way_[count++] = p_G;
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(trail_count_); ++i) {
+    go(mesh.toG(trail_[i]));
+    focused = focused && inFocus(trail_[i]);
+  }
+  go(mesh.toG(x));
+  mesh.last_x_G = way_[count - 1];
+  mesh.clearance -= length;
+  if (mesh.clearance > 0 || length == 0) return false;  // there is no surface on the way
   MeshFront& front = mesh.fronts[point_];
-  const Vec3 from = mesh.own ? from_G : mesh.X_AG * from_G;
-  const bool focused = inFocus(x) && inFocus(from);
-  const bool crossed = front.crosses(from_G, x_G, focused);
-  // worth its while only where the fingertip keeps off the surface by more than it moves
-  if (!focused || way < 0.1 * focus_radius_) mesh.clearance = front.clearance(x_G);
+  const bool crossed = front.crosses({way_.data(), count}, focused);
+  constexpr double kWorthIt = 3;  // ticks that a look at everything should spare
+  if (!focused || r > kWorthIt * length) mesh.clearance = front.clearance(mesh.last_x_G);
   return crossed;
 }
 

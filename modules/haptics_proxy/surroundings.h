@@ -99,8 +99,9 @@ class Surroundings {
     trail_[static_cast<std::size_t>(trail_count_++)] = x;
   }
   /// The fingertip's centre is at x at the end of a tick. True when its way since the end of the last one, seen from a mesh,
-  /// crosses a triangle of it, or when it is inside a primitive now: judged by the surfaces, not by what moved it.
-  bool passedThrough(const Vec3& x) noexcept;
+  /// crosses a triangle of it, or when it is inside a primitive now: judged by the surfaces, not by what moved it. r: radius of
+  /// the fingertip; a guess of how far off the surface its centre keeps, which costs time where it is wrong.
+  bool passedThrough(const Vec3& x, double r) noexcept;
 
   /// Something that the point in use can reach found no room.
   bool full() const noexcept;
@@ -134,9 +135,10 @@ class Surroundings {
     Nearest toA(const Nearest& at) const noexcept { return own ? at : Nearest{X_AG.q * at.nhat, at.distance}; }
   };
   Mesh* meshOf(std::int32_t body) noexcept;
-  /// Goes on to x; true when a triangle of the mesh is crossed on the way.
-  bool follow(Mesh& mesh, const Vec3& x) noexcept;
-  bool inFocus(const Vec3& x) const noexcept { return (x - focus_center_).norm() <= 0.5 * focus_radius_; }
+  /// Goes along the trail and on to x; true when a triangle of the mesh is crossed on the way.
+  bool follow(Mesh& mesh, const Vec3& x, double r) noexcept;
+  /// Whatever a way through x crosses at x is in focus.
+  bool inFocus(const Vec3& x) const noexcept { return (x - focus_center_).norm() <= 0.999 * focus_radius_; }
   static void seed(Mesh& mesh, std::size_t point, const NearBody* cut, const Pose& X_BG, const Vec3& p_G,
                    double reach) noexcept;
 
@@ -154,6 +156,7 @@ class Surroundings {
   Vec3 focus_center_ = Vec3::Zero();
   double focus_radius_ = -1;
   std::array<Vec3, kTrail> trail_;
+  std::array<Vec3, kTrail + 2> way_;  // of the fingertip's centre in this tick, coordinates of one mesh
   int trail_count_ = 0;
   bool no_room_ = false;
 };

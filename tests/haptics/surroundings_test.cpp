@@ -142,7 +142,9 @@ TEST(MeshFront, KnowsWhenASegmentCrosses) {
     const Vec3 a = point(), b = point();
     if (onSurface(a) || onSurface(b)) continue;
     front->seed(tree, root, a);
-    const bool crosses = front->crosses(a, b, false);
+    const bool crosses = front->crosses(std::array{a, b}, false);
+    front->seed(tree, root, a);
+    ASSERT_EQ(front->crosses(std::array{a, b, a}, false), crosses) << a << "\n" << b;  // there and back
     if (inside(a) != inside(b)) {
       ASSERT_TRUE(crosses) << a << "\n" << b;
       ++changed;
