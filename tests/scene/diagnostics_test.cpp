@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/diagnostics/printable.h"
+#include "framework/math/random.h"
+
 namespace presa {
 namespace {
 
@@ -83,6 +86,41 @@ TEST(Quote, ShortensAndDisarms) {
   std::string umlauts;
   for (int i = 0; i < 60; ++i) umlauts += "ü";
   EXPECT_EQ(quote(umlauts), "'" + umlauts + "'");
+}
+
+// What a terminal would obey is shown, not obeyed; what people read stays.
+TEST(Printable, ShowsWhatATerminalWouldObey) {
+  EXPECT_EQ(printable("cube_2 – würfel 立方体 ὕδωρ 🏺"), "cube_2 – würfel 立方体 ὕδωρ 🏺");
+  EXPECT_EQ(printable("a\x1b[2Jb\r\n\t\x07\x7f"), "a\\x1B[2Jb\\x0D\\x0A\\x09\\x07\\x7F");
+  EXPECT_EQ(printable("\xC2\x9B"
+                      "31m"),
+            "\\u{9B}31m");                                                                    // CSI in one character
+  EXPECT_EQ(printable("a\u202Etxt.exe\u2066\u200B"), "a\\u{202E}txt.exe\\u{2066}\\u{200B}");  // turned round, no width
+  EXPECT_EQ(printable(std::string_view("\0x", 2)), "\\x00x");
+  for (const char* bad : {"\x9B", "\xFF", "\xC0\x9B", "\xE0\x82\x9B", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82"})
+    EXPECT_EQ(printable(bad).find_first_not_of("\\x0123456789ABCDEF"), std::string::npos) << printable(bad);
+  EXPECT_EQ(printable("äöüabc", 3), "äöü...");
+  EXPECT_EQ(printable("abc", 3), "abc");
+}
+
+// Whatever the bytes, the answer is UTF-8 without a control character.
+TEST(Printable, LetsNoByteThrough) {
+  RandomStream random(1, "bytes");
+  for (int i = 0; i < 20000; ++i) {
+    std::string bytes(random.below(12), ' ');
+    for (char& byte : bytes)
+      byte = static_cast<char>(random.below(3) == 0 ? 0x80 + random.below(128) : random.below(256));
+    const std::string shown = printable(bytes);
+    for (const char c : shown) ASSERT_TRUE(static_cast<unsigned char>(c) >= 0x20 && c != 0x7F);
+    ASSERT_EQ(printable(shown), shown);  // nothing left to do: what is not ASCII in it is UTF-8 that is harmless
+  }
+}
+
+TEST(Diagnostics, AreShownWithoutWhatATerminalWouldObey) {
+  Diagnostics diagnostics;
+  diagnostics.error(201, {"a\x1b]0;x\x07.xml", 3, 4}, "found \x1b[31m and \xC2\x9B", "two\nlines\x1b");
+  EXPECT_EQ(diagnostics.text(),
+            "a\\x1B]0;x\\x07.xml:3:4: error[E201]: found \\x1B[31m and \\u{9B}\n  help: two\nlines\\x1B\n");
 }
 
 }  // namespace
