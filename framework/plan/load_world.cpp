@@ -3,6 +3,7 @@
 #include "framework/plan/realtime_policy.h"
 #include "framework/plan/session.h"
 #include "framework/plan/stiffness_bound.h"
+#include "framework/scene/bus_settings.h"
 #include "framework/scene/load.h"
 
 namespace presa {
@@ -58,6 +59,10 @@ Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnost
   const std::string rig_file = inputs.rig.empty() ? scene.default_rig : inputs.rig;
   Rig rig;
   if (!rig_file.empty()) rig = loadRig(rig_file, diagnostics);
+  if (inputs.rig.empty() && !options.bus && rig.bus && opensMoreThanASceneMay(*rig.bus))
+    diagnostics.error(751, {rig_file, 0, 0},
+                      "the scene chose this rig, which opens the network or takes commands: a scene may do neither",
+                      "--rig " + rig_file + " says that you want it, --bus none that you do not");
   if (diagnostics.hasErrors() && scene.bodies.empty()) return {};
   return finish(std::move(scene), std::move(rig), std::move(options), diagnostics);
 }

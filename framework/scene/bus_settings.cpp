@@ -1,3 +1,5 @@
+#include "framework/scene/bus_settings.h"
+
 #include <algorithm>
 
 #include "framework/scene/scene_parts.h"
@@ -24,11 +26,29 @@ bool takesCommands(const World& world) {
   return world.options.bus_commands || (bus && bus->commands);
 }
 
+void checkSceneBus(const xml::Element& root, Diagnostics& diagnostics) {
+  const std::string help = "on the command line, or in a rig that the command line names";
+  for (const xml::Element& bus : root.children("bus")) {
+    const std::string network = bus.attribute("network");
+    if (!bus.flawed("network") && network.starts_with("lan"))
+      diagnostics.error(
+          751, bus.where("network"),
+          "a scene does not open the network, found " + quote(network) + "; loopback and none are allowed",
+          "--bus " + network + " " + help);
+    if (!bus.flawed("commands") && bus.boolean("commands", false))
+      diagnostics.error(751, bus.where("commands"), "a scene does not let others set parameters of its run",
+                        "--bus-commands " + help + ": commands=\"true\"");
+  }
+}
+
+bool opensMoreThanASceneMay(const BusSettings& bus) { return bus.commands || bus.network.starts_with("lan"); }
+
 std::optional<BusSettings> readBus(const xml::Element& root) {
   std::optional<BusSettings> bus;
   for (const xml::Element& element : root.children("bus"))
     bus = {element.attribute("network"), static_cast<int>(element.number("domain", 0)),
-           element.boolean("commands", false)};
+           element.boolean("commands", false),
+           element.hasAttribute("keys") ? element.attribute("keys") : std::string()};
   return bus;
 }
 

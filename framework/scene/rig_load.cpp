@@ -95,6 +95,8 @@ Rig readDocument(xml::Document& document, const std::string& directory, Diagnost
       resolvePaths(device, directory);
       rig.devices.push_back(readBinding(device, diagnostics));
     }
+    for (Element bus : root.children("bus"))
+      if (bus.hasAttribute("keys")) bus.setAttribute("keys", resolvePath(bus.attribute("keys"), directory));
     rig.bus = readBus(root);
     rig.resolved_xml = document.text();
   }

@@ -172,6 +172,7 @@ struct BusSettings {
   std::string network = "loopback";  ///< loopback, lan, lan:INTERFACE, or none
   int domain = 0;                    ///< viewers join the same; kLeastBusDomain to kMostBusDomain
   bool commands = false;             ///< others may set parameters of the run; else nobody listens
+  std::string keys{};                ///< folder of this process's certificate (presa bus keys); empty: none
 };
 inline constexpr int kLeastBusDomain = 0, kMostBusDomain = 200;
 /// Whether that names a network.

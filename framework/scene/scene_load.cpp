@@ -25,6 +25,7 @@ Scene loadDocument(xml::Document& document, const std::string& directory, const 
   if (document.root().name() != sceneSchema().root().name) return scene;
   checkVersion(document.root(), "scene", kVersion, diagnostics);
   checkScene(document.root(), diagnostics);
+  checkSceneBus(document.root(), diagnostics);
   if (diagnostics.errorCount() > errors_before) return scene;  // all or nothing: no half-read scene
   resolveScene(document, sceneSchema(), directory);
   scene = readScene(document.root(), document.name(), directory);

@@ -45,6 +45,8 @@ void resolveScene(xml::Document& document, const xml::Schema& schema, const std:
 
 /// The <bus> of a scene or a rig; none when it has none.
 std::optional<BusSettings> readBus(const xml::Element& root);
+/// E751: a scene, which may come from anybody, may publish on this machine, and neither open the network nor take commands.
+void checkSceneBus(const xml::Element& root, Diagnostics& diagnostics);
 
 /// All materials of the document, in order.
 std::vector<xml::Element> materialElements(const xml::Element& root);

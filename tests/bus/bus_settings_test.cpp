@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "framework/plan/load_world.h"
 #include "framework/plan/plan.h"
 #include "framework/scene/load.h"
 #include "framework/scene/world.h"
@@ -49,6 +52,70 @@ TEST(BusSettings, AreRefusedWithAPlaceAndWhatIsAllowed) {
   Diagnostics diagnostics;
   rigOf(R"(<bus network="wifi"/>)", diagnostics);
   EXPECT_NE(diagnostics.text().find("loopback, lan, lan:INTERFACE"), std::string::npos) << diagnostics.text();
+}
+
+Scene sceneWith(const std::string& bus, const std::vector<Override>& overrides, Diagnostics& diagnostics) {
+  const std::string xml = R"(<scene version="1.0" name="s"><world gravity="0 0 0"/>)" + bus + R"(
+    <materials><material name="wood" stiffness="1000"/></materials>
+    <body name="table" fixed="true"><haptic><box size="1 1 1"/></haptic></body></scene>)";
+  return parseScene(xml, "scene", ".", overrides, diagnostics);
+}
+
+// A scene is a file that somebody sends: it opens no network and gives nobody a say.
+TEST(BusSettings, OfASceneOpenNeitherTheNetworkNorCommands) {
+  for (const char* bus : {R"(<bus network="lan"/>)", R"(<bus network="lan:eth0"/>)",
+                          R"(<bus network="loopback" commands="true"/>)", R"(<bus network="none" commands="1"/>)"}) {
+    Diagnostics diagnostics;
+    const Scene scene = sceneWith(bus, {}, diagnostics);
+    EXPECT_TRUE(diagnostics.hasErrors()) << bus;
+    EXPECT_NE(diagnostics.text().find("scene:1:"), std::string::npos) << diagnostics.text();
+    EXPECT_NE(diagnostics.text().find("error[E751]"), std::string::npos) << diagnostics.text();
+    EXPECT_FALSE(scene.bus.has_value()) << bus;
+  }
+  Diagnostics both;
+  sceneWith(R"(<bus network="lan" commands="true"/>)", {}, both);
+  EXPECT_EQ(both.errorCount(), 2u) << both.text();
+  Diagnostics set;
+  sceneWith(R"(<bus network="loopback"/>)", {{"bus/network", "lan"}}, set);
+  EXPECT_TRUE(set.hasErrors());
+  Diagnostics good;
+  EXPECT_EQ(sceneWith(R"(<bus network="loopback" commands="false"/>)", {}, good).bus->network, "loopback");
+  EXPECT_FALSE(good.hasErrors()) << good.text();
+}
+
+// Nor does a rig that nobody but the scene names.
+TEST(BusSettings, OfARigThatTheSceneChoseOpenNothingEither) {
+  const std::string folder = testing::TempDir(), scene = folder + "/bus_chosen.xml",
+                    rig = folder + "/bus_chosen_rig.xml";
+  std::ofstream(scene) << R"(<scene version="1.0" name="s" rig="bus_chosen_rig.xml"><world gravity="0 0 0"/>
+    <materials><material name="wood" stiffness="1000"/></materials>
+    <body name="table" fixed="true"><haptic><box size="1 1 1"/></haptic></body>
+    <devices><device role="thumb"/></devices></scene>)";
+  const auto said = [&](const std::string& bus, const std::string& named, const std::optional<BusSettings>& option) {
+    std::ofstream(rig) << "<rig version=\"1.0\" name=\"desk\">" << bus
+                       << R"(<device role="thumb" driver="scripted"><set key="motion" value=")" << PRESA_SOURCE_DIR
+                       << R"(/config/motions/pinch_cube.xml"/></device></rig>)";
+    RunOptions options;
+    options.bus = option;
+    Diagnostics diagnostics;
+    loadWorld({scene, named, {}}, options, diagnostics);
+    return diagnostics.text();
+  };
+  for (const char* bus : {R"(<bus network="lan"/>)", R"(<bus network="loopback" commands="true"/>)"}) {
+    EXPECT_NE(said(bus, "", {}).find("error[E751]"), std::string::npos) << bus;
+    EXPECT_EQ(said(bus, rig, {}).find("E751"), std::string::npos) << bus;
+    EXPECT_EQ(said(bus, "", BusSettings{.network = "none"}).find("E751"), std::string::npos) << bus;
+  }
+  EXPECT_EQ(said(R"(<bus network="loopback"/>)", "", {}).find("error["), std::string::npos);
+}
+
+TEST(BusSettings, OfARigNameItsKeysRelativeToIt) {
+  Diagnostics diagnostics;
+  const Rig rig = parseRig(R"(<rig version="1.0" name="desk"><bus network="lan" keys="keys/run"/>
+    <device role="thumb" driver="scripted"/></rig>)",
+                           "rig", "/lab", diagnostics);
+  ASSERT_TRUE(rig.bus.has_value()) << diagnostics.text();
+  EXPECT_EQ(rig.bus->keys, "/lab/keys/run");
 }
 
 TEST(BusSettings, NameANetwork) {
