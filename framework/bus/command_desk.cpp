@@ -61,6 +61,15 @@ Answer CommandDesk::judge(const Command& command, double time) {
     return judged.sender == command.sender && judged.parameter == command.parameter;
   });
   if (known != judged_.end() && command.number == known->answer.number) return known->answer;
+  // far from what this sender has reached, forged or damaged: it neither acts nor moves what counts as old
+  std::uint64_t reached = 0;
+  for (const Judged& judged : judged_)
+    if (judged.sender == command.sender) reached = std::max(reached, judged.answer.number);
+  if (command.number > reached && command.number - reached > kFarthest) {
+    Answer answer{command.run, command.sender, command.number, Answer::Verdict::kOutOfOrder};
+    if (known != judged_.end()) answer.value = known->answer.value;
+    return answer;
+  }
   if (known != judged_.end() && command.number < known->answer.number) {
     Answer answer = known->answer;
     answer.number = command.number;

@@ -11,7 +11,8 @@
 namespace presa::bus {
 
 /// Judges the commands that come to a run: whether they are meant for it, known, within their range and not overtaken. What was
-/// judged once is answered again and does not act again. Surfaces it keeps itself, for the haptic thread to read; the rest is acted
+/// judged once is answered again and does not act again; a number far ahead of its sender's others is refused, so that no forged one
+/// makes all that follow look overtaken. Surfaces it keeps itself, for the haptic thread to read; the rest is acted
 /// on by whoever offered it. Nothing here reaches a force, a limit or a latched fault.
 /// Thread: that of the bus group; in lockstep, where there is one thread, anybody's.
 class CommandDesk {
@@ -46,6 +47,7 @@ class CommandDesk {
 
  private:
   static constexpr std::size_t kKept = 32, kRemembered = 256;
+  static constexpr std::uint64_t kFarthest = 4096;  // commands that a sender may be ahead of the last that was judged
   struct Judged {
     std::uint64_t sender = 0;
     std::string parameter;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 
 #include "framework/bus/scene_hash.h"
@@ -13,6 +14,9 @@ namespace {
 // How fast the way from sender to here may be believed to become longer: somewhat faster than the clocks of two machines drift apart,
 // so slowly that packets which are late now and then do not pull the picture.
 constexpr double kDrift = 2e-4;
+
+constexpr double kSlack = 10;      // [s] that the time of a sample may be from the newest,
+constexpr double kFastest = 1000;  // and so many for each second since something came
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
@@ -89,20 +93,37 @@ bool RemotePicture::follows(const Stamp& stamp, std::int64_t received_ns) noexce
   return true;
 }
 
+// Simulated time goes on, at most so fast. A single forged time would otherwise make all true ones look old for good.
+bool RemotePicture::isTimely(const Stamp& stamp, std::int64_t received_ns) const noexcept {
+  if (!std::isfinite(stamp.time)) return false;
+  if (!clock_known_) return true;
+  const double elapsed = std::max(0.0, seconds(received_ns - last_arrival_ns_));
+  return std::abs(stamp.time - newest_) <= kSlack + kFastest * elapsed;
+}
+
 template <class Sample>
-void RemotePicture::keep(Track<Sample>& track, const Sample& sample, std::int64_t received_ns) noexcept {
+bool RemotePicture::keep(Track<Sample>& track, const Sample& sample, std::int64_t received_ns) noexcept {
+  if (!isTimely(sample.stamp, received_ns)) {
+    ++counted_.strays;
+    return false;
+  }
   const std::uint64_t before = track.watch.lost();
   const SequenceWatch::Arrival arrival = track.watch.see(sample.stamp.sequence);
   counted_.lost += track.watch.lost() - before;  // modulo 2^64: what comes late takes one away
+  if (arrival == SequenceWatch::Arrival::kStray) {
+    ++counted_.strays;
+    return false;
+  }
   if (arrival == SequenceWatch::Arrival::kDouble) {
     ++counted_.doubled;
-    return;
+    return true;
   }
   if (arrival == SequenceWatch::Arrival::kLate) ++counted_.late;
   ++counted_.received;
   track.kept[sample.stamp.sequence % kKept] = sample;
   latency_.add(received_ns - sample.stamp.sent_ns);
   noteArrival(sample.stamp, received_ns);
+  return true;
 }
 
 void RemotePicture::noteArrival(const Stamp& stamp, std::int64_t received_ns) noexcept {
@@ -140,8 +161,9 @@ void RemotePicture::onBeat(const Beat& beat, std::int64_t received_ns) {
     if (wrong_scene_ && beat.last && beat.stamp.run == run_.run) state_ = State::kEnded;
     return;
   }
-  keep(beats_, beat, received_ns);
-  if (beat.stamp.sequence == beats_.watch.highest()) counted_.refused = beat.refused;
+  if (!keep(beats_, beat, received_ns)) return;
+  if (beat.stamp.sequence != beats_.watch.highest()) return;
+  counted_.refused = beat.refused;
   if (beat.last) state_ = State::kEnded;
 }
 

@@ -51,6 +51,7 @@ class RemotePicture final : public Listener {
     std::uint64_t lost = 0, doubled = 0, late = 0;
     std::uint64_t refused = 0;      ///< lost on the sender's side already
     std::uint64_t resumed = 0;      ///< times the bus came back
+    std::uint64_t strays = 0;       ///< numbers or times far from all others, not believed: damaged or forged
     std::uint64_t other_scene = 0;  ///< samples of a run with another scene
     double silent = 0;              ///< since the last sample [s]
     double behind = 0;              ///< from the newest state that is known to the one shown [s]
@@ -75,8 +76,10 @@ class RemotePicture final : public Listener {
 
   bool follows(const Stamp& stamp, std::int64_t received_ns) noexcept;
   template <class Sample>
-  void keep(Track<Sample>& track, const Sample& sample, std::int64_t received_ns) noexcept;
+  /// False: not believed.
+  bool keep(Track<Sample>& track, const Sample& sample, std::int64_t received_ns) noexcept;
   void beginRun(const RunInfo& run) noexcept;
+  bool isTimely(const Stamp& stamp, std::int64_t received_ns) const noexcept;
   void noteArrival(const Stamp& stamp, std::int64_t received_ns) noexcept;
   Pose poseOf(std::size_t body) const noexcept;
 

@@ -74,7 +74,8 @@ struct Answer {
     kUnknown,  ///< no such parameter is open here
     kOutOfRange,
     kNotANumber,
-    kOvertaken,  ///< a later command of this sender for this parameter was there before
+    kOvertaken,   ///< a later command of this sender for this parameter was there before
+    kOutOfOrder,  ///< its number is far ahead of the sender's others: not from the sender
   };
   std::uint64_t run = 0, sender = 0, number = 0;
   Verdict verdict = Verdict::kAccepted;
@@ -99,6 +100,9 @@ struct RunInfo {
   std::string scene_name;
   std::string scene_xml;  ///< resolved; meshes are named by their files
   bool commands = false;  ///< it takes commands
+  /// SHA-256 of every file of filesNamedBy(scene), in that order, 64 digits each, with spaces between: a viewer finds the bytes among its
+  /// own files (MeshShelf) and opens no path that comes from outside. Empty where the scene names none.
+  std::string mesh_sums{};
 };
 
 /// One publication; the spans are read during the call only.

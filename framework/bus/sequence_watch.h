@@ -5,15 +5,28 @@ namespace presa::bus {
 
 /// Counts what is missing, doubled and late in the numbers of one key. A viewer that joins late misses nothing: counting begins
 /// with the first number that it sees. What arrives late after all is no longer missing.
+///
+/// A number far from the others is not believed alone, since one forged or damaged number would make all true ones look old for good. Where
+/// the next one follows it, both are: who was suspended goes on, and so does who believed two forged ones
+/// [RFC 3550, appendix A.1].
 class SequenceWatch {
  public:
-  enum class Arrival : std::uint8_t { kNewest, kLate, kDouble };
+  enum class Arrival : std::uint8_t { kNewest, kLate, kDouble, kStray };
+  static constexpr std::uint64_t kNear = 1024;  ///< numbers: five seconds of a run
 
   Arrival see(std::uint64_t sequence) noexcept {
     if (highest_ == 0) first_ = highest_ = sequence - 1;
+    if (isFar(sequence)) {
+      const bool follows = stray_ != 0 && sequence == stray_ + 1;
+      stray_ = sequence;
+      if (!follows) return Arrival::kStray;
+      goOnFrom(sequence);
+      return Arrival::kNewest;
+    }
     if (sequence > highest_) {
       const std::uint64_t ahead = sequence - highest_;
       seen_ = (ahead < kWindow ? seen_ << ahead : 0) | 1U;
+      lost_ += ahead - 1;
       highest_ = sequence;
       ++received_;
       return Arrival::kNewest;
@@ -22,6 +35,7 @@ class SequenceWatch {
     // longer ago than anybody remembers, or before the first: as good as double
     if (sequence <= first_ || behind >= kWindow || (seen_ >> behind & 1U) != 0) return Arrival::kDouble;
     seen_ |= std::uint64_t{1} << behind;
+    --lost_;
     ++received_;
     return Arrival::kLate;
   }
@@ -30,15 +44,32 @@ class SequenceWatch {
   std::uint64_t highest() const noexcept { return highest_; }
   std::uint64_t received() const noexcept { return received_; }
   /// Numbers missing between the first and the highest that were seen.
-  std::uint64_t lost() const noexcept { return highest_ - first_ - received_; }
+  std::uint64_t lost() const noexcept { return lost_; }
   /// The same up to a number that is known to have been sent.
   std::uint64_t lostUpTo(std::uint64_t sent) const noexcept { return lost() + (sent > highest_ ? sent - highest_ : 0); }
 
  private:
-  static constexpr std::uint64_t kWindow = 64;  // numbers
-  std::uint64_t first_ = 0;                     // one below the first that counts
-  std::uint64_t highest_ = 0, received_ = 0;
-  std::uint64_t seen_ = 0;  // bit i: highest_ - i has arrived
+  static constexpr std::uint64_t kWindow = 64;                // numbers
+  static constexpr std::uint64_t kLongestSilence = 1U << 24;  // numbers: a day; beyond that none of them was ever sent
+
+  bool isFar(std::uint64_t sequence) const noexcept {
+    return sequence > highest_ ? sequence - highest_ > kNear : highest_ - sequence > kNear;
+  }
+  void goOnFrom(std::uint64_t sequence) noexcept {
+    const bool missed = sequence > highest_ && sequence - highest_ <= kLongestSilence;
+    if (missed)
+      lost_ += sequence - highest_ - 1;
+    else
+      first_ = sequence - 1;
+    seen_ = 1;
+    highest_ = sequence;
+    ++received_;
+  }
+
+  std::uint64_t first_ = 0;  // one below the first that counts
+  std::uint64_t highest_ = 0, received_ = 0, lost_ = 0;
+  std::uint64_t seen_ = 0;   // bit i: highest_ - i has arrived
+  std::uint64_t stray_ = 0;  // the last number that was far from the others; 0: none
 };
 
 }  // namespace presa::bus

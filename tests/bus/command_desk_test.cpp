@@ -109,6 +109,26 @@ TEST(CommandDesk, ActsOnce) {
   EXPECT_EQ(d.say({kRun, 7, 1, kStatic, 1.0}).verdict, Verdict::kAccepted);  // another parameter is another matter
 }
 
+// The largest number there is, in somebody else's name: refused, and the true sender goes on.
+TEST(CommandDesk, OneForgedNumberLocksNoParameter) {
+  for (const bool before : {true, false}) {  // the true sender's first command comes before the forged one, or after
+    Desk d;
+    if (before) EXPECT_EQ(d.say({kRun, 7, 1, kStiffness, 500}).verdict, Verdict::kAccepted);
+    for (const std::uint64_t forged : {~std::uint64_t{0}, std::uint64_t{1} << 62U, std::uint64_t{5000}})
+      EXPECT_EQ(d.say({kRun, 7, forged, kStiffness, 1}).verdict, Verdict::kOutOfOrder) << forged;
+    EXPECT_EQ(d.say({kRun, 7, 2, kStiffness, 600}).verdict, Verdict::kAccepted);
+    EXPECT_EQ(d.desk.surfaces().newest, before ? 2u : 1u);
+  }
+}
+
+// Numbers run over all parameters: who set one ten thousand times may set another.
+TEST(CommandDesk, NumbersFollowOverAllParameters) {
+  Desk d;
+  for (std::uint64_t number = 1; number <= 10'000; number += 1000)
+    EXPECT_EQ(d.say({kRun, 7, number, kStiffness, 500}).verdict, Verdict::kAccepted) << number;
+  EXPECT_EQ(d.say({kRun, 7, 10'000, kStatic, 1.0}).verdict, Verdict::kAccepted);
+}
+
 TEST(CommandDesk, DoesNotListenToWhatIsForAnotherRun) {
   Desk d;
   d.commander->send({kRun + 1, 7, 1, kStiffness, 500});

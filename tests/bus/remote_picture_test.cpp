@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "framework/bus/local_bus.h"
 #include "framework/bus/scene_hash.h"
@@ -263,6 +264,42 @@ TEST(LocalBus, CountsWhatAReaderLeavesLying) {
 TEST(SceneHash, DiffersByWhatIsDrawn) {
   EXPECT_EQ(sceneHash(worldOf()), sceneHash(worldOf()));
   EXPECT_NE(sceneHash(worldOf()), sceneHash(worldOf("0.2")));
+}
+
+// Samples in the run's name that no run sends: numbers and times at the end of all numbers. The picture goes on.
+TEST(RemotePicture, ForgedNumbersAndTimesStopNothing) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Stamp ends[] = {{7, ~std::uint64_t{0}, 1, 0},
+                        {7, std::uint64_t{1} << 63U, 1, 0},
+                        {7, 0, 1e300, 0},
+                        {7, 0, std::nan(""), 0},
+                        {7, 0, kInfinity, 0},
+                        {7, 0, -kInfinity, 0},
+                        {7, 0, -1e300, 0}};
+  for (Stamp forged : ends) {
+    Wire wire(worldOf());
+    wire.announce(7);
+    wire.go(400);
+    const bool number = forged.time == 1;  // else the time is forged, in a sample that is next
+    if (number)
+      forged.time = wire.stampOf(wire.sequence).time;
+    else
+      forged.sequence = wire.sequence + 1;
+    ObjectSample object;
+    object.stamp = forged;
+    object.body = 1;
+    object.X_WB.p.x() = 99;
+    wire.picture.onObject(object, ns(wire.clock));
+    Beat last;
+    last.stamp = forged;
+    last.last = true;
+    wire.picture.onBeat(last, ns(wire.clock));
+    wire.go(100);
+    EXPECT_EQ(wire.picture.state(), RemotePicture::State::kLive) << forged.sequence << ' ' << forged.time;
+    EXPECT_NEAR(wire.shown(), where(498 * kPeriod), 2 * kPeriod) << forged.sequence << ' ' << forged.time;
+    EXPECT_EQ(wire.picture.health().strays, 2u) << forged.sequence << ' ' << forged.time;
+    EXPECT_EQ(wire.picture.health().lost, 0u);
+  }
 }
 
 }  // namespace

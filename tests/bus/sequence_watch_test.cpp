@@ -52,5 +52,49 @@ TEST(SequenceWatch, AgreesWithASetThatRemembersAll) {
   }
 }
 
+// One forged number, however placed, costs one sample: what follows is counted as if it had never been there.
+TEST(SequenceWatch, OneForgedNumberLocksNothing) {
+  for (const std::uint64_t forged :
+       {~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1} << 63U, std::uint64_t{102 + 1025}}) {
+    SequenceWatch watch;
+    for (const std::uint64_t number : {5000, 5001, 5002}) watch.see(number + (forged < 5000 ? 5000 : 0));
+    const std::uint64_t base = watch.highest();
+    EXPECT_EQ(watch.see(forged), Arrival::kStray) << forged;
+    EXPECT_EQ(watch.highest(), base);
+    EXPECT_EQ(watch.see(base + 1), Arrival::kNewest) << forged;
+    EXPECT_EQ(watch.lost(), 0u);
+  }
+}
+
+// Two forged ones in a row are believed, as after a long silence; two true ones later so are those, and no loss is made up.
+TEST(SequenceWatch, GoesOnAfterTwoForgedNumbers) {
+  SequenceWatch watch;
+  for (std::uint64_t number = 1; number <= 10; ++number) watch.see(number);
+  EXPECT_EQ(watch.see(~std::uint64_t{0} - 1), Arrival::kStray);
+  EXPECT_EQ(watch.see(~std::uint64_t{0}), Arrival::kNewest);
+  EXPECT_EQ(watch.see(11), Arrival::kStray);
+  EXPECT_EQ(watch.see(12), Arrival::kNewest);
+  EXPECT_EQ(watch.see(13), Arrival::kNewest);
+  EXPECT_EQ(watch.lost(), 0u);
+}
+
+// The first number of all may be the forged one.
+TEST(SequenceWatch, GoesOnWhenTheFirstNumberIsForged) {
+  SequenceWatch watch;
+  watch.see(~std::uint64_t{0});
+  watch.see(1);
+  EXPECT_EQ(watch.see(2), Arrival::kNewest);
+  EXPECT_EQ(watch.see(3), Arrival::kNewest);
+}
+
+// Who was suspended for an hour goes on with the second sample, and has lost what it has lost.
+TEST(SequenceWatch, GoesOnAfterALongSilence) {
+  SequenceWatch watch;
+  watch.see(1);
+  EXPECT_EQ(watch.see(720'001), Arrival::kStray);
+  EXPECT_EQ(watch.see(720'002), Arrival::kNewest);
+  EXPECT_EQ(watch.lost(), 720'000u);  // the stray one was not shown
+}
+
 }  // namespace
 }  // namespace presa::bus

@@ -78,7 +78,8 @@ const std::vector<FoundRun>& Commanding::look(double wait, std::uint64_t id) {
 }
 
 std::optional<bus::Answer> Commanding::set(std::uint64_t run, const std::string& parameter, double value, double wait) {
-  const bus::Command command{run, sender_, ++sent_, parameter, value};
+  bus::Command command{run, sender_, ++sent_, parameter, value};
+  bool renamed = false;
   const std::int64_t end = after(wait);
   std::int64_t send_at = 0;
   for (;;) {
@@ -90,7 +91,17 @@ std::optional<bus::Answer> Commanding::set(std::uint64_t run, const std::string&
     const auto answer = std::ranges::find_if(answers_, [&](const bus::Answer& to) {
       return to.run == run && to.sender == sender_ && to.number == command.number;
     });
-    if (answer != answers_.end()) return *answer;
+    if (answer != answers_.end()) {
+      // one at a time is neither overtaken nor far ahead: somebody commands in this name. Once more, under a new one
+      const bool disturbed =
+          answer->verdict == bus::Answer::Verdict::kOvertaken || answer->verdict == bus::Answer::Verdict::kOutOfOrder;
+      if (!disturbed || renamed) return *answer;
+      renamed = true;
+      sender_ = bus::newRunId();
+      sent_ = 0;
+      command = {run, sender_, ++sent_, parameter, value};
+      send_at = 0;
+    }
     if (monotonicNs() >= end || terminal::Interruption::came()) return std::nullopt;
     sleepUntilNs(monotonicNs() + kLookEvery);
   }
