@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include "framework/bus/mesh_shelf.h"
 #include "framework/bus/scene_hash.h"
 #include "framework/device/output_stage.h"
 #include "framework/schedule/clock.h"
@@ -44,7 +45,7 @@ void Publisher::start() {
   run_ = newRunId();
   const Scene& scene = world_->scene;
   writer_->announce({run_, sceneHash(*world_), RateTable(scene.rates).period(RateGroup::kBus), world_->options.realtime,
-                     scene.name, scene.resolved_xml, desk_ != nullptr});
+                     scene.name, scene.resolved_xml, desk_ != nullptr, sumsOfMeshes(scene)});
   if (desk_) desk_->desk.start(run_);
 }
 

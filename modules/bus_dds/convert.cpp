@@ -113,10 +113,13 @@ presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept {
           run.realtime,
           const_cast<char*>(run.scene_name.c_str()),
           const_cast<char*>(run.scene_xml.c_str()),
-          run.commands};
+          run.commands,
+          const_cast<char*>(run.mesh_sums.c_str())};
 }
 bus::RunInfo fromTopic(const presa_dds_SceneInfo& run) {
-  return {run.run, run.scene_hash, run.period, run.realtime, run.scene_name, run.scene_xml, run.commands};
+  const auto text = [](const char* from) { return from != nullptr ? std::string(from) : std::string(); };
+  return {run.run,      run.scene_hash,     run.period, run.realtime, text(run.scene_name), text(run.scene_xml),
+          run.commands, text(run.mesh_sums)};
 }
 
 presa_dds_Command toTopic(const bus::Command& command) noexcept {

@@ -1,3 +1,4 @@
+#include "framework/bus/bus_keys.h"
 #include "modules/bus_dds/convert.h"
 #include "modules/bus_dds/dds_bus.h"
 #include "modules/bus_dds/participant.h"
@@ -92,7 +93,10 @@ class DdsCommander final : public bus::Commander {
 
 }  // namespace
 
-std::unique_ptr<bus::CommandPost> makePost(const BusSettings& settings) { return std::make_unique<DdsPost>(settings); }
+std::unique_ptr<bus::CommandPost> makePost(const BusSettings& settings) {
+  bus::requireKeysForCommands(settings);
+  return std::make_unique<DdsPost>(settings);
+}
 std::unique_ptr<bus::Commander> makeCommander(const BusSettings& settings) {
   return std::make_unique<DdsCommander>(settings);
 }

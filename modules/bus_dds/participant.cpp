@@ -7,7 +7,10 @@
 #include <mutex>
 #include <string>
 
+#include "framework/bus/bus_keys.h"
+#include "framework/bus/loopback_only.h"
 #include "framework/diagnostics/refuse.h"
+#include "modules/bus_dds/security.h"
 
 namespace presa::bus_dds {
 namespace {
@@ -67,14 +70,31 @@ class Complaint {
   }
 };
 
+/// Here Cyclone makes its sockets, on this thread.
+Entity openDomain(dds_domainid_t id, const std::string& network, const std::string& what) {
+  const std::string settings = configuration(network);
+  if (network != "loopback") return checked(dds_create_domain(id, settings.c_str()), what.c_str());
+  const bus::LoopbackOnly inside;
+  Entity domain = checked(dds_create_domain(id, settings.c_str()), what.c_str());
+  if (inside.bound() == 0)
+    refuse(750, "bus", "Cyclone DDS made its sockets past Presa, and may listen on every interface",
+           "this happens when a library that is loaded before Presa's brings a bind() of its own (LD_PRELOAD)");
+  return domain;
+}
+
 std::shared_ptr<Participant> open(const BusSettings& settings) {
   Complaint::listen();
   auto joined = std::make_shared<Participant>();
+  const std::string network = "the network '" + settings.network + "'";
   const auto id = static_cast<dds_domainid_t>(settings.domain);
-  joined->domain = checked(dds_create_domain(id, configuration(settings.network).c_str()),
-                           ("the network '" + settings.network + "'").c_str());
-  joined->participant =
-      checked(dds_create_participant(id, nullptr, nullptr), ("the network '" + settings.network + "'").c_str());
+  joined->domain = openDomain(id, settings.network, network);
+  if (settings.keys.empty()) {
+    joined->participant = checked(dds_create_participant(id, nullptr, nullptr), network.c_str());
+  } else {
+    const Qos identity = securityQos(bus::checkedKeys(settings.keys));
+    joined->participant = checked(dds_create_participant(id, identity.get(), nullptr),
+                                  (network + " with the keys in '" + settings.keys + "'").c_str());
+  }
   const auto topic = [&](const dds_topic_descriptor_t& type, const char* name) {
     return makeTopic(*joined, type, name);
   };
@@ -98,6 +118,12 @@ Qos reliable() {
 Entity checked(dds_entity_t handle, const char* what) {
   if (handle > 0) return Entity(handle);
   const std::string complaint = Complaint::last();
+  if (handle == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+    refuse(
+        720, "bus",
+        std::string("these keys do not allow the use of ") + what + (complaint.empty() ? "" : " (" + complaint + ")"),
+        "a run needs DIR/run, a viewer DIR/viewer, presa bus list and set DIR/commander, all made by one presa bus "
+        "keys DIR");
   refuse(720, "bus",
          std::string("cannot use ") + what + ": " + dds_strretcode(-handle) +
              (complaint.empty() ? "" : " (" + complaint + ")"),
@@ -106,7 +132,7 @@ Entity checked(dds_entity_t handle, const char* what) {
 
 std::shared_ptr<Participant> join(const BusSettings& settings) {
   struct Known {
-    std::string network;
+    std::string network, keys;
     std::weak_ptr<Participant> participant;
   };
   static std::mutex mutex;
@@ -117,10 +143,13 @@ std::shared_ptr<Participant> join(const BusSettings& settings) {
     if (entry.network != settings.network)
       refuse(721, "bus", "domain " + std::to_string(settings.domain) + " is in use on network " + entry.network,
              "another --domain");
+    if (entry.keys != settings.keys)
+      refuse(721, "bus", "domain " + std::to_string(settings.domain) + " is in use with other keys",
+             "another --domain");
     return joined;
   }
   auto joined = open(settings);
-  entry = {settings.network, joined};
+  entry = {settings.network, settings.keys, joined};
   return joined;
 }
 

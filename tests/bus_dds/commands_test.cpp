@@ -9,6 +9,7 @@
 
 #include "framework/bus/command_desk.h"
 #include "framework/bus/publisher.h"
+#include "framework/checksum/checksum.h"
 #include "framework/record/record_plugin.h"
 #include "framework/schedule/clock.h"
 #include "tests/bus_dds/viewer_process.h"
@@ -266,6 +267,66 @@ TEST(BusCommands, NeedOneRunThatAnswers) {
   EXPECT_EQ(commands[0].run, 0xabcu);
   waits.signal(SIGINT);
   EXPECT_EQ(waits.end(), 130) << waits.rest();
+}
+
+// What a run says of itself is bytes from outside: no command hands any of them to the terminal as they are.
+TEST(BusCommands, ShowNamesThatATerminalWouldObey) {
+  const BusSettings bus = ownDomain();
+  const auto writer = openWriter(bus);
+  const auto post = openPost(bus);
+  RunInfo info;
+  info.run = 0xabc;
+  info.scene_name =
+      "a\x1b]0;x\x07\x1b[2J\r\xC2\x9B"
+      "31m\xFF";
+  info.scene_xml = "<scene version=\"1.0\" name=\"\xC2\x9Bm\"><body/></scene>";
+  info.commands = true;
+  writer->announce(info);
+  post->show({0xabc, "material/\x1b[31m/stiffness", 1000, 1, 1000, 1});
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"bus", "list", "--wait", kWait},
+                                                {"bus", "list", "--json", "--wait", kWait},
+                                                {"bus", "set", "nothing=1", "--wait", "2"},
+                                                {"bus", "listen", "--wait", kWait, "--for", "1"},
+                                                {"view", "--join", "--view", "none", "--wait", kWait}}) {
+    const Said said = say(bus, words);
+    EXPECT_FALSE(said.text.empty()) << words[1];
+    EXPECT_EQ(said.text.find_first_of("\x1b\x07\r\xff"), std::string::npos) << words[1] << '\n' << said.text;
+    EXPECT_EQ(said.text.find("\xC2\x9B"), std::string::npos) << words[1] << '\n' << said.text;
+  }
+  EXPECT_NE(say(bus, {"bus", "list", "--wait", kWait}).text.find("a\\x1B]0;x\\x07"), std::string::npos);
+}
+
+// A run names a mesh that this machine has: it is not opened by that name, and the viewer says what it looked for.
+TEST(BusCommands, OpenNoPathThatTheBusNames) {
+  const BusSettings bus = ownDomain();
+  const auto writer = openWriter(bus);
+  const std::string folder = testing::TempDir() + "/bus_meshes";
+  std::filesystem::create_directories(folder);
+  const std::string cup = std::string(PRESA_SOURCE_DIR) + "/config/meshes/amphora.obj",
+                    copy = folder + "/other_name.obj";
+  RunInfo info;
+  info.run = 0xabc;
+  info.scene_name = "forged";
+  info.scene_xml = R"(<scene version="1.0" name="forged"><world gravity="0 0 0"/>
+    <materials><material name="clay" stiffness="1000"/></materials>
+    <body name="cup" fixed="true"><visual><mesh file="/dev/stdin"/></visual></body></scene>)";
+  info.mesh_sums = std::string(64, 'a');
+  writer->announce(info);
+  const Said refused = say(bus, {"bus", "listen", "--wait", kWait, "--for", "1"});
+  EXPECT_EQ(refused.status, 2) << refused.text;
+  EXPECT_NE(refused.text.find("error[E755]"), std::string::npos) << refused.text;
+  // with the sum of a mesh that ships, that one is taken, whatever the path says
+  info.mesh_sums = sha256OfFile(cup);
+  writer->announce(info);
+  const Said shipped = say(bus, {"bus", "listen", "--wait", kWait, "--for", "1", "--json"});
+  EXPECT_NE(shipped.text.find("\"joined\": true"), std::string::npos) << shipped.text;
+  // and one of a folder that the user names
+  std::ofstream(copy) << std::ifstream(cup).rdbuf() << "# another\n";
+  info.mesh_sums = sha256OfFile(copy);
+  writer->announce(info);
+  EXPECT_EQ(say(bus, {"bus", "listen", "--wait", kWait, "--for", "1"}).status, 2);
+  const Said named = say(bus, {"bus", "listen", "--wait", kWait, "--for", "1", "--json", "--meshes", folder});
+  EXPECT_NE(named.text.find("\"joined\": true"), std::string::npos) << named.text;
 }
 
 TEST(BusCommands, NeedABusAndARun) {

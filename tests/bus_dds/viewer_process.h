@@ -26,7 +26,8 @@ class ViewerProcess {
  public:
   ViewerProcess(std::vector<std::string> words, const BusSettings& bus) {
     words.insert(words.begin(), std::string(PRESA_BINARY_DIR) + "/bin/presa");
-    words.insert(words.end(), {"--bus", bus.network, "--domain", std::to_string(bus.domain)});
+    if (!bus.network.empty()) words.insert(words.end(), {"--bus", bus.network, "--domain", std::to_string(bus.domain)});
+    if (!bus.keys.empty()) words.insert(words.end(), {"--bus-keys", bus.keys});
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
     posix_spawn_file_actions_t actions;

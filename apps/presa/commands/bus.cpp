@@ -33,6 +33,7 @@ bool clean(const Heard& heard) {
 
 void addListen(CLI::App& app, int& status) {
   struct Arguments {
+    std::vector<std::string> meshes;
     double wait = 10, duration = 10;
     bool json = false, quiet = false;
   };
@@ -44,6 +45,7 @@ void addListen(CLI::App& app, int& status) {
   command->add_option("--wait", a->wait, "seconds to wait for a run")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  addMeshesOption(*command, a->meshes);
   command->add_option("--for", a->duration, "seconds to listen")->check(CLI::PositiveNumber)->capture_default_str();
   command->add_flag("--json", a->json, "the figures as JSON");
   command->add_flag("--quiet", a->quiet, "nothing on stderr");
@@ -51,7 +53,7 @@ void addListen(CLI::App& app, int& status) {
       "Latencies mean something on the machine of the run only. Exit status: 0 nothing lost, 1 something, 3 no run.");
   command->callback([=, &status] {
     const terminal::Interruption interruption;
-    const Heard heard = listen(bus->value_or(BusSettings{}), a->wait, a->duration, a->quiet);
+    const Heard heard = listen(bus->value_or(BusSettings{}), a->meshes, a->wait, a->duration, a->quiet);
     if (a->json)
       std::printf("%s\n", toJson(heard).dump(2).c_str());
     else
@@ -105,6 +107,7 @@ void addBus(CLI::App& app, int& status) {
   command->require_subcommand(1);
   addBusList(*command, status);
   addBusSet(*command, status);
+  addBusKeys(*command, status);
   addListen(*command, status);
   addMeasure(*command, status);
 }

@@ -8,6 +8,7 @@
 #include "apps/presa/remote/commanding.h"
 #include "apps/presa/remote/viewer.h"
 #include "apps/presa/terminal/interruption.h"
+#include "framework/diagnostics/printable.h"
 #include "framework/diagnostics/refuse.h"
 
 namespace presa {
@@ -26,7 +27,7 @@ std::string text(double value) {
 
 std::string rangeOf(double least, double most) { return text(least) + " to " + text(most); }
 std::string nameOf(const FoundRun& run) {
-  return "run " + textOfRun(run.info.run) + " of scene '" + run.info.scene_name + "'";
+  return "run " + textOfRun(run.info.run) + " of scene '" + printable(run.info.scene_name) + "'";
 }
 
 /// All of them, before anything is sent. NaN and infinity are numbers here: the run refuses them.
@@ -104,6 +105,8 @@ bool tell(const FoundRun& run, const Setting& setting, const bus::Answer& answer
     fail(727, 0, "refused: " + found + " is outside of " + rangeOf(answer.least, answer.most) + keeps, {});
   else if (answer.verdict == Verdict::kNotANumber)
     fail(728, 0, "refused: " + found + " is not a number" + keeps, rangeOf(answer.least, answer.most) + " is allowed");
+  else if (answer.verdict == Verdict::kOutOfOrder)
+    fail(757, 0, "refused: " + found + " has a number that does not follow; somebody sends commands in this name", {});
   else
     fail(729, 0, "refused: " + found + " was overtaken by a later command" + keeps, {});
   return false;
@@ -149,7 +152,7 @@ void print(const FoundRun& run) {
   std::printf("%s, %s%s\n", nameOf(run).c_str(), run.info.realtime ? "real time" : "lockstep",
               run.info.commands ? "" : ", takes no commands");
   for (const bus::OpenParameter& parameter : run.parameters)
-    std::printf("  %-44s %10s   %s\n", parameter.name.c_str(), text(parameter.value).c_str(),
+    std::printf("  %-44s %10s   %s\n", printable(parameter.name).c_str(), text(parameter.value).c_str(),
                 rangeOf(parameter.least, parameter.most).c_str());
 }
 
@@ -173,7 +176,8 @@ int list(const Arguments& arguments, const BusSettings& bus) {
   if (arguments.json) {
     auto all = nlohmann::ordered_json::array();
     for (const FoundRun& run : runs) all.push_back(toJson(run));
-    std::printf("%s\n", all.dump(2).c_str());
+    // names are bytes from outside: the answer is ASCII whatever they are
+    std::printf("%s\n", all.dump(2, ' ', true, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     for (const FoundRun& run : runs) print(run);
   }

@@ -23,6 +23,7 @@ void addView(CLI::App& app, int& status);
 void addBus(CLI::App& app, int& status);
 void addBusList(CLI::App& bus, int& status);
 void addBusSet(CLI::App& bus, int& status);
+void addBusKeys(CLI::App& app, int& status);
 void addDevice(CLI::App& app, int& status);
 void addTemple(CLI::App& app, int& status);
 

@@ -12,6 +12,7 @@
 #include "apps/presa/run_session.h"
 #include "apps/presa/summary.h"
 #include "apps/presa/terminal/closing.h"
+#include "framework/bus/bus_keys.h"
 #include "framework/plan/load_world.h"
 
 namespace presa {
@@ -75,6 +76,7 @@ int run(Arguments arguments) {
   if (!diagnostics.hasErrors() && arguments.options.bus_commands && !busOf(*loaded.world))
     diagnostics.error(122, {"--bus-commands", 0, 0}, "the run is on no bus that commands could come by",
                       "add --bus loopback, or --bus lan");
+  if (!diagnostics.hasErrors() && takesCommands(*loaded.world)) bus::requireKeysForCommands(*busOf(*loaded.world));
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 

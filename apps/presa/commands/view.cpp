@@ -27,6 +27,7 @@ void addView(CLI::App& app, int& status) {
   command->add_option("--screenshot", settings->screenshot, "PNG of what is shown");
   command->add_option("--screenshot-at", settings->screenshot_time,
                       "simulated time of the run for it [s] (default: when the viewer ends)");
+  addMeshesOption(*command, settings->meshes);
   addShowOption(*command, settings->show);
   command->add_flag("--quiet", settings->quiet, "no status line");
   command->footer(

@@ -4,21 +4,26 @@
 
 #include "apps/presa/remote/join.h"
 #include "apps/presa/terminal/interruption.h"
+#include "framework/bus/mesh_shelf.h"
 #include "framework/bus/remote_picture.h"
+#include "framework/diagnostics/printable.h"
 #include "framework/scene/load.h"
 #include "framework/schedule/clock.h"
 
 namespace presa {
 
-Heard listen(const BusSettings& settings, double wait, double duration, bool quiet) {
+Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
+             bool quiet) {
   const auto reader = bus::openReader(settings);
   const auto run = awaitRun(*reader, wait);
   if (!run) return {};
   Diagnostics diagnostics;
-  Scene scene = parseScene(run->scene_xml, "scene '" + run->scene_name + "'", ".", {}, diagnostics);
-  const World world = buildWorld(std::move(scene), {}, {}, diagnostics);
+  Scene scene = parseScene(run->scene_xml, "scene '" + printable(run->scene_name) + "'", ".", {}, diagnostics);
+  bus::takeFromShelf(scene, *run, meshes, diagnostics);
+  World world;
+  if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, {}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  if (!quiet) std::fprintf(stderr, "joined the run of scene '%s'\n", run->scene_name.c_str());
+  if (!quiet) std::fprintf(stderr, "joined the run of scene '%s'\n", printable(run->scene_name).c_str());
   bus::RemotePicture picture(world);
   picture.onRun(*run, monotonicNs());
   const std::int64_t begin = monotonicNs();

@@ -16,8 +16,9 @@ struct Heard {
   bool joined = false, ended = false;
 };
 
-/// Joins, and listens for that long, or to the end of the run; `wait`: for a run [s]. Says on stderr when it has joined, unless quiet.
-Heard listen(const BusSettings& settings, double wait, double duration, bool quiet);
+/// Joins, and listens for that long, or to the end of the run; `wait`: for a run [s]. Says on stderr when it has joined, unless quiet. `meshes`: folders as of bus::takeFromShelf.
+Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
+             bool quiet);
 
 nlohmann::ordered_json toJson(const Heard& heard);
 Heard heardFrom(const nlohmann::json& json);

@@ -104,6 +104,10 @@ class Listener {
                                    std::to_string(settings.bus.domain),
                                    "--for",
                                    std::to_string(settings.duration)};
+    // the folder of the viewers lies beside that of the run
+    if (!settings.bus.keys.empty())
+      words.insert(words.end(),
+                   {"--bus-keys", (std::filesystem::absolute(settings.bus.keys).parent_path() / "viewer").string()});
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);

@@ -8,7 +8,9 @@
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/remote/join.h"
 #include "apps/presa/terminal/interruption.h"
+#include "framework/bus/mesh_shelf.h"
 #include "framework/bus/remote_picture.h"
+#include "framework/diagnostics/printable.h"
 #include "framework/graph/graph_builder.h"
 #include "framework/plan/session.h"
 #include "framework/plan/view.h"
@@ -42,9 +44,10 @@ class RemoteSource final : public Module {
 /// What this viewer draws: the run's scene as it was sent, or its own.
 std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::RunInfo& run) {
   Diagnostics diagnostics;
-  Scene scene = settings.scene.empty()
-                    ? parseScene(run.scene_xml, "scene '" + run.scene_name + "'", ".", {}, diagnostics)
-                    : loadScene(settings.scene, {}, diagnostics);
+  const bool own = !settings.scene.empty();
+  Scene scene = own ? loadScene(settings.scene, {}, diagnostics)
+                    : parseScene(run.scene_xml, "scene '" + printable(run.scene_name) + "'", ".", {}, diagnostics);
+  if (!own) bus::takeFromShelf(scene, run, settings.meshes, diagnostics);
   RunOptions options;
   options.view = settings.view;
   options.screenshot = settings.screenshot;
@@ -149,7 +152,7 @@ int showRemote(const ViewerSettings& settings) {
                  settings.bus.network.c_str(), settings.bus.domain, settings.wait, settings.bus.network.c_str());
     return kExitNoRun;
   }
-  if (!settings.quiet) std::fprintf(stderr, "joined the run of scene '%s'\n", run->scene_name.c_str());
+  if (!settings.quiet) std::fprintf(stderr, "joined the run of scene '%s'\n", printable(run->scene_name).c_str());
   return Viewer(settings, *reader, *run).show();
 }
 

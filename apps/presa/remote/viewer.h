@@ -8,7 +8,8 @@ namespace presa {
 
 /// What `presa view --join` was asked for.
 struct ViewerSettings {
-  std::string scene;  ///< own scene file; empty: the run's
+  std::string scene;                ///< own scene file; empty: the run's
+  std::vector<std::string> meshes;  ///< folders, as of bus::takeFromShelf
   BusSettings bus;
   double wait = 10;     ///< for a run [s]
   double duration = 0;  ///< wall [s]; 0: to the end of the run

@@ -1,0 +1,108 @@
+// Which files a viewer opens for a scene that comes over the bus.
+#include "framework/bus/mesh_shelf.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "framework/checksum/checksum.h"
+#include "framework/scene/load.h"
+
+namespace presa::bus {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Folders {
+  Folders() {
+    fs::remove_all(root);
+    fs::create_directories(here / "below");
+    fs::create_directories(there);
+  }
+  ~Folders() { fs::remove_all(root); }
+  std::string write(const fs::path& file, const std::string& text) const {
+    std::ofstream(file) << text;
+    return file.string();
+  }
+  fs::path root = fs::path(testing::TempDir()) / "mesh_shelf", here = root / "here", there = root / "there";
+};
+
+Scene sceneWith(const std::string& mesh, const std::string& second = {}) {
+  Diagnostics diagnostics;
+  const auto body = [](const std::string& name, const std::string& file) {
+    return "<body name=\"" + name + "\" fixed=\"true\"><visual><mesh file=\"" + file + "\"/></visual></body>";
+  };
+  Scene scene = parseScene(R"(<scene version="1.0" name="s"><world gravity="0 0 0"/>
+    <materials><material name="wood" stiffness="1000"/></materials>)" +
+                               body("a", mesh) + (second.empty() ? "" : body("b", second)) + "</scene>",
+                           "scene", ".", {}, diagnostics);
+  EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  return scene;
+}
+
+std::string fileOf(const Scene& scene, std::size_t body = 0) {
+  return std::get<MeshRef>(scene.bodies.at(body).visual->shape).file;
+}
+
+RunInfo runOf(const Scene& scene) {
+  RunInfo run;
+  run.mesh_sums = sumsOfMeshes(scene);
+  return run;
+}
+
+// By its bytes, whatever it is called there, and below the folder too.
+TEST(MeshShelf, FindsTheBytesUnderAnyName) {
+  const Folders folders;
+  const std::string sent = folders.write(folders.there / "cup.obj", "cup"),
+                    other = folders.write(folders.there / "jug.stl", "jug"),
+                    kept = folders.write(folders.here / "below" / "another_name.OBJ", "cup"),
+                    jug = folders.write(folders.here / "jug.stl", "jug");
+  folders.write(folders.here / "cup.obj", "another cup");
+  Scene scene = sceneWith(sent, other);
+  const RunInfo run = runOf(scene);
+  EXPECT_EQ(run.mesh_sums, sha256OfText("cup") + " " + sha256OfText("jug"));
+  Diagnostics diagnostics;
+  takeFromShelf(scene, run, {folders.here.string()}, diagnostics);
+  EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  EXPECT_EQ(fileOf(scene), kept);
+  EXPECT_EQ(fileOf(scene, 1), jug);
+}
+
+// The path that the bus names is there, has the bytes, and is not opened: it lies in no folder that was allowed.
+TEST(MeshShelf, OpensNothingOutsideItsFolders) {
+  const Folders folders;
+  const std::string sent = folders.write(folders.there / "cup.obj", "cup");
+  for (const std::vector<std::string>& allowed : {std::vector<std::string>{folders.here.string()}, {}}) {
+    Scene scene = sceneWith(sent, sent);
+    const RunInfo run = runOf(scene);
+    Diagnostics diagnostics;
+    takeFromShelf(scene, run, allowed, diagnostics);
+    EXPECT_EQ(diagnostics.errorCount(), 1u) << diagnostics.text();  // once a file
+    EXPECT_NE(diagnostics.text().find("error[E755]"), std::string::npos);
+    EXPECT_NE(diagnostics.text().find("cup.obj"), std::string::npos);
+    EXPECT_EQ(fileOf(scene), "");
+  }
+}
+
+// What is no regular file, or no mesh, is not even read: a pipe would wait for ever. Sums that are none find nothing.
+TEST(MeshShelf, ReadsRegularMeshFilesOnly) {
+  const Folders folders;
+  ASSERT_EQ(mkfifo((folders.here / "pipe.obj").c_str(), 0600), 0);
+  folders.write(folders.here / "secret.txt", "cup");
+  const std::string sent = folders.write(folders.there / "cup.obj", "cup");
+  fs::create_directory_symlink(folders.there, folders.here / "out");
+  for (const std::string& sums : {sha256OfText("cup"), std::string(), std::string("nonsense"), std::string(64, '0')}) {
+    Scene scene = sceneWith(sent);
+    RunInfo run;
+    run.mesh_sums = sums;
+    Diagnostics diagnostics;
+    takeFromShelf(scene, run, {folders.here.string(), "/does/not/exist"}, diagnostics);
+    EXPECT_TRUE(diagnostics.hasErrors()) << sums;
+    EXPECT_EQ(fileOf(scene), "");
+  }
+}
+
+}  // namespace
+}  // namespace presa::bus
