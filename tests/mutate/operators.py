@@ -1,0 +1,159 @@
+"""The faults that `./dev mutate` puts in, one at a time. Each is: class, file, fragment (in the file exactly once), what it becomes.
+
+Safety: what stands between any scene and a finger. Core: what the forces and motions are computed with.
+A fragment that the file no longer has is an error: then the fault moves with the code, or goes with it.
+"""
+
+# Test programs by the beginning of a path, the quickest to find a fault first.
+TESTS = {
+    "framework/device/": ["device", "supervision"],
+    "framework/supervision/": ["supervision"],
+    "framework/geometry/": ["geometry", "haptics", "surface"],
+    "framework/scene/": ["scene", "geometry"],
+    "framework/state/": ["graph", "dynamics", "haptics"],
+    "framework/math/": ["math", "haptics", "dynamics"],
+    "modules/haptics_proxy/": ["haptics", "surface"],
+    "modules/dynamics_ode/": ["dynamics"],
+}
+
+STAGE = "framework/device/output_stage.cpp"
+LIMITS = "framework/device/output_limits.cpp"
+MODULES = "framework/device/device_modules.cpp"
+SAMPLE = "framework/device/sample_check.h"
+HEAT = "framework/device/thermal_budget.h"
+ENERGY = "framework/device/passivity_controller.h"
+WATCH = "framework/device/transport_watch.cpp"
+KEEPER = "framework/supervision/command_keeper.h"
+SUPERVISOR = "framework/supervision/supervisor.cpp"
+SUPERVISED = "framework/supervision/supervised_device.cpp"
+
+SAFETY = [
+    # the output stage
+    (STAGE, "bounded(good_, limits_.force, kOutputMagnitude)", "bounded(good_, 1e9, kOutputMagnitude)"),
+    (STAGE, "if (const double norm = force.norm(); norm > most) {", "if (const double norm = force.norm(); norm > 1e9) {"),
+    (STAGE, "largest > most) {\n    force *= most / largest;", "largest > 1e9) {\n    force *= most / largest;"),
+    (STAGE, "if (!input.command.allFinite()) latches_ |= kOutputNotFinite;", ""),
+    (STAGE, "if (input.lost) latches_ |= kOutputLost;", ""),
+    (STAGE, "if (input.other_lost) latches_ |= kOutputOther;", ""),
+    (STAGE, "if (input.resumed) latches_ |= kOutputGap;", ""),
+    (STAGE, "if (hurries && hurrying_) latches_", "if (hurrying_ && false) latches_"),
+    (STAGE, "&& last_.dot(input.v_WH) > 0;", "&& last_.dot(input.v_WH) < 0;"),
+    (STAGE, "if (latches_ == 0) good_ = input.command;", "good_ = input.command;"),
+    (STAGE, "  gain_ = 0;\n  hurrying_ = false;", "  gain_ = 1;\n  hurrying_ = false;"),
+    (STAGE, "dropped ? gap_ + period : 0;", "dropped ? period : 0;"),
+    (STAGE, "fading ? -period / limits_.fade_out", "fading ? period / limits_.fade_out"),
+    (STAGE, "period / limits_.soft_start), 0.0, 1.0)", "10 * period / limits_.soft_start), 0.0, 1.0)"),
+    (STAGE, "return dropped ? 0 : gain_;", "return gain_;"),
+    (STAGE, "input.held ? 0 : limits_.force_rate * period", "input.held ? 0 : 2 * limits_.force_rate * period"),
+    (STAGE, "input.held ? 0 : limits_", "limits_"),
+    (STAGE, "if (!(length > most)) return force;", "if (!(length > 1e9)) return force;"),
+    (STAGE, "budget_.step(last_.norm(), period);", ""),
+    (STAGE, "return bounded(force, budget_.most(limits_.force), kOutputWarm);", "return force;"),
+    (STAGE, "if (limits_.passivity) energy_.sent(last_);", ""),
+    # what a rig and a scene may ask for
+    (LIMITS, "allowed.force.value_or(0.5 * rating.force), rating.force)", "allowed.force.value_or(0.5 * rating.force), 1e9)"),
+    (LIMITS, "value_or(0.5 * rating.force)", "value_or(rating.force)"),
+    (LIMITS, "limits.force = std::min(wanted.limits.force, room);", "limits.force = wanted.limits.force;"),
+    (LIMITS, "allowed.speed.value_or(rating.speed)", "rating.speed"),
+    (LIMITS, "std::min(wanted.limits.force_rate, allowed.force_rate.value_or(wanted.limits.force_rate))", "wanted.limits.force_rate"),
+    (LIMITS, "allowed.soft_start.value_or(limits.soft_start)", "limits.soft_start"),
+    (LIMITS, "std::min(allowed.continuous.value_or(rating.continuous), rating.continuous)", "rating.continuous"),
+    # which samples are believed, and what a finger's age does
+    (SAMPLE, "(rejected && doubted_)", "false"),
+    (SAMPLE, "<= kFastest * since_", "<= 1e9 * since_"),
+    (SAMPLE, "good_.valid && since_ <= kHold && input.age <= kHold", "good_.valid"),
+    (SAMPLE, "input.v_WH.setZero();", ""),
+    (MODULES, "contact_->time < tick.time) return Trust::kDropped", "false) return Trust::kDropped"),
+    (MODULES, "objects_->faults != 0", "false"),
+    (MODULES, "objects_.age(tick) > watchdog_[finger]", "false"),
+    (MODULES, "patches_.age(tick) > patch_age_", "false"),
+    (MODULES, ".other_lost = lost > (finger.lost ? 1 : 0)", ".other_lost = false"),
+    (MODULES, "if (!tick.made_up) devices_", "devices_"),
+    (MODULES, "if (device_->rearms != rearms_) stages_[f].rearm();", ""),
+    # motors and energy
+    (HEAT, "load * load - heat_", "load - heat_"),
+    (HEAT, "std::clamp((1 - heat_) / kFold, 0.0, 1.0)", "1.0"),
+    (ENERGY, "given_ += sent_.dot(x - x_)", "given_ -= sent_.dot(x - x_)"),
+    (ENERGY, "return wanted - damping_ * v;", "return wanted;"),
+    # the transport watch, which has to see what the stage let through
+    (WATCH, "if (!std::isfinite(force)) fail", "if (false) fail"),
+    (WATCH, "if (step > slew", "if (step > 1e9 + slew"),
+    (WATCH, "if (lost_for_ > down && force > 0)", "if (false)"),
+    # the process that holds the device
+    (KEEPER, "if (alone_ || age_ > kHold)", "if (alone_)"),
+    (KEEPER, "if (alone_ || age_ > kHold)", "if (age_ > kHold)"),
+    (KEEPER, "input.fresh && input.command == Vec3::Zero()", "input.fresh"),
+    (KEEPER, "bool dropped_ = true, alone_", "bool dropped_ = false, alone_"),
+    (KEEPER, ".lost = input.finger.lost,", ".lost = false,"),
+    (SUPERVISOR, "(life.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0", "false"),
+    (SUPERVISED, "finger.lost || silence_ > kDead", "finger.lost"),
+    (SUPERVISED, "&& silence_ <= kSilent", ""),
+]
+
+GOD = "modules/haptics_proxy/god_object.cpp"
+FRICTION = "modules/haptics_proxy/friction.cpp"
+NEAREST = "modules/haptics_proxy/nearest_feasible.cpp"
+SHADING = "modules/haptics_proxy/shading.cpp"
+CLOSEST = "framework/geometry/closest_point.h"
+SLIVER = "framework/geometry/closest_point.cpp"
+MASS = "framework/geometry/tri_mesh.cpp"
+ROTATION = "modules/dynamics_ode/rotation.cpp"
+ROW = "modules/dynamics_ode/finger_row.cpp"
+FINGERS = "modules/dynamics_ode/finger_joints.cpp"
+PAIR = "modules/dynamics_ode/friction.cpp"
+CONTACTS = "modules/dynamics_ode/contact_joints.cpp"
+
+CORE = [
+    # where the fingertip goes
+    (GOD, "constexpr double kInContact = 1e-10;", "constexpr double kInContact = 1e-4;"),
+    (GOD, "constexpr double kStill = 1e-6;", "constexpr double kStill = 1e-3;"),
+    (GOD, "constexpr int kMaxLegs = 256;", "constexpr int kMaxLegs = 2;"),
+    (GOD, "piece.at.nhat.dot(x) + r - piece.at.distance}", "piece.at.nhat.dot(x) + 0.99 * r - piece.at.distance}"),
+    (GOD, "if (slope < 0) reach =", "if (slope < -1e9) reach ="),
+    (GOD, "overlapping = overlapping || piece.at.distance < r - tolerance.contact_gap;", ""),
+    (GOD, "if (l > most) {\n        most = l;\n        worst = i;", "if (l > 1e9) {\n        most = l;\n        worst = i;"),
+    (GOD, "contact.nhat = (bare.x - g) / contact.depth;", "contact.nhat = bare.x - g;"),
+    (NEAREST, "const double det = 1 - c * c;", "const double det = 1 + c * c;"),
+    (NEAREST, "(ri - c * rj) / det", "(ri + c * rj) / det"),
+    (NEAREST, "if (lambda.minCoeff() < 0) return false;", ""),
+    (NEAREST, "if (three(i, j, k)) return best_;", ""),
+    (NEAREST, "if (slack(half_space) < slack(other)) other = half_space;", ""),
+    # friction of a fingertip
+    (FRICTION, "last.slipping ? cone.mu_dynamic : cone.mu_static", "last.slipping ? cone.mu_static : cone.mu_static"),
+    (FRICTION, "stretch *= cone.mu_dynamic * contact.depth / length", "stretch *= cone.mu_static * contact.depth / length"),
+    (FRICTION, "length > mu * contact.depth", "length > 1.05 * mu * contact.depth"),
+    (FRICTION, "stretch -= stretch.dot(contact.nhat) * contact.nhat;", ""),
+    (FRICTION, "const Vec3 held = last.touching ? last.x : contact.first_touch;", "const Vec3 held = last.x;"),
+    (FRICTION, "contact.stretch = away - contact.depth * contact.nhat;", "contact.stretch = away;"),
+    # smooth meshes
+    (SHADING, "std::atan2(u.cross(v).norm(), u.dot(v)) * cross.normalized()", "cross.normalized()"),
+    (SHADING, "contact.stretch = turn * contact.stretch;", ""),
+    (SHADING, "return {1 - w1 - w2, w1, w2};", "return {1 - w1 - w2, w2, w1};"),
+    # geometry
+    (CLOSEST, "if (d3 >= 0 && d4 <= d3) return t.b;", ""),
+    (CLOSEST, "if (vb <= 0 && d2 >= 0 && d6 <= 0)", "if (false)"),
+    (CLOSEST, "static constexpr double kSliverSine = 1e-4;", "static constexpr double kSliverSine = 0;"),
+    (SLIVER, "if (!(along < length_squared)) return b;", ""),
+    (MASS, "result.volume * offset * offset.transpose()", "0 * offset * offset.transpose()"),
+    (MASS, "std::swap(neighbours[0], neighbours[2]);", ""),
+    # rotation and the integrators
+    (ROTATION, "x += s / 6 * (k1 + 2 * k2 + 2 * k3 + k4);", "x += s / 6 * (k1 + 2 * k2 + k3 + 2 * k4);"),
+    (ROTATION, "x + s * k3,", "x + 0.5 * s * k3,"),
+    (ROTATION, "w_WB = spin(q_WB, inverse_inertia, momentum_W);", ""),
+    (ROTATION, "w_B.cross(inertia * w_B)", "(inertia * w_B).cross(w_B)"),
+    # fingers, friction and torsion among bodies
+    (ROW, "const double hk_d = h * k + d;", "const double hk_d = h * k;"),
+    (ROW, "row.slip = 1 / (h * k);", "row.slip = 0.1 / (h * k);"),
+    (ROW, "contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static", "contact.friction_static"),
+    (ROW, "std::clamp(age, 0.0, old_after) * contact.v_WH", "0.0 * contact.v_WH"),
+    (ROW, "1 - (age - old_after) / kFingerFade", "1 - 0 * (age - old_after) / kFingerFade"),
+    (ROW, "own.p_WH = contact.p_WP - part.stretch_W;", "own.p_WH = contact.p_WH;"),
+    (FINGERS, "torsion_[body] * row.mu * normal", "torsion_[body] * normal"),
+    (FINGERS, "torsion_[body] * row.mu * normal", "torsion_[body] * row.mu"),
+    (FINGERS, "row.mu = row.mu_dynamic;\n    wanted", "wanted"),
+    (PAIR, "std::sqrt(a.friction_dynamic * b.friction_dynamic)", "std::sqrt(a.friction_static * b.friction_static)"),
+    (PAIR, "slip_speed < kRestSpeed ? std::sqrt(a.friction_static * b.friction_static)", "slip_speed < kRestSpeed ? a.friction_static"),
+    (CONTACTS, "surface.motionN = c.depth / h_;", "surface.motionN = 0;"),
+    (CONTACTS, "slip(i, bodies).norm() < kRestSpeed ? mu.at_rest : mu.sliding", "mu.at_rest"),
+    (CONTACTS, "joints_[i].f_B_W = past->f_B_W;", ""),
+]
