@@ -37,6 +37,23 @@ TEST(Torsion, BrakesASpinByAConstantTorque) {
   EXPECT_NEAR(run[0].w_WB.x(), 0, 1e-4);
 }
 
+// Half the friction brakes half as fast, and half the grip too: the torque is radius times mu times normal force, each finger.
+TEST(Torsion, IsTheFrictionOfTheGripAtItsRadius) {
+  const double inertia = kMass * kEdge * kEdge / 6, spin = 20;
+  for (const double mu : {1.0, 0.5, 0.3, 1.6}) {
+    for (const double depth : {kDepth, kDepth / 2}) {
+      Runner run(cube(kTorsion, Vec3::Zero()), awake());
+      run.bodies.setVelocity(0, Vec3::Zero(), {spin, 0, 0});
+      std::vector<ReferenceFinger> fingers = pinch(0, kEdge, depth, kStiffness, mu);
+      constexpr int kSteps = 10;
+      for (int n = 0; n < kSteps; ++n) run.step(exchangeOf(fingers, run));
+      const double lost = 2 * kTorsion * mu * kStiffness * depth / inertia * kSteps * kStep;
+      ASSERT_LT(lost, spin);
+      EXPECT_NEAR(spin - run[0].w_WB.x(), lost, 0.03 * lost) << mu << ' ' << depth;
+    }
+  }
+}
+
 TEST(Torsion, APointTurnsFreely) {
   Runner run(cube(0, Vec3::Zero()), awake());
   run.bodies.setVelocity(0, Vec3::Zero(), {20, 0, 0});

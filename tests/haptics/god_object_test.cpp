@@ -76,6 +76,26 @@ TEST(GodObject, GivesTheSameAnswerAtEveryScale) {
   }
 }
 
+// What is touched lies within 1e-10 of the radius, at every size: a larger gap would hold the fingertip by what it does not reach. A
+// micrometre of air is none, and a micrometre inside is an overlap.
+TEST(GodObject, TouchesWhatIsWithinTheRoundingOfItsRadius) {
+  for (const double scale : {0.1, 1.0, 10.0}) {
+    const double r = scale * kR;
+    const auto s = plate(0.2 * scale);
+    const auto supported = [&](double gap) {
+      s->use(Point::kHeld);
+      return isSupported({0.01 * scale, 0.02 * scale, r * (1 + gap)}, r, *s);
+    };
+    EXPECT_TRUE(supported(0)) << scale;
+    EXPECT_TRUE(supported(5e-11)) << scale;
+    EXPECT_TRUE(supported(-5e-11)) << scale;
+    for (const double gap : {1e-9, 1e-6, 1e-5, 5e-5}) {
+      EXPECT_FALSE(supported(gap)) << scale << ' ' << gap;
+      EXPECT_FALSE(supported(-gap)) << scale << ' ' << gap;
+    }
+  }
+}
+
 // A V-groove of every opening angle: two faces hold the fingertip at (0, r / sin(half angle)).
 TEST(GodObject, RestsInAGrooveOnBothFaces) {
   for (const double degrees : {30.0, 60.0, 90.0, 120.0, 160.0}) {
