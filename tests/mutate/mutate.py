@@ -25,6 +25,10 @@ class Mutant:
         self.kind = kind
         self.file, self.old, self.new = operator
 
+    def count(self):
+        file = ROOT / self.file
+        return file.read_text().count(self.old) if file.exists() else 0
+
     def line(self):
         text = (ROOT / self.file).read_text()
         return text[: text.find(self.old)].count("\n") + 1
@@ -44,11 +48,9 @@ class Mutant:
 
 def chosen(word):
     mutants = [Mutant("safety", m) for m in SAFETY] + [Mutant("core", m) for m in CORE]
-    for mutant in mutants:  # all of them, so that the list stays true
-        file = ROOT / mutant.file
-        count = file.read_text().count(mutant.old) if file.exists() else 0
-        if count != 1:
-            stop(f"tests/mutate/operators.py: {mutant.file} has this {count} times, not once:\n{mutant.old}")
+    stale = [f"{mutant.file} has this {mutant.count()} times:  {mutant.old}" for mutant in mutants if mutant.count() != 1]
+    if stale:  # also where only some are asked for, so that the list stays true
+        stop("tests/mutate/operators.py: a fragment is to be in its file once, and\n  " + "\n  ".join(stale))
     return [m for m in mutants if word in str(m)]
 
 
