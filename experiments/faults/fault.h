@@ -18,6 +18,8 @@ struct Outcome {
   double energy = 0;                ///< most given to the hand from the fault until zero, or until the fault's end [J]
   double energy_allowed = 0;        ///< what the sampling of a spring may add to that [J]
   std::vector<std::string> broken;  ///< what else was required and did not happen
+  /// Runs before it of which nobody could have told when the fault came: why, each with its figure.
+  std::vector<std::string> discarded;
 };
 
 /// Bounds that hold for every run; 0: none.

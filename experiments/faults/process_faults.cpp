@@ -2,7 +2,9 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "experiments/faults/fault.h"
@@ -13,33 +15,48 @@ namespace presa::faults {
 namespace {
 
 constexpr int kRuns = 100;            // each takes its time
-constexpr int kTries = 20;            // for one run without somebody else's pause in it
-constexpr double kPause = 0.5e-3;     // what comes so late was not let run [s]
+constexpr int kTries = 20;            // for one run whose moment is known
+constexpr double kSent = 0.5e-3;      // a signal that took longer to send: nobody knows when it came [s]
 constexpr double kStanding = 0.3e-3;  // a program told to stop stands by then, or its moment is not known [s]
 constexpr double kLoss = 20e-3;       // a supervisor that was not let run for so long is a lost device [s]
 constexpr double kSoftStart = 0.5;    // [s]
 constexpr double kReturn = 2;         // patience for the force after the program's return [s]
-constexpr double kCyclesPerTick = 4;
+constexpr double kTick = 1e-3;        // in which a force may change by 1 N [s]
 
 void sleepFor(double seconds) { sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(seconds * 1e9)); }
 double secondsBetween(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
 
-/// All its threads stand still, a moment after they were told to; false: that took the machine longer.
-bool standsStill(pid_t process, std::int64_t told) {
-  while (secondsBetween(told, monotonicNs()) < kStanding) {
-    int status = 0;
-    if (waitpid(process, &status, WUNTRACED | WNOHANG) == process) return WIFSTOPPED(status);
-  }
-  return false;
+/// A run that counts, or why there was none.
+struct Try {
+  std::optional<Outcome> outcome;
+  std::string reason;
+};
+
+template <class... Numbers>
+Try discarded(const char* pattern, Numbers... numbers) {
+  std::array<char, 120> text;
+  std::snprintf(text.data(), text.size(), pattern, numbers...);
+  return {std::nullopt, text.data()};
 }
 
-/// Sends the signal; when it was sent [ns], or nothing when the one who sends was interrupted himself.
-std::optional<std::int64_t> signalled(pid_t process, int signal) {
+/// All its threads stand still; how long after they were told to [s], as far as this thread was let look.
+double standingAfter(pid_t process, std::int64_t told) {
+  for (;;) {
+    int status = 0;
+    const bool changed = waitpid(process, &status, WUNTRACED | WNOHANG) == process;
+    const double since = secondsBetween(told, monotonicNs());
+    if ((changed && WIFSTOPPED(status)) || since > kLoss) return since;
+  }
+}
+
+struct Sent {
+  std::int64_t at_ns = 0;  ///< begin of the call
+  double took = 0;         ///< [s]
+};
+Sent sendSignal(pid_t process, int signal) {
   const std::int64_t before = monotonicNs();
   kill(process, signal);
-  const std::int64_t after = monotonicNs();
-  if (secondsBetween(before, after) > kPause) return std::nullopt;
-  return before;
+  return {before, secondsBetween(before, monotonicNs())};
 }
 
 /// Longest time between two writes of the supervisor since `begin` [s].
@@ -52,56 +69,72 @@ double longestPause(const ProbeLog& log, std::int64_t begin) {
   return longest;
 }
 
-/// A program that does not press: nothing when the machine held up its supervisor so long that it had to be taken for lost.
-std::optional<Outcome> notPressing(const PressingProgram& program) {
-  if (longestPause(program.log(), 0) > kLoss) return std::nullopt;
+/// A program that does not press: its own fault, unless the machine held up its supervisor so long that it had to be taken for lost.
+Try notPressing(const PressingProgram& program) {
+  if (const double pause = longestPause(program.log(), 0); pause > kLoss)
+    return discarded("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause);
   Outcome outcome;
   outcome.broken.push_back(program.problem());
-  return outcome;
+  return {outcome, {}};
 }
 
-/// What reached the probe since `begin`, up to the entry `end`. Nothing when the machine did not let the supervisor run.
-std::optional<Outcome> judged(const ProbeLog& log, std::int64_t begin, std::uint64_t end) {
+/// The fastest change per tick of what reached the probe [N].
+double steepest(const ProbeLog& log, std::uint64_t end) {
+  double most = 0;
+  for (std::uint64_t i = 1; i < end; ++i) {
+    const double elapsed = secondsBetween(log.entries[i - 1].time_ns, log.entries[i].time_ns);
+    most = std::max(most, log.entries[i].step * kTick / std::min(elapsed, kTick));
+  }
+  return most;
+}
+
+/// What reached the probe since `begin`, up to the entry `end`.
+Outcome judged(const ProbeLog& log, std::int64_t begin, std::uint64_t end) {
   Outcome outcome;
   outcome.detection = -1;
-  std::int64_t before = begin;
-  double last_force_at = 0;
+  outcome.step = steepest(log, end);
+  bool forced = true;
   for (std::uint64_t i = 1; i < end; ++i) {
     const ProbeLog::Entry& entry = log.entries[i];
-    outcome.step = std::max(outcome.step, kCyclesPerTick * entry.step);
     if (entry.time_ns < begin) continue;
     const double since = secondsBetween(begin, entry.time_ns);
-    if (secondsBetween(before, entry.time_ns) > kPause && last_force_at >= 0 && entry.force > 0) return std::nullopt;
-    before = entry.time_ns;
     if (outcome.detection < 0 && entry.force < 0.95 * PressingProgram::kForce) outcome.detection = since;
-    if (entry.force > 0) last_force_at = since;
+    if (forced || entry.force > 0) outcome.zero = since;  // ends at the first zero after the last force
+    forced = entry.force > 0;
   }
-  outcome.zero = last_force_at + 0.25e-3;  // the write after the last that was not zero
+  if (forced) outcome.broken.emplace_back("the force never went");
   return outcome;
 }
 
-/// Until the machine lets a run be seen as it is.
+/// Every run counts, but one of which nobody can tell when its fault came; those are told with their figures.
 template <class Run>
 Outcome tried(const Run& run) {
+  std::vector<std::string> discarded;
   for (int i = 0; i < kTries; ++i) {
-    if (const std::optional<Outcome> outcome = run()) return *outcome;
+    Try one = run();
+    if (one.outcome) {
+      one.outcome->discarded = std::move(discarded);
+      return *one.outcome;
+    }
+    discarded.push_back(std::move(one.reason));
   }
   Outcome outcome;
-  outcome.broken.emplace_back("the machine paused the supervisor in every one of 20 tries");
+  outcome.broken.push_back("none of 20 tries counts; the last: " + discarded.back());
+  outcome.discarded = std::move(discarded);
   return outcome;
 }
 
 Outcome killed(RandomStream& random) {
-  return tried([&]() -> std::optional<Outcome> {
+  return tried([&]() -> Try {
     PressingProgram program;
     if (!program.problem().empty()) return notPressing(program);
     sleepFor(random.uniform(0, 0.05));
-    const auto begin = signalled(program.pid(), SIGKILL);
+    const Sent sent = sendSignal(program.pid(), SIGKILL);
     const bool released = program.isReleased();
-    if (!begin) return std::nullopt;
-    auto outcome = judged(program.log(), *begin, program.log().written);
-    if (outcome && !released) outcome->broken.emplace_back("the supervisor stayed");
-    return outcome;
+    if (sent.took > kSent) return discarded("SIGKILL took %.2f ms to send", 1e3 * sent.took);
+    Outcome outcome = judged(program.log(), sent.at_ns, program.log().written);
+    if (!released) outcome.broken.emplace_back("the supervisor stayed");
+    return {outcome, {}};
   });
 }
 
@@ -117,30 +150,31 @@ void judgeReturn(const ProbeLog& log, std::int64_t resumed, Outcome& outcome) {
     first = false;
     const double soft = PressingProgram::kForce * (secondsBetween(resumed, entry.time_ns) + 2e-3) / kSoftStart;
     if (entry.force > soft) outcome.broken.emplace_back("the force did not come back softly");
-    outcome.step = std::max(outcome.step, kCyclesPerTick * entry.step);
   }
+  outcome.step = steepest(log, log.written);
   if (!pushes(log)) outcome.broken.emplace_back("the force never came back");
 }
 
 Outcome stopped(RandomStream& random) {
-  return tried([&]() -> std::optional<Outcome> {
+  return tried([&]() -> Try {
     PressingProgram program;
     if (!program.problem().empty()) return notPressing(program);
     sleepFor(random.uniform(0, 0.05));
-    const auto begin = signalled(program.pid(), SIGSTOP);
-    const bool stands = begin && standsStill(program.pid(), *begin);
+    const Sent sent = sendSignal(program.pid(), SIGSTOP);
+    const double standing = standingAfter(program.pid(), sent.at_ns);
     sleepFor(random.uniform(0.03, 0.3));
     const std::uint64_t end = program.log().written;
     const std::int64_t resumed = monotonicNs();
     kill(program.pid(), SIGCONT);
     sleepFor(0.1);
-    if (!stands) return std::nullopt;
+    if (standing > kStanding) return discarded("the program stood still %.2f ms after SIGSTOP", 1e3 * standing);
     // a program that the machine holds up once more starts anew
     while (!pushes(program.log()) && secondsBetween(resumed, monotonicNs()) < kReturn) sleepFor(0.01);
-    auto outcome = judged(program.log(), *begin, end);
-    if (!pushes(program.log()) && longestPause(program.log(), resumed) > kLoss) return std::nullopt;
-    if (outcome) judgeReturn(program.log(), resumed, *outcome);
-    return outcome;
+    Outcome outcome = judged(program.log(), sent.at_ns, end);
+    if (const double pause = longestPause(program.log(), resumed); !pushes(program.log()) && pause > kLoss)
+      return discarded("the machine held up the supervisor for %.1f ms after the return", 1e3 * pause);
+    judgeReturn(program.log(), resumed, outcome);
+    return {outcome, {}};
   });
 }
 

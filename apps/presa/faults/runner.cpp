@@ -22,8 +22,8 @@ constexpr int kBlock = 50;  // runs of one process
 
 /// A block of runs of one fault, as text through a pipe.
 std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int count) {
-  Json block{{"runs", 0},   {"broken", 0}, {"reason", ""},  {"detection", -1.0},
-             {"zero", 0.0}, {"step", 0.0}, {"beyond", -1.0}};
+  Json block{{"runs", 0},   {"broken", 0}, {"reason", ""},   {"detection", -1.0},
+             {"zero", 0.0}, {"step", 0.0}, {"beyond", -1.0}, {"discarded", Json::array()}};
   const auto keepMost = [&](const char* name, double value) {
     block[name] = std::max(block[name].get<double>(), value);
   };
@@ -31,6 +31,7 @@ std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int coun
     RandomStream random(seed, fault.name, static_cast<std::uint64_t>(i));
     const Outcome outcome = fault.run(random);
     block["runs"] = block["runs"].get<int>() + 1;
+    for (const std::string& why : outcome.discarded) block["discarded"].push_back(why);
     keepMost("detection", outcome.detection);
     keepMost("zero", outcome.zero);
     keepMost("step", outcome.step);
@@ -55,6 +56,7 @@ void add(const JobResult& result, int count, Row& row) {
   row.runs += block["runs"].get<int>();
   row.broken += block["broken"].get<int>();
   if (row.reason.empty()) row.reason = block["reason"];
+  for (const Json& why : block["discarded"]) row.discarded.push_back(why);
   row.worst.detection = std::max(row.worst.detection, block["detection"].get<double>());
   row.worst.zero = std::max(row.worst.zero, block["zero"].get<double>());
   row.worst.step = std::max(row.worst.step, block["step"].get<double>());

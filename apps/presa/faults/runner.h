@@ -23,7 +23,9 @@ struct Row {
   double energy_beyond = 0;  ///< most given to the hand beyond what sampling may add [J]
   int broken = 0;            ///< runs that broke a bound or a requirement
   std::string reason;        ///< of the first
-  bool watched = true;       ///< no force of any run broke one of the four invariants (device/transport_watch.h)
+  std::vector<std::string>
+      discarded;        ///< runs of which nobody could tell when the fault came: why, each with its figure
+  bool watched = true;  ///< no force of any run broke one of the four invariants (device/transport_watch.h)
 };
 
 /// Runs them in processes of their own; returns the exit status. Throws InputError.

@@ -37,6 +37,15 @@ std::vector<std::string> cellsOf(const Row& row) {
           row.broken == 0 ? "0" : format("%d: %s", row.broken, row.reason.c_str())};
 }
 
+/// "12 more do not count" with the reason of each; empty where every run did.
+std::string discardedText(const Row& row, const char* line_end) {
+  if (row.discarded.empty()) return {};
+  std::string text = format("row %d: %zu more runs do not count, for nobody knows when their fault came:%s",
+                            row.fault.row, row.discarded.size(), line_end);
+  for (const std::string& why : row.discarded) text += "  " + svg::escape(why) + line_end;
+  return text;
+}
+
 }  // namespace
 
 nlohmann::ordered_json toJson(const std::vector<Row>& rows) {
@@ -54,7 +63,8 @@ nlohmann::ordered_json toJson(const std::vector<Row>& rows) {
                    {"energy_beyond_sampling_j", row.energy_beyond},
                    {"invariants_held", row.watched},
                    {"broken", row.broken},
-                   {"reason", row.reason}});
+                   {"reason", row.reason},
+                   {"discarded", row.discarded}});
   }
   return {{"format", 1}, {"presa", kVersion}, {"faults", all}};
 }
@@ -68,6 +78,7 @@ std::string tableText(const std::vector<Row>& rows) {
                    cells[3].c_str(), cells[4].c_str(), cells[5].c_str(), cells[6].c_str(), cells[7].c_str(),
                    cells[8].c_str(), cells[9].c_str());
   }
+  for (const Row& row : rows) text += discardedText(row, "\n");
   return text +
          "worst of all runs (bound); steps may be 1 N in a tick; energy beyond what sampling a spring may add;\n"
          "invariants: every force finite, below the limit, within the slew limit, zero before the first sample and "
@@ -99,7 +110,10 @@ std::string pageHtml(const std::vector<Row>& rows, const RunnerOptions& options)
     }
     html += "</tr>\n";
   }
-  return html + "</tbody></table></div>\n" + page::tail();
+  html += "</tbody></table></div>\n";
+  for (const Row& row : rows)
+    if (!row.discarded.empty()) html += "<p>" + discardedText(row, "<br>\n") + "</p>\n";
+  return html + page::tail();
 }
 
 }  // namespace presa::faults
