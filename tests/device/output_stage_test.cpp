@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 
@@ -42,7 +43,7 @@ TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
   constexpr int kRuns = 2000;
 #endif
   constexpr int kTicks = 5000;
-  std::uint64_t latched = 0, moved = 0;
+  std::uint64_t latched = 0, moved = 0, at_limit = 0, at_slew = 0;
   for (int run = 0; run < kRuns; ++run) {
     OutputLimits limits = kLimits;
     limits.passivity = run % 2 == 0;
@@ -51,17 +52,19 @@ TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
     if (run % 7 == 0) limits.speed = 1;
     const double hostile = run % 4 == 0 ? 0.5 : 1e-3;
     OutputStage stage(limits);
-    Vec3 before = Vec3::Zero();
+    Vec3 before = Vec3::Zero(), steady = Vec3::Zero();
     for (int tick = 0; tick < kTicks; ++tick) {
-      if (random() % 50 == 0) stage.rearm();
-      const std::uint64_t dice = random() % 64;
-      const OutputStage::Input input{.command = vector(hostile, 10),
+      // not oftener: each begins a soft start, and what is never strong reaches no limit
+      if (stage.latched() ? random() % 70 == 0 : random() % 20'000 == 0) stage.rearm();
+      if (random() % 60 == 0) steady = vector(hostile, 10);
+      const std::uint64_t dice = random() % 256;
+      const OutputStage::Input input{.command = random() % 8 == 0 ? vector(hostile, 10) : steady,
                                      .trust = dice == 0   ? Trust::kFading
                                               : dice == 1 ? Trust::kDropped
                                                           : Trust::kGood,
                                      .stop = dice == 2,
                                      .held = dice == 3,
-                                     .lost = random() % 1000 == 0,
+                                     .lost = random() % 2000 == 0,
                                      .p_WH = vector(hostile, 0.1),
                                      .v_WH = vector(hostile, 0.5)};
       const Vec3 f = stage.step(input, kPeriod);
@@ -70,12 +73,19 @@ TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
       ASSERT_LE((f - before).norm(), limits.force_rate * kPeriod * (1 + 1e-9));
       latched += stage.latched() ? 1 : 0;
       moved += f.norm() > 0 ? 1 : 0;
+      at_limit += f.norm() > 0.999 * limits.force ? 1 : 0;
+      at_slew += (f - before).norm() > 0.999 * limits.force_rate * kPeriod ? 1 : 0;
       before = f;
     }
   }
   // or nothing was tried
   EXPECT_GT(latched, 500U * kRuns);
   EXPECT_GT(moved, 500U * kRuns);
+  EXPECT_GT(at_limit, 50U * kRuns);
+  EXPECT_GT(at_slew, 500U * kRuns);
+  std::printf("of %d cycles %llu at the force limit, %llu at the slew limit, %llu latched\n", kRuns * kTicks,
+              static_cast<unsigned long long>(at_limit), static_cast<unsigned long long>(at_slew),
+              static_cast<unsigned long long>(latched));
 }
 
 // A command that is no number latches: the force goes down at the slew limit and stays at zero, whatever follows.

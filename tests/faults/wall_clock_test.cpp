@@ -11,11 +11,16 @@
 
 #include "experiments/faults/hold.h"
 #include "experiments/faults/object_imports.h"
+#include "framework/graph/graph_builder.h"
+#include "framework/graph/port.h"
+#include "framework/schedule/executor.h"
+#include "framework/state/device_state.h"
 
 namespace {
 
 std::atomic<bool> jumping{false};
 std::atomic<int> reads{0};
+std::atomic<long> slept{0};  // the machine has, by CLOCK_BOOTTIME [s]
 
 void jump(timespec& now) {
   if (!jumping) return;
@@ -26,6 +31,7 @@ void jump(timespec& now) {
 
 extern "C" int clock_gettime(clockid_t clock, timespec* now) noexcept {
   const long result = ::syscall(SYS_clock_gettime, clock, now);
+  if (clock == CLOCK_BOOTTIME) now->tv_sec += slept;
   if (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE) jump(*now);
   return static_cast<int>(result);
 }
@@ -67,6 +73,34 @@ TEST(WallClock, MayJumpAnHourAtEveryRead) {
   EXPECT_EQ(read_by_run, 0);
   // it did jump, for whoever reads it
   EXPECT_GT(std::abs(std::chrono::duration<double>(after - before).count()), 3600);
+}
+
+/// Puts the machine to sleep at its hundredth tick, for two seconds that CLOCK_MONOTONIC does not count; how often it was told.
+class Sleeper final : public Module {
+ public:
+  Sleeper() : Module("sleeper", RateGroup::kHaptic) {}
+  void step(const Tick& tick) noexcept override {
+    if (++ticks == kAsleepAt) slept = 2;
+    if (tick.resumed) ++told, told_at = ticks;
+  }
+  static constexpr int kAsleepAt = 100;
+  int ticks = 0, told = 0, told_at = 0;
+  Out<DeviceState> state{*this, "device_state"};
+};
+
+// A machine that slept with a force at the devices: no tick was late by the clock that the ticks go by, and the first one after it says
+// so all the same. The output stage latches on it (OutputStage, DeviceOutput).
+TEST(Suspend, TheFirstTickAfterItSaysSo) {
+  GraphBuilder builder;
+  Sleeper& sleeper = builder.add(std::make_unique<Sleeper>());
+  builder.connectByName();
+  Graph graph = builder.build();
+  RunControl control;
+  const auto executor = makeExecutor(true, graph, RateTable(Rates{}), control);
+  executor->run(0.3);
+  slept = 0;
+  EXPECT_EQ(sleeper.told, 1);
+  EXPECT_EQ(sleeper.told_at, Sleeper::kAsleepAt + 1);
 }
 
 // The look at the imports sees what is there: this program calls time(), the framework the clock that does not jump.
