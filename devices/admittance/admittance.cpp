@@ -67,7 +67,7 @@ const DevicePlugin kPlugin{
     .name = "admittance",
     .summary = "model of an admittance device (force in, position out), moved by a scripted hand",
     .create = create,
-    .rating = {.force = 100, .continuous = 100, .speed = 1}};
+    .rating = {.force = 100, .force_rate = 10000, .continuous = 100, .behind = DeviceRating::Behind::kModel}};
 
 }  // namespace
 }  // namespace presa

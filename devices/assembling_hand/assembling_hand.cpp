@@ -29,7 +29,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 const DevicePlugin kPlugin{
     .name = "assembling_hand",
     .summary = "one of two simulated fingertips that put a scene's assembly together by themselves",
-    .create = create};
+    .create = create,
+    .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::assembling

@@ -29,7 +29,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 
 const DevicePlugin kPlugin{.name = "clumsy_hand",
                            .summary = "one of two simulated fingertips that grab, throw, press and push at random",
-                           .create = create};
+                           .create = create,
+                           .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::clumsy

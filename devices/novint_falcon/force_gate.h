@@ -1,17 +1,17 @@
 #pragma once
 #include <algorithm>
 
+#include "framework/device/device_rating.h"
 #include "framework/math/spatial.h"
 
 namespace presa::falcon {
 
-/// The last gate before the motors: soft start, slew, and down to zero when what the force was made from is not to be trusted. Nothing
-/// makes a step that `rate` does not allow, not even a fault: a hand that leans on a force which is gone at once would jump.
+/// The last gate before the motors: magnitude, soft start, slew, and down to zero when what the force was made from is not to be trusted. Nothing
+/// makes a step that the rating does not allow, not even a fault: a hand that leans on a force which is gone at once would jump.
 /// Thread: the link's; nonblocking.
 class ForceGate {
  public:
-  /// `rate`: largest change of a force [N/s].
-  explicit ForceGate(double rate) : rate_(rate) {}
+  explicit ForceGate(const DeviceRating& rating) : most_(rating.force), rate_(rating.force_rate) {}
 
   /// Nothing is in the motors: for the start, and where no force can be worked out any more.
   void cut() noexcept {
@@ -29,7 +29,7 @@ class ForceGate {
     if (fresh && wanted.allFinite()) {
       gap_ = 0;
       gain_ = std::min(1.0, gain_ + elapsed / kSoftStart);
-      go(gain_ * wanted, elapsed);
+      go(gain_ * bounded(wanted), elapsed);
     } else {
       gap_ += elapsed;
       if (gap_ > kShortGap || fresh) gain_ = 0;
@@ -42,6 +42,12 @@ class ForceGate {
   static constexpr double kShortGap = 3.5e-3;  ///< [s]
 
  private:
+  /// By the largest component first: the square of 1e308 would overflow.
+  Vec3 bounded(Vec3 force) const noexcept {
+    if (const double largest = force.cwiseAbs().maxCoeff(); largest > most_) force *= most_ / largest;
+    if (const double norm = force.norm(); norm > most_) force *= most_ / norm;
+    return force;
+  }
   void go(const Vec3& where, double elapsed) noexcept {
     const Vec3 way = where - out_;
     const double length = way.norm(), reach = rate_ * elapsed;
@@ -52,7 +58,7 @@ class ForceGate {
     }
   }
 
-  double rate_;
+  double most_, rate_;  // [N], [N/s]
   double gain_ = 0, gap_ = 0;
   Vec3 out_ = Vec3::Zero();
 };

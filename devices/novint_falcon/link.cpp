@@ -25,7 +25,7 @@ FalconLink::FalconLink(FalconTransport& transport, std::span<const std::uint8_t>
       settings_(settings),
       loader_(transport, firmware),
       samples_(settings.max_speed, settings.period),
-      forces_(settings.force_rate) {}
+      forces_(settings.rating) {}
 
 void FalconLink::open(double now) noexcept {
   state_ = LinkState::kStarting;

@@ -7,14 +7,15 @@
 #include "devices/novint_falcon/kinematics.h"
 #include "devices/novint_falcon/link_state.h"
 #include "devices/novint_falcon/loader.h"
+#include "devices/novint_falcon/rating.h"
 #include "devices/novint_falcon/sample_gate.h"
 
 namespace presa::falcon {
 
 struct LinkSettings {
   double period = 1e-3;                         ///< between two requests [s]
-  double max_speed = 3;                         ///< of a grip in a hand [m/s]: faster is no motion but a fault
-  double force_rate = 1000;                     ///< [N/s]
+  double max_speed = kFastestGrip;              ///< [m/s]
+  DeviceRating rating = kRating;                ///< of the gate; a test may have another
   double counts_per_torque = kCountsPerTorque;  ///< [1/(N m)]
   int max_counts = kMaxCounts;
 };
@@ -53,7 +54,7 @@ struct LinkStatus {
 ///  - a flag that drops later, or a second impossible sample in a row: latched, and from the next request on down to zero;
 ///  - no reply for kForceHold at the time of a request: down to zero; for kHold: the sample is invalid too;
 ///  - no new command for kCommandHold (its maker is dead): down to zero.
-/// What comes back after a short gap rises as fast, after a longer one softly. Down is as fast as force_rate allows and no faster: from 4 N at 1 N/ms zero is sent 5 ms after the last good reply.
+/// What comes back after a short gap rises as fast, after a longer one softly. Down is as fast as the rating allows and no faster: from 4 N at 1 N/ms zero is sent 5 ms after the last good reply.
 /// Thread: one, its own in operation; nothing is allocated after construction.
 class FalconLink {
  public:

@@ -2,6 +2,7 @@
 
 #include "devices/novint_falcon/diagnose.h"
 #include "devices/novint_falcon/falcon_device.h"
+#include "devices/novint_falcon/rating.h"
 #include "devices/novint_falcon/usb_bus.h"
 
 namespace presa {
@@ -20,7 +21,7 @@ const DevicePlugin kPlugin{.name = "novint_falcon",
                            .create = create,
                            .diagnose = falcon::diagnose,
                            .udev_rule = falcon::kUdevRule,
-                           .rating = {.force = 8, .speed = 1},  // no continuous rating is known of it
+                           .rating = falcon::kRating,
                            .hardware = true,
                            .while_opening = "while its light is blue, pull the grip all the way out, then push it in"};
 

@@ -19,6 +19,7 @@ struct NumberRule {
   std::size_t count = 1;
   double least = 0;  ///< each must be more than that
   const char* words = "";
+  double most = std::numeric_limits<double>::max();
 };
 
 /// The setting as numbers that obey the rule; nothing when it is not given or wrong, which is said.
@@ -30,7 +31,8 @@ std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const
   bool good = true;
   for (const std::string& word : xml::splitWords(found->second.value)) {
     double& number = numbers.emplace_back();
-    good = good && xml::readNumber(word, number) == xml::NumberKind::kFinite && number > rule.least;
+    good =
+        good && xml::readNumber(word, number) == xml::NumberKind::kFinite && number > rule.least && number <= rule.most;
   }
   if (good && numbers.size() == rule.count) return numbers;
   diagnostics.error(kBadNumber, found->second.where,
@@ -38,8 +40,13 @@ std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const
   return {};
 }
 
+void readUpTo(const DeviceBinding& binding, const std::string& key, const NumberRule& rule, double& value,
+              Diagnostics& diagnostics) {
+  if (const auto number = numbersOf(binding, key, rule, diagnostics)) value = (*number)[0];
+}
+
 void readPositive(const DeviceBinding& binding, const std::string& key, double& value, Diagnostics& diagnostics) {
-  if (const auto number = numbersOf(binding, key, {1, 0, "a number above 0"}, diagnostics)) value = (*number)[0];
+  readUpTo(binding, key, {1, 0, "a number above 0"}, value, diagnostics);
 }
 
 Pose readBase(const DeviceBinding& binding, Diagnostics& diagnostics) {
@@ -68,11 +75,11 @@ FalconSettings readSettings(const DeviceBinding& binding, const World& world, Di
   settings.realtime = world.options.realtime;
   settings.X_WD = readBase(binding, diagnostics);
   readPositive(binding, "scale", settings.scale, diagnostics);
-  readPositive(binding, "counts_per_torque", settings.link.counts_per_torque, diagnostics);
-  readPositive(binding, "max_speed", settings.link.max_speed, diagnostics);
+  readUpTo(binding, "counts_per_torque", {1, 0, "a number above 0, at most 12500", kMostCountsPerTorque},
+           settings.link.counts_per_torque, diagnostics);
+  readUpTo(binding, "max_speed", {1, 0, "a number above 0, at most 3", kFastestGrip}, settings.link.max_speed,
+           diagnostics);
   readPositive(binding, "homing_wait", settings.homing_wait, diagnostics);
-  for (const DeviceRole& role : world.scene.devices)
-    if (role.role == binding.role) settings.link.force_rate = role.limits.force_rate;
   if (const auto serial = binding.settings.find("serial"); serial != binding.settings.end())
     settings.serial = serial->second.value;
   if (const auto firmware = binding.settings.find("firmware"); firmware != binding.settings.end())

@@ -144,10 +144,11 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
                                      RateTable(world.scene.rates).period(RateGroup::kHaptic));
 }
 
-const DevicePlugin kPlugin{.name = "percro_arm",
-                           .summary = "model of an arm of the PERCRO interface, moved by a scripted hand",
-                           .create = create,
-                           .rating = {.force = 10, .continuous = 4, .heating_time = 30, .speed = 1}};
+const DevicePlugin kPlugin{
+    .name = "percro_arm",
+    .summary = "model of an arm of the PERCRO interface, moved by a scripted hand",
+    .create = create,
+    .rating = {.force = 10, .continuous = 4, .heating_time = 30, .behind = DeviceRating::Behind::kModel}};
 
 /// Both arms are switched on and homed; then, linked, they are led about the middle between them, 8 cm to each side.
 std::vector<LinkedSample> rehearse(const Pose& X_WA, const Pose& X_AB, double link, std::uint64_t seed) {

@@ -136,8 +136,10 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
                                          world.options.view == RunOptions::View::kWindow);
 }
 
-const DevicePlugin kPlugin{
-    .name = "pointer", .summary = "one of two fingertips that mouse and keys move in the window", .create = create};
+const DevicePlugin kPlugin{.name = "pointer",
+                           .summary = "one of two fingertips that mouse and keys move in the window",
+                           .create = create,
+                           .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::pointer

@@ -63,8 +63,10 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   return std::make_unique<ReplayedFinger>(std::move(settings));
 }
 
-const DevicePlugin kPlugin{
-    .name = "replay", .summary = "goes where a finger went in a recording, whatever it meets", .create = create};
+const DevicePlugin kPlugin{.name = "replay",
+                           .summary = "goes where a finger went in a recording, whatever it meets",
+                           .create = create,
+                           .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa

@@ -98,7 +98,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 
 const DevicePlugin kPlugin{.name = "simulated_subject",
                            .summary = "a model of a person who grips, lifts, loosens and holds with thumb and index",
-                           .create = create};
+                           .create = create,
+                           .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa

@@ -49,7 +49,8 @@ FalconFinger::FalconFinger(const Hold& hold, double side, std::uint64_t seed, Tr
     return X_WD.inverseTimes(handAt(hold, {}, side, time - kPrelude).p_WH);
   });
   usb_ = falcon_model::ModelTransport::open(model_);
-  link_ = std::make_unique<falcon::FalconLink>(*usb_, firmware_, falcon::LinkSettings{.force_rate = kForceRate});
+  link_ = std::make_unique<falcon::FalconLink>(*usb_, firmware_,
+                                               falcon::LinkSettings{.rating = {.force = 8, .force_rate = kForceRate}});
   link_->open(0);
   stepUntil(kPrelude - kStep);
 }

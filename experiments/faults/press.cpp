@@ -38,17 +38,26 @@ std::string textOf(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::string limitsElement(const std::string& limits) { return limits.empty() ? "" : "<limits " + limits + "/>"; }
+
+/// The file's text with limits for its finger.
+std::string sceneText(const std::string& file, const std::string& limits) {
+  std::string text = textOf(file);
+  const std::string plain = "<device role=\"finger\"/>";
+  return text.replace(text.find(plain), plain.size(), "<device role=\"finger\">" + limitsElement(limits) + "</device>");
+}
+
 /// Runs until it is killed.
-[[noreturn]] void runProgram(const std::string& log) {
+[[noreturn]] void runProgram(const std::string& log, const PressingProgram::Limits& limits) {
   try {
     const std::string scene = experimentFile("faults/press.xml");
     const std::string rig =
         "<rig version=\"1.0\" name=\"probe\"><device role=\"finger\" driver=\"fault_probe\"><set key=\"log\" value=\"" +
-        log + "\"/><set key=\"pos\" value=\"0 0 0.004\"/></device></rig>";
+        log + "\"/><set key=\"pos\" value=\"0 0 0.004\"/>" + limitsElement(limits.rig) + "</device></rig>";
     RunOptions options;
     options.realtime = true;
     Diagnostics diagnostics;
-    const Loaded loaded = loadWorldFromText(textOf(scene), scene, rig, options, diagnostics);
+    const Loaded loaded = loadWorldFromText(sceneText(scene, limits.scene), scene, rig, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     RunControl control;
     Session session(loaded.world, loaded.plan, control, {});
@@ -72,12 +81,12 @@ void nap() { sleepUntilNs(monotonicNs() + 1'000'000); }
 
 }  // namespace
 
-PressingProgram::PressingProgram() : file_(makeLog(log_)) {
+PressingProgram::PressingProgram(const Limits& limits) : file_(makeLog(log_)) {
   program_ = fork();
   if (program_ < 0) throw std::runtime_error("no process for the pressing program");
   if (program_ == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody presses on when the one who watches has died
-    runProgram(file_);
+    runProgram(file_, limits);
   }
   problem_ = waitUntilPressed();
 }

@@ -12,8 +12,12 @@ namespace presa::faults {
 /// Thread: main, with no other thread in the process: the program is a fork.
 class PressingProgram {
  public:
+  /// What its files say of limits, each between `<limits ` and `/>`; empty: nothing.
+  struct Limits {
+    std::string scene, rig;
+  };
   /// Starts it and waits until the finger is pressed, or five seconds.
-  PressingProgram();
+  explicit PressingProgram(const Limits& limits = {});
   ~PressingProgram();
   PressingProgram(const PressingProgram&) = delete;
   PressingProgram& operator=(const PressingProgram&) = delete;

@@ -44,12 +44,6 @@ class DeviceInput final : public Module {
   Out<DeviceState> state_{*this, "device_state"};
 };
 
-/// What the output stage of one finger keeps to, and when it stops to trust the dynamics.
-struct FingerSafety {
-  OutputLimits limits;
-  double watchdog = ages::kFloor;  ///< age of the Object State at which the force fades [s]
-};
-
 /// The output stages and the devices behind them. Reads the ages of what the command was made from.
 class DeviceOutput final : public Module, public WatchedStages {
  public:

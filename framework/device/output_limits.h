@@ -3,17 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "framework/device/device_rating.h"
+#include "framework/diagnostics/diagnostics.h"
+#include "framework/scene/ages.h"
 #include "framework/scene/scene.h"
 
 namespace presa {
-
-/// What a driver's hardware can bear, and what a hand is to meet from it. Infinite: nothing known, nothing limited.
-struct DeviceRating {
-  double force = std::numeric_limits<double>::infinity();       ///< nominal, for a short while [N]
-  double continuous = std::numeric_limits<double>::infinity();  ///< for as long as one likes [N]
-  double heating_time = 60;                                     ///< time constant of the motors' heat [s]
-  double speed = std::numeric_limits<double>::infinity();       ///< at which the device must not push a hand on [m/s]
-};
 
 /// What the output stage of one finger keeps to.
 struct OutputLimits {
@@ -28,9 +23,19 @@ struct OutputLimits {
   bool passivity = false;                                       ///< the hand may get no net energy
 };
 
+/// What the output stage of one finger keeps to, and when it stops to trust the dynamics.
+struct FingerSafety {
+  OutputLimits limits;
+  double watchdog = ages::kFloor;  ///< age of the Object State at which the force fades [s]
+};
+
+/// The rating alone: for those who hold it whatever a scene and a rig say.
+OutputLimits limitsOf(const DeviceRating& rating) noexcept;
+
 /// The smallest of what the scene wants, the rig allows and the device can bear. Where the rig says nothing, half of the nominal
-/// force is allowed. What came of it that somebody may wonder about goes to `notes`.
-OutputLimits limitsFor(const DeviceRole& wanted, const DeviceBinding::Limits& allowed, const DeviceRating& rating,
-                       std::vector<std::string>& notes);
+/// force is allowed. The slew is never so slow that zero takes longer than DeviceRating::kSlowestDecay.
+/// What is taken from a wish is said: to `findings` what goes past the rating (W650 to W654), to `notes` what one may wonder about.
+FingerSafety safetyFor(const DeviceRole& wanted, const DeviceBinding& bound, const DeviceRating& rating,
+                       std::vector<std::string>& notes, Diagnostics& findings);
 
 }  // namespace presa

@@ -1,5 +1,6 @@
 #include "framework/device/transport_watch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,11 +11,16 @@ namespace presa {
 namespace {
 
 constexpr double kRounding = 1e-9;
+constexpr double kGone = 0.02;  // what is on its way down may take its time, once [s]
 
 class TransportWatch final : public WrappedDevice {
  public:
-  TransportWatch(std::unique_ptr<Device> device, const OutputLimits& limits, const RunControl& control)
-      : WrappedDevice(std::move(device)), limits_(limits), control_(control) {}
+  TransportWatch(std::unique_ptr<Device> device, const OutputLimits& limits, const DeviceRating& rating,
+                 const RunControl& control)
+      : WrappedDevice(std::move(device)),
+        force_(std::min(limits.force, rating.force)),
+        force_rate_(std::min(limits.force_rate, rating.force_rate)),
+        control_(control) {}
 
   FingerInput read(const Tick& tick) noexcept override {
     const FingerInput input = inner().read(tick);
@@ -30,14 +36,12 @@ class TransportWatch final : public WrappedDevice {
     const double force = std::hypot(f.x(), f.y(), f.z());
     const double step = std::hypot(f.x() - sent_.x(), f.y() - sent_.y(), f.z() - sent_.z());
     if (!std::isfinite(force)) fail("is not finite", force, 0, tick);
-    if (force > limits_.force * (1 + kRounding)) fail("is above the limit", force, limits_.force, tick);
-    const double slew = limits_.force_rate * (tick.resumed ? Executor::kGap : tick.period);
+    if (force > force_ * (1 + kRounding)) fail("is above the limit", force, force_, tick);
+    const double slew = force_rate_ * (tick.resumed ? Executor::kGap : tick.period);
     if (step > slew * (1 + kRounding) + 1e-12) fail("changed faster than the slew limit", step, slew, tick);
     if (!usable_ && force > 0) fail("came before any usable sample", force, 0, tick);
-    // what is on its way down may take its time, once
-    const double down = limits_.force / limits_.force_rate + limits_.fade_out + 0.01;
     if (tick.resumed && force > 0) fail("came right after a gap", force, 0, tick);
-    if (lost_for_ > down && force > 0) fail("outlived the device", force, 0, tick);
+    if (lost_for_ > kGone + tick.period && force > 0) fail("outlived the device", force, 0, tick);
     sent_ = f;
     inner().write(f, tick);
   }
@@ -49,7 +53,7 @@ class TransportWatch final : public WrappedDevice {
     std::abort();
   }
 
-  OutputLimits limits_;
+  double force_, force_rate_;  // [N], [N/s]
   const RunControl& control_;
   Vec3 sent_ = Vec3::Zero();
   std::uint32_t rearms_ = 0;
@@ -59,10 +63,11 @@ class TransportWatch final : public WrappedDevice {
 
 }  // namespace
 
-std::unique_ptr<Device> watched(std::unique_ptr<Device> device, const OutputLimits& limits, const RunControl& control) {
+std::unique_ptr<Device> watched(std::unique_ptr<Device> device, const OutputLimits& limits, const DeviceRating& rating,
+                                const RunControl& control) {
   static const bool wanted = std::getenv("PRESA_WATCH_TRANSPORT") != nullptr;
   if (!wanted) return device;
-  return std::make_unique<TransportWatch>(std::move(device), limits, control);
+  return std::make_unique<TransportWatch>(std::move(device), limits, rating, control);
 }
 
 }  // namespace presa

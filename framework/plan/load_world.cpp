@@ -47,6 +47,10 @@ Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics
       std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
   if (diagnostics.hasErrors()) return loaded;
   const DeviceList devices = createDevices(*loaded.world, loaded.plan, diagnostics);
+  if (!diagnostics.hasErrors()) {
+    std::vector<std::string> notes;  // for those who run it
+    safetyOf(*loaded.world, notes, diagnostics);
+  }
   if (!diagnostics.hasErrors() && loaded.world->options.bound_stiffness) boundStiffness(loaded, devices, diagnostics);
   return loaded;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/device/device.h"
-#include "framework/device/output_limits.h"
+#include "framework/device/device_rating.h"
 #include "framework/graph/module.h"
 #include "framework/scene/world.h"
 
@@ -13,7 +13,7 @@
 /// C function that returns its table; it is loaded only when the plan calls for it.
 namespace presa {
 
-inline constexpr int kPluginAbi = 8;
+inline constexpr int kPluginAbi = 9;
 
 struct ModulePlugin {
   int abi = kPluginAbi;
@@ -44,7 +44,7 @@ struct DevicePlugin {
   std::vector<DeviceFinding> (*diagnose)(const DeviceBinding& binding) = nullptr;
   /// The line of a udev rule that lets a user open its hardware; null: none needed.
   const char* udev_rule = nullptr;
-  DeviceRating rating = {};  ///< of its hardware, or of the hardware that it models
+  DeviceRating rating = {};  ///< of its hardware, or of the hardware that it models; unsound: E655
   /// Moves something real: in real time it lives in a process of its own (framework/supervision), with a world that holds its binding
   /// and its role, and nothing else.
   bool hardware = false;

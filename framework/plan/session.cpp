@@ -30,7 +30,15 @@ const Table& tableOf(const std::string& plugin, const char* symbol) {
 }  // namespace
 
 const DevicePlugin& devicePlugin(const std::string& driver) {
-  return tableOf<DevicePlugin>(driver, "presaDevicePlugin");
+  const auto& table = tableOf<DevicePlugin>(driver, "presaDevicePlugin");
+  if (!isSound(table.rating)) {
+    Diagnostics diagnostics;
+    diagnostics.error(655, {"presa_" + driver + ".so", 0, 0},
+                      "the driver's rating is not finite, or its slew takes longer than 12 ms from its force to zero",
+                      "framework/device/device_rating.h says what a rating is");
+    throw InputError(diagnostics);
+  }
+  return table;
 }
 
 namespace {
@@ -85,32 +93,33 @@ std::vector<std::string> engineVersions(const Plan& plan) {
 
 namespace {
 
-/// What the output stages keep to. A replay and a study bring devices of their own, and keep to the same.
-std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes) {
+/// Of the driver that the rig names; of an imagined finger where it names none: a replay and a study bring devices of their own.
+const DeviceRating& ratingOf(const DeviceBinding* binding) {
+  return binding == nullptr ? kImaginedRating : devicePlugin(binding->driver).rating;
+}
+
+}  // namespace
+
+std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes, Diagnostics& findings) {
   std::vector<FingerSafety> safety;
   for (const DeviceRole& role : world.scene.devices) {
     const DeviceBinding* binding = bindingOf(world.rig, role.role);
-    DeviceBinding::Limits allowed;
-    DeviceRating rating;
-    if (binding != nullptr) {
-      allowed = binding->limits;
-      rating = devicePlugin(binding->driver).rating;
-    }
-    safety.push_back({limitsFor(role, allowed, rating, notes), role.limits.watchdog_ms * 1e-3});
+    safety.push_back(
+        safetyFor(role, binding == nullptr ? DeviceBinding{} : *binding, ratingOf(binding), notes, findings));
     safety.back().limits.force *= world.options.force_share;
   }
   return safety;
 }
 
-}  // namespace
-
 Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
     : devices_(std::move(options.devices)) {
-  const std::vector<FingerSafety> safety = safetyOf(*world, notes_);
-  if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices, safety);
+  Diagnostics said;  // when the world was loaded
+  const std::vector<FingerSafety> safety = safetyOf(*world, notes_, said);
+  if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);
   if (options.wrap) devices_ = options.wrap(std::move(devices_));
   for (std::size_t f = 0; f < devices_.size(); ++f)
-    devices_[f] = watched(std::move(devices_[f]), safety[f].limits, control);
+    devices_[f] = watched(std::move(devices_[f]), safety[f].limits,
+                          ratingOf(bindingOf(world->rig, world->scene.devices[f].role)), control);
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
   for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
@@ -150,7 +159,7 @@ std::vector<Diagnostic> Session::reopenDevices(const std::atomic<bool>& stop) {
   return findings;
 }
 
-void Session::bringUpDevices(const World& world, const Plan& plan, bool open, const std::vector<FingerSafety>& safety) {
+void Session::bringUpDevices(const World& world, const Plan& plan, bool open) {
   Diagnostics diagnostics;
   devices_ = createDevices(world, plan, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
@@ -158,7 +167,7 @@ void Session::bringUpDevices(const World& world, const Plan& plan, bool open, co
   for (std::size_t f = 0; f < devices_.size() && world.options.realtime; ++f) {
     const DeviceBinding& binding = *bindingOf(world.rig, plan.devices[f].role);
     if (!devicePlugin(binding.driver).hardware) continue;
-    devices_[f] = std::make_unique<SupervisedDevice>(std::move(devices_[f]), binding, world.rig.file, safety[f].limits);
+    devices_[f] = std::make_unique<SupervisedDevice>(std::move(devices_[f]), binding, world.rig.file);
   }
   for (const auto& device : devices_) device->open();
 }

@@ -53,7 +53,7 @@ class Session {
   double phaseStart(const std::string& phase) const;
 
  private:
-  void bringUpDevices(const World& world, const Plan& plan, bool open, const std::vector<FingerSafety>& safety);
+  void bringUpDevices(const World& world, const Plan& plan, bool open);
   void offerPointer();
   std::unique_ptr<Module> load(const PlannedModule& planned, const std::shared_ptr<const World>& world);
 
@@ -73,6 +73,10 @@ std::unique_ptr<View> makeView(std::shared_ptr<const World> world);
 
 /// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
 const DevicePlugin& devicePlugin(const std::string& driver);
+
+/// What the output stages of a world's fingers keep to, in the order of its roles. What was lowered goes to `notes` and `findings`
+/// (safetyFor). Loads the drivers' plug-ins.
+std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes, Diagnostics& findings);
 
 /// What somebody has to do while the devices of a run open, a line for each.
 std::vector<std::string> whileOpening(const Plan& plan);

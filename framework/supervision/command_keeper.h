@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "framework/device/output_stage.h"
 #include "framework/state/device_state.h"
 
@@ -10,8 +12,8 @@ namespace presa {
 /// Thread: one; nonblocking.
 class CommandKeeper {
  public:
-  /// The energy to the hand is counted by the program's stage; twice would take it twice.
-  explicit CommandKeeper(OutputLimits limits) : stage_((limits.passivity = false, limits)) {}
+  /// Keeps to the rating alone: a program that lies, or has been lied to, is held by it, too.
+  explicit CommandKeeper(const DeviceRating& rating) : stage_(limitsOf(rating)) {}
 
   struct Input {
     bool fresh = false;  ///< a command came since the last step
@@ -20,8 +22,10 @@ class CommandKeeper {
     FingerInput finger{};
   };
 
-  Vec3 step(const Input& input, double period) noexcept {
-    age_ = input.fresh ? 0 : age_ + period;
+  /// `elapsed`: since the step before, by the clock [s]. Who was held up himself drops a command that is old no later, and goes down by
+  /// what the time allowed, though never by more than a haptic tick may.
+  Vec3 step(const Input& input, double elapsed) noexcept {
+    age_ = input.fresh ? 0 : age_ + elapsed;
     alone_ = alone_ || input.alone;
     if (alone_ || age_ > kHold)
       dropped_ = true;
@@ -32,7 +36,7 @@ class CommandKeeper {
                         .lost = input.finger.lost,
                         .p_WH = input.finger.p_WH,
                         .v_WH = input.finger.v_WH},
-                       period);
+                       std::min(elapsed, kLongestStep));
   }
 
   void rearm() noexcept { stage_.rearm(); }
@@ -41,6 +45,7 @@ class CommandKeeper {
 
   /// Of a command [s]: longer than a late haptic tick, short enough for zero within 10 ms from 5 N.
   static constexpr double kHold = 5e-3;
+  static constexpr double kLongestStep = 1e-3;  ///< [s]
 
  private:
   OutputStage stage_;

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "framework/device/output_limits.h"
 #include "framework/exchange/latest_value.h"
 #include "framework/state/device_state.h"
 
@@ -35,7 +34,6 @@ struct SupervisorShare {
   };
 
   // before the start
-  OutputLimits limits;
   double period = 0.25e-3;  ///< of a cycle [s]
   std::size_t task_size = 0;
   char task[kTextSize] = {};  ///< what to open (task.h)

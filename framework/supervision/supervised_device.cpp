@@ -54,9 +54,8 @@ int movedUp(int fd) noexcept {
 
 }  // namespace
 
-SupervisedDevice::SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file,
-                                   const OutputLimits& limits)
-    : driver_(std::move(driver)), task_{binding, std::move(rig_file)}, limits_(limits) {}
+SupervisedDevice::SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file)
+    : driver_(std::move(driver)), task_{binding, std::move(rig_file)} {}
 
 void SupervisedDevice::refuse(int code, const std::string& message, const std::string& help) const {
   Diagnostics findings;
@@ -66,7 +65,6 @@ void SupervisedDevice::refuse(int code, const std::string& message, const std::s
 
 void SupervisedDevice::spawn() {
   share_ = SharedMemory<SupervisorShare>::made("presa-supervisor");
-  share_->limits = limits_;
   const std::string task = packed(task_);
   if (task.size() > sizeof share_->task) refuse(kNotStarted, "its settings are too long for its supervisor", "");
   std::memcpy(share_->task, task.data(), task.size());

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "framework/device/device.h"
-#include "framework/device/output_limits.h"
 #include "framework/supervision/share.h"
 #include "framework/supervision/shared_memory.h"
 #include "framework/supervision/task.h"
@@ -16,8 +15,7 @@ namespace presa {
 class SupervisedDevice final : public Device {
  public:
   /// `driver`: the same device, never opened here; it answers what there is to know of it.
-  SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file,
-                   const OutputLimits& limits);
+  SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file);
   ~SupervisedDevice() override { close(); }
 
   /// Starts the supervisor and waits until it has the device. Throws its findings; E498 it does not start, E499 it died.
@@ -51,7 +49,6 @@ class SupervisedDevice final : public Device {
 
   std::unique_ptr<Device> driver_;
   SupervisorTask task_;
-  OutputLimits limits_;
   SharedMemory<SupervisorShare> share_;                 // of the newest supervisor
   std::vector<SharedMemory<SupervisorShare>> retired_;  // the haptic thread may have been reading there
   std::atomic<SupervisorShare*> live_{nullptr};         // where it reads and writes

@@ -72,30 +72,35 @@ void runCycles(Supervisor& supervisor, double period, int life_fd) {
   const auto period_ns = static_cast<std::int64_t>(period * 1e9);
   bool alone = false;
   std::int64_t look = 0;  // once a millisecond is soon enough: a dead program is noticed by its silence, too
-  for (std::int64_t wake = monotonicNs();;) {
+  std::int64_t before = monotonicNs();
+  for (std::int64_t wake = before;;) {
     wake += period_ns;
     sleepUntilNs(wake);
-    if (const std::int64_t now = monotonicNs(); now - wake > period_ns) wake = now;  // no hurry to catch up
+    const std::int64_t now = monotonicNs();
+    if (now - wake > period_ns) wake = now;  // no hurry to catch up
     if (wake >= look) {
       alone = alone || isGone(life_fd);
       look = wake + 1'000'000;
     }
-    if (!supervisor.cycle(alone)) return;
+    if (!supervisor.cycle(alone, static_cast<double>(now - before) * 1e-9)) return;
+    before =
+        monotonicNs();  // the force was written by now: a cycle that was held up half-way gains no time for the next
   }
 }
 
 }  // namespace
 
-Supervisor::Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, CountAllocations count)
+Supervisor::Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, const DeviceRating& rating,
+                       CountAllocations count)
     : share_(share),
-      device_(watched(std::move(device), share.limits, control_)),
-      keeper_(share.limits),
+      device_(watched(std::move(device), limitsOf(rating), rating, control_)),
+      keeper_(rating),
       count_(count),
       allocated_before_(count()) {}
 
-bool Supervisor::cycle(bool alone) noexcept {
-  const double period = share_.period;
-  const Tick tick{.index = report_.cycles, .time = static_cast<double>(report_.cycles) * period, .period = period};
+bool Supervisor::cycle(bool alone, double elapsed) noexcept {
+  time_ += elapsed;
+  const Tick tick{.index = report_.cycles, .time = time_, .period = elapsed};
   if (const std::uint32_t rearms = share_.rearms.load(std::memory_order_relaxed); rearms != report_.rearms_met) {
     control_.rearms.store(rearms, std::memory_order_relaxed);
     device_->rearm();
@@ -106,13 +111,13 @@ bool Supervisor::cycle(bool alone) noexcept {
   report_.finger = device_->read(tick);
   const bool fresh = share_.command.update();
   report_.sent = keeper_.step(
-      {.fresh = fresh, .alone = ending, .command = share_.command.value().f_H_W, .finger = report_.finger}, period);
+      {.fresh = fresh, .alone = ending, .command = share_.command.value().f_H_W, .finger = report_.finger}, elapsed);
   device_->write(report_.sent, tick);
   report_.dropped = keeper_.dropped();
   ++report_.cycles;
   report_.allocated = count_() - allocated_before_;
   share_.report.publish(report_, tick.time);
-  farewell_ = ending && report_.sent == Vec3::Zero() ? farewell_ + period : 0;
+  farewell_ = ending && report_.sent == Vec3::Zero() ? farewell_ + elapsed : 0;
   return farewell_ < kFarewell;
 }
 
@@ -126,7 +131,7 @@ int superviseDevice(int share_fd, int life_fd, CountAllocations count) {
     std::vector<std::string> notes = device->notes();
     for (std::string& note : becomeRealTime(task.binding.role)) notes.push_back(std::move(note));
     answer(share, packed(notes), SupervisorShare::State::kRunning);
-    Supervisor supervisor(share, std::move(device), count);
+    Supervisor supervisor(share, std::move(device), devicePlugin(task.binding.driver).rating, count);
     runCycles(supervisor, share.period, life_fd);
     supervisor.close();
   } catch (const InputError& error) {

@@ -17,11 +17,12 @@ using CountAllocations = std::uint64_t (*)();
 /// Thread: one; cycle() neither allocates, locks nor throws.
 class Supervisor {
  public:
-  /// `device` is open.
-  Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, CountAllocations count);
+  /// `device` is open. `rating`: of its driver, as this process knows it; what scene and rig say does not come here.
+  Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, const DeviceRating& rating,
+             CountAllocations count);
 
-  /// `alone`: the program is gone. False: there is nothing left to do.
-  bool cycle(bool alone) noexcept;
+  /// `alone`: the program is gone. `elapsed`: since the cycle before ended [s]. False: there is nothing left to do.
+  bool cycle(bool alone, double elapsed) noexcept;
   void close() noexcept { device_->close(); }
 
   /// Zero force is sent for as long before the device is let go [s].
@@ -35,6 +36,7 @@ class Supervisor {
   CountAllocations count_;
   std::uint64_t allocated_before_;
   SupervisorReport report_;
+  double time_ = 0;      // since the start [s]
   double farewell_ = 0;  // zero for so long with nobody to command [s]
 };
 

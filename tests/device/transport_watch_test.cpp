@@ -16,13 +16,15 @@ class Port final : public Device {
   FingerInput input{.valid = true};
 };
 
+constexpr DeviceRating kRating{};  // 5 N, 1 N/ms
+
 class TransportWatchTest : public testing::Test {
  protected:
-  TransportWatchTest() {
+  void SetUp() override {
     ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);
     auto port = std::make_unique<Port>();
     port_ = port.get();
-    device_ = watched(std::move(port), {.force = 2, .force_rate = 1000}, control_);
+    device_ = watched(std::move(port), limits(), kRating, control_);
     EXPECT_NE(device_.get(), port_);
   }
   void tick(double force) {
@@ -31,6 +33,7 @@ class TransportWatchTest : public testing::Test {
     ++tick_.index;
     tick_.time += tick_.period;
   }
+  virtual OutputLimits limits() const { return {.force = 2, .force_rate = 1000}; }
   RunControl control_;
   Port* port_ = nullptr;
   std::unique_ptr<Device> device_;
@@ -68,6 +71,18 @@ TEST_F(TransportWatchTest, ARearmForgivesIt) {
   for (int i = 0; i < 100; ++i) tick(0);
   ++control_.rearms;
   tick(1);
+}
+
+// The scene had its way with the limits: the watch holds the rating.
+class LyingLimits : public TransportWatchTest {
+ protected:
+  OutputLimits limits() const override { return {.force = 1e9, .force_rate = 1e9}; }
+};
+TEST_F(LyingLimits, AreNotBelieved) {
+  for (const double force : {1.0, 2.0, 3.0}) tick(force);
+  EXPECT_DEATH(tick(4.0001), "changed faster than the slew limit");
+  for (const double force : {4.0, 5.0}) tick(force);
+  EXPECT_DEATH(tick(5.0001), "the force is above the limit");
 }
 
 }  // namespace

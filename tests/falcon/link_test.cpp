@@ -127,7 +127,7 @@ TEST(FalconLink, ForceStartsSoftlyAndArrivesInCounts) {
 
 // The output stage keeps the slope too; here it is kept whatever comes.
 TEST(FalconLink, AForceNeverRisesFasterThanTheRate) {
-  Bench bench(LinkSettings{.force_rate = 500});
+  Bench bench(LinkSettings{.rating = {.force = 8, .force_rate = 500}});
   bench.operate({0, 0, 0});
   const std::size_t from = bench.falcon.sent.size();
   bench.force = {0, 0, 6};
@@ -439,11 +439,14 @@ void disturb(Bench& bench, RandomStream& random) {
 }
 
 // What holds at the wire in every one of 10^6 disturbed cycles: packets are well formed, counts within their range, the
-// homing bit set, and where the link is not in operation force only goes down.
+// homing bit set, and where the link is not in operation there is no force: none before it was in operation for the first time, and from
+// then on it only goes down, a newton a request, until it is zero: eight requests from the rated 8 N, one for the rounding of counts.
 TEST(FalconLink, AtTheWireTheInvariantsHoldWhateverGoesWrong) {
   RandomStream random(20262, "falcon link");
   Bench bench;
-  std::uint64_t latched = 0, pushed = 0;
+  std::uint64_t latched = 0, pushed = 0, going_down = 0, gone = 0;
+  int outside = 0;  // requests in a row
+  bool operated = false;
   double before = 0;
   for (int i = 0; i < 1'000'000; ++i) {
     bench.falcon.homed = random.below(4000) == 0 ? static_cast<int>(random.below(7)) : 7;
@@ -455,7 +458,13 @@ TEST(FalconLink, AtTheWireTheInvariantsHoldWhateverGoesWrong) {
       ASSERT_TRUE(sent.well_formed && (sent.light_and_homing & kHomingBit));
       for (const std::int32_t counts : sent.force) ASSERT_LE(std::abs(counts), kMaxCounts);
       const double counts = Vec3(sent.force[0], sent.force[1], sent.force[2]).norm();
+      operated = operated || state == LinkState::kOperating;
+      outside = state == LinkState::kOperating ? 0 : outside + 1;
       ASSERT_TRUE(state == LinkState::kOperating || counts <= before) << i;
+      ASSERT_TRUE(operated || sent.zero()) << i;
+      ASSERT_TRUE(outside <= 9 || sent.zero()) << i << ": " << outside << " requests outside operation";
+      going_down += outside > 0 && !sent.zero() ? 1 : 0;
+      gone += outside > 9 ? 1 : 0;
       before = counts;
       pushed += sent.zero() ? 0 : 1;
     }
@@ -467,6 +476,8 @@ TEST(FalconLink, AtTheWireTheInvariantsHoldWhateverGoesWrong) {
   }
   EXPECT_GT(latched, 1000U);
   EXPECT_GT(pushed, 100'000U);
+  EXPECT_GT(going_down, 200U);
+  EXPECT_GT(gone, 1000U);
 }
 
 TEST(FalconLink, SameInputSameBits) {

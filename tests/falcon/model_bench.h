@@ -48,7 +48,8 @@ struct ModelBench {
     link.reset();
     transport.reset();
     transport = falcon_model::ModelTransport::open(model);
-    link = std::make_unique<FalconLink>(*transport, firmware, LinkSettings{.force_rate = kForceRate});
+    link = std::make_unique<FalconLink>(*transport, firmware,
+                                        LinkSettings{.rating = {.force = 8, .force_rate = kForceRate}});
     link->open(now());
   }
 

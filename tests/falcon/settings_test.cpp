@@ -34,7 +34,7 @@ FalconSettings settingsOf(const std::string& xml, Diagnostics& diagnostics) {
   World world;
   world.options.realtime = true;
   world.scene.devices.emplace_back().role = "thumb";
-  world.scene.devices[0].limits.force_rate = 321;
+  world.scene.devices[0].limits = {.force = 1e9, .force_rate = 1e9, .watchdog_ms = 1e9};  // a scene that lies
   return readSettings(rigWith(xml).devices.at(0), world, diagnostics);
 }
 
@@ -56,7 +56,8 @@ TEST(FalconSettings, AllOfThem) {
   EXPECT_EQ(settings.link.counts_per_torque, 9000);
   EXPECT_EQ(settings.link.max_speed, 2);
   EXPECT_EQ(settings.homing_wait, 4);
-  EXPECT_EQ(settings.link.force_rate, 321);
+  EXPECT_EQ(settings.link.rating.force_rate, 1000);  // the driver's own, whatever the scene says
+  EXPECT_EQ(settings.link.rating.force, 8);
   EXPECT_TRUE(settings.realtime);
   EXPECT_TRUE(settings.firmware.empty());
 }
@@ -69,6 +70,16 @@ TEST(FalconSettings, EverythingWrongIsSaidAtOnce) {
   EXPECT_EQ(diagnostics.errorCount(), 7U) << diagnostics.text();
   EXPECT_NE(diagnostics.text().find("did you mean 'firmware'?"), std::string::npos) << diagnostics.text();
   for (const Diagnostic& found : diagnostics.all()) EXPECT_EQ(found.where.line, 2);
+}
+
+// A rig that says of the motors what is not so would have forces beyond the rating; one that believes every sample, none that are checked.
+TEST(FalconSettings, ARigWidensNothing) {
+  Diagnostics diagnostics;
+  settingsOf(set("counts_per_torque", "12501") + set("max_speed", "3.01"), diagnostics);
+  EXPECT_EQ(diagnostics.errorCount(), 2U) << diagnostics.text();
+  EXPECT_NE(diagnostics.text().find("counts_per_torque must be a number above 0, at most 12500, found '12501'"),
+            std::string::npos)
+      << diagnostics.text();
 }
 
 // Like a motion it stands beside the rig.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace presa {
@@ -9,13 +10,7 @@ namespace {
 
 constexpr double kPeriod = 0.25e-3;  // [s]
 
-OutputLimits limits() {
-  OutputLimits limits;
-  limits.force = 8;
-  limits.force_rate = 1000;
-  limits.soft_start = 0.5;
-  return limits;
-}
+constexpr DeviceRating kRating{.force = 8, .force_rate = 1000, .speed = 1, .soft_start = 0.5};
 
 class Keeper : public testing::Test {
  protected:
@@ -40,7 +35,7 @@ class Keeper : public testing::Test {
   }
 
   static inline const Vec3 kWanted{0, 0, 4};
-  CommandKeeper keeper_{limits()};
+  CommandKeeper keeper_{kRating};
 };
 
 TEST_F(Keeper, SendsNothingBeforeACommandOfZero) {
@@ -71,6 +66,40 @@ TEST_F(Keeper, IsAtZeroTenMillisecondsAfterTheLastCommand) {
   EXPECT_EQ(force(), 0);
 }
 
+// A keeper that was held up for 6 ms itself: the command is older than 5 ms then, and one haptic tick's worth of the way is made up.
+TEST_F(Keeper, WhoWasHeldUpHimselfDropsNoLater) {
+  press();
+  keeper_.step({.command = kWanted}, 6e-3);
+  EXPECT_TRUE(keeper_.dropped());
+  EXPECT_DOUBLE_EQ(force(), 3);
+}
+
+// Whatever is commanded: the device's rating. 1e9 N in one write, a thousand times to and fro.
+TEST_F(Keeper, HoldsTheRatingWhateverIsCommanded) {
+  command(Vec3::Zero(), 4);
+  int at_rating = 0, at_slew = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double before = keeper_.last().z();
+    step({.fresh = true, .command = {0, 0, i / 100 % 2 == 0 ? 1e9 : -1e9}});
+    ASSERT_LE(force(), kRating.force);
+    at_rating += force() == kRating.force ? 1 : 0;
+    at_slew += std::abs(keeper_.last().z() - before) > 0.999 * kRating.force_rate * kPeriod ? 1 : 0;
+  }
+  EXPECT_GT(at_rating, 500);
+  EXPECT_GT(at_slew, 500);
+}
+
+// The hand is driven faster than the rating's 1 m/s: latched here too, whatever the rig said to the program's stage.
+TEST_F(Keeper, TripsAtTheRatingsSpeed) {
+  press();
+  FingerInput fast;
+  fast.v_WH = {0, 0, 1.01};
+  for (int i = 0; i < 2; ++i) step({.fresh = true, .command = kWanted, .finger = fast});
+  command(Vec3::Zero(), 40);
+  command(kWanted, 400);
+  EXPECT_EQ(force(), 0);
+}
+
 TEST_F(Keeper, OpensAgainAtZeroOnly) {
   press();
   silence(200);
@@ -96,7 +125,7 @@ TEST_F(Keeper, NeverTrustsADeadProgramAgain) {
 TEST_F(Keeper, DoesNotBelieveEveryCommand) {
   press();
   command({0, 0, 1e300}, 40);
-  EXPECT_DOUBLE_EQ(force(), 8);  // the limit
+  EXPECT_DOUBLE_EQ(force(), 8);  // what the device is rated for
   command({0, std::numeric_limits<double>::quiet_NaN(), 0}, 40);
   EXPECT_EQ(force(), 0);  // latched
   command(Vec3::Zero(), 4);

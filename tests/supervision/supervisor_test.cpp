@@ -27,6 +27,9 @@ class NotedDevice final : public Device {
   Notes& notes_;
 };
 
+constexpr DeviceRating kRating{.force = 8};
+constexpr double kCycle = 0.25e-3;  // [s]
+
 class SupervisorCycle : public testing::Test {
  protected:
   SupervisorCycle() {
@@ -37,7 +40,7 @@ class SupervisorCycle : public testing::Test {
   bool tick(const Vec3& force) {
     share_.command.publish({force}, 0);
     bool goes_on = true;
-    for (int i = 0; i < 4; ++i) goes_on = supervisor_.cycle(false);
+    for (int i = 0; i < 4; ++i) goes_on = supervisor_.cycle(false, kCycle);
     share_.report.update();
     return goes_on;
   }
@@ -46,7 +49,7 @@ class SupervisorCycle : public testing::Test {
 
   SupervisorShare share_;
   Notes notes_;
-  Supervisor supervisor_{share_, std::make_unique<NotedDevice>(notes_), none};
+  Supervisor supervisor_{share_, std::make_unique<NotedDevice>(notes_), kRating, none};
 };
 
 TEST_F(SupervisorCycle, PassesSamplesAndForces) {
@@ -63,7 +66,7 @@ TEST_F(SupervisorCycle, TakesNoMemoryAndNoLock) {
   tick(Vec3::Zero());
   RealTimeGuard guard;
   for (int i = 0; i < 600; ++i) tick({0, 0, 2});
-  for (int i = 0; i < 100; ++i) supervisor_.cycle(true);
+  for (int i = 0; i < 100; ++i) supervisor_.cycle(true, kCycle);
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 
@@ -71,9 +74,9 @@ TEST_F(SupervisorCycle, EndsOnlyAfterAFarewellOfZero) {
   tick(Vec3::Zero());
   for (int i = 0; i < 600; ++i) tick({0, 0, 2});
   int cycles = 0;
-  for (bool goes_on = true; goes_on; ++cycles) goes_on = supervisor_.cycle(true);
+  for (bool goes_on = true; goes_on; ++cycles) goes_on = supervisor_.cycle(true, kCycle);
   // 2 N at 1 N/ms, then 50 ms of zero
-  EXPECT_NEAR(cycles * share_.period, 2e-3 + Supervisor::kFarewell, 2 * share_.period);
+  EXPECT_NEAR(cycles * kCycle, 2e-3 + Supervisor::kFarewell, 2 * kCycle);
   EXPECT_EQ(notes_.force, Vec3::Zero());
   supervisor_.close();
   EXPECT_TRUE(notes_.closed);
