@@ -1,6 +1,7 @@
 #include "framework/checksum/checksum.h"
 
 #include <array>
+#include <cerrno>
 #include <system_error>
 
 #include "framework/plan/plugin_loader.h"
@@ -37,6 +38,22 @@ std::string sha256OfFile(const std::string& file) {
 std::string sha256OfText(std::string_view text) {
   Digest digest{};
   if (const int error = plugin().bytes(text.data(), text.size(), digest.data()); error != 0)
+    throw std::system_error(error, std::generic_category(), "cannot compute a checksum");
+  return hexOf(digest);
+}
+
+Sha256::Sha256() : sum_(plugin().begin(), plugin().end) {
+  if (!sum_) throw std::system_error(ENOMEM, std::generic_category(), "cannot compute a checksum");
+}
+
+void Sha256::add(const void* bytes, std::size_t count) {
+  if (const int error = plugin().add(sum_.get(), bytes, count); error != 0)
+    throw std::system_error(error, std::generic_category(), "cannot compute a checksum");
+}
+
+std::string Sha256::finish() {
+  Digest digest{};
+  if (const int error = plugin().finish(sum_.get(), digest.data()); error != 0)
     throw std::system_error(error, std::generic_category(), "cannot compute a checksum");
   return hexOf(digest);
 }

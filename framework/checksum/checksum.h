@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,11 +13,29 @@ std::string sha256OfFile(const std::string& file);
 /// The same of bytes in memory.
 std::string sha256OfText(std::string_view text);
 
+/// SHA-256 of bytes that come one after another, too many to hold at once. Throws std::system_error, and at its making what
+/// pluginSymbol throws. Thread: any but the haptic one, one at a time.
+class Sha256 {
+ public:
+  Sha256();
+  void add(const void* bytes, std::size_t count);
+  /// Of all that was added, 64 lower-case hexadecimal digits; the next add() begins anew.
+  std::string finish();
+
+ private:
+  std::unique_ptr<void, void (*)(void*)> sum_;
+};
+
 /// What the plug-in exports: digest 32 bytes; 0 or an errno.
 struct ChecksumPlugin {
   int (*file)(const char* file, unsigned char* digest);
   int (*bytes)(const void* bytes, std::size_t count, unsigned char* digest);
+  /// Of bytes that come one after another; null: no memory. finish() writes the digest and begins anew.
+  void* (*begin)();
+  int (*add)(void* sum, const void* bytes, std::size_t count);
+  int (*finish)(void* sum, unsigned char* digest);
+  void (*end)(void* sum);
 };
-inline constexpr const char* kChecksumSymbol = "presaChecksum";
+inline constexpr const char* kChecksumSymbol = "presaChecksums";
 
 }  // namespace presa

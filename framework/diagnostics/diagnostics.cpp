@@ -59,26 +59,11 @@ std::string Diagnostics::text() const {
   return text;
 }
 
-namespace {
-
-/// Messages quote what files and other processes say. Their own line breaks stay.
-std::string printableLines(const std::string& text) {
-  std::string shown;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = text.find('\n', begin);
-    shown += printable(std::string_view(text).substr(begin, end - begin));
-    if (end == std::string::npos) return shown;
-    shown += '\n';
-    begin = end + 1;
-  }
-}
-
-}  // namespace
-
 std::string format(const Diagnostic& diagnostic) {
   const bool is_error = diagnostic.severity == Diagnostic::Severity::kError;
   char code[32];
   std::snprintf(code, sizeof code, is_error ? "error[E%03d]: " : "warning[W%03d]: ", diagnostic.code);
+  // messages quote what files and other processes say
   std::string text = printable(positionText(diagnostic.where)) + code + printableLines(diagnostic.message);
   if (!diagnostic.help.empty()) text += "\n  help: " + printableLines(diagnostic.help);
   return text;

@@ -65,4 +65,15 @@ std::string printable(std::string_view text, std::size_t most) {
   return shown;
 }
 
+std::string printableLines(std::string_view text) {
+  std::string shown;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find('\n', begin);
+    shown += printable(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return shown;
+    shown += '\n';
+    begin = end + 1;
+  }
+}
+
 }  // namespace presa

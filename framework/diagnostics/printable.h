@@ -12,4 +12,7 @@ std::string printable(std::string_view text);
 /// The same, of at most `most` characters; what is longer ends in "...".
 std::string printable(std::string_view text, std::size_t most);
 
+/// The same of text that has lines: they stay. For pages there is svg::escape.
+std::string printableLines(std::string_view text);
+
 }  // namespace presa

@@ -71,7 +71,10 @@ struct Recording {
   double force_share = 1;           ///< of the force limits that the run might use
   std::vector<std::string> faults;  ///< with their times, in words
   double haptic_period = 0;         ///< [s]
+  bool checksum = false;            ///< it has one, and it is right; false: an older format, or the run was killed
   std::uint64_t first_tick = 0;     ///< not 0: it begins in the middle of a run, and cannot be run again
+  std::uint64_t left_out = 0;       ///< ticks at the end of a killed run of which a part is missing
+  std::size_t fingers = 0;          ///< of every tick
   std::vector<double> time;         ///< one entry per haptic tick
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
@@ -105,6 +108,7 @@ struct RecordedSamples {
   std::string scene_file;              ///< name it had
   std::string start_utc;               ///< of the run, or of the file of a fault
   std::vector<std::string> faults;     ///< with their times, in words
+  bool checksum = false;               ///< it has one, and it is right; false: an older format, or the run was killed
   std::uint64_t first_tick = 0;        ///< not 0: it begins in the middle of a run, and cannot be run again
   std::vector<double> time;            ///< one entry per haptic tick
   std::vector<std::uint32_t> status;   ///< OutputStatus bits of all fingers together
@@ -119,8 +123,11 @@ struct RecordPlugin {
   /// world.options.flight. Throws InputError: E601 it exists (and options.overwrite is not set),
   /// E602 it cannot be written. Call it from an ordinary thread: the writer inherits priority and CPU set.
   std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world);
-  /// Throws InputError: E603 cannot be read, E604 not HDF5, E605 not a recording, E606 newer format, E607 holds no
-  /// tick, E608 damaged. The file of a killed run is read up to its last flush.
+  /// Checks the whole file before anything is made of it. Throws InputError with every finding: E603 cannot be read, E604 not HDF5,
+  /// E605 not a recording, E606 newer format, E607 holds no tick, E608 damaged, E670 something is stored outside of the file or otherwise
+  /// than a recording is, E671 an attribute, E672 an object or a column, E673 rows that are not stored, or tables of different length,
+  /// E674 an index or a time, E675 a value of a row, E676 the checksum. The file of a killed run is read up to its last flush. What is
+  /// read takes memory in proportion to the length of the file, whatever it says.
   Recording (*read)(const std::string& file);
   /// The same file by column, for people; throws the same.
   RecordedSamples (*samples)(const std::string& file);

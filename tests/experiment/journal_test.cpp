@@ -130,6 +130,11 @@ TEST(Checksum, IsThatOfTheStandard) {
   EXPECT_EQ(sha256OfFile(scratch.file("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256OfText("abc"), sha256OfFile(scratch.file("abc")));
   EXPECT_THROW(sha256OfFile(scratch.file("none")), std::system_error);
+  Sha256 sum;
+  sum.add("a", 1);
+  sum.add("bc", 2);
+  EXPECT_EQ(sum.finish(), sha256OfText("abc"));
+  EXPECT_EQ(sum.finish(), sha256OfText(""));  // begun anew
 }
 
 }  // namespace

@@ -150,9 +150,14 @@ TEST(ScheduleLog, HoldsFourSecondsOfTheFastestRun) {
 TEST(RecordPlugin, LoadsBesideTheFrameworkAndMakesRecorders) {
   const ScratchFolder folder;
   EXPECT_EQ(recordPlugin().abi, kPluginAbi);
-  const auto recorder = recordPlugin().create(recordedWorld(folder.file("run.h5"), false));
+  const auto world = recordedWorld(folder.file("run.h5"), false);
+  world->scene.devices.clear();  // nobody is connected
+  const auto recorder = recordPlugin().create(world);
   EXPECT_EQ(recorder->group(), RateGroup::kHaptic);
+  ScheduleLog schedule;
+  recorder->attach(schedule);
   recorder->step({0, 0.0, 0.001});
+  schedule.rings[0]->push({});
   recorder->finish();
   EXPECT_EQ(recordPlugin().read(folder.file("run.h5")).time.size(), 1u);
 }

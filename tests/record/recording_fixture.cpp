@@ -31,21 +31,22 @@ bool same(const ForceCommand& a, const ForceCommand& b) {
 
 DeviceState deviceAt(std::uint64_t tick) {
   DeviceState state;
-  state.time = realAt(tick, 0);
-  state.count = static_cast<std::int32_t>(bitsAt(tick, 1) % 3);
+  state.time = fractionAt(tick, 0);
+  state.count = 2;
   state.stop_requested = bitsAt(tick, 2) % 2 == 1;
   state.rearms = static_cast<std::uint32_t>(bitsAt(tick, 6));
   for (std::size_t f = 0; f < 2; ++f) {
     state.fingers[f] = {vectorAt(tick, 10 + 20 * f), vectorAt(tick, 13 + 20 * f),
-                        static_cast<std::int32_t>(bitsAt(tick, 16 + 20 * f)), bitsAt(tick, 17 + 20 * f) % 2 == 1};
+                        static_cast<std::int32_t>(bitsAt(tick, 16 + 20 * f) % 65537) - 1,
+                        bitsAt(tick, 17 + 20 * f) % 2 == 1};
   }
   return state;
 }
 
 ForceCommand commandAt(std::uint64_t tick) {
   ForceCommand command;
-  command.time = realAt(tick, 3);
-  command.count = static_cast<std::int32_t>(bitsAt(tick, 4) % 3);
+  command.time = fractionAt(tick, 3);
+  command.count = 2;
   command.status = static_cast<std::uint32_t>(bitsAt(tick, 5));
   command.f_H_W[0] = vectorAt(tick, 20);
   command.f_H_W[1] = vectorAt(tick, 40);

@@ -20,6 +20,10 @@ inline std::uint64_t bitsAt(std::uint64_t tick, std::uint64_t place) {
   return z ^ (z >> 31);
 }
 inline double realAt(std::uint64_t tick, std::uint64_t place) { return std::bit_cast<double>(bitsAt(tick, place)); }
+/// A time: from 1 to 2, any bits of its mantissa.
+inline double fractionAt(std::uint64_t tick, std::uint64_t place) {
+  return std::bit_cast<double>((bitsAt(tick, place) >> 12) | 0x3FF0000000000000ull);
+}
 inline Vec3 vectorAt(std::uint64_t tick, std::uint64_t place) {
   return {realAt(tick, place), realAt(tick, place + 1), realAt(tick, place + 2)};
 }

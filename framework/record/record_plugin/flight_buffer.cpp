@@ -35,6 +35,7 @@ FlightBuffer::FlightBuffer(std::shared_ptr<const World> world)
       after_(static_cast<std::size_t>(std::ceil(kAfter * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       kept_(capacity_ * layout_.words()) {
   checkFolder(world_->options.flight);
+  const Sha256 loaded;  // now, not when a fault is to be written
 }
 
 void FlightBuffer::append(const std::uint64_t* rows, std::size_t count) {

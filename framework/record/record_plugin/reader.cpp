@@ -3,122 +3,89 @@
 #include <algorithm>
 
 #include "framework/diagnostics/refuse.h"
-#include "framework/record/record_plugin/table_reader.h"
+#include "framework/record/record_plugin/contents.h"
 
 namespace presa::record {
 namespace {
 
-std::vector<std::vector<FingerRow>> readFingers(hid_t file) {
-  const Table columns = subset(fingerTable(), {"index", "p_WH", "v_WH", "phase", "valid", "f_command_W"});
-  std::vector<std::vector<FingerRow>> fingers;
-  for (const HapticTable& table : hapticTables(file, "fingers", "finger"))
-    fingers.push_back(readRows<FingerRow>(table.dataset, columns));
-  if (fingers.size() > kMaxFingers) throw h5::Failure("too many fingers");
-  return fingers;
+FingerInput inputOf(const FingerRow& row) {
+  const bool valid = (row.valid & 1) != 0;
+  return {.p_WH = Vec3(row.p_WH),
+          .v_WH = Vec3(row.v_WH),
+          .phase = row.phase,
+          .valid = valid,
+          .age = valid ? 0 : 1.0,  // not to be bridged again
+          .lost = (row.valid & 2) != 0};
 }
 
-/// Ticks for which every finger has its row.
-std::size_t commonPrefix(const std::vector<TickRow>& ticks, const std::vector<std::vector<FingerRow>>& fingers) {
-  std::size_t count = ticks.size();
-  for (const auto& rows : fingers) {
-    count = std::min(count, rows.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      if (rows[i].index != ticks[i].index) count = i;
-    }
+/// What a tick says, its fingers apart.
+void takeTicks(const Contents& contents, Recording& recording) {
+  for (std::size_t i = 0; i < contents.count; ++i) {
+    const TickRow& tick = contents.ticks[i];
+    recording.time.push_back(tick.time);
+    DeviceState& device = recording.device[i];
+    device.time = tick.device_time;
+    device.count = tick.device_count;
+    device.stop_requested = tick.stop_requested != 0;
+    device.rearms = static_cast<std::uint32_t>(tick.rearms);
+    ForceCommand& command = recording.command[i];
+    command.time = tick.command_time;
+    command.count = tick.command_count;
+    command.status = tick.output_status;
+    recording.surfaces_changed.push_back(tick.surfaces_changed != 0 ? 1 : 0);
+    if (tick.commanded != 0)
+      recording.commands.push_back({i, static_cast<std::size_t>(tick.commanded - 1), tick.commanded_value});
   }
-  return count;
 }
 
-DeviceState deviceState(const TickRow& tick, const std::vector<std::vector<FingerRow>>& fingers, std::size_t row) {
-  DeviceState state;
-  state.time = tick.device_time;
-  state.count = tick.device_count;
-  state.stop_requested = tick.stop_requested != 0;
-  state.rearms = static_cast<std::uint32_t>(tick.rearms);
-  for (std::size_t f = 0; f < fingers.size(); ++f) {
-    const FingerRow& finger = fingers[f][row];
-    state.fingers[f] = {Vec3(finger.p_WH),
-                        Vec3(finger.v_WH),
-                        finger.phase,
-                        (finger.valid & 1) != 0,
-                        (finger.valid & 1) != 0 ? 0 : 1.0,
-                        (finger.valid & 2) != 0};  // no age: not to be bridged again
-  }
-  return state;
-}
-
-ForceCommand forceCommand(const TickRow& tick, const std::vector<std::vector<FingerRow>>& fingers, std::size_t row) {
-  ForceCommand command;
-  command.time = tick.command_time;
-  command.count = tick.command_count;
-  command.status = tick.output_status;
-  command.f_H_W.fill(Vec3::Zero());
-  for (std::size_t f = 0; f < fingers.size(); ++f) command.f_H_W[f] = Vec3(fingers[f][row].f_command_W);
-  return command;
-}
-
-void readHeader(hid_t file, Recording& recording) {
-  recording.scene_xml = h5::readText(file, "scene_xml");
-  recording.rig_xml = h5::readText(file, "rig_xml");
-  recording.scene_file = h5::readStringAttribute(file, "scene_file");
-  recording.program_version = h5::readStringAttribute(file, "program_version");
-  recording.seed = h5::readCountAttribute(file, "seed");
-  recording.realtime = h5::readCountAttribute(file, "realtime") != 0;
-  recording.complete = h5::readCountAttribute(file, "complete") != 0;
-  recording.dropped = h5::readCountAttribute(file, "dropped");
-  recording.haptic_period = h5::readRealAttribute(file, "haptic_period_s");
-  if (h5::hasAttribute(file, "force_share")) recording.force_share = h5::readRealAttribute(file, "force_share");
-  recording.faults = readFaults(file);
-}
-
-/// A table as the file has it: without a column that came with a later version of the format.
-Table asIn(hid_t file, Table table, const std::string& added, std::uint64_t version) {
-  if (h5::readCountAttribute(file, "format_version") < version)
-    std::erase_if(table.columns, [&](const Column& column) { return column.name == added; });
-  return table;
-}
-
-void readTicks(hid_t file, const std::string& name, Recording& recording) {
-  Table table = asIn(file, asIn(file, tickTable(), "surfaces_changed", 3), "rearms", 4);
-  table = asIn(file, asIn(file, table, "commanded", 5), "commanded_value", 5);
-  auto ticks = readTable<TickRow>(file, "haptic/ticks", table);
-  const auto fingers = readFingers(file);
-  std::size_t count = commonPrefix(ticks, fingers);
-  const Table schedule = asIn(file, scheduleTable(), "made_up", 2);
-  for (int g = 0; g < kScheduledGroupCount; ++g) {
-    recording.schedule[static_cast<std::size_t>(g)] =
-        readTable<ScheduleRow>(file, std::string("schedule/") + toString(static_cast<RateGroup>(g)), schedule);
-  }
-  auto& haptic = recording.schedule[static_cast<std::size_t>(RateGroup::kHaptic)];
-  if (!haptic.empty()) {
-    count = std::min(count, haptic.size());
-    haptic.resize(count);
-  }
-  if (count == 0) refuse(607, name, "holds no tick", "the run ended before its first flush");
-  recording.first_tick = ticks.front().index;
-  for (std::size_t i = 0; i < count; ++i) {
-    recording.time.push_back(ticks[i].time);
-    recording.device.push_back(deviceState(ticks[i], fingers, i));
-    recording.command.push_back(forceCommand(ticks[i], fingers, i));
-    recording.surfaces_changed.push_back(ticks[i].surfaces_changed != 0 ? 1 : 0);
-    if (ticks[i].commanded != 0)
-      recording.commands.push_back({i, static_cast<std::size_t>(ticks[i].commanded - 1), ticks[i].commanded_value});
-  }
+void takeHeader(const StoredRecording& stored, Recording& recording) {
+  recording.scene_xml = stored.scene_xml;
+  recording.scene_file = stored.scene_file;
+  recording.rig_xml = stored.rig_xml;
+  recording.program_version = stored.program_version;
+  recording.seed = stored.seed;
+  recording.realtime = stored.realtime;
+  recording.complete = stored.complete;
+  recording.dropped = stored.dropped;
+  recording.force_share = stored.force_share;
+  recording.faults = stored.faults;
+  recording.haptic_period = stored.haptic_period;
+  recording.fingers = stored.fingers.size();
 }
 
 }  // namespace
 
 Recording readRecording(const std::string& file) {
-  const h5::Library library;
-  try {
-    const h5::Handle handle = openRecording(file);
-    Recording recording;
-    readHeader(handle, recording);
-    readTicks(handle, file, recording);
-    return recording;
-  } catch (const h5::Failure& failure) {
-    refuse(608, file, std::string("is damaged: ") + failure.what(), "was it copied completely?");
-  }
+  Recording recording;
+  TakeRows take;
+  take.finger = [&](const StoredTable& table, const std::vector<FingerRow>& rows) {
+    if (recording.device.size() < rows.size()) {
+      recording.device.resize(rows.size());
+      recording.command.resize(rows.size());
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (table.place == 0) recording.command[i].f_H_W.fill(Vec3::Zero());
+      recording.device[i].fingers[table.place] = inputOf(rows[i]);
+      recording.command[i].f_H_W[table.place] = Vec3(rows[i].f_command_W);
+    }
+  };
+  Contents contents = readContents(file, take);
+  takeHeader(contents.stored, recording);
+  recording.checksum = contents.checksum;
+  recording.first_tick = contents.ticks.front().index;
+  recording.schedule = std::move(contents.schedule);
+  std::vector<ScheduleRow>& haptic = recording.schedule[static_cast<std::size_t>(RateGroup::kHaptic)];
+  // of a killed run a tick's schedule row follows its step: the newest may lack it
+  if (!recording.complete && recording.first_tick == 0) contents.count = std::min(contents.count, haptic.size());
+  if (contents.count == 0) refuse(607, file, "holds no tick", "the run ended before its first flush");
+  if (haptic.size() > contents.count) haptic.resize(contents.count);
+  recording.left_out = contents.stored.ticks.rows - contents.count;
+  recording.device.resize(contents.count);
+  recording.command.resize(contents.count);
+  if (recording.fingers == 0)
+    for (ForceCommand& command : recording.command) command.f_H_W.fill(Vec3::Zero());
+  takeTicks(contents, recording);
+  return recording;
 }
 
 }  // namespace presa::record

@@ -289,7 +289,7 @@ void FileRecorder::onFile(const Work& work) {
   const h5::Library library;
   try {
     work();
-  } catch (const h5::Failure&) {
+  } catch (const std::exception&) {  // whatever it is: the run goes on
     file_->rollBack();
     kept_.store(file_->flushedTicks(), std::memory_order_relaxed);
     failed_.store(true, std::memory_order_release);

@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "framework/diagnostics/refuse.h"
+#include "framework/record/record_plugin/seal.h"
 #include "framework/schedule/rates.h"
 
 namespace presa::record {
@@ -102,24 +103,20 @@ RecordingFile::RecordingFile(const World& world) : name_(world.options.record), 
 
 void RecordingFile::create(const World& world) {
   file_ = createFile(world.options.record);
-  const h5::Handle haptic = h5::group(file_, "haptic");
-  tables_.push_back(createTable(haptic, "ticks", tickTable()));
-
-  const h5::Handle fingers = h5::group(haptic, "fingers");
+  for (const char* group : {"haptic", "haptic/fingers", "haptic/bodies", "schedule"}) h5::group(file_, group);
+  tables_.push_back(createTable("haptic", "ticks", tickTable()));
   for (std::size_t f = 0; f < layout_.fingers; ++f) {
-    tables_.push_back(createTable(fingers, linkName(world.scene.devices[f].role), fingerTable()));
+    tables_.push_back(createTable("haptic/fingers", linkName(world.scene.devices[f].role), fingerTable()));
     h5::writeAttribute(tables_.back().dataset, "finger", std::uint64_t{f});
     h5::writeAttribute(tables_.back().dataset, "fingertip_radius_m", world.scene.devices[f].fingertip_radius);
   }
-  const h5::Handle bodies = h5::group(haptic, "bodies");
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
     if (world.scene.bodies[b].fixed) continue;
-    tables_.push_back(createTable(bodies, linkName(world.scene.bodies[b].name), bodyTable()));
+    tables_.push_back(createTable("haptic/bodies", linkName(world.scene.bodies[b].name), bodyTable()));
     h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
   }
-  const h5::Handle schedule = h5::group(file_, "schedule");
   for (int g = 0; g < kScheduledGroupCount; ++g) {
-    schedule_.push_back(createTable(schedule, toString(static_cast<RateGroup>(g)), scheduleTable()));
+    schedule_.push_back(createTable("schedule", toString(static_cast<RateGroup>(g)), scheduleTable()));
   }
   describe(world);
 }
@@ -129,6 +126,7 @@ void RecordingFile::describe(const World& world) {
   h5::writeAttribute(file_, "format", std::string(kFormatName));
   h5::writeAttribute(file_, "format_version", kFormatVersion);
   h5::writeAttribute(file_, "complete", std::uint64_t{0});
+  h5::writeAttribute(file_, seal::kAttribute, seal::open());
   h5::writeAttribute(file_, "dropped", std::uint64_t{0});
   h5::writeAttribute(file_, "program_version", std::string(PRESA_VERSION));
   h5::writeAttribute(file_, "start_utc", utcNow());
@@ -150,7 +148,8 @@ void RecordingFile::describe(const World& world) {
   h5::writeTexts(file_, "body_names", names);
 }
 
-RecordingFile::TableFile RecordingFile::createTable(hid_t group, const std::string& name, const Table& table) {
+RecordingFile::TableFile RecordingFile::createTable(const std::string& group, const std::string& name,
+                                                    const Table& table) {
   const hsize_t none = 0, chunk = kBlockRows, unlimited = H5S_UNLIMITED;
   const h5::Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "table space");
   const h5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "table properties");
@@ -160,8 +159,10 @@ RecordingFile::TableFile RecordingFile::createTable(hid_t group, const std::stri
   h5::check(H5Pset_obj_track_times(properties, false), "table properties");
   const h5::Handle file_type = h5::compoundType(table, h5::Side::kFile);
   TableFile result;
-  result.dataset = h5::Handle(H5Dcreate2(group, name.c_str(), file_type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
-                              H5Dclose, "table " + name);
+  result.path = group + '/' + name;
+  result.dataset =
+      h5::Handle(H5Dcreate2(file_, result.path.c_str(), file_type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+                 H5Dclose, "table " + name);
   result.memory_type = h5::compoundType(table, h5::Side::kMemory);
   result.row_bytes = table.row_bytes;
 
@@ -174,6 +175,7 @@ RecordingFile::TableFile RecordingFile::createTable(hid_t group, const std::stri
   h5::writeAttribute(result.dataset, "columns", names);
   h5::writeAttribute(result.dataset, "units", units);
   h5::writeAttribute(result.dataset, "descriptions", descriptions);
+  h5::writeAttribute(result.dataset, seal::kAttribute, seal::open());
   return result;
 }
 
@@ -185,6 +187,7 @@ void RecordingFile::appendTo(TableFile& table, const void* rows, std::size_t cou
   const h5::Handle memory_space(H5Screate_simple(1, &length, nullptr), H5Sclose, "row space");
   h5::check(H5Dwrite(table.dataset, table.memory_type, memory_space, file_space, H5P_DEFAULT, rows), "rows");
   table.rows = end;
+  table.sum.add(rows, count * table.row_bytes);
 }
 
 void RecordingFile::append(const std::uint64_t* rows, std::size_t count) {
@@ -242,7 +245,19 @@ void RecordingFile::close() {
   if (!file_.reset()) throw h5::Failure("close");
 }
 
+void RecordingFile::seal() {
+  std::vector<seal::TableSum> sums;
+  const auto close = [&](TableFile& table) {
+    sums.push_back({table.path, table.rows, table.sum.finish()});
+    h5::writeAttribute(table.dataset, seal::kAttribute, sums.back().sha256);
+  };
+  std::for_each(tables_.begin(), tables_.end(), close);
+  std::for_each(schedule_.begin(), schedule_.end(), close);
+  h5::writeAttribute(file_, seal::kAttribute, seal::sumOf(file_, std::move(sums)));
+}
+
 void RecordingFile::finish() {
+  seal();
   flush();
   h5::writeAttribute(file_, "complete", std::uint64_t{1});  // only when everything else is there
   close();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/checksum/checksum.h"
 #include "framework/record/record_plugin/h5.h"
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
@@ -12,7 +13,7 @@ namespace presa::record {
 
 /// Version of the layout below; a reader refuses a higher one.
 inline constexpr std::uint64_t kFormatVersion =
-    5;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks
+    6;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows of one chunk in the file and of one write.
 inline constexpr std::size_t kBlockRows = 1024;
@@ -48,14 +49,18 @@ class RecordingFile final : public RowSink {
     std::size_t row_bytes = 0;
     hsize_t rows = 0;
     hsize_t flushed = 0;
+    std::string path;
+    Sha256 sum;  ///< of all rows
   };
   void create(const World& world);
   void describe(const World& world);
-  TableFile createTable(hid_t group, const std::string& name, const Table& table);
+  TableFile createTable(const std::string& group, const std::string& name, const Table& table);
   static void appendTo(TableFile& table, const void* rows, std::size_t count);
   /// Takes the space that the next flush will fill from the file system, so that a full disk shows before it, not
   /// half-way through it.
   void reserve();
+  /// The checksums: only when nothing will be added any more.
+  void seal();
   void close();
 
   std::string name_;

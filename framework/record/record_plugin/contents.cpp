@@ -1,0 +1,214 @@
+#include "framework/record/record_plugin/contents.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "framework/checksum/checksum.h"
+#include "framework/diagnostics/refuse.h"
+#include "framework/record/record_plugin/row_check.h"
+#include "framework/record/record_plugin/seal.h"
+
+namespace presa::record {
+namespace {
+
+std::string numberText(double number) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.9g", number);
+  return text.data();
+}
+
+template <class Row>
+concept Timed = requires(const Row& row) {
+  row.time;
+};
+
+class ContentReader {
+ public:
+  ContentReader(Contents& contents, Diagnostics& findings)
+      : contents_(contents), stored_(contents.stored), findings_(findings), sealed_(stored_.version >= seal::kSince) {}
+
+  void read(const TakeRows& take) {
+    contents_.ticks = rows<TickRow>(stored_.ticks, tickRules(stored_.fingers.size()), true);
+    contents_.count = contents_.ticks.size();
+    for (const StoredTable& table : stored_.fingers) {
+      auto all = rows<FingerRow>(table, fingerRules(stored_.scene_bodies), static_cast<bool>(take.finger));
+      if (take.finger) take.finger(table, std::move(all));
+    }
+    for (const StoredTable& table : stored_.bodies) {
+      auto all = rows<BodyRow>(table, {}, static_cast<bool>(take.body));
+      if (take.body) take.body(table, std::move(all));
+    }
+    for (std::size_t g = 0; g < stored_.schedule.size(); ++g)
+      contents_.schedule[g] = rows<ScheduleRow>(stored_.schedule[g], scheduleRules(), true);
+    if (stored_.complete) compareLengths();
+    for (const auto& [check, table] : checks_) check.report(stored_.name, reported(*table), findings_);
+    checkSeal();
+  }
+
+ private:
+  void wrong(int code, const std::string& what, const std::string& help) {
+    findings_.error(code, {stored_.name, 0, 0}, what, help);
+  }
+
+  void shorten(std::size_t rows) { contents_.count = std::min(contents_.count, rows); }
+
+  bool isSchedule(const StoredTable& table) const { return table.path.starts_with("schedule/"); }
+  /// Rows that count. A killed run's newest may be anything.
+  std::uint64_t reported(const StoredTable& table) const {
+    return stored_.complete || isSchedule(table) ? table.rows : contents_.count;
+  }
+
+  /// The rows of a table up to the first that cannot be read or is out of order: in a recording that was closed there is none such, in a
+  /// killed run's file the newest chunk may be unreadable, or hold what was there before.
+  template <class Row>
+  std::vector<Row> rows(const StoredTable& table, const std::vector<Rule>& rules, bool keep) {
+    RowCheck& check = checks_.emplace_back(RowCheck(table.path, table.columns, rules), &table).first;
+    const h5::Handle type = h5::compoundType(table.columns, h5::Side::kMemory);
+    const h5::Handle space(H5Dget_space(table.dataset), H5Sclose, "table space");
+    std::vector<Row> all, block(kBlockRows);
+    std::optional<std::uint64_t> ended;
+    Row before;
+    for (hsize_t begin = 0; begin < table.rows && !ended;) {
+      const hsize_t length = std::min<hsize_t>(kBlockRows, table.rows - begin);
+      h5::check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &begin, nullptr, &length, nullptr), "table selection");
+      const h5::Handle memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "row space");
+      std::fill(block.begin(), block.end(), Row{});
+      if (H5Dread(table.dataset, type, memory, space, H5P_DEFAULT, block.data()) < 0) {
+        ended = begin;
+        if (stored_.complete)
+          wrong(673, table.path + ": rows from " + std::to_string(begin) + " on cannot be read",
+                "was it copied completely?");
+        break;
+      }
+      if (sealed_) sum_.add(block.data(), length * sizeof(Row));
+      for (hsize_t i = 0; i < length && !ended; ++i) {
+        const std::string problem = keyProblem(table, begin + i, block[i], begin + i > 0 ? &before : nullptr);
+        before = block[i];
+        if (!problem.empty()) {
+          ended = begin + i;
+          if (stored_.complete) sayKey(table, begin + i, problem);
+        } else {
+          check.check(&block[i], begin + i);
+        }
+      }
+      const auto good = static_cast<std::ptrdiff_t>((ended ? *ended : begin + length) - begin);
+      if (keep) all.insert(all.end(), block.begin(), block.begin() + good);
+      begin += length;
+    }
+    const std::uint64_t counted = ended.value_or(table.rows);
+    if (!stored_.complete && !isSchedule(table)) shorten(counted);
+    if (sealed_) sums_.push_back({table.path, table.rows, sum_.finish()});
+    whole_ = whole_ && !ended;
+    return all;
+  }
+
+  void sayKey(const StoredTable& table, std::uint64_t row, const std::string& problem) {
+    wrong(674, table.path + ": row " + std::to_string(row) + ": " + problem,
+          "rows count from 0; was it changed since it was recorded?");
+  }
+
+  /// What is wrong with index and time of a row; "" when nothing is.
+  template <class Row>
+  std::string keyProblem(const StoredTable& table, std::uint64_t number, const Row& row, const Row* before) const {
+    const std::vector<TickRow>& ticks = contents_.ticks;
+    if (row.index > kMostTicks)
+      return "index: found " + std::to_string(row.index) + ", allowed up to " + std::to_string(kMostTicks);
+    if (before != nullptr && row.index <= before->index)
+      return "index: found " + std::to_string(row.index) + " after " + std::to_string(before->index) +
+             ", allowed is more";
+    if (followsTicks(table) && number < ticks.size() && row.index != ticks[number].index)
+      return "index: found " + std::to_string(row.index) + ", allowed is that of haptic/ticks, " +
+             std::to_string(ticks[number].index);
+    if constexpr (Timed<Row>) {
+      const double time = std::isnan(stored_.haptic_period) ? row.time : timeOf(row.index);
+      if (std::bit_cast<std::uint64_t>(row.time) != std::bit_cast<std::uint64_t>(time))
+        return "time: found " + numberText(row.time) + ", allowed is that of tick " + std::to_string(row.index) + ", " +
+               numberText(time);
+    }
+    return {};
+  }
+
+  /// The tables of the haptic ticks, and their schedule where it is that of a whole run: a fault's record has more or less of it, and
+  /// where rows were dropped it has rows that no tick has.
+  bool followsTicks(const StoredTable& table) const {
+    if (&table == &stored_.ticks) return false;
+    if (!isSchedule(table)) return true;
+    return &table == &stored_.schedule.front() && wholeRun();
+  }
+  bool wholeRun() const {
+    return stored_.dropped == 0 && stored_.faults.empty() && !contents_.ticks.empty() &&
+           contents_.ticks.front().index == 0;
+  }
+
+  /// As RateTable has it: whole nanoseconds.
+  double timeOf(std::uint64_t index) const {
+    const auto period_ns = static_cast<std::int64_t>(std::llround(stored_.haptic_period * 1e9));
+    return static_cast<double>(static_cast<std::int64_t>(index) * period_ns) * 1e-9;
+  }
+
+  void compareLengths() {
+    const auto compare = [&](const StoredTable& table) {
+      if (table.rows != stored_.ticks.rows)
+        wrong(673,
+              table.path + ": found " + std::to_string(table.rows) + " rows, haptic/ticks has " +
+                  std::to_string(stored_.ticks.rows) + "; the run ended in order, so they are as many",
+              "was it changed since it was recorded?");
+    };
+    for (const StoredTable& table : stored_.fingers) compare(table);
+    for (const StoredTable& table : stored_.bodies) compare(table);
+    if (wholeRun()) compare(stored_.schedule.front());
+  }
+
+  void checkSeal() {
+    if (!sealed_ || !stored_.complete || !whole_) return;
+    const std::size_t before = findings_.errorCount();
+    for (std::size_t i = 0; i < sums_.size(); ++i)
+      compareSum(sums_[i].path, sums_[i].path, sums_[i].sha256, "its rows are");
+    // when the tables are as they were, what is not is in the rest
+    if (findings_.errorCount() == before)
+      compareSum("", "/", seal::sumOf(stored_.file, sums_), "what its attributes and texts say is");
+    contents_.checksum = findings_.errorCount() == before;
+  }
+
+  void compareSum(const std::string& said, const std::string& path, const std::string& sum, const std::string& what) {
+    const h5::Handle object(H5Oopen(stored_.file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+    const std::string expected =
+        h5::hasAttribute(object, seal::kAttribute) ? h5::readStringAttribute(object, seal::kAttribute) : "";
+    if (expected == sum) return;
+    const std::string found = expected.empty()
+                                  ? "attribute 'sha256' is missing"
+                                  : what + " not what was recorded: SHA-256 " + sum + ", recorded " + expected;
+    wrong(676, (said.empty() ? "" : said + ": ") + found, "the file was damaged or changed after the run");
+  }
+
+  Contents& contents_;
+  const StoredRecording& stored_;
+  Diagnostics& findings_;
+  const bool sealed_;
+  bool whole_ = true;  // every row was read
+  Sha256 sum_;
+  std::vector<seal::TableSum> sums_;
+  std::vector<std::pair<RowCheck, const StoredTable*>> checks_;
+};
+
+}  // namespace
+
+Contents readContents(const std::string& file, const TakeRows& take) {
+  const h5::Library library;
+  try {
+    Diagnostics findings;
+    Contents contents{openStored(file, findings), 0, false, {}, {}};
+    ContentReader(contents, findings).read(take);
+    if (findings.hasErrors()) throw InputError(std::move(findings));
+    if (contents.count == 0) refuse(607, file, "holds no tick", "the run ended before its first flush");
+    return contents;
+  } catch (const h5::Failure& failure) {
+    refuse(608, file, std::string("is damaged: ") + failure.what(), "was it copied completely?");
+  }
+}
+
+}  // namespace presa::record

@@ -1,0 +1,57 @@
+#include "framework/record/record_plugin/open_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "framework/diagnostics/refuse.h"
+#include "framework/record/record_plugin/inspection.h"
+#include "framework/record/record_plugin/recording_file.h"
+
+namespace presa::record {
+namespace {
+
+/// The system's own reason when a file cannot be read; HDF5 keeps none. Returns its length.
+std::uint64_t checkReadable(const std::string& file) {
+  const int fd = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) refuse(603, file, std::string("cannot be read: ") + std::strerror(errno), "check the name");
+  struct stat info {};
+  const bool regular = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+  const bool busy = flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(fd);
+  if (!regular) refuse(604, file, "is not a regular file", "recordings are made with --record");
+  if (busy) refuse(603, file, "is still being written by a run", "wait until that run has ended");
+  return static_cast<std::uint64_t>(info.st_size);
+}
+
+}  // namespace
+
+OpenedFile openFile(const std::string& file) {
+  OpenedFile opened;
+  opened.bytes = checkReadable(file);
+  if (H5Fis_hdf5(file.c_str()) <= 0) refuse(604, file, "is not an HDF5 file", "recordings are made with --record");
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) refuse(608, file, "is damaged: HDF5 cannot open it", "was it copied completely?");
+  opened.handle = h5::Handle(id, H5Fclose, "file");
+  Diagnostics findings;
+  Inspection look(file, opened.handle, opened.bytes, findings);
+  const bool named = h5::hasAttribute(opened.handle, "format");
+  if (!named || look.text("", "format") != kFormatName) {
+    refuse(605, file, "is an HDF5 file but not a Presa recording", "recordings are made with --record");
+  }
+  opened.version = look.count("", "format_version", 1, ~std::uint64_t{0}).value_or(0);
+  if (findings.hasErrors()) throw InputError(std::move(findings));
+  if (opened.version > kFormatVersion) {
+    refuse(606, file,
+           "has format version " + std::to_string(opened.version) + "; this program reads up to " +
+               std::to_string(kFormatVersion),
+           "read it with the version of Presa that recorded it: " + look.text("", "program_version"));
+  }
+  return opened;
+}
+
+}  // namespace presa::record

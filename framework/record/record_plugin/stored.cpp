@@ -1,0 +1,132 @@
+#include "framework/record/record_plugin/stored.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/diagnostics/refuse.h"
+#include "framework/record/record_plugin/inspection.h"
+#include "framework/record/record_plugin/open_file.h"
+#include "framework/state/limits.h"
+
+namespace presa::record {
+namespace {
+
+// of a haptic tick, as the schema of scenes bounds its rate
+constexpr double kShortestPeriod = 1.0 / 40'000, kLongestPeriod = 1.0 / 100;
+constexpr int kAttributeCode = 671;
+// of a killed run the newest rows may have their place in the file and not yet their bytes: chunks in the cache of each table, and
+// what HDF5 takes at once
+constexpr std::uint64_t kUnwritten = std::uint64_t{64} << 20;
+
+/// A table as the file has it: without a column that came with a later version of the format.
+Table asIn(std::uint64_t version, Table table, std::initializer_list<const char*> added, std::uint64_t since) {
+  if (version >= since) return table;
+  std::erase_if(table.columns, [&](const Column& column) {
+    return std::any_of(added.begin(), added.end(), [&](const char* name) { return column.name == name; });
+  });
+  return table;
+}
+
+Table ticksOf(std::uint64_t version) {
+  Table table = asIn(version, tickTable(), {"surfaces_changed"}, 3);
+  return asIn(version, asIn(version, table, {"rearms"}, 4), {"commanded", "commanded_value"}, 5);
+}
+
+class Structure {
+ public:
+  Structure(StoredRecording& stored, std::uint64_t file_bytes, Diagnostics& findings)
+      : stored_(stored), look_(stored.name, stored.file, file_bytes, findings) {}
+
+  void check() {
+    header();
+    if (!stored_.complete) look_.allow(kUnwritten);
+    if (look_.isGroup("haptic")) {
+      table("haptic/ticks", ticksOf(stored_.version), stored_.ticks);
+      group("haptic/fingers", "finger", fingerTable(), kMaxFingers, stored_.fingers);
+      group("haptic/bodies", "body", bodyTable(), stored_.scene_bodies, stored_.bodies);
+    }
+    if (!look_.isGroup("schedule")) return;
+    for (int g = 0; g < kScheduledGroupCount; ++g) {
+      table(std::string("schedule/") + toString(static_cast<RateGroup>(g)),
+            asIn(stored_.version, scheduleTable(), {"made_up"}, 2), stored_.schedule[static_cast<std::size_t>(g)]);
+    }
+  }
+
+ private:
+  void header() {
+    constexpr std::uint64_t kAny = ~std::uint64_t{0};
+    stored_.complete = look_.count("", "complete", 0, 1).value_or(0) != 0;
+    stored_.realtime = look_.count("", "realtime", 0, 1).value_or(0) != 0;
+    stored_.dropped = look_.count("", "dropped", 0, kAny).value_or(0);
+    stored_.seed = look_.count("", "seed", 0, kAny).value_or(0);
+    stored_.haptic_period = look_.real("", "haptic_period_s", kShortestPeriod, kLongestPeriod);
+    // it came without a version of its own
+    if (h5::hasAttribute(stored_.file, "force_share"))
+      stored_.force_share = look_.real("", "force_share", std::nextafter(0.0, 1.0), 1);
+    stored_.program_version = look_.text("", "program_version");
+    stored_.scene_file = look_.text("", "scene_file");
+    stored_.start_utc = look_.text("", "start_utc");
+    for (std::uint64_t i = 1; i <= RecordingFile::kMostFaults; ++i) {
+      const std::string name = "fault_" + std::to_string(i);
+      if (!h5::hasAttribute(stored_.file, name)) break;
+      stored_.faults.push_back(look_.text("", name));
+    }
+    stored_.scene_xml = look_.longText("scene_xml");
+    stored_.rig_xml = look_.longText("rig_xml");
+    stored_.scene_bodies = look_.textCount("body_names", kMaxBodies);
+  }
+
+  bool table(const std::string& path, const Table& columns, StoredTable& result) {
+    auto found = look_.table(path, columns, !stored_.complete);
+    if (!found) return false;
+    result = {path, path.substr(path.rfind('/') + 1), std::move(found->dataset), columns, found->rows, 0};
+    return true;
+  }
+
+  /// The tables of a group, each with a number of its own below `most`.
+  void group(const std::string& path, const std::string& number, const Table& columns, std::uint64_t most,
+             std::vector<StoredTable>& tables) {
+    if (!look_.isGroup(path)) return;
+    const std::vector<std::string> names = look_.members(path);
+    if (names.size() > most)
+      return look_.wrong(672, path, "has " + std::to_string(names.size()) + " tables; at most " + std::to_string(most));
+    bool numbered = true;
+    for (const std::string& name : names) {
+      StoredTable one;
+      if (!table(path + '/' + name, columns, one)) continue;
+      const auto place = look_.count(one.path, number, 0, most - 1);
+      one.place = place.value_or(0);
+      numbered = numbered && place.has_value();
+      tables.push_back(std::move(one));
+    }
+    std::sort(tables.begin(), tables.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
+    for (std::size_t i = 0; i < tables.size() && numbered; ++i) {
+      // free bodies leave out the numbers of fixed ones; fingers have none to leave out
+      const bool taken = i > 0 && tables[i].place == tables[i - 1].place;
+      if (taken || (number == "finger" && names.size() == tables.size() && tables[i].place != i))
+        look_.wrong(671, tables[i].path,
+                    "attribute '" + number + "': found " + std::to_string(tables[i].place) +
+                        (taken ? ", which is another table's" : "; they count from 0"));
+    }
+  }
+
+  StoredRecording& stored_;
+  Inspection look_;
+};
+
+}  // namespace
+
+StoredRecording openStored(const std::string& file, Diagnostics& findings) {
+  StoredRecording stored;
+  stored.name = file;
+  OpenedFile opened = openFile(file);
+  stored.file = std::move(opened.handle);
+  stored.version = opened.version;
+  Structure(stored, opened.bytes, findings).check();
+  const auto& all = findings.all();
+  if (std::any_of(all.begin(), all.end(), [](const Diagnostic& one) { return one.code != kAttributeCode; }))
+    throw InputError(findings);
+  return stored;
+}
+
+}  // namespace presa::record
