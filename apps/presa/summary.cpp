@@ -71,6 +71,7 @@ Json contactPoints(const RunResult& result) {
                    {"seconds", {{"none", sum.seconds[0]}, {"stick", sum.seconds[1]}, {"slip", sum.seconds[2]}}},
                    {"max_normal_force_N", sum.max_normal_force},
                    {"mean_normal_force_N", sum.mean_normal_force},
+                   {"leaps", sum.leaps},
                    {"pop_through", sum.pop_through},
                    {"first_pop_through_s", timeOrNull(sum.first_pop_through)},
                    {"slip_onsets", sum.slip_onsets},

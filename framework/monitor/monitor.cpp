@@ -206,6 +206,7 @@ void Monitor::Impl::sumFingers(const Tick& tick, const ContactExchange& contact,
     sumFinger(f, contact.fingers[f], tick);
     if (fingers[f].pop_through == 0 && contact.pop_through_by_finger[f] > 0) fingers[f].first_pop_through = tick.time;
     fingers[f].pop_through = contact.pop_through_by_finger[f];
+    fingers[f].leaps = contact.leaps_by_finger[f];
     fingers[f].reaction = reaction.of(f);
   }
   pop_through = contact.pop_through;

@@ -35,6 +35,7 @@ struct FingerSummary {
   double mean_normal_force = 0;     ///< over the ticks in contact [N]
   std::uint32_t pop_through = 0;    ///< times the fingertip got past a surface
   double first_pop_through = -1;    ///< [s]; -1: never
+  std::uint32_t leaps = 0;          ///< ticks in which it left a fold (ContactExchange::leaps_by_finger)
   std::uint64_t slip_onsets = 0;    ///< changes from stick to slip
   SlipOnset loosening_slip;         ///< the first one at or after loosen_time
   ActionReaction::Result reaction;  ///< impulse given to free bodies against impulse rendered, over any 0.1 s of touch

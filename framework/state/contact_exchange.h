@@ -55,6 +55,9 @@ struct ContactExchange {
   std::uint32_t coverage_lost = 0;
   std::uint32_t pop_through = 0;  ///< times the centre of a fingertip crossed a surface, since start
   std::array<std::uint32_t, kMaxFingers> pop_through_by_finger{};  ///< the same, finger by finger
+  /// Ticks in which a surface no longer held a finger where it was (out of a fold, over a ridge) and it went on, along a way that it
+  /// can take, to the next place that does: farther than what the HIP and the bodies moved accounts for.
+  std::array<std::uint32_t, kMaxFingers> leaps_by_finger{};
   std::array<FingerContact, kMaxFingers> fingers;
 
   ContactExchange() = default;
@@ -67,6 +70,7 @@ struct ContactExchange {
     coverage_lost = other.coverage_lost;
     pop_through = other.pop_through;
     pop_through_by_finger = other.pop_through_by_finger;
+    leaps_by_finger = other.leaps_by_finger;
     std::copy_n(other.fingers.begin(), std::clamp(other.count, 0, kMaxFingers), fingers.begin());
     return *this;
   }

@@ -28,6 +28,7 @@ class Spring final : public FingerStage {
  private:
   static std::int32_t nearestBody(const FingerTick& tick) noexcept;
   static void countWhatWentWrong(FingerTick& tick) noexcept;
+  static bool leaps(const FingerTick& tick) noexcept;
   static void share(const FingerTick& tick, FingerContact& out) noexcept;
 
   const SurfacesInForce surfaces_;
@@ -38,6 +39,7 @@ void Spring::apply(FingerTick& tick) noexcept {
   Finger& finger = tick.finger;
   FingerContact& out = tick.out;
   countWhatWentWrong(tick);
+  if (leaps(tick)) ++tick.all.leaps_by_finger[tick.index];
   const bool touching = contact.state.touching;
   if (touching) {
     contact.x -= finger.lift * contact.nhat;
@@ -130,6 +132,16 @@ void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
   if (!tick.contact.swept || !near.passedThrough(tick.contact.state.x, tick.r)) return;
   ++tick.all.pop_through;
   ++tick.all.pop_through_by_finger[tick.index];
+}
+
+// The frictionless point follows the HIP, a little ahead of it on a curved surface, until what held it ends.
+bool Spring::leaps(const FingerTick& tick) noexcept {
+  constexpr double kAhead = 8;      // times what moved
+  constexpr double kOfDepth = 0.1;  // what is less, nobody feels
+  const FingertipState &last = tick.finger.tip, &now = tick.contact.state;
+  if (!last.touching || !now.touching || !tick.contact.swept) return false;
+  const double way = (now.god - last.god).norm();
+  return way > kAhead * tick.finger.near->step() && way > kOfDepth * (last.god - tick.g).norm();
 }
 
 class Damping final : public FingerStage {
