@@ -1,3 +1,4 @@
+#include <sched.h>
 #include <signal.h>
 #include <sys/wait.h>
 
@@ -38,6 +39,23 @@ Try discarded(const char* pattern, Numbers... numbers) {
   std::snprintf(text.data(), text.size(), pattern, numbers...);
   return {std::nullopt, text.data()};
 }
+
+/// While it lives, nothing but the supervisor comes between: below its priority, above the program's haptic thread. So the moment of a
+/// signal is known, and hardly a run is lost.
+class RealTimeMoment {
+ public:
+  RealTimeMoment() { schedule(SCHED_FIFO, kPriority); }
+  ~RealTimeMoment() { schedule(SCHED_OTHER, 0); }
+  RealTimeMoment(const RealTimeMoment&) = delete;
+  RealTimeMoment& operator=(const RealTimeMoment&) = delete;
+
+ private:
+  static constexpr int kPriority = 83;
+  static void schedule(int policy, int priority) {
+    const sched_param wanted{.sched_priority = priority};
+    sched_setscheduler(0, policy, &wanted);
+  }
+};
 
 /// All its threads stand still; how long after they were told to [s], as far as this thread was let look.
 double standingAfter(pid_t process, std::int64_t told) {
@@ -129,7 +147,10 @@ Outcome killed(RandomStream& random) {
     PressingProgram program;
     if (!program.problem().empty()) return notPressing(program);
     sleepFor(random.uniform(0, 0.05));
-    const Sent sent = sendSignal(program.pid(), SIGKILL);
+    const Sent sent = [&] {
+      const RealTimeMoment moment;
+      return sendSignal(program.pid(), SIGKILL);
+    }();
     const bool released = program.isReleased();
     if (sent.took > kSent) return discarded("SIGKILL took %.2f ms to send", 1e3 * sent.took);
     Outcome outcome = judged(program.log(), sent.at_ns, program.log().written);
@@ -160,8 +181,13 @@ Outcome stopped(RandomStream& random) {
     PressingProgram program;
     if (!program.problem().empty()) return notPressing(program);
     sleepFor(random.uniform(0, 0.05));
-    const Sent sent = sendSignal(program.pid(), SIGSTOP);
-    const double standing = standingAfter(program.pid(), sent.at_ns);
+    Sent sent;
+    double standing = 0;
+    {
+      const RealTimeMoment moment;
+      sent = sendSignal(program.pid(), SIGSTOP);
+      standing = standingAfter(program.pid(), sent.at_ns);
+    }
     sleepFor(random.uniform(0.03, 0.3));
     const std::uint64_t end = program.log().written;
     const std::int64_t resumed = monotonicNs();

@@ -77,7 +77,8 @@ void runCycles(Supervisor& supervisor, double period, int life_fd) {
     wake += period_ns;
     sleepUntilNs(wake);
     const std::int64_t now = monotonicNs();
-    if (now - wake > period_ns) wake = now;  // no hurry to catch up
+    if (now > wake)
+      wake += (now - wake) / period_ns * period_ns;  // what is missed is missed; the next comes on its time
     if (wake >= look) {
       alone = alone || isGone(life_fd);
       look = wake + 1'000'000;
