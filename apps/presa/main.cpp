@@ -4,6 +4,7 @@
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/version.h"
 #include "framework/diagnostics/diagnostics.h"
+#include "framework/diagnostics/printable.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Presa: virtual environments that people pick up with their fingers"};
@@ -38,7 +39,7 @@ int main(int argc, char** argv) {
     std::fputs(error.diagnostics().text().c_str(), stderr);
     return presa::kExitBadInput;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "presa: error: %s\n", error.what());
+    std::fprintf(stderr, "presa: error: %s\n", presa::printableLines(error.what()).c_str());
     return presa::kExitFault;
   }
   return status;

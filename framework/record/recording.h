@@ -60,6 +60,7 @@ class Recorder : public Module {
 
 /// A recording read back whole.
 struct Recording {
+  std::string file;        ///< that it was read from
   std::string scene_xml;   ///< resolved scene, as it ran
   std::string scene_file;  ///< name it had
   std::string rig_xml;
@@ -75,6 +76,7 @@ struct Recording {
   std::uint64_t first_tick = 0;     ///< not 0: it begins in the middle of a run, and cannot be run again
   std::uint64_t left_out = 0;       ///< ticks at the end of a killed run of which a part is missing
   std::size_t fingers = 0;          ///< of every tick
+  std::size_t bodies = 0;           ///< of its scene, fixed ones too
   std::vector<double> time;         ///< one entry per haptic tick
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;

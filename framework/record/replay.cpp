@@ -4,6 +4,8 @@
 #include <bit>
 
 #include "framework/graph/port.h"
+#include "framework/scene/open_surfaces.h"
+#include "framework/schedule/rates.h"
 #include "framework/state/surface_change.h"
 #include "framework/state/surface_settings.h"
 
@@ -79,7 +81,10 @@ class Replayer {
         session_(session),
         rates_(rates),
         control_(control),
-        command_(commandOf(session.graph())) {}
+        command_(commandOf(session.graph())) {
+    result_.recorded = recording.time.size();
+    result_.fingers = command_ == nullptr ? 0 : recording.fingers;
+  }
 
   ReplayResult run() {
     Graph& graph = session_.graph();
@@ -128,8 +133,8 @@ class Replayer {
   void compare(std::size_t row) {
     ++result_.ticks;
     if (command_ == nullptr) return;
-    bool same = true;
-    for (std::size_t f = 0; f < static_cast<std::size_t>(command_->count); ++f) {
+    bool same = command_->count == recording_.command[row].count;
+    for (std::size_t f = 0; f < result_.fingers; ++f) {
       const Vec3 &now = command_->f_H_W[f], &then = recording_.command[row].f_H_W[f];
       if (sameBits(now, then)) continue;
       same = false;
@@ -150,10 +155,30 @@ class Replayer {
 
 DeviceList devicesOf(const Recording& recording) {
   DeviceList devices;
-  const int count = recording.device.empty() ? 0 : recording.device.front().count;
-  for (int f = 0; f < count; ++f)
-    devices.push_back(std::make_unique<RecordedFinger>(recording, static_cast<std::size_t>(f)));
+  for (std::size_t f = 0; f < recording.fingers; ++f) devices.push_back(std::make_unique<RecordedFinger>(recording, f));
   return devices;
+}
+
+/// A session without devices of its own would open those of the rig: nothing is run whose fingers are not those of the scene.
+void checkBelongs(const Recording& recording, const Scene& scene, Diagnostics& diagnostics) {
+  const auto compare = [&](const std::string& what, auto recorded, auto in_scene) {
+    if (recorded == in_scene) return;
+    diagnostics.error(
+        677, {recording.file, 0, 0},
+        what + ": the recording has " + std::to_string(recorded) + ", its own scene_xml " + std::to_string(in_scene),
+        "scene and recording are of one run; was it changed since it was recorded?");
+  };
+  compare("fingers", recording.fingers, std::min<std::size_t>(scene.devices.size(), kMaxFingers));
+  compare("bodies", recording.bodies, scene.bodies.size());
+  compare("haptic period [s]", recording.haptic_period, RateTable(scene.rates).period(RateGroup::kHaptic));
+  const std::size_t open = openSurfaces(scene).size();
+  for (const Recording::Command& command : recording.commands) {
+    if (command.slot < open) continue;
+    return diagnostics.error(677, {recording.file, 0, 0},
+                             "haptic/ticks: column 'commanded', row " + std::to_string(command.row) + ": found " +
+                                 std::to_string(command.slot + 1) + ", its scene has " + std::to_string(open) +
+                                 " surfaces that a command can change");
+  }
 }
 
 /// What changed on the way does so again; modules only where something did.
@@ -175,6 +200,7 @@ RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) :
   options.bus = BusSettings{.network = "none"};  // what is run again is not on show
   options.bus_commands = !recording.commands.empty();
   loaded_ = loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+  if (!diagnostics.hasErrors()) checkBelongs(recording, loaded_.world->scene, diagnostics);
   if (diagnostics.hasErrors()) return;
   Session::Options session_options;
   session_options.devices = devicesOf(recording);

@@ -59,29 +59,37 @@ TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
               0);
     const auto outcome = presa("replay " + file + " --verify");
     EXPECT_EQ(outcome.status, 0) << mode << outcome.out << outcome.err;
-    EXPECT_NE(outcome.out.find("same to the bit"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("checksum right"), std::string::npos) << outcome.out;
+    const std::string ticks = std::to_string(recordPlugin().read(file).time.size());
+    EXPECT_NE(outcome.out.find("verified: " + ticks + " ticks of 2 fingers, all of the recording"), std::string::npos)
+        << outcome.out;
   }
 }
 
-// ... and verification is not blind: with another object mass in the recorded scene the forces differ.
-TEST(Replay, NoticesADifference) {
+// ... and verification is not blind: with another object mass in the recorded scene the forces differ. That is damage where the
+// recording has a checksum, and a difference where it is of a format from before there was one.
+TEST(Replay, NoticesADifferenceAndTellsItFromDamage) {
   const std::string file = scratch("different.h5");
   ASSERT_EQ(presa("run " + kCube + " --lockstep --for 2 --quiet --overwrite --record " + file).status, 0);
-  const Recording recording = recordPlugin().read(file);
-  std::string changed = recording.scene_xml;
-  const std::size_t mass = changed.find("mass=\"0.2\"");
-  ASSERT_NE(mass, std::string::npos);
-  // same length, so that the bytes can be exchanged in place
   std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
-  std::string all((std::istreambuf_iterator<char>(bytes)), {});
-  const std::size_t at = all.find("mass=\"0.2\"");
-  ASSERT_NE(at, std::string::npos);
-  bytes.clear();
-  bytes.seekp(static_cast<std::streamoff>(at));
-  bytes << "mass=\"0.3\"";
-  bytes.close();
-  const auto outcome = presa("replay " + file + " --verify");
-  EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
+  const std::string all((std::istreambuf_iterator<char>(bytes)), {});
+  const auto write = [&](std::size_t at, const std::string& text) {
+    ASSERT_LT(at, all.size());
+    bytes.clear();
+    bytes.seekp(static_cast<std::streamoff>(at));
+    bytes << text << std::flush;
+  };
+  write(all.find("mass=\"0.2\""), "mass=\"0.3\"");  // same length, so that the bytes can be exchanged in place
+  const auto damaged = presa("replay " + file + " --verify");
+  EXPECT_EQ(damaged.status, 2) << damaged.out << damaged.err;
+  EXPECT_NE(damaged.err.find(file + ": error[E676]"), std::string::npos) << damaged.err;
+  EXPECT_EQ(damaged.out.find("verified"), std::string::npos) << damaged.out;
+  // attribute message: name in 16 bytes, number type in 16, scalar space in 8, then the value
+  write(all.find(std::string("format_version\0", 15)) + 40, "\x05");
+  const auto different = presa("replay " + file + " --verify");
+  EXPECT_EQ(different.status, 1) << different.out << different.err;
+  EXPECT_NE(different.out.find("no checksum"), std::string::npos) << different.out;
+  EXPECT_NE(different.out.find("NOT the same"), std::string::npos) << different.out;
 }
 
 // What a scene does not call for is not in the process: read from the process itself.

@@ -149,7 +149,7 @@ int set(const Arguments& arguments, const BusSettings& bus) {
 }
 
 void print(const FoundRun& run) {
-  std::printf("%s, %s%s\n", nameOf(run).c_str(), run.info.realtime ? "real time" : "lockstep",
+  std::printf("%s, %s%s\n", printable(nameOf(run)).c_str(), run.info.realtime ? "real time" : "lockstep",
               run.info.commands ? "" : ", takes no commands");
   for (const bus::OpenParameter& parameter : run.parameters)
     std::printf("  %-44s %10s   %s\n", printable(parameter.name).c_str(), text(parameter.value).c_str(),

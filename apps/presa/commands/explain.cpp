@@ -7,6 +7,7 @@
 #include "apps/presa/explain/description.h"
 #include "apps/presa/explain/printout.h"
 #include "apps/presa/scratch_folder.h"
+#include "framework/diagnostics/printable.h"
 
 namespace presa {
 namespace {
@@ -54,7 +55,7 @@ int explain(const Arguments& arguments) {
   if (arguments.format == "json") {
     std::printf("%s\n", run.dump(2).c_str());
   } else {
-    std::fputs((arguments.format == "dot" ? explainDot(run) : explainText(run)).c_str(), stdout);
+    std::fputs(printableLines(arguments.format == "dot" ? explainDot(run) : explainText(run)).c_str(), stdout);
   }
   return kExitOk;
 }

@@ -8,6 +8,7 @@
 #include "apps/presa/losses.h"
 #include "apps/presa/playback/player.h"
 #include "apps/presa/report/recording_page.h"
+#include "framework/diagnostics/printable.h"
 #include "framework/plan/load_world.h"
 #include "framework/record/record_plugin.h"
 #include "framework/record/replay.h"
@@ -39,7 +40,49 @@ int showRecording(const Arguments& arguments, const Recording& recording, const 
 }
 
 void printFaults(const std::vector<std::string>& faults) {
-  for (const std::string& fault : faults) std::printf("  fault at %s\n", fault.c_str());
+  for (const std::string& fault : faults) std::printf("  fault at %s\n", printable(fault).c_str());
+}
+
+/// Whether it is known that nobody changed it.
+void printProvenance(const Recording& recording) {
+  if (!recording.complete)
+    std::printf(
+        "  the run was killed: the recording has no checksum and ends at its last flush; %llu ticks after it are left "
+        "out\n",
+        static_cast<unsigned long long>(recording.left_out));
+  else if (!recording.checksum)
+    std::printf("  no checksum: its format is from before there was one, so a change since then would not be seen\n");
+}
+
+void printHeader(const std::string& file, const Recording& recording) {
+  std::printf("%s: scene %s, %zu haptic ticks, %.3f s, seed %llu, %s, %s%s\n", file.c_str(),
+              printable(recording.scene_file).c_str(), recording.time.size(),
+              recording.time.back() + recording.haptic_period, static_cast<unsigned long long>(recording.seed),
+              recording.realtime ? "real time" : "lockstep", recording.checksum ? "checksum right" : "no checksum",
+              recording.dropped > 0 ? ", INCOMPLETE" : "");
+  printProvenance(recording);
+}
+
+int printVerdict(const ReplayResult& result) {
+  const auto ticks = static_cast<unsigned long long>(result.ticks);
+  if (result.differing > 0) {
+    std::printf("NOT the same: %llu ticks differ, first at %.3f s, by up to %.3g N\n",
+                static_cast<unsigned long long>(result.differing), result.first_difference, result.largest_difference);
+    return kExitFault;
+  }
+  if (result.verified()) {
+    std::printf(
+        "verified: %llu ticks of %zu finger%s, all of the recording: every commanded force is the same to the bit\n",
+        ticks, result.fingers, result.fingers == 1 ? "" : "s");
+    return kExitOk;
+  }
+  if (result.fingers == 0) {
+    std::printf("nothing to compare: the scene has no finger, so no force was commanded\n");
+    return kExitOk;
+  }
+  std::printf("NOT verified: %llu of %llu ticks could be run again; these are the same to the bit\n", ticks,
+              static_cast<unsigned long long>(result.recorded));
+  return kExitFault;
 }
 
 /// What was lost in the run is lost in its replay as well.
@@ -53,7 +96,7 @@ void printLosses(const RecordedRun& run) {
 /// A recording that begins in the middle of a run, at a fault: to be seen, not to be run again.
 int showFlight(const std::string& file, const RecordedSamples& samples) {
   std::printf("%s: %.3f to %.3f s of scene %s, around a fault\n", file.c_str(), samples.time.front(),
-              samples.time.back(), samples.scene_file.c_str());
+              samples.time.back(), printable(samples.scene_file).c_str());
   printFaults(samples.faults);
   std::printf("output stages of all fingers together\n");
   for (const std::string& line : statusTimeline(samples)) std::printf("  %s\n", line.c_str());
@@ -73,11 +116,7 @@ int runReplay(const Arguments& arguments) {
     }
     if (recording.first_tick > 0) return showFlight(arguments.file, samples);
   }
-  std::printf("%s: scene %s, %zu haptic ticks, %.3f s, seed %llu, %s%s\n", arguments.file.c_str(),
-              recording.scene_file.c_str(), recording.time.size(),
-              recording.time.empty() ? 0.0 : recording.time.back() + recording.haptic_period,
-              static_cast<unsigned long long>(recording.seed), recording.realtime ? "real time" : "lockstep",
-              recording.dropped > 0 ? ", INCOMPLETE" : "");
+  printHeader(arguments.file, recording);
   printFaults(recording.faults);
   if (recording.dropped > 0) {
     std::fprintf(stderr,
@@ -98,14 +137,7 @@ int runReplay(const Arguments& arguments) {
   std::printf("replayed %llu ticks, state hash 0x%016llx\n", static_cast<unsigned long long>(result.ticks),
               static_cast<unsigned long long>(run.stateHash()));
   printLosses(run);
-  if (!arguments.verify) return kExitOk;
-  if (result.differing == 0) {
-    std::printf("verified: every commanded force is the same to the bit\n");
-    return kExitOk;
-  }
-  std::printf("NOT the same: %llu ticks differ, first at %.3f s, by up to %.3g N\n",
-              static_cast<unsigned long long>(result.differing), result.first_difference, result.largest_difference);
-  return kExitFault;
+  return arguments.verify ? printVerdict(result) : kExitOk;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "apps/presa/temple/visit.h"
 #include "apps/presa/temple/written_scene.h"
 #include "apps/presa/terminal/job_progress.h"
+#include "framework/diagnostics/printable.h"
 #include "framework/temple/building.h"
 #include "framework/temple/words.h"
 
@@ -112,7 +113,7 @@ int takePicture(const temple::Building& building, temple::SceneSpec spec, const 
   if (diagnostics.hasErrors()) return kExitBadInput;
   Run run(loaded, {.quiet = true, .command = "presa temple"});
   run.execute();
-  for (const auto& fault : run.result().faults) std::fprintf(stderr, "%s\n", fault.text.c_str());
+  for (const auto& fault : run.result().faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
   if (!run.result().faults.empty()) return kExitFault;
   std::printf("%s\n", a.screenshot.c_str());
   return run.result().interrupted ? kExitInterrupted : kExitOk;

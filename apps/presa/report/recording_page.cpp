@@ -87,8 +87,9 @@ std::vector<std::string> statusTimeline(const RecordedSamples& samples) {
 
 std::string recordingPage(const std::string& file, const RecordedSamples& samples) {
   std::string html = page::head("Presa: " + file) + "<h1>" + svg::escape(file) + "</h1>\n";
-  html += format("<p>Scene %s, %s, %.3f to %.3f s, %zu haptic ticks.</p>\n", svg::escape(samples.scene_file).c_str(),
-                 samples.start_utc.c_str(), samples.time.front(), samples.time.back(), samples.time.size());
+  html += "<p>Scene " + svg::escape(samples.scene_file) + ", " + svg::escape(samples.start_utc) +
+          format(", %.3f to %.3f s, %zu haptic ticks.</p>\n", samples.time.front(), samples.time.back(),
+                 samples.time.size());
   if (!samples.faults.empty()) html += "<h2>What went wrong</h2>\n" + list(samples.faults);
   html += "<h2>What the output stages did</h2>\n" + list(statusTimeline(samples));
   for (const RecordedTable& finger : samples.fingers)

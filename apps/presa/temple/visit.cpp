@@ -10,6 +10,7 @@
 #include "apps/presa/temple/shared_finger.h"
 #include "apps/presa/temple/visit_log.h"
 #include "apps/presa/temple/visit_tap.h"
+#include "framework/diagnostics/printable.h"
 #include "framework/plan/plugin.h"
 
 namespace presa::temple {
@@ -39,7 +40,7 @@ class Visit {
   VisitEnd go() {
     run_->execute();
     const RunResult& result = run_->result();
-    for (const auto& fault : result.faults) std::fprintf(stderr, "%s\n", fault.text.c_str());
+    for (const auto& fault : result.faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
     Rebuilt rebuilt = measure(assembly_, *witness_);
     rebuilt.wall_seconds = result.wall_seconds;
     rebuilt.simulated_seconds = result.simulated_seconds;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "apps/presa/terminal/text.h"
+#include "framework/diagnostics/printable.h"
 #include "framework/schedule/clock.h"
 
 namespace presa {
@@ -136,7 +137,7 @@ double StatusLine::recentRate(const LiveStatus& status) {
 void StatusLine::note(const std::string& text) {
   if (quiet_) return;
   clear();
-  std::fprintf(stderr, "note: %s\n", text.c_str());
+  std::fprintf(stderr, "note: %s\n", printable(text).c_str());
 }
 
 void StatusLine::clear() {

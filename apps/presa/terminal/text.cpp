@@ -4,6 +4,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "framework/diagnostics/printable.h"
+
 namespace presa::terminal {
 namespace {
 
@@ -49,11 +51,12 @@ std::string styled(const std::string& text, Style style, bool color) {
 
 void Line::add(const std::string& part, Style style) {
   const std::size_t gap = text_.empty() ? 0 : 2;
-  const std::size_t width = widthOf(part);
+  const std::string shown = printable(part);  // names of fingers and phases are a file's
+  const std::size_t width = widthOf(shown);
   full_ = full_ || width_ + gap + width > columns_;
   if (full_) return;
   text_.append(gap, ' ');
-  text_ += styled(part, style, color_);
+  text_ += styled(shown, style, color_);
   width_ += gap + width;
 }
 

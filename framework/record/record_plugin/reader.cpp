@@ -39,6 +39,7 @@ void takeTicks(const Contents& contents, Recording& recording) {
 }
 
 void takeHeader(const StoredRecording& stored, Recording& recording) {
+  recording.file = stored.name;
   recording.scene_xml = stored.scene_xml;
   recording.scene_file = stored.scene_file;
   recording.rig_xml = stored.rig_xml;
@@ -51,6 +52,7 @@ void takeHeader(const StoredRecording& stored, Recording& recording) {
   recording.faults = stored.faults;
   recording.haptic_period = stored.haptic_period;
   recording.fingers = stored.fingers.size();
+  recording.bodies = stored.scene_bodies;
 }
 
 }  // namespace

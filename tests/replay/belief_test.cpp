@@ -1,0 +1,99 @@
+// A recording run again, or shown as a page, when what it says is not what a run writes.
+#include <gtest/gtest.h>
+
+#include "apps/presa/report/recording_page.h"
+#include "apps/presa/run_session.h"
+#include "apps/presa/scratch_folder.h"
+#include "framework/record/record_plugin.h"
+#include "framework/record/replay.h"
+
+namespace presa {
+namespace {
+
+class Belief : public testing::Test {
+ protected:
+  void SetUp() override {
+    Diagnostics diagnostics;
+    RunOptions options;
+    options.duration = 1;
+    options.record = folder_.file("run.h5");
+    const Loaded loaded = loadWorld({PRESA_SOURCE_DIR "/config/scenes/cube.xml", "", {}}, options, diagnostics);
+    presa::Run(loaded, presa::Run::Settings{.trace_rate = 0, .quiet = true, .command = ""}).execute();
+    recording_ = recordPlugin().read(options.record);
+  }
+  /// Codes of what is said against running it.
+  std::vector<int> refusals() const {
+    Diagnostics diagnostics;
+    const RecordedRun run(recording_, diagnostics);
+    std::vector<int> codes;
+    for (const Diagnostic& one : diagnostics.all())
+      if (one.severity == Diagnostic::Severity::kError) codes.push_back(one.code);
+    return codes;
+  }
+  ReplayResult again() const {
+    Diagnostics diagnostics;
+    return RecordedRun(recording_, diagnostics).run();
+  }
+  const ScratchFolder folder_;
+  Recording recording_;
+};
+
+TEST_F(Belief, VerifiedIsEveryTickOfEveryFinger) {
+  const ReplayResult result = again();
+  EXPECT_TRUE(result.verified());
+  EXPECT_EQ(result.ticks, recording_.time.size());
+  EXPECT_EQ(result.recorded, recording_.time.size());
+  EXPECT_EQ(result.fingers, 2u);
+}
+
+TEST_F(Belief, APartIsNotVerified) {
+  recording_.schedule[0].resize(500);
+  const ReplayResult result = again();
+  EXPECT_EQ(result.differing, 0u);
+  EXPECT_EQ(result.ticks, 500u);
+  EXPECT_FALSE(result.verified());
+}
+
+TEST_F(Belief, AForceOfTheLastTickIsCompared) {
+  recording_.command.back().f_H_W[1].z() += 1e-12;
+  const ReplayResult result = again();
+  EXPECT_EQ(result.differing, 1u);
+  EXPECT_FALSE(result.verified());
+}
+
+// Without fingers of its own a session would open the devices of the recorded rig.
+TEST_F(Belief, FingersBodiesAndRateAreThoseOfTheScene) {
+  EXPECT_TRUE(refusals().empty());
+  const Recording whole = recording_;
+  recording_.fingers = 0;
+  EXPECT_EQ(refusals(), std::vector<int>{677});
+  recording_ = whole;
+  recording_.bodies = 5;
+  recording_.haptic_period = 0.002;
+  EXPECT_EQ(refusals(), (std::vector<int>{677, 677}));
+  recording_ = whole;
+  recording_.commands.push_back({3, 95, 1.0});
+  EXPECT_EQ(refusals(), std::vector<int>{677});
+}
+
+// The time of the start went into the page as it was: a script ran.
+TEST_F(Belief, NothingOfARecordingIsMarkupOnItsPage) {
+  RecordedSamples samples = recordPlugin().samples(folder_.file("run.h5"));
+  const std::string attack = "<script>alert(1)</script><img src=x onerror=\"alert('2')\">&";
+  const auto tags = [](const std::string& page) {
+    std::size_t count = 0;
+    for (const char* tag : {"<script", "<img", "onerror=\""})
+      for (std::size_t at = page.find(tag); at != std::string::npos; at = page.find(tag, at + 1)) ++count;
+    return count;
+  };
+  const std::size_t before = tags(recordingPage("run.h5", samples));
+  samples.start_utc = samples.scene_file = attack;
+  samples.faults = {attack, attack};
+  for (RecordedTable& finger : samples.fingers) finger.name = attack;
+  const std::string page = recordingPage(attack, samples);
+  EXPECT_EQ(tags(page), before);
+  EXPECT_NE(page.find("&lt;script&gt;alert(1)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace presa
