@@ -1,15 +1,18 @@
 #pragma once
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
+
+#include "framework/input/input.h"
 
 namespace presa {
 
-/// All bytes of a file; empty when it cannot be read.
+/// All bytes of a file; empty when it cannot be read. Throws InputError when it is no regular file or has more than 1 GiB.
 inline std::string contentsOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 30U;
+  input::Refusal refusal;
+  auto text = input::read(file.string(), kMost, refusal);
+  if (!text && refusal.trouble != input::Trouble::kUnreadable) input::readOrRefuse(file.string(), kMost, 0);
+  return text ? std::move(*text) : std::string();
 }
 
 }  // namespace presa

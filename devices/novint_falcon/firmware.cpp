@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include "devices/novint_falcon/codes.h"
 #include "framework/checksum/checksum.h"
+#include "framework/input/folders.h"
+#include "framework/input/input.h"
 
 namespace presa::falcon {
 namespace {
@@ -38,22 +37,24 @@ void checkSum(const std::string& file, const std::string& bytes, const SourceLoc
 }  // namespace
 
 std::vector<std::uint8_t> readFirmware(const std::string& file, const SourceLocation& where, Diagnostics& diagnostics) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes(kMaxSize + 1, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
   const std::string name = "the firmware " + quote(file);
-  if (!in.is_open() || in.bad()) {
-    diagnostics.error(kFirmwareUnreadable, where, name + " cannot be read: " + std::strerror(errno),
-                      "it comes with the maker's driver; Presa may not bring it along");
+  if (!input::checkNamed(where, file, diagnostics)) return {};
+  input::Refusal refusal;
+  const auto found = input::read(file, kMaxSize, refusal);
+  if (!found) {
+    if (refusal.trouble == input::Trouble::kTooLarge) {
+      diagnostics.error(kFirmwareTooLarge, where, name + " has more than 64 KiB", "known files have about 8 KiB");
+      return {};
+    }
+    if (refusal.trouble == input::Trouble::kUnreadable)
+      refusal.help = "it comes with the maker's driver; Presa may not bring it along";
+    refusal.report(kFirmwareUnreadable, where, name + " ", diagnostics);
     return {};
   }
+  const std::string& bytes = *found;
   const std::string size = std::to_string(bytes.size()) + " bytes";
   if (bytes.empty()) {
     diagnostics.error(kFirmwareEmpty, where, name + " is empty");
-  } else if (bytes.size() > kMaxSize) {
-    diagnostics.error(kFirmwareTooLarge, where, name + " has more than 64 KiB", "known files have about 8 KiB");
   } else if (!std::equal(kFirstBytes.begin(), kFirstBytes.end(), bytes.begin(),
                          [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); })) {
     diagnostics.error(kFirmwareForeign, where, name + " (" + size + ") does not begin with aa 08",

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "framework/hand/hand_settings.h"
+#include "framework/input/folders.h"
 #include "framework/record/record_plugin.h"
 #include "framework/schedule/rates.h"
 
@@ -80,6 +81,7 @@ const Contents* openFile(const DeviceBinding& binding, Diagnostics& diagnostics)
                       "add <set key=\"file\" value=\"RUN.h5\"/>, made with presa run --record");
     return nullptr;
   }
+  if (!input::checkNamed(file->where, file->value, diagnostics)) return nullptr;
   try {
     const Contents& contents = contentsOf(file->value);
     if (contents.period > 0) return &contents;

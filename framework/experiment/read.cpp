@@ -8,6 +8,7 @@
 
 #include "framework/experiment/presentation.h"
 #include "framework/experiment/read_parts.h"
+#include "framework/input/folders.h"
 #include "framework/plan/load_world.h"
 #include "framework/plan/session.h"
 #include "framework/scene/schemas.h"
@@ -18,27 +19,32 @@ namespace {
 
 using xml::Element;
 
-std::string beside(const std::string& file, const std::string& path) {
+/// The file that an attribute names, if it may.
+std::string beside(const Element& root, const std::string& attribute, Diagnostics& diagnostics) {
+  const std::filesystem::path folder = std::filesystem::path(root.where().file).parent_path();
+  const std::string path = root.attribute(attribute);
   if (path.empty()) return {};
-  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+  const std::string file = (folder / path).lexically_normal().string();
+  input::checkNamed(root.where(attribute), file, diagnostics);
+  return file;
 }
 
 /// The rig asked for: by name, for a simulated subject, or none in particular.
 std::string rigOf(const Element& root, const std::string& rig, const std::string& simulated, Diagnostics& diagnostics) {
   if (!rig.empty()) return rig;
-  if (simulated.empty()) return beside(root.where().file, root.attribute("rig"));
+  if (simulated.empty()) return beside(root, "rig", diagnostics);
   if (!root.hasAttribute("simulated_rig"))
     diagnostics.error(912, root.where(), "a simulated subject is asked for, and the experiment names no rig for one",
                       "add simulated_rig=\"FILE\" to <experiment>, a rig with driver simulated_subject");
-  return beside(root.where().file, root.attribute("simulated_rig"));
+  return beside(root, "simulated_rig", diagnostics);
 }
 
-void readHead(const Element& root, const std::string& file, Experiment& experiment) {
+void readHead(const Element& root, const std::string& file, Experiment& experiment, Diagnostics& diagnostics) {
   experiment.file = file;
   experiment.name = root.attribute("name");
   experiment.title = root.attribute("title");
   experiment.description = root.attribute("description");
-  experiment.scene = beside(file, root.attribute("scene"));
+  experiment.scene = beside(root, "scene", diagnostics);
   experiment.seed = static_cast<std::uint64_t>(root.number("seed", 1));
   for (const Element& set : root.children("set"))
     experiment.sets.push_back(set.attribute("path") + "=" + set.attribute("value"));
@@ -104,9 +110,10 @@ std::optional<Experiment> readExperiment(const std::string& file, const std::str
   Element root = document->root();
   if (seed != 0) root.setAttribute("seed", std::to_string(seed));
   Experiment experiment;
-  readHead(root, file, experiment);
+  readHead(root, file, experiment, diagnostics);
   experiment.rig = rigOf(root, rig, simulated, diagnostics);
   experiment.level = simulated;
+  if (diagnostics.hasErrors()) return std::nullopt;  // a file that it may not name is not opened
   readSampleNames(experiment, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;  // nothing below could be told apart from what follows from it
   readFactors(root, experiment, diagnostics);

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <sstream>
 
 #include "framework/geometry/mesh_import_abi.h"
 #include "framework/geometry/tri_mesh.h"
+#include "framework/input/input.h"
 #include "framework/plan/plugin_loader.h"
 
 namespace presa {
@@ -79,8 +79,10 @@ bool Import::checkFile() {
   std::error_code ignored;
   const fs::path path(file_);
   if (!fs::exists(path, ignored)) return fail(301, "there is no such file", "paths are relative to the scene file");
-  if (!fs::is_regular_file(path, ignored) || !std::ifstream(path).good()) {
-    return fail(301, "it cannot be opened for reading", "give a readable file");
+  input::Refusal refusal;
+  if (!input::open(file_, kMaxMeshBytes, refusal)) {
+    refusal.report(301, where_, "mesh " + file_ + ": it ", diagnostics_);
+    return false;
   }
   extension_ = path.extension().string();
   std::erase(extension_, '.');
@@ -111,6 +113,8 @@ bool Import::read() {
 bool Import::take(const ImportedMesh& imported) {
   if (imported.abi != kMeshImportAbi)
     return fail(300, "the mesh reader is of another version", "build presa_mesh_import again");
+  if (imported.problem != nullptr && imported.code != 0)
+    return fail(imported.code, imported.problem, imported.help != nullptr ? imported.help : "");
   if (imported.problem != nullptr) {
     return fail(303, std::string("it is not a mesh that can be read: ") + imported.problem,
                 "open it in a mesh editor and export it again");

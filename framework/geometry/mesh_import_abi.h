@@ -5,12 +5,17 @@
 /// of the library that reads the files shows on this side.
 namespace presa {
 
-inline constexpr std::uint32_t kMeshImportAbi = 1;
+inline constexpr std::uint32_t kMeshImportAbi = 2;
+
+/// All files of a mesh together [bytes]: five million triangles as binary STL.
+inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{256} << 20U;
 
 /// Triangles as the file has them: not welded, not scaled, not checked. Frame: the file's, turned to z up; unit: m.
 struct ImportedMesh {
   std::uint32_t abi = kMeshImportAbi;
   const char* problem = nullptr;        ///< why there is no mesh, in words; null: read
+  const char* help = nullptr;           ///< what to do about it; null: nothing in particular
+  std::int32_t code = 0;                ///< of the problem, when it is a file that may not be read; else 0
   const double* coordinates = nullptr;  ///< x y z of each vertex
   std::uint64_t vertex_count = 0;
   const std::int32_t* indices = nullptr;  ///< three of each triangle; may name vertices that do not exist

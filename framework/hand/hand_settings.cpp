@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "framework/hand/finger_plant.h"
+#include "framework/input/folders.h"
 #include "framework/schedule/rates.h"
 
 namespace presa {
@@ -21,6 +22,7 @@ std::unique_ptr<Motion> readMotion(const DeviceBinding& binding, const World& wo
                       "add <set key=\"motion\" value=\"FILE.xml\"/> (phases) or FILE.csv (keyframes)");
     return nullptr;
   }
+  if (!input::checkNamed(file->second.where, file->second.value, diagnostics)) return nullptr;
   MotionContext context{binding.role, sideOf(binding, diagnostics), 0};
   for (const DeviceRole& role : world.scene.devices) {
     if (role.role == binding.role) context.fingertip_radius = role.fingertip_radius;

@@ -2,11 +2,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "framework/hand/motion.h"
+#include "framework/input/input.h"
 
 namespace presa {
 namespace {
@@ -72,18 +72,26 @@ std::vector<Cell> split(const std::string& line) {
   }
 }
 
+/// Three hours of keyframes at 100 Hz.
+constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20U;
+
 class KeyframeReader {
  public:
   KeyframeReader(std::string file, const MotionContext& context, Diagnostics& diagnostics)
       : file_(std::move(file)), context_(context), diagnostics_(diagnostics) {}
 
   std::vector<Keyframe> read() {
-    std::ifstream input(file_);
-    if (!input) {
-      diagnostics_.error(420, {file_, 0, 0}, "cannot open the motion file",
-                         "check the path; it is relative to the rig file");
+    input::Refusal refusal;
+    auto text = input::read(file_, kMaxBytes, refusal);
+    if (!text) {
+      if (refusal.trouble == input::Trouble::kUnreadable)
+        diagnostics_.error(420, {file_, 0, 0}, "cannot open the motion file",
+                           "check the path; it is relative to the rig file");
+      else
+        refusal.report(420, {file_, 0, 0}, "the motion file ", diagnostics_);
       return {};
     }
+    std::istringstream input(std::move(*text));
     std::vector<Keyframe> frames;
     std::string line;
     while (std::getline(input, line)) {

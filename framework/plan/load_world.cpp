@@ -1,5 +1,6 @@
 #include "framework/plan/load_world.h"
 
+#include "framework/input/folders.h"
 #include "framework/plan/realtime_policy.h"
 #include "framework/plan/session.h"
 #include "framework/plan/stiffness_bound.h"
@@ -62,6 +63,8 @@ Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnost
   Scene scene = loadScene(inputs.scene, overrides, diagnostics);
   const std::string rig_file = inputs.rig.empty() ? scene.default_rig : inputs.rig;
   Rig rig;
+  const bool named = inputs.rig.empty() && !rig_file.empty();  // by the scene, not by a person
+  if (named && !input::checkNamed({inputs.scene, 0, 0}, rig_file, diagnostics)) return {};
   if (!rig_file.empty()) rig = loadRig(rig_file, diagnostics);
   if (inputs.rig.empty() && !options.bus && rig.bus && opensMoreThanASceneMay(*rig.bus))
     diagnostics.error(751, {rig_file, 0, 0},

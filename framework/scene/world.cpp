@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "framework/input/folders.h"
 #include "framework/scene/inertia.h"
 
 namespace presa {
@@ -42,6 +43,7 @@ class MeshLibrary {
 
   void importAll(Diagnostics& diagnostics) {
     for (MeshRequest& request : requests_) {
+      if (!input::checkNamed(request.where, request.ref.file, diagnostics)) continue;
       TriMesh mesh = importMesh(request.ref.file, request.options, request.where, diagnostics);
       if (!mesh.triangles.empty()) request.mesh = std::make_shared<const TriMesh>(std::move(mesh));
     }

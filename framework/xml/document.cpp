@@ -1,13 +1,11 @@
 #include <libxml/xmlschemastypes.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 
+#include "framework/input/input.h"
 #include "framework/xml/document_data.h"
 #include "framework/xml/schema.h"
 #include "framework/xml/xml.h"
@@ -20,6 +18,7 @@ constexpr int kEmpty = 102;
 constexpr int kNotText = 103;
 constexpr int kDoctype = 105;
 constexpr int kTooLarge = 106;
+constexpr int kCrowded = 695;
 
 struct FreeParser {
   void operator()(xmlParserCtxt* context) const { xmlFreeParserCtxt(context); }
@@ -116,29 +115,18 @@ Document::~Document() = default;
 
 std::unique_ptr<Document> Document::load(const std::string& file, Diagnostics& diagnostics) {
   const SourceLocation where{file, 0, 0};
+  input::Refusal refusal;
+  const auto text = input::read(file, kMaxBytes, refusal);
+  if (text) return parse(*text, file, diagnostics);
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    diagnostics.error(kUnreadable, where, "this is a directory, not a file");
-    return nullptr;
+  if (refusal.trouble == input::Trouble::kTooLarge) {
+    diagnostics.error(kTooLarge, where, "the file " + refusal.what, "meshes belong in files of their own");
+  } else {
+    if (refusal.error == ENOENT)
+      refusal.help = "relative paths start at the working directory " + std::filesystem::current_path(ignored).string();
+    refusal.report(kUnreadable, where, "the file ", diagnostics);
   }
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  if (stream) {
-    // not by the file's size, which a pipe has none of; one byte more than allowed shows that there is more
-    std::array<char, 1 << 16> part;
-    while (text.size() <= kMaxBytes && (stream.read(part.data(), part.size()) || stream.gcount() > 0))
-      text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  if (!stream.is_open() || stream.bad()) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "read error";
-    diagnostics.error(kUnreadable, where, "the file cannot be read: " + reason,
-                      errno == ENOENT ? "relative paths start at the working directory " +
-                                            std::filesystem::current_path(ignored).string()
-                                      : "");
-    return nullptr;
-  }
-  return parse(text, file, diagnostics);
+  return nullptr;
 }
 
 std::unique_ptr<Document> Document::parse(const std::string& text, const std::string& name, Diagnostics& diagnostics) {
@@ -149,6 +137,15 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
     // refused before libxml2 sees it: no entity can expand, no external subset can be asked for
     diagnostics.error(kDoctype, {name, scan.doctype->line, scan.doctype->column},
                       "<!DOCTYPE> and entities are not allowed in Presa files", "remove the DOCTYPE declaration");
+    return nullptr;
+  }
+  if (scan.crowded) {
+    const auto& [attribute, at] = *scan.crowded;
+    diagnostics.error(kCrowded, {name, at.line, at.column},
+                      attribute.empty() ? "the file has more than " + std::to_string(kMaxElements) + " elements"
+                                        : "this element has more than " + std::to_string(kMaxAttributes) +
+                                              " attributes: " + quote(attribute) + " is one too many",
+                      "no file of Presa's comes near that");
     return nullptr;
   }
   auto data = std::make_unique<DocumentData>();

@@ -98,6 +98,10 @@ class Scanner {
       if (current() == '>' || current() == '/') break;
       if (!attribute(tag)) return false;
     }
+    if (scan_.tags.size() == kMaxElements) {
+      scan_.crowded = ScannedAttribute{{}, tag.at};
+      return false;
+    }
     const bool is_empty = current() == '/';
     if (!is_empty) scan_.open.push_back(scan_.tags.size());
     scan_.tags.push_back(std::move(tag));
@@ -112,6 +116,10 @@ class Scanner {
     if (attribute.name.empty()) return false;
     if (!value()) {
       scan_.broken_attribute = std::move(attribute);
+      return false;
+    }
+    if (tag.attributes.size() == kMaxAttributes) {
+      scan_.crowded = std::move(attribute);
       return false;
     }
     tag.attributes.push_back(std::move(attribute));

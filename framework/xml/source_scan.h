@@ -38,7 +38,14 @@ struct SourceScan {
   std::optional<MismatchedEnd> mismatch;
   std::optional<ScannedAttribute> broken_attribute;  ///< without value or quotes, or running on to the next '<'
   std::optional<Position> doctype;                   ///< of "<!DOCTYPE"; the scan stops there
+  std::optional<ScannedAttribute>
+      crowded;  ///< an element's first attribute too many, or the first element; stops there
 };
 SourceScan scanSource(std::string_view text);
+
+/// What no file of ours comes near: libxml2 compares each attribute of an element with each.
+inline constexpr std::size_t kMaxAttributes = 256;
+/// 100 000 bodies with all defaults written out have a million.
+inline constexpr std::size_t kMaxElements = 2'000'000;
 
 }  // namespace presa::xml

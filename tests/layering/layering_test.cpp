@@ -51,6 +51,9 @@ TEST(Layering, NoFileNamesAPathOfOneMachine) { EXPECT_THAT(offenders(namesPathOf
 // Summer time or a corrected clock must not be felt.
 TEST(Layering, NothingThatRunsReadsTheWallClock) { EXPECT_THAT(offenders(readsTheWallClock), IsEmpty()); }
 
+// A pipe that is waited for, a device without an end, a file of another folder: one place knows how to refuse them.
+TEST(Layering, FilesFromOutsideComeThroughOneDoor) { EXPECT_THAT(offenders(opensAFileByItself), IsEmpty()); }
+
 TEST(Layering, EveryFolderSaysWhatItIsFor) {
   std::vector<std::string> silent;
   for (const std::string& folder : folders()) {

@@ -125,4 +125,21 @@ Finding readsTheWallClock(const SourceFile& file) {
   return "reads the wall clock: " + match[0].str();
 }
 
+Finding opensAFileByItself(const SourceFile& file) {
+  static const std::regex kOpens(R"(\bifstream\b|\bfopen\(|\bfreopen\(|xmlReadFile|xmlParseFile|H5Fopen)");
+  static const std::set<std::string> kOwn{
+      "framework/geometry/mesh_import_plugin/isolation.cpp",
+      "apps/presa/explain/description.cpp",
+      "apps/presa/explain/instruction_counts.cpp",
+      "apps/presa/machine.cpp",
+      "apps/presa/device/periods.cpp",
+      "apps/presa/cost/measure.cpp",
+      "framework/record/record_plugin/table_reader.cpp"};  // HDF5 has a way of its own, behind the door's look
+  const std::string top = file.topFolder();
+  const bool reads = top == "framework" || top == "modules" || top == "devices" || top == "apps";
+  std::smatch match;
+  if (!reads || !file.isCpp() || kOwn.contains(file.path) || !std::regex_search(file.text, match, kOpens)) return {};
+  return "opens a file by itself: " + match[0].str();
+}
+
 }  // namespace presa::layering

@@ -16,5 +16,7 @@ Finding isTooLong(const SourceFile& file);
 Finding namesPathOfOneMachine(const SourceFile& file);
 /// What runs goes by the clock that never jumps.
 Finding readsTheWallClock(const SourceFile& file);
+/// Files from outside come in by framework/input; what is left to the standard library are files of /proc, and the program's own.
+Finding opensAFileByItself(const SourceFile& file);
 
 }  // namespace presa::layering

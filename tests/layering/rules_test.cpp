@@ -77,5 +77,15 @@ TEST(LayeringRules, ReadersOfTheWallClockAreFound) {
       readsTheWallClock({"framework/a.cpp", "clock_gettime(CLOCK_MONOTONIC, &t); sample.time(0.1); motion.at(time)"}));
 }
 
+TEST(LayeringRules, FilesOpenedPastTheDoorAreFound) {
+  for (const std::string opens : {"std::ifstream in(file);", "std::fopen(name, \"rb\")", "H5Fopen(f, 0, 0)"}) {
+    EXPECT_TRUE(opensAFileByItself({"framework/a/b.cpp", opens})) << opens;
+    EXPECT_TRUE(opensAFileByItself({"apps/presa/b.cpp", opens})) << opens;
+    EXPECT_FALSE(opensAFileByItself({"tests/a/b.cpp", opens})) << opens;
+  }
+  EXPECT_FALSE(
+      opensAFileByItself({"framework/a/b.cpp", "input::read(file, kMost, refusal); std::ofstream out(file);"}));
+}
+
 }  // namespace
 }  // namespace presa::layering

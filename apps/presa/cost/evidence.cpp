@@ -1,11 +1,11 @@
 #include "apps/presa/cost/evidence.h"
 
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "apps/presa/atomic_file.h"
+#include "apps/presa/file_text.h"
 
 namespace presa::cost {
 namespace {
@@ -45,8 +45,7 @@ void Trace::save(const std::string& file) const {
 }
 
 Trace Trace::load(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = contentsOf(file);
   const std::size_t mark = std::strlen(kFormat);
   if (bytes.compare(0, mark, kFormat) != 0) throw std::runtime_error("no stored run: " + file);
   std::size_t at = mark;

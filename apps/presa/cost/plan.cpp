@@ -6,6 +6,7 @@
 
 #include "apps/presa/cost/knobs.h"
 #include "apps/presa/cost/metrics.h"
+#include "framework/input/folders.h"
 
 namespace presa::cost {
 namespace {
@@ -84,6 +85,7 @@ bool isAlone(const Loaded& base) {
 void chooseFolder(const Request& request, Study& study) {
   const std::string folder = request.out.empty() ? "cost_" + study.name : request.out;
   study.folder = std::filesystem::absolute(folder).lexically_normal().string();
+  input::allowFolder(study.folder);  // for the meshes that the study makes
 }
 
 Study planStudy(const Request& request, Diagnostics& diagnostics) {

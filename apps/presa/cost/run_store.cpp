@@ -2,18 +2,15 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/presa/atomic_file.h"
+#include "apps/presa/file_text.h"
 
 namespace presa::cost {
 namespace {
 
-nlohmann::json readJson(const std::string& file) {
-  std::ifstream in(file);
-  return nlohmann::json::parse(in);
-}
+nlohmann::json readJson(const std::string& file) { return nlohmann::json::parse(contentsOf(file)); }
 
 std::string timingName(const std::string& base, int repeat) {
   return base + ".time" + std::to_string(repeat) + ".json";

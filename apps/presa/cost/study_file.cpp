@@ -1,9 +1,10 @@
 #include <filesystem>
-#include <fstream>
 
 #include "apps/presa/cost/knobs.h"
 #include "apps/presa/cost/metrics.h"
 #include "apps/presa/cost/plan.h"
+#include "framework/input/folders.h"
+#include "framework/input/input.h"
 #include "framework/scene/schemas.h"
 #include "framework/xml/schema.h"
 #include "framework/xml/xml.h"
@@ -20,9 +21,14 @@ const xml::Schema& schema() {
   return compiled;
 }
 
-std::string beside(const std::string& study, const std::string& path) {
+/// The file that an attribute names, if it may.
+std::string beside(const Element& root, const std::string& attribute, Diagnostics& diagnostics) {
+  const std::filesystem::path folder = std::filesystem::path(root.where().file).parent_path();
+  const std::string path = root.attribute(attribute);
   if (path.empty()) return {};
-  return (std::filesystem::path(study).parent_path() / path).lexically_normal().string();
+  const std::string file = (folder / path).lexically_normal().string();
+  input::checkNamed(root.where(attribute), file, diagnostics);
+  return file;
 }
 
 std::vector<std::string> setsIn(const Element& parent) {
@@ -112,14 +118,15 @@ void checkRule(const Element& element, const std::vector<std::vector<Knob>>& gri
   }
 }
 
-void readHead(const Element& root, const std::string& file, const Request& request, Study& study) {
+void readHead(const Element& root, const std::string& file, const Request& request, Study& study,
+              Diagnostics& diagnostics) {
   study.file = file;
   study.name = root.attribute("name");
   chooseFolder(request, study);
   study.title = root.attribute("title");
   study.description = root.attribute("description");
-  study.inputs.scene = beside(file, root.attribute("scene"));
-  study.inputs.rig = request.rig.empty() ? beside(file, root.attribute("rig")) : request.rig;
+  study.inputs.scene = beside(root, "scene", diagnostics);
+  study.inputs.rig = request.rig.empty() ? beside(root, "rig", diagnostics) : request.rig;
   study.inputs.sets = setsIn(root);
   study.inputs.sets.insert(study.inputs.sets.end(), request.sets.begin(), request.sets.end());
   study.duration = root.number("duration", 0);
@@ -132,9 +139,11 @@ void readHead(const Element& root, const std::string& file, const Request& reque
 }  // namespace
 
 bool isStudyFile(const std::string& file) {
-  std::ifstream in(file);
+  input::Refusal refusal;  // who reads it whole says what is wrong
+  const auto in = input::open(file, xml::Document::kMaxBytes, refusal);
   std::string start(4096, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(
+      static_cast<std::size_t>(std::max<std::ptrdiff_t>(in ? input::readSome(*in, start.data(), start.size()) : 0, 0)));
   return start.find(std::string("<") + kRoot) != std::string::npos;
 }
 
@@ -144,7 +153,8 @@ std::vector<std::vector<Knob>> readStudyFile(const std::string& file, const Requ
   if (!document || !document->validate(schema(), diagnostics)) return {};
   document->writeDefaults(schema());
   const Element root = document->root();
-  readHead(root, file, request, study);
+  readHead(root, file, request, study, diagnostics);
+  if (diagnostics.hasErrors()) return {};
   for (const Element& reference : root.children("reference")) {
     study.reference_kind = kindOf(reference);
     for (const Element& level : reference.children("level")) study.reference.push_back(setsIn(level));

@@ -2,11 +2,11 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -14,12 +14,14 @@
 
 #include "framework/checksum/checksum.h"
 #include "framework/diagnostics/refuse.h"
+#include "framework/input/input.h"
 
 namespace presa::experiment {
 namespace {
 
 constexpr std::string_view kHead = "{\"sha256\":\"", kMiddle = "\",\"record\":", kOldHead = "{\"sum\":\"";
 constexpr std::size_t kDigits = 64;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 28U;  // a session of a thousand trials takes 5 MB
 
 /// Before the first record there is no sum.
 std::string sumOf(const std::string& before, std::string_view record) {
@@ -27,12 +29,18 @@ std::string sumOf(const std::string& before, std::string_view record) {
 }
 
 int openLocked(const std::string& file, int flags) {
-  const int descriptor = ::open(file.c_str(), flags | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
+  // a FIFO would wait for its reader
+  const int descriptor = ::open(file.c_str(), flags | O_WRONLY | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     if (errno == EEXIST)
       refuse(920, file, "there is a session already",
              "presa experiment resume goes on with it; nothing is ever overwritten");
     refuse(922, file, std::string("cannot be written: ") + std::strerror(errno));
+  }
+  struct stat info {};
+  if (::fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode)) {
+    ::close(descriptor);
+    refuse(922, file, "cannot be written: it is not a regular file");
   }
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor);
@@ -56,9 +64,7 @@ std::optional<std::string_view> recordOf(std::string_view line, std::string& sum
 }  // namespace
 
 Journal::Contents Journal::read(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(922, file, std::string("cannot be read: ") + std::strerror(errno));
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = input::readOrRefuse(file, kMaxBytes, 922);
   if (text.starts_with(kOldHead)) refuse(923, file, "was begun by a version of Presa whose sums prove too little");
   Contents contents;
   int line_number = 0;

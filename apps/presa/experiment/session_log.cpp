@@ -20,7 +20,23 @@ Outcome outcomeOf(const Json& record) {
   throw std::out_of_range("no outcome " + name);
 }
 
+/// A log speaks of files in its own folder only: by their names, without a path.
+void checkFileName(const std::string& name) {
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
+    throw std::runtime_error("it names " + quote(name) + ", which is no file of its own folder");
+}
+
+void checkFiles(const Json& record) {
+  if (record.contains("files")) {
+    for (const Json& name : record.at("files")) checkFileName(name);
+  }
+  if (record.contains("sha256")) {
+    for (const auto& [name, sum] : record.at("sha256").items()) checkFileName(name);
+  }
+}
+
 void take(const Json& record, SessionLog& log) {
+  checkFiles(record);
   const auto event = record.at("event").get<std::string>();
   if (event == "trial_begin") {
     log.runs.push_back({record.at("trial"),

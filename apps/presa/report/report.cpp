@@ -1,10 +1,9 @@
 #include "apps/presa/report/report.h"
 
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "apps/presa/atomic_file.h"
+#include "apps/presa/file_text.h"
 #include "apps/presa/grasp_figures.h"
 #include "apps/presa/report/base64.h"
 #include "apps/presa/report/figures.h"
@@ -65,8 +64,7 @@ std::string frictionSection(const RunResult& result, const std::optional<GraspFi
 
 std::string screenshotSection(const RunResult& result) {
   if (result.screenshot.empty()) return {};
-  std::ifstream file(result.screenshot, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = contentsOf(result.screenshot);
   if (bytes.empty())
     return "<p class=\"fault\">The screenshot " + escape(result.screenshot) + " could not be read.</p>\n";
   return "<h2>Picture</h2>\n<img alt=\"The scene during the run\" src=\"data:image/png;base64," + base64(bytes) +

@@ -2,8 +2,9 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "framework/input/input.h"
 
 namespace presa::temple {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 24U;  // a facade takes 10 kB
 
 Json poseJson(const Pose& X) { return {X.p.x(), X.p.y(), X.p.z(), X.q.w(), X.q.x(), X.q.y(), X.q.z()}; }
 
@@ -48,9 +50,10 @@ std::string keptText(const KeptSession& kept) {
 
 std::optional<KeptSession> readKept(const std::string& file, Diagnostics& diagnostics) {
   try {
-    std::ifstream stream(file);
-    if (!stream) throw std::runtime_error("cannot be opened");
-    const Json json = Json::parse(stream);
+    input::Refusal refusal;
+    const auto text = input::read(file, kMaxBytes, refusal);
+    if (!text) throw std::runtime_error(refusal.what);
+    const Json json = Json::parse(*text);
     if (json.at("presa_temple").get<int>() != kFormat)
       throw std::runtime_error("is written in another format than " + std::to_string(kFormat));
     KeptSession kept{json.at("size"),    json.at("parameters"), json.at("seed"),

@@ -1,6 +1,7 @@
 #include "framework/geometry/mesh_import_plugin/isolation.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,9 +16,10 @@
 namespace presa {
 namespace {
 
-/// Sizes of what follows in the pipe: problem, coordinates, indices.
+/// Sizes of what follows in the pipe: problem, help, coordinates, indices.
 struct Header {
-  std::uint64_t problem = 0, coordinates = 0, indices = 0, ignored_faces = 0;
+  std::uint64_t problem = 0, help = 0, coordinates = 0, indices = 0, ignored_faces = 0;
+  std::int64_t code = 0;
 };
 
 bool writeAll(int descriptor, const void* data, std::size_t size) {
@@ -45,8 +47,10 @@ bool readAll(int descriptor, void* data, std::size_t size) {
 }
 
 bool send(int descriptor, const RawMesh& mesh) {
-  const Header header{mesh.problem.size(), mesh.coordinates.size(), mesh.indices.size(), mesh.ignored_faces};
+  const Header header{mesh.problem.size(), mesh.help.size(),   mesh.coordinates.size(),
+                      mesh.indices.size(), mesh.ignored_faces, mesh.code};
   return writeAll(descriptor, &header, sizeof header) && writeAll(descriptor, mesh.problem.data(), header.problem) &&
+         writeAll(descriptor, mesh.help.data(), header.help) &&
          writeAll(descriptor, mesh.coordinates.data(), header.coordinates * sizeof(double)) &&
          writeAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
 }
@@ -55,10 +59,13 @@ bool receive(int descriptor, RawMesh& mesh) {
   Header header;
   if (!readAll(descriptor, &header, sizeof header)) return false;
   mesh.problem.resize(header.problem);
+  mesh.help.resize(header.help);
+  mesh.code = static_cast<std::int32_t>(header.code);
   mesh.coordinates.resize(header.coordinates);
   mesh.indices.resize(header.indices);
   mesh.ignored_faces = header.ignored_faces;
   return readAll(descriptor, mesh.problem.data(), header.problem) &&
+         readAll(descriptor, mesh.help.data(), header.help) &&
          readAll(descriptor, mesh.coordinates.data(), header.coordinates * sizeof(double)) &&
          readAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
 }
@@ -79,8 +86,9 @@ void limit(int resource, std::size_t value) {
 [[noreturn]] void child(int descriptor, const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
   // what a crashing reader prints would only hide the finding that names the file
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
-  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM})
+  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM, SIGHUP})
     std::signal(number, SIG_DFL);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for it any more
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.seconds);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of shadow memory

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -12,6 +13,7 @@ namespace {
 /// need room for its own tables. A header that claims more than that is lying.
 constexpr std::size_t kBaseMemory = 64u << 20;
 constexpr std::size_t kMemoryPerByte = 100;
+constexpr std::size_t kMostMemory = std::size_t{6} << 30;
 /// Processor time: a good megabyte takes below a second even as text, several under valgrind (`presa explain --cost`).
 constexpr unsigned kBaseSeconds = 2;
 constexpr unsigned kSecondsPerMegabyte = 4;
@@ -20,6 +22,8 @@ constexpr unsigned kSecondsPerMegabyte = 4;
 struct OwnedMesh : ImportedMesh {
   explicit OwnedMesh(RawMesh mesh) : raw(std::move(mesh)) {
     problem = raw.problem.empty() ? nullptr : raw.problem.c_str();
+    help = raw.help.empty() ? nullptr : raw.help.c_str();
+    code = raw.code;
     coordinates = raw.coordinates.data();
     vertex_count = raw.coordinates.size() / 3;
     indices = raw.indices.data();
@@ -38,7 +42,7 @@ extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* pre
   const std::uintmax_t found = std::filesystem::file_size(file, unknown);
   const std::uintmax_t size = unknown ? 0 : found;
   const presa::IsolationLimits limits{
-      presa::kBaseMemory + presa::kMemoryPerByte * size,
+      std::min(presa::kBaseMemory + presa::kMemoryPerByte * size, presa::kMostMemory),
       presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
   return new presa::OwnedMesh(
       presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, out); }));

@@ -11,6 +11,8 @@
 #include <new>
 #include <set>
 
+#include "framework/geometry/mesh_import_plugin/input_system.h"
+
 namespace presa {
 namespace {
 
@@ -103,9 +105,18 @@ void turnToZUp(std::vector<double>& coordinates) {
 }  // namespace
 
 void readMesh(const std::string& file, const std::string& extension, RawMesh& out) {
+  InputSystem files(file);
   Assimp::Importer importer;
   keepReadersOf(importer, extension);
+  importer.SetIOHandler(&files);
   const aiScene* scene = importer.ReadFile(file, 0);
+  importer.SetIOHandler(nullptr);
+  if (files.problem()) {
+    out.code = files.problem()->code;
+    out.problem = files.problem()->what;
+    out.help = files.problem()->help;
+    return;
+  }
   if (scene != nullptr && sound(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) {
     const std::string reason = importer.GetErrorString();

@@ -7,7 +7,12 @@ namespace presa {
 
 /// A file's triangles, or why there are none.
 struct RawMesh {
-  std::string problem;
+  struct Problem {
+    std::int32_t code = 0;  ///< of framework/input; 0: of the mesh itself
+    std::string what, help;
+  };
+  std::string problem, help;
+  std::int32_t code = 0;
   std::uint64_t ignored_faces = 0;
   std::vector<double> coordinates;
   std::vector<std::int32_t> indices;

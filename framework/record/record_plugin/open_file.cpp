@@ -1,31 +1,28 @@
 #include "framework/record/record_plugin/open_file.h"
 
-#include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "framework/diagnostics/refuse.h"
+#include "framework/input/input.h"
 #include "framework/record/record_plugin/inspection.h"
 #include "framework/record/record_plugin/recording_file.h"
 
 namespace presa::record {
 namespace {
 
+/// Days of ten fingers.
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40U;
+
 /// The system's own reason when a file cannot be read; HDF5 keeps none. Returns its length.
 std::uint64_t checkReadable(const std::string& file) {
-  const int fd = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0) refuse(603, file, std::string("cannot be read: ") + std::strerror(errno), "check the name");
-  struct stat info {};
-  const bool regular = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
-  const bool busy = flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  close(fd);
-  if (!regular) refuse(604, file, "is not a regular file", "recordings are made with --record");
+  input::Refusal refusal;
+  const auto opened = input::open(file, kMaxBytes, refusal);
+  if (!opened) refuse(refusal.code(603), file, refusal.what, refusal.help.empty() ? "check the name" : refusal.help);
+  const bool busy = flock(opened->descriptor(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (busy) refuse(603, file, "is still being written by a run", "wait until that run has ended");
-  return static_cast<std::uint64_t>(info.st_size);
+  return opened->size();
 }
 
 }  // namespace

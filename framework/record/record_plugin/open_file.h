@@ -12,7 +12,7 @@ struct OpenedFile {
   std::uint64_t bytes = 0;    ///< of the file
 };
 
-/// A regular file that is a recording, by its own words. Throws InputError E603 to E606, E608.
+/// A regular file that is a recording, by its own words. Throws InputError E603 to E606, E608, E690, E691.
 OpenedFile openFile(const std::string& file);
 
 }  // namespace presa::record

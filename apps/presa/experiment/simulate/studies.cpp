@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <thread>
 
 #include "apps/presa/experiment/session_log.h"
+#include "apps/presa/file_text.h"
 #include "apps/presa/terminal/job_progress.h"
 #include "apps/presa/terminal/text.h"
 
@@ -34,7 +35,7 @@ State stateOf(const SessionFolder& folder) {
 }
 
 std::string lastLineOf(const std::string& file) {
-  std::ifstream in(file);
+  std::istringstream in(contentsOf(file));
   std::string last;
   for (std::string line; std::getline(in, line);) {
     if (!line.empty()) last = line;

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+
+#include "apps/presa/scratch_folder.h"
+
+namespace presa::test {
+
+inline const std::string kProgram = PRESA_BINARY_DIR "/bin/presa";
+inline const std::string kSource = PRESA_SOURCE_DIR;
+
+/// What a command of the shell came to. A command that hangs is ended after 20 s, with status 124.
+struct Outcome {
+  int status = -1;
+  std::string text;  ///< both outputs
+};
+
+/// A folder in which files are laid out and the program is run.
+class Bench {
+ public:
+  std::string file(const std::string& name) const { return scratch_.file(name); }
+  void write(const std::string& name, const std::string& text) const;
+  void fifo(const std::string& name) const;
+  /// In the folder; words are the shell's.
+  Outcome shell(const std::string& command) const;
+  Outcome presa(const std::string& arguments) const { return shell("exec timeout 20 " + kProgram + " " + arguments); }
+  /// scene.xml: one fixed body whose haptic mesh is `mesh`.
+  void writeMeshScene(const std::string& mesh) const;
+  /// rig.xml: thumb and index, both with this driver and setting.
+  void writeRig(const std::string& driver, const std::string& key, const std::string& value) const;
+
+ private:
+  ScratchFolder scratch_;
+};
+
+}  // namespace presa::test
