@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 
+#include "framework/experiment/plan_size.h"
 #include "framework/experiment/read.h"
 #include "framework/experiment/row.h"
 #include "framework/xml/value_rule.h"
@@ -105,6 +106,8 @@ void readQualityNames(Experiment& experiment) {
 }
 
 void readDesign(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
+  const auto factors = root.children("factor");
+  if (!checkPlanSize(experiment, factors.empty() ? root.where() : factors.front().where(), diagnostics)) return;
   for (const Element& element : root.children("design")) {
     Design& design = experiment.design;
     design.order = orderOf(element.attribute("order"));
@@ -117,7 +120,7 @@ void readDesign(const Element& root, Experiment& experiment, Diagnostics& diagno
     if (!design.block_by.empty() && std::find(names.begin(), names.end(), design.block_by) == names.end())
       diagnostics.error(kNoSuchFactor, element.where("block_by"),
                         "there is no factor " + quote(design.block_by) + didYouMean(design.block_by, names));
-    else
+    else if (checkPlanSize(experiment, element.where(), diagnostics))
       checkRepeats(element, experiment, diagnostics);
   }
   for (const Element& element : root.children("retry")) {
