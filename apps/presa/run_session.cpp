@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <optional>
 
 #include "apps/presa/assembly_tap.h"
 #include "apps/presa/live_tap.h"
 #include "apps/presa/pacer.h"
+#include "apps/presa/terminal/interruption.h"
 #include "apps/presa/terminal/keys.h"
+#include "apps/presa/terminal/prompt_end.h"
 #include "apps/presa/terminal/status_line.h"
 #include "apps/presa/version.h"
 #include "framework/plan/realtime_policy.h"
@@ -32,31 +33,23 @@ extern "C" void onSignal(int) {
   if (!first_signal_ns.compare_exchange_strong(first, now) && now - first > 500'000'000) control->abort = true;
   control->stop_requested = true;
   interrupted = true;
+  terminal::PromptEnd::ask();
 }
 
-/// While it lives, Ctrl-C and SIGTERM stop the run instead of the process.
+/// While it lives, Ctrl-C, SIGTERM and SIGHUP stop the run instead of the process.
 class SignalGuard {
  public:
-  explicit SignalGuard(RunControl& control) {
-    signalled = &control;
+  explicit SignalGuard(RunControl& control) : signals_(onSignal) {
     interrupted = false;
     first_signal_ns = 0;
-    struct sigaction action {};
-    action.sa_handler = onSignal;
-    sigaction(SIGINT, &action, &old_int_);
-    sigaction(SIGTERM, &action, &old_term_);
+    signalled = &control;
   }
-  ~SignalGuard() {
-    sigaction(SIGINT, &old_int_, nullptr);
-    sigaction(SIGTERM, &old_term_, nullptr);
-    signalled = nullptr;
-  }
+  ~SignalGuard() { signalled = nullptr; }
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
 
  private:
-  struct sigaction old_int_ {
-  }, old_term_{};
+  terminal::EndSignals signals_;
 };
 
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
@@ -176,7 +169,10 @@ void Run::execute() {
   live_->start_ns = monotonicNs();
   for (const std::string& note : result_.notes) live_->line.note(note);
   if (settings_.watch || (loaded_.world->options.realtime && session_->output() != nullptr)) live_->keys.emplace();
-  executor_->run(loaded_.world->options.duration);
+  {
+    const terminal::PromptEnd prompt(control_, loaded_.world->options.realtime);
+    executor_->run(loaded_.world->options.duration);
+  }
   live_->keys.reset();
   live_->line.finish();
   finish();

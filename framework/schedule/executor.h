@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,6 +20,9 @@ struct RunControl {
   std::atomic<bool> abort{false};           ///< leave now
   std::atomic<std::uint32_t> rearms{0};     ///< counted up by whoever has looked: latched faults are forgiven
   std::atomic<double> time{0};              ///< simulated time reached [s]
+  /// Once stop is requested in virtual time: leave at this moment of monotonicNs(), faded or not.
+  std::atomic<std::int64_t> leave_by_ns{kNever};
+  static constexpr std::int64_t kNever = INT64_MAX;
 };
 
 /// Runs a graph for a while. Both executors run the same graph with the same ticks; they differ only in

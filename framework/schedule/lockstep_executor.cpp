@@ -49,6 +49,8 @@ void LockstepExecutor::run(double duration) {
       stopping = true;
       end = std::min(end, i + 1 + fade);
     }
+    const std::int64_t leave_by = stopping ? control_.leave_by_ns.load(std::memory_order_relaxed) : RunControl::kNever;
+    if (leave_by != RunControl::kNever && monotonicNs() >= leave_by) break;
     if (i % kPollTicks == 0) poll_();
   }
   wall_seconds_ = static_cast<double>(monotonicNs() - begin) * 1e-9;

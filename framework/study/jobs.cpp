@@ -32,7 +32,7 @@ struct Running {
 };
 
 [[noreturn]] void runInChild(std::size_t index, const std::function<std::string(std::size_t)>& job, int pipe) {
-  std::signal(SIGINT, SIG_IGN);  // the parent decides
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);  // the parent decides
   std::string text;
   int status = 0;
   try {
@@ -113,6 +113,9 @@ std::vector<JobResult> runJobs(std::size_t count, const std::function<std::strin
   for (std::size_t next = 0; next < count || !running.empty();) {
     stopped = stopped || (options.stop && options.stop());
     while (!stopped && next < count && running.size() < workers) running.push_back(start(next++, job));
+    if (stopped) {
+      for (const Running& r : running) ::kill(r.process, SIGKILL);
+    }
     if (running.empty()) break;
     std::vector<pollfd> waiting;
     for (const Running& r : running) waiting.push_back({r.pipe, POLLIN, 0});
@@ -120,7 +123,7 @@ std::vector<JobResult> runJobs(std::size_t count, const std::function<std::strin
     for (std::size_t i = running.size(); i-- > 0;) {
       Running& r = running[i];
       const bool late = static_cast<double>(monotonicNs() - r.begin) * 1e-9 > options.time_limit;
-      if ((late || stopped) && !r.timed_out) {
+      if (late && !r.timed_out) {
         r.timed_out = true;
         ::kill(r.process, SIGKILL);
       }

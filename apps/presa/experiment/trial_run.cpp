@@ -2,6 +2,7 @@
 
 #include "apps/presa/experiment/surface_switch.h"
 #include "apps/presa/experiment/trial_tap.h"
+#include "apps/presa/terminal/prompt_end.h"
 #include "framework/plan/load_world.h"
 #include "framework/plan/realtime_policy.h"
 #include "framework/plan/session.h"
@@ -67,7 +68,11 @@ class TrialRun {
   }
 
   TrialResult run() {
-    executor_->run(world_->options.duration);
+    {
+      const terminal::PromptEnd prompt(control_, setting_.realtime);
+      executor_->run(world_->options.duration);
+    }
+    poll();  // a signal stops it between polls, too
     return result();
   }
 

@@ -1,6 +1,7 @@
 #include "apps/presa/remote/measure.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -127,7 +129,13 @@ class Listener {
   Heard result() {
     std::string text;
     std::array<char, 4096> part;
-    for (ssize_t count; (count = read(answer_, part.data(), part.size())) != 0;) {
+    bool told = false;
+    for (ssize_t count = 1; count != 0;) {
+      // a signal may come to this process alone: the viewer ends with it
+      if (!told && terminal::Interruption::came()) told = ::kill(process_, SIGINT) == 0;
+      pollfd waiting{answer_, POLLIN, 0};
+      if (::poll(&waiting, 1, 20) <= 0) continue;
+      count = read(answer_, part.data(), part.size());
       if (count > 0) text.append(part.data(), static_cast<std::size_t>(count));
     }
     int status = 0;

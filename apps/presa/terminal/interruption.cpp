@@ -1,25 +1,38 @@
 #include "apps/presa/terminal/interruption.h"
 
+#include "apps/presa/terminal/prompt_end.h"
+
 namespace presa::terminal {
 namespace {
 
 volatile std::sig_atomic_t signal_came = 0;
-extern "C" void noteSignal(int) { signal_came = 1; }
+extern "C" void noteSignal(int) {
+  signal_came = 1;
+  PromptEnd::ask();
+}
+
+/// What came before counts no more.
+auto noteAnew() {
+  signal_came = 0;
+  return noteSignal;
+}
 
 }  // namespace
 
-Interruption::Interruption() {
-  signal_came = 0;
+EndSignals::EndSignals(void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = noteSignal;
-  sigaction(SIGINT, &action, &old_int_);
-  sigaction(SIGTERM, &action, &old_term_);
+  action.sa_handler = handler;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], &action, &old_[i]);
+    if (kSignals[i] == SIGHUP && old_[i].sa_handler == SIG_IGN) sigaction(SIGHUP, &old_[i], nullptr);
+  }
 }
 
-Interruption::~Interruption() {
-  sigaction(SIGINT, &old_int_, nullptr);
-  sigaction(SIGTERM, &old_term_, nullptr);
+EndSignals::~EndSignals() {
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &old_[i], nullptr);
 }
+
+Interruption::Interruption() : signals_(noteAnew()) {}
 
 bool Interruption::came() noexcept { return signal_came != 0; }
 

@@ -1,20 +1,32 @@
 #pragma once
+#include <array>
 #include <csignal>
 
 namespace presa::terminal {
 
-/// While it lives, Ctrl-C and SIGTERM are noted instead of ending the process. Thread: main; one at a time.
+/// While it lives, Ctrl-C, SIGTERM and SIGHUP call `handler` instead of ending the process; SIGHUP that was ignored stays so (nohup).
+/// Thread: main.
+class EndSignals {
+ public:
+  explicit EndSignals(void (*handler)(int));
+  ~EndSignals();
+  EndSignals(const EndSignals&) = delete;
+  EndSignals& operator=(const EndSignals&) = delete;
+
+ private:
+  static constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, 3> old_{};
+};
+
+/// While it lives, these signals are noted instead of ending the process; a run that goes on is asked to stop (PromptEnd).
+/// Thread: main; one at a time.
 class Interruption {
  public:
   Interruption();
-  ~Interruption();
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
   static bool came() noexcept;
 
  private:
-  struct sigaction old_int_ {
-  }, old_term_{};
+  EndSignals signals_;
 };
 
 }  // namespace presa::terminal

@@ -17,6 +17,8 @@ class Keys {
   bool available() const noexcept { return before_.has_value(); }
   /// The next key, waited for at most that long [ms]; 0: none.
   char next(int ms) const;
+  /// The terminal as it was, from the handler of a signal that ends the process.
+  static void giveBack() noexcept;
 
  private:
   std::optional<termios> before_;
