@@ -2,11 +2,36 @@
 #include <exception>
 
 #include "apps/presa/commands/commands.h"
+#include "apps/presa/standard_streams.h"
 #include "apps/presa/version.h"
 #include "framework/diagnostics/diagnostics.h"
 #include "framework/diagnostics/printable.h"
+#include "framework/input/folders.h"
+
+namespace {
+
+/// --allow-folder, of every command that has no commands of its own.
+void offerFolders(CLI::App& app) {
+  const auto commands = app.get_subcommands([](CLI::App*) { return true; });
+  for (CLI::App* command : commands) offerFolders(*command);
+  if (!commands.empty()) return;
+  app.add_option_function<std::vector<std::string>>(
+         "--allow-folder",
+         [](const std::vector<std::string>& folders) {
+           for (const std::string& folder : folders) presa::input::allowFolder(folder);
+         },
+         "files may name files in this folder, too (repeatable; also PRESA_ALLOW_FOLDERS)")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
+  presa::openStandardStreams();
+  presa::input::allowFoldersOf(argc, argv);
   CLI::App app{"Presa: virtual environments that people pick up with their fingers"};
   app.name("presa");
   app.set_version_flag("--version", std::string("presa ") + presa::kVersion);
@@ -30,6 +55,7 @@ int main(int argc, char** argv) {
   presa::addView(app, status);
   presa::addBus(app, status);
   presa::addTemple(app, status);
+  offerFolders(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -42,5 +68,5 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "presa: error: %s\n", presa::printableLines(error.what()).c_str());
     return presa::kExitFault;
   }
-  return status;
+  return presa::outputLost() && status == presa::kExitOk ? presa::kExitFault : status;
 }

@@ -1,9 +1,15 @@
 #include "modules/view_osg/frame_image.h"
 
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
 #include <osg/GraphicsContext>
-#include <osgDB/WriteFile>
+#include <osgDB/FileNameUtils>
+#include <osgDB/Registry>
+#include <sstream>
 
 namespace presa::view {
 namespace {
@@ -54,11 +60,21 @@ osg::ref_ptr<osg::Image> shrink(const osg::Image& image, int factor) {
 }
 
 std::string writePng(const osg::Image& image, const std::string& file) {
-  const osgDB::ReaderWriter::WriteResult result =
-      osgDB::Registry::instance()->writeImage(image, file, osgDB::Registry::instance()->getOptions());
-  if (result.success()) return {};
-  if (result.notHandled()) return "OpenSceneGraph has no writer for this file name (it should end in .png)";
-  return result.message().empty() ? "the file cannot be written" : result.message();
+  osgDB::Registry* const registry = osgDB::Registry::instance();
+  osgDB::ReaderWriter* const writer = registry->getReaderWriterForExtension(osgDB::getLowerCaseFileExtension(file));
+  if (writer == nullptr) return "OpenSceneGraph has no writer for this file name (it should end in .png)";
+  std::ostringstream bytes;  // OpenSceneGraph does not look whether the disk took what it wrote
+  const osgDB::ReaderWriter::WriteResult result = writer->writeImage(image, bytes, registry->getOptions());
+  if (!result.success()) return result.message().empty() ? "the picture cannot be made" : result.message();
+  errno = 0;
+  std::ofstream out(file, std::ios::binary);
+  const bool opened = out.is_open();
+  out << bytes.view();
+  out.close();
+  if (out) return {};
+  const std::string reason = errno != 0 ? std::strerror(errno) : "the file cannot be written";
+  if (opened) std::remove(file.c_str());  // half a picture
+  return reason;
 }
 
 }  // namespace presa::view

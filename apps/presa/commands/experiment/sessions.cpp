@@ -103,6 +103,7 @@ int resume(const std::string& data, const OperatorChoice& choice) {
     SessionStart start;
   };
   std::vector<Open> open;
+  bool unreadable = false;
   for (const SessionFolder& folder : sessionsIn(data)) {
     try {
       const Journal::Contents contents = Journal::read(folder.journal());
@@ -111,8 +112,10 @@ int resume(const std::string& data, const OperatorChoice& choice) {
       if (!log.complete) open.push_back({folder, log.start});
     } catch (const InputError& error) {
       std::fputs(error.diagnostics().text().c_str(), stderr);  // the others can go on
+      unreadable = true;
     }
   }
+  if (open.empty() && unreadable) return kExitBadInput;  // whether one is left cannot be told
   if (open.empty()) {
     std::printf("%s: no session is left to finish\n", data.c_str());
     return kExitOk;
