@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "apps/presa/experiment/seal.h"
 #include "framework/checksum/checksum.h"
 #include "framework/diagnostics/diagnostics.h"
 
@@ -29,7 +30,7 @@ class Validation {
       return verdict_;
     }
     verdict_.seal = contents.sum;
-    known_.insert({"journal.jsonl", "trials.csv", "trials.json"});
+    known_.insert({"journal.jsonl", "trials.csv", "trials.json", kSignatureFile});
     if (contents.torn_bytes > 0)
       find("journal.jsonl: " + std::to_string(contents.torn_bytes) + " bytes of a record that was never finished");
     for (const auto& [name, sum] : contents.records.front().at("sha256").items()) checkSum(name, sum);

@@ -1,23 +1,23 @@
 #include <openssl/evp.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
+#include <cstddef>
 #include <memory>
 
 #include "framework/checksum/checksum.h"
 
 namespace {
 
-int ofFile(const char* file, unsigned char* digest) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file, "rb"), std::fclose);
-  if (!in) return errno;
+int ofFile(int descriptor, unsigned char* digest) {
   const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) return ENOMEM;
   std::array<unsigned char, 65536> block;
-  while (const std::size_t read = std::fread(block.data(), 1, block.size(), in.get()))
-    if (EVP_DigestUpdate(context.get(), block.data(), read) != 1) return EIO;
-  if (std::ferror(in.get()) != 0) return EIO;
+  while (const ssize_t got = ::read(descriptor, block.data(), block.size())) {
+    if (got < 0 && errno != EINTR) return errno;
+    if (got > 0 && EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(got)) != 1) return EIO;
+  }
   return EVP_DigestFinal_ex(context.get(), digest, nullptr) == 1 ? 0 : EIO;
 }
 
@@ -44,7 +44,36 @@ int finish(void* sum, unsigned char* digest) {
 
 void end(void* sum) { EVP_MD_CTX_free(static_cast<EVP_MD_CTX*>(sum)); }
 
+using Pkey = std::unique_ptr<EVP_PKEY, void (*)(EVP_PKEY*)>;
+using Context = std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)>;
+
+int makeKeys(unsigned char* secret, unsigned char* open) {
+  const Pkey key(EVP_PKEY_Q_keygen(nullptr, nullptr, "ED25519"), EVP_PKEY_free);
+  std::size_t secret_size = 32, open_size = 32;
+  const bool good = key && EVP_PKEY_get_raw_private_key(key.get(), secret, &secret_size) == 1 &&
+                    EVP_PKEY_get_raw_public_key(key.get(), open, &open_size) == 1;
+  return good ? 0 : EIO;
+}
+
+int sign(const unsigned char* secret, const void* bytes, std::size_t count, unsigned char* signature) {
+  const Pkey key(EVP_PKEY_new_raw_private_key(EVP_PKEY_ED25519, nullptr, secret, 32), EVP_PKEY_free);
+  const Context context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  std::size_t size = 64;
+  const bool good =
+      key && context && EVP_DigestSignInit(context.get(), nullptr, nullptr, nullptr, key.get()) == 1 &&
+      EVP_DigestSign(context.get(), signature, &size, static_cast<const unsigned char*>(bytes), count) == 1;
+  return good ? 0 : EIO;
+}
+
+int verify(const unsigned char* open, const void* bytes, std::size_t count, const unsigned char* signature) {
+  const Pkey key(EVP_PKEY_new_raw_public_key(EVP_PKEY_ED25519, nullptr, open, 32), EVP_PKEY_free);
+  const Context context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  if (!key || !context || EVP_DigestVerifyInit(context.get(), nullptr, nullptr, nullptr, key.get()) != 1) return EIO;
+  const int result = EVP_DigestVerify(context.get(), signature, 64, static_cast<const unsigned char*>(bytes), count);
+  return result == 1 ? 0 : EBADMSG;
+}
+
 }  // namespace
 
 extern "C" __attribute__((visibility("default")))
-const presa::ChecksumPlugin presaChecksums{ofFile, ofBytes, begin, add, finish, end};
+const presa::ChecksumPlugin presaChecksums{ofFile, ofBytes, begin, add, finish, end, makeKeys, sign, verify};

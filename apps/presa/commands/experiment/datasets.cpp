@@ -1,12 +1,14 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "apps/presa/commands/experiment/experiment_commands.h"
 #include "apps/presa/experiment/dataset.h"
 #include "apps/presa/experiment/forget.h"
+#include "apps/presa/experiment/seal.h"
 #include "apps/presa/experiment/subject.h"
 
 namespace presa {
@@ -14,7 +16,25 @@ namespace {
 
 using namespace experiment;
 
-int validateAll(const std::string& data) {
+struct ValidateArguments {
+  std::string data, key;
+};
+
+/// What the lab's key says of a session that is in order; true when it says nothing against it.
+bool signatureGood(const SessionFolder& folder, const Verdict& verdict, const std::string& key) {
+  const bool is_signed = std::filesystem::exists(folder.file(kSignatureFile));
+  if (key.empty()) {
+    std::printf("  seal %s%s\n", verdict.seal.c_str(), is_signed ? ", signed: --key PUBLIC_KEY checks it" : "");
+    return true;
+  }
+  const auto trouble = signatureTrouble(folder, verdict.seal, key);
+  std::printf("  seal %s, %s\n", verdict.seal.c_str(),
+              trouble ? ("NOT PROVEN: " + *trouble).c_str() : "signed by the key");
+  return !trouble;
+}
+
+int validateAll(const ValidateArguments& a) {
+  const std::string& data = a.data;
   const std::vector<SessionFolder> sessions = sessionsIn(data);
   if (sessions.empty()) {
     std::fprintf(stderr, "%s: holds no session\n", data.c_str());
@@ -30,9 +50,63 @@ int validateAll(const std::string& data) {
     std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(), word, verdict.trials, verdict.runs);
     for (const std::string& finding : verdict.findings) std::printf("  %s\n", finding.c_str());
     for (const std::string& note : verdict.notes) std::printf("  %s\n", note.c_str());
-    if (verdict.findings.empty()) std::printf("  seal %s\n", verdict.seal.c_str());
+    if (verdict.findings.empty()) good = signatureGood(folder, verdict, a.key) && good;
   }
   return good ? kExitOk : kExitFault;
+}
+
+struct SignArguments {
+  std::string data, key;
+};
+
+int signAll(const SignArguments& a) {
+  const std::vector<SessionFolder> sessions = sessionsIn(a.data);
+  if (sessions.empty()) {
+    std::fprintf(stderr, "%s: holds no session\n", a.data.c_str());
+    return kExitBadInput;
+  }
+  bool all = true;
+  for (const SessionFolder& folder : sessions) {
+    const Verdict verdict = validate(folder);
+    if (verdict.findings.empty()) {
+      signSeal(folder, verdict.seal, a.key);
+      std::printf("%s: signed, seal %s\n", folder.path.c_str(), verdict.seal.c_str());
+    } else {
+      all = false;
+      std::printf("%s: NOT signed: %s\n", folder.path.c_str(), verdict.findings.front().c_str());
+    }
+  }
+  return all ? kExitOk : kExitFault;
+}
+
+void addValidate(CLI::App& app, int& status) {
+  auto a = std::make_shared<ValidateArguments>();
+  CLI::App* command = app.add_subcommand("validate", "Prove that a dataset is complete and unaltered");
+  addFolder(*command, a->data);
+  command->add_option("--key", a->key, "public key of the laboratory: every session must be signed by it");
+  command->footer(
+      "Without --key this proves accidents, not malice: who alters a session on purpose can make its sums anew.");
+  command->callback([a, &status] { status = validateAll(*a); });
+}
+
+void addSign(CLI::App& app, int& status) {
+  auto a = std::make_shared<SignArguments>();
+  CLI::App* command = app.add_subcommand("sign", "Sign the seal of every finished session with the laboratory's key");
+  addFolder(*command, a->data);
+  command->add_option("--key", a->key, "secret key, made by presa experiment key")->required();
+  command->footer("Exit status: 0 all signed, 1 a session is not in order and was not signed, 2 bad input.");
+  command->callback([a, &status] { status = signAll(*a); });
+}
+
+void addKey(CLI::App& app) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("key", "Make the laboratory's key: FILE, to be kept secret, and FILE.pub");
+  command->add_option("FILE", *file, "where to; nothing is overwritten")->required();
+  command->callback([file] {
+    makeKeyFiles(*file);
+    std::printf("%s is secret: keep it away from the data\n%s.pub goes to whoever checks\n", file->c_str(),
+                file->c_str());
+  });
 }
 
 struct ForgetArguments {
@@ -96,7 +170,9 @@ void addForget(CLI::App& app, int& status) {
 }  // namespace
 
 void addDatasetCommands(CLI::App& app, int& status) {
-  addFolderCommand(app, status, "validate", "Prove that a dataset is complete and unaltered", validateAll);
+  addValidate(app, status);
+  addKey(app);
+  addSign(app, status);
   addForget(app, status);
 }
 

@@ -1,20 +1,11 @@
 #include "apps/presa/commands/experiment/experiment_commands.h"
 
-#include <memory>
-
 namespace presa {
 
 void addFolder(CLI::App& command, std::string& folder) {
   command.add_option("DIR", folder, "folder of a dataset, or of one session in it")
       ->required()
       ->check(CLI::ExistingDirectory);
-}
-
-void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&)) {
-  auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand(name, what);
-  addFolder(*command, *folder);
-  command->callback([folder, act, &status] { status = act(*folder); });
 }
 
 void addExperiment(CLI::App& app, int& status) {

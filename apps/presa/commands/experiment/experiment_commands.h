@@ -7,7 +7,7 @@ namespace presa {
 
 /// `presa experiment …`, by what it works on.
 void addSessionCommands(CLI::App& app, int& status);  ///< dry-run, run, resume
-void addDatasetCommands(CLI::App& app, int& status);  ///< validate, forget
+void addDatasetCommands(CLI::App& app, int& status);  ///< validate, key, sign, forget
 void addExport(CLI::App& app, int& status);
 void addAnalyse(CLI::App& app, int& status);
 
@@ -15,7 +15,5 @@ void addSimulate(CLI::App& app, int& status);  ///< simulate
 
 /// The argument DIR.
 void addFolder(CLI::App& command, std::string& folder);
-/// A subcommand whose one argument is the folder of a dataset or of one session in it.
-void addFolderCommand(CLI::App& app, int& status, const char* name, const char* what, int (*act)(const std::string&));
 
 }  // namespace presa

@@ -32,6 +32,7 @@ void sayWhatItIs(const std::vector<SourceSession>& sessions, const std::string& 
   for (const SourceSession& session : sessions) {
     if (!session.log.complete) std::printf("  %s is not finished\n", session.folder.path.c_str());
     if (!session.model().empty()) std::printf("  %s: %s\n", session.prefix().c_str(), session.model().c_str());
+    std::printf("  %s: seal %s\n", session.prefix().c_str(), session.seal.c_str());
   }
 }
 
