@@ -70,18 +70,18 @@ std::string sha256OfText(std::string_view text) {
   return hexOf(digest);
 }
 
-Sha256::Sha256() : sum_(plugin().begin(), plugin().end) {
+Sha256::Sha256() : sum_(checksum::plugin().begin(), checksum::plugin().end) {
   if (!sum_) throw std::system_error(ENOMEM, std::generic_category(), "cannot compute a checksum");
 }
 
 void Sha256::add(const void* bytes, std::size_t count) {
-  if (const int error = plugin().add(sum_.get(), bytes, count); error != 0)
+  if (const int error = checksum::plugin().add(sum_.get(), bytes, count); error != 0)
     throw std::system_error(error, std::generic_category(), "cannot compute a checksum");
 }
 
 std::string Sha256::finish() {
   Digest digest{};
-  if (const int error = plugin().finish(sum_.get(), digest.data()); error != 0)
+  if (const int error = checksum::plugin().finish(sum_.get(), digest.data()); error != 0)
     throw std::system_error(error, std::generic_category(), "cannot compute a checksum");
   return hexOf(digest);
 }
