@@ -54,7 +54,7 @@ class BusKeys : public testing::Test {
 
 // One run, and everybody who might look at it or command it.
 TEST_F(BusKeys, LetInWhoHasThemAndNobodyElse) {
-  ViewerProcess run({"run", kCube, "--lockstep", "--speed", "0.001", "--for", "4", "--quiet", "--bus-commands"},
+  ViewerProcess run({"run", kCube, "--lockstep", "--speed", "0.02", "--for", "4", "--quiet", "--bus-commands"},
                     as("ours/run"));
   const std::vector<std::string> listen{"bus", "listen", "--for", "1", "--wait", "30", "--json"},
       briefly{"bus", "listen", "--for", "1", "--wait", "3", "--json"};

@@ -16,7 +16,8 @@ ip link set lo up
 ip link add here type veth peer name there 2>/dev/null || exit 77
 unshare --net sleep 120 &
 other=$!
-trap 'kill $other $run 2>/dev/null || true' EXIT
+# at once: Cyclone DDS ends by packets to itself, and the cable goes with the other end
+trap 'kill -KILL $run $other 2>/dev/null || true' EXIT
 run=$other
 until [[ $(readlink /proc/$other/ns/net) != "$(readlink /proc/self/ns/net)" ]]; do sleep 0.01; done
 ip link set there netns $other

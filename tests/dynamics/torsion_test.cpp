@@ -45,7 +45,7 @@ TEST(Torsion, IsTheFrictionOfTheGripAtItsRadius) {
       Runner run(cube(kTorsion, Vec3::Zero()), awake());
       run.bodies.setVelocity(0, Vec3::Zero(), {spin, 0, 0});
       std::vector<ReferenceFinger> fingers = pinch(0, kEdge, depth, kStiffness, mu);
-      constexpr int kSteps = 10;
+      constexpr int kSteps = 5;
       for (int n = 0; n < kSteps; ++n) run.step(exchangeOf(fingers, run));
       const double lost = 2 * kTorsion * mu * kStiffness * depth / inertia * kSteps * kStep;
       ASSERT_LT(lost, spin);
