@@ -83,10 +83,11 @@ def make_copy():
         source, copy = ROOT / name, SCRATCH / name
         if not source.is_file():
             continue
-        if copy.is_file() and copy.stat().st_mtime == source.stat().st_mtime and copy.stat().st_size == source.stat().st_size:
-            continue
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(source, copy)
+        if not copy.is_file():
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(source, copy)  # as old as it is, so that the build folder that comes with it fits
+        elif copy.read_bytes() != source.read_bytes():
+            shutil.copyfile(source, copy)  # of now: also what a run that was killed left harmed is built again
     build = SCRATCH / "build"
     if not (build / "build.ninja").exists():
         if BIND and (ROOT / "build" / "build.ninja").exists():
