@@ -4,6 +4,7 @@
 #include "devices/novint_falcon/falcon_device.h"
 #include "devices/novint_falcon/firmware.h"
 #include "devices/novint_falcon/usb_transport.h"
+#include "framework/input/folders.h"
 #include "framework/schedule/clock.h"
 
 namespace presa::falcon {
@@ -52,7 +53,8 @@ void checkFirmware(const DeviceBinding& binding, std::vector<DeviceFinding>& fin
   const auto file = binding.settings.find("firmware");
   if (file == binding.settings.end()) return;
   Diagnostics diagnostics;
-  readFirmware(file->second.value, file->second.where, diagnostics);
+  if (input::checkNamed(file->second.where, file->second.value, diagnostics))
+    readFirmware(file->second.value, file->second.where, diagnostics);
   for (const Diagnostic& found : diagnostics.all()) {
     const bool error = found.severity == Diagnostic::Severity::kError;
     findings.push_back({error ? Verdict::kProblem : Verdict::kWarning, found.code, "", found.message, found.help});

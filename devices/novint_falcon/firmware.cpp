@@ -6,7 +6,6 @@
 
 #include "devices/novint_falcon/codes.h"
 #include "framework/checksum/checksum.h"
-#include "framework/input/folders.h"
 #include "framework/input/input.h"
 
 namespace presa::falcon {
@@ -38,7 +37,6 @@ void checkSum(const std::string& file, const std::string& bytes, const SourceLoc
 
 std::vector<std::uint8_t> readFirmware(const std::string& file, const SourceLocation& where, Diagnostics& diagnostics) {
   const std::string name = "the firmware " + quote(file);
-  if (!input::checkNamed(where, file, diagnostics)) return {};
   input::Refusal refusal;
   const auto found = input::read(file, kMaxSize, refusal);
   if (!found) {

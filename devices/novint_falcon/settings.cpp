@@ -7,6 +7,7 @@
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/firmware.h"
 #include "framework/hand/hand_settings.h"
+#include "framework/input/folders.h"
 #include "framework/xml/value_rule.h"
 
 namespace presa::falcon {
@@ -82,7 +83,9 @@ FalconSettings readSettings(const DeviceBinding& binding, const World& world, Di
   readPositive(binding, "homing_wait", settings.homing_wait, diagnostics);
   if (const auto serial = binding.settings.find("serial"); serial != binding.settings.end())
     settings.serial = serial->second.value;
-  if (const auto firmware = binding.settings.find("firmware"); firmware != binding.settings.end())
+  if (const auto firmware = binding.settings.find("firmware");
+      firmware != binding.settings.end() &&
+      input::checkNamed(firmware->second.where, firmware->second.value, diagnostics))
     settings.firmware = readFirmware(firmware->second.value, firmware->second.where, diagnostics);
   return settings;
 }

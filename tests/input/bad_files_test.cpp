@@ -5,7 +5,7 @@
 #include "tests/input/program.h"
 
 // Each file from outside, given to the program as something that waits for ever, never ends, is too large, or lies elsewhere: exit
-// status 2 with the finding, before the 20 s after which a command counts as hanging (status 124).
+// status 2 with the finding, before the 60 s after which a command counts as hanging (status 124).
 namespace presa {
 namespace {
 

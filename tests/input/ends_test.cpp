@@ -19,10 +19,13 @@ using test::Outcome;
 const std::string kCube = test::kSource + "/config/scenes/cube.xml";
 const std::string kLift = test::kSource + "/tests/experiment/fixtures/lift.xml";
 
-/// After a second; a command that goes on for ten more is killed, with status 137.
+/// Once the run goes on, as the signals that it catches show; a command that goes on for ten seconds more is killed, with status 137.
 Outcome signalled(const Bench& bench, const std::string& signal, const std::string& arguments) {
-  return bench.shell("exec timeout --preserve-status --kill-after=10 -s " + signal + " 1 " + kProgram + " " +
-                     arguments);
+  return bench.shell(
+      kProgram + " " + arguments +
+      " & run=$!; for i in $(seq 600); do caught=$(awk '/SigCgt/ {print $2}' /proc/$run/status); "
+      "[ $((0x$caught & 0x4000)) -ne 0 ] && break; sleep 0.1; done; sleep 1; kill -" +
+      signal + " $run; (sleep 10; kill -KILL $run) & killer=$!; wait $run; status=$?; kill $killer; exit $status");
 }
 
 // Whichever it is, the recording is complete and the summary written; a closed terminal is one of them.

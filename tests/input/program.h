@@ -8,7 +8,7 @@ namespace presa::test {
 inline const std::string kProgram = PRESA_BINARY_DIR "/bin/presa";
 inline const std::string kSource = PRESA_SOURCE_DIR;
 
-/// What a command of the shell came to. A command that hangs is ended after 20 s, with status 124.
+/// What a command of the shell came to. A command that hangs is ended after 60 s, with status 124.
 struct Outcome {
   int status = -1;
   std::string text;  ///< both outputs
@@ -22,7 +22,7 @@ class Bench {
   void fifo(const std::string& name) const;
   /// In the folder; words are the shell's.
   Outcome shell(const std::string& command) const;
-  Outcome presa(const std::string& arguments) const { return shell("exec timeout 20 " + kProgram + " " + arguments); }
+  Outcome presa(const std::string& arguments) const { return shell("exec timeout 60 " + kProgram + " " + arguments); }
   /// scene.xml: one fixed body whose haptic mesh is `mesh`.
   void writeMeshScene(const std::string& mesh) const;
   /// rig.xml: thumb and index, both with this driver and setting.

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::int64_t kFadeNs = 50'000'000;  // of the clock, in virtual time
 constexpr std::int64_t kStuckNs = 80'000'000;
-// in real time the fade takes Executor::kFadeTime, and then every thread ends its step
-constexpr std::int64_t kStuckLiveNs = static_cast<std::int64_t>(1e9 * Executor::kFadeTime) + 250'000'000;
+// of all threads together, which sleep for most of the fade
+constexpr std::int64_t kStuckLiveNs = 300'000'000;
 constexpr int kInterrupted = 130;
 
 std::atomic<PromptEnd*> current{nullptr};
@@ -29,7 +29,7 @@ extern "C" void leaveNow(int) {
 
 }  // namespace
 
-// The time of a run in virtual time is that of its thread: on a busy machine it must not be taken for stuck.
+// Time is that of the processor: on a busy machine a run that is about to end must not be taken for stuck.
 PromptEnd::PromptEnd(RunControl& control, bool realtime) : control_(control), realtime_(realtime) {
   struct sigaction action {};
   action.sa_handler = leaveNow;
@@ -37,7 +37,7 @@ PromptEnd::PromptEnd(RunControl& control, bool realtime) : control_(control), re
   sigevent event{};
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGALRM;
-  has_timer_ = timer_create(realtime ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &event, &timer_) == 0;
+  has_timer_ = timer_create(realtime ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID, &event, &timer_) == 0;
   current = this;
 }
 
