@@ -155,6 +155,8 @@ TEST_F(Believed, NoMemoryIsTakenForWhatIsNotStored) {
   };
   for (const char* path : {"scene_xml", "rig_xml"}) {
     refused([&](Damage& d) { d.hugeText(path, 1'000'000'000'000); }, {"E673", path, "not stored"});
+    // a file has 32 bits for it: of this length 0 is left, by which HDF5 divided
+    refused([&](Damage& d) { d.hugeText(path, std::uint64_t{1} << 33); }, {"E672", path, "not one text"});
   }
   for (const char* path : {"haptic/ticks", "haptic/fingers/thumb", "haptic/bodies/cube", "schedule/haptic"}) {
     refused([&](Damage& d) { d.unallocated(path, 40'000'000); }, {"E673", path, "40000000 rows"});

@@ -67,43 +67,55 @@ class ContentReader {
   template <class Row>
   std::vector<Row> rows(const StoredTable& table, const std::vector<Rule>& rules, bool keep) {
     RowCheck& check = checks_.emplace_back(RowCheck(table.path, table.columns, rules), &table).first;
+    std::vector<Row> all, block;
+    Row before;
+    std::uint64_t sound = 0;  // rows so far
+    for (bool whole = true; whole && sound < table.rows;) {
+      whole = readBlock(table, sound, block);
+      if (!whole) break;
+      if (sealed_) sum_.add(block.data(), block.size() * sizeof(Row));
+      const std::size_t good = soundRows(table, sound, block, before, check);
+      if (keep) all.insert(all.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(good));
+      whole = good == block.size();
+      sound += good;
+    }
+    if (!stored_.complete && !isSchedule(table)) shorten(sound);
+    if (sealed_) sums_.push_back({table.path, table.rows, sum_.finish()});
+    whole_ = whole_ && sound == table.rows;
+    return all;
+  }
+
+  /// The next rows, at most a chunk. False when they cannot be read.
+  template <class Row>
+  bool readBlock(const StoredTable& table, hsize_t begin, std::vector<Row>& block) {
+    const hsize_t length = std::min<hsize_t>(kBlockRows, table.rows - begin);
+    block.assign(length, Row{});  // an older format lacks columns
     const h5::Handle type = h5::compoundType(table.columns, h5::Side::kMemory);
     const h5::Handle space(H5Dget_space(table.dataset), H5Sclose, "table space");
-    std::vector<Row> all, block(kBlockRows);
-    std::optional<std::uint64_t> ended;
-    Row before;
-    for (hsize_t begin = 0; begin < table.rows && !ended;) {
-      const hsize_t length = std::min<hsize_t>(kBlockRows, table.rows - begin);
-      h5::check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &begin, nullptr, &length, nullptr), "table selection");
-      const h5::Handle memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "row space");
-      std::fill(block.begin(), block.end(), Row{});
-      if (H5Dread(table.dataset, type, memory, space, H5P_DEFAULT, block.data()) < 0) {
-        ended = begin;
-        if (stored_.complete)
-          wrong(673, table.path + ": rows from " + std::to_string(begin) + " on cannot be read",
-                "was it copied completely?");
-        break;
+    const h5::Handle memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "row space");
+    h5::check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &begin, nullptr, &length, nullptr), "table selection");
+    if (H5Dread(table.dataset, type, memory, space, H5P_DEFAULT, block.data()) >= 0) return true;
+    if (stored_.complete)
+      wrong(673, table.path + ": rows from " + std::to_string(begin) + " on cannot be read",
+            "was it copied completely?");
+    return false;
+  }
+
+  /// How many of a block have the index and time that they should have. `before`: the row before it, then its last.
+  template <class Row>
+  std::size_t soundRows(const StoredTable& table, std::uint64_t begin, const std::vector<Row>& block, Row& before,
+                        RowCheck& check) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const std::uint64_t number = begin + i;
+      const std::string problem = keyProblem(table, number, block[i], number > 0 ? &before : nullptr);
+      if (!problem.empty()) {
+        if (stored_.complete) sayKey(table, number, problem);
+        return i;
       }
-      if (sealed_) sum_.add(block.data(), length * sizeof(Row));
-      for (hsize_t i = 0; i < length && !ended; ++i) {
-        const std::string problem = keyProblem(table, begin + i, block[i], begin + i > 0 ? &before : nullptr);
-        before = block[i];
-        if (!problem.empty()) {
-          ended = begin + i;
-          if (stored_.complete) sayKey(table, begin + i, problem);
-        } else {
-          check.check(&block[i], begin + i);
-        }
-      }
-      const auto good = static_cast<std::ptrdiff_t>((ended ? *ended : begin + length) - begin);
-      if (keep) all.insert(all.end(), block.begin(), block.begin() + good);
-      begin += length;
+      check.check(&block[i], number);
+      before = block[i];
     }
-    const std::uint64_t counted = ended.value_or(table.rows);
-    if (!stored_.complete && !isSchedule(table)) shorten(counted);
-    if (sealed_) sums_.push_back({table.path, table.rows, sum_.finish()});
-    whole_ = whole_ && !ended;
-    return all;
+    return block.size();
   }
 
   void sayKey(const StoredTable& table, std::uint64_t row, const std::string& problem) {

@@ -37,7 +37,15 @@ hssize_t valuesOf(hid_t space) {
   return kind == H5S_SIMPLE && H5Sget_simple_extent_ndims(space) == 1 ? H5Sget_simple_extent_npoints(space) : -1;
 }
 
-bool isFixedText(hid_t type) { return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0; }
+/// HDF5 divides by the length of a type, and a file may say 0.
+bool isFixedText(hid_t type) {
+  return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 && H5Tget_size(type) > 0;
+}
+
+bool isNumber(hid_t type, H5T_class_t kind) {
+  const std::size_t bytes = H5Tget_size(type);
+  return H5Tget_class(type) == kind && bytes > 0 && bytes <= sizeof(std::uint64_t);
+}
 
 }  // namespace
 
@@ -143,8 +151,7 @@ std::optional<std::uint64_t> Inspection::count(const std::string& object, const 
   const auto found = attribute(object, name);
   if (!found) return {};
   const h5::Handle type(H5Aget_type(*found), H5Tclose, "attribute " + name);
-  if (H5Tget_class(type) != H5T_INTEGER || H5Tget_size(type) > sizeof(std::uint64_t) ||
-      H5Tget_sign(type) != H5T_SGN_NONE) {
+  if (!isNumber(type, H5T_INTEGER) || H5Tget_sign(type) != H5T_SGN_NONE) {
     wrong(671, object, "attribute '" + name + "' is not a whole number without sign");
     return {};
   }
@@ -161,7 +168,7 @@ double Inspection::real(const std::string& object, const std::string& name, doub
   const auto found = attribute(object, name);
   if (!found) return std::numeric_limits<double>::quiet_NaN();
   const h5::Handle type(H5Aget_type(*found), H5Tclose, "attribute " + name);
-  if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) > sizeof(double)) {
+  if (!isNumber(type, H5T_FLOAT)) {
     wrong(671, object, "attribute '" + name + "' is not a real number");
     return std::numeric_limits<double>::quiet_NaN();
   }

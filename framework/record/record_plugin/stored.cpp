@@ -11,8 +11,8 @@
 namespace presa::record {
 namespace {
 
-// of a haptic tick, as the schema of scenes bounds its rate
-constexpr double kShortestPeriod = 1.0 / 40'000, kLongestPeriod = 1.0 / 100;
+// of a haptic tick, as the schema of scenes bounds its rate; a tenth more, because periods are rounded to nanoseconds
+constexpr double kShortestPeriod = 0.9 / 40'000, kLongestPeriod = 1.1 / 100;
 constexpr int kAttributeCode = 671;
 // of a killed run the newest rows may have their place in the file and not yet their bytes: chunks in the cache of each table, and
 // what HDF5 takes at once
