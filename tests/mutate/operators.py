@@ -51,13 +51,15 @@ SAFETY = [
     (STAGE, "return bounded(force, budget_.most(limits_.force), kOutputWarm);", "return force;"),
     (STAGE, "if (limits_.passivity) energy_.sent(last_);", ""),
     # what a rig and a scene may ask for
-    (LIMITS, "allowed.force.value_or(0.5 * rating.force), rating.force)", "allowed.force.value_or(0.5 * rating.force), 1e9)"),
-    (LIMITS, "value_or(0.5 * rating.force)", "value_or(rating.force)"),
-    (LIMITS, "limits.force = std::min(wanted.limits.force, room);", "limits.force = wanted.limits.force;"),
-    (LIMITS, "allowed.speed.value_or(rating.speed)", "rating.speed"),
-    (LIMITS, "std::min(wanted.limits.force_rate, allowed.force_rate.value_or(wanted.limits.force_rate))", "wanted.limits.force_rate"),
-    (LIMITS, "allowed.soft_start.value_or(limits.soft_start)", "limits.soft_start"),
-    (LIMITS, "std::min(allowed.continuous.value_or(rating.continuous), rating.continuous)", "rating.continuous"),
+    (LIMITS, "if (!allowed || *allowed <= rated) return", "if (true) return"),
+    (LIMITS, "imagined() ? rating_.force : 0.5 * rating_.force", "rating_.force"),
+    (LIMITS, "force = std::min(asked, room);", "force = asked;"),
+    (LIMITS, "limits.speed = allowedUpTo(\"speed\", allowed.speed, rating_.speed, \"m/s\");", "limits.speed = rating_.speed;"),
+    (LIMITS, "const double rate = std::min(asked, room)", "const double rate = asked"),
+    (LIMITS, "if (rate >= slowest) return rate;", "if (true) return rate;"),
+    (LIMITS, "std::max(allowed.soft_start.value_or(rating_.soft_start), rating_.soft_start)", "rating_.soft_start"),
+    (LIMITS, "allowedUpTo(\"continuous\", allowed.continuous, rating_.continuous, \"N\")", "rating_.continuous"),
+    (LIMITS, "if (asked <= rating_.watchdog) return asked;", "if (true) return asked;"),
     # which samples are believed, and what a finger's age does
     (SAMPLE, "(rejected && doubted_)", "false"),
     (SAMPLE, "<= kFastest * since_", "<= 1e9 * since_"),
@@ -78,7 +80,7 @@ SAFETY = [
     # the transport watch, which has to see what the stage let through
     (WATCH, "if (!std::isfinite(force)) fail", "if (false) fail"),
     (WATCH, "if (step > slew", "if (step > 1e9 + slew"),
-    (WATCH, "if (lost_for_ > down && force > 0)", "if (false)"),
+    (WATCH, "if (lost_for_ > kGone + tick.period && force > 0)", "if (false)"),
     # the process that holds the device
     (KEEPER, "if (alone_ || age_ > kHold)", "if (alone_)"),
     (KEEPER, "if (alone_ || age_ > kHold)", "if (age_ > kHold)"),
