@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "framework/checksum/checksum.h"
+#include "framework/input/folders.h"
 #include "framework/scene/load.h"
 
 namespace presa::bus {
@@ -98,6 +99,7 @@ void takeFromShelf(Scene& scene, const RunInfo& run, const std::vector<std::stri
                    Diagnostics& diagnostics) {
   const std::vector<MeshRef*> meshes = meshesOf(scene);
   if (meshes.empty()) return;
+  for (const std::string& folder : folders) input::allowFolder(folder);  // the user named them, not the run
   Shelf shelf(folders);
   std::istringstream sums(run.mesh_sums);
   std::map<std::string, bool> told;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -26,7 +27,7 @@ struct Folders {
     std::ofstream(file) << text;
     return file.string();
   }
-  fs::path root = fs::path(testing::TempDir()) / "mesh_shelf", here = root / "here", there = root / "there";
+  fs::path root = fs::path(testing::TempDir()) / ("mesh_shelf_" + std::to_string(getpid())), here = root / "here", there = root / "there";
 };
 
 Scene sceneWith(const std::string& mesh, const std::string& second = {}) {

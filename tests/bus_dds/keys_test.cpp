@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -43,7 +44,7 @@ class BusKeys : public testing::Test {
     }
   }
   static void TearDownTestSuite() { fs::remove_all(root()); }
-  static fs::path root() { return fs::path(testing::TempDir()) / "bus_keys"; }
+  static fs::path root() { return fs::path(testing::TempDir()) / ("bus_keys_" + std::to_string(getpid())); }
   BusSettings as(const std::string& part) const {
     BusSettings settings = bus_;
     settings.keys = root() / part;

@@ -77,6 +77,9 @@ std::string programWith(const std::vector<std::string>& plugins) {
     if (name.starts_with("libpresa_")) copy("lib/presa/" + name);
   }
   for (const std::string& plugin : plugins) copy("lib/presa/presa_" + plugin + ".so");
+  for (const char* folder : {"config", "experiments"}) {  // from where its scenes may name rigs and motions
+    if (!fs::exists(to / folder)) fs::create_directory_symlink(fs::path(PRESA_SOURCE_DIR) / folder, to / folder);
+  }
   return (to / "bin/presa").string();
 }
 

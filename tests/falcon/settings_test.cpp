@@ -124,7 +124,7 @@ TEST(FalconFirmware, AnUnknownFileIsLoadedWithAWarning) {
 TEST(FalconDiagnose, EveryProblemComesWithItsRemedy) {
   DeviceBinding binding;
   binding.driver = "novint_falcon";
-  binding.settings["firmware"] = {"/nowhere/falcon.bin", {"desk.xml", 2, 5}};
+  binding.settings["firmware"] = {"nowhere.bin", {"desk.xml", 2, 5}};
   const auto findings = devicePlugin("novint_falcon").diagnose(binding);
   ASSERT_GE(findings.size(), 2U);
   EXPECT_EQ(findings[0].code, kFirmwareUnreadable);

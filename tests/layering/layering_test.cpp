@@ -70,6 +70,7 @@ TEST(Layering, TheRootHoldsNothingElse) {
                                       "README.md",
                                       "LICENSE",
                                       "CONTRIBUTING.md",
+                                      "SECURITY.md",
                                       "dev",
                                       ".ci",
                                       ".gitignore",

@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "framework/input/folders.h"
 #include "framework/study/study_run.h"
 #include "tests/surface/support/mesh_files.h"
 #include "tests/surface/support/mesh_oracle.h"
@@ -45,6 +46,7 @@ Way follow(const std::string& motion) {
   scaleTo(man, 0.15);
   writeObj(man, folder / "man.obj");
   std::ofstream(folder / "man.xml") << kScene;
+  input::allowFolder(std::filesystem::path(motion).parent_path().string());
   std::string rig = kRig;
   std::ofstream(folder / "man_rig.xml") << rig.replace(rig.find("MOTION"), 6, motion);
   const MeshOracle oracle(man);

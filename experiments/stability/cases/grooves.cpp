@@ -9,6 +9,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/polyhedra.h"
+#include "framework/input/folders.h"
 
 namespace presa::stability {
 namespace {
@@ -26,6 +27,7 @@ class Folder {
  public:
   Folder() : path_(std::filesystem::temp_directory_path() / ("presa_grooves_" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(path_);
+    input::allowFolder(path_.string());  // the scene, in a folder of its own, names the mesh
   }
   ~Folder() {
     std::error_code ignored;
