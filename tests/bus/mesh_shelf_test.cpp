@@ -27,7 +27,8 @@ struct Folders {
     std::ofstream(file) << text;
     return file.string();
   }
-  fs::path root = fs::path(testing::TempDir()) / ("mesh_shelf_" + std::to_string(getpid())), here = root / "here", there = root / "there";
+  fs::path root = fs::path(testing::TempDir()) / ("mesh_shelf_" + std::to_string(getpid())), here = root / "here",
+           there = root / "there";
 };
 
 Scene sceneWith(const std::string& mesh, const std::string& second = {}) {
