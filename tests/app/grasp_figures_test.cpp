@@ -175,6 +175,16 @@ TEST(Losses, NameTheFingerWhereThereIsOne) {
       "the surface near finger 'thumb' was not fully known in 1 tick (first at 0.500 s): forces there are not right");
 }
 
+// XML allows the control characters above U+007F in a name; U+009B begins an escape sequence.
+TEST(Closing, ShowsWhatATerminalWouldObey) {
+  Grasp grasp;
+  grasp.result.contact_points[0].name = "thumb\u009B2J";
+  grasp.result.contact_points[0].summary.pop_through = 1;
+  const std::string closing = closingText(grasp.result, "", "", false);
+  EXPECT_EQ(closing.find("\u009B"), std::string::npos) << closing;
+  EXPECT_NE(closing.find("thumb\\u{9B}2J"), std::string::npos) << closing;
+}
+
 // A run in which nothing was lost says nothing of it.
 TEST(Losses, WhichThereAreNotAreNotToldOf) {
   const Grasp grasp;

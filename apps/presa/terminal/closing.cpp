@@ -6,6 +6,7 @@
 #include "apps/presa/terminal/status_line.h"
 #include "apps/presa/terminal/text.h"
 #include "apps/presa/verdict.h"
+#include "framework/diagnostics/printable.h"
 
 namespace presa {
 namespace {
@@ -31,7 +32,7 @@ std::string contactTable(const RunResult& result) {
       format("  %-14s %9s %9s %9s %11s %11s\n", "contact point", "free s", "stick s", "slip s", "mean N", "max N");
   for (const RunResult::ContactPoint& point : result.contact_points) {
     const FingerSummary& sum = point.summary;
-    out += format("  %-14s %9.3f %9.3f %9.3f %11.3f %11.3f\n", point.name.c_str(), sum.seconds[0], sum.seconds[1],
+    out += format("  %-14s %9.3f %9.3f %9.3f %11.3f %11.3f\n", printable(point.name).c_str(), sum.seconds[0], sum.seconds[1],
                   sum.seconds[2], sum.mean_normal_force, sum.max_normal_force);
   }
   return out;
@@ -58,10 +59,10 @@ std::string rateTable(const RunResult& result) {
 std::string closingText(const RunResult& result, const std::string& summary_file, const std::string& report_file,
                         bool color) {
   const Verdict verdict = verdictOf(result);
-  std::string out = styled(verdict.headline, styleOf(verdict.outcome), color) + "\n";
-  for (const std::string& detail : verdict.details) out += "  " + detail + "\n";
+  std::string out = styled(printable(verdict.headline), styleOf(verdict.outcome), color) + "\n";
+  for (const std::string& detail : verdict.details) out += "  " + printableLines(detail) + "\n";
   for (const std::string& warning : verdict.warnings)
-    out += "  " + styled("warning: " + warning, Style::kWarning, color) + "\n";
+    out += "  " + styled("warning: " + printable(warning), Style::kWarning, color) + "\n";
   out += contactTable(result) + rateTable(result);
   const double speed = result.wall_seconds > 0 ? result.simulated_seconds / result.wall_seconds : 0;
   out += format("  %.3f s simulated in %.3f s (%.1fx), state hash %s\n", result.simulated_seconds, result.wall_seconds,
@@ -69,7 +70,7 @@ std::string closingText(const RunResult& result, const std::string& summary_file
   for (const std::string& missing : result.realtime_missing)
     out += "  " + styled(missing, Style::kWarning, color) + "\n";
   for (const RunResult::Fault& fault : result.faults) {
-    out += "  " + styled(format("%.3f s: ", fault.time) + fault.text, Style::kBad, color) + "\n";
+    out += "  " + styled(format("%.3f s: ", fault.time) + printable(fault.text), Style::kBad, color) + "\n";
   }
   if (!result.recording.file.empty()) out += "  recording: " + result.recording.file + "\n";
   for (const std::string& file : result.flight_records)
