@@ -32,8 +32,8 @@ std::string contactTable(const RunResult& result) {
       format("  %-14s %9s %9s %9s %11s %11s\n", "contact point", "free s", "stick s", "slip s", "mean N", "max N");
   for (const RunResult::ContactPoint& point : result.contact_points) {
     const FingerSummary& sum = point.summary;
-    out += format("  %-14s %9.3f %9.3f %9.3f %11.3f %11.3f\n", printable(point.name).c_str(), sum.seconds[0], sum.seconds[1],
-                  sum.seconds[2], sum.mean_normal_force, sum.max_normal_force);
+    out += format("  %-14s %9.3f %9.3f %9.3f %11.3f %11.3f\n", printable(point.name).c_str(), sum.seconds[0],
+                  sum.seconds[1], sum.seconds[2], sum.mean_normal_force, sum.max_normal_force);
   }
   return out;
 }
