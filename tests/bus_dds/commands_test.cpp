@@ -21,17 +21,6 @@ const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.x
 constexpr double kPatience = 30;  // for what has to come, on a busy machine [s]
 const std::string kWait = "30";
 
-struct Said {
-  std::string text;
-  int status;
-};
-
-Said say(const BusSettings& bus, std::vector<std::string> words) {
-  ViewerProcess process(std::move(words), bus);
-  std::string text = process.rest();
-  return {text, process.end()};
-}
-
 Said set(const BusSettings& bus, const std::string& what) { return say(bus, {"bus", "set", what, "--wait", kWait}); }
 
 template <class Done>

@@ -21,17 +21,6 @@ using testing::Not;
 
 const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
 
-struct Said {
-  std::string text;
-  int status;
-};
-
-Said say(const BusSettings& bus, std::vector<std::string> words) {
-  ViewerProcess process(std::move(words), bus);
-  std::string text = process.rest();
-  return {text, process.end()};
-}
-
 /// Two laboratories, each with an authority of its own.
 class BusKeys : public testing::Test {
  protected:

@@ -88,7 +88,9 @@ Seen fromTheOtherHost(const std::string& network) {
 // lan, so that it is not the cable.
 TEST(BusLoopback, IsOutOfReachOfAnotherHost) {
   const Seen loopback = fromTheOtherHost("loopback");
-  if (loopback.status == 77) GTEST_SKIP() << "this system lets nobody make network namespaces (unshare --net)";
+  if (loopback.status == 77)
+    GTEST_SKIP()
+        << "this system lets nobody make network namespaces and set their routes (unshare --net, /proc/sys/net)";
   ASSERT_EQ(loopback.status, 0) << loopback.text;
   EXPECT_THAT(loopback.text, AllOf(HasSubstr("listens 127.0.0.1%lo:7410\n"), HasSubstr("listens 127.0.0.1%lo:7411\n"),
                                    Not(HasSubstr("listens 0.0.0.0")), Not(HasSubstr("listens *"))));

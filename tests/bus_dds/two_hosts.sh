@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Two machines and a cable, made of network namespaces: a run here, somebody at the other end. Prints one word a line for what the other
-# end finds; tests/bus_dds/loopback_test.cpp reads them. Exit status 77: this system lets nobody make namespaces.
+# end finds; tests/bus_dds/loopback_test.cpp reads them. Exit status 77: this system lets nobody make namespaces, or set their routes.
 # usage: two_hosts.sh PRESA SCENE NETWORK
 set -euo pipefail
 presa=$1 scene=$2 network=$3
@@ -27,9 +27,9 @@ at_other() { nsenter --target $other --net "$@"; }
 at_other ip address add 10.9.8.2/24 dev there
 at_other ip link set there up
 # the meanest neighbour: this machine lets 127.0.0.1 in from outside, and the neighbour sends there
-echo 1 >/proc/sys/net/ipv4/conf/here/route_localnet 2>/dev/null || true
+echo 1 2>/dev/null >/proc/sys/net/ipv4/conf/here/route_localnet || exit 77
 # and takes what comes back from there, so that a refusal is heard
-at_other bash -c 'for name in all there; do echo 1 >/proc/sys/net/ipv4/conf/$name/route_localnet; echo 0 >/proc/sys/net/ipv4/conf/$name/rp_filter; done' 2>/dev/null || true
+at_other bash -c 'set -e; for name in all there; do echo 1 >/proc/sys/net/ipv4/conf/$name/route_localnet; echo 0 >/proc/sys/net/ipv4/conf/$name/rp_filter; done' 2>/dev/null || exit 77
 at_other ip route add 127.0.0.1/32 via 10.9.8.1 dev there
 
 "$presa" run "$scene" --lockstep --speed 0.01 --for 4 --quiet --bus "$network" &

@@ -85,4 +85,16 @@ class ViewerProcess {
   int status_ = -1;
 };
 
+struct Said {
+  std::string text;
+  int status;
+};
+
+/// The program runs to its end.
+inline Said say(const BusSettings& bus, std::vector<std::string> words) {
+  ViewerProcess process(std::move(words), bus);
+  std::string text = process.rest();
+  return {text, process.end()};
+}
+
 }  // namespace presa

@@ -13,12 +13,17 @@
 #include "framework/plan/session.h"
 #include "framework/scene/load.h"
 #include "framework/supervision/command_keeper.h"
+#include "tests/device/stand_ins.h"
 
 // Ten thousand random scenes and rigs, each through the readers of the files, the limits, the output stage and the supervisor's keeper:
 // whatever they say, no force beyond the driver's rating reaches the transport, no step that it does not allow, and nothing takes longer
 // than 20 ms to zero. The files lie in every number; the rendering behind them commands anything; then one of seven things fails.
 namespace presa {
 namespace {
+
+using test::Commands;
+using test::Objects;
+using test::Patches;
 
 constexpr double kGone = 0.020;  // [s]
 constexpr double kTouched = 1e-9;
@@ -40,32 +45,6 @@ class Finger final : public Device {
   void write(const Vec3& f, const Tick&) noexcept override { sent = f; }
   bool silent = false, lost = false;
   Vec3 sent = Vec3::Zero();
-};
-
-class Commands final : public Module {
- public:
-  Commands() : Module("rendering", RateGroup::kHaptic) {}
-  void step(const Tick& tick) noexcept override {
-    out.value.time = tick.time;
-    out.value.count = 1;
-    out.value.fingers[0].f_H_W = wanted;
-  }
-  Vec3 wanted = Vec3::Zero();
-  Out<ContactExchange> out{*this, "contact_exchange"};
-};
-
-class Objects final : public Module {
- public:
-  Objects() : Module("objects", RateGroup::kDynamics) {}
-  void step(const Tick& tick) noexcept override { out.value.time_begin = tick.time; }
-  Out<ObjectState> out{*this, "object_state"};
-};
-
-class Patches final : public Module {
- public:
-  Patches() : Module("patches", RateGroup::kCollision) {}
-  void step(const Tick& tick) noexcept override { out.value.time = tick.time; }
-  Out<ContactPatches> out{*this, "contact_patches"};
 };
 
 /// One finger from the rendering to the transport: the program's stage, and a supervisor's keeper that runs four times a tick.

@@ -4,9 +4,13 @@
 
 #include "framework/device/device_modules.h"
 #include "framework/graph/graph_builder.h"
+#include "tests/device/stand_ins.h"
 
 namespace presa {
 namespace {
+
+using test::Objects;
+using test::Patches;
 
 /// A finger that stands still and remembers what was sent to it.
 class StillFinger final : public Device {
@@ -23,45 +27,13 @@ class StillFinger final : public Device {
   double steepest = 0;
 };
 
-/// Stands for the rendering: a constant wish of 4 N.
-class ConstantForce final : public Module {
- public:
-  ConstantForce() : Module("rendering", RateGroup::kHaptic) {}
-  void step(const Tick& tick) noexcept override {
-    out.value.time = tick.time;
-    out.value.count = 1;
-    out.value.fingers[0].f_H_W = {4, 0, 0};
-  }
-  Out<ContactExchange> out{*this, "contact_exchange"};
-};
-
-/// Stands for the dynamics: goes wrong, or stops, when told.
-class Objects final : public Module {
- public:
-  Objects() : Module("objects", RateGroup::kDynamics) {}
-  void step(const Tick& tick) noexcept override {
-    out.value.time_begin = tick.time;
-    out.value.faults = fault ? std::uint32_t{kFaultBodyFrozen} : 0U;
-  }
-  bool fault = false;
-  Out<ObjectState> out{*this, "object_state"};
-};
-
-/// Stands for the collision thread.
-class Patches final : public Module {
- public:
-  Patches() : Module("patches", RateGroup::kCollision) {}
-  void step(const Tick& tick) noexcept override { out.value.time = tick.time; }
-  Out<ContactPatches> out{*this, "contact_patches"};
-};
-
 struct Rig {
   explicit Rig(const Rates& scene = {}) : rates(scene) {
     devices.push_back(std::make_unique<StillFinger>());
     finger = static_cast<StillFinger*>(devices[0].get());
     GraphBuilder builder;
     builder.add(std::make_unique<DeviceInput>(devices, control));
-    builder.add(std::make_unique<ConstantForce>());
+    builder.add(std::make_unique<test::Commands>(Vec3(4, 0, 0)));
     objects = &builder.add(std::make_unique<Objects>());
     builder.add(std::make_unique<Patches>());
     output = &builder.add(std::make_unique<DeviceOutput>(

@@ -65,11 +65,24 @@ TEST(Layering, EveryFolderSaysWhatItIsFor) {
 
 // The shape of the root is fixed; what tools demand there is listed by name.
 TEST(Layering, TheRootHoldsNothingElse) {
-  const std::set<std::string> allowed{"CMakeLists.txt",  "CMakePresets.json", "README.md",   "LICENSE",
-                                      "CONTRIBUTING.md", "SECURITY.md",       "dev",         ".ci",
-                                      ".gitignore",      ".clang-format",     ".clang-tidy", ".editorconfig",
-                                      "framework",       "modules",           "devices",     "apps",
-                                      "config",          "experiments",       "tests"};
+  const std::set<std::string> allowed{"CMakeLists.txt",
+                                      "CMakePresets.json",
+                                      "README.md",
+                                      "LICENSE",
+                                      "CONTRIBUTING.md",
+                                      "dev",
+                                      ".ci",
+                                      ".gitignore",
+                                      ".clang-format",
+                                      ".clang-tidy",
+                                      ".editorconfig",
+                                      "framework",
+                                      "modules",
+                                      "devices",
+                                      "apps",
+                                      "config",
+                                      "experiments",
+                                      "tests"};
   std::vector<std::string> others;
   for (const std::string& entry : rootEntries()) {
     if (!allowed.contains(entry)) others.push_back(entry);

@@ -1,0 +1,44 @@
+#pragma once
+#include "framework/graph/module.h"
+#include "framework/graph/port.h"
+#include "framework/state/contact_exchange.h"
+#include "framework/state/contact_patch.h"
+#include "framework/state/object_state.h"
+
+// Modules that stand before the output stage in a graph.
+namespace presa::test {
+
+/// Stands for the rendering: wishes for a force.
+class Commands final : public Module {
+ public:
+  explicit Commands(const Vec3& wish = Vec3::Zero()) : Module("rendering", RateGroup::kHaptic), wanted(wish) {}
+  void step(const Tick& tick) noexcept override {
+    out.value.time = tick.time;
+    out.value.count = 1;
+    out.value.fingers[0].f_H_W = wanted;
+  }
+  Vec3 wanted;
+  Out<ContactExchange> out{*this, "contact_exchange"};
+};
+
+/// Stands for the dynamics: goes wrong, or stops, when told.
+class Objects final : public Module {
+ public:
+  Objects() : Module("objects", RateGroup::kDynamics) {}
+  void step(const Tick& tick) noexcept override {
+    out.value.time_begin = tick.time;
+    out.value.faults = fault ? std::uint32_t{kFaultBodyFrozen} : 0U;
+  }
+  bool fault = false;
+  Out<ObjectState> out{*this, "object_state"};
+};
+
+/// Stands for the collision thread.
+class Patches final : public Module {
+ public:
+  Patches() : Module("patches", RateGroup::kCollision) {}
+  void step(const Tick& tick) noexcept override { out.value.time = tick.time; }
+  Out<ContactPatches> out{*this, "contact_patches"};
+};
+
+}  // namespace presa::test
