@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "framework/record/record_plugin/stored.h"
@@ -11,13 +10,6 @@
 
 namespace presa::record {
 namespace {
-
-template <class Value>
-Value valueAt(const void* row, std::size_t offset) {
-  Value value;
-  std::memcpy(&value, static_cast<const char*>(row) + offset, sizeof value);
-  return value;
-}
 
 /// "" when the rule holds, else what was found.
 std::string broken(const Rule& rule, const Column& column, const void* row) {

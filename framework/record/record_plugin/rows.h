@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -68,6 +69,14 @@ struct Column {
   std::string unit;  ///< "1" for a number without unit
   std::string description;
 };
+
+/// What a row, as it lies in memory or in the file, holds at an offset.
+template <class Value>
+Value valueAt(const void* row, std::size_t offset) noexcept {
+  Value value;
+  std::memcpy(&value, static_cast<const char*>(row) + offset, sizeof value);
+  return value;
+}
 
 struct Table {
   std::size_t row_bytes;

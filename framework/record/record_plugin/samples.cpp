@@ -1,31 +1,22 @@
 #include "framework/record/record_plugin/samples.h"
 
-#include <cstring>
-
 #include "framework/record/record_plugin/contents.h"
 
 namespace presa::record {
 namespace {
 
-template <class Cell>
-double cellAt(const void* row, std::size_t offset) {
-  Cell value;
-  std::memcpy(&value, static_cast<const char*>(row) + offset, sizeof value);
-  return static_cast<double>(value);
-}
-
 double numberAt(const void* row, const Column& column) {
   switch (column.cell) {
     case Cell::kU64:
-      return cellAt<std::uint64_t>(row, column.offset);
+      return static_cast<double>(valueAt<std::uint64_t>(row, column.offset));
     case Cell::kI32:
-      return cellAt<std::int32_t>(row, column.offset);
+      return valueAt<std::int32_t>(row, column.offset);
     case Cell::kU32:
-      return cellAt<std::uint32_t>(row, column.offset);
+      return valueAt<std::uint32_t>(row, column.offset);
     case Cell::kF64:
       break;
   }
-  return cellAt<double>(row, column.offset);
+  return valueAt<double>(row, column.offset);
 }
 
 /// Every column but the key of the rows, which are those of the ticks.
