@@ -1,11 +1,11 @@
 #include <cstdio>
 #include <exception>
 
-#include "apps/presa/commands/commands.h"
-#include "apps/presa/standard_streams.h"
-#include "apps/presa/version.h"
-#include "framework/diagnostics/diagnostics.h"
-#include "framework/diagnostics/printable.h"
+#include "apps/common/options/commands.h"
+#include "apps/common/standard_streams.h"
+#include "apps/common/version.h"
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/printable.h"
 #include "framework/input/folders.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "framework/supervision/supervisor.h"
+#include "framework/device/supervision/supervisor.h"
 
 namespace {
 

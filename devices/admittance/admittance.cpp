@@ -1,7 +1,7 @@
 #include "devices/admittance/settings.h"
-#include "framework/hand/scripted_hand.h"
-#include "framework/plan/plugin.h"
-#include "framework/schedule/rates.h"
+#include "devices/hand/scripted_hand.h"
+#include "framework/session/plugin.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "framework/hand/motion.h"
-#include "framework/math/random.h"
-#include "framework/math/spatial.h"
+#include "devices/hand/motion.h"
+#include "framework/core/math/random.h"
+#include "framework/core/math/spatial.h"
 
 /// An admittance device [vanderLinde2002]: a stiff drive that no hand can push by itself. A sensor in the grip measures the hand's force;
 /// a virtual mass moves under that force and the rendered one, and a velocity servo makes the grip follow:

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "framework/schedule/rates.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::admittance {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include "devices/admittance/drive.h"
-#include "framework/hand/hand_settings.h"
+#include "devices/hand/hand_settings.h"
 
 namespace presa::admittance {
 

@@ -1,7 +1,7 @@
 #include "devices/assembling_hand/planner.h"
-#include "framework/hand/planned_finger.h"
-#include "framework/plan/plugin.h"
-#include "framework/schedule/rates.h"
+#include "devices/hand/planned_finger.h"
+#include "framework/session/plugin.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::assembling {
 namespace {

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "framework/scene/world.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa::assembling {
 

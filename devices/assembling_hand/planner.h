@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/assembling_hand/choice.h"
-#include "framework/hand/pair_plan.h"
+#include "devices/hand/pair_plan.h"
 #include "framework/scene/goal_pose.h"
 
 namespace presa::assembling {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "framework/scene/world.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa::assembling {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "devices/clumsy_hand/clumsy_plan.h"
-#include "framework/hand/planned_finger.h"
-#include "framework/plan/plugin.h"
-#include "framework/schedule/rates.h"
+#include "devices/hand/planned_finger.h"
+#include "framework/session/plugin.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::clumsy {
 namespace {

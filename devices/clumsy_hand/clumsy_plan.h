@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/hand/pair_plan.h"
-#include "framework/math/random.h"
+#include "devices/hand/pair_plan.h"
+#include "framework/core/math/random.h"
 #include "framework/scene/world.h"
 
 namespace presa::clumsy {

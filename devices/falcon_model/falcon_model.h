@@ -14,7 +14,7 @@
 #include "devices/falcon_model/processor.h"
 #include "devices/falcon_model/reply_fate.h"
 #include "devices/falcon_model/serial_line.h"
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::falcon_model {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::falcon_model {
 

@@ -2,8 +2,8 @@
 #include <array>
 #include <functional>
 
-#include "framework/hand/finger_plant.h"
-#include "framework/math/spatial.h"
+#include "devices/hand/finger_plant.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::falcon_model {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 /// The three legs of a Falcon, seen as tori. A thigh turns in its motor's plane; from its knee on, two rigid ends of together
 /// kTube and a parallelogram of length kShin reach the grip. In the plane the grip is kTube + sqrt(kShin^2 - y^2) away from the knee, y

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 /// What may happen to replies on their way. Thread: any.
 namespace presa::falcon_model {

@@ -5,7 +5,7 @@
 #include "devices/novint_falcon/firmware.h"
 #include "devices/novint_falcon/usb_transport.h"
 #include "framework/input/folders.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::falcon {
 namespace {

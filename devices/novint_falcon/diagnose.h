@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "framework/plan/plugin.h"
+#include "framework/session/plugin.h"
 
 namespace presa::falcon {
 

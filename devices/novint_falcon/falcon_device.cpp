@@ -7,7 +7,7 @@
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/finger.h"
 #include "devices/novint_falcon/usb_transport.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::falcon {
 namespace {

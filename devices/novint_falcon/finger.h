@@ -1,6 +1,6 @@
 #pragma once
 #include "devices/novint_falcon/link.h"
-#include "framework/state/device_state.h"
+#include "framework/core/state/device_state.h"
 
 namespace presa::falcon {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "devices/novint_falcon/codes.h"
-#include "framework/checksum/checksum.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/input/input.h"
 
 namespace presa::falcon {

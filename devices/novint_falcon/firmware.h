@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 namespace presa::falcon {
 

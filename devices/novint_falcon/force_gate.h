@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "framework/device/device_rating.h"
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::falcon {
 

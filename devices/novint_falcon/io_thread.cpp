@@ -4,7 +4,7 @@
 #include <sched.h>
 #include <sys/prctl.h>
 
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::falcon {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "devices/novint_falcon/link.h"
-#include "framework/exchange/latest_value.h"
-#include "framework/schedule/tick.h"
+#include "framework/core/exchange/latest_value.h"
+#include "framework/core/schedule/tick.h"
 
 namespace presa::falcon {
 

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "devices/novint_falcon/packet.h"
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 /// Geometry and statics of a Novint Falcon: a delta mechanism after Stamper, three legs around the device's z axis.
 ///

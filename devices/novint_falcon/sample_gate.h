@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "devices/novint_falcon/packet.h"
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::falcon {
 

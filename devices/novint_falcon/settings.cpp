@@ -6,9 +6,9 @@
 
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/firmware.h"
-#include "framework/hand/hand_settings.h"
+#include "devices/hand/hand_settings.h"
 #include "framework/input/folders.h"
-#include "framework/xml/value_rule.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa::falcon {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include "devices/percro_arm/parameters.h"
-#include "framework/characterisation/characterisation.h"
+#include "devices/percro_arm/characterisation/characterisation.h"
 
 namespace presa::percro {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "devices/percro_arm/parameters.h"
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 /// Kinematics of one arm: two crossing axes and a barrel that slides through where they meet (RRP), driven through a
 /// differential, and a passive wrist. Frame D of the base: origin where the axes meet; x along the barrel at rest, y up (the

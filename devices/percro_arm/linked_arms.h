@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "devices/percro_arm/simulated_arm.h"
-#include "framework/calibration/linked_bases.h"
-#include "framework/math/random.h"
+#include "devices/percro_arm/calibration/linked_bases.h"
+#include "framework/core/math/random.h"
 
 /// The second calibration of [Bergamasco2006 2.2], on modelled arms: thimbles clamped in line with the barrels, a Cardan joint
 /// between them; one arm is led along a path, the other follows without resistance. Thread: any; takes seconds.

@@ -1,6 +1,6 @@
 #pragma once
 #include "devices/percro_arm/parameters.h"
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::percro {
 

@@ -8,11 +8,11 @@
 #include "devices/percro_arm/linked_arms.h"
 #include "devices/percro_arm/steps.h"
 #include "devices/percro_arm/switched_on.h"
-#include "framework/calibration/calibration_plugin.h"
-#include "framework/hand/hand_settings.h"
-#include "framework/hand/scripted_hand.h"
-#include "framework/plan/plugin.h"
-#include "framework/schedule/rates.h"
+#include "devices/percro_arm/calibration/calibration_plugin.h"
+#include "devices/hand/hand_settings.h"
+#include "devices/hand/scripted_hand.h"
+#include "framework/session/plugin.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "devices/percro_arm/homing.h"
 #include "devices/percro_arm/simulated_arm.h"
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::percro {
 

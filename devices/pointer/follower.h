@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::pointer {
 

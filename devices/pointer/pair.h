@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "devices/pointer/follower.h"
-#include "framework/hand/finger_plant.h"
-#include "framework/schedule/tick.h"
-#include "framework/state/pointer_state.h"
+#include "devices/hand/finger_plant.h"
+#include "framework/core/schedule/tick.h"
+#include "framework/device/pointer_state.h"
 
 namespace presa::pointer {
 

@@ -5,10 +5,10 @@
 #include <mutex>
 
 #include "devices/pointer/pair.h"
-#include "framework/diagnostics/refuse.h"
-#include "framework/hand/hand_settings.h"
-#include "framework/plan/plugin.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "devices/hand/hand_settings.h"
+#include "framework/session/plugin.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::pointer {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/state/device_state.h"
+#include "framework/core/state/device_state.h"
 
 namespace presa {
 

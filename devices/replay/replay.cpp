@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "devices/replay/settings.h"
-#include "framework/plan/plugin.h"
+#include "framework/session/plugin.h"
 
 namespace presa {
 namespace {

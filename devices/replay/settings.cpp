@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "framework/hand/hand_settings.h"
+#include "devices/hand/hand_settings.h"
 #include "framework/input/folders.h"
 #include "framework/record/record_plugin.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/replay/recorded_path.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/scene/world.h"
 
 namespace presa {

@@ -1,8 +1,8 @@
-#include "framework/hand/finger_plant.h"
-#include "framework/hand/hand_settings.h"
-#include "framework/hand/scripted_hand.h"
-#include "framework/plan/plugin.h"
-#include "framework/schedule/rates.h"
+#include "devices/hand/finger_plant.h"
+#include "devices/hand/hand_settings.h"
+#include "devices/hand/scripted_hand.h"
+#include "framework/session/plugin.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa {
 namespace {

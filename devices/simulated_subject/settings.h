@@ -1,6 +1,6 @@
 #pragma once
 #include "devices/simulated_subject/shared_subject.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 namespace presa {
 

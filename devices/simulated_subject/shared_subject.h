@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "framework/scene/world.h"
-#include "framework/schedule/tick.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
-#include "framework/subject/brain.h"
-#include "framework/subject/hand.h"
+#include "framework/core/schedule/tick.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
+#include "devices/simulated_subject/model/brain.h"
+#include "devices/simulated_subject/model/hand.h"
 
 namespace presa {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 /// What may go wrong under a hand, and what must happen then. Every run is a whole pipeline in lockstep, two yielding fingers on an
 /// object, one fault at a random moment; forces are judged as they were written to the devices.

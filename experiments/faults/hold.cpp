@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/study/experiment_file.h"
+#include "experiments/study/experiment_file.h"
 
 namespace presa::faults {
 namespace {

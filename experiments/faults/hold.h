@@ -6,8 +6,8 @@
 
 #include "experiments/faults/fault.h"
 #include "framework/device/wrapped_device.h"
-#include "framework/study/study_run.h"
-#include "framework/study/yielding_finger.h"
+#include "experiments/study/study_run.h"
+#include "experiments/study/yielding_finger.h"
 
 namespace presa::faults {
 

@@ -3,7 +3,7 @@
 #include "experiments/faults/hold.h"
 #include "experiments/faults/object_imports.h"
 #include "experiments/faults/scene_faults.h"
-#include "framework/plan/realtime_policy.h"
+#include "framework/session/realtime_policy.h"
 
 namespace presa::faults {
 namespace {

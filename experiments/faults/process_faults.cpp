@@ -10,7 +10,7 @@
 
 #include "experiments/faults/fault.h"
 #include "experiments/faults/press.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::faults {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "experiments/faults/scene_faults.h"
 #include "framework/scene/load.h"
-#include "framework/study/study_run.h"
-#include "framework/study/yielding_finger.h"
+#include "experiments/study/study_run.h"
+#include "experiments/study/yielding_finger.h"
 
 namespace presa::faults {
 namespace {

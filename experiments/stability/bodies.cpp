@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "framework/study/box_penetration.h"
+#include "experiments/study/box_penetration.h"
 
 namespace presa::stability {
 StudyRun::Observer atEachStep(std::function<void(const ObjectState&)> use) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "framework/study/experiment_file.h"
+#include "experiments/study/experiment_file.h"
 
 namespace presa::stability {
 const char* toString(Verdict verdict) {

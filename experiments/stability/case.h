@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/study/study_run.h"
+#include "experiments/study/study_run.h"
 
 namespace presa::stability {
 

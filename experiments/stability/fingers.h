@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "framework/device/device_modules.h"
-#include "framework/study/prescribed_finger.h"
+#include "experiments/study/prescribed_finger.h"
 
 /// Fingers whose way is known exactly.
 namespace presa::stability {

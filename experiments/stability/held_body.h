@@ -2,7 +2,7 @@
 #include <functional>
 #include <vector>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 /// A reference that shares nothing with what it is held against: no solver, no constraints, no contact detection, no engine.
 namespace presa::stability {

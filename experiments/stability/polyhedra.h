@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 /// Solids bounded by planes, as meshes and as exact answers.
 namespace presa::stability {

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "framework/math/spatial.h"
-#include "framework/study/prescribed_finger.h"
+#include "framework/core/math/spatial.h"
+#include "experiments/study/prescribed_finger.h"
 
 /// A hand that plays with a body, different with every seed.
 namespace presa::stability {

@@ -6,7 +6,7 @@
 
 #include "framework/bus/state_bus.h"
 #include "framework/scene/open_surfaces.h"
-#include "framework/state/surface_settings.h"
+#include "framework/core/state/surface_settings.h"
 
 namespace presa::bus {
 

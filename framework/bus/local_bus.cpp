@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "framework/bus/inbox.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::bus {
 

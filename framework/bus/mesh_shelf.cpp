@@ -7,7 +7,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "framework/checksum/checksum.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/input/folders.h"
 #include "framework/scene/load.h"
 

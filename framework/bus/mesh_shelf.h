@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "framework/bus/samples.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/scene/scene.h"
 
 namespace presa::bus {

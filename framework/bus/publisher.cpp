@@ -6,8 +6,8 @@
 #include "framework/bus/mesh_shelf.h"
 #include "framework/bus/scene_hash.h"
 #include "framework/device/output_stage.h"
-#include "framework/schedule/clock.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/schedule/clock.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::bus {
 

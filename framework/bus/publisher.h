@@ -5,9 +5,9 @@
 
 #include "framework/bus/command_desk.h"
 #include "framework/bus/state_bus.h"
-#include "framework/graph/port.h"
+#include "framework/core/graph/port.h"
 #include "framework/scene/world.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa::bus {
 

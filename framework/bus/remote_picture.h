@@ -7,8 +7,8 @@
 #include "framework/bus/sequence_watch.h"
 #include "framework/bus/state_bus.h"
 #include "framework/scene/world.h"
-#include "framework/schedule/timing_stats.h"
-#include "framework/state/object_state.h"
+#include "framework/core/schedule/timing_stats.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa::bus {
 

@@ -3,9 +3,9 @@
 #include <span>
 #include <string>
 
-#include "framework/math/spatial.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/device_state.h"
+#include "framework/core/math/spatial.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
 
 /// What travels on the bus: whole states and values, never changes of them, so that any one may be lost, doubled or late. SI units, world frame.
 namespace presa::bus {

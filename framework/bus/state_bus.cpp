@@ -1,6 +1,6 @@
 #include "framework/bus/state_bus.h"
 
-#include "framework/plan/plugin_loader.h"
+#include "framework/core/plugin/plugin_loader.h"
 
 namespace presa::bus {
 

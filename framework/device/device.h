@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "framework/scene/world.h"
-#include "framework/schedule/tick.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
-#include "framework/state/pointer_state.h"
+#include "framework/core/schedule/tick.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
+#include "framework/device/pointer_state.h"
 
 namespace presa {
 

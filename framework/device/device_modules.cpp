@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/device/device_rating.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/scene/ages.h"
 #include "framework/scene/scene.h"
 

@@ -4,7 +4,7 @@
 #include "framework/device/output_limits.h"
 #include "framework/device/passivity_controller.h"
 #include "framework/device/thermal_budget.h"
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa {
 

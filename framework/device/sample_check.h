@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "framework/state/device_state.h"
+#include "framework/core/state/device_state.h"
 
 namespace presa {
 

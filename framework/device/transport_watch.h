@@ -3,7 +3,7 @@
 
 #include "framework/device/device.h"
 #include "framework/device/output_limits.h"
-#include "framework/schedule/executor.h"
+#include "framework/core/schedule/executor.h"
 
 namespace presa {
 

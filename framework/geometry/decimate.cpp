@@ -4,7 +4,7 @@
 
 #include "framework/geometry/closest_point.h"
 #include "framework/geometry/mesh_decimate_abi.h"
-#include "framework/plan/plugin_loader.h"
+#include "framework/core/plugin/plugin_loader.h"
 
 namespace presa {
 namespace {

@@ -7,7 +7,7 @@
 #include "framework/geometry/mesh_import_abi.h"
 #include "framework/geometry/tri_mesh.h"
 #include "framework/input/input.h"
-#include "framework/plan/plugin_loader.h"
+#include "framework/core/plugin/plugin_loader.h"
 
 namespace presa {
 namespace {

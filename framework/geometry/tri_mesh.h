@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
-#include "framework/math/spatial.h"
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 /// From where a file may name another one. A person names any file; a file names only what lies, symbolic links followed, in
 ///   the folder of the file that names it, or below,

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 /// The one way to open a file that comes from outside. Only regular files get in (no FIFO, device, folder or socket), none that has
 /// more bytes than the caller reads, and no read goes on for ever. Folders: folders.h. Thread: any but the haptic one.

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "framework/plan/plugin.h"
-#include "framework/plan/plugin_loader.h"
+#include "framework/session/plugin.h"
+#include "framework/core/plugin/plugin_loader.h"
 #include "framework/record/record_plugin.h"
 
 namespace presa {

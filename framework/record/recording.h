@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "framework/exchange/event_ring.h"
-#include "framework/graph/module.h"
+#include "framework/core/exchange/event_ring.h"
+#include "framework/core/graph/module.h"
 #include "framework/scene/world.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa {
 

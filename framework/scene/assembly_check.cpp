@@ -3,7 +3,7 @@
 #include <set>
 
 #include "framework/scene/scene_parts.h"
-#include "framework/xml/value_rule.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/state/surface_settings.h"
+#include "framework/core/state/surface_settings.h"
 
 namespace presa {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/schemas.h"
-#include "framework/state/limits.h"
+#include "framework/core/state/limits.h"
 
 namespace presa {
 namespace {

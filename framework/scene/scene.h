@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
-#include "framework/math/spatial.h"
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/math/spatial.h"
 #include "framework/scene/assembly_words.h"
 
 /// A scene as plain data: what the user wrote, with every default filled in. SI units throughout.

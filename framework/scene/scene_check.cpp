@@ -6,8 +6,8 @@
 
 #include "framework/scene/ages.h"
 #include "framework/scene/scene_parts.h"
-#include "framework/state/limits.h"
-#include "framework/xml/value_rule.h"
+#include "framework/core/state/limits.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "framework/scene/load.h"
-#include "framework/xml/schema.h"
-#include "framework/xml/xml.h"
+#include "framework/scene/xml/schema.h"
+#include "framework/scene/xml/xml.h"
 
 /// The steps of loading a scene or a rig, in the order in which loadScene takes them.
 namespace presa {

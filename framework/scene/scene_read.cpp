@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "framework/scene/scene_parts.h"
-#include "framework/xml/value_rule.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa {
 namespace {

@@ -1,6 +1,6 @@
 #include "framework/scene/ages.h"
 #include "framework/scene/scene_parts.h"
-#include "framework/xml/value_rule.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa {
 namespace {

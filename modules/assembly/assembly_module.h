@@ -2,9 +2,9 @@
 #include <atomic>
 #include <memory>
 
-#include "framework/graph/port.h"
-#include "framework/plan/assembly_control.h"
-#include "framework/plan/plugin.h"
+#include "framework/core/graph/port.h"
+#include "framework/session/assembly_control.h"
+#include "framework/session/plugin.h"
 #include "modules/assembly/places.h"
 
 namespace presa::assembly {

@@ -4,9 +4,9 @@
 
 #include "framework/scene/goal_pose.h"
 #include "framework/scene/scene.h"
-#include "framework/state/assembly_state.h"
-#include "framework/state/attraction.h"
-#include "framework/state/object_state.h"
+#include "framework/assembly/assembly_state.h"
+#include "framework/assembly/attraction.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa::assembly {
 

@@ -1,7 +1,7 @@
 #include <array>
 
 #include "framework/bus/inbox.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 #include "modules/bus_dds/convert.h"
 #include "modules/bus_dds/dds_bus.h"
 #include "modules/bus_dds/participant.h"

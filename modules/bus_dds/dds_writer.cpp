@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 #include "modules/bus_dds/convert.h"
 #include "modules/bus_dds/dds_bus.h"
 #include "modules/bus_dds/participant.h"

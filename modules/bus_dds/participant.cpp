@@ -9,7 +9,7 @@
 
 #include "framework/bus/bus_keys.h"
 #include "framework/bus/loopback_only.h"
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "modules/bus_dds/security.h"
 
 namespace presa::bus_dds {

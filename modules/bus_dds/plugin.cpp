@@ -1,4 +1,4 @@
-#include "framework/plan/plugin.h"
+#include "framework/session/plugin.h"
 
 #include <dds/version.h>
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 
 namespace presa::bus_dds {
 namespace {

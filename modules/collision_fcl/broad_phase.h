@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa {
 

@@ -2,13 +2,13 @@
 #include <memory>
 #include <vector>
 
-#include "framework/graph/port.h"
-#include "framework/graph/stage_watch.h"
+#include "framework/core/graph/port.h"
+#include "framework/core/graph/stage_watch.h"
 #include "framework/scene/world.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/contact_patch.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
 #include "modules/collision_fcl/broad_phase.h"
 
 namespace presa {

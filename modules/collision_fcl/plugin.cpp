@@ -1,6 +1,6 @@
 #include <fcl/config.h>
 
-#include "framework/plan/plugin.h"
+#include "framework/session/plugin.h"
 #include "modules/collision_fcl/collision_module.h"
 
 namespace {

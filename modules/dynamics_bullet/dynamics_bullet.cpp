@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "framework/graph/port.h"
-#include "framework/plan/plugin.h"
-#include "framework/state/object_state.h"
+#include "framework/core/graph/port.h"
+#include "framework/session/plugin.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa::bullet {
 namespace {

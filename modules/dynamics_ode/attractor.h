@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "framework/state/attraction.h"
+#include "framework/assembly/attraction.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/sleep.h"
 
 namespace presa::ode {
 
-/// Draws bodies where an assembly wants them, and puts for good what has arrived there (framework/state/attraction.h). Drawing is a
+/// Draws bodies where an assembly wants them, and puts for good what has arrived there (framework/assembly/attraction.h). Drawing is a
 /// velocity motor of ODE with a bounded force: solved with the contacts, so that friction does not stop it short.
 class Attractor {
  public:

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/scene/world.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/object_state.h"
 #include "modules/dynamics_ode/finger_row.h"
 
 namespace presa::ode {

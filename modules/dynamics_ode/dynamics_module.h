@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/graph/port.h"
-#include "framework/plan/plugin.h"
+#include "framework/core/graph/port.h"
+#include "framework/session/plugin.h"
 #include "modules/dynamics_ode/ode_world.h"
 #include "modules/dynamics_ode/stages.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "framework/state/limits.h"
+#include "framework/core/state/limits.h"
 #include "modules/dynamics_ode/ode_runtime.h"
 
 namespace presa::ode {

@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "framework/state/contact_exchange.h"
+#include "framework/core/state/contact_exchange.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_row.h"

@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "framework/math/spatial.h"
-#include "framework/state/contact_exchange.h"
+#include "framework/core/math/spatial.h"
+#include "framework/core/state/contact_exchange.h"
 
 namespace presa::ode {
 

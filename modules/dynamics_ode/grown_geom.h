@@ -1,7 +1,7 @@
 #pragma once
 #include <ode/ode.h>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::ode {
 

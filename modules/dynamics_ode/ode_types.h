@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 /// Conversions between ODE's arrays and ours. Both sides: SI, vectors in W, quaternions w x y z.
 namespace presa::ode {

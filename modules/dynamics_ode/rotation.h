@@ -1,5 +1,5 @@
 #pragma once
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::ode {
 

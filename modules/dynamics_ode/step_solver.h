@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "framework/graph/stage_watch.h"
+#include "framework/core/graph/stage_watch.h"
 #include "modules/dynamics_ode/contact_joints.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/island_solver.h"

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "framework/scene/open_surfaces.h"
-#include "framework/state/surface_settings.h"
+#include "framework/core/state/surface_settings.h"
 
 namespace presa {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/graph/module.h"
+#include "framework/core/graph/module.h"
 #include "framework/scene/world.h"
 
 namespace presa {

@@ -2,11 +2,11 @@
 #include <memory>
 #include <vector>
 
-#include "framework/graph/port.h"
+#include "framework/core/graph/port.h"
 #include "framework/scene/world.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/device_state.h"
-#include "framework/state/surface_change.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/surface_change.h"
 #include "modules/haptics_proxy/god_object.h"
 
 namespace presa {

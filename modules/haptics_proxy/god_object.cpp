@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/haptics_proxy/nearest_feasible.h"
+#include "framework/haptics/nearest_feasible.h"
 
 namespace presa {
 namespace {

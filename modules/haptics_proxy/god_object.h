@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "modules/haptics_proxy/surroundings.h"
+#include "framework/haptics/surroundings.h"
 
 namespace presa {
 

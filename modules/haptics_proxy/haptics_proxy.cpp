@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <typeinfo>
 
-#include "framework/plan/plugin.h"
+#include "framework/session/plugin.h"
 
 namespace presa {
 namespace {

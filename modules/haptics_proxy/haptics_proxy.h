@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "framework/graph/port.h"
-#include "framework/graph/stage_watch.h"
+#include "framework/core/graph/port.h"
+#include "framework/core/graph/stage_watch.h"
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
-#include "modules/haptics_proxy/touchables.h"
+#include "framework/haptics/touchables.h"
 
 namespace presa {
 

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "modules/haptics_proxy/finger_stage.h"
-#include "modules/haptics_proxy/touchables.h"
+#include "framework/haptics/touchables.h"
 
 namespace presa {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "modules/haptics_proxy/finger_stage.h"
-#include "modules/haptics_proxy/touchables.h"
+#include "framework/haptics/touchables.h"
 
 namespace presa {
 namespace {

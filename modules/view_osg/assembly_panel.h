@@ -3,7 +3,7 @@
 #include <osg/Group>
 #include <string>
 
-#include "framework/guide/captions.h"
+#include "framework/assembly/captions.h"
 #include "modules/view_osg/hud_widgets.h"
 
 namespace presa::view {

@@ -3,7 +3,7 @@
 #include <osg/MatrixTransform>
 #include <osg/Uniform>
 
-#include "framework/guide/assembly_guide.h"
+#include "framework/assembly/assembly_guide.h"
 #include "modules/view_osg/scene_nodes.h"
 
 namespace presa::view {

@@ -6,8 +6,8 @@
 #include <osg/MatrixTransform>
 #include <vector>
 
-#include "framework/schedule/tick.h"
-#include "framework/schedule/timing_stats.h"
+#include "framework/core/schedule/tick.h"
+#include "framework/core/schedule/timing_stats.h"
 #include "modules/view_osg/assembly_panel.h"
 #include "modules/view_osg/finger_view.h"
 #include "modules/view_osg/hud_widgets.h"

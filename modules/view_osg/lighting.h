@@ -5,7 +5,7 @@
 #include <osg/Uniform>
 #include <vector>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::view {
 

@@ -3,7 +3,7 @@
 #include <osg/Vec3d>
 #include <osg/Vec4>
 
-#include "framework/math/spatial.h"
+#include "framework/core/math/spatial.h"
 
 namespace presa::view {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "framework/scene/world.h"
-#include "framework/state/contact_patch.h"
+#include "framework/core/state/contact_patch.h"
 
 namespace presa::view {
 

@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "framework/state/device_state.h"
-#include "framework/state/pointer_state.h"
+#include "framework/core/state/device_state.h"
+#include "framework/device/pointer_state.h"
 #include "modules/view_osg/camera_control.h"
 
 namespace presa::view {

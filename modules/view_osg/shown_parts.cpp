@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 
 namespace presa::view {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/plan/shown_parts.h"
+#include "framework/session/shown_parts.h"
 
 namespace presa::view {
 

@@ -1,4 +1,4 @@
-#include "framework/plan/text_window.h"
+#include "framework/session/text_window.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "framework/diagnostics/refuse.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/core/schedule/clock.h"
 #include "modules/view_osg/hud_widgets.h"
 #include "modules/view_osg/window_context.h"
 

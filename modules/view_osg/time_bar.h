@@ -2,7 +2,7 @@
 #include <optional>
 #include <osg/Group>
 
-#include "framework/plan/view.h"
+#include "framework/session/view.h"
 #include "modules/view_osg/hud_widgets.h"
 
 namespace presa::view {

@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 
 extern char** environ;
 

@@ -2,10 +2,10 @@
 #include <optional>
 #include <vector>
 
-#include "framework/guide/assembly_guide.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/contact_patch.h"
-#include "framework/state/device_state.h"
+#include "framework/assembly/assembly_guide.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/device_state.h"
 
 namespace presa::view {
 

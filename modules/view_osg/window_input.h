@@ -2,7 +2,7 @@
 #include <osg/Vec2>
 #include <osgGA/GUIEventHandler>
 
-#include "framework/plan/view.h"
+#include "framework/session/view.h"
 #include "modules/view_osg/camera_control.h"
 #include "modules/view_osg/picture.h"
 #include "modules/view_osg/pointer_control.h"

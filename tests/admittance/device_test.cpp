@@ -1,7 +1,7 @@
 // The device in the rest of Presa: lockstep, shipped scene and rig.
 #include <gtest/gtest.h>
 
-#include "apps/presa/grasp_figures.h"
+#include "apps/common/grasp_figures.h"
 #include "devices/admittance/drive.h"
 #include "tests/support/shipped_rig.h"
 

@@ -1,4 +1,4 @@
-#include "apps/presa/report/contours.h"
+#include "apps/common/report/contours.h"
 
 #include <gtest/gtest.h>
 

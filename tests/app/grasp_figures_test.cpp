@@ -1,15 +1,15 @@
-#include "apps/presa/grasp_figures.h"
+#include "apps/common/grasp_figures.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/presa/losses.h"
-#include "apps/presa/report/report.h"
-#include "apps/presa/summary.h"
-#include "apps/presa/terminal/closing.h"
-#include "apps/presa/terminal/status_line.h"
-#include "apps/presa/verdict.h"
+#include "apps/common/losses.h"
+#include "apps/common/report/report.h"
+#include "apps/common/summary.h"
+#include "apps/common/terminal/closing.h"
+#include "apps/common/terminal/status_line.h"
+#include "apps/common/verdict.h"
 #include "tests/monitor/synthetic_run.h"
 
 namespace presa {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/presa/grasp_figures.h"
+#include "apps/common/grasp_figures.h"
 #include "tests/app/support.h"
 
 namespace presa {

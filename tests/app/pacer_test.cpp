@@ -1,9 +1,9 @@
 // What a window's user asks of time, with a view that only counts.
-#include "apps/presa/pacer.h"
+#include "apps/common/pacer.h"
 
 #include <gtest/gtest.h>
 
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/presa/file_text.h"
-#include "framework/schedule/realtime_rights.h"
+#include "apps/common/file_text.h"
+#include "framework/core/schedule/realtime_rights.h"
 #include "tests/app/support.h"
 
 namespace presa {

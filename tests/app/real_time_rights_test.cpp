@@ -9,8 +9,8 @@
 
 #include <fstream>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/realtime_policy.h"
+#include "framework/session/load_world.h"
+#include "framework/session/realtime_policy.h"
 #include "tests/app/support.h"
 
 namespace presa::test {

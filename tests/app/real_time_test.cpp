@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "framework/plan/session.h"
+#include "framework/session/session.h"
 #include "tests/app/support.h"
 #include "tests/support/alloc_lock_guard.h"
 

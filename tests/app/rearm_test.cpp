@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/plan/load_world.h"
+#include "framework/session/load_world.h"
 #include "framework/record/record_plugin.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 #include "tests/app/support.h"
 #include "tests/support/on_terminal.h"
 

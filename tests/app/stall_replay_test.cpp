@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "framework/plan/load_world.h"
+#include "framework/session/load_world.h"
 #include "framework/record/record_plugin.h"
-#include "framework/record/replay.h"
-#include "framework/schedule/executor.h"
+#include "framework/session/replay.h"
+#include "framework/core/schedule/executor.h"
 #include "tests/app/support.h"
 
 namespace presa {

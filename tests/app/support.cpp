@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 
 namespace presa::test {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/presa/run_session.h"
+#include "apps/common/run_session.h"
 
 namespace presa::test {
 

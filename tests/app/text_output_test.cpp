@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/presa/report/base64.h"
-#include "apps/presa/report/svg_plot.h"
-#include "apps/presa/terminal/status_line.h"
+#include "apps/common/report/base64.h"
+#include "apps/common/report/svg_plot.h"
+#include "apps/common/terminal/status_line.h"
 
 namespace presa {
 namespace {

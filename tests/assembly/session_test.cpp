@@ -1,10 +1,10 @@
 // Whole runs in lockstep: what a scene's <assembly> does to real bodies.
 #include <gtest/gtest.h>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/session.h"
-#include "framework/schedule/executor.h"
-#include "framework/state/assembly_state.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
+#include "framework/core/schedule/executor.h"
+#include "framework/assembly/assembly_state.h"
 
 namespace presa {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 #include "modules/dynamics_ode/ode_world.h"
 
 // What a dynamics step costs over ODE alone: the same settled cubes, collided and solved by hand with ODE's plain friction, the same

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::bench {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "framework/graph/graph_builder.h"
-#include "framework/math/minimum_jerk.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/core/math/minimum_jerk.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
 #include "modules/collision_fcl/collision_module.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 

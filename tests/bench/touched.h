@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "framework/graph/graph.h"
+#include "framework/core/graph/graph.h"
 #include "framework/scene/world.h"
-#include "framework/state/contact_exchange.h"
+#include "framework/core/state/contact_exchange.h"
 
 // Worlds made in memory, fingers that slide over them, and the two modules that render this, driven by a graph as in
 // a run.

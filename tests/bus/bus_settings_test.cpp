@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/plan.h"
+#include "framework/session/load_world.h"
+#include "framework/session/plan.h"
 #include "framework/scene/load.h"
 #include "framework/scene/world.h"
 

@@ -9,10 +9,10 @@
 
 #include "framework/bus/local_bus.h"
 #include "framework/bus/publisher.h"
-#include "framework/plan/load_world.h"
-#include "framework/plan/session.h"
-#include "framework/schedule/executor.h"
-#include "framework/schedule/rates.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
+#include "framework/core/schedule/executor.h"
+#include "framework/core/schedule/rates.h"
 #include "tests/bus/troubled_post.h"
 
 namespace presa::bus {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/checksum/checksum.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/scene/load.h"
 
 namespace presa::bus {

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::bus {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/bus/state_bus.h"
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::bus {
 

@@ -7,8 +7,8 @@
 
 #include "framework/bus/publisher.h"
 #include "framework/bus/remote_picture.h"
-#include "framework/schedule/clock.h"
-#include "framework/study/study_run.h"
+#include "framework/core/schedule/clock.h"
+#include "experiments/study/study_run.h"
 #include "tests/bus_dds/viewer_process.h"
 
 namespace presa::bus {

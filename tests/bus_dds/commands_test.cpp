@@ -9,9 +9,9 @@
 
 #include "framework/bus/command_desk.h"
 #include "framework/bus/publisher.h"
-#include "framework/checksum/checksum.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/record/record_plugin.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 #include "tests/bus_dds/viewer_process.h"
 
 namespace presa::bus {

@@ -9,7 +9,7 @@
 
 #include "framework/bus/bus_keys.h"
 #include "framework/bus/state_bus.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 #include "tests/bus_dds/viewer_process.h"
 
 namespace presa::bus {

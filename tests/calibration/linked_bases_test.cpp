@@ -1,11 +1,11 @@
-#include "framework/calibration/linked_bases.h"
+#include "devices/percro_arm/calibration/linked_bases.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <set>
 
-#include "apps/presa/scratch_folder.h"
-#include "apps/presa/temple/ruins.h"
-#include "apps/presa/temple/visit.h"
-#include "apps/presa/temple/written_scene.h"
+#include "apps/common/scratch_folder.h"
+#include "apps/temple/ruins.h"
+#include "apps/temple/visit.h"
+#include "apps/temple/written_scene.h"
 #include "devices/clumsy_hand/clumsy_plan.h"
-#include "framework/temple/building.h"
+#include "apps/temple/building/building.h"
 #include "tests/support/shipped_rig.h"
 
 namespace presa::clumsy {

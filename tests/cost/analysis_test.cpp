@@ -1,5 +1,5 @@
 // Fronts, gains and sentences of made-up numbers.
-#include "apps/presa/cost/analysis.h"
+#include "apps/studies/cost/analysis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/presa/cost/forecast.h"
+#include "apps/studies/cost/forecast.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/presa/cost/metrics.h"
+#include "apps/studies/cost/metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -5,13 +5,13 @@
 #include <complex>
 #include <fstream>
 
-#include "apps/presa/cost/analysis.h"
-#include "apps/presa/cost/driver.h"
-#include "apps/presa/cost/plan.h"
-#include "framework/study/energy_ledger.h"
-#include "framework/study/free_motion.h"
-#include "framework/study/prescribed_finger.h"
-#include "framework/study/study_run.h"
+#include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/driver.h"
+#include "apps/studies/cost/plan.h"
+#include "experiments/study/energy_ledger.h"
+#include "experiments/study/free_motion.h"
+#include "experiments/study/prescribed_finger.h"
+#include "experiments/study/study_run.h"
 #include "tests/app/support.h"
 
 namespace presa::cost {

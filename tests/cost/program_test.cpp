@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 #include "tests/app/support.h"
 
 namespace presa {

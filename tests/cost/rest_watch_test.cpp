@@ -1,9 +1,9 @@
 // What lies on what: two cubes on a plate, at poses that say the answer.
-#include "apps/presa/cost/rest_watch.h"
+#include "apps/studies/cost/rest_watch.h"
 
 #include <gtest/gtest.h>
 
-#include "framework/plan/load_world.h"
+#include "framework/session/load_world.h"
 
 namespace presa::cost {
 namespace {

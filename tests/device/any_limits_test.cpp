@@ -7,12 +7,12 @@
 #include <string>
 
 #include "framework/device/device_modules.h"
-#include "framework/graph/graph_builder.h"
-#include "framework/math/random.h"
-#include "framework/plan/plugin.h"
-#include "framework/plan/session.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/core/math/random.h"
+#include "framework/session/plugin.h"
+#include "framework/session/session.h"
 #include "framework/scene/load.h"
-#include "framework/supervision/command_keeper.h"
+#include "framework/device/supervision/command_keeper.h"
 #include "tests/device/stand_ins.h"
 
 // Ten thousand random scenes and rigs, each through the readers of the files, the limits, the output stage and the supervisor's keeper:

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "framework/device/device_modules.h"
-#include "framework/graph/graph_builder.h"
+#include "framework/core/graph/graph_builder.h"
 #include "tests/device/stand_ins.h"
 
 namespace presa {

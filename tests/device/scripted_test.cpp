@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/hand/finger_plant.h"
-#include "framework/hand/motion.h"
+#include "devices/hand/finger_plant.h"
+#include "devices/hand/motion.h"
 
 namespace presa {
 namespace {

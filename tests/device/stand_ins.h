@@ -1,9 +1,9 @@
 #pragma once
-#include "framework/graph/module.h"
-#include "framework/graph/port.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/contact_patch.h"
-#include "framework/state/object_state.h"
+#include "framework/core/graph/module.h"
+#include "framework/core/graph/port.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/object_state.h"
 
 // Modules that stand before the output stage in a graph.
 namespace presa::test {

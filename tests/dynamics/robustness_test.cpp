@@ -1,7 +1,7 @@
 #include <cstring>
 #include <limits>
 
-#include "framework/graph/graph_builder.h"
+#include "framework/core/graph/graph_builder.h"
 #include "modules/dynamics_ode/dynamics_module.h"
 #include "tests/dynamics/support.h"
 

@@ -1,4 +1,4 @@
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/dynamics/support.h"
 
 namespace presa::ode {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/session.h"
-#include "framework/schedule/executor.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
+#include "framework/core/schedule/executor.h"
 #include "tests/app/support.h"
 #include "tests/support/alloc_lock_guard.h"
 

@@ -6,8 +6,8 @@
 #include "apps/presa/explain/callgrind_file.h"
 #include "apps/presa/explain/instruction_counts.h"
 #include "apps/presa/explain/module_times.h"
-#include "framework/plan/session.h"
-#include "framework/schedule/executor.h"
+#include "framework/session/session.h"
+#include "framework/core/schedule/executor.h"
 #include "tests/app/support.h"
 #include "tests/effects/instructions.h"
 

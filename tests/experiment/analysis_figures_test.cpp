@@ -3,12 +3,12 @@
 
 #include <regex>
 
-#include "apps/presa/experiment/analysis/analyse.h"
-#include "apps/presa/experiment/operator/operator.h"
-#include "apps/presa/experiment/session.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/experiment/read.h"
-#include "framework/statistics/margin.h"
+#include "apps/experiment/analysis/analyse.h"
+#include "apps/experiment/operator/operator.h"
+#include "apps/experiment/session.h"
+#include "apps/common/scratch_folder.h"
+#include "experiments/runner/definition/read.h"
+#include "experiments/runner/statistics/margin.h"
 #include "tests/experiment/grip_study.h"
 
 // The figures of the grip study, each as the research says what it must show.

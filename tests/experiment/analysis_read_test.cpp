@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "framework/experiment/read.h"
+#include "experiments/runner/definition/read.h"
 #include "tests/experiment/grip_study.h"
 
 // What an analysis names is checked when the file is read, all at once.

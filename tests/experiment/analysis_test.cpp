@@ -1,13 +1,13 @@
-#include "apps/presa/experiment/analysis/analyse.h"
+#include "apps/experiment/analysis/analyse.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "apps/presa/scratch_folder.h"
-#include "framework/diagnostics/diagnostics.h"
-#include "framework/math/random.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/math/random.h"
 #include "tests/experiment/contents.h"
 #include "tests/experiment/grip_study.h"
 

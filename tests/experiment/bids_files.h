@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 
 /// A dataset's files taken apart, for the rules.
 namespace presa::experiment::bids {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 
 namespace presa::experiment {
 

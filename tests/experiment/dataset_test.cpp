@@ -1,13 +1,13 @@
-#include "apps/presa/experiment/dataset.h"
+#include "apps/experiment/dataset.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/presa/experiment/inputs.h"
-#include "apps/presa/experiment/session.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/checksum/checksum.h"
-#include "framework/experiment/read.h"
+#include "apps/experiment/inputs.h"
+#include "apps/experiment/session.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/record/checksum/checksum.h"
+#include "experiments/runner/definition/read.h"
 #include "tests/experiment/contents.h"
 
 namespace presa::experiment {

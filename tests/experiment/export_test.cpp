@@ -7,13 +7,13 @@
 #include <map>
 #include <sstream>
 
-#include "apps/presa/experiment/export/csv.h"
-#include "apps/presa/experiment/export/staging.h"
-#include "apps/presa/experiment/operator/operator.h"
-#include "apps/presa/experiment/session.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/diagnostics/diagnostics.h"
-#include "framework/experiment/read.h"
+#include "apps/experiment/export/csv.h"
+#include "apps/experiment/export/staging.h"
+#include "apps/experiment/operator/operator.h"
+#include "apps/experiment/session.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/core/diagnostics/diagnostics.h"
+#include "experiments/runner/definition/read.h"
 #include "framework/record/record_plugin.h"
 #include "tests/experiment/bids_files.h"
 #include "tests/experiment/bids_rules.h"

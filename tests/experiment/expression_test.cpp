@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "framework/experiment/expression.h"
+#include "experiments/runner/definition/expression.h"
 
 namespace presa::experiment {
 namespace {

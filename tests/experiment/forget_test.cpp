@@ -1,11 +1,11 @@
-#include "apps/presa/experiment/forget.h"
+#include "apps/experiment/forget.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/presa/experiment/journal.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "apps/experiment/journal.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "tests/experiment/contents.h"
 
 namespace presa::experiment {

@@ -4,10 +4,10 @@
 
 #include <csignal>
 
-#include "apps/presa/experiment/journal.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/checksum/checksum.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "apps/experiment/journal.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/record/checksum/checksum.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "tests/experiment/contents.h"
 #include "tests/experiment/refusal.h"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "framework/experiment/order.h"
+#include "experiments/runner/definition/order.h"
 
 // What each kind of order promises, for many subjects and seeds.
 namespace presa::experiment {

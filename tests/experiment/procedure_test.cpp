@@ -5,12 +5,12 @@
 #include <fstream>
 #include <functional>
 
-#include "apps/presa/experiment/respondent.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/experiment/presentation.h"
-#include "framework/experiment/read.h"
-#include "framework/experiment/row.h"
-#include "framework/experiment/trial_source.h"
+#include "apps/experiment/respondent.h"
+#include "apps/common/scratch_folder.h"
+#include "experiments/runner/definition/presentation.h"
+#include "experiments/runner/definition/read.h"
+#include "experiments/runner/definition/row.h"
+#include "experiments/runner/definition/trial_source.h"
 #include "tests/experiment/contents.h"
 
 // A method in the experiment's file: what is presented, what is asked, what comes of the answers.

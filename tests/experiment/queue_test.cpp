@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "framework/experiment/queue.h"
+#include "experiments/runner/definition/queue.h"
 
 namespace presa::experiment {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/experiment/reaction.h"
-#include "framework/math/random.h"
+#include "experiments/runner/definition/reaction.h"
+#include "framework/core/math/random.h"
 #include "tests/support/alloc_lock_guard.h"
 
 // The time of a reaction, in signals whose beginning is known.

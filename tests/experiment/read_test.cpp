@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/experiment/order.h"
-#include "framework/experiment/read.h"
+#include "experiments/runner/definition/order.h"
+#include "experiments/runner/definition/read.h"
 #include "tests/experiment/contents.h"
 
 namespace presa::experiment {

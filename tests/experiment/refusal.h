@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 namespace presa::experiment {
 

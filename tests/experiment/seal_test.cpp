@@ -1,4 +1,4 @@
-#include "apps/presa/experiment/seal.h"
+#include "apps/experiment/seal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,11 +6,11 @@
 
 #include <fstream>
 
-#include "apps/presa/file_text.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/checksum/plugin.h"
-#include "framework/checksum/signature.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "apps/common/file_text.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/record/checksum/plugin.h"
+#include "framework/record/checksum/signature.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 // What a checksum cannot prove: who sealed a session.
 namespace presa::experiment {

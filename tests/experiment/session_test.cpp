@@ -9,9 +9,9 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "apps/presa/experiment/dataset.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/math/random.h"
+#include "apps/experiment/dataset.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/core/math/random.h"
 #include "tests/experiment/contents.h"
 
 // Whole sessions through the program: what is on disk after an end of any kind.

@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/presa/experiment/operator/operator.h"
-#include "apps/presa/experiment/session.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/experiment/read.h"
-#include "framework/subject/traits.h"
+#include "apps/experiment/operator/operator.h"
+#include "apps/experiment/session.h"
+#include "apps/common/scratch_folder.h"
+#include "experiments/runner/definition/read.h"
+#include "devices/simulated_subject/model/traits.h"
 #include "tests/experiment/contents.h"
 #include "tests/experiment/refusal.h"
 

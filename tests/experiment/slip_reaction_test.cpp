@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/presa/experiment/session.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/experiment/read.h"
+#include "apps/experiment/session.h"
+#include "apps/common/scratch_folder.h"
+#include "experiments/runner/definition/read.h"
 #include "framework/record/record_plugin.h"
 
 // The shipped experiment with its simulated subject: the reaction that is measured against the one that the model has.
@@ -15,7 +15,7 @@ namespace {
 
 const std::string kFile = std::string(PRESA_SOURCE_DIR) + "/experiments/slip_reaction/experiment.xml";
 
-/// What one recording shows from outside of a subject who feels slip as its fingers springing up (framework/subject).
+/// What one recording shows from outside of a subject who feels slip as its fingers springing up (devices/simulated_subject/model).
 class Fingers {
  public:
   explicit Fingers(const std::string& file) : samples_(recordPlugin().samples(file)) {}

@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "apps/presa/experiment/session_log.h"
-#include "framework/experiment/order.h"
-#include "framework/experiment/read.h"
+#include "apps/experiment/session_log.h"
+#include "experiments/runner/definition/order.h"
+#include "experiments/runner/definition/read.h"
 
 namespace presa::experiment {
 

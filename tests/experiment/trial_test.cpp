@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "framework/experiment/trial.h"
+#include "experiments/runner/definition/trial.h"
 #include "tests/support/alloc_lock_guard.h"
 
 // The state machine of a trial, fed with samples that are worked out by hand.

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa::falcon {

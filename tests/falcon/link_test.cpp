@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/falcon/hand_written_falcon.h"
 #include "tests/support/alloc_lock_guard.h"
 

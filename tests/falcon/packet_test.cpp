@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/falcon/hand_written_falcon.h"
 
 namespace presa::falcon {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "devices/novint_falcon/kinematics.h"
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::falcon {
 namespace {

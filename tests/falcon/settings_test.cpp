@@ -8,8 +8,8 @@
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/diagnose.h"
 #include "devices/novint_falcon/firmware.h"
-#include "framework/plan/plugin.h"
-#include "framework/plan/session.h"
+#include "framework/session/plugin.h"
+#include "framework/session/session.h"
 #include "framework/scene/load.h"
 
 namespace presa::falcon {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "devices/falcon_model/force_watch.h"
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::falcon_model {
 namespace {

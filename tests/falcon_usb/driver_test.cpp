@@ -6,7 +6,7 @@
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/falcon_device.h"
 #include "devices/novint_falcon/usb_bus.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 #include "tests/falcon_usb/drivers.h"
 
 namespace presa::falcon_model::test {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "framework/device/device_modules.h"
-#include "framework/graph/graph_builder.h"
-#include "framework/schedule/clock.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/core/schedule/clock.h"
+#include "framework/core/schedule/rates.h"
 #include "tests/falcon_usb/drivers.h"
 
 namespace presa::falcon_model::test {

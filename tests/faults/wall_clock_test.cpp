@@ -11,10 +11,10 @@
 
 #include "experiments/faults/hold.h"
 #include "experiments/faults/object_imports.h"
-#include "framework/graph/graph_builder.h"
-#include "framework/graph/port.h"
-#include "framework/schedule/executor.h"
-#include "framework/state/device_state.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/core/graph/port.h"
+#include "framework/core/schedule/executor.h"
+#include "framework/core/state/device_state.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <thread>
 
-#include "framework/exchange/event_ring.h"
-#include "framework/exchange/latest_value.h"
+#include "framework/core/exchange/event_ring.h"
+#include "framework/core/exchange/latest_value.h"
 
 namespace presa {
 namespace {

@@ -4,9 +4,9 @@
 #include <tuple>
 #include <vector>
 
-#include "framework/graph/graph_builder.h"
-#include "framework/schedule/catch_up.h"
-#include "framework/schedule/executor.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/core/schedule/catch_up.h"
+#include "framework/core/schedule/executor.h"
 
 namespace presa {
 namespace {

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "framework/graph/graph_builder.h"
-#include "framework/state/assembly_state.h"
-#include "framework/state/attraction.h"
-#include "framework/state/object_state.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/assembly/assembly_state.h"
+#include "framework/assembly/attraction.h"
+#include "framework/core/state/object_state.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {

@@ -1,9 +1,9 @@
-#include "framework/guide/assembly_guide.h"
+#include "framework/assembly/assembly_guide.h"
 
 #include <gmock/gmock.h>
 
-#include "framework/guide/captions.h"
-#include "framework/guide/standing.h"
+#include "framework/assembly/captions.h"
+#include "framework/assembly/standing.h"
 
 namespace presa {
 namespace {

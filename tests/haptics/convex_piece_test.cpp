@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "modules/haptics_proxy/convex_piece.h"
+#include "framework/haptics/convex_piece.h"
 
 namespace presa {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "modules/haptics_proxy/god_object.h"
-#include "modules/haptics_proxy/nearest_feasible.h"
+#include "framework/haptics/nearest_feasible.h"
 
 namespace presa {
 namespace {

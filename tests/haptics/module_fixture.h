@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "framework/graph/graph_builder.h"
+#include "framework/core/graph/graph_builder.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 namespace presa::test {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 #include "framework/scene/load.h"
-#include "framework/xml/source_scan.h"
+#include "framework/scene/xml/source_scan.h"
 #include "tests/input/program.h"
 
 // Small files that ask for much: counted before anything is built of them.

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 #include "framework/record/record_plugin.h"
 #include "tests/input/program.h"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 
 namespace presa::test {
 

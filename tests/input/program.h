@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "apps/presa/scratch_folder.h"
+#include "apps/common/scratch_folder.h"
 
 namespace presa::test {
 

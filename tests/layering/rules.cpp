@@ -26,14 +26,14 @@ constexpr std::array kLibraries{
     Library{"(fcl|ccd|octomap)/.*", "modules/collision_fcl/"},
     Library{"(osg[A-Za-z]*|OpenThreads|EGL|X11|GL|GLES[23]?)/.*", "modules/view_osg/"},
     Library{"(hdf5|H5).*", "framework/record/record_plugin/"},
-    Library{"openssl/.*", "framework/checksum/checksum_plugin/"},
+    Library{"openssl/.*", "framework/record/checksum/checksum_plugin/"},
     Library{"(dds/.*|RunState\\.h)", "modules/bus_dds/"},
-    Library{"libxml/.*", "framework/xml/"},
+    Library{"libxml/.*", "framework/scene/xml/"},
     Library{"(libusb-1.0/)?libusb\\.h", "devices/novint_falcon/"},
     Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},
     Library{"meshoptimizer.*", "framework/geometry/mesh_decimate_plugin/"},
     Library{"(CLI|nlohmann)/.*", "apps/"},
-    Library{"boost/math/.*", "framework/statistics/"},
+    Library{"boost/math/.*", "experiments/runner/statistics/"},
     Library{"(gtest|gmock|benchmark|rapidcheck)[./].*", "tests/"},
 };
 
@@ -131,9 +131,9 @@ Finding opensAFileByItself(const SourceFile& file) {
       "framework/geometry/mesh_import_plugin/isolation.cpp",
       "apps/presa/explain/description.cpp",
       "apps/presa/explain/instruction_counts.cpp",
-      "apps/presa/machine.cpp",
+      "apps/common/machine.cpp",
       "apps/presa/device/periods.cpp",
-      "apps/presa/cost/measure.cpp",
+      "apps/studies/cost/measure.cpp",
       "framework/record/record_plugin/open_file.cpp"};  // HDF5 has a way of its own, behind the door's look
   const std::string top = file.topFolder();
   const bool reads = top == "framework" || top == "modules" || top == "devices" || top == "apps";

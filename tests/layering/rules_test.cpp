@@ -15,13 +15,13 @@ TEST(LayeringRules, ALibraryHasOneHome) {
   EXPECT_TRUE(includesForeignLibrary({"modules/dynamics_ode/x.cpp", include("fcl/fcl.h")}));
   EXPECT_TRUE(includesForeignLibrary({"framework/record/recording.cpp", include("hdf5.h")}));
   EXPECT_TRUE(includesForeignLibrary({"framework/scene/load.cpp", include("libxml/tree.h")}));
-  EXPECT_TRUE(includesForeignLibrary({"framework/plan/x.h", include("nlohmann/json.hpp")}));
+  EXPECT_TRUE(includesForeignLibrary({"framework/session/x.h", include("nlohmann/json.hpp")}));
   EXPECT_TRUE(includesForeignLibrary({"devices/scripted/x.h", include("gtest/gtest.h")}));
   EXPECT_TRUE(includesForeignLibrary({"framework/device/x.h", include("libusb-1.0/libusb.h")}));
   EXPECT_TRUE(includesForeignLibrary({"modules/effects/x.h", include("osgViewer/Viewer")}));
   EXPECT_TRUE(includesForeignLibrary({"apps/presa/x.cpp", include("boost/math/distributions/normal.hpp")}));
   EXPECT_FALSE(includesForeignLibrary({"modules/dynamics_ode/x.cpp", include("ode/ode.h")}));
-  EXPECT_FALSE(includesForeignLibrary({"framework/math/x.h", include("Eigen/Core")}));
+  EXPECT_FALSE(includesForeignLibrary({"framework/core/math/x.h", include("Eigen/Core")}));
 }
 
 TEST(LayeringRules, IncludesFollowTheArrows) {

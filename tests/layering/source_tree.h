@@ -21,7 +21,7 @@ struct SourceFile {
 const std::vector<SourceFile>& sourceTree();
 /// Names at the root, without what git ignores.
 std::vector<std::string> rootEntries();
-/// Folders of the first and second level ("framework", "framework/graph") that hold anything.
+/// Folders of the first and second level ("framework", "framework/core/graph") that hold anything.
 std::vector<std::string> folders();
 
 /// Shared libraries that an ELF file asks for by name (DT_NEEDED), as readelf lists them. Throws when it cannot.

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/monitor/action_reaction.h"
+#include "framework/record/monitor/action_reaction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "framework/monitor/monitor.h"
+#include "framework/record/monitor/monitor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "framework/monitor/state_hash.h"
+#include "framework/record/monitor/state_hash.h"
 
 #include <gtest/gtest.h>
 

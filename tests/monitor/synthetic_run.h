@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "framework/monitor/monitor.h"
+#include "framework/record/monitor/monitor.h"
 
 namespace presa::test {
 

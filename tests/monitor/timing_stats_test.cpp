@@ -1,4 +1,4 @@
-#include "framework/schedule/timing_stats.h"
+#include "framework/core/schedule/timing_stats.h"
 
 #include <gtest/gtest.h>
 

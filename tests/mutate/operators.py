@@ -7,11 +7,11 @@ A fragment that the file no longer has is an error: then the fault moves with th
 # Test programs by the beginning of a path, the quickest to find a fault first.
 TESTS = {
     "framework/device/": ["device", "supervision"],
-    "framework/supervision/": ["supervision"],
+    "framework/device/supervision/": ["supervision"],
     "framework/geometry/": ["geometry", "haptics", "surface"],
     "framework/scene/": ["scene", "geometry"],
-    "framework/state/": ["graph", "dynamics", "haptics"],
-    "framework/math/": ["math", "haptics", "dynamics"],
+    "framework/core/state/": ["graph", "dynamics", "haptics"],
+    "framework/core/math/": ["math", "haptics", "dynamics"],
     "modules/haptics_proxy/": ["haptics", "surface"],
     "modules/dynamics_ode/": ["dynamics"],
 }
@@ -23,9 +23,9 @@ SAMPLE = "framework/device/sample_check.h"
 HEAT = "framework/device/thermal_budget.h"
 ENERGY = "framework/device/passivity_controller.h"
 WATCH = "framework/device/transport_watch.cpp"
-KEEPER = "framework/supervision/command_keeper.h"
-SUPERVISOR = "framework/supervision/supervisor.cpp"
-SUPERVISED = "framework/supervision/supervised_device.cpp"
+KEEPER = "framework/device/supervision/command_keeper.h"
+SUPERVISOR = "framework/device/supervision/supervisor.cpp"
+SUPERVISED = "framework/device/supervision/supervised_device.cpp"
 
 SAFETY = [
     # the output stage
@@ -94,7 +94,7 @@ SAFETY = [
 
 GOD = "modules/haptics_proxy/god_object.cpp"
 FRICTION = "modules/haptics_proxy/friction.cpp"
-NEAREST = "modules/haptics_proxy/nearest_feasible.cpp"
+NEAREST = "framework/haptics/nearest_feasible.cpp"
 SHADING = "modules/haptics_proxy/shading.cpp"
 CLOSEST = "framework/geometry/closest_point.h"
 SLIVER = "framework/geometry/closest_point.cpp"

@@ -10,7 +10,7 @@
 #include "devices/percro_arm/bench.h"
 #include "devices/percro_arm/reach.h"
 #include "devices/percro_arm/steps.h"
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/app/support.h"
 
 namespace presa::percro {

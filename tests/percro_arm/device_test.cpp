@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "apps/presa/grasp_figures.h"
+#include "apps/common/grasp_figures.h"
 #include "devices/percro_arm/kinematics.h"
 #include "tests/support/shipped_rig.h"
 

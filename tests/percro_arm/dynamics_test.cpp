@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::percro {
 namespace {

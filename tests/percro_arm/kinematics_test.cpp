@@ -5,7 +5,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::percro {
 namespace {

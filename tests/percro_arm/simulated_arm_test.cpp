@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 
 namespace presa::percro {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/presa/scratch_folder.h"
+#include "apps/common/scratch_folder.h"
 #include "framework/record/record_plugin.h"
-#include "framework/record/replay.h"
+#include "framework/session/replay.h"
 #include "tests/app/support.h"
 #include "tests/support/shipped_rig.h"
 

@@ -8,11 +8,11 @@
 #include <numbers>
 #include <tuple>
 
-#include "apps/presa/file_text.h"
-#include "apps/presa/scratch_folder.h"
-#include "apps/presa/temple/written_scene.h"
-#include "framework/temple/building.h"
-#include "framework/temple/proportions.h"
+#include "apps/common/file_text.h"
+#include "apps/common/scratch_folder.h"
+#include "apps/temple/written_scene.h"
+#include "apps/temple/building/building.h"
+#include "apps/temple/building/proportions.h"
 
 namespace presa {
 namespace {

@@ -1,11 +1,11 @@
-#include "framework/psychophysics/adjustment.h"
+#include "experiments/runner/psychophysics/adjustment.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "framework/psychophysics/observer.h"
+#include "experiments/runner/psychophysics/observer.h"
 
 namespace presa::psychophysics {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/psychophysics/axis.h"
+#include "experiments/runner/psychophysics/axis.h"
 
 #include <gtest/gtest.h>
 

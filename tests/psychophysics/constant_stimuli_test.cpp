@@ -1,4 +1,4 @@
-#include "framework/psychophysics/constant_stimuli.h"
+#include "experiments/runner/psychophysics/constant_stimuli.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "framework/psychophysics/forced_choice.h"
+#include "experiments/runner/psychophysics/forced_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "framework/psychophysics/constant_stimuli.h"
+#include "experiments/runner/psychophysics/constant_stimuli.h"
 #include "tests/psychophysics/binomial_range.h"
 
 namespace presa::psychophysics {

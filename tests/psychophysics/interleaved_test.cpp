@@ -1,10 +1,10 @@
-#include "framework/psychophysics/interleaved.h"
+#include "experiments/runner/psychophysics/interleaved.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "framework/psychophysics/observer.h"
+#include "experiments/runner/psychophysics/observer.h"
 #include "tests/psychophysics/binomial_range.h"
 
 namespace presa::psychophysics {

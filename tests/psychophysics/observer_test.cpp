@@ -1,11 +1,11 @@
-#include "framework/psychophysics/observer.h"
+#include "experiments/runner/psychophysics/observer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "framework/psychophysics/constant_stimuli.h"
-#include "framework/psychophysics/tally.h"
+#include "experiments/runner/psychophysics/constant_stimuli.h"
+#include "experiments/runner/psychophysics/tally.h"
 #include "tests/psychophysics/binomial_range.h"
 
 namespace presa::psychophysics {

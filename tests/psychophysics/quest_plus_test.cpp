@@ -1,11 +1,11 @@
-#include "framework/psychophysics/quest_plus.h"
+#include "experiments/runner/psychophysics/quest_plus.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "framework/psychophysics/observer.h"
+#include "experiments/runner/psychophysics/observer.h"
 
 namespace presa::psychophysics {
 namespace {

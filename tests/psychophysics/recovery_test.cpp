@@ -7,10 +7,10 @@
 #include <functional>
 #include <memory>
 
-#include "framework/psychophysics/forced_choice.h"
-#include "framework/psychophysics/interleaved.h"
-#include "framework/psychophysics/observer.h"
-#include "framework/psychophysics/quest_plus.h"
+#include "experiments/runner/psychophysics/forced_choice.h"
+#include "experiments/runner/psychophysics/interleaved.h"
+#include "experiments/runner/psychophysics/observer.h"
+#include "experiments/runner/psychophysics/quest_plus.h"
 #include "tests/psychophysics/binomial_range.h"
 
 namespace presa::psychophysics {

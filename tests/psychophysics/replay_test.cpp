@@ -6,12 +6,12 @@
 #include <memory>
 #include <stdexcept>
 
-#include "framework/psychophysics/adjustment.h"
-#include "framework/psychophysics/constant_stimuli.h"
-#include "framework/psychophysics/forced_choice.h"
-#include "framework/psychophysics/interleaved.h"
-#include "framework/psychophysics/observer.h"
-#include "framework/psychophysics/quest_plus.h"
+#include "experiments/runner/psychophysics/adjustment.h"
+#include "experiments/runner/psychophysics/constant_stimuli.h"
+#include "experiments/runner/psychophysics/forced_choice.h"
+#include "experiments/runner/psychophysics/interleaved.h"
+#include "experiments/runner/psychophysics/observer.h"
+#include "experiments/runner/psychophysics/quest_plus.h"
 
 namespace presa::psychophysics {
 namespace {

@@ -1,11 +1,11 @@
-#include "framework/psychophysics/staircase.h"
+#include "experiments/runner/psychophysics/staircase.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "framework/psychophysics/observer.h"
+#include "experiments/runner/psychophysics/observer.h"
 
 namespace presa::psychophysics {
 namespace {

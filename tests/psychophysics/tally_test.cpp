@@ -1,4 +1,4 @@
-#include "framework/psychophysics/tally.h"
+#include "experiments/runner/psychophysics/tally.h"
 
 #include <gtest/gtest.h>
 

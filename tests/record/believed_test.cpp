@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/reader.h"
 #include "framework/record/record_plugin/samples.h"
 #include "tests/record/damage.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/reader.h"
 #include "framework/record/record_plugin/recording_file.h"
 #include "framework/record/record_plugin/samples.h"

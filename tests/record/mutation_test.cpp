@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <random>
 
-#include "apps/presa/scratch_folder.h"
+#include "apps/common/scratch_folder.h"
 
 namespace presa::record {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 #include <sstream>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/reader.h"
 #include "tests/record/recording_fixture.h"
 

@@ -2,8 +2,8 @@
 
 #include <semaphore>
 
-#include "framework/diagnostics/diagnostics.h"
-#include "framework/plan/plugin.h"
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/session/plugin.h"
 #include "framework/record/record_plugin.h"
 #include "framework/record/record_plugin/reader.h"
 #include "tests/record/recording_fixture.h"

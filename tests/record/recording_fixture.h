@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "apps/presa/scratch_folder.h"
-#include "framework/graph/graph_builder.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/core/graph/graph_builder.h"
 #include "framework/record/record_plugin/recorder.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::record {
 

@@ -1,11 +1,11 @@
 // A recording run again, or shown as a page, when what it says is not what a run writes.
 #include <gtest/gtest.h>
 
-#include "apps/presa/report/recording_page.h"
-#include "apps/presa/run_session.h"
-#include "apps/presa/scratch_folder.h"
+#include "apps/common/report/recording_page.h"
+#include "apps/common/run_session.h"
+#include "apps/common/scratch_folder.h"
 #include "framework/record/record_plugin.h"
-#include "framework/record/replay.h"
+#include "framework/session/replay.h"
 
 namespace presa {
 namespace {

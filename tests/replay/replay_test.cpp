@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "apps/presa/run_session.h"
-#include "apps/presa/scratch_folder.h"
+#include "apps/common/run_session.h"
+#include "apps/common/scratch_folder.h"
 #include "devices/replay/recorded_path.h"
 #include "framework/device/device_modules.h"
 #include "framework/record/record_plugin.h"

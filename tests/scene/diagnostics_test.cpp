@@ -1,9 +1,9 @@
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 #include <gtest/gtest.h>
 
-#include "framework/diagnostics/printable.h"
-#include "framework/math/random.h"
+#include "framework/core/diagnostics/printable.h"
+#include "framework/core/math/random.h"
 
 namespace presa {
 namespace {

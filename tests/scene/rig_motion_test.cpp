@@ -1,5 +1,5 @@
 #include "framework/scene/schemas.h"
-#include "framework/xml/xml.h"
+#include "framework/scene/xml/xml.h"
 #include "tests/scene/scene_text.h"
 
 namespace presa::scene_test {

@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/xml/xml.h"
+#include "framework/scene/xml/xml.h"
 #include "tests/scene/scene_text.h"
 
 namespace presa::scene_test {

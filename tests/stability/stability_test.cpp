@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "apps/presa/stability/runner.h"
-#include "framework/diagnostics/diagnostics.h"
+#include "apps/studies/stability/runner.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 namespace presa::stability {
 namespace {

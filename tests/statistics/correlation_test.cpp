@@ -1,4 +1,4 @@
-#include "framework/statistics/correlation.h"
+#include "experiments/runner/statistics/correlation.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/statistics/grip_design.h"
 
 namespace presa::statistics {

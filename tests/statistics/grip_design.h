@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "framework/statistics/margin.h"
-#include "framework/statistics/ranks.h"
+#include "experiments/runner/statistics/margin.h"
+#include "experiments/runner/statistics/ranks.h"
 
 namespace presa::statistics {
 

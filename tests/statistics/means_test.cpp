@@ -1,12 +1,12 @@
-#include "framework/statistics/means.h"
+#include "experiments/runner/statistics/means.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "framework/math/random.h"
-#include "framework/statistics/margin.h"
+#include "framework/core/math/random.h"
+#include "experiments/runner/statistics/margin.h"
 
 namespace presa::statistics {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/statistics/psychometric.h"
+#include "experiments/runner/statistics/psychometric.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "framework/statistics/ranks.h"
+#include "experiments/runner/statistics/ranks.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/statistics/grip_design.h"
 
 namespace presa::statistics {

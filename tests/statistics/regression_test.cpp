@@ -1,11 +1,11 @@
-#include "framework/statistics/regression.h"
+#include "experiments/runner/statistics/regression.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/statistics/grip_design.h"
 
 namespace presa::statistics {

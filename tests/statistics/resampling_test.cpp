@@ -1,4 +1,4 @@
-#include "framework/statistics/resampling.h"
+#include "experiments/runner/statistics/resampling.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "framework/statistics/correlation.h"
-#include "framework/statistics/distributions.h"
-#include "framework/statistics/means.h"
+#include "experiments/runner/statistics/correlation.h"
+#include "experiments/runner/statistics/distributions.h"
+#include "experiments/runner/statistics/means.h"
 #include "tests/statistics/grip_design.h"
 
 namespace presa::statistics {

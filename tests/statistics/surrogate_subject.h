@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/statistics/grip_design.h"
 
 namespace presa::statistics {

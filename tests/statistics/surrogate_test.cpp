@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "framework/statistics/correlation.h"
-#include "framework/statistics/means.h"
-#include "framework/statistics/regression.h"
-#include "framework/statistics/resampling.h"
+#include "experiments/runner/statistics/correlation.h"
+#include "experiments/runner/statistics/means.h"
+#include "experiments/runner/statistics/regression.h"
+#include "experiments/runner/statistics/resampling.h"
 #include "tests/statistics/surrogate_subject.h"
 
 namespace presa::statistics {

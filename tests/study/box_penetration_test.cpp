@@ -1,4 +1,4 @@
-#include "framework/study/box_penetration.h"
+#include "experiments/study/box_penetration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // A whole run of 5 000 bodies: loaded, planned and stepped as any other.
 #include <gtest/gtest.h>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/session.h"
-#include "framework/state/object_state.h"
-#include "framework/study/prescribed_finger.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
+#include "framework/core/state/object_state.h"
+#include "experiments/study/prescribed_finger.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {

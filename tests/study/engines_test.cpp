@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/study/study_run.h"
+#include "experiments/study/study_run.h"
 
 namespace presa {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/study/jobs.h"
+#include "experiments/study/jobs.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

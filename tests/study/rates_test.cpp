@@ -1,8 +1,8 @@
 // Rates that a scene may name: what counts as old follows them, so that a grasp stays a grasp. In virtual time.
 #include <gtest/gtest.h>
 
-#include "framework/plan/load_world.h"
-#include "framework/study/study_run.h"
+#include "framework/session/load_world.h"
+#include "experiments/study/study_run.h"
 
 namespace presa {
 namespace {

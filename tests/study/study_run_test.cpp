@@ -1,10 +1,10 @@
-#include "framework/study/study_run.h"
+#include "experiments/study/study_run.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "framework/study/prescribed_finger.h"
+#include "experiments/study/prescribed_finger.h"
 
 namespace presa {
 namespace {

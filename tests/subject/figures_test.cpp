@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "framework/statistics/means.h"
+#include "experiments/runner/statistics/means.h"
 #include "tests/subject/study.h"
 
 namespace presa::subject {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/session.h"
-#include "framework/study/study_run.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
+#include "experiments/study/study_run.h"
 #include "tests/subject/study.h"
 
 namespace presa::subject {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "framework/statistics/correlation.h"
-#include "framework/statistics/ranks.h"
+#include "experiments/runner/statistics/correlation.h"
+#include "experiments/runner/statistics/ranks.h"
 #include "tests/subject/study.h"
 
 namespace presa::subject {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "framework/statistics/correlation.h"
-#include "framework/statistics/means.h"
+#include "experiments/runner/statistics/correlation.h"
+#include "experiments/runner/statistics/means.h"
 
 namespace presa::subject {
 

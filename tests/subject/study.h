@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "framework/subject/stand_alone.h"
+#include "devices/simulated_subject/model/stand_alone.h"
 
 namespace presa::subject {
 

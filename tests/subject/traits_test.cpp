@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "framework/subject/traits.h"
+#include "devices/simulated_subject/model/traits.h"
 
 namespace presa::subject {
 namespace {

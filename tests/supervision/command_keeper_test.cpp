@@ -1,4 +1,4 @@
-#include "framework/supervision/command_keeper.h"
+#include "framework/device/supervision/command_keeper.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "framework/supervision/supervisor.h"
+#include "framework/device/supervision/supervisor.h"
 
 #include <gtest/gtest.h>
 

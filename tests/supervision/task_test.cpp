@@ -1,4 +1,4 @@
-#include "framework/supervision/task.h"
+#include "framework/device/supervision/task.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/presa/run_session.h"
-#include "framework/plan/plugin.h"
+#include "apps/common/run_session.h"
+#include "framework/session/plugin.h"
 #include "tests/support/alloc_lock_guard.h"
 
 /// A shipped scene with a shipped rig, for the tests of the rig's devices.

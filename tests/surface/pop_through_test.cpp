@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "framework/input/folders.h"
-#include "framework/study/study_run.h"
+#include "experiments/study/study_run.h"
 #include "tests/surface/support/mesh_files.h"
 #include "tests/surface/support/mesh_oracle.h"
 

@@ -1,4 +1,4 @@
-#include "framework/temple/assembly_text.h"
+#include "apps/temple/building/assembly_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/temple/column_blocks.h"
-#include "framework/temple/entablature_blocks.h"
+#include "apps/temple/building/column_blocks.h"
+#include "apps/temple/building/entablature_blocks.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

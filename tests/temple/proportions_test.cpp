@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "framework/temple/shipped.h"
-#include "framework/xml/xml.h"
+#include "apps/temple/building/shipped.h"
+#include "framework/scene/xml/xml.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

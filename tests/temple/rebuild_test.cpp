@@ -1,13 +1,13 @@
 // The whole demo without a person: ruins, fingers, friction, places.
-#include "apps/presa/temple/visit.h"
+#include "apps/temple/visit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "apps/presa/temple/ruins.h"
-#include "apps/presa/temple/written_scene.h"
+#include "apps/temple/ruins.h"
+#include "apps/temple/written_scene.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

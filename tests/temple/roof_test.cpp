@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "apps/presa/temple/visit.h"
-#include "apps/presa/temple/written_scene.h"
+#include "apps/temple/visit.h"
+#include "apps/temple/written_scene.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

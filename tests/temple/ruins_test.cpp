@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "apps/presa/temple/ruins.h"
-#include "apps/presa/temple/spots.h"
+#include "apps/temple/ruins.h"
+#include "apps/temple/spots.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

@@ -1,5 +1,5 @@
 // Whose finger it is, tick by tick.
-#include "apps/presa/temple/shared_finger.h"
+#include "apps/temple/shared_finger.h"
 
 #include <gtest/gtest.h>
 

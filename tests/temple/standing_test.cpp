@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "apps/presa/atomic_file.h"
-#include "apps/presa/temple/drop.h"
+#include "apps/common/atomic_file.h"
+#include "apps/temple/drop.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "framework/temple/shipped.h"
+#include "apps/temple/building/shipped.h"
 
 namespace presa::temple::test {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "framework/temple/building.h"
-#include "framework/temple/scene_text.h"
+#include "apps/temple/building/building.h"
+#include "apps/temple/building/scene_text.h"
 
 namespace presa::temple::test {
 

@@ -1,5 +1,5 @@
 // A visit that is killed goes on with what stood.
-#include "apps/presa/temple/visit.h"
+#include "apps/temple/visit.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "framework/math/random.h"
+#include "framework/core/math/random.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

@@ -1,14 +1,14 @@
 // What visitors are told: every kind of block, in every language, and the same after a scene has carried it.
-#include "framework/temple/words.h"
+#include "apps/temple/building/words.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "apps/presa/file_text.h"
+#include "apps/common/file_text.h"
 #include "framework/scene/load.h"
-#include "framework/temple/assembly_text.h"
+#include "apps/temple/building/assembly_text.h"
 #include "tests/temple/support.h"
 
 namespace presa::temple {

@@ -1,6 +1,6 @@
 #include "tests/view/pinch_world.h"
 
-#include "framework/graph/port.h"
+#include "framework/core/graph/port.h"
 
 namespace presa::view_test {
 namespace {

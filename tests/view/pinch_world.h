@@ -2,11 +2,11 @@
 #include <memory>
 #include <string>
 
-#include "framework/plan/view.h"
+#include "framework/session/view.h"
 #include "framework/scene/world.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
 
 /// A cube held by two fingers above a table, made by hand: the view needs no scene file and no other module.
 namespace presa::view_test {

@@ -2,13 +2,13 @@
 #include <optional>
 #include <random>
 
-#include "apps/presa/atomic_file.h"
-#include "apps/presa/commands/bus_options.h"
-#include "apps/presa/commands/commands.h"
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/bus_options.h"
+#include "apps/common/options/commands.h"
 #include "apps/presa/remote/measure.h"
 #include "apps/presa/remote/viewer.h"
-#include "apps/presa/terminal/interruption.h"
-#include "framework/state/limits.h"
+#include "apps/common/terminal/interruption.h"
+#include "framework/core/state/limits.h"
 
 namespace presa {
 namespace {

@@ -3,13 +3,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/presa/commands/bus_options.h"
-#include "apps/presa/commands/commands.h"
+#include "apps/common/options/bus_options.h"
+#include "apps/common/options/commands.h"
 #include "apps/presa/remote/commanding.h"
 #include "apps/presa/remote/viewer.h"
-#include "apps/presa/terminal/interruption.h"
-#include "framework/diagnostics/printable.h"
-#include "framework/diagnostics/refuse.h"
+#include "apps/common/terminal/interruption.h"
+#include "framework/core/diagnostics/printable.h"
+#include "framework/core/diagnostics/refuse.h"
 
 namespace presa {
 namespace {

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "apps/presa/commands/commands.h"
+#include "apps/common/options/commands.h"
 #include "framework/bus/bus_keys.h"
 
 namespace presa {

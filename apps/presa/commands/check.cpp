@@ -2,8 +2,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/presa/commands/commands.h"
-#include "framework/plan/load_world.h"
+#include "apps/common/options/commands.h"
+#include "framework/session/load_world.h"
 
 namespace presa {
 namespace {

@@ -1,13 +1,13 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/presa/commands/bus_options.h"
-#include "apps/presa/commands/commands.h"
+#include "apps/common/options/bus_options.h"
+#include "apps/common/options/commands.h"
 #include "apps/presa/explain/cost.h"
 #include "apps/presa/explain/description.h"
 #include "apps/presa/explain/printout.h"
-#include "apps/presa/scratch_folder.h"
-#include "framework/diagnostics/printable.h"
+#include "apps/common/scratch_folder.h"
+#include "framework/core/diagnostics/printable.h"
 
 namespace presa {
 namespace {

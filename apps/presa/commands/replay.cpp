@@ -1,17 +1,17 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/presa/atomic_file.h"
-#include "apps/presa/commands/commands.h"
-#include "apps/presa/commands/show_option.h"
-#include "apps/presa/commands/view_choice.h"
-#include "apps/presa/losses.h"
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/commands.h"
+#include "apps/common/options/show_option.h"
+#include "apps/common/options/view_choice.h"
+#include "apps/common/losses.h"
 #include "apps/presa/playback/player.h"
-#include "apps/presa/report/recording_page.h"
-#include "framework/diagnostics/printable.h"
-#include "framework/plan/load_world.h"
+#include "apps/common/report/recording_page.h"
+#include "framework/core/diagnostics/printable.h"
+#include "framework/session/load_world.h"
 #include "framework/record/record_plugin.h"
-#include "framework/record/replay.h"
+#include "framework/session/replay.h"
 
 namespace presa {
 namespace {

@@ -3,17 +3,17 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/presa/commands/bus_options.h"
-#include "apps/presa/commands/commands.h"
-#include "apps/presa/commands/show_option.h"
-#include "apps/presa/commands/view_choice.h"
-#include "apps/presa/machine.h"
-#include "apps/presa/report/report.h"
-#include "apps/presa/run_session.h"
-#include "apps/presa/summary.h"
-#include "apps/presa/terminal/closing.h"
+#include "apps/common/options/bus_options.h"
+#include "apps/common/options/commands.h"
+#include "apps/common/options/show_option.h"
+#include "apps/common/options/view_choice.h"
+#include "apps/common/machine.h"
+#include "apps/common/report/report.h"
+#include "apps/common/run_session.h"
+#include "apps/common/summary.h"
+#include "apps/common/terminal/closing.h"
 #include "framework/bus/bus_keys.h"
-#include "framework/plan/load_world.h"
+#include "framework/session/load_world.h"
 
 namespace presa {
 namespace {

@@ -1,7 +1,7 @@
-#include "apps/presa/commands/bus_options.h"
-#include "apps/presa/commands/commands.h"
-#include "apps/presa/commands/show_option.h"
-#include "apps/presa/commands/view_choice.h"
+#include "apps/common/options/bus_options.h"
+#include "apps/common/options/commands.h"
+#include "apps/common/options/show_option.h"
+#include "apps/common/options/view_choice.h"
 #include "apps/presa/remote/viewer.h"
 
 namespace presa {

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <numbers>
 
-#include "apps/presa/atomic_file.h"
-#include "apps/presa/commands/commands.h"
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/commands.h"
 #include "apps/presa/device/driver_symbol.h"
 #include "apps/presa/device/rig_bases.h"
 #include "apps/presa/device/samples_file.h"
-#include "framework/calibration/calibration_plugin.h"
-#include "framework/math/random.h"
+#include "devices/percro_arm/calibration/calibration_plugin.h"
+#include "framework/core/math/random.h"
 
 namespace presa::device {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "apps/presa/atomic_file.h"
-#include "apps/presa/commands/commands.h"
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/commands.h"
 #include "apps/presa/device/driver_symbol.h"
-#include "apps/presa/terminal/status_line.h"
+#include "apps/common/terminal/status_line.h"
 
 namespace presa::device {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "framework/characterisation/characterisation.h"
+#include "devices/percro_arm/characterisation/characterisation.h"
 
 namespace presa::device {
 

@@ -12,11 +12,11 @@
 #include <system_error>
 #include <thread>
 
-#include "apps/presa/atomic_file.h"
-#include "apps/presa/file_text.h"
-#include "apps/presa/terminal/text.h"
-#include "framework/diagnostics/refuse.h"
-#include "framework/plan/session.h"
+#include "apps/common/atomic_file.h"
+#include "apps/common/file_text.h"
+#include "apps/common/terminal/text.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/session/session.h"
 
 namespace presa::device {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 #include <string>
 
-#include "framework/diagnostics/refuse.h"
-#include "framework/plan/plugin.h"
-#include "framework/plan/plugin_loader.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/session/plugin.h"
+#include "framework/core/plugin/plugin_loader.h"
 
 namespace presa::device {
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/presa/terminal/text.h"
-#include "framework/plan/session.h"
+#include "apps/common/terminal/text.h"
+#include "framework/session/session.h"
 
 namespace presa::device {
 namespace {

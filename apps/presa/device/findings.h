@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/plan/plugin.h"
+#include "framework/session/plugin.h"
 
 namespace presa::device {
 

@@ -1,11 +1,11 @@
-#include "apps/presa/report/page.h"
+#include "apps/common/report/page.h"
 
 #include "apps/presa/device/characterise.h"
-#include "apps/presa/report/contours.h"
-#include "apps/presa/report/html.h"
-#include "apps/presa/report/svg_facets.h"
-#include "apps/presa/terminal/text.h"
-#include "apps/presa/version.h"
+#include "apps/common/report/contours.h"
+#include "apps/common/report/html.h"
+#include "apps/common/report/svg_facets.h"
+#include "apps/common/terminal/text.h"
+#include "apps/common/version.h"
 
 namespace presa::device {
 namespace {

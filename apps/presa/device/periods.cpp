@@ -7,17 +7,17 @@
 #include <optional>
 #include <vector>
 
-#include "apps/presa/atomic_file.h"
-#include "apps/presa/commands/commands.h"
-#include "apps/presa/machine.h"
-#include "apps/presa/run_session.h"
-#include "apps/presa/terminal/job_progress.h"
-#include "framework/diagnostics/refuse.h"
-#include "framework/math/random.h"
-#include "framework/schedule/realtime_rights.h"
-#include "framework/statistics/means.h"
-#include "framework/statistics/resampling.h"
-#include "framework/study/jobs.h"
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/commands.h"
+#include "apps/common/machine.h"
+#include "apps/common/run_session.h"
+#include "apps/common/terminal/job_progress.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/core/math/random.h"
+#include "framework/core/schedule/realtime_rights.h"
+#include "experiments/runner/statistics/means.h"
+#include "experiments/runner/statistics/resampling.h"
+#include "experiments/study/jobs.h"
 
 namespace presa::device {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "apps/presa/terminal/text.h"
-#include "framework/diagnostics/refuse.h"
+#include "apps/common/terminal/text.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/scene/load.h"
 
 namespace presa::device {

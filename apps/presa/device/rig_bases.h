@@ -2,8 +2,8 @@
 #include <memory>
 #include <string>
 
-#include "framework/math/spatial.h"
-#include "framework/xml/xml.h"
+#include "framework/core/math/spatial.h"
+#include "framework/scene/xml/xml.h"
 
 namespace presa::device {
 

@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 
-#include "apps/presa/experiment/delimited.h"
-#include "apps/presa/file_text.h"
-#include "apps/presa/terminal/text.h"
-#include "framework/diagnostics/refuse.h"
+#include "apps/experiment/delimited.h"
+#include "apps/common/file_text.h"
+#include "apps/common/terminal/text.h"
+#include "framework/core/diagnostics/refuse.h"
 
 namespace presa::device {
 namespace {

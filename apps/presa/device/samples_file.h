@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/calibration/linked_bases.h"
+#include "devices/percro_arm/calibration/linked_bases.h"
 
 namespace presa::device {
 

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/presa/device/characterise.h"
-#include "apps/presa/terminal/text.h"
+#include "apps/common/terminal/text.h"
 
 namespace presa::device {
 namespace {

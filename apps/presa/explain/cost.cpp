@@ -12,7 +12,7 @@
 
 #include "apps/presa/explain/instruction_counts.h"
 #include "apps/presa/explain/module_times.h"
-#include "apps/presa/terminal/text.h"
+#include "apps/common/terminal/text.h"
 
 namespace presa {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/session.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
 
 namespace presa {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "framework/schedule/rates.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa {
 namespace {

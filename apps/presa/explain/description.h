@@ -3,8 +3,8 @@
 #include <set>
 #include <string>
 
-#include "framework/plan/load_world.h"
-#include "framework/plan/session.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
 
 namespace presa {
 

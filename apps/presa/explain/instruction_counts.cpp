@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/presa/file_text.h"
-#include "apps/presa/scratch_folder.h"
+#include "apps/common/file_text.h"
+#include "apps/common/scratch_folder.h"
 
 namespace presa {
 namespace {

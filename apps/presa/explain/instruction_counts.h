@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/presa/explain/callgrind_file.h"
-#include "framework/plan/load_world.h"
+#include "framework/session/load_world.h"
 
 namespace presa {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <random>
 
-#include "framework/graph/stage_watch.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/graph/stage_watch.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/graph/graph.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/graph/graph.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa {
 

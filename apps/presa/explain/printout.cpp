@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/presa/terminal/text.h"
+#include "apps/common/terminal/text.h"
 
 namespace presa {
 namespace {

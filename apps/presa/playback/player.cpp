@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/presa/commands/commands.h"
+#include "apps/common/options/commands.h"
 #include "apps/presa/playback/recorded_moment.h"
-#include "apps/presa/terminal/interruption.h"
-#include "framework/graph/graph_builder.h"
-#include "framework/plan/session.h"
-#include "framework/schedule/clock.h"
+#include "apps/common/terminal/interruption.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/session/session.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -5,9 +5,9 @@
 #include <charconv>
 #include <cstdio>
 
-#include "apps/presa/terminal/interruption.h"
+#include "apps/common/terminal/interruption.h"
 #include "framework/bus/publisher.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -1,7 +1,7 @@
 #include "apps/presa/remote/join.h"
 
-#include "apps/presa/terminal/interruption.h"
-#include "framework/schedule/clock.h"
+#include "apps/common/terminal/interruption.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -3,12 +3,12 @@
 #include <cstdio>
 
 #include "apps/presa/remote/join.h"
-#include "apps/presa/terminal/interruption.h"
+#include "apps/common/terminal/interruption.h"
 #include "framework/bus/mesh_shelf.h"
 #include "framework/bus/remote_picture.h"
-#include "framework/diagnostics/printable.h"
+#include "framework/core/diagnostics/printable.h"
 #include "framework/scene/load.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 

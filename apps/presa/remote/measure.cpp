@@ -15,11 +15,11 @@
 #include <stdexcept>
 #include <thread>
 
-#include "apps/presa/terminal/interruption.h"
+#include "apps/common/terminal/interruption.h"
 #include "framework/bus/publisher.h"
 #include "framework/bus/scene_hash.h"
 #include "framework/scene/load.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/presa/commands/commands.h"
+#include "apps/common/options/commands.h"
 #include "apps/presa/remote/join.h"
-#include "apps/presa/terminal/interruption.h"
+#include "apps/common/terminal/interruption.h"
 #include "framework/bus/mesh_shelf.h"
 #include "framework/bus/remote_picture.h"
-#include "framework/diagnostics/printable.h"
-#include "framework/graph/graph_builder.h"
-#include "framework/plan/session.h"
-#include "framework/plan/view.h"
+#include "framework/core/diagnostics/printable.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/session/session.h"
+#include "framework/session/view.h"
 #include "framework/scene/load.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdio>
 
 #include "experiments/faults/probe/probe_log.h"
-#include "framework/diagnostics/refuse.h"
-#include "framework/plan/plugin.h"
-#include "framework/schedule/clock.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/session/plugin.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::faults {
 namespace {

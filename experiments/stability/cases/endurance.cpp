@@ -9,7 +9,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/methods.h"
 #include "experiments/stability/random_hand.h"
-#include "framework/study/yielding_finger.h"
+#include "experiments/study/yielding_finger.h"
 
 namespace presa::stability {
 namespace {

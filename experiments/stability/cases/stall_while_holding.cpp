@@ -6,7 +6,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/methods.h"
-#include "framework/study/yielding_finger.h"
+#include "experiments/study/yielding_finger.h"
 
 namespace presa::stability {
 namespace {

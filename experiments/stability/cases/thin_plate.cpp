@@ -4,7 +4,7 @@
 #include <random>
 
 #include "experiments/stability/cases.h"
-#include "framework/study/prescribed_finger.h"
+#include "experiments/study/prescribed_finger.h"
 
 namespace presa::stability {
 namespace {

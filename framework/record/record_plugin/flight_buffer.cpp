@@ -8,8 +8,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "framework/diagnostics/refuse.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::record {
 namespace {

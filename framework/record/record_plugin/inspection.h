@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/h5.h"
 
 namespace presa::record {

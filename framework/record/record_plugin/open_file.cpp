@@ -4,7 +4,7 @@
 
 #include <cerrno>
 
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/input/input.h"
 #include "framework/record/record_plugin/inspection.h"
 #include "framework/record/record_plugin/recording_file.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/record/record_plugin/contents.h"
 
 namespace presa::record {

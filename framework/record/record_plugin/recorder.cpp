@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "framework/record/record_plugin/flight_buffer.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::record {
 namespace {

@@ -9,13 +9,13 @@
 #include <thread>
 #include <vector>
 
-#include "framework/graph/port.h"
-#include "framework/graph/stage_watch.h"
+#include "framework/core/graph/port.h"
+#include "framework/core/graph/stage_watch.h"
 #include "framework/record/record_plugin/row_ring.h"
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
-#include "framework/state/surface_change.h"
-#include "framework/state/surface_settings.h"
+#include "framework/core/state/surface_change.h"
+#include "framework/core/state/surface_settings.h"
 
 namespace presa::record {
 

@@ -12,9 +12,9 @@
 #include <ctime>
 #include <filesystem>
 
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/record/record_plugin/seal.h"
-#include "framework/schedule/rates.h"
+#include "framework/core/schedule/rates.h"
 
 namespace presa::record {
 namespace {

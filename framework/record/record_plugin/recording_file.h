@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/checksum/checksum.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/record/record_plugin/h5.h"
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"

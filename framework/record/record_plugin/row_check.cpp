@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "framework/record/record_plugin/stored.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/surface_settings.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/surface_settings.h"
 
 namespace presa::record {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/rows.h"
 
 namespace presa::record {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/checksum/checksum.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/record/record_plugin/recording_file.h"
 
 namespace presa::record::seal {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/diagnostics/refuse.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/record/record_plugin/inspection.h"
 #include "framework/record/record_plugin/open_file.h"
-#include "framework/state/limits.h"
+#include "framework/core/state/limits.h"
 
 namespace presa::record {
 namespace {

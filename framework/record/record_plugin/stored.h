@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/h5.h"
 #include "framework/record/record_plugin/recording_file.h"
 

@@ -1,11 +1,11 @@
 #pragma once
 #include <memory>
 
-#include "framework/graph/graph_builder.h"
+#include "framework/core/graph/graph_builder.h"
 #include "framework/scene/world.h"
-#include "framework/state/contact_exchange.h"
-#include "framework/state/device_state.h"
-#include "framework/state/object_state.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
 
 namespace presa::test {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "apps/presa/commands/commands.h"
+#include "apps/common/options/commands.h"
 
 namespace presa {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "apps/presa/commands/device/device_commands.h"
-#include "apps/presa/terminal/status_line.h"
+#include "apps/common/terminal/status_line.h"
 
 namespace presa {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "apps/presa/commands/device/device_commands.h"
 #include "apps/presa/device/findings.h"
-#include "apps/presa/terminal/status_line.h"
+#include "apps/common/terminal/status_line.h"
 
 namespace presa {
 namespace {

@@ -1,0 +1,22 @@
+#pragma once
+#include <atomic>
+
+#include "framework/core/graph/port.h"
+#include "framework/assembly/assembly_state.h"
+
+namespace presa {
+
+/// Tells the end of a run how much of the scene's assembly stands. Beside the assembly, on its thread: no value crosses for it.
+class AssemblyTap final : public Module {
+ public:
+  explicit AssemblyTap(std::atomic<std::int32_t>& filled)
+      : Module("assembly_tap", RateGroup::kCollision), filled_(filled) {}
+  void step(const Tick&) noexcept override { filled_.store(assembly_->filled, std::memory_order_relaxed); }
+  std::vector<std::string> stages() const override { return {"count the places that are filled"}; }
+
+ private:
+  std::atomic<std::int32_t>& filled_;
+  In<AssemblyState> assembly_{*this, "assembly_state"};
+};
+
+}  // namespace presa

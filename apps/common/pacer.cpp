@@ -1,0 +1,51 @@
+#include "apps/common/pacer.h"
+
+#include "framework/core/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+constexpr std::int64_t kFrame = 16'000'000;    // [ns] between pictures of a run that is held
+constexpr std::int64_t kBehind = 200'000'000;  // [ns] that a slow machine may be late; more is not made up for
+
+}  // namespace
+
+void Pacer::step(const Tick& tick) noexcept {
+  while (!due(tick.time)) {
+    if (control_.stop_requested.load(std::memory_order_relaxed)) return;
+    const std::int64_t next = monotonicNs() + kFrame;
+    if (meanwhile_) meanwhile_(tick.time);
+    if (view_ != nullptr) {
+      if (view_->wantsStop()) return;
+      view_->refresh();
+    }
+    if (wish_.paused) sleepUntilNs(next);
+  }
+}
+
+bool Pacer::due(double time) noexcept {
+  if (wish_.paused) {
+    speed_ = 0;
+    if (steps_ == wish_.steps) return false;
+    ++steps_;
+    return true;
+  }
+  steps_ = wish_.steps;
+  const std::int64_t now = monotonicNs();
+  const double speed = wish_.speed;
+  if (speed != speed_) {
+    speed_ = speed;
+    anchor_time_ = time;
+    anchor_ns_ = now;
+  }
+  const std::int64_t at = anchor_ns_ + static_cast<std::int64_t>((time - anchor_time_) / speed * 1e9);
+  if (at - now > kFrame) {  // slow motion: the window lives on meanwhile
+    sleepUntilNs(now + kFrame);
+    return false;
+  }
+  if (now - at > kBehind) speed_ = 0;
+  if (at > now) sleepUntilNs(at);
+  return true;
+}
+
+}  // namespace presa

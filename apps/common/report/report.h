@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "apps/common/run_result.h"
+
+namespace presa {
+
+/// The run as one HTML page that stands alone: styles, plots, script and screenshot are inside it, and its content
+/// policy forbids every request. A screenshot that cannot be read is named in the notes.
+std::string reportHtml(const RunResult& result);
+
+/// Writes it atomically. Throws std::system_error when the file cannot be written.
+void writeReport(const RunResult& result, const std::string& path);
+
+}  // namespace presa

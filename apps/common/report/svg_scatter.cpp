@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_scale.h"
+
+namespace presa::svg {
+namespace {
+
+constexpr double kWidth = 520, kHeight = 400;                         // [px]
+constexpr double kLeft = 56, kRight = 506, kTop = 14, kBottom = 350;  // plotting area
+
+/// Dots as zero-length strokes, each pixel position once: thousands of samples stay a small file.
+std::string dots(const Cloud& cloud, const Scale& x, const Scale& y) {
+  std::set<std::pair<long, long>> drawn;
+  std::string path;
+  for (const Point& point : cloud.points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    const std::pair<long, long> at{std::lround(2 * x(point.x)), std::lround(2 * y(point.y))};
+    if (!drawn.insert(at).second) continue;
+    path += "M" + px(0.5 * static_cast<double>(at.first)) + " " + px(0.5 * static_cast<double>(at.second)) + "h0";
+  }
+  return "<path class=\"dots " + cloud.css_class + "\" d=\"" + path + "\"/>\n";
+}
+
+std::string axes(const ScatterFigure& figure, const Scale& x, const Scale& y) {
+  std::string out;
+  const auto x_ticks = niceTicks(0, x.data_high, 8);
+  const auto y_ticks = niceTicks(0, y.data_high, 7);
+  for (const double value : x_ticks) {
+    out += lineFromTo(x(value), kTop, x(value), kBottom, "grid");
+    out += textAt(x(value), kBottom + 16, "tick xtick", tickText(value, x_ticks[1] - x_ticks[0]));
+  }
+  for (const double value : y_ticks) {
+    out += lineFromTo(kLeft, y(value), kRight, y(value), "grid");
+    out += textAt(kLeft - 8, y(value) + 4, "tick ytick", tickText(value, y_ticks[1] - y_ticks[0]));
+  }
+  out += lineFromTo(kLeft, kBottom, kRight, kBottom, "axis") + lineFromTo(kLeft, kTop, kLeft, kBottom, "axis");
+  out += textAt(0.5 * (kLeft + kRight), kBottom + 38, "tick xtick", escape(figure.x_label));
+  out += "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (kTop + kBottom)) + ") rotate(-90)\">" +
+         escape(figure.y_label) + "</text>\n";
+  return out;
+}
+
+std::string ray(const Ray& line, const Scale& x, const Scale& y) {
+  const double end = line.slope > 0 ? std::min(x.data_high, y.data_high / line.slope) : x.data_high;
+  return lineFromTo(x(0), y(0), x(end), y(line.slope * end), "ray " + line.css_class);
+}
+
+std::string mark(const Mark& m, const Scale& x, const Scale& y) {
+  return "<circle class=\"mark " + m.css_class + "\" cx=\"" + px(x(m.at.x)) + "\" cy=\"" + px(y(m.at.y)) +
+         "\" r=\"6\"><title>" + escape(m.label) + "</title></circle>\n";
+}
+
+std::string legend(const ScatterFigure& figure) {
+  std::string out;
+  double y = kTop + 16;
+  const auto entry = [&](const std::string& symbol, const std::string& label) {
+    out += symbol + textAt(kLeft + 34, y, "legend", escape(label));
+    y += 18;
+  };
+  const double at = kLeft + 20;
+  for (const Ray& line : figure.rays)
+    entry(lineFromTo(at - 9, y - 4, at + 9, y - 4, "ray " + line.css_class), line.label);
+  for (const Cloud& cloud : figure.clouds) {
+    entry("<path class=\"dots big " + cloud.css_class + "\" d=\"M" + px(at) + " " + px(y - 4) + "h0\"/>", cloud.label);
+  }
+  for (const Mark& m : figure.marks) {
+    entry("<circle class=\"mark " + m.css_class + "\" cx=\"" + px(at) + "\" cy=\"" + px(y - 4) + "\" r=\"5\"/>",
+          m.label);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string render(const ScatterFigure& figure) {
+  double x_high = 0, y_high = 0;
+  const auto include = [&](const Point& point) {
+    if (std::isfinite(point.x)) x_high = std::max(x_high, point.x);
+    if (std::isfinite(point.y)) y_high = std::max(y_high, point.y);
+  };
+  for (const Cloud& cloud : figure.clouds) std::for_each(cloud.points.begin(), cloud.points.end(), include);
+  for (const Mark& m : figure.marks) include(m.at);
+  if (!(x_high > 0)) return "<p class=\"empty\">No contact to plot.</p>\n";
+  // room above the data for the legend, and at least one ray in view
+  y_high = std::max(1.5 * y_high, 0.3 * x_high);
+  const Scale x{0, 1.05 * x_high, kLeft, kRight};
+  const Scale y{0, y_high, kBottom, kTop};
+
+  std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) +
+                    "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" + axes(figure, x, y);
+  for (const Cloud& cloud : figure.clouds) out += dots(cloud, x, y);
+  for (const Ray& line : figure.rays) out += ray(line, x, y);
+  for (const Mark& m : figure.marks) out += mark(m, x, y);
+  return out + legend(figure) + "</svg></div>\n";
+}
+
+}  // namespace presa::svg

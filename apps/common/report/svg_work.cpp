@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+
+#include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_scale.h"
+
+namespace presa::svg {
+namespace {
+
+constexpr double kWidth = 520, kHeight = 400;                         // [px]
+constexpr double kLeft = 62, kRight = 506, kTop = 30, kBottom = 350;  // plotting area
+
+/// Logarithmic map from data to pixels.
+struct LogScale {
+  Scale scale;
+  double operator()(double value) const { return scale(std::log10(value)); }
+};
+
+struct Span {
+  double low = INFINITY, high = 0;
+  void include(double value) {
+    if (!(value > 0) || !std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  /// With a margin, and never narrower than half a decade.
+  LogScale over(double pixel_low, double pixel_high) const {
+    const double middle = 0.5 * (std::log10(low) + std::log10(high));
+    const double half = std::max(0.25, 0.56 * (std::log10(high) - std::log10(low)));
+    return {{middle - half, middle + half, pixel_low, pixel_high}};
+  }
+};
+
+std::string powerText(int exponent) {
+  if (exponent >= -3 && exponent <= 4) return number(std::pow(10.0, exponent), 12);
+  return "1e" + std::to_string(exponent);
+}
+
+/// Decades, with their halves where there are few.
+std::vector<std::pair<double, std::string>> ticks(const LogScale& scale) {
+  std::vector<std::pair<double, std::string>> found;
+  const double low = scale.scale.data_low, high = scale.scale.data_high;
+  const bool fine = high - low < 2.5;
+  for (int e = static_cast<int>(std::floor(low)); e <= static_cast<int>(std::ceil(high)); ++e) {
+    for (const double lead : {1.0, 2.0, 5.0}) {
+      const double at = e + std::log10(lead);
+      if (at < low || at > high || (lead > 1 && !fine)) continue;
+      const double value = std::pow(10.0, at);
+      found.emplace_back(value, lead == 1 ? powerText(e) : number(value, e >= -3 && e <= 4 ? 12 : 1));
+    }
+  }
+  return found;
+}
+
+std::string axes(const WorkFigure& figure, const LogScale& x, const LogScale& y) {
+  std::string out;
+  if (figure.floor > 0) {
+    const double top = std::clamp(y(figure.floor), kTop, kBottom);
+    out += "<rect class=\"floor\" x=\"" + px(kLeft) + "\" y=\"" + px(top) + "\" width=\"" + px(kRight - kLeft) +
+           "\" height=\"" + px(kBottom - top) + "\"/>\n";
+  }
+  for (const auto& [value, text] : ticks(x))
+    out += lineFromTo(x(value), kTop, x(value), kBottom, "grid") + textAt(x(value), kBottom + 16, "tick xtick", text);
+  for (const auto& [value, text] : ticks(y))
+    out += lineFromTo(kLeft, y(value), kRight, y(value), "grid") + textAt(kLeft - 8, y(value) + 4, "tick ytick", text);
+  out += lineFromTo(kLeft, kBottom, kRight, kBottom, "axis") + lineFromTo(kLeft, kTop, kLeft, kBottom, "axis");
+  out += textAt(0.5 * (kLeft + kRight), kBottom + 38, "tick xtick", escape(figure.x_label));
+  return out + "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (kTop + kBottom)) +
+         ") rotate(-90)\">" + escape(figure.y_label) + "</text>\n";
+}
+
+std::string levels(const WorkFigure& figure, const LogScale& x, const LogScale& y) {
+  std::string out;
+  for (const Level& level : figure.x_levels) {
+    out += lineFromTo(x(level.value), kTop, x(level.value), kBottom, "level " + level.css_class);
+    out += "<text class=\"level-label\" transform=\"translate(" + px(x(level.value) - 5) + " " + px(kTop + 6) +
+           ") rotate(-90)\">" + escape(level.label) + "</text>\n";
+  }
+  for (const Level& level : figure.y_levels) {
+    out += lineFromTo(kLeft, y(level.value), kRight, y(level.value), "level " + level.css_class);
+    out += textAt(kLeft + 8, y(level.value) - 5, "known", escape(level.label));
+  }
+  return out;
+}
+
+std::string symbol(const WorkPoint& point, const LogScale& x, const LogScale& y, bool below_floor) {
+  const double at = x(point.at.x);
+  std::string data = " data-name=\"" + escape(point.label) + "\"><title>" + escape(point.label) + "</title>";
+  if (point.failed) {
+    const double top = kTop + 8;
+    return "<path class=\"cross\" d=\"M" + px(at - 5) + " " + px(top - 5) + "l10 10m0 -10l-10 10\"" + data +
+           "</path>\n";
+  }
+  const double height = point.at.y > 0 ? std::min(y(point.at.y), kBottom) : kBottom;
+  std::string out;
+  if (point.x_high > point.x_low && point.x_low > 0)
+    out += lineFromTo(x(point.x_low), height, x(point.x_high), height, "whisker");
+  const std::string css = "point " + point.css_class + (below_floor ? " empty" : "");
+  if (point.css_class == "usual") {
+    out +=
+        "<path class=\"" + css + "\" d=\"M" + px(at) + " " + px(height - 8) + "l8 8l-8 8l-8 -8z\"" + data + "</path>\n";
+  } else {
+    out +=
+        "<circle class=\"" + css + "\" cx=\"" + px(at) + "\" cy=\"" + px(height) + "\" r=\"5\"" + data + "</circle>\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string render(const WorkFigure& figure) {
+  Span x_span, y_span;
+  for (const WorkPoint& point : figure.points) {
+    for (const double x : {point.at.x, point.x_low, point.x_high}) x_span.include(x);
+    if (!point.failed) y_span.include(point.at.y);
+  }
+  if (!(x_span.high > 0)) return "<p class=\"empty\">No setting was timed.</p>\n";
+  for (const Level& level : figure.x_levels) x_span.include(level.value);
+  for (const Level& level : figure.y_levels) y_span.include(level.value);
+  if (!(y_span.high > 0)) y_span = {0.1, 1};
+  const LogScale x = x_span.over(kLeft, kRight), y = y_span.over(kBottom, kTop + 16);
+
+  std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) +
+                    "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" + levels(figure, x, y) +
+                    axes(figure, x, y);
+  std::string path;
+  for (const Point& point : figure.front)
+    path +=
+        (path.empty() ? "M" : "L") + px(x(point.x)) + " " + px(point.y > 0 ? std::min(y(point.y), kBottom) : kBottom);
+  if (figure.front.size() > 1) out += "<path class=\"pareto\" d=\"" + path + "\"/>\n";
+  // the default last: nothing may hide it
+  for (const bool usual : {false, true}) {
+    for (const WorkPoint& point : figure.points) {
+      if ((point.css_class == "usual") == usual) out += symbol(point, x, y, point.at.y <= figure.floor);
+    }
+  }
+  return out + "</svg><div class=\"readout\" hidden></div></div>\n";
+}
+
+}  // namespace presa::svg

@@ -1,0 +1,94 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/record/monitor/monitor.h"
+#include "framework/scene/world.h"
+#include "framework/core/schedule/tick.h"
+#include "framework/core/schedule/timing_stats.h"
+
+namespace presa {
+
+/// Everything known about a finished run, as plain data. Summary, report and closing lines are made of this alone.
+/// Pointers stay valid as long as executor and monitor live.
+struct RunResult {
+  struct Rate {
+    RateGroup group = RateGroup::kHaptic;
+    double rate_hz = 0;
+    const GroupTiming* timing = nullptr;  ///< never null
+  };
+  struct ContactPoint {
+    std::string name;  ///< device role
+    FingerSummary summary;
+    std::vector<SlipOnset> slips;  ///< first kMaxSlipOnsets
+  };
+  /// A free body of the scene.
+  struct Object {
+    std::string name;
+    std::int32_t body = kNoBody;   ///< index into Scene::bodies
+    std::int32_t trace_slot = -1;  ///< index into TraceSample::bodies; -1: not traced
+    double mass = 0;               ///< [kg]
+    double friction_static = 0;    ///< of its material
+    double friction_dynamic = 0;
+    ObjectSummary summary;
+  };
+  /// A stretch of a scripted motion.
+  struct Phase {
+    std::string name;
+    double begin = 0, end = 0;  ///< [s]
+  };
+  struct Fault {
+    double time = 0;  ///< simulated [s]
+    std::string text;
+  };
+  /// What should not happen, and how often it did.
+  struct Loss {
+    std::uint32_t count = 0;
+    double first = -1;  ///< [s]; -1: never
+  };
+  /// How much of the scene's assembly stands in its places.
+  struct Assembly {
+    int goals = 0, filled = 0;
+  };
+  struct Recording {
+    std::string file;  ///< empty: not recorded
+    std::uint64_t rows = 0;
+    std::uint64_t dropped = 0;
+  };
+
+  std::shared_ptr<const World> world;  ///< scene, rig, seed; never null
+  std::string version;                 ///< of the program
+  std::string command;                 ///< command line that repeats the run
+  bool realtime = false;
+  bool interrupted = false;  ///< stopped by the user before its end
+  double simulated_seconds = 0;
+  double wall_seconds = 0;
+  std::vector<std::string> realtime_missing;  ///< settings that could not be had ("SCHED_FIFO 80: not permitted")
+  std::vector<Rate> rates;                    ///< groups that ran, in the order of RateGroup
+  std::vector<ContactPoint> contact_points;   ///< as Scene::devices
+  Loss coverage_lost;  ///< ticks in which a fingertip could not see every surface in its reach, all fingers together
+  std::vector<Object> objects;
+  std::optional<Assembly> assembly;                 ///< none: the scene has none
+  std::vector<Phase> phases;                        ///< empty for a real hand
+  const std::vector<TraceSample>* trace = nullptr;  ///< null: none
+  std::vector<Fault> faults;
+  std::vector<std::string> notes;   ///< stiffness bounds, raised damping, skipped parts, …
+  std::string screenshot;           ///< PNG path, may be empty
+  std::optional<double> sharpness;  ///< View::sharpness of the last frame; none: no window
+  Recording recording;
+  std::vector<std::string> flight_records;  ///< the seconds around each fault, where nothing was recorded
+  std::uint64_t solver_fallbacks = 0;       ///< dynamics steps in which the direct solver gave up on an island
+  std::uint64_t state_hash = 0;
+};
+
+/// Fills contact points, objects, trace, hash and simulated time from the monitor, after the run.
+/// `result.world` must be set. Device roles name the contact points.
+void takeMonitor(const Monitor& monitor, RunResult& result);
+
+/// The phase of that name, or null.
+const RunResult::Phase* findPhase(const RunResult& result, const std::string& name);
+
+}  // namespace presa

@@ -1,0 +1,310 @@
+#include "apps/common/run_session.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "apps/common/assembly_tap.h"
+#include "apps/common/live_tap.h"
+#include "apps/common/pacer.h"
+#include "apps/common/terminal/interruption.h"
+#include "apps/common/terminal/keys.h"
+#include "apps/common/terminal/prompt_end.h"
+#include "apps/common/terminal/status_line.h"
+#include "apps/common/version.h"
+#include "framework/session/realtime_policy.h"
+#include "framework/core/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+// the run that a signal stops; a second signal leaves at once
+std::atomic<RunControl*> signalled{nullptr};
+std::atomic<bool> interrupted{false};
+std::atomic<std::int64_t> first_signal_ns{0};
+
+extern "C" void onSignal(int) {
+  RunControl* control = signalled.load();
+  if (control == nullptr) return;
+  // one key press may arrive twice, at the process and at its group: only a later signal means "at once"
+  const std::int64_t now = monotonicNs();
+  std::int64_t first = 0;
+  if (!first_signal_ns.compare_exchange_strong(first, now) && now - first > 500'000'000) control->abort = true;
+  control->stop_requested = true;
+  interrupted = true;
+  terminal::PromptEnd::ask();
+}
+
+/// While it lives, Ctrl-C, SIGTERM and SIGHUP stop the run instead of the process.
+class SignalGuard {
+ public:
+  explicit SignalGuard(RunControl& control) : signals_(onSignal) {
+    interrupted = false;
+    first_signal_ns = 0;
+    signalled = &control;
+  }
+  ~SignalGuard() { signalled = nullptr; }
+  SignalGuard(const SignalGuard&) = delete;
+  SignalGuard& operator=(const SignalGuard&) = delete;
+
+ private:
+  terminal::EndSignals signals_;
+};
+
+constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
+constexpr int kTripsTold = 6;                         // each is a note of its own; the rest is counted
+constexpr double kDefaultDuration = 10;               // [s], for scenes without a script
+
+}  // namespace
+
+struct Run::Live {
+  LiveValues values;
+  StatusLine line;
+  std::optional<terminal::Keys> keys;   // while forces may have to be re-armed
+  std::atomic<std::int32_t> filled{0};  // places of the assembly
+  std::int64_t start_ns = 0;
+  explicit Live(bool quiet) : line(quiet) {}
+};
+
+Run::Run(const Loaded& loaded, Settings settings)
+    : loaded_(loaded), settings_(std::move(settings)), live_(std::make_unique<Live>(settings_.quiet)) {
+  // duration and the moment of the picture follow the script unless the user said otherwise
+  Diagnostics diagnostics;
+  const DeviceList devices = createDevices(*loaded_.world, loaded_.plan, diagnostics);
+  RunOptions options = loaded_.world->options;
+  double end = 0;
+  for (const auto& device : devices) {
+    const auto names = device->phases();
+    const auto times = device->phaseTimes();
+    if (times.empty()) continue;
+    end = std::max(end, times.back());
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      if (device == devices.front()) result_.phases.push_back({names[p], times[p], times[p + 1]});
+      if (names[p] == "hold" && options.screenshot_time < 0) options.screenshot_time = (times[p] + times[p + 1]) / 2;
+    }
+  }
+  if (!(options.duration > 0)) options.duration = end > 0 ? end : kDefaultDuration;
+  if (options.screenshot_time > options.duration) options.screenshot_time = -1;
+  options.force_share = forceShare(drivesHardware(loaded_.plan), options, settings_.rights, result_.notes);
+  World world = *loaded_.world;
+  world.options = options;
+  loaded_.world = std::make_shared<const World>(std::move(world));
+
+  Session::Options session_options;
+  session_options.trace_rate = settings_.trace_rate;
+  session_options.more = std::move(settings_.more);
+  session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
+  session_options.wrap = settings_.wrap;
+  if (loaded_.world->scene.assembly) session_options.more.push_back(std::make_unique<AssemblyTap>(live_->filled));
+  const bool window = options.view == RunOptions::View::kWindow;
+  const bool paced = !options.realtime && (window || settings_.paced) && !drivesHardware(loaded_.plan);
+  if (paced) session_options.more.push_back(std::make_unique<Pacer>(time_wish_, view_, control_, while_held_));
+  if (options.realtime)
+    for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
+  session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
+  const RateTable rates(loaded_.world->scene.rates);
+  executor_ = makeExecutor(options.realtime, session_->graph(), rates, control_);
+  executor_->onPoll([this] { poll(); });
+  executor_->recordTo(session_->schedule());
+  view_ = session_->view();
+  time_wish_.speed = settings_.speed;
+  if (paced && view_ != nullptr) view_->offerTime(time_wish_, 0);
+  offerToCommands(paced);
+  if (View* view = session_->view()) {
+    std::array<const GroupTiming*, kRateGroupCount> timings{};
+    for (int g = 0; g < kRateGroupCount; ++g) {
+      const auto group = static_cast<RateGroup>(g);
+      timings[static_cast<std::size_t>(g)] = session_->graph().runs(group) ? &executor_->timing(group) : nullptr;
+    }
+    view->setTimings(timings);
+  }
+  for (const std::string& note : session_->notes()) result_.notes.push_back(note);
+  for (const auto& device : session_->devices()) {
+    for (const std::string& note : device->notes()) result_.notes.push_back(note);
+  }
+}
+
+Run::~Run() = default;
+
+// What commands may set beside the surfaces: what the user at the window may, where this run has it. No force, no limit, and no re-arm:
+// who is elsewhere does not see the finger.
+void Run::offerToCommands(bool paced) {
+  auto* commandable = dynamic_cast<bus::Commandable*>(session_->graph().find("bus_dds"));
+  desk_ = commandable != nullptr ? commandable->desk() : nullptr;
+  if (desk_ == nullptr) return;
+  const auto always = [](double value) { return [value] { return value; }; };
+  if (paced) {
+    while_held_ = [this](double time) { desk_->serve(time); };
+    desk_->offer({"time/held", [this] { return time_wish_.paused ? 1.0 : 0.0; }, always(0), always(1),
+                  [this](double held) { time_wish_.paused = held >= 0.5; }});
+    desk_->offer({"time/speed", [this] { return time_wish_.speed.load(); }, always(kSlowest), always(kFastest),
+                  [this](double speed) { time_wish_.speed = speed; }});
+  }
+  // an undo is no part of a recording, which would not be the same when it is run again
+  if (AssemblyControl* assembly = session_->assembly(); assembly != nullptr && loaded_.world->options.record.empty()) {
+    desk_->offer({"assembly/undone", [this] { return undone_; }, [this] { return undone_; },
+                  [this] { return undone_ + 1; },
+                  [this, assembly](double undone) {
+                    if (undone < undone_ + 1) return;
+                    ++undone_;
+                    assembly->undo();
+                  }});
+  }
+}
+
+void Run::noteCommands() {
+  if (desk_ == nullptr) return;
+  for (const bus::CommandDesk::Done& done : desk_->done()) {
+    std::array<char, 240> text;
+    std::snprintf(text.data(), text.size(), "%.3f s: a command set %s to %g", done.time, done.name.c_str(), done.value);
+    result_.notes.emplace_back(text.data());
+  }
+  if (const std::size_t more = desk_->doneCount() - desk_->done().size(); more > 0)
+    result_.notes.push_back("… and " + std::to_string(more) + " more commands");
+}
+
+void Run::execute() {
+  const SignalGuard guard(control_);
+  live_->start_ns = monotonicNs();
+  for (const std::string& note : result_.notes) live_->line.note(note);
+  if (settings_.watch || (loaded_.world->options.realtime && session_->output() != nullptr)) live_->keys.emplace();
+  {
+    const terminal::PromptEnd prompt(control_, loaded_.world->options.realtime);
+    executor_->run(loaded_.world->options.duration);
+  }
+  live_->keys.reset();
+  live_->line.finish();
+  finish();
+}
+
+// Main thread, between other things: faults, a closed window, the status line.
+void Run::poll() {
+  FaultEvent event;
+  while (session_->output() != nullptr && session_->output()->nextEvent(event)) {
+    const std::string role = loaded_.world->scene.devices[static_cast<std::size_t>(event.finger)].role;
+    if (const char* fault = latchedFault(event.status)) {
+      device_lost_ = device_lost_ || (event.status & kOutputLost) != 0;
+      fail(event.time, role + ": " + fault + "; the force went to zero and stays there");
+      if (live_->keys && live_->keys->available())
+        live_->line.note(role + ": " + fault + ". Look, then press r to re-arm.");
+    }
+    if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
+      if (++watchdog_trips_ > kTripsTold) continue;
+      std::array<char, 160> text;
+      std::snprintf(text.data(), text.size(),
+                    "%.3f s: %s: no sample, or contact information too old: force off until it came back", event.time,
+                    role.c_str());
+      result_.notes.emplace_back(text.data());
+    }
+  }
+  if (session_->view() != nullptr && session_->view()->wantsStop()) control_.stop_requested = true;
+  noteObjectFaults();
+  const char key = live_->keys ? live_->keys->next(0) : '\0';
+  if (key == 'r') rearm();
+  if (settings_.watch && !settings_.watch(*session_, key)) control_.stop_requested = true;
+  showStatus();
+}
+
+void Run::rearm() {
+  if (std::exchange(device_lost_, false)) {
+    for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
+    for (const Diagnostic& finding : session_->reopenDevices(control_.stop_requested)) {
+      live_->line.note(format(finding));
+      device_lost_ = true;
+    }
+    if (device_lost_) return live_->line.note("not re-armed. Mend that, then press r again.");
+  }
+  control_.rearms.fetch_add(1, std::memory_order_relaxed);
+  live_->line.note("re-armed: forces come back softly where the cause is gone");
+}
+
+void Run::fail(double time, std::string what) {
+  if (Recorder* recorder = session_->recorder()) recorder->fault(time, what);
+  result_.faults.push_back({time, std::move(what)});
+}
+
+void Run::showStatus() {
+  if (!live_->line.due()) return;
+  LiveStatus status;
+  status.time = control_.time.load(std::memory_order_relaxed);
+  status.duration = loaded_.world->options.duration;
+  status.realtime = loaded_.world->options.realtime;
+  status.wall_seconds = static_cast<double>(monotonicNs() - live_->start_ns) * 1e-9;
+  status.haptic_ticks = executor_->timing(RateGroup::kHaptic).ticks;
+  status.haptic_missed = executor_->timing(RateGroup::kHaptic).missed;
+  status.losses = live_->values.losses.load(std::memory_order_relaxed);
+  const auto phase = live_->values.phase.load(std::memory_order_relaxed);
+  if (phase >= 0 && static_cast<std::size_t>(phase) < result_.phases.size()) {
+    status.phase = result_.phases[static_cast<std::size_t>(phase)].name;
+  }
+  for (std::size_t f = 0; f < loaded_.world->scene.devices.size(); ++f) {
+    status.fingers.push_back({loaded_.world->scene.devices[f].role,
+                              static_cast<ContactMode>(live_->values.mode[f].load(std::memory_order_relaxed)),
+                              live_->values.normal_force[f].load(std::memory_order_relaxed)});
+  }
+  live_->line.show(status);
+}
+
+void Run::noteObjectFaults() {
+  const std::uint32_t all = live_->values.object_faults.load(std::memory_order_acquire);
+  const std::uint32_t faults = all & ~object_faults_told_;
+  const double time = live_->values.object_fault_time.load(std::memory_order_relaxed);
+  object_faults_told_ = all;
+  if ((faults & kFaultBodyFrozen) != 0)
+    fail(time, "a body's motion went beyond reason: it was frozen, forces faded to zero");
+  if ((faults & kFaultEngineFailed) != 0)
+    fail(time, "the dynamics engine failed: all bodies were frozen, forces faded to zero");
+  if ((faults & kFaultBadFinger) != 0)
+    fail(time, "a finger contact made no sense to the dynamics, forces faded to zero");
+}
+
+void Run::finish() {
+  poll();
+  const RunOptions& options = loaded_.world->options;
+  if (watchdog_trips_ > kTripsTold) {
+    result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kTripsTold) + " more of these");
+  }
+  noteCommands();
+  result_.world = loaded_.world;
+  result_.version = kVersion;
+  result_.command = settings_.command;
+  result_.realtime = options.realtime;
+  result_.interrupted = interrupted;
+  result_.wall_seconds = executor_->wallSeconds();
+  result_.realtime_missing = executor_->notes();
+  for (int g = 0; g < kRateGroupCount; ++g) {
+    const auto group = static_cast<RateGroup>(g);
+    if (session_->graph().runs(group))
+      result_.rates.push_back({group, executor_->rates().rate(group), &executor_->timing(group)});
+  }
+  takeMonitor(session_->monitor(), result_);
+  if (const auto& assembly = loaded_.world->scene.assembly)
+    result_.assembly = {static_cast<int>(assembly->goals.size()), live_->filled.load(std::memory_order_relaxed)};
+  if (Recorder* recorder = session_->recorder()) {
+    recorder->finish();
+    const RecorderStatus status = recorder->status();
+    if (!options.record.empty())
+      result_.recording = {options.record, status.rows, status.dropped};
+    else
+      result_.flight_records = recorder->files();
+    if (status.failed)
+      result_.faults.push_back(
+          {result_.simulated_seconds,
+           "the recording could not be written: " + (options.record.empty() ? options.flight : options.record)});
+    if (status.dropped > 0)
+      result_.notes.push_back(std::to_string(status.dropped) +
+                              " rows of the recording were dropped: the disk was too slow");
+  }
+  if (View* view = session_->view()) {
+    if (options.view == RunOptions::View::kWindow) result_.sharpness = view->sharpness();
+    const View::Screenshot shot = view->screenshot();
+    if (shot.outcome == View::Screenshot::Outcome::kWritten) result_.screenshot = options.screenshot;
+    if (shot.outcome == View::Screenshot::Outcome::kFailed)
+      result_.faults.push_back({result_.simulated_seconds, shot.message});
+    if (const std::string trouble = view->videoTrouble(); !trouble.empty())
+      result_.faults.push_back({result_.simulated_seconds, "no video " + options.video + ": " + trouble});
+  }
+}
+
+}  // namespace presa

@@ -1,0 +1,69 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/common/run_result.h"
+#include "framework/bus/command_desk.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
+#include "framework/core/schedule/executor.h"
+#include "framework/core/schedule/realtime_rights.h"
+
+namespace presa {
+
+/// One run from start to end: session, executor, status line. Used by every command that runs a scene.
+/// Thread: main.
+class Run {
+ public:
+  struct Settings {
+    double trace_rate = 0;  ///< samples per second kept for plots
+    bool quiet = false;     ///< no status line
+    std::string command;    ///< command line, for the report
+    double speed = 1;       ///< of a lockstep run with a window: simulated seconds in a second
+    bool paced = false;     ///< a lockstep run keeps that speed without a window, too
+    RealtimeProbe rights = realtimeRights;
+    std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own taps
+    std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap
+    /// Called with every poll; `key` was pressed on the terminal, 0: none. False ends the run.
+    std::function<bool(Session& session, char key)> watch = {};
+  };
+  /// Builds the session. Throws InputError; nothing has been written then.
+  Run(const Loaded& loaded, Settings settings);
+  ~Run();
+
+  /// Runs to the end, or until Ctrl-C (forces fade first). Throws what a module threw in start().
+  void execute();
+  /// Everything there is to tell about it. Valid while this Run lives.
+  const RunResult& result() const noexcept { return result_; }
+
+ private:
+  void poll();
+  void showStatus();
+  void finish();
+  void noteObjectFaults();
+  void fail(double time, std::string what);
+  void rearm();
+  void offerToCommands(bool paced);
+  void noteCommands();
+
+  Loaded loaded_;
+  Settings settings_;
+  RunControl control_;
+  TimeWish time_wish_;
+  View* view_ = nullptr;
+  bus::CommandDesk* desk_ = nullptr;        // where the run takes commands
+  std::function<void(double)> while_held_;  // in lockstep: commands are read
+  double undone_ = 0;                       // by commands
+  struct Live;
+  std::unique_ptr<Live> live_;
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<Executor> executor_;
+  RunResult result_;
+  int watchdog_trips_ = 0;
+  bool device_lost_ = false;  // since the last re-arm
+  std::uint32_t object_faults_told_ = 0;
+};
+
+}  // namespace presa

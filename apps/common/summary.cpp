@@ -1,0 +1,162 @@
+#include "apps/common/summary.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/common/atomic_file.h"
+#include "apps/common/grasp_figures.h"
+#include "apps/common/losses.h"
+
+namespace presa {
+namespace {
+
+// keys stay in the order they are written here, which is the order a person reads them in
+using Json = nlohmann::ordered_json;
+
+Json vector(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+template <class T>
+Json orNull(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json durations(const DurationHistogram& histogram) {
+  if (histogram.count() == 0) return nullptr;
+  const auto us = [](double ns) { return ns / 1000.0; };
+  const auto percentile = [&](double q) { return us(static_cast<double>(histogram.percentile(q))); };
+  return {{"p50", percentile(0.5)},
+          {"p99", percentile(0.99)},
+          {"p999", percentile(0.999)},
+          {"max", us(static_cast<double>(histogram.max()))},
+          {"mean", us(histogram.mean())}};
+}
+
+Json rates(const RunResult& result) {
+  Json all = Json::object();
+  for (const RunResult::Rate& rate : result.rates) {
+    const GroupTiming& timing = *rate.timing;
+    Json& group = all[toString(rate.group)];
+    group["rate_hz"] = rate.rate_hz;
+    group["ticks"] = timing.ticks.load();
+    group["missed"] = timing.missed.load();
+    group["skipped"] = timing.skipped.load();
+    group["execution_us"] = durations(timing.execution);
+    group["lateness_us"] = durations(timing.lateness);
+    group["period_us"] = durations(timing.period);
+  }
+  return all;
+}
+
+Json slipOnset(const SlipOnset& slip) {
+  return {{"time_s", slip.time},
+          {"normal_force_N", slip.normal_force},
+          {"tangential_force_N", slip.tangential_force},
+          {"last_stick_normal_force_N", slip.last_stick_normal_force},
+          {"last_stick_tangential_force_N", slip.last_stick_tangential_force}};
+}
+
+Json reaction(const ActionReaction::Result& result) {
+  if (result.windows == 0) return nullptr;  // it never held a free body for a tenth of a second
+  return {{"worst", result.worst}, {"time_s", result.time}, {"windows", result.windows}};
+}
+
+Json timeOrNull(double time) { return time < 0 ? Json(nullptr) : Json(time); }
+
+Json contactPoints(const RunResult& result) {
+  Json all = Json::array();
+  for (const RunResult::ContactPoint& point : result.contact_points) {
+    const FingerSummary& sum = point.summary;
+    all.push_back({{"name", point.name},
+                   {"seconds", {{"none", sum.seconds[0]}, {"stick", sum.seconds[1]}, {"slip", sum.seconds[2]}}},
+                   {"max_normal_force_N", sum.max_normal_force},
+                   {"mean_normal_force_N", sum.mean_normal_force},
+                   {"leaps", sum.leaps},
+                   {"pop_through", sum.pop_through},
+                   {"first_pop_through_s", timeOrNull(sum.first_pop_through)},
+                   {"slip_onsets", sum.slip_onsets},
+                   {"impulse_mismatch", reaction(sum.reaction)}});
+  }
+  return all;
+}
+
+Json objects(const RunResult& result) {
+  Json all = Json::array();
+  for (const RunResult::Object& object : result.objects) {
+    const ObjectSummary& sum = object.summary;
+    all.push_back({{"name", object.name},
+                   {"start_position_m", vector(sum.start)},
+                   {"highest_position_m", vector(sum.highest)},
+                   {"final_position_m", vector(sum.final)},
+                   {"grasped", sum.grasped},
+                   {"dropped", sum.dropped},
+                   {"lost_at_s", timeOrNull(sum.lost_at)},
+                   {"peak_speed_m_s", sum.peak_speed}});
+  }
+  return all;
+}
+
+Json grasp(const RunResult& result, const GraspFigures& figures) {
+  Json fingers = Json::array();
+  for (const FingerGrasp& finger : figures.fingers) {
+    fingers.push_back({{"name", result.contact_points[finger.contact_point].name},
+                       {"stick_fraction", finger.stick_fraction},
+                       {"offset_range_mm", finger.offset_range * 1000},
+                       {"mean_normal_force_N", finger.mean_normal_force},
+                       {"weight_share", finger.weight_share},
+                       {"grip_ripple", orNull(finger.grip_ripple)},
+                       {"slip_onset", finger.slip ? slipOnset(*finger.slip) : Json(nullptr)}});
+  }
+  return {{"object", result.objects[figures.object].name},
+          {"hold_s", {figures.hold_begin, figures.hold_end}},
+          {"loosen_s", figures.loosen_begin},
+          {"lift_height_m", figures.lift_height},
+          {"held_in_stick_s", figures.held_in_stick},
+          {"slip_limit_N", figures.slip_limit},
+          {"fingers", fingers}};
+}
+
+}  // namespace
+
+std::string hashText(std::uint64_t hash) {
+  char text[19];
+  std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+std::string summaryJson(const RunResult& result) {
+  Json json;
+  json["version"] = result.version;
+  json["scene"] = result.world->scene.name;
+  json["rig"] = result.world->rig.name;
+  json["seed"] = result.world->options.seed;
+  json["mode"] = result.realtime ? "realtime" : "lockstep";
+  json["duration_s"] = result.simulated_seconds;
+  json["wall_s"] = result.wall_seconds;
+  json["interrupted"] = result.interrupted;
+  json["rates"] = rates(result);
+  if (result.sharpness) json["window"] = {{"sharpness", *result.sharpness}};
+  json["contact_points"] = contactPoints(result);
+  json["coverage_lost"] = {{"ticks", result.coverage_lost.count}, {"first_s", timeOrNull(result.coverage_lost.first)}};
+  json["objects"] = objects(result);
+  if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
+  if (result.assembly) json["assembly"] = {{"goals", result.assembly->goals}, {"filled", result.assembly->filled}};
+  json["solver_fallbacks"] = result.solver_fallbacks;
+  json["faults"] = Json::array();
+  for (const RunResult::Fault& fault : result.faults)
+    json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});
+  json["warnings"] = lossesOf(result);
+  json["notes"] = result.notes;
+  json["realtime_missing"] = result.realtime_missing;
+  if (!result.recording.file.empty()) {
+    json["recording"] = {
+        {"file", result.recording.file}, {"rows", result.recording.rows}, {"dropped", result.recording.dropped}};
+  }
+  json["state_hash"] = hashText(result.state_hash);
+  // names may come from files in any encoding: replace what is not UTF-8 instead of failing at the end of a run
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeSummary(const RunResult& result, const std::string& path) { writeFileAtomically(path, summaryJson(result)); }
+
+}  // namespace presa

@@ -1,0 +1,87 @@
+#include "apps/common/terminal/closing.h"
+
+#include <cstdio>
+
+#include "apps/common/summary.h"
+#include "apps/common/terminal/status_line.h"
+#include "apps/common/terminal/text.h"
+#include "apps/common/verdict.h"
+#include "framework/core/diagnostics/printable.h"
+
+namespace presa {
+namespace {
+
+using terminal::format;
+using terminal::Style;
+using terminal::styled;
+
+Style styleOf(Verdict::Outcome outcome) {
+  switch (outcome) {
+    case Verdict::Outcome::kGood:
+      return Style::kGood;
+    case Verdict::Outcome::kBad:
+      return Style::kBad;
+    case Verdict::Outcome::kNeutral:
+      break;
+  }
+  return Style::kStrong;
+}
+
+std::string contactTable(const RunResult& result) {
+  std::string out =
+      format("  %-14s %9s %9s %9s %11s %11s\n", "contact point", "free s", "stick s", "slip s", "mean N", "max N");
+  for (const RunResult::ContactPoint& point : result.contact_points) {
+    const FingerSummary& sum = point.summary;
+    out += format("  %-14s %9.3f %9.3f %9.3f %11.3f %11.3f\n", printable(point.name).c_str(), sum.seconds[0],
+                  sum.seconds[1], sum.seconds[2], sum.mean_normal_force, sum.max_normal_force);
+  }
+  return out;
+}
+
+std::string rateTable(const RunResult& result) {
+  std::string out = format("  %-14s %9s %9s %9s %11s %11s", "rate", "Hz", "ticks", "late", "run p50 us", "run p99 us");
+  out += result.realtime ? format(" %12s %12s\n", "late p99 us", "late max us") : std::string("\n");
+  for (const RunResult::Rate& rate : result.rates) {
+    const GroupTiming& timing = *rate.timing;
+    const auto us = [](std::int64_t ns) { return static_cast<double>(ns) / 1000; };
+    out += format("  %-14s %9.0f %9llu %9llu %11.1f %11.1f", toString(rate.group), rate.rate_hz,
+                  static_cast<unsigned long long>(timing.ticks.load()),
+                  static_cast<unsigned long long>(timing.missed.load()), us(timing.execution.percentile(0.5)),
+                  us(timing.execution.percentile(0.99)));
+    out += result.realtime ? format(" %12.1f %12.1f\n", us(timing.lateness.percentile(0.99)), us(timing.lateness.max()))
+                           : std::string("\n");
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string closingText(const RunResult& result, const std::string& summary_file, const std::string& report_file,
+                        bool color) {
+  const Verdict verdict = verdictOf(result);
+  std::string out = styled(printable(verdict.headline), styleOf(verdict.outcome), color) + "\n";
+  for (const std::string& detail : verdict.details) out += "  " + printableLines(detail) + "\n";
+  for (const std::string& warning : verdict.warnings)
+    out += "  " + styled("warning: " + printable(warning), Style::kWarning, color) + "\n";
+  out += contactTable(result) + rateTable(result);
+  const double speed = result.wall_seconds > 0 ? result.simulated_seconds / result.wall_seconds : 0;
+  out += format("  %.3f s simulated in %.3f s (%.1fx), state hash %s\n", result.simulated_seconds, result.wall_seconds,
+                speed, hashText(result.state_hash).c_str());
+  for (const std::string& missing : result.realtime_missing)
+    out += "  " + styled(missing, Style::kWarning, color) + "\n";
+  for (const RunResult::Fault& fault : result.faults) {
+    out += "  " + styled(format("%.3f s: ", fault.time) + printable(fault.text), Style::kBad, color) + "\n";
+  }
+  if (!result.recording.file.empty()) out += "  recording: " + result.recording.file + "\n";
+  for (const std::string& file : result.flight_records)
+    out += "  the seconds around the fault: " + file + " (presa replay " + file + ")\n";
+  if (!summary_file.empty()) out += "  summary: " + summary_file + "\n";
+  if (!report_file.empty()) out += "  report: " + report_file + "\n";
+  return out;
+}
+
+void printClosing(const RunResult& result, const std::string& summary_file, const std::string& report_file) {
+  std::fputs(closingText(result, summary_file, report_file, wantsColor(stdout)).c_str(), stdout);
+}
+
+}  // namespace presa

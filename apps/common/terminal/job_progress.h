@@ -1,0 +1,36 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "apps/common/terminal/interruption.h"
+
+namespace presa::terminal {
+
+/// Progress of many jobs on stderr: one refreshed line on a terminal, a plain line every two seconds elsewhere; says how much
+/// time is left. While it lives Ctrl-C and SIGTERM are noted instead of ending the process. Thread: main; one at a time.
+class JobProgress {
+ public:
+  explicit JobProgress(std::size_t jobs);
+  ~JobProgress() { finish(); }
+  JobProgress(const JobProgress&) = delete;
+  JobProgress& operator=(const JobProgress&) = delete;
+
+  void done(const std::string& what);
+  void more(std::size_t jobs) { jobs_ += jobs; }
+  /// How long the rest will take, as known now; without it every job is taken to last as long as those before.
+  void expect(double seconds_left);
+  void show();
+  void finish();
+  static bool interrupted() noexcept { return Interruption::came(); }
+
+ private:
+  std::size_t jobs_, done_ = 0;
+  std::string last_;
+  bool terminal_, shown_ = false;
+  std::int64_t start_ns_, next_ns_ = 0;
+  double expected_end_ = -1;  ///< [s] since the start; negative: unknown
+  Interruption interruption_;
+};
+
+}  // namespace presa::terminal

@@ -1,0 +1,153 @@
+#include "apps/common/terminal/status_line.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "apps/common/terminal/text.h"
+#include "framework/core/diagnostics/printable.h"
+#include "framework/core/schedule/clock.h"
+
+namespace presa {
+namespace {
+
+constexpr std::int64_t kRefresh = 100'000'000;      // [ns] on a terminal
+constexpr std::int64_t kPlainLine = 2'000'000'000;  // [ns] in a log
+constexpr std::size_t kBarWidth = 20;
+
+using terminal::Line;
+using terminal::Style;
+
+Style styleOf(ContactMode mode) {
+  switch (mode) {
+    case ContactMode::kStick:
+      return Style::kGood;
+    case ContactMode::kSlip:
+      return Style::kWarning;
+    case ContactMode::kNone:
+      break;
+  }
+  return Style::kDim;
+}
+
+const char* nameOf(ContactMode mode) {
+  switch (mode) {
+    case ContactMode::kStick:
+      return "stick";
+    case ContactMode::kSlip:
+      return "slip ";
+    case ContactMode::kNone:
+      break;
+  }
+  return "free ";
+}
+
+bool hasEnd(const LiveStatus& status) { return std::isfinite(status.duration) && status.duration > 0; }
+
+void addProgress(Line& line, const LiveStatus& status) {
+  if (!hasEnd(status)) {
+    line.add(terminal::format("%.1f s", status.time));
+    return;
+  }
+  const double part = std::clamp(status.time / status.duration, 0.0, 1.0);
+  const auto filled = static_cast<std::size_t>(std::lround(part * static_cast<double>(kBarWidth)));
+  std::string bar = "[" + std::string(filled, '#');
+  bar += std::string(kBarWidth - filled, '.') + "]";
+  line.add(bar);
+  line.add(terminal::format("%.1f/%.1f s", status.time, status.duration));
+}
+
+void addTimeLeft(Line& line, const LiveStatus& status, double rate) {
+  if (!hasEnd(status)) return;
+  const double speed = status.realtime ? 1.0 : rate;
+  if (!(speed > 0)) return;
+  line.add(terminal::format("%.0f s left", std::ceil(std::max(0.0, status.duration - status.time) / speed)),
+           Style::kDim);
+}
+
+int terminalColumns() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return size.ws_col;
+}
+
+}  // namespace
+
+std::string statusText(const LiveStatus& status, double rate, std::size_t columns, bool color) {
+  Line line(columns, color);
+  addProgress(line, status);
+  if (!status.phase.empty()) line.add(status.phase, Style::kStrong);
+  for (const LiveStatus::Finger& finger : status.fingers) {
+    line.add(terminal::format("%s %5.2f N %s", finger.name.c_str(), finger.normal_force, nameOf(finger.mode)),
+             styleOf(finger.mode));
+  }
+  if (status.losses > 0) line.add(terminal::format("%u lost", status.losses), Style::kWarning);
+  line.add(status.realtime ? terminal::format("%.0f Hz", rate) : terminal::format("%.1fx", rate));
+  if (status.haptic_missed > 0) {
+    line.add(terminal::format("%llu late", static_cast<unsigned long long>(status.haptic_missed)), Style::kWarning);
+  }
+  addTimeLeft(line, status, rate);
+  return line.text();
+}
+
+bool wantsColor(std::FILE* stream) {
+  const char* no_color = std::getenv("NO_COLOR");
+  return ::isatty(::fileno(stream)) == 1 && (no_color == nullptr || *no_color == '\0');
+}
+
+StatusLine::StatusLine(bool quiet)
+    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), color_(wantsColor(stderr)) {
+  // a log line says how far a run has come; at its very start there is nothing to say
+  next_ns_ = monotonicNs() + (terminal_ ? kRefresh : kPlainLine);
+}
+
+StatusLine::~StatusLine() { finish(); }
+
+bool StatusLine::due() const { return !quiet_ && monotonicNs() >= next_ns_; }
+
+void StatusLine::show(const LiveStatus& status) {
+  if (quiet_) return;
+  const double rate = recentRate(status);
+  // one column stays free: a full line would wrap on some terminals
+  const std::size_t columns = terminal_ ? static_cast<std::size_t>(std::max(20, terminalColumns() - 1)) : 200;
+  const std::string text = statusText(status, rate, columns, color_);
+  if (terminal_) {
+    std::fprintf(stderr, "\r\033[K%s", text.c_str());
+    shown_ = true;
+  } else {
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+  std::fflush(stderr);
+  next_ns_ = monotonicNs() + (terminal_ ? kRefresh : kPlainLine);
+}
+
+double StatusLine::recentRate(const LiveStatus& status) {
+  const double wall = status.wall_seconds - last_wall_;
+  const double done =
+      status.realtime ? static_cast<double>(status.haptic_ticks - last_ticks_) : status.time - last_time_;
+  last_wall_ = status.wall_seconds;
+  last_time_ = status.time;
+  last_ticks_ = status.haptic_ticks;
+  return wall > 0 ? done / wall : 0;
+}
+
+void StatusLine::note(const std::string& text) {
+  if (quiet_) return;
+  clear();
+  std::fprintf(stderr, "note: %s\n", printable(text).c_str());
+}
+
+void StatusLine::clear() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+void StatusLine::finish() {
+  clear();
+  std::fflush(stderr);
+}
+
+}  // namespace presa

@@ -1,0 +1,88 @@
+#include "apps/common/verdict.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "apps/common/grasp_figures.h"
+#include "apps/common/losses.h"
+
+namespace presa {
+namespace {
+
+std::string fixed(double value, int decimals) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string offsetSentence(const GraspFigures& figures) {
+  double widest = 0;
+  for (const FingerGrasp& finger : figures.fingers) widest = std::max(widest, finger.offset_range);
+  return "Finger and object kept their offset to " + fixed(widest * 1000, 3) + " mm during the hold.";
+}
+
+std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
+  std::string slips;
+  for (const FingerGrasp& finger : figures.fingers) {
+    if (!finger.slip) continue;
+    if (!slips.empty()) slips += ", ";
+    slips += result.contact_points[finger.contact_point].name + " at " + fixed(finger.slip->normal_force, 3) + " N";
+  }
+  if (slips.empty()) return "No slip after the loosening began.";
+  return "Slipped: " + slips + "; friction stops carrying the weight at m g / (" +
+         std::to_string(figures.fingers.size()) + " mu_s) = " + fixed(figures.slip_limit, 3) + " N.";
+}
+
+std::string lossSentence(const RunResult::Object& object) {
+  const std::string at = fixed(object.summary.lost_at, 3) + " s";
+  return object.summary.dropped ? "Dropped at " + at + ", before it was to be let go." : "Let go at " + at + ".";
+}
+
+Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {
+  const RunResult::Object& object = result.objects[figures.object];
+  Verdict verdict;
+  verdict.outcome = object.summary.dropped ? Verdict::Outcome::kBad : Verdict::Outcome::kGood;
+  verdict.headline = object.name + " lifted by " + fixed(figures.lift_height * 1000, 1) + " mm, held in stick for " +
+                     fixed(figures.held_in_stick, 2) + " of " + fixed(figures.hold_end - figures.hold_begin, 2) + " s";
+  verdict.details = {offsetSentence(figures), slipSentence(result, figures)};
+  if (object.summary.lost_at >= 0) verdict.details.push_back(lossSentence(object));
+  return verdict;
+}
+
+Verdict plainVerdict(const RunResult& result) {
+  Verdict verdict;
+  std::string grasped;
+  for (const RunResult::Object& object : result.objects) {
+    if (!object.summary.grasped) continue;
+    grasped += (grasped.empty() ? "" : ", ") + object.name;
+    if (object.summary.lost_at >= 0) verdict.details.push_back(object.name + ": " + lossSentence(object));
+    if (object.summary.dropped) verdict.outcome = Verdict::Outcome::kBad;
+  }
+  if (grasped.empty()) {
+    verdict.headline = result.objects.empty() ? "nothing to grasp in this scene" : "no object was grasped";
+  } else {
+    verdict.headline = grasped + (verdict.outcome == Verdict::Outcome::kBad ? " grasped and dropped" : " grasped");
+  }
+  return verdict;
+}
+
+}  // namespace
+
+Verdict verdictOf(const RunResult& result) {
+  const std::optional<GraspFigures> figures = graspFigures(result);
+  Verdict verdict = figures ? graspVerdict(result, *figures) : plainVerdict(result);
+  if (result.interrupted)
+    verdict.details.push_back("Stopped by the user at " + fixed(result.simulated_seconds, 3) + " s.");
+  verdict.warnings = lossesOf(result);
+  if (!verdict.warnings.empty() && verdict.outcome == Verdict::Outcome::kGood)
+    verdict.outcome = Verdict::Outcome::kNeutral;
+  if (!result.faults.empty()) {
+    verdict.outcome = Verdict::Outcome::kBad;
+    verdict.details.push_back(std::to_string(result.faults.size()) +
+                              (result.faults.size() == 1 ? " fault, listed below." : " faults, listed below."));
+  }
+  return verdict;
+}
+
+}  // namespace presa

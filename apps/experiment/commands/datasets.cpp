@@ -1,0 +1,179 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "apps/experiment/commands/experiment_commands.h"
+#include "apps/experiment/dataset.h"
+#include "apps/experiment/forget.h"
+#include "apps/experiment/seal.h"
+#include "apps/experiment/subject.h"
+
+namespace presa {
+namespace {
+
+using namespace experiment;
+
+struct ValidateArguments {
+  std::string data, key;
+};
+
+/// What the lab's key says of a session that is in order; true when it says nothing against it.
+bool signatureGood(const SessionFolder& folder, const Verdict& verdict, const std::string& key) {
+  const bool is_signed = std::filesystem::exists(folder.file(kSignatureFile));
+  if (key.empty()) {
+    std::printf("  seal %s%s\n", verdict.seal.c_str(), is_signed ? ", signed: --key PUBLIC_KEY checks it" : "");
+    return true;
+  }
+  const auto trouble = signatureTrouble(folder, verdict.seal, key);
+  std::printf("  seal %s, %s\n", verdict.seal.c_str(),
+              trouble ? ("NOT PROVEN: " + *trouble).c_str() : "signed by the key");
+  return !trouble;
+}
+
+int validateAll(const ValidateArguments& a) {
+  const std::string& data = a.data;
+  const std::vector<SessionFolder> sessions = sessionsIn(data);
+  if (sessions.empty()) {
+    std::fprintf(stderr, "%s: holds no session\n", data.c_str());
+    return kExitBadInput;
+  }
+  bool good = true;
+  for (const SessionFolder& folder : sessions) {
+    const Verdict verdict = validate(folder);
+    good = good && verdict.findings.empty();
+    const char* const word = verdict.altered            ? "ALTERED"
+                             : verdict.findings.empty() ? "complete and unaltered"
+                                                        : "unaltered, NOT in order";
+    std::printf("%s: %s (%zu trials that count, %zu runs)\n", folder.path.c_str(), word, verdict.trials, verdict.runs);
+    for (const std::string& finding : verdict.findings) std::printf("  %s\n", finding.c_str());
+    for (const std::string& note : verdict.notes) std::printf("  %s\n", note.c_str());
+    if (verdict.findings.empty()) good = signatureGood(folder, verdict, a.key) && good;
+  }
+  return good ? kExitOk : kExitFault;
+}
+
+struct SignArguments {
+  std::string data, key;
+};
+
+int signAll(const SignArguments& a) {
+  const std::vector<SessionFolder> sessions = sessionsIn(a.data);
+  if (sessions.empty()) {
+    std::fprintf(stderr, "%s: holds no session\n", a.data.c_str());
+    return kExitBadInput;
+  }
+  bool all = true;
+  for (const SessionFolder& folder : sessions) {
+    const Verdict verdict = validate(folder);
+    if (verdict.findings.empty()) {
+      signSeal(folder, verdict.seal, a.key);
+      std::printf("%s: signed, seal %s\n", folder.path.c_str(), verdict.seal.c_str());
+    } else {
+      all = false;
+      std::printf("%s: NOT signed: %s\n", folder.path.c_str(), verdict.findings.front().c_str());
+    }
+  }
+  return all ? kExitOk : kExitFault;
+}
+
+void addValidate(CLI::App& app, int& status) {
+  auto a = std::make_shared<ValidateArguments>();
+  CLI::App* command = app.add_subcommand("validate", "Prove that a dataset is complete and unaltered");
+  addFolder(*command, a->data);
+  command->add_option("--key", a->key, "public key of the laboratory: every session must be signed by it");
+  command->footer(
+      "Without --key this proves accidents, not malice: who alters a session on purpose can make its sums anew.");
+  command->callback([a, &status] { status = validateAll(*a); });
+}
+
+void addSign(CLI::App& app, int& status) {
+  auto a = std::make_shared<SignArguments>();
+  CLI::App* command = app.add_subcommand("sign", "Sign the seal of every finished session with the laboratory's key");
+  addFolder(*command, a->data);
+  command->add_option("--key", a->key, "secret key, made by presa experiment key")->required();
+  command->footer("Exit status: 0 all signed, 1 a session is not in order and was not signed, 2 bad input.");
+  command->callback([a, &status] { status = signAll(*a); });
+}
+
+void addKey(CLI::App& app) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("key", "Make the laboratory's key: FILE, to be kept secret, and FILE.pub");
+  command->add_option("FILE", *file, "where to; nothing is overwritten")->required();
+  command->callback([file] {
+    makeKeyFiles(*file);
+    std::printf("%s is secret: keep it away from the data\n%s.pub goes to whoever checks\n", file->c_str(),
+                file->c_str());
+  });
+}
+
+struct ForgetArguments {
+  std::string subject, data = ".";
+  bool yes = false;
+};
+
+/// Asks on a terminal; elsewhere only --yes will do.
+bool confirmed(const ForgetArguments& a) {
+  if (a.yes) return true;
+  if (::isatty(STDIN_FILENO) == 0) {
+    std::fputs("nothing was removed: this cannot be undone, add --yes\n", stderr);
+    return false;
+  }
+  std::printf("This cannot be undone. Type %s to remove all of it: ", a.subject.c_str());
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == a.subject;
+}
+
+int forgetSubject(const ForgetArguments& a) {
+  Diagnostics diagnostics;
+  subjectOf(a.subject, 1, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+  const Traces traces = tracesOf(a.data, a.subject);
+  if (traces.empty()) {
+    std::printf("%s holds nothing of %s\n", a.data.c_str(), a.subject.c_str());
+    return kExitOk;
+  }
+  const auto list = [](const std::vector<std::string>& paths, const char* what) {
+    for (const std::string& path : paths) std::printf("  %s%s\n", path.c_str(), what);
+  };
+  list(traces.folders, "/");
+  list(traces.files, "");
+  list(traces.links, ": the link, not what it points to");
+  list(traces.tables, ": rows of the subject");
+  if (!confirmed(a)) return kExitBadInput;
+  forget(traces, a.subject);
+  std::printf("removed: %zu folders with %zu files, %zu files, %zu links, rows in %zu tables\n", traces.folders.size(),
+              traces.files_in_folders, traces.files.size(), traces.links.size(), traces.tables.size());
+  if (!traces.mentions.empty()) std::puts("left, but they name the subject; make them anew or remove them:");
+  list(traces.mentions, "");
+  return kExitOk;
+}
+
+void addForget(CLI::App& app, int& status) {
+  auto a = std::make_shared<ForgetArguments>();
+  CLI::App* command =
+      app.add_subcommand("forget", "Remove a subject from a dataset for good, and say what was removed");
+  command->add_option("--subject", a->subject, "pseudonym")->required();
+  command->add_option("--data", a->data, "folder of the dataset, exports below it included")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
+  command->add_flag("--yes", a->yes, "do not ask");
+  command->footer("Exit status: 0 removed or nothing there, 2 not confirmed.");
+  command->callback([a, &status] { status = forgetSubject(*a); });
+}
+
+}  // namespace
+
+void addDatasetCommands(CLI::App& app, int& status) {
+  addValidate(app, status);
+  addKey(app);
+  addSign(app, status);
+  addForget(app, status);
+}
+
+}  // namespace presa

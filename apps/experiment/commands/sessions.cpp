@@ -1,0 +1,204 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "apps/experiment/commands/experiment_commands.h"
+#include "apps/experiment/dataset.h"
+#include "apps/experiment/dry_run.h"
+#include "apps/experiment/session.h"
+#include "experiments/runner/definition/read.h"
+
+namespace presa {
+namespace {
+
+using namespace experiment;
+
+/// Who looks, and in which language the texts are.
+struct OperatorChoice {
+  std::string kind = "auto", language = "en";
+};
+
+struct Arguments {
+  std::string file, rig, simulated, data, subject = "S01", format = "text";
+  int number = 0, session = 1;
+  bool lockstep = false, no_recording = false, window = false;
+  std::uint64_t seed = 0;
+  OperatorChoice operator_choice;
+};
+
+int dryRun(const Arguments& a) {
+  Diagnostics diagnostics;
+  const Subject subject = subjectOf(a.subject, a.number, diagnostics);
+  const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated, a.seed);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
+  const auto trials = previewTrials(*experiment, subject.number, a.session);
+  const std::string text = a.format == "json"  ? dryRunJson(*experiment, subject, a.session, trials)
+                           : a.format == "csv" ? dryRunCsv(*experiment, trials)
+                                               : dryRunText(*experiment, subject, a.session, trials);
+  std::fputs(text.c_str(), stdout);
+  return kExitOk;
+}
+
+/// On a terminal a session in real time is watched, and one that nobody has to answer runs by itself elsewhere.
+std::unique_ptr<Operator> operatorFor(const SubjectSession& session, const std::string& kind) {
+  if (kind == "window") return windowOperator();
+  const bool watched = kind == "terminal" || (kind == "auto" && session.start().realtime &&
+                                              ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0);
+  return watched ? terminalOperator() : silentOperator(session.trials().left());
+}
+
+/// Runs what is left of a session and says how it ended.
+int runToEnd(SubjectSession& session, const OperatorChoice& choice) {
+  SubjectSession::End end = SubjectSession::End::kStopped;
+  try {
+    const auto person = operatorFor(session, choice.kind);
+    end = session.run(*person, choice.language);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s%s is whole up to there; when that is mended: presa experiment resume %s\n",
+                 error.diagnostics().text().c_str(), session.folder().journal().c_str(), session.folder().path.c_str());
+    return kExitFault;
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr,
+                 "presa: error: %s\n%s is whole up to there; when the disk is in order: presa experiment resume %s\n",
+                 error.what(), session.folder().journal().c_str(), session.folder().path.c_str());
+    return kExitFault;
+  }
+  const TrialSource& trials = session.trials();
+  if (end == SubjectSession::End::kFault) {
+    std::fprintf(stderr, "presa: error: %s\nthe trial is marked and comes again: presa experiment resume %s\n",
+                 session.fault().c_str(), session.folder().path.c_str());
+    return kExitFault;
+  }
+  if (end == SubjectSession::End::kStopped) {
+    std::fprintf(stderr, "stopped; %zu trials are left, go on with: presa experiment resume %s\n", trials.left(),
+                 session.folder().path.c_str());
+    return kExitInterrupted;
+  }
+  std::printf("%zu trials done, %zu given up, in %d runs: %s\n", trials.done(), trials.missing(), session.runsMade(),
+              session.folder().file("trials.csv").c_str());
+  if (!session.start().model.empty()) std::printf("%s\n", session.start().model.c_str());
+  return kExitOk;
+}
+
+int run(const Arguments& a) {
+  Diagnostics diagnostics;
+  const Subject subject = subjectOf(a.subject, a.number, diagnostics);
+  const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated, a.seed);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
+  auto session = SubjectSession::begin(*experiment,
+                                       {a.file, a.rig, subject, a.session, !a.lockstep, a.simulated, experiment->model,
+                                        experiment->seed, !a.no_recording, a.window},
+                                       a.data);
+  return runToEnd(session, a.operator_choice);
+}
+
+/// The one session below a folder that is not finished.
+int resume(const std::string& data, const OperatorChoice& choice) {
+  struct Open {
+    SessionFolder folder;
+    SessionStart start;
+  };
+  std::vector<Open> open;
+  bool unreadable = false;
+  for (const SessionFolder& folder : sessionsIn(data)) {
+    try {
+      const Journal::Contents contents = Journal::read(folder.journal());
+      if (contents.records.empty()) continue;  // it never began: run begins it
+      const SessionLog log = readLog(folder.journal(), contents.records);
+      if (!log.complete) open.push_back({folder, log.start});
+    } catch (const InputError& error) {
+      std::fputs(error.diagnostics().text().c_str(), stderr);  // the others can go on
+      unreadable = true;
+    }
+  }
+  if (open.empty() && unreadable) return kExitBadInput;  // whether one is left cannot be told
+  if (open.empty()) {
+    std::printf("%s: no session is left to finish\n", data.c_str());
+    return kExitOk;
+  }
+  if (open.size() > 1) {
+    std::fprintf(stderr, "%zu sessions are not finished, name one:\n", open.size());
+    for (const Open& one : open) std::fprintf(stderr, "  presa experiment resume %s\n", one.folder.path.c_str());
+    return kExitBadInput;
+  }
+  Diagnostics diagnostics;
+  const auto& [folder, start] = open[0];
+  const auto experiment = readExperiment(folder.named(start.experiment_file), folder.named(start.rig_file), diagnostics,
+                                         start.simulated, start.seed);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (!experiment) return kExitBadInput;
+  auto session = SubjectSession::resume(*experiment, open[0].folder);
+  return runToEnd(session, choice);
+}
+
+void addWho(CLI::App& command, Arguments& a) {
+  command.add_option("EXPERIMENT", a.file, "experiment file")->required();
+  command.add_option("--subject", a.subject, "pseudonym that ends in the subject's number")->capture_default_str();
+  command.add_option("--number", a.number, "number of the subject, from 1 (default: the pseudonym's digits)")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--session", a.session, "from 1")->check(CLI::PositiveNumber)->capture_default_str();
+  command.add_option("--seed", a.seed, "instead of the experiment's own")->check(CLI::PositiveNumber);
+  auto* rig = command.add_option("--rig", a.rig, "rig file instead of the experiment's");
+  command.add_option("--simulated", a.simulated, "a model instead of a person, at level L0, L1 or L2")
+      ->check(CLI::IsMember({"L0", "L1", "L2"}))
+      ->excludes(rig);
+}
+
+void addOperator(CLI::App& command, OperatorChoice& choice) {
+  command.add_option("--operator", choice.kind, "where the operator sees the session: auto, terminal, window or none")
+      ->check(CLI::IsMember({"auto", "terminal", "window", "none"}))
+      ->capture_default_str();
+  command.add_option("--language", choice.language, "of the texts for the participant")->capture_default_str();
+}
+
+void addDryRun(CLI::App& app, int& status) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("dry-run", "List every trial with its order and seeds; nothing is run");
+  addWho(*command, *a);
+  command->add_option("--format", a->format, "text, csv or json")
+      ->check(CLI::IsMember({"text", "csv", "json"}))
+      ->capture_default_str();
+  command->footer("Example:  presa experiment dry-run experiments/grip_slip/experiment.xml --subject S02");
+  command->callback([a, &status] { status = dryRun(*a); });
+}
+
+void addRunSession(CLI::App& app, int& status) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("run", "Run a session; every trial is on disk before the next begins");
+  addWho(*command, *a);
+  command->get_option("--subject")->required();
+  command->add_option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N")->required();
+  command->add_flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
+  command->add_flag("--no-recording", a->no_recording, "keep the row of each trial, not every haptic tick");
+  command->add_flag("--window", a->window,
+                    "the participant sees the scene in a window; the operator's view stays in the terminal");
+  addOperator(*command, a->operator_choice);
+  command->footer(
+      "Exit status: 0 complete, 1 disk, device or dynamics failed, 2 bad input (nothing was run), 130 Ctrl-C (after 1 "
+      "and 130 go on with resume).\n"
+      "Example:  presa experiment run experiments/grip_slip/experiment.xml --subject S01 --data data");
+  command->callback([a, &status] { status = run(*a); });
+}
+
+void addResume(CLI::App& app, int& status) {
+  auto folder = std::make_shared<std::string>();
+  auto choice = std::make_shared<OperatorChoice>();
+  CLI::App* command = app.add_subcommand("resume", "Finish a session that was stopped or killed");
+  addFolder(*command, *folder);
+  addOperator(*command, *choice);
+  command->callback([folder, choice, &status] { status = resume(*folder, *choice); });
+}
+
+}  // namespace
+
+void addSessionCommands(CLI::App& app, int& status) {
+  addDryRun(app, status);
+  addRunSession(app, status);
+  addResume(app, status);
+}
+
+}  // namespace presa

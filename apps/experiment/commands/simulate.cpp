@@ -1,0 +1,98 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "apps/common/atomic_file.h"
+#include "apps/experiment/commands/experiment_commands.h"
+#include "apps/experiment/simulate/power.h"
+#include "apps/experiment/simulate/studies.h"
+#include "apps/common/file_text.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "experiments/runner/definition/read.h"
+
+namespace presa {
+namespace {
+
+using namespace experiment;
+namespace fs = std::filesystem;
+
+/// "2/8"
+void takeShard(const std::string& text, StudiesPlan& plan) {
+  if (text.empty()) return;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%c", &plan.shard, &plan.shards, &rest) != 2 || plan.shard < 1 ||
+      plan.shard > plan.shards)
+    refuse(950, "--shard", "must be i/N with 1 <= i <= N, found " + quote(text),
+           "--shard 1/4 on the first of four machines");
+}
+
+/// What was asked for, so that the same command goes on and another one does not mix with it.
+void claimFolder(const StudiesPlan& plan, const Experiment& experiment) {
+  const std::string file = plan.out + "/plan.txt";
+  const std::string text = "experiment " + experiment.name + "\nseed " + std::to_string(experiment.seed) + "\nlevel " +
+                           plan.level + "\n" + experiment.resolved_xml + experiment.scene_xml + experiment.rig_xml;
+  std::error_code error;
+  fs::create_directories(plan.out, error);
+  if (error) refuse(951, plan.out, "the folder cannot be made: " + error.message());
+  if (!fs::exists(file)) return writeFileAtomically(file, text);
+  if (contentsOf(file) != text)
+    refuse(951, plan.out, "holds studies of another experiment, level or seed", "give another --out");
+}
+
+int simulate(StudiesPlan plan, const std::string& shard) {
+  takeShard(shard, plan);
+  plan.experiment_file = fs::absolute(plan.experiment_file).string();
+  if (!plan.rig_file.empty()) plan.rig_file = fs::absolute(plan.rig_file).string();
+  Diagnostics diagnostics;
+  const auto experiment = readExperiment(plan.experiment_file, plan.rig_file, diagnostics, plan.level);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (!experiment) return kExitBadInput;
+  if (experiment->model.empty())
+    refuse(952, plan.experiment_file, "its rig waits for a person",
+           "--simulated L0, L1 or L2, or a --rig with simulated devices");
+  claimFolder(plan, *experiment);
+  const StudiesOutcome outcome = runStudies(plan, sessionsOf(plan, experiment->seed));
+  for (const std::string& failure : outcome.failed) std::fprintf(stderr, "presa: error: %s\n", failure.c_str());
+  if (outcome.interrupted) {
+    std::fprintf(stderr, "stopped; %zu sessions are complete, the same command goes on\n",
+                 outcome.complete + outcome.found);
+    return kExitInterrupted;
+  }
+  std::printf("%zu sessions complete, %zu of them before, %zu failed\n%s\n", outcome.complete + outcome.found,
+              outcome.found, outcome.failed.size(), experiment->model.c_str());
+  if (!outcome.failed.empty()) return kExitFault;
+  return plan.shards > 1 ? kExitOk : reportPower(plan, *experiment);
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& app, int& status) {
+  auto plan = std::make_shared<StudiesPlan>();
+  auto shard = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "Many studies with simulated subjects: what to expect before any person comes");
+  command->add_option("EXPERIMENT", plan->experiment_file, "experiment file")->required()->check(CLI::ExistingFile);
+  command->add_option("--subjects", plan->subjects, "in each study")->check(CLI::Range(1, 999))->capture_default_str();
+  command
+      ->add_option("--seeds", plan->studies,
+                   "studies; the first has the experiment's own seed, the next those after it")
+      ->check(CLI::Range(1, 999))
+      ->capture_default_str();
+  command->add_option("--simulated", plan->level, "level of the simulated subjects: L0, L1 or L2")
+      ->check(CLI::IsMember({"L0", "L1", "L2"}));
+  command->add_option("--rig", plan->rig_file, "rig with simulated devices instead")->check(CLI::ExistingFile);
+  command->add_option("--jobs", plan->jobs, "sessions at once (default: one per processor)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--shard", *shard,
+                      "i/N: every N-th session from the i-th, for several machines; afterwards, with all in one "
+                      "folder, once more without");
+  command->add_flag("--recordings", plan->recordings, "keep every haptic tick too");
+  command->add_option("--out", plan->out, "folder; the same command goes on with what is there")->required();
+  command->footer(
+      "Exit status: 0 complete, 1 a session failed, 2 bad input, 130 Ctrl-C (the same command goes on).\n"
+      "Example:  presa experiment simulate experiments/grip_slip/experiment.xml --simulated L1 --subjects 3 --seeds 20 "
+      "--out power");
+  command->callback([plan, shard, &status] { status = simulate(*plan, *shard); });
+}
+
+}  // namespace presa

@@ -1,0 +1,34 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/experiment/export/source.h"
+
+namespace presa::experiment {
+
+/// The version of the specification that the layout follows: https://bids-specification.readthedocs.io
+inline constexpr const char* kBidsVersion = "1.10.0";
+
+struct BidsOptions {
+  std::string license;               ///< empty: none was given, and the dataset says so
+  std::vector<std::string> authors;  ///< may be empty
+};
+
+/// Called after each recording with its name; false ends the export.
+using Continue = std::function<bool(const std::string&)>;
+
+/// Writes the sessions as a raw BIDS dataset into a new folder:
+///   dataset_description.json README participants.tsv .json
+///   sub-S01/sub-S01_sessions.tsv .json
+///   sub-S01/ses-1/sub-S01_ses-1_scans.tsv .json
+///   sub-S01/ses-1/beh/…_task-NAME_beh.tsv .json                          one row for each trial run that ended
+///   sub-S01/ses-1/motion/…_task-NAME_tracksys-presa_run-001_motion.tsv   one for each recording, with its .json,
+///                        …_run-001_channels.tsv, …_run-001_events.tsv      channels and phases; run-… counts recordings
+///   sourcedata/sub-S01/ses-1/experiment.xml scene.xml rig.xml            as the session began with them
+/// False when `more` ended it: nothing is left then. Throws InputError E931 (a file was altered), E933 (`out` exists), what
+/// RecordPlugin::samples throws, and std::system_error (disk full).
+bool exportBids(const std::vector<SourceSession>& sessions, const std::string& out, const BidsOptions& options,
+                const Continue& more);
+
+}  // namespace presa::experiment

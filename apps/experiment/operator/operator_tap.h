@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "framework/device/output_stage.h"
+#include "experiments/runner/definition/trial.h"
+#include "framework/core/graph/port.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
+
+namespace presa::experiment {
+
+/// What the operator sees of a trial that goes on. Written by the haptic thread, read by the main thread; each value is whole, the set
+/// may mix two ticks.
+struct TrialLive {
+  std::vector<std::string> roles;                                     ///< of the fingers, written before the run
+  std::atomic<double> time{0}, phase_begin{0}, watch{0}, clipped{0};  // [s], but for watch
+  std::atomic<std::size_t> phase{0};
+  std::atomic<bool> device_lost{false};
+  std::array<std::atomic<double>, kMaxFingers> force{};  // normal [N]
+  std::array<std::atomic<std::int32_t>, kMaxFingers> mode{};
+};
+
+/// In the graph only when somebody looks. Thread: haptic; nonblocking.
+class OperatorTap final : public Module {
+ public:
+  OperatorTap(const Trial& trial, const Experiment& experiment, TrialLive& live)
+      : Module("operator", RateGroup::kHaptic), trial_(trial), experiment_(experiment), live_(live) {}
+
+  void step(const Tick& tick) noexcept override {
+    constexpr auto kRelaxed = std::memory_order_relaxed;
+    live_.time.store(tick.time, kRelaxed);
+    live_.phase.store(trial_.phase(), kRelaxed);
+    live_.phase_begin.store(trial_.stretches()[trial_.phase()].begin, kRelaxed);
+    if (experiment_.watch) live_.watch.store(experiment_.watch->value.evaluate(trial_.samples()), kRelaxed);
+    bool lost = false;
+    for (std::size_t f = 0; f < static_cast<std::size_t>(contact_->count); ++f) {
+      lost = lost || !device_->fingers[f].valid;
+      live_.force[f].store(contact_->fingers[f].normal_force, kRelaxed);
+      live_.mode[f].store(static_cast<std::int32_t>(contact_->fingers[f].mode), kRelaxed);
+    }
+    live_.device_lost.store(lost, kRelaxed);
+    if ((command_->status & kOutputMagnitude) != 0) clipped_ += tick.period;
+    live_.clipped.store(clipped_, kRelaxed);
+  }
+  std::vector<std::string> stages() const override { return {"copy what the operator sees"}; }
+
+ private:
+  const Trial& trial_;
+  const Experiment& experiment_;
+  TrialLive& live_;
+  double clipped_ = 0;
+  In<DeviceState> device_{*this, "device_state"};
+  In<ContactExchange> contact_{*this, "contact_exchange"};
+  In<ForceCommand> command_{*this, "force_command"};
+};
+
+}  // namespace presa::experiment

@@ -1,0 +1,69 @@
+#pragma once
+#include <algorithm>
+#include <array>
+
+#include "framework/device/output_stage.h"
+#include "experiments/runner/definition/sample_names.h"
+#include "experiments/runner/definition/trial.h"
+#include "framework/core/graph/port.h"
+#include "framework/core/schedule/executor.h"
+
+namespace presa::experiment {
+
+/// Last of the haptic group: shows every tick to the trial, keeps the figures of its quality, and asks the run to stop when the
+/// trial has ended or a device is lost. Forces fade then, as at every stop. Thread: haptic; nonblocking.
+class TrialTap final : public Module {
+ public:
+  TrialTap(Trial& trial, const Experiment& experiment, const Scene& scene, RunControl& control)
+      : Module("trial", RateGroup::kHaptic),
+        trial_(trial),
+        control_(control),
+        reader_(scene, experiment.askedSamples()),
+        fingers_(scene.devices.size()) {}
+
+  void step(const Tick& tick) noexcept override {
+    if (trial_.state() != Trial::State::kRunning || lost_finger_ >= 0) return;
+    reader_.read(tick.time, device_.value(), contact_.value(), command_.value(),
+                 objects_.hasValue() ? &objects_.value() : nullptr, trial_.samples());
+    judge(tick);
+    if (trial_.step(tick.time) != Trial::State::kRunning || lost_finger_ >= 0)
+      control_.stop_requested.store(true, std::memory_order_relaxed);
+  }
+  std::vector<std::string> stages() const override { return {"step the trial: guards, measures, quality"}; }
+
+  double clippedSeconds() const noexcept { return clipped_; }
+  double lostSeconds() const noexcept { return lost_; }
+  /// The first finger whose device was silent for kLost; -1: none.
+  int lostFinger() const noexcept { return lost_finger_; }
+  static constexpr double kLost = 0.1;  ///< [s] long after the forces have faded: no hiccup, a trial that is not one
+  double mostForce() const noexcept { return most_; }
+  double time() const noexcept { return time_; }
+
+ private:
+  void judge(const Tick& tick) noexcept {
+    time_ = tick.time;
+    if ((command_->status & kOutputMagnitude) != 0) clipped_ += tick.period;
+    bool lost = false;
+    for (std::size_t f = 0; f < fingers_; ++f) {
+      silent_[f] = device_->fingers[f].valid ? 0 : silent_[f] + tick.period;
+      lost = lost || silent_[f] > 0;
+      if (silent_[f] > kLost && lost_finger_ < 0) lost_finger_ = static_cast<int>(f);
+      most_ = std::max(most_, command_->f_H_W[f].norm());
+    }
+    if (lost) lost_ += tick.period;
+  }
+
+  Trial& trial_;
+  RunControl& control_;
+  SampleReader reader_;
+  std::size_t fingers_;
+  std::array<double, kMaxFingers> silent_{};  // [s] since the last sample
+  int lost_finger_ = -1;
+  double clipped_ = 0, lost_ = 0, most_ = 0, time_ = 0;
+  In<DeviceState> device_{*this, "device_state"};
+  In<ContactExchange> contact_{*this, "contact_exchange"};
+  In<ForceCommand> command_{*this, "force_command"};
+  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+};
+
+}  // namespace presa::experiment

@@ -1,0 +1,100 @@
+#include <cstdio>
+#include <memory>
+
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/commands.h"
+#include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/driver.h"
+#include "apps/studies/cost/plan.h"
+#include "apps/studies/cost/report.h"
+#include "apps/studies/cost/tables.h"
+#include "apps/studies/cost/work_plots.h"
+
+namespace presa {
+namespace {
+
+struct Arguments {
+  cost::Request request;
+  int jobs = 0;
+  bool resume = false, instructions = false;
+};
+
+std::string commandLine(const Arguments& a) {
+  std::string line = "presa cost " + a.request.input;
+  const auto add = [&](const char* option, const std::vector<std::string>& values) {
+    for (const std::string& value : values) line += std::string(" ") + option + " '" + value + "'";
+  };
+  if (!a.request.rig.empty()) line += " --rig " + a.request.rig;
+  add("--knob", a.request.knobs);
+  add("--metric", a.request.metrics);
+  add("--set", a.request.sets);
+  if (a.request.duration > 0) line += " --for " + std::to_string(a.request.duration);
+  if (a.request.seed > 0) line += " --seed " + std::to_string(a.request.seed);
+  if (a.request.quick) line += " --quick";
+  return line;
+}
+
+int runCost(Arguments a) {
+  Diagnostics diagnostics;
+  const cost::Study study = cost::planStudy(a.request, diagnostics);
+  if (!study.folder.empty()) cost::checkFolder(study.folder, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+
+  cost::Result result = cost::runStudy(study, {a.jobs, a.resume, a.instructions});
+  result.command = commandLine(a);
+  if (result.interrupted) {
+    std::fprintf(stderr, "stopped; what is done is kept in %s, go on with: %s --out %s --resume\n",
+                 study.folder.c_str(), result.command.c_str(), study.folder.c_str());
+    return kExitInterrupted;
+  }
+  writeFileAtomically(study.folder + "/cost.json", cost::toJsonText(result));
+  writeFileAtomically(study.folder + "/cost.csv", cost::toCsv(result));
+  writeFileAtomically(study.folder + "/report.html", cost::reportHtml(result));
+  if (const std::string picture = cost::frontPicture(result); !picture.empty())
+    writeFileAtomically(study.folder + "/front.svg", picture);
+  for (const std::string& text : cost::sentences(result)) std::printf("%s\n", text.c_str());
+  std::printf("%s/report.html\n", study.folder.c_str());
+  return kExitOk;
+}
+
+}  // namespace
+
+void addCost(CLI::App& app, int& status) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("cost", "Show what accuracy costs in time: many settings of a scene against a fine reference");
+  command
+      ->add_option("SCENE", a->request.input, "scene file, or a study such as experiments/accuracy_cost/cube_grasp.xml")
+      ->required();
+  command
+      ->add_option("--knob", a->request.knobs,
+                   "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, coupling, …\n"
+                   "or a path as after --set (default: a sweep of what the scene uses)")
+      ->allow_extra_args(false);
+  command->add_option("--metric", a->request.metrics, "error to show (default: all that the scene has)")
+      ->allow_extra_args(false);
+  command->add_option("--out", a->request.out,
+                      "folder for report.html, front.svg, cost.csv and cost.json (default: cost_NAME)");
+  command->add_option("--jobs", a->jobs, "watched runs at a time (default: one per processor); timed runs go alone")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--resume", a->resume, "keep the runs that an interrupted study has made");
+  command->add_flag("--instructions", a->instructions,
+                    "count instructions too (valgrind; about 50 times the time of a run)");
+  command->add_flag("--quick", a->request.quick, "few settings, two repeats: below a minute for a small scene");
+  command->add_option("--rig", a->request.rig, "rig file instead of the scene's own");
+  command->add_option("--set", a->request.sets, "PATH=VALUE for all settings; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--seed", a->request.seed, "seed of every random stream")->check(CLI::PositiveNumber);
+  command
+      ->add_option("--for", a->request.duration,
+                   "simulated seconds (default: to the end of the scripted motion, else 10)")
+      ->check(CLI::PositiveNumber);
+  command->footer(
+      "Exit status: 0 done, 1 the reference could not be run, 2 bad input (nothing was run), 130 Ctrl-C (kept for "
+      "--resume).\n"
+      "Example:  presa cost config/scenes/cube.xml --knob dynamics_rate=100,200,500 --knob coupling=soft,explicit");
+  command->callback([a, &status] { status = runCost(*a); });
+}
+
+}  // namespace presa

@@ -1,0 +1,324 @@
+#include "apps/studies/cost/driver.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "apps/common/atomic_file.h"
+#include "apps/studies/cost/fixed_rig.h"
+#include "apps/studies/cost/forecast.h"
+#include "apps/studies/cost/hash.h"
+#include "apps/studies/cost/knobs.h"
+#include "apps/studies/cost/measure.h"
+#include "apps/studies/cost/meshes.h"
+#include "apps/studies/cost/metrics.h"
+#include "apps/studies/cost/run_store.h"
+#include "apps/common/file_text.h"
+#include "apps/common/machine.h"
+#include "apps/common/terminal/job_progress.h"
+#include "apps/common/terminal/text.h"
+#include "apps/common/version.h"
+#include "framework/core/schedule/clock.h"
+#include "experiments/study/jobs.h"
+
+namespace presa::cost {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTooLong = "it took too long";
+constexpr int kWatched = -1;
+constexpr int kCounted = 1000;  ///< instructions are kept beside the repeats
+
+/// One run to make: of a setting, or of a level of the reference.
+struct Task {
+  std::vector<std::string> sets;
+  std::uint64_t hash = 0;
+  int repeat = kWatched;  ///< of timed runs: which
+};
+
+int workersOf(const DriverOptions& options) {
+  return options.workers > 0 ? options.workers : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+Forecast::Run runOf(const Task& task) {
+  using Kind = Forecast::Kind;
+  return {task.repeat == kWatched   ? Kind::kWatched
+          : task.repeat == kCounted ? Kind::kCounted
+                                    : Kind::kTimed,
+          task.hash};
+}
+
+class Driver {
+ public:
+  Driver(const Study& study, const DriverOptions& options)
+      : study_(study), options_(options), forecast_(workersOf(options)) {}
+
+  Result run() {
+    prepare();
+    result_.study = study_;
+    watchAll();
+    for (std::size_t repeat = 0; repeat < static_cast<std::size_t>(study_.repeats); ++repeat)
+      timeAll(static_cast<int>(repeat));
+    if (options_.instructions) timeAll(kCounted);
+    progress_->finish();
+    collect();
+    result_.interrupted = stopped_;
+    if (!stopped_) store_->dropTraces();
+    return std::move(result_);
+  }
+
+ private:
+  void prepare();
+  void expectAll();
+  void ended(const Task& task, double seconds, const std::string& what);
+  StudySpec spec(const Task& task) const;
+  void work(const std::vector<Task>& tasks, int workers, const std::string& what);
+  void watchAll();
+  void timeAll(int repeat);
+  Timing timing(const Task& task) const;
+  void compare(std::size_t levels);
+  bool allResolved() const;
+  void collect();
+
+  const Study& study_;
+  const DriverOptions& options_;
+  std::string rig_;
+  std::unique_ptr<RunStore> store_;
+  std::vector<std::uint64_t> level_hash_;
+  Result result_;
+  bool stopped_ = false;
+  std::unique_ptr<terminal::JobProgress> progress_;
+  Forecast forecast_;
+};
+
+void Driver::prepare() {
+  Diagnostics diagnostics;
+  const Loaded base = loadWorld(study_.inputs, {}, diagnostics);
+  if (!diagnostics.hasErrors()) {
+    for (const auto& sets : study_.reference) level_hash_.push_back(checkedScene(study_.inputs, sets, diagnostics));
+  }
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  const std::string rig = rigWithFixedDamping(base);
+  if (!rig.empty()) {
+    rig_ = study_.folder + "/rig.xml";
+    writeFileAtomically(rig_, rig);
+  }
+  result_.meshes = makeMeshes(study_);
+  Hash common;
+  common.add(rig);
+  for (const DeviceBinding& binding : base.world->rig.devices) {
+    for (const auto& [key, setting] : binding.settings) {
+      if (key == "motion" || key == "file") common.add(contentsOf(setting.value));
+    }
+  }
+  for (const std::string& text :
+       {std::to_string(study_.duration), std::to_string(study_.seed), study_.compared.from, study_.compared.to,
+        study_.steady.from, study_.steady.to, std::string(kVersion), std::string(Trace::kFormat)})
+    common.add(text);
+  const std::string runs = study_.folder + "/runs";
+  if (!options_.resume) fs::remove_all(runs);
+  fs::create_directories(runs);
+  store_ = std::make_unique<RunStore>(runs, common.value());
+  expectAll();
+}
+
+void Driver::expectAll() {
+  std::size_t count = 0;
+  const auto expect = [&](Task task) {
+    forecast_.add(runOf(task));
+    ++count;
+  };
+  for (std::size_t level = 0; level < std::min<std::size_t>(2, level_hash_.size()); ++level)
+    expect({{}, level_hash_[level]});
+  for (const Setting& setting : study_.settings) {
+    if (!setting.impossible.empty()) continue;
+    for (int repeat = kWatched; repeat < study_.repeats; ++repeat) expect({{}, setting.scene_hash, repeat});
+    if (options_.instructions) expect({{}, setting.scene_hash, kCounted});
+  }
+  progress_ = std::make_unique<terminal::JobProgress>(count);
+}
+
+void Driver::ended(const Task& task, double seconds, const std::string& what) {
+  forecast_.done(runOf(task), seconds);
+  if (const double left = forecast_.left(); left >= 0) progress_->expect(left);
+  progress_->done(what);
+}
+
+StudySpec Driver::spec(const Task& task) const {
+  StudySpec spec;
+  spec.scene = study_.inputs.scene;
+  spec.rig = rig_;
+  spec.sets = study_.inputs.sets;
+  spec.sets.insert(spec.sets.end(), task.sets.begin(), task.sets.end());
+  spec.duration = study_.duration;
+  spec.seed = study_.seed;
+  return spec;
+}
+
+// a job leaves its result on disk: what it returns is only why it could not
+void Driver::work(const std::vector<Task>& tasks, int workers, const std::string& what) {
+  std::vector<Task> missing;
+  std::set<std::pair<std::uint64_t, int>> planned;
+  for (const Task& task : tasks) {
+    const bool there = task.repeat < 0 ? store_->hasEvidence(task.hash) : store_->hasTiming(task.hash, task.repeat);
+    if (!there && planned.insert({task.hash, task.repeat}).second)
+      missing.push_back(task);
+    else
+      ended(task, there && task.repeat < 0 ? store_->evidence(task.hash, false).seconds : -1, what);
+  }
+  JobOptions jobs;
+  jobs.workers = workers;
+  jobs.stop = [] { return terminal::JobProgress::interrupted(); };
+  jobs.on_wait = [&] { progress_->show(); };
+  jobs.on_done = [&](std::size_t i, const JobResult& job) {
+    ended(missing[i], job.seconds, what);
+    if (job.outcome == JobResult::Outcome::kDone || job.outcome == JobResult::Outcome::kNotRun ||
+        missing[i].repeat >= 0)
+      return;
+    Evidence evidence;
+    evidence.seconds = job.seconds;
+    evidence.failure = job.outcome == JobResult::Outcome::kTimedOut ? kTooLong : job.text;
+    store_->save(missing[i].hash, evidence);
+  };
+  const auto results = runJobs(
+      missing.size(),
+      [&](std::size_t i) {
+        const Task& task = missing[i];
+        if (task.repeat < 0) {
+          const std::int64_t begin = monotonicNs();
+          Evidence evidence = watch(spec(task), study_);
+          evidence.seconds = static_cast<double>(monotonicNs() - begin) * 1e-9;
+          store_->save(task.hash, evidence);
+        } else
+          store_->save(task.hash, task.repeat, timing(task));
+        return std::string{};
+      },
+      jobs);
+  for (const JobResult& job : results) stopped_ = stopped_ || job.outcome == JobResult::Outcome::kNotRun;
+}
+
+// The reference is refined until its own uncertainty is small beside the smallest error that the report shows.
+void Driver::watchAll() {
+  std::vector<Task> tasks;
+  for (std::size_t level = 0; level < std::min<std::size_t>(2, study_.reference.size()); ++level)
+    tasks.push_back({study_.reference[level], level_hash_[level]});
+  for (const Setting& setting : study_.settings) {
+    if (setting.impossible.empty()) tasks.push_back({setting.sets, setting.scene_hash});
+  }
+  work(tasks, options_.workers, "accuracy");
+  for (std::size_t levels = 2; !stopped_; ++levels) {
+    compare(levels);
+    if (study_.reference.empty() || result_.reference.fine_enough || levels >= study_.reference.size()) return;
+    const Task finer{study_.reference[levels], level_hash_[levels]};
+    progress_->more(1);
+    forecast_.add(runOf(finer));
+    work({finer}, 1, "a finer reference");
+  }
+}
+
+Timing Driver::timing(const Task& task) const {
+  if (task.repeat != kCounted) return timeRun(spec(task));
+  Timing counted;
+  counted.instructions = countInstructions(spec(task));
+  return counted;
+}
+
+void Driver::timeAll(int repeat) {
+  if (stopped_) return;
+  std::vector<Task> tasks;
+  for (const Setting& setting : study_.settings) {
+    if (!setting.impossible.empty()) continue;
+    const Task task{setting.sets, setting.scene_hash, repeat};
+    if (store_->evidence(setting.scene_hash, false).failure == kTooLong)
+      ended(task, -1, "time");
+    else
+      tasks.push_back(task);
+  }
+  if (repeat == kCounted) return work(tasks, options_.workers, "instructions");
+  work(tasks, 1, "time");  // one at a time: two runs would share the cache that they are measured by
+}
+
+void Driver::compare(std::size_t levels) {
+  Result::Reference& reference = result_.reference;
+  using Kind = Study::Reference;
+  const bool refined = study_.reference_kind == Kind::kRefined;
+  const Evidence fine = refined                                    ? store_->evidence(level_hash_[levels - 1], true)
+                        : study_.reference_kind == Kind::kAnalytic ? analyticAnswer(spec({}))
+                                                                   : Evidence{};
+  const Evidence coarser = refined ? store_->evidence(level_hash_[levels - 2], true) : fine;
+  for (const Evidence* level : {&fine, &coarser}) {
+    if (!level->failure.empty()) throw std::runtime_error("the reference cannot be run: " + level->failure);
+  }
+  if (refined) reference.sets = study_.reference[levels - 1];
+  result_.outcomes.clear();
+  result_.metrics = study_.metrics;
+  for (const Setting& setting : study_.settings) result_.outcomes.push_back({setting, setting.impossible, {}, {}});
+  for (const std::string& name : study_.metrics) {
+    const Metric& metric = *findMetric(name);
+    const auto residual = metric.error(coarser, fine);
+    if (residual && !metric.absolute) reference.residual[name] = *residual;
+    if (const auto noticeable = metric.noticeable(fine)) reference.noticeable[name] = *noticeable;
+  }
+  for (Outcome& outcome : result_.outcomes) {
+    if (!outcome.failure.empty()) continue;
+    const Evidence evidence = store_->evidence(outcome.setting.scene_hash, true);
+    outcome.failure = evidence.failure;
+    if (!outcome.failure.empty()) continue;
+    for (const std::string& name : result_.metrics) {
+      if (const auto error = findMetric(name)->error(evidence, fine)) outcome.error[name] = *error;
+    }
+  }
+  std::erase_if(result_.metrics, [&](const std::string& name) {
+    return std::none_of(result_.outcomes.begin(), result_.outcomes.end(), [&](const Outcome& outcome) {
+      return outcome.error.contains(name) && outcome.error.at(name) > kRounding;
+    });
+  });
+  reference.fine_enough = allResolved();
+}
+
+/// Whether every error shown is known to a tenth.
+bool Driver::allResolved() const {
+  for (const std::string& name : result_.metrics) {
+    for (const Outcome& outcome : result_.outcomes) {
+      if (outcome.failure.empty() && !result_.resolved(outcome, name)) return false;
+    }
+  }
+  return true;
+}
+
+void Driver::collect() {
+  std::set<std::string> engines;
+  for (Outcome& outcome : result_.outcomes) {
+    if (!outcome.setting.impossible.empty()) continue;
+    if (options_.instructions && store_->hasTiming(outcome.setting.scene_hash, kCounted))
+      outcome.instructions = store_->timing(outcome.setting.scene_hash, kCounted).instructions;
+    for (int repeat = 0; repeat < study_.repeats; ++repeat) {
+      if (store_->hasTiming(outcome.setting.scene_hash, repeat))
+        outcome.timings.push_back(store_->timing(outcome.setting.scene_hash, repeat));
+    }
+    for (const Timing& timing : outcome.timings) engines.insert(timing.engines.begin(), timing.engines.end());
+  }
+  result_.machine = machineFacts();
+  std::string names;
+  for (const std::string& engine : engines) names += (names.empty() ? "" : ", ") + engine;
+  if (!names.empty()) result_.machine.emplace_back("engines", names);
+}
+
+}  // namespace
+
+void checkFolder(const std::string& folder, Diagnostics& diagnostics) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder) && ::access(folder.c_str(), W_OK | X_OK) == 0) return;
+  diagnostics.error(803, {"--out " + folder, 0, 0},
+                    "cannot write into the folder '" + folder + "'" + (error ? ": " + error.message() : ""),
+                    "choose another with --out");
+}
+
+Result runStudy(const Study& study, const DriverOptions& options) { return Driver(study, options).run(); }
+
+}  // namespace presa::cost

@@ -1,0 +1,259 @@
+#include "apps/studies/cost/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace presa::cost {
+namespace {
+
+using Value = std::optional<double>;
+
+double distance(const double (&a)[3], const double (&b)[3]) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// Calls `use` with the rows of both traces at each instant that both have, inside the setting's compared window.
+void atCommonTimes(const Evidence& setting, const Evidence& reference,
+                   const std::function<void(std::size_t, std::size_t)>& use) {
+  const auto& a = setting.trace.time_ns;
+  const auto& b = reference.trace.time_ns;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    if (a[i] < b[j]) {
+      ++i;
+    } else if (b[j] < a[i]) {
+      ++j;
+    } else {
+      const double time = static_cast<double>(a[i]) * 1e-9;
+      if (time >= setting.compared_from && time < setting.compared_to) use(i, j);
+      ++i, ++j;
+    }
+  }
+}
+
+/// Root of the mean square, and the largest.
+struct Sum {
+  double squares = 0, largest = 0;
+  std::size_t count = 0;
+  void add(double x) {
+    squares += x * x;
+    largest = std::max(largest, x);
+    ++count;
+  }
+  Value rms() const { return count > 0 ? Value(std::sqrt(squares / static_cast<double>(count))) : std::nullopt; }
+  Value peak() const { return count > 0 ? Value(largest) : std::nullopt; }
+};
+
+/// The worst finger's.
+Value fingers(const Evidence& s, const Evidence& r, double (*error)(const FingerSample&, const FingerSample&),
+              bool both_touch, Value (Sum::*result)() const) {
+  std::vector<Sum> sums(s.trace.fingers);
+  if (s.trace.fingers != r.trace.fingers) return std::nullopt;
+  atCommonTimes(s, r, [&](std::size_t i, std::size_t j) {
+    for (std::size_t f = 0; f < sums.size(); ++f) {
+      const FingerSample& a = s.trace.finger[i * sums.size() + f];
+      const FingerSample& b = r.trace.finger[j * sums.size() + f];
+      const bool counts = both_touch ? a.touching > 0 && b.touching > 0 : a.touching > 0 || b.touching > 0;
+      if (counts) sums[f].add(error(a, b));
+    }
+  });
+  Value worst;
+  for (const Sum& sum : sums) {
+    if (const Value v = (sum.*result)()) worst = std::max(worst.value_or(0), *v);
+  }
+  return worst;
+}
+
+/// The worst finger's difference of what the devices hold, at every tick of the reference: a slow rate holds what is old.
+Value held(const Evidence& s, const Evidence& r, bool in_steps) {
+  const Trace &a = s.trace, &b = r.trace;
+  if (a.fingers != b.fingers || a.held_from_ns.empty()) return std::nullopt;
+  std::vector<Sum> sums(a.fingers);
+  for (std::size_t j = 0, i = 0; j < b.held_from_ns.size(); ++j) {
+    const std::int64_t now = b.held_from_ns[j];
+    while (i + 1 < a.held_from_ns.size() && a.held_from_ns[i + 1] <= now) ++i;
+    const double time = static_cast<double>(now) * 1e-9;
+    if (time < s.compared_from || time >= s.compared_to) continue;
+    for (std::size_t f = 0; f < sums.size(); ++f) {
+      const auto &x = a.held[i * sums.size() + f], &y = b.held[j * sums.size() + f];
+      const double difference = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]), force = std::hypot(y[0], y[1], y[2]);
+      if (difference == 0 && force == 0) continue;  // neither touches
+      sums[f].add(in_steps ? difference / (kForceStep * std::max(force, kLeastForce)) : difference);
+    }
+  }
+  Value worst;
+  for (const Sum& sum : sums) {
+    if (const Value v = sum.rms()) worst = std::max(worst.value_or(0), *v);
+  }
+  return worst;
+}
+
+/// Over all free bodies and the instants at which a step of the setting's dynamics ends: between them readers interpolate.
+Value bodies(const Evidence& s, const Evidence& r, double (*error)(const BodySample&, const BodySample&)) {
+  Sum sum;
+  const std::size_t n = s.trace.bodies;
+  if (n != r.trace.bodies) return std::nullopt;
+  atCommonTimes(s, r, [&](std::size_t i, std::size_t j) {
+    if (s.trace.stepped[i] == 0) return;
+    for (std::size_t k = 0; k < n; ++k) sum.add(error(s.trace.body[i * n + k], r.trace.body[j * n + k]));
+  });
+  return sum.rms();
+}
+
+double forceError(const FingerSample& a, const FingerSample& b) { return distance(a.force, b.force); }
+double forceSteps(const FingerSample& a, const FingerSample& b) {
+  const double force = std::hypot(b.force[0], b.force[1], b.force[2]);
+  return forceError(a, b) / (kForceStep * std::max(force, kLeastForce));
+}
+double proxyError(const FingerSample& a, const FingerSample& b) { return 1e3 * distance(a.proxy, b.proxy); }
+double positionError(const BodySample& a, const BodySample& b) { return 1e3 * distance(a.p, b.p); }
+double angleError(const BodySample& a, const BodySample& b) {
+  // |q_a - ± q_b| = 2 sin(angle / 4): exact where the scalar product would round small angles away
+  double minus = 0, plus = 0;
+  for (int k = 0; k < 4; ++k) {
+    minus += (a.q[k] - b.q[k]) * (a.q[k] - b.q[k]);
+    plus += (a.q[k] + b.q[k]) * (a.q[k] + b.q[k]);
+  }
+  return 4 * std::asin(std::min(1.0, 0.5 * std::sqrt(std::min(minus, plus)))) * 180 / M_PI;
+}
+
+/// Mean normal force of each finger in the steady window, while it touches; -1: never.
+std::vector<double> grips(const Evidence& e) {
+  std::vector<double> sum(e.trace.fingers, 0), count(e.trace.fingers, 0);
+  for (std::size_t i = 0; i < e.trace.time_ns.size(); ++i) {
+    const double time = static_cast<double>(e.trace.time_ns[i]) * 1e-9;
+    if (time < e.steady_from || time >= e.steady_to) continue;
+    for (std::size_t f = 0; f < e.trace.fingers; ++f) {
+      const FingerSample& sample = e.trace.finger[i * e.trace.fingers + f];
+      sum[f] += sample.touching * sample.normal_force;
+      count[f] += sample.touching;
+    }
+  }
+  for (std::size_t f = 0; f < sum.size(); ++f) sum[f] = count[f] > 0 ? sum[f] / count[f] : -1;
+  return sum;
+}
+
+Value gripError(const Evidence& s, const Evidence& r) {
+  const std::vector<double> a = grips(s), b = grips(r);
+  Value worst;
+  for (std::size_t f = 0; f < a.size() && f < b.size(); ++f) {
+    if (a[f] >= 0 && b[f] >= 0) worst = std::max(worst.value_or(0), std::abs(a[f] - b[f]));
+  }
+  return worst;
+}
+
+Value difference(const Value& a, const Value& b, double unit = 1) {
+  return a && b ? Value(unit * std::abs(*a - *b)) : std::nullopt;
+}
+Value scaled(const Value& a, double unit) { return a ? Value(unit * *a) : std::nullopt; }
+
+/// A tenth of the force that the reference gives, RMS over contact.
+Value forceNoticeable(const Evidence& r) {
+  Sum worst;
+  for (const FingerSample& sample : r.trace.finger) {
+    if (sample.touching > 0) worst.add(std::hypot(sample.force[0], sample.force[1], sample.force[2]));
+  }
+  return scaled(worst.rms(), kForceStep);
+}
+Value gripNoticeable(const Evidence& r) {
+  double least = -1;
+  for (const double grip : grips(r)) {
+    if (grip > 0) least = least < 0 ? grip : std::min(least, grip);
+  }
+  return least > 0 ? Value(kForceStep * std::max(least, kLeastForce)) : std::nullopt;
+}
+Value slipNoticeable(const Evidence& r) {
+  return r.slip_force ? Value(kForceStep * std::max(*r.slip_force, kLeastForce)) : std::nullopt;
+}
+Value oneStep(const Evidence&) { return 1; }
+// pinch aperture without looking [Ho1996]
+Value apertureNoticeable(const Evidence&) { return 0.4; }
+Value none(const Evidence&) { return std::nullopt; }
+
+}  // namespace
+
+const std::vector<Metric>& allMetrics() {
+  static const std::vector<Metric> metrics{
+      {"force_rms", "Force, RMS error", "N",
+       "root of the mean square of |force − reference| of the worst finger, while one of the two touches",
+       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceError, false, &Sum::rms); }, false,
+       forceNoticeable},
+      {"force_peak", "Force, largest error", "N", "largest |force − reference| of any finger",
+       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceError, false, &Sum::peak); }, false,
+       forceNoticeable},
+      {"force_rms_jnd", "Force, RMS error in just-noticeable steps", "steps",
+       "as force_rms, each difference in tenths of the reference's force at that moment (of 0.5 N below that)",
+       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceSteps, false, &Sum::rms); }, false,
+       oneStep},
+      {"force_peak_jnd", "Force, largest error in just-noticeable steps", "steps",
+       "as force_peak, in tenths of the reference's force at that moment (of 0.5 N below that)",
+       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceSteps, false, &Sum::peak); }, false,
+       oneStep},
+      {"force_held", "Force as held, RMS error", "N",
+       "root of the mean square of |force that the device holds − reference| over all time, between the ticks too; "
+       "worst "
+       "finger",
+       [](const Evidence& s, const Evidence& r) { return held(s, r, false); }, false, forceNoticeable},
+      {"force_held_jnd", "Force as held, RMS error in just-noticeable steps", "steps",
+       "as force_held, in tenths of the reference's force at that moment (of 0.5 N below that)",
+       [](const Evidence& s, const Evidence& r) { return held(s, r, true); }, false, oneStep},
+      {"proxy", "Proxy, RMS error", "mm", "distance of the proxy from the reference's, while both touch; worst finger",
+       [](const Evidence& s, const Evidence& r) { return fingers(s, r, proxyError, true, &Sum::rms); }, false,
+       apertureNoticeable},
+      {"position", "Object position, RMS error", "mm", "distance of the free bodies' origins from the reference's",
+       [](const Evidence& s, const Evidence& r) { return bodies(s, r, positionError); }, false, apertureNoticeable},
+      {"angle", "Object orientation, RMS error", "deg", "angle between the free bodies and the reference's",
+       [](const Evidence& s, const Evidence& r) { return bodies(s, r, angleError); }, false, none},
+      {"grip", "Grip force, error of the mean", "N", "mean normal force in the steady window; worst finger", gripError,
+       false, gripNoticeable},
+      {"slip_force", "Slip onset, force error", "N",
+       "grip force at the first slip after letting go began; mean of the fingers",
+       [](const Evidence& s, const Evidence& r) { return difference(s.slip_force, r.slip_force); }, false,
+       slipNoticeable},
+      {"slip_time", "Slip onset, time error", "ms",
+       "time of the first slip after letting go began; mean of the fingers",
+       [](const Evidence& s, const Evidence& r) { return difference(s.slip_time, r.slip_time, 1e3); }, false, none},
+      {"energy_created", "Energy created", "mJ",
+       "largest rise of (energy − work of the hands) from any earlier moment; a passive simulation has 0",
+       [](const Evidence& s, const Evidence&) { return scaled(s.energy_created, 1e3); }, true, none},
+      {"energy_drift", "Energy drift", "mJ",
+       "largest |energy − work of the hands − energy at the start|; for scenes without fingers",
+       [](const Evidence& s, const Evidence&) { return scaled(s.energy_drift, 1e3); }, true, none},
+      {"penetration", "Overlap of boxes at rest", "mm",
+       "mean overlap of the pairs of boxes that overlap, in the steady window; from poses and sizes, whatever the "
+       "engine",
+       [](const Evidence& s, const Evidence&) { return scaled(s.penetration, 1e3); }, true, none},
+      {"penetration_max", "Deepest overlap of boxes", "mm", "of any pair of boxes in the whole compared window",
+       [](const Evidence& s, const Evidence&) { return scaled(s.penetration_max, 1e3); }, true, none},
+      {"rest_energy", "Kinetic energy at rest", "mJ",
+       "of all free bodies, mean over the steady window, from the change of their poses; for scenes without fingers",
+       [](const Evidence& s, const Evidence&) { return scaled(s.rest_energy, 1e3); }, true, none},
+      {"rest_drift", "Drift at rest", "mm",
+       "way of the body that strays farthest during the steady window; for scenes without fingers",
+       [](const Evidence& s, const Evidence&) { return scaled(s.rest_drift, 1e3); }, true, none},
+      {"force_step", "Force step at dynamics boundaries", "N",
+       "bend of the normal force (second difference) at ticks that bring a new object state; RMS in the steady window, "
+       "worst finger",
+       [](const Evidence& s, const Evidence&) { return s.force_step; }, true, none},
+      {"hum", "Hum at the dynamics rate", "N",
+       "amplitude of the force at the dynamics rate while touching, worst finger; none where the haptic rate is too "
+       "low "
+       "to carry it",
+       [](const Evidence& s, const Evidence&) { return s.hum; }, true, none},
+  };
+  return metrics;
+}
+
+const Metric* findMetric(const std::string& name) {
+  const auto& all = allMetrics();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Metric& metric) { return metric.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> metricNames() {
+  std::vector<std::string> names;
+  for (const Metric& metric : allMetrics()) names.push_back(metric.name);
+  return names;
+}
+
+}  // namespace presa::cost

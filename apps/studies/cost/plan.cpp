@@ -1,0 +1,155 @@
+#include "apps/studies/cost/plan.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "apps/studies/cost/knobs.h"
+#include "apps/studies/cost/metrics.h"
+#include "framework/input/folders.h"
+
+namespace presa::cost {
+namespace {
+
+/// NAME=v1,v2
+Knob parseKnob(const std::string& text, const Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
+  const SourceLocation where{"--knob " + text, 0, 0};
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    diagnostics.error(802, where, "expected NAME=VALUE,VALUE…, found " + quote(text),
+                      "for example --knob dynamics_rate=100,200,500");
+    return {};
+  }
+  std::vector<std::string> values{""};
+  for (const char c : text.substr(equals + 1)) {
+    if (c == ',')
+      values.emplace_back();
+    else
+      values.back() += c;
+  }
+  return makeKnob(text.substr(0, equals), values, scene, folder, where, diagnostics);
+}
+
+std::vector<std::vector<std::string>> defaultReference(const Plan& plan) {
+  std::vector<std::vector<std::string>> levels;
+  for (const char* rate : {"5000", "10000", "20000", "40000"}) {
+    std::vector<std::string>& sets = levels.emplace_back();
+    sets.push_back("rates/haptic=" + std::string(rate));
+    if (hasMotion(plan)) sets.push_back("rates/dynamics=" + std::string(rate));
+    if (plan.has("collision_fcl")) sets.push_back("rates/collision=2500");
+  }
+  return levels;
+}
+
+void checkMetrics(const std::vector<std::string>& names, Diagnostics& diagnostics) {
+  for (const std::string& name : names) {
+    if (findMetric(name) != nullptr) continue;
+    std::string list;
+    for (const std::string& each : metricNames()) list += (list.empty() ? "" : ", ") + each;
+    diagnostics.error(804, {"--metric " + name, 0, 0},
+                      "there is no metric " + quote(name) + didYouMean(name, metricNames()), "metrics: " + list);
+  }
+}
+
+std::vector<SentenceRule> defaultSentences(const Study& study) {
+  std::vector<SentenceRule> rules;
+  const auto has = [&](const char* name) {
+    return std::find(study.metrics.begin(), study.metrics.end(), name) != study.metrics.end();
+  };
+  for (const char* metric : {"force_rms_jnd", "position"}) {
+    if (!has(metric)) continue;
+    rules.push_back({.kind = SentenceRule::Kind::kBelow, .metric = metric});
+    rules.push_back({.kind = SentenceRule::Kind::kCheapest, .metric = metric});
+  }
+  for (const char* metric : {"force_rms", "position", "penetration"}) {
+    if (has(metric)) rules.push_back({.kind = SentenceRule::Kind::kFront, .metric = metric});
+  }
+  for (const Knob& knob : study.knobs) {
+    if (knob.name == "dynamics_rate" && has("force_rms"))
+      rules.push_back({.kind = SentenceRule::Kind::kHalving, .metric = "force_rms", .knob = knob.name});
+  }
+  rules.push_back({.kind = SentenceRule::Kind::kFailures});
+  return rules;
+}
+
+/// One free body and nothing that it could touch: its motion is known.
+bool isAlone(const Loaded& base) {
+  const auto& bodies = base.world->scene.bodies;
+  const bool solid =
+      std::count_if(bodies.begin(), bodies.end(), [](const Body& body) { return body.physics.has_value(); }) == 1;
+  return solid && base.world->scene.devices.empty() && hasMotion(base.plan);
+}
+
+}  // namespace
+
+void chooseFolder(const Request& request, Study& study) {
+  const std::string folder = request.out.empty() ? "cost_" + study.name : request.out;
+  study.folder = std::filesystem::absolute(folder).lexically_normal().string();
+  input::allowFolder(study.folder);  // for the meshes that the study makes
+}
+
+Study planStudy(const Request& request, Diagnostics& diagnostics) {
+  Study study;
+  std::vector<std::vector<Knob>> grids;
+  if (isStudyFile(request.input)) {
+    grids = readStudyFile(request.input, request, study, diagnostics);
+    if (study.inputs.scene.empty()) return study;
+  } else {
+    study.inputs = {request.input, request.rig, request.sets};
+  }
+  if (request.duration > 0) study.duration = request.duration;
+  if (request.seed > 0) study.seed = request.seed;
+  if (request.quick) study.repeats = 2;
+  if (!request.metrics.empty()) study.metrics = request.metrics;
+  checkMetrics(study.metrics, diagnostics);
+
+  const Loaded base = loadWorld(study.inputs, {}, diagnostics);
+  if (!base.world) return study;
+  const Scene& scene = base.world->scene;
+  if (study.name.empty()) study.name = scene.name;
+  chooseFolder(request, study);
+  if (study.title.empty()) study.title = "What accuracy costs: " + scene.name;
+  if (study.metrics.empty()) study.metrics = metricNames();
+  if (study.reference_kind == Study::Reference::kNone) {
+    std::erase_if(study.metrics, [](const std::string& name) {
+      const Metric* metric = findMetric(name);
+      return metric != nullptr && !metric->absolute;
+    });
+  }
+  using Reference = Study::Reference;
+  if (study.file.empty() && isAlone(base)) study.reference_kind = Reference::kAnalytic;
+  if (study.reference_kind != Reference::kRefined)
+    study.reference.clear();
+  else if (study.reference.empty())
+    study.reference = defaultReference(base.plan);
+  for (const auto& level : study.reference) checkedScene(study.inputs, level, diagnostics);
+
+  const bool hands_off = scene.devices.empty() && hasMotion(base.plan);
+  if (study.reference_kind == Reference::kAnalytic && !hands_off)
+    diagnostics.error(808, {study.file, 0, 0}, "an analytic reference is for scenes of free bodies without fingers",
+                      "leave the reference out, or give its levels");
+  if (!request.knobs.empty()) {
+    grids.clear();
+    std::vector<Knob>& grid = grids.emplace_back();
+    for (const std::string& text : request.knobs) grid.push_back(parseKnob(text, scene, study.folder, diagnostics));
+    std::erase_if(grid, [](const Knob& knob) { return knob.values.empty(); });
+  }
+  if (base.world->scene.bodies.empty()) return study;  // not readable: said above
+  if (grids.empty()) {
+    addSettings(study, defaultKnobs(base, study.folder, request.quick), Combine::kOneAtATime, diagnostics);
+  } else {
+    for (const std::vector<Knob>& grid : grids) {
+      if (!grid.empty()) addSettings(study, grid, Combine::kGrid, diagnostics);
+    }
+  }
+  if (!diagnostics.hasErrors() && study.settings.size() < 2) {
+    diagnostics.error(805, {request.input, 0, 0},
+                      "there is nothing to compare: no setting differs from the scene as it stands",
+                      "name knobs with --knob NAME=VALUE,VALUE");
+  }
+  nameSettings(study);
+  if (study.sentences.empty()) study.sentences = defaultSentences(study);
+  return study;
+}
+
+}  // namespace presa::cost

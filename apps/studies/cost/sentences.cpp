@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/metrics.h"
+#include "apps/common/terminal/text.h"
+
+namespace presa::cost {
+namespace {
+
+using terminal::format;
+
+bool has(const Outcome& outcome, const std::string& metric) {
+  return outcome.failure.empty() && outcome.error.contains(metric);
+}
+
+/// A ratio over several pairs: geometric mean and range.
+struct Ratio {
+  double log_sum = 0, low = INFINITY, high = 0;
+  int count = 0;
+  void add(double ratio) {
+    log_sum += std::log(ratio);
+    low = std::min(low, ratio);
+    high = std::max(high, ratio);
+    ++count;
+  }
+  double mean() const { return count > 0 ? std::exp(log_sum / count) : 1; }
+};
+
+std::string asFactor(const Ratio& ratio) {
+  if (ratio.count < 2) return format("%.3g", ratio.mean());
+  return format("%.3g (%.3g to %.3g over %d pairs)", ratio.mean(), ratio.low, ratio.high, ratio.count);
+}
+
+std::optional<double> number(const std::string& text) {
+  double value = 0;
+  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return status == std::errc{} && rest == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+/// The settings by all knobs but one, and there by that knob's value.
+using Lines = std::map<std::string, std::map<std::string, const Outcome*>>;
+Lines linesAlong(const Result& result, const std::string& knob) {
+  Lines lines;
+  for (const Outcome& outcome : result.outcomes) {
+    std::string rest, value;
+    for (const auto& [name, choice] : outcome.setting.choices) {
+      if (name == knob)
+        value = choice;
+      else
+        rest += name + "=" + choice + ";";
+    }
+    lines[rest][value] = &outcome;
+  }
+  return lines;
+}
+
+std::string lowered(std::string title) {
+  if (!title.empty()) title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+  return title;
+}
+
+struct Limit {
+  double value = 0;
+  std::string words;
+};
+std::optional<Limit> limitOf(const Result& result, const SentenceRule& rule) {
+  const Metric& metric = *findMetric(rule.metric);
+  if (rule.limit > 0) return Limit{rule.limit, withUnit(rule.limit, metric.unit)};
+  const auto known = result.reference.noticeable.find(rule.metric);
+  if (known == result.reference.noticeable.end()) return std::nullopt;
+  return Limit{known->second, metric.unit == "steps"
+                                  ? "one just-noticeable step"
+                                  : "the just-noticeable difference of " + withUnit(known->second, metric.unit)};
+}
+
+std::string below(const Result& result, const SentenceRule& rule) {
+  const auto limit = limitOf(result, rule);
+  if (!limit) return {};
+  std::size_t good = 0;
+  const Outcome* best = nullptr;
+  const Outcome* worst = nullptr;
+  for (const Outcome& outcome : result.outcomes) {
+    if (!has(outcome, rule.metric)) continue;
+    const double error = result.claimed(outcome, rule.metric);
+    good += error < limit->value ? 1 : 0;
+    if (best == nullptr || error < best->error.at(rule.metric)) best = &outcome;
+    if (worst == nullptr || error > worst->error.at(rule.metric)) worst = &outcome;
+  }
+  if (best == nullptr) return {};
+  const Metric& metric = *findMetric(rule.metric);
+  const auto told = [&](const Outcome& outcome) {
+    return (result.resolved(outcome, rule.metric) ? "" : "at most ") +
+           withUnit(result.claimed(outcome, rule.metric), metric.unit) + " (" + outcome.setting.name + ")";
+  };
+  return format("%zu of %zu settings stay below %s in %s: from ", good, result.outcomes.size(), limit->words.c_str(),
+                lowered(metric.title).c_str()) +
+         told(*best) + " to " + told(*worst) + ".";
+}
+
+std::string halving(const Result& result, const SentenceRule& rule) {
+  Ratio error, cost;
+  for (const auto& [rest, line] : linesAlong(result, rule.knob)) {
+    std::vector<std::pair<double, const Outcome*>> values;
+    for (const auto& [value, outcome] : line) {
+      const auto x = number(value);
+      if (x && *x > 0 && has(*outcome, rule.metric) && outcome->timed() && outcome->error.at(rule.metric) > 0)
+        values.emplace_back(*x, outcome);
+    }
+    std::sort(values.begin(), values.end());
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+      // each pair as if the value had been doubled
+      const double power = std::log(2.0) / std::log(values[i + 1].first / values[i].first);
+      const Outcome &coarse = *values[i].second, &fine = *values[i + 1].second;
+      error.add(std::pow(coarse.error.at(rule.metric) / fine.error.at(rule.metric), power));
+      cost.add(std::pow(fine.perSecond().median / coarse.perSecond().median, power));
+    }
+  }
+  if (error.count == 0) return {};
+  const bool rate = rule.knob.ends_with("_rate") || rule.knob.starts_with("rates/");
+  const std::string what = rate ? "Halving the step (doubling " + rule.knob + ")" : "Doubling " + rule.knob;
+  return what + " divides the error (" + lowered(findMetric(rule.metric)->title) + ") by " + asFactor(error) +
+         " and multiplies the processor time by " + format("%.3g.", cost.mean());
+}
+
+std::string compare(const Result& result, const SentenceRule& rule) {
+  Ratio error, cost;
+  int b_fails = 0, a_fails = 0, pairs = 0;
+  for (const auto& [rest, line] : linesAlong(result, rule.knob)) {
+    const auto a = line.find(rule.a), b = line.find(rule.b);
+    if (a == line.end() || b == line.end()) continue;
+    ++pairs;
+    a_fails += has(*a->second, rule.metric) ? 0 : 1;
+    b_fails += has(*b->second, rule.metric) ? 0 : 1;
+    if (!has(*a->second, rule.metric) || !has(*b->second, rule.metric)) continue;
+    const double ea = a->second->error.at(rule.metric), eb = b->second->error.at(rule.metric);
+    if (ea > 0 && eb > 0) error.add(eb / ea);
+    if (a->second->timed() && b->second->timed())
+      cost.add(b->second->perSecond().median / a->second->perSecond().median);
+  }
+  if (pairs == 0) return {};
+  std::string text = rule.knob + " " + rule.b + " against " + rule.a + ": ";
+  if (error.count > 0)
+    text += "error (" + lowered(findMetric(rule.metric)->title) + ") times " + asFactor(error) +
+            ", processor time times " + format("%.3g", cost.mean());
+  else
+    text += "no pair in which both hold";
+  return text +
+         format("; %s fails in %d of %d settings, %s in %d.", rule.b.c_str(), b_fails, pairs, rule.a.c_str(), a_fails);
+}
+
+std::string cheapest(const Result& result, const SentenceRule& rule) {
+  const auto limit = limitOf(result, rule);
+  if (!limit) return {};
+  const std::string title = lowered(findMetric(rule.metric)->title);
+  const auto found = cheapestBelow(result, rule.metric, limit->value);
+  if (!found) return "No setting stays below " + limit->words + " in " + title + ".";
+  const Outcome& outcome = result.outcomes[*found];
+  const double cost = outcome.perSecond().median;
+  std::string text = "The cheapest setting below " + limit->words + " in " + title + " is " + outcome.setting.name +
+                     ": " + format("%.3g ms of processor time per simulated second", 1e3 * cost);
+  const Outcome& usual = result.outcomes.front();
+  if (*found != 0 && usual.timed()) text += format(", %.3g times that of the default", cost / usual.perSecond().median);
+  return text + ".";
+}
+
+std::string front(const Result& result, const SentenceRule& rule) {
+  const auto distance = distanceToFront(result, rule.metric);
+  if (!distance) return {};
+  const std::string title = lowered(findMetric(rule.metric)->title);
+  if (distance->least() <= 1) return "The default lies on the front of " + title + ".";
+  const std::string cheaper = result.outcomes[distance->as_accurate].setting.name;
+  const std::string better = result.outcomes[distance->as_cheap].setting.name;
+  return format("The default lies %s 1.3 times of the front of ",
+                distance->least() <= kNearFront ? "within" : "beyond") +
+         title +
+         format(": as accurate at 1/%.3g of the processor time is %s, and no dearer at 1/%.3g of the error is %s.",
+                distance->cost, cheaper.c_str(), distance->error, better.c_str());
+}
+
+std::string failures(const Result& result) {
+  std::map<std::string, int> reasons;
+  int count = 0;
+  for (const Outcome& outcome : result.outcomes) {
+    if (outcome.failure.empty()) continue;
+    ++reasons[outcome.failure];
+    ++count;
+  }
+  if (count == 0) return format("None of the %zu settings failed.", result.outcomes.size());
+  std::string text = format("%d of %zu settings failed: ", count, result.outcomes.size());
+  bool first = true;
+  for (const auto& [reason, n] : reasons) {
+    text += (first ? "" : "; ") + reason + format(" (%d)", n);
+    first = false;
+  }
+  return text + ".";
+}
+
+}  // namespace
+
+std::vector<std::string> sentences(const Result& result) {
+  std::vector<std::string> texts;
+  for (const SentenceRule& rule : result.study.sentences) {
+    const bool shows = std::find(result.metrics.begin(), result.metrics.end(), rule.metric) != result.metrics.end();
+    if (rule.kind != SentenceRule::Kind::kFailures && !shows) continue;
+    std::string text;
+    switch (rule.kind) {
+      case SentenceRule::Kind::kBelow:
+        text = below(result, rule);
+        break;
+      case SentenceRule::Kind::kHalving:
+        text = halving(result, rule);
+        break;
+      case SentenceRule::Kind::kCompare:
+        text = compare(result, rule);
+        break;
+      case SentenceRule::Kind::kCheapest:
+        text = cheapest(result, rule);
+        break;
+      case SentenceRule::Kind::kFront:
+        text = front(result, rule);
+        break;
+      case SentenceRule::Kind::kFailures:
+        text = failures(result);
+        break;
+    }
+    if (!text.empty()) texts.push_back(text);
+  }
+  return texts;
+}
+
+}  // namespace presa::cost

@@ -1,0 +1,140 @@
+#include "apps/studies/stability/runner.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/commands.h"
+#include "apps/studies/stability/report.h"
+#include "apps/studies/stability/rows.h"
+#include "apps/studies/stability/table.h"
+#include "apps/common/terminal/job_progress.h"
+#include "experiments/study/jobs.h"
+
+namespace presa::stability {
+namespace {
+
+constexpr double kTrialLimit = 300;  // [s]
+
+std::vector<Case> chosenCases(const RunnerOptions& options, std::vector<Case> all) {
+  std::vector<std::string> names;
+  for (const Case& c : all) names.push_back(c.name);
+  Diagnostics diagnostics;
+  for (const std::string& wanted : options.cases) {
+    if (std::find(names.begin(), names.end(), wanted) != names.end()) continue;
+    diagnostics.error(611, {"--case " + wanted, 0, 0}, "there is no case " + quote(wanted) + didYouMean(wanted, names),
+                      "presa stability --list names them");
+  }
+  if (!options.out.empty()) {
+    std::error_code failed;
+    std::filesystem::create_directories(options.out, failed);
+    if (failed || !std::ofstream(options.out + "/rows.jsonl", std::ios::app)) {
+      diagnostics.error(612, {"--out " + options.out, 0, 0}, "nothing can be written there",
+                        failed ? failed.message() : "the folder is not writable");
+    }
+  }
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  if (options.cases.empty()) return all;
+  std::erase_if(all, [&](const Case& c) {
+    return std::find(options.cases.begin(), options.cases.end(), c.name) == options.cases.end();
+  });
+  return all;
+}
+
+struct Job {
+  const Case* of = nullptr;
+  const Trial* trial = nullptr;
+};
+
+std::vector<Job> jobsOf(const std::vector<Case>& cases, bool quick) {
+  std::vector<Job> jobs;
+  for (const Case& c : cases) {
+    for (const Trial& trial : c.trials) {
+      if (!quick || trial.quick) jobs.push_back({&c, &trial});
+    }
+  }
+  return jobs;
+}
+
+/// A trial that did not come to an end is a row too.
+Finding failure() {
+  Finding finding;
+  finding.metric = "trial ends";
+  finding.verdict = Verdict::kFailed;
+  finding.oracle = "every trial ends with findings";
+  finding.value = std::numeric_limits<double>::quiet_NaN();
+  return finding;
+}
+
+std::string reasonOf(const JobResult& result) {
+  switch (result.outcome) {
+    case JobResult::Outcome::kTimedOut:
+      return "no end after " + std::to_string(static_cast<int>(kTrialLimit)) + " s";
+    case JobResult::Outcome::kCrashed:
+      return "crashed: " + result.text;
+    default:
+      return result.text;
+  }
+}
+
+std::vector<Row> rowsOf(const std::vector<Job>& jobs, const std::vector<JobResult>& results) {
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const JobResult& result = results[i];
+    if (result.outcome == JobResult::Outcome::kNotRun) continue;
+    const bool done = result.outcome == JobResult::Outcome::kDone;
+    for (Finding& finding : done ? unpackFindings(result.text) : std::vector{failure()}) {
+      rows.push_back({jobs[i].of->name, jobs[i].trial->parameters, jobs[i].trial->method, std::move(finding),
+                      jobs[i].trial->expected, jobs[i].of->source, result.seconds, done ? "" : reasonOf(result)});
+    }
+  }
+  return rows;
+}
+
+void list(const std::vector<Case>& cases) {
+  for (const Case& c : cases) {
+    std::printf("%s  (%zu trials)\n  %s\n  held against: %s\n  source: %s\n  see it: presa run %s\n\n", c.name.c_str(),
+                c.trials.size(), c.title.c_str(), c.oracle.c_str(), c.source.c_str(), sceneFile(c.scene).c_str());
+  }
+}
+
+std::string asLines(const std::vector<Row>& rows) {
+  std::string lines;
+  for (const Row& row : rows) lines += toJson(row).dump() + "\n";
+  return lines;
+}
+
+}  // namespace
+
+int runCases(const RunnerOptions& options, std::vector<Case> all) {
+  const std::vector<Case> cases = chosenCases(options, std::move(all));
+  if (options.list) {
+    list(cases);
+    return kExitOk;
+  }
+  const std::vector<Job> jobs = jobsOf(cases, options.quick);
+  terminal::JobProgress progress(jobs.size());
+  JobOptions job_options;
+  job_options.workers = options.jobs;
+  job_options.time_limit = kTrialLimit;
+  job_options.stop = [&] { return progress.interrupted(); };
+  job_options.on_wait = [&] { progress.show(); };
+  job_options.on_done = [&](std::size_t i, const JobResult&) { progress.done(jobs[i].of->name); };
+  const auto results = runJobs(
+      jobs.size(), [&](std::size_t i) { return packFindings(jobs[i].trial->run()); }, job_options);
+  progress.finish();
+
+  const std::vector<Row> rows = rowsOf(jobs, results);
+  if (!options.out.empty()) {
+    writeFileAtomically(options.out + "/rows.jsonl", asLines(rows));
+    writeFileAtomically(options.out + "/report.html", reportHtml(cases, rows));
+  }
+  std::fputs(options.format == "json" ? asLines(rows).c_str() : tableText(cases, rows, options.out).c_str(), stdout);
+  if (progress.interrupted()) return kExitInterrupted;
+  return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.worse(); }) ? kExitFault : kExitOk;
+}
+
+}  // namespace presa::stability

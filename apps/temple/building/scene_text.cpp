@@ -1,0 +1,124 @@
+#include "apps/temple/building/scene_text.h"
+
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+
+#include "apps/temple/building/assembly_text.h"
+
+namespace presa::temple {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::array<char, 512> text;
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+std::string poseText(const Pose& X) {
+  return format("pos=\"%.17g %.17g %.17g\" quat=\"%.17g %.17g %.17g %.17g\"", X.p.x(), X.p.y(), X.p.z(), X.q.w(),
+                X.q.x(), X.q.y(), X.q.z());
+}
+
+std::string meshName(const Block& block, const char* role) { return "meshes/" + block.name + "_" + role + ".obj"; }
+
+std::string physicsText(const Block& block) {
+  struct Text {
+    const Block& block;
+    std::string operator()(const Box& box) const {
+      return format("<box size=\"%.9g %.9g %.9g\"/>", box.size.x(), box.size.y(), box.size.z());
+    }
+    std::string operator()(const Cylinder& rod) const {
+      return format("<cylinder radius=\"%.9g\" length=\"%.9g\"/>", rod.radius, rod.length);
+    }
+    std::string operator()(const MeshRef&) const { return "<mesh file=\"" + meshName(block, "physics") + "\"/>"; }
+    std::string operator()(const Sphere&) const { return {}; }
+    std::string operator()(const Capsule&) const { return {}; }
+  };
+  return std::visit(Text{block}, block.physics);
+}
+
+std::string bodyText(const Block& block, const SceneSpec::Stone& stone, bool physics_only) {
+  std::string text = "  <body name=\"" + block.name + "\" material=\"marble\" " +
+                     (stone.fixed ? "fixed=\"true\" " : "") + poseText(stone.X_WB) + ">\n";
+  if (!physics_only) {
+    text += "    <visual><mesh file=\"" + meshName(block, "visual") + "\"/></visual>\n";
+    text += "    <haptic><mesh file=\"" + meshName(block, "haptic") + "\"/></haptic>\n";
+  }
+  text += stone.fixed ? "    <physics>" : format("    <physics mass=\"%.6g\">", block.mass);
+  return text + physicsText(block) + "</physics>\n  </body>\n";
+}
+
+std::string footingText(const std::string& name, const char* material, const Pose& X_WB, const Vec3& size) {
+  const std::string box = format("<box size=\"%.9g %.9g %.9g\"/>", size.x(), size.y(), size.z());
+  return "  <body name=\"" + name + "\" fixed=\"true\" material=\"" + material + "\" " + poseText(X_WB) +
+         ">\n    <haptic>" + box + "</haptic>\n    <physics>" + box + "</physics>\n  </body>\n";
+}
+
+std::string objText(const TriMesh& mesh) {
+  std::string text;
+  for (const Vec3& v : mesh.vertices) text += format("v %.8g %.8g %.8g\n", v.x(), v.y(), v.z());
+  for (const TriMesh::Triangle& t : mesh.triangles) text += format("f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return text;
+}
+
+}  // namespace
+
+std::string sceneText(const Building& building, const SceneSpec& spec) {
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene version=\"1.0\" name=\"" + spec.name + "\"" +
+                     (spec.rig.empty() ? "" : " rig=\"" + spec.rig + "\"") + " description=\"" + spec.description +
+                     "\">\n  <world gravity=\"0 0 -9.81\"/>\n";
+  // nothing is felt while stones fall: the haptic group only keeps time
+  if (spec.physics_only) text += "  <rates haptic=\"200\" collision=\"100\" dynamics=\"200\" view=\"50\"/>\n";
+  if (spec.fine_steps) text += "  <dynamics substeps=\"10\" iterations=\"100\"/>\n";
+  text +=
+      "  <materials>\n"
+      "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.68 0.60 0.47\" texture=\"stone\">"
+      "<friction static=\"0.7\" dynamic=\"0.6\" torsion=\"0.0025\"/></material>\n"
+      "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.50 0.45 0.36\" texture=\"stone\">"
+      "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
+      "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.23 0.20 0.13\" texture=\"earth\">"
+      "<friction static=\"0.8\" dynamic=\"0.7\"/></material>\n"
+      "  </materials>\n";
+  for (const SceneSpec::Stone& stone : spec.stones)
+    text += bodyText(building.blocks[stone.block], stone, spec.physics_only);
+  constexpr double kThick = 0.04;
+  text += footingText("ground", "earth", {{0, 0, -kThick / 2}, Quat::Identity()}, {2 * kGroundX, 2 * kGroundY, kThick});
+  for (const Footing& step : building.footings) text += footingText(step.name, "limestone", step.X_WB, step.size);
+  if (!spec.rig.empty()) {
+    text += "  <devices>\n";
+    for (const char* role : {"thumb", "index"})
+      text += format("    <device role=\"%s\" fingertip_radius=\"0.008\"/>\n", role);
+    text += "  </devices>\n";
+  }
+  // twice as high as the building: what is being carried is inside
+  if (spec.to_be_built)
+    text += assemblyText(building, {1.9 * kGroundX, 1.9 * kGroundY, 2 * building.top + 0.5}, spec.words, spec.spent);
+  return text + "</scene>\n";
+}
+
+SceneSpec assembled(const Building& building) {
+  SceneSpec spec;
+  spec.name = building.name;
+  spec.description = "A Doric building, assembled";
+  for (std::size_t i = 0; i < building.blocks.size(); ++i) spec.stones.push_back({i, building.blocks[i].X_WB, false});
+  return spec;
+}
+
+std::vector<SceneFile> meshFiles(const Building& building, bool physics_only) {
+  std::vector<SceneFile> files;
+  for (const Block& block : building.blocks) {
+    if (!physics_only) {
+      files.push_back({meshName(block, "visual"), objText(block.visual)});
+      files.push_back({meshName(block, "haptic"), objText(block.haptic)});
+    }
+    if (!block.physics_mesh.triangles.empty())
+      files.push_back({meshName(block, "physics"), objText(block.physics_mesh)});
+  }
+  return files;
+}
+
+}  // namespace presa::temple

@@ -1,0 +1,107 @@
+#include "apps/temple/building/words.h"
+
+#include <algorithm>
+#include <array>
+
+#include "framework/scene/scene_parts.h"
+#include "framework/scene/schemas.h"
+#include "apps/temple/building/shipped.h"
+#include "framework/scene/xml/value_rule.h"
+
+namespace presa::temple {
+namespace {
+
+constexpr std::array kKinds{BlockKind::kDrum,     BlockKind::kCapital,       BlockKind::kArchitrave,
+                            BlockKind::kTriglyph, BlockKind::kMetope,        BlockKind::kCornice,
+                            BlockKind::kTympanum, BlockKind::kRakingCornice, BlockKind::kTile};
+
+AssemblyWords read(xml::Document& document, Diagnostics& diagnostics) {
+  static const xml::Schema schema(schemas::words);
+  if (!document.validate(schema, diagnostics)) return {};
+  const xml::Element root = document.root();
+  checkVersion(root, "words", 969, diagnostics);
+  checkWords(root, diagnostics);
+  AssemblyWords words = readWords(root);
+  for (const BlockKind kind : kKinds) {
+    if (std::ranges::find(words.elements, elementName(kind), &AssemblyWords::Element::name) != words.elements.end())
+      continue;
+    diagnostics.error(968, root.where(), std::string("a ") + elementName(kind) + " is never spoken of",
+                      std::string("<element name=\"") + elementName(kind) + "\" called=\"…\" says=\"…\" waits=\"…\"/>");
+  }
+  return words;
+}
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+std::string attribute(const char* name, const std::string& value) {
+  return std::string(" ") + name + "=\"" + escaped(value) + "\"";
+}
+
+}  // namespace
+
+const char* elementName(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::kDrum:
+      return "drum";
+    case BlockKind::kCapital:
+      return "capital";
+    case BlockKind::kArchitrave:
+      return "architrave";
+    case BlockKind::kTriglyph:
+      return "triglyph";
+    case BlockKind::kMetope:
+      return "metope";
+    case BlockKind::kCornice:
+      return "cornice";
+    case BlockKind::kTympanum:
+      return "tympanum";
+    case BlockKind::kRakingCornice:
+      return "raking_cornice";
+    case BlockKind::kTile:
+      break;
+  }
+  return "tile";
+}
+
+std::vector<std::string> shippedLanguages() { return {"en", "it"}; }
+
+AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics) {
+  const char* text = language == "en" ? shipped::words_en : language == "it" ? shipped::words_it : nullptr;
+  if (text == nullptr) {
+    diagnostics.error(969, {"--language", 0, 0}, "there are no words in language " + quote(language), "en or it");
+    return {};
+  }
+  const auto document = xml::Document::parse(text, "config/temple/words_" + language + ".xml", diagnostics);
+  return document ? read(*document, diagnostics) : AssemblyWords{};
+}
+
+AssemblyWords readWordsFile(const std::string& file, Diagnostics& diagnostics) {
+  const auto document = xml::Document::load(file, diagnostics);
+  return document ? read(*document, diagnostics) : AssemblyWords{};
+}
+
+std::string wordsText(const AssemblyWords& words) {
+  std::string text = "    <words" + attribute("language", words.language);
+  for (const AssemblyPhrase& phrase : assemblyPhrases())
+    text += "\n          " + attribute(phrase.attribute, words.*phrase.text);
+  text += ">\n";
+  for (const AssemblyWords::Element& element : words.elements)
+    text += "      <element" + attribute("name", element.name) + attribute("called", element.called) +
+            attribute("says", element.says) + attribute("waits", element.waits) + "/>\n";
+  return text + "    </words>\n";
+}
+
+}  // namespace presa::temple

@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/scene/assembly_words.h"
+#include "apps/temple/building/block.h"
+
+namespace presa::temple {
+
+/// Name of a kind of block in words files and scenes: "raking_cornice".
+const char* elementName(BlockKind kind);
+
+/// Languages that words are shipped in: "en", "it".
+std::vector<std::string> shippedLanguages();
+/// The shipped words (config/temple/words_LANGUAGE.xml), checked: every kind of block is there. All findings go to `diagnostics`
+/// (E969 format version or unknown language, E968 a kind of block without words, E218, E219). Never throws for bad input.
+AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics);
+/// Those of a file.
+AssemblyWords readWordsFile(const std::string& file, Diagnostics& diagnostics);
+
+/// As <words> of a scene.
+std::string wordsText(const AssemblyWords& words);
+
+}  // namespace presa::temple

@@ -1,0 +1,136 @@
+#include "apps/temple/rebuild.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "framework/scene/goal_pose.h"
+
+namespace presa::temple {
+namespace {
+
+constexpr double kLifted = 0.02;  // above where it was taken [m]
+constexpr double kFalls = 0.5;    // [m/s]
+
+}  // namespace
+
+BlockWatch::BlockWatch(std::shared_ptr<const World> world) : world_(std::move(world)) {
+  std::vector<char> belongs(world_->scene.bodies.size());
+  for (const AssemblyGoal& goal : world_->scene.assembly->goals) {
+    for (const std::size_t body : goal.bodies) belongs[body] = 1;
+  }
+  for (std::size_t body = 0; body < belongs.size(); ++body) {
+    if (belongs[body] != 0) blocks_.push_back(body);
+  }
+  outside_.resize(blocks_.size());
+}
+
+void BlockWatch::see(const ObjectState& objects) noexcept {
+  const double period = objects.time_end - seen_;
+  if (!(period > 0)) return;
+  seen_ = objects.time_end;
+  notePenetration(objects, period);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    outside_[b] = isOutside(objects.bodies[blocks_[b]].X_WB_end.p) ? outside_[b] + period : 0;
+    longest_outside_ = std::max(longest_outside_, outside_[b]);
+  }
+}
+
+void BlockWatch::notePenetration(const ObjectState& objects, double period) noexcept {
+  const BodyPenetration& in = objects.penetration;
+  known_ = known_ && in.points != BodyPenetration::kUnknown;
+  if (!known_) return;
+  depths_ += in.points * in.mean;
+  points_ += static_cast<std::uint64_t>(in.points);
+  window_ += period;
+  deepest_ += period * in.worst;
+  if (window_ < kPenetrationOver) return;
+  worst_ = std::max(worst_, deepest_ / window_);
+  window_ = deepest_ = 0;
+}
+
+// The field begins at the ground.
+bool BlockWatch::isOutside(const Vec3& p_WB) const noexcept {
+  const auto& field = world_->scene.assembly->field;
+  if (!p_WB.allFinite()) return true;
+  return field && !((p_WB - field->centre).array().abs() <= field->size.array() / 2).all();
+}
+
+double BlockWatch::meanPenetration() const noexcept {
+  if (!known_) return std::numeric_limits<double>::quiet_NaN();
+  return points_ > 0 ? depths_ / static_cast<double>(points_) : 0;
+}
+
+int BlockWatch::lost() const noexcept {
+  return static_cast<int>(std::ranges::count_if(outside_, [](double since) { return since > 0; }));
+}
+
+Witness::Witness(std::shared_ptr<const World> world)
+    : Module("witness", RateGroup::kHaptic), blocks_(world), taken_(world->scene.bodies.size(), kNotTaken) {}
+
+void Witness::step(const Tick&) noexcept {
+  if (!objects_.hasValue() || !assembly_.hasValue()) return;
+  blocks_.see(objects_.value());
+  for (std::size_t f = 0; f < static_cast<std::size_t>(contact_->count); ++f) {
+    const FingerContact& finger = contact_->fingers[f];
+    if (finger.mode == ContactMode::kNone) continue;
+    depth_ += finger.depth;
+    ++touches_;
+    double& height = taken_[static_cast<std::size_t>(finger.body)];
+    if (height == kNotTaken) height = objects_->bodies[static_cast<std::size_t>(finger.body)].X_WB_end.p.z();
+  }
+  for (std::size_t i = 0; i < taken_.size(); ++i) noteFall(i);
+}
+
+// Lifted and fast, downwards: out of the fingers.
+void Witness::noteFall(std::size_t i) noexcept {
+  if (taken_[i] == kNotTaken) return;
+  const BodyMotion& body = objects_->bodies[i];
+  if (body.v_WB.z() > -kFalls || body.X_WB_end.p.z() < taken_[i] + kLifted) return;
+  ++drops_;
+  taken_[i] = kNotTaken;
+}
+
+Rebuilt measure(const Assembly& assembly, const Witness& witness) {
+  Rebuilt rebuilt;
+  rebuilt.pieces = static_cast<int>(assembly.goals.size());
+  rebuilt.placed = witness.assembly().filled;
+  for (std::size_t g = 0; g < witness.assembly().goals.size(); ++g) {  // none before the first step
+    const GoalState& state = witness.assembly().goals[g];
+    if (state.status != GoalState::Status::kFilled) continue;
+    const Pose& X_WB = witness.objects().bodies[static_cast<std::size_t>(state.body)].X_WB_end;
+    const Way way = wayBetween(nearestTurn(assembly.goals[g].X_WB, assembly.goals[g].fold, X_WB.q), X_WB);
+    rebuilt.worst_position_error = std::max(rebuilt.worst_position_error, way.distance);
+    rebuilt.worst_angle_error = std::max(rebuilt.worst_angle_error, way.angle);
+  }
+  rebuilt.drops = witness.drops();
+  rebuilt.mean_fingertip_depth = witness.meanFingertipDepth();
+  rebuilt.mean_penetration = witness.blocks().meanPenetration();
+  rebuilt.worst_penetration = witness.blocks().worstPenetration();
+  rebuilt.lost = witness.blocks().lost();
+  rebuilt.longest_outside = witness.blocks().longestOutside();
+  rebuilt.faults = witness.objects().faults;
+  return rebuilt;
+}
+
+std::string summaryText(const Rebuilt& r, const std::string& size, std::uint64_t seed) {
+  const nlohmann::ordered_json summary{{"size", size},
+                                       {"seed", seed},
+                                       {"pieces", r.pieces},
+                                       {"placed", r.placed},
+                                       {"worst_position_error_m", r.worst_position_error},
+                                       {"worst_angle_error_deg", r.worst_angle_error * 180 / std::numbers::pi},
+                                       {"drops", r.drops},
+                                       {"mean_fingertip_depth_m", r.mean_fingertip_depth},
+                                       {"mean_penetration_m", r.mean_penetration},
+                                       {"worst_penetration_m", r.worst_penetration},
+                                       {"lost", r.lost},
+                                       {"longest_outside_s", r.longest_outside},
+                                       {"simulated_s", r.simulated_seconds},
+                                       {"wall_s", r.wall_seconds},
+                                       {"faults", r.faults}};
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace presa::temple

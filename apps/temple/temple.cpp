@@ -1,0 +1,349 @@
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <tuple>
+
+#include "apps/common/atomic_file.h"
+#include "apps/common/options/commands.h"
+#include "apps/common/options/show_option.h"
+#include "apps/common/options/view_choice.h"
+#include "apps/common/run_session.h"
+#include "apps/common/scratch_folder.h"
+#include "apps/temple/ruins.h"
+#include "apps/temple/visit.h"
+#include "apps/temple/written_scene.h"
+#include "apps/common/terminal/job_progress.h"
+#include "framework/core/diagnostics/printable.h"
+#include "apps/temple/building/building.h"
+#include "apps/temple/building/words.h"
+
+namespace presa {
+namespace {
+
+constexpr double kBehind = 0.1;          // of the building's middle, from the field's [m]
+constexpr double kEachBlock = 100;       // an automatic rebuilding is given up after so long a block [s]
+constexpr double kPictureAfter = 0.005;  // one step of the dynamics [s]
+constexpr double kLetGo = 2;             // for the fingers, once all stands [s]
+constexpr double kFinish = 8;            // for who looks on [s]
+constexpr double kOpenEnd = 7 * 86400;   // [s]
+
+struct Arguments {
+  std::string size = "column", parameters, folder, rig, view, screenshot, video, summary, language = "en";
+  std::vector<std::string> show;         // as RunOptions
+  std::string visits;                    // where they are kept; empty: the default
+  std::string kept;                      // session to go on with
+  std::vector<std::string> screenshots;  // seconds, folder
+  std::uint64_t seed = 1;
+  double limit = 0;         // simulated [s]; 0: by the number of blocks, or without end
+  double time_scale = 0;    // 0: none
+  double attract = 0;       // [s]; 0: never
+  bool attracting = false;  // no visitor came to the ruins before
+  bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
+
+  /// Somebody puts it together: not only a picture or a scene is wanted.
+  bool visit() const {
+    return automatic || go_on || attract > 0 || limit > 0 || time_scale > 0 || !screenshots.empty() || !video.empty() ||
+           (folder.empty() && screenshot.empty());
+  }
+  bool realtime() const { return !lockstep && time_scale == 0; }
+};
+
+RunOptions::View viewOf(const Arguments& a) {
+  return chooseView(a.view, !a.lockstep, !a.screenshot.empty() || !a.screenshots.empty() || !a.video.empty());
+}
+
+std::string visitFolder(const Arguments& a) {
+  if (a.visits == "none" || (a.visits.empty() && !a.realtime())) return {};
+  return a.visits.empty() ? temple::defaultVisitFolder() : a.visits;
+}
+
+void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
+  if (a.visit() && !a.automatic && a.rig.empty() && viewOf(a) != RunOptions::View::kWindow)
+    diagnostics.error(
+        979, {"command line", 0, 0}, "there is nobody to rebuild it: no window for a visitor, and no rig",
+        "set DISPLAY for a window, --rig RIG for devices, --auto for simulated fingers; --write DIR writes the "
+        "scene, --screenshot FILE.png shows it");
+  if (!a.folder.empty()) temple::checkTarget(a.folder, a.overwrite, diagnostics);
+  if (a.view == "none" && !(a.screenshot.empty() && a.screenshots.empty() && a.video.empty()))
+    diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none",
+                      "use --view offscreen");
+  if (!a.screenshots.empty() && !(std::atof(a.screenshots.front().c_str()) > 0))
+    diagnostics.error(979, {"--screenshot-every", 0, 0},
+                      "a picture every '" + a.screenshots.front() + "' seconds cannot be taken",
+                      "--screenshot-every 0.5 out/pictures");
+}
+
+/// Every block where it fell; none when interrupted.
+std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::uint64_t seed) {
+  const ScratchFolder scratch;
+  // the last job: all settle together
+  terminal::JobProgress progress(building.blocks.size() + 1);
+  std::size_t told = 0;
+  const auto tell = [&](std::size_t lying, std::size_t, const std::string& what) {
+    for (; told < lying; ++told) progress.done(what);
+    progress.show();
+    return !terminal::JobProgress::interrupted();
+  };
+  const temple::Ruins ruins = temple::strewRuins(building, seed, scratch.path().string(), tell);
+  if (ruins.X_WB.empty()) return std::nullopt;
+  temple::SceneSpec spec = temple::assembled(building);
+  spec.name += "_ruins";
+  spec.description = "What is left of a Doric building";
+  for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = ruins.X_WB[stone.block];
+  return spec;
+}
+
+int takePicture(const temple::Building& building, temple::SceneSpec spec, const Arguments& a) {
+  const ScratchFolder scratch;
+  spec.rig.clear();
+  RunOptions options;
+  options.duration = kPictureAfter;
+  options.view = RunOptions::View::kOffscreen;
+  options.show = a.show;
+  options.screenshot = a.screenshot;
+  if (const auto folder = std::filesystem::path(a.screenshot).parent_path(); !folder.empty())
+    std::filesystem::create_directories(folder);
+  Diagnostics diagnostics;
+  const Loaded loaded =
+      loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}}, options, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+  Run run(loaded, {.quiet = true, .command = "presa temple"});
+  run.execute();
+  for (const auto& fault : run.result().faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
+  if (!run.result().faults.empty()) return kExitFault;
+  std::printf("%s\n", a.screenshot.c_str());
+  return run.result().interrupted ? kExitInterrupted : kExitOk;
+}
+
+std::string pairOf(const char* driver) {
+  const auto device = [&](const char* role) {
+    return std::string("<device role=\"") + role + "\" driver=\"" + driver + "\"/>";
+  };
+  return std::string("<rig version=\"1.0\" name=\"") + driver + "_pair\">" + device("thumb") + device("index") +
+         "</rig>";
+}
+
+RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
+  RunOptions options;
+  options.duration = a.limit > 0   ? a.limit
+                     : a.automatic ? kEachBlock * static_cast<double>(building.blocks.size())
+                                   : kOpenEnd;
+  if (!a.rig.empty()) options.seed = a.seed;  // what the rig's fingers draw; the ruins have theirs
+  options.realtime = a.realtime();
+  options.allow_no_rt = a.allow_no_rt;
+  options.bound_stiffness = !a.automatic;
+  options.view = viewOf(a);
+  options.screenshot = a.screenshot;
+  options.video = a.video;
+  options.show = a.show;
+  if (!a.screenshots.empty()) {
+    options.screenshot_every = std::atof(a.screenshots.front().c_str());
+    options.screenshots = a.screenshots.back();
+    std::filesystem::create_directories(options.screenshots);
+  }
+  return options;
+}
+
+int told(const temple::Rebuilt& rebuilt, const Arguments& a) {
+  if (!a.summary.empty()) writeFileAtomically(a.summary, temple::summaryText(rebuilt, a.size, a.seed));
+  std::printf(
+      "%d of %d blocks in their places, at most %.3f mm and %.2f degrees off; %d dropped, %d lost; %.0f s simulated in "
+      "%.1f s\n",
+      rebuilt.placed, rebuilt.pieces, 1e3 * rebuilt.worst_position_error,
+      rebuilt.worst_angle_error * 180 / std::numbers::pi, rebuilt.drops, rebuilt.lost, rebuilt.simulated_seconds,
+      rebuilt.wall_seconds);
+  if (rebuilt.interrupted) return kExitInterrupted;
+  const bool done = rebuilt.placed == rebuilt.pieces || !a.automatic;
+  return done && rebuilt.lost == 0 && rebuilt.faults == 0 ? kExitOk : kExitFault;
+}
+
+temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec spec, const Arguments& a,
+                          temple::KeptSession start) {
+  const ScratchFolder scratch;
+  if (spec.rig.empty()) {
+    spec.rig = scratch.file("pair.xml");
+    writeFileAtomically(spec.rig, pairOf(a.automatic ? "assembling_hand" : "pointer"));
+  }
+  Diagnostics diagnostics;
+  const Loaded loaded = loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}},
+                                  optionsOf(building, a), diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+
+  temple::VisitSettings settings{.finish = !a.automatic   ? -1
+                                           : a.realtime() ? kFinish
+                                                          : kLetGo,
+                                 .time_scale = a.time_scale,
+                                 .quiet = a.lockstep,
+                                 .attract = a.automatic ? 0 : a.attract,
+                                 .attracting = a.attracting,
+                                 .folder = visitFolder(a),
+                                 .start = std::move(start),
+                                 .language = a.language};
+  if (!a.lockstep) return temple::visit(loaded, settings);
+  terminal::JobProgress progress(building.blocks.size());
+  int done = 0;
+  settings.progress = [&](int placed, int) {
+    for (; done < placed; ++done) progress.done("rebuilding");
+    progress.show();
+    return true;
+  };
+  return temple::visit(loaded, settings);
+}
+
+/// The blocks as they lay when that visit was kept.
+std::optional<temple::SceneSpec> specOf(const temple::Building& building, const temple::KeptSession& kept,
+                                        const std::string& file, Diagnostics& diagnostics) {
+  if (kept.X_WB.size() != building.blocks.size()) {
+    diagnostics.error(967, {file, 0, 0},
+                      "the session has " + std::to_string(kept.X_WB.size()) + " blocks, the building " +
+                          std::to_string(building.blocks.size()),
+                      "the building of the session: --parameters has to be the same");
+    return std::nullopt;
+  }
+  temple::SceneSpec spec = temple::assembled(building);
+  for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = kept.X_WB[stone.block];
+  spec.spent = kept.spent;
+  return spec;
+}
+
+/// `again`: nobody came while the hands put all together, and there are to be other ruins.
+int runOnce(Arguments a, bool& again) {
+  Diagnostics diagnostics;
+  std::optional<temple::KeptSession> kept;
+  const std::string kept_file =
+      !a.kept.empty() ? a.kept : temple::sessionFile(a.visits.empty() ? temple::defaultVisitFolder() : a.visits);
+  if (a.go_on) {
+    kept = temple::readKept(kept_file, diagnostics);
+    if (kept) std::tie(a.size, a.parameters, a.seed) = std::tie(kept->size, kept->parameters, kept->seed);
+  }
+  const temple::Proportions proportions = a.parameters.empty() ? temple::shippedProportions(a.size, diagnostics)
+                                                               : temple::readProportions(a.parameters, diagnostics);
+  const AssemblyWords words = temple::shippedWords(a.language, diagnostics);
+  checkOutputs(a, diagnostics);
+  std::optional<temple::Building> building;
+  std::optional<temple::SceneSpec> spec;
+  if (!diagnostics.hasErrors()) {
+    building = temple::makeBuilding(proportions, kBehind, a.seed);
+    if (kept) spec = specOf(*building, *kept, kept_file, diagnostics);
+  }
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+
+  if (!spec) spec = a.assembled ? temple::assembled(*building) : ruinsOf(*building, a.seed);
+  if (!spec) return kExitInterrupted;
+  if (!a.assembled || a.visit()) {
+    spec->to_be_built = true;
+    spec->words = words;
+  }
+  if (!a.rig.empty()) spec->rig = std::filesystem::absolute(a.rig).lexically_normal().string();
+  if (!a.folder.empty()) {
+    const std::string scene = temple::writeScene(*building, *spec, a.folder);
+    std::printf("%s: %zu blocks, %.0f mm high when built\n", scene.c_str(), building->blocks.size(),
+                1e3 * building->top);
+  }
+  if (a.visit()) {
+    if (!kept) {
+      kept = temple::KeptSession{a.size, a.parameters, a.seed, 0, 0, {}};
+      for (const temple::SceneSpec::Stone& stone : spec->stones) kept->X_WB.push_back(stone.X_WB);
+    }
+    const temple::VisitEnd end = runVisit(*building, std::move(*spec), a, std::move(*kept));
+    again = end.again;
+    return again ? kExitOk : told(end.rebuilt, a);
+  }
+  return a.screenshot.empty() ? kExitOk : takePicture(*building, *spec, a);
+}
+
+int runTemple(Arguments a) {
+  for (;;) {
+    bool again = false;
+    const int status = runOnce(a, again);
+    if (!again) return status;
+    ++a.seed;
+    a.attracting = true;
+    a.go_on = false;
+    a.folder.clear();
+  }
+}
+
+}  // namespace
+
+void addTemple(CLI::App& app, int& status) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("temple", "A Doric temple in blocks that two fingers can hold: its ruins, or the building");
+  command->add_flag("--auto", a->automatic,
+                    "two simulated fingers rebuild it from its ruins, by friction alone, against the clock");
+  auto* lockstep = command->add_flag("--lockstep", a->lockstep, "in virtual time, as fast as the machine goes");
+  command->add_option("--time-scale", a->time_scale, "in virtual time, so many seconds in one of the clock")
+      ->check(CLI::PositiveNumber)
+      ->excludes(lockstep);
+  command->add_option("--for", a->limit, "end after so many simulated seconds (default with --auto: 100 a block)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--summary", a->summary, "JSON: what was placed, how exactly, in what time");
+  command->add_option("--language", a->language, "of what visitors are told")
+      ->check(CLI::IsMember(temple::shippedLanguages()))
+      ->capture_default_str();
+  command->add_option(
+      "--session", a->visits,
+      "folder for log.jsonl (what happened, nothing of a person) and session.json (what stands), or none\n"
+      "(default against the clock: " +
+          temple::defaultVisitFolder() + ", else none)");
+  command
+      ->add_option("--attract", a->attract,
+                   "after so many seconds without a touch simulated hands go on, until somebody touches anything "
+                   "(default: never)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--continue", a->kept,
+                   "go on with what stood, after a crash as well: a session.json (default: of --session)")
+      ->expected(0, 1);
+  command->add_option("--size", a->size, "column: six pieces; facade: a front of four columns, 45 pieces")
+      ->check(CLI::IsMember(temple::shippedNames()))
+      ->capture_default_str();
+  command->add_flag("--assembled,--no-ruins", a->assembled,
+                    "every block where it belongs, instead of ruins strewn by a physics drop");
+  command->add_option("--seed", a->seed, "where stone broke off and blocks fell")->capture_default_str();
+  command->add_option("--write", a->folder,
+                      "folder for scene.xml and its meshes, which presa check, explain and run take");
+  command->add_flag("--overwrite", a->overwrite, "let --write replace what the folder holds");
+  command
+      ->add_option("--rig", a->rig,
+                   "rig of the visitor's thumb and index (default: mouse and keyboard in the window; a written scene "
+                   "has no fingers)")
+      ->check(CLI::ExistingFile);
+  command->add_option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
+  command->add_option("--video", a->video, "MP4 of the visit through ffmpeg, 30 pictures for each simulated second");
+  addShowOption(*command, a->show);
+  command->add_option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every so many simulated seconds")
+      ->expected(2);
+  command
+      ->add_option("--view", a->view,
+                   "window, offscreen or none (default: window against the clock, where there is a display)")
+      ->check(CLI::IsMember({"window", "offscreen", "none"}));
+  command->add_flag("--allow-no-rt", a->allow_no_rt,
+                    "let hardware run where the system refuses real-time scheduling: with half the force");
+  command
+      ->add_option("--parameters", a->parameters,
+                   "proportions of another building, as in config/temple/facade.xml, each with its source")
+      ->excludes("--size");
+  command->footer(
+      "Exit status: 0 done, 1 the picture could not be drawn or not every block was placed, 2 bad input or blocks that "
+      "do not come to rest (nothing\n"
+      "written), 130 Ctrl-C (likewise).\n"
+      "Examples:\n"
+      "  presa temple --language it\n"
+      "  presa temple --auto --lockstep --seed 7 --screenshot column.png\n"
+      "  presa temple --size facade --screenshot ruins.png\n"
+      "  presa temple --size column --assembled --write out/column && presa run out/column/scene.xml --lockstep");
+  command->callback([a, command, &status] {
+    a->go_on = command->count("--continue") > 0;
+    status = runTemple(*a);
+  });
+}
+
+}  // namespace presa

@@ -1,0 +1,133 @@
+#include "apps/temple/visit.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "apps/common/run_session.h"
+#include "apps/temple/shared_finger.h"
+#include "apps/temple/visit_log.h"
+#include "apps/temple/visit_tap.h"
+#include "framework/core/diagnostics/printable.h"
+#include "framework/session/plugin.h"
+
+namespace presa::temple {
+namespace {
+
+constexpr double kShownFinish = 10;  // when the hands have put all together, before the next ruins [s]
+
+class Visit {
+ public:
+  Visit(const Loaded& loaded, const VisitSettings& settings)
+      : settings_(settings), world_(loaded.world), assembly_(*world_->scene.assembly) {
+    auto witness = std::make_unique<Witness>(loaded.world);
+    auto tap = std::make_unique<VisitTap>(loaded.world);
+    witness_ = witness.get();
+    tap_ = tap.get();
+    Run::Settings run{.quiet = settings.quiet, .command = "presa temple"};
+    run.more.push_back(std::move(witness));
+    run.more.push_back(std::move(tap));
+    run.paced = settings.time_scale > 0;
+    if (run.paced) run.speed = settings.time_scale;
+    if (settings.attract > 0) run.wrap = [this](DeviceList devices) { return share(std::move(devices)); };
+    run.watch = [this](Session& session, char key) { return watch(session, key); };
+    run_ = std::make_unique<Run>(loaded, std::move(run));
+    if (!settings.folder.empty()) log_.emplace(settings.folder, settings.start, loaded.world->scene, settings.language);
+  }
+
+  VisitEnd go() {
+    run_->execute();
+    const RunResult& result = run_->result();
+    for (const auto& fault : result.faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
+    Rebuilt rebuilt = measure(assembly_, *witness_);
+    rebuilt.wall_seconds = result.wall_seconds;
+    rebuilt.simulated_seconds = result.simulated_seconds;
+    rebuilt.interrupted = result.interrupted;
+    if (log_) log_->note("end", rebuilt.simulated_seconds);
+    return {rebuilt, again_};
+  }
+
+ private:
+  DeviceList share(DeviceList devices) {
+    for (std::unique_ptr<Device>& device : devices) {
+      auto shared = std::make_unique<SharedFinger>(std::move(device));
+      fingers_.push_back(shared.get());
+      device = std::move(shared);
+    }
+    return devices;
+  }
+
+  bool watch(Session& session, char key) {
+    tap_->showOn(session.view());
+    const VisitTap::Look look = tap_->look();
+    if (log_) log_->note(tap_->takeEvents(), look);
+    const std::uint32_t inputs = session.view() != nullptr ? session.view()->inputs() : 0;
+    const bool touched = std::exchange(inputs_, inputs) != inputs || key != '\0';
+    if (settings_.attract > 0) takeTurns(look, touched);
+    undo(session, key);
+    if (settings_.progress && !settings_.progress(look.now.placed, look.now.all)) return false;
+    if (look.now.placed < look.now.all)
+      done_at_.reset();
+    else if (!done_at_)
+      done_at_ = look.time;
+    again_ = done_at_ && attracting_ && look.time > *done_at_ + kShownFinish;
+    return !again_ && (settings_.finish < 0 || !done_at_ || look.time < *done_at_ + settings_.finish);
+  }
+
+  // A touch of the device, a key or a button: the visitor's. A while without: the hands'.
+  void takeTurns(const VisitTap::Look& look, bool touched) {
+    if (attracting_) {
+      for (const SharedFinger* finger : fingers_) touched = touched || finger->visitorMoved();
+      if (touched) give(look, false);
+      return;
+    }
+    if (touched) touched_at_ = look.time;
+    const bool at_once = std::exchange(at_once_, false);
+    if (at_once || look.time - std::max(touched_at_, look.touched) > settings_.attract) give(look, true);
+  }
+
+  void give(const VisitTap::Look& look, bool to_hands) {
+    attracting_ = to_hands;
+    touched_at_ = look.time;
+    for (std::size_t f = 0; f < fingers_.size(); ++f) fingers_[f]->give(to_hands ? makeHand(f) : nullptr);
+    tap_->setBanner(to_hands ? assembly_.words.invitation : "");
+    if (log_) log_->note(to_hands ? "attract" : "takeover", look.time);
+  }
+
+  std::unique_ptr<Device> makeHand(std::size_t finger) const {
+    Diagnostics diagnostics;
+    DeviceBinding binding;
+    binding.role = world_->scene.devices[finger].role;
+    binding.driver = "assembling_hand";
+    auto hand = devicePlugin(binding.driver).create(binding, *world_, diagnostics);
+    if (!hand) throw InputError(diagnostics);
+    return hand;
+  }
+
+  void undo(Session& session, char key) {
+    const std::uint32_t wanted = session.view() != nullptr ? session.view()->undosWanted() : 0;
+    for (; undone_ != wanted; ++undone_) session.assembly()->undo();
+    if (key == 'u') session.assembly()->undo();
+  }
+
+  const VisitSettings& settings_;
+  std::shared_ptr<const World> world_;
+  const Assembly& assembly_;
+  const Witness* witness_ = nullptr;  // both owned by the run
+  VisitTap* tap_ = nullptr;
+  std::unique_ptr<Run> run_;
+  std::optional<VisitLog> log_;
+  std::optional<double> done_at_;  // [s]
+  std::uint32_t undone_ = 0, inputs_ = 0;
+  std::vector<SharedFinger*> fingers_;  // owned by the run; none without an attraction
+  double touched_at_ = 0;               // [s]
+  bool at_once_ = settings_.attracting, attracting_ = false, again_ = false;
+};
+
+}  // namespace
+
+VisitEnd visit(const Loaded& loaded, const VisitSettings& settings) { return Visit(loaded, settings).go(); }
+
+}  // namespace presa::temple

@@ -1,0 +1,88 @@
+#include "apps/temple/visit_log.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "apps/common/atomic_file.h"
+
+namespace presa::temple {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = GuideEvent::Kind;
+
+const char* wordOf(Kind kind) {
+  switch (kind) {
+    case Kind::kTaken:
+      return "taken";
+    case Kind::kPlaced:
+      return "placed";
+    case Kind::kUndone:
+      return "undone";
+    case Kind::kDropped:
+      return "dropped";
+    case Kind::kBlocked:
+      return "blocked";
+    case Kind::kHint:
+      return "hint";
+    case Kind::kFinished:
+      break;
+  }
+  return "finished";
+}
+
+double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
+
+}  // namespace
+
+VisitLog::VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language)
+    : scene_(scene), file_(sessionFile(folder)), kept_(std::move(base)) {
+  std::filesystem::create_directories(folder);
+  removeHalfWritten(folder);
+  const std::string file = logFile(folder);
+  log_.open(file, std::ios::app);
+  if (!log_) throw std::system_error(errno, std::generic_category(), file);
+  write(Json{{"event", "start"},
+             {"size", kept_.size},
+             {"seed", kept_.seed},
+             {"language", language},
+             {"placed", kept_.placed},
+             {"spent_s", rounded(kept_.spent)}}
+            .dump());
+}
+
+void VisitLog::write(const std::string& line) { log_ << line << '\n' << std::flush; }
+
+void VisitLog::note(const std::string& event, double time) {
+  write(Json{{"event", event}, {"time_s", rounded(time)}, {"placed", kept_.placed}}.dump());
+}
+
+void VisitLog::note(const std::vector<GuideEvent>& events, const VisitTap::Look& look) {
+  bool changed = false;
+  for (const GuideEvent& event : events) {
+    Json line{{"event", wordOf(event.kind)}, {"time_s", rounded(event.time)}};
+    if (event.goal != kNoGoal) line["goal"] = scene_.assembly->goals[static_cast<std::size_t>(event.goal)].name;
+    if (event.body != kNoBody) line["body"] = scene_.bodies[static_cast<std::size_t>(event.body)].name;
+    if (event.kind == Kind::kFinished) line["spent_s"] = rounded(look.now.spent);
+    line["placed"] = look.now.placed;
+    write(line.dump());
+    changed = changed || event.kind == Kind::kPlaced || event.kind == Kind::kUndone;
+  }
+  if (changed) keep(look);
+}
+
+void VisitLog::keep(const VisitTap::Look& look) {
+  kept_.spent = look.now.spent;
+  kept_.placed = look.now.placed;
+  // the blocks are the scene's first bodies
+  std::copy_n(look.X_WB.begin(), kept_.X_WB.size(), kept_.X_WB.begin());
+  if (look.now.finished) {
+    std::filesystem::remove(file_);  // nothing is left to go on with
+    return;
+  }
+  writeFileAtomically(file_, keptText(kept_));
+}
+
+}  // namespace presa::temple

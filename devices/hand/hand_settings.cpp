@@ -1,0 +1,128 @@
+#include "devices/hand/hand_settings.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "devices/hand/finger_plant.h"
+#include "framework/input/folders.h"
+#include "framework/core/schedule/rates.h"
+
+namespace presa {
+namespace {
+
+std::unique_ptr<Motion> readMotion(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  const auto file = binding.settings.find("motion");
+  if (file == binding.settings.end()) {
+    diagnostics.error(402, binding.where,
+                      "role '" + binding.role + "': driver '" + binding.driver + "' needs the setting 'motion'",
+                      "add <set key=\"motion\" value=\"FILE.xml\"/> (phases) or FILE.csv (keyframes)");
+    return nullptr;
+  }
+  if (!input::checkNamed(file->second.where, file->second.value, diagnostics)) return nullptr;
+  MotionContext context{binding.role, sideOf(binding, diagnostics), 0};
+  for (const DeviceRole& role : world.scene.devices) {
+    if (role.role == binding.role) context.fingertip_radius = role.fingertip_radius;
+  }
+  const bool keyframes = file->second.value.ends_with(".csv");
+  return keyframes ? readKeyframeMotion(file->second.value, context, diagnostics)
+                   : readPhasedMotion(file->second.value, context, diagnostics);
+}
+
+/// Chooses a damping where none is given; returns what to tell the user.
+std::string settleDamping(const std::string& role, const World& world, double carried, FingerImpedance& impedance) {
+  double stiffest = 0;
+  for (const Body& body : world.scene.bodies) {
+    if (body.haptic) stiffest = std::max(stiffest, world.scene.materialOf(body).stiffness);
+  }
+  const RateTable rates(world.scene.rates);
+  const double period = rates.period(RateGroup::kHaptic), dynamics_period = rates.period(RateGroup::kDynamics);
+  const bool automatic = !(impedance.damping > 0);
+  FingerImpedance moved = impedance;
+  moved.mass += carried;
+  if (automatic) impedance.damping = automaticDamping(moved, stiffest, period, dynamics_period);
+  const double bound =
+      std::max(wallDampingBound(stiffest, period), heldObjectDampingBound(moved, stiffest, period, dynamics_period));
+  std::array<char, 240> text;
+  std::snprintf(text.data(), text.size(),
+                "%s: finger damping %.3g N s/m%s; contacts of %.3g N/mm at %.0f and %.0f Hz ask for %.3g", role.c_str(),
+                impedance.damping, automatic ? " (auto)" : "", stiffest * 1e-3, 1 / period, 1 / dynamics_period, bound);
+  return text.data() + std::string(impedance.damping < bound ? ": UNSTABLE, raise damping or lower stiffness" : "");
+}
+
+}  // namespace
+
+double fingertipOf(const DeviceBinding& binding, const World& world) {
+  for (const DeviceRole& role : world.scene.devices) {
+    if (role.role == binding.role) return role.fingertip_radius;
+  }
+  return 0;
+}
+
+double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics) {
+  if (const auto side = binding.settings.find("side"); side != binding.settings.end()) {
+    if (side->second.value == "-1") return -1;
+    if (side->second.value == "1" || side->second.value == "+1") return 1;
+    diagnostics.error(404, side->second.where, "side must be -1 or 1, found '" + side->second.value + "'",
+                      "-1 is the end of the grasp axis that it points away from (the thumb's)");
+  }
+  return binding.role == "thumb" ? -1 : 1;
+}
+
+const std::vector<std::string>& handKeys() {
+  static const std::vector<std::string> keys{"motion", "side", "mass", "stiffness", "damping", "lost_at"};
+  return keys;
+}
+
+void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::string>& known,
+                           Diagnostics& diagnostics) {
+  std::string list;
+  for (const std::string& key : known) list += (list.empty() ? "" : ", ") + key + (key == "motion" ? " (file)" : "");
+  for (const auto& [key, setting] : binding.settings) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    diagnostics.error(401, setting.where,
+                      "driver '" + binding.driver + "' has no setting '" + key + "'" + didYouMean(key, known),
+                      "settings: " + list);
+  }
+}
+
+double positiveSetting(const DeviceBinding& binding, const std::string& key, double fallback,
+                       Diagnostics& diagnostics) {
+  const auto found = binding.settings.find(key);
+  if (found == binding.settings.end()) return fallback;
+  const std::string& text = found->second.value;
+  double value = 0;
+  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc{} || rest != text.data() + text.size() || !(value > 0) || !std::isfinite(value)) {
+    diagnostics.error(403, found->second.where, key + " must be a positive number, found '" + text + "'");
+    return fallback;
+  }
+  return value;
+}
+
+HandSettings readImpedance(const DeviceBinding& binding, const World& world, double carried, FingerImpedance impedance,
+                           Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  HandSettings hand;
+  hand.impedance.mass = positiveSetting(binding, "mass", impedance.mass, diagnostics);
+  hand.impedance.stiffness = positiveSetting(binding, "stiffness", impedance.stiffness, diagnostics);
+  hand.impedance.damping = positiveSetting(binding, "damping", impedance.damping, diagnostics);
+  if (diagnostics.errorCount() == before)
+    hand.notes.push_back(settleDamping(binding.role, world, carried, hand.impedance));
+  return hand;
+}
+
+HandSettings readHand(const DeviceBinding& binding, const World& world, double carried, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  std::unique_ptr<Motion> motion = readMotion(binding, world, diagnostics);
+  HandSettings hand =
+      readImpedance(binding, world, carried, motion ? motion->impedance() : FingerImpedance{}, diagnostics);
+  hand.lost_at = positiveSetting(binding, "lost_at", std::numeric_limits<double>::infinity(), diagnostics);
+  if (diagnostics.errorCount() == before) hand.motion = std::move(motion);
+  return hand;
+}
+
+}  // namespace presa

@@ -1,0 +1,24 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/device/device.h"
+#include "devices/hand/hand_settings.h"
+#include "devices/hand/pair_plan.h"
+
+namespace presa {
+
+/// One fingertip of a pair that follows a plan, on the springs of a hand.
+struct PlannedFinger {
+  std::unique_ptr<PairPlan> plan;
+  double side = 1;  ///< -1: thumb, at the negative end of the line between them; 1: index
+  HandSettings settings;
+  double period = 0;                ///< of the haptic thread [s]
+  std::vector<std::string> phases;  ///< names, as PairPlan::phase counts them
+  std::string model;                ///< Device::model
+};
+/// As a device that looks.
+std::unique_ptr<Device> makePlannedFinger(PlannedFinger finger);
+
+}  // namespace presa

@@ -1,0 +1,252 @@
+#include "devices/simulated_subject/model/brain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/core/math/minimum_jerk.h"
+
+namespace presa::subject {
+namespace {
+
+// times of the lift [s]
+constexpr double kReachTime = 0.5, kPreloadTime = 0.25, kLiftTime = 0.8, kLoadTime = 1.6;
+constexpr double kSettleTime = 0.8, kSettleLimit = 4, kWaitLimit = 4, kRegraspTime = 1, kAdjustTime = 0.5;
+constexpr double kFallTime = 1, kSqueezeTime = 0.5;
+constexpr double kBlindTime = 0.3;  // after a change of plan, in which no slip is looked for
+
+constexpr double kFirstGrip = 1;                   // [N]
+constexpr double kSafeRatio = 3.25;                // grip over load that is safe for friction 0.4: 1.3 / 0.4
+constexpr double kSlightLoad = 0.05;               // [N]
+constexpr double kFirmly = 1.2, kTouch = 0.5;      // of the grip wanted, to take it up; [N] to close with
+constexpr double kSqueezeRate = 6;                 // [N/s] while it is seen to stay behind
+constexpr double kCouplingTime = 0.02;             // [s] of grip to the lift force
+constexpr double kHarder = 1.25;                   // after a slip
+constexpr double kPostureRate = 3, kLiftRate = 9;  // [1/s] at which a wrong height is corrected
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Brain::Brain(const Traits& traits, const Task& task, RandomStream perception, double period)
+    : traits_(traits),
+      task_(task),
+      period_(period),
+      loosen_per_tick_(std::exp(-traits.loosening * period)),
+      adjust_per_tick_(std::exp(-2 * traits.loosening * period)),
+      perception_(period),
+      reaction_(kNever) {
+  misjudgement_ = 1 + traits.force_weber * perception.normal();
+  scatter_ = std::exp(traits.trial_sd * perception.normal());
+  slip_threshold_ = traits.slip_threshold * std::exp(traits.slip_threshold_sd * perception.normal());
+  intent_.height_rate = kPostureRate;
+  if (task.reach > 0) {
+    phase_ = Phase::kReach;
+    intent_.reaching = true;
+    intent_.reach = -task.reach;
+  }
+}
+
+const Intent& Brain::step(const Senses& senses) noexcept {
+  perception_.step(senses);
+  effort_ = senses.effort;
+  time_ += period_;
+  intent_.take_up_again = false;
+  switch (phase_) {
+    case Phase::kReach:
+      reach();
+      break;
+    case Phase::kPreload:
+      preload();
+      break;
+    case Phase::kLoad:
+      load();
+      break;
+    case Phase::kSettle:
+      settle();
+      break;
+    case Phase::kLoosen:
+      loosen();
+      break;
+    case Phase::kRegrasp:
+      regrasp();
+      break;
+    case Phase::kAdjust:
+      adjust();
+      break;
+    case Phase::kHold:
+      hold();
+      break;
+    case Phase::kRelease:
+      release();
+      break;
+    case Phase::kDone:
+      break;
+  }
+  intent_.grip = std::min(intent_.grip, task_.most_grip);
+  if (traits_.muscle_time <= 0) intent_.gain = 1 + traits_.grip_stiffness / perception_.stiffness();
+  return intent_;
+}
+
+void Brain::enter(Phase phase) noexcept {
+  phase_ = phase;
+  time_ = 0;
+  const bool loosening = phase == Phase::kLoosen || phase == Phase::kRelease;
+  intent_.height_rate = loosening ? 0 : phase == Phase::kLoad ? kLiftRate : kPostureRate;
+}
+
+void Brain::reach() noexcept {
+  intent_.reach = task_.reach * (minimumJerk(time_ / kReachTime) - 1);
+  if (time_ < kReachTime) return;
+  intent_.reaching = false;
+  enter(Phase::kPreload);
+}
+
+void Brain::preload() noexcept {
+  intent_.grip = std::min(kFirstGrip, time_ / kPreloadTime);
+  if (time_ >= kPreloadTime) enter(Phase::kLoad);
+}
+
+void Brain::load() noexcept {
+  intent_.height = task_.height * minimumJerk(time_ / kLiftTime);
+  // grip goes ahead with the lift force commanded; what followed the load felt would be too late at friction 0.4
+  const double safe = kFirstGrip + kSafeRatio * std::max(effort_, 0.0);
+  intent_.grip += period_ * std::max(safe - intent_.grip, 0.0) / kCouplingTime;
+  if (squeezeWhenSliding() && waited_ < kWaitLimit) {
+    waited_ += period_;
+    time_ -= period_;  // the lift waits, or the fingers would leave the object on the table
+  }
+  if (time_ >= kLoadTime) enter(Phase::kSettle);
+}
+
+void Brain::settle() noexcept {
+  squeezeWhenSliding();
+  // a drift of the hand would be taken for a slip
+  if (time_ < kSettleTime || (!perception_.still() && time_ <= kSettleLimit)) return;
+  felt_weight_ = perception_.load();
+  perception_.keepStiffness();
+  perception_.rest();
+  enter(Phase::kLoosen);
+}
+
+void Brain::loosen() noexcept {
+  intent_.grip *= loosen_per_tick_;
+  if (!slipFelt() && !slipSeen() && !perception_.lost()) return;
+  slip_grip_ = perception_.grip() * misjudgement_;
+  wanted_ = gripFromMemory();
+  takeUpAgain();
+}
+
+void Brain::regrasp() noexcept {
+  if (task_.from_table) return regraspFromTable();
+  if (time_ < kRegraspTime) return;
+  perception_.rest();
+  enter(Phase::kAdjust);
+}
+
+// Opens, waits until the object has come to rest, goes to where it is seen, closes until both digits touch, squeezes, lifts,
+// settles. What is still not held is picked up once more, harder.
+void Brain::regraspFromTable() noexcept {
+  const double open = time_ / kReachTime, down = (time_ - kFallTime) / kReachTime, close = down - 1;
+  const double squeeze = (time_ - kFallTime - 2 * kReachTime) / kSqueezeTime;
+  const double lift = (time_ - kFallTime - 2 * kReachTime - kSqueezeTime) / kLiftTime;
+  intent_.reaching = squeeze <= 0;
+  intent_.reach = task_.reach * (minimumJerk(close) - minimumJerk(open));
+  if (down <= 0) {
+    low_ = perception_.seenHeight().value_or(0);
+    aside_ = perception_.seenAside().value_or(0);
+  }
+  intent_.aside += (aside_ - intent_.aside) * minimumJerk(down);
+  intent_.height = task_.height + (low_ - task_.height) * (minimumJerk(down) - minimumJerk(lift));
+  intent_.grip = firm_ * std::clamp(squeeze, 0.0, 1.0);
+  if (squeeze > 0) intent_.height_rate = lift < 1 ? kLiftRate : kPostureRate;
+  const bool slides = lift > 0 && perception_.seenSliding() && perception_.load() > kSlightLoad;
+  if (slides) firm_ += period_ * kSqueezeRate;
+  if ((slides || (intent_.grip > kTouch && lift < 0 && !perception_.touchesBoth())) && waited_ < kWaitLimit) {
+    waited_ += period_;
+    time_ -= period_;
+  }
+  if (lift < 1 + kLoadTime / kLiftTime || !(perception_.still() || lift > kSettleLimit / kLiftTime)) return;
+  if (perception_.lost()) {
+    firmness_ *= kHarder;
+    return takeUpAgain();
+  }
+  perception_.rest();
+  enter(Phase::kAdjust);
+}
+
+void Brain::adjust() noexcept {
+  intent_.grip = std::max(wanted_, intent_.grip * adjust_per_tick_);
+  if (keepHold()) return;
+  if (intent_.grip <= wanted_ && time_ > kAdjustTime) enter(Phase::kHold);
+}
+
+void Brain::hold() noexcept {
+  if (keepHold()) return;
+  if (time_ >= task_.hold) enter(Phase::kRelease);
+}
+
+void Brain::release() noexcept {
+  intent_.grip *= loosen_per_tick_;
+  if (!perception_.lost()) return;
+  intent_.grip = 0;
+  enter(Phase::kDone);
+}
+
+void Brain::open() noexcept {
+  if (!task_.from_table) return;
+  intent_.reaching = true;
+  intent_.reach = -task_.reach * minimumJerk(time_ / kReachTime);
+}
+
+bool Brain::slipFelt() const noexcept { return perception_.kick() > slip_threshold_ && time_ > kBlindTime; }
+
+bool Brain::slipSeen() const noexcept { return traits_.seen_slip > 0 && perception_.fallen() > traits_.seen_slip; }
+
+bool Brain::squeezeWhenSliding() noexcept {
+  if (!perception_.seenSliding() || perception_.load() < kSlightLoad) return false;
+  intent_.grip += period_ * kSqueezeRate;
+  return true;
+}
+
+double Brain::gripFromMemory() const noexcept {
+  const double base = std::max(slip_grip_, 0.05) / (1 - traits_.safety_margin);
+  const double stiffness = perception_.stiffness();
+  const double device = stiffness * task_.device_resolution, finger = stiffness * traits_.finger_resolution;
+  const double noise = traits_.force_cv * base;
+  const double uncertainty = std::sqrt(noise * noise + traits_.force_noise * traits_.force_noise +
+                                       traits_.counts_device * device * device / 12 + finger * finger);
+  return (base + traits_.clearance * uncertainty + traits_.extra_grip) * scatter_;
+}
+
+void Brain::takeUpAgain() noexcept {
+  firm_ = task_.from_table ? firmness_ * (kFirmly * wanted_ + kTouch)
+                           : std::max(1.5 * wanted_, kSafeRatio * felt_weight_) + kFirstGrip;
+  intent_.grip = task_.from_table ? 0 : firm_;
+  waited_ = 0;
+  intent_.take_up_again = true;
+  if (task_.from_table) perception_.letGo();
+  reaction_ = kNever;
+  enter(Phase::kRegrasp);
+}
+
+bool Brain::keepHold() noexcept {
+  if (perception_.lost()) {
+    ++drops_;
+    wanted_ *= kHarder;
+    takeUpAgain();
+    return true;
+  }
+  if (reaction_ == kNever && (slipFelt() || slipSeen()))
+    reaction_ = slipFelt() ? traits_.reaction : traits_.seen_reaction;
+  reaction_ -= period_;
+  if (reaction_ > 0) return false;
+  ++regrips_;
+  wanted_ *= kHarder;
+  intent_.grip = std::max(intent_.grip, wanted_);  // it may still be on its way down
+  reaction_ = kNever;
+  perception_.rest();
+  return false;
+}
+
+}  // namespace presa::subject

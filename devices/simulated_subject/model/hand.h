@@ -1,0 +1,78 @@
+#pragma once
+#include <array>
+#include <cmath>
+
+#include "framework/core/math/random.h"
+#include "devices/simulated_subject/model/senses.h"
+#include "devices/simulated_subject/model/traits.h"
+
+namespace presa::subject {
+
+/// What a device with position steps of this size reports; 0: no steps.
+inline double quantised(double x, double step) noexcept { return step > 0 ? step * std::nearbyint(x / step) : x; }
+
+/// Force noise of the two digits: slow (partly common) and 10 Hz tremor, and noise of the muscle springs' length.
+class MotorNoise {
+ public:
+  MotorNoise(const Traits& traits, RandomStream stream, double period);
+  /// To be called each tick; new values come every 5 ms.
+  void step(double grip) noexcept;
+  double force(int digit) const noexcept { return force_[digit]; }        ///< [N]
+  double position(int digit) const noexcept { return position_[digit]; }  ///< [m]
+
+ private:
+  /// 10 Hz resonator, 2 Hz wide, unit variance when driven by white noise.
+  struct Tremor {
+    double now = 0, before = 0;
+  };
+  void renew(double grip) noexcept;
+
+  const Traits traits_;
+  RandomStream stream_;
+  int ticks_per_value_, tick_ = 0;
+  double keep_, add_;  // Ornstein-Uhlenbeck: x' = keep x + add e
+  double tremor_now_, tremor_before_, tremor_add_;
+  double shared_ = 0;
+  std::array<double, kDigits> own_{}, force_{}, position_{};
+  std::array<Tremor, kDigits> tremor_{};
+};
+
+/// Two digits, each a mass on muscle impedance, on one arm:
+///   M q'' = gain (U + noise) + k_h (q_a + w - q) - b_h q' - N -+ k_arm (q_1 - q_2) / 2,   q_a' = (q - q_a) / tau_a
+///   M y'' = k_y (y_ref - y) + u_y - b_y y' - T -+ k_level (y_1 - y_2) / 2,   u_y' = rate k_y (y_ref - mean y)
+/// anchors and sway taken about where the hand's middle is wanted. k_level keeps the digits level: an object of width 2 a turns
+/// between them when squeezed harder than a k (k_y + k_level) / (k + k_y + k_level).
+/// semi-implicit Euler. Thread: any, haptic included (nothing allocates).
+class Hand {
+ public:
+  /// Digits start at rest at q, y = 0.
+  Hand(const Traits& traits, RandomStream noise, double period, double q = 0);
+  /// One period under the forces in `felt` (normal, load; the rest is not read).
+  void step(const Intent& intent, const std::array<DigitSenses, kDigits>& felt) noexcept;
+
+  double q(int digit) const noexcept { return digits_[digit].q; }
+  double y(int digit) const noexcept { return digits_[digit].y; }
+  double vQ(int digit) const noexcept { return digits_[digit].v_q; }
+  double vY(int digit) const noexcept { return digits_[digit].v_y; }
+  double meanHeight() const noexcept { return 0.5 * (digits_[0].y + digits_[1].y); }
+  /// Common motion of both digits along the grip, in the thumb's direction [m].
+  double sway() const noexcept { return 0.5 * (digits_[0].q - digits_[1].q); }
+  /// Lift force commanded per digit [N].
+  double effort(const Intent& intent) const noexcept {
+    return traits_.posture_stiffness * (intent.height - meanHeight()) + lift_;
+  }
+  /// Puts both digits at rest, squeezed by `depth` about the present sway.
+  void place(double depth) noexcept;
+
+ private:
+  struct Digit {
+    double q = 0, v_q = 0, anchor = 0, y = 0, v_y = 0;
+  };
+  const Traits traits_;
+  const double period_, mass_;
+  MotorNoise noise_;
+  std::array<Digit, kDigits> digits_{};
+  double lift_ = 0;  // u_y [N]
+};
+
+}  // namespace presa::subject

@@ -1,0 +1,65 @@
+#pragma once
+#include <cmath>
+#include <limits>
+
+#include "experiments/runner/definition/expression.h"
+
+namespace presa::experiment {
+
+/// An aggregate while its samples come in: no sample is kept. Mean and spread after Welford (1962), which loses no digits to a
+/// large mean. Thread: haptic; nonblocking.
+class RunningAggregate {
+ public:
+  explicit RunningAggregate(const Aggregate& what) : what_(&what) {}
+
+  void add(std::size_t phase, std::span<const double> samples, double phase_begin) noexcept {
+    if (phase != what_->phase) return;
+    begin_ = phase_begin;
+    if (what_->condition && !what_->condition->holds(samples)) return;
+    if (!what_->value) {
+      ++count_;
+      return;
+    }
+    const double x = what_->value->evaluate(samples);
+    if (!(std::abs(x) <= std::numeric_limits<double>::max())) return;  // no number: no sample
+    ++count_;
+    if (count_ == 1) first_ = least_ = most_ = x;
+    last_ = x;
+    least_ = std::fmin(least_, x);
+    most_ = std::fmax(most_, x);
+    const double change = x - mean_;
+    mean_ += change / static_cast<double>(count_);
+    squares_ += change * (x - mean_);
+  }
+
+  /// NaN where there is nothing to say; `period` of the samples [s].
+  double result(double period) const noexcept {
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    using Kind = Aggregate::Kind;
+    if (what_->kind == Kind::kSeconds) return static_cast<double>(count_) * period;
+    if (what_->kind == Kind::kStart) return begin_;
+    if (count_ == 0) return kNothing;
+    switch (what_->kind) {
+      case Kind::kMean:
+        return mean_;
+      case Kind::kSd:
+        return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : kNothing;
+      case Kind::kLeast:
+        return least_;
+      case Kind::kMost:
+        return most_;
+      case Kind::kFirst:
+        return first_;
+      default:
+        return last_;
+    }
+  }
+
+ private:
+  const Aggregate* what_;
+  std::size_t count_ = 0;
+  double begin_ = std::numeric_limits<double>::quiet_NaN();
+  double first_ = 0, last_ = 0, least_ = 0, most_ = 0, mean_ = 0, squares_ = 0;
+};
+
+}  // namespace presa::experiment

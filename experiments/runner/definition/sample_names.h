@@ -1,0 +1,40 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "experiments/runner/definition/expression.h"
+#include "framework/scene/scene.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
+#include "framework/core/state/object_state.h"
+
+namespace presa::experiment {
+
+/// What phases and measures can ask of every haptic tick, in SI units, world frame:
+///   t (since the trial began), t_phase, signal (1 while the participant's button is pressed on any device);
+///   ROLE.x .y .z .vx .vy .vz (fingertip) .fx .fy .fz (force sent to the device) .fn .ft (contact force along and across the
+///   surface) .depth .state (0 none, 1 stick, 2 slip);
+///   BODY.x .y .z .vx .vy .vz .speed of every free body, and .lift, how far it is above its place at the start.
+Names sampleNames(const Scene& scene);
+
+/// Fills one sample; `values` has the size of sampleNames(scene). Thread: haptic; nonblocking.
+class SampleReader {
+ public:
+  /// `asked`, by slot: a free body of which nothing is asked is not read (and its slots stay as they were).
+  SampleReader(const Scene& scene, const std::vector<bool>& asked);
+  void read(double time, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
+            const ObjectState* objects, std::span<double> values) const noexcept;
+
+  static constexpr std::size_t kTime = 0, kPhaseTime = 1, kSignal = 2;  // slots
+
+ private:
+  struct FreeBody {
+    std::size_t index, slot;
+    double start_z;
+  };
+  std::vector<FreeBody> bodies_;
+  std::size_t roles_;
+};
+
+}  // namespace presa::experiment

@@ -1,0 +1,38 @@
+#pragma once
+#include <vector>
+
+#include "framework/scene/world.h"
+#include "framework/core/state/object_state.h"
+
+namespace presa {
+
+/// Depth by which two boxes overlap, by the separating axis test (15 axes): the least translation that parts them [m];
+/// 0 when they do not touch. Sizes are full edge lengths [m]. Exact for boxes [Gottschalk1996]; knows no engine.
+double boxPenetration(const Vec3& size_A, const Pose& X_WA, const Vec3& size_B, const Pose& X_WB);
+
+/// Overlap of every pair of box-shaped bodies of a scene, at least one of them free: one judge for all engines.
+class PenetrationCheck {
+ public:
+  explicit PenetrationCheck(const World& world);
+  struct Result {
+    double mean = 0;  ///< over the pairs that overlap [m]
+    double max = 0;   ///< [m]
+    std::size_t pairs = 0;
+  };
+  /// Pairs that could overlap: boxes, not both fixed.
+  std::size_t pairs() const noexcept;
+  /// Poses at the end of the step.
+  Result measure(const ObjectState& objects) const;
+
+ private:
+  struct BoxBody {
+    std::size_t body = 0;
+    Vec3 size;
+    Pose X_BG;
+    bool fixed = false;
+    double radius = 0;
+  };
+  std::vector<BoxBody> boxes_;
+};
+
+}  // namespace presa

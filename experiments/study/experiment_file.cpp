@@ -1,0 +1,37 @@
+#include "experiments/study/experiment_file.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "framework/core/diagnostics/refuse.h"
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> candidates() {
+  std::vector<fs::path> folders;
+  if (const char* named = std::getenv("PRESA_EXPERIMENTS")) folders.emplace_back(named);
+  std::error_code ignored;
+  fs::path up = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (int level = 0; level < 5 && !up.empty(); ++level, up = up.parent_path()) folders.push_back(up / "experiments");
+  folders.push_back(fs::current_path(ignored) / "experiments");
+  return folders;
+}
+
+}  // namespace
+
+std::string experimentFile(const std::string& name) {
+  std::string tried;
+  for (const fs::path& folder : candidates()) {
+    const fs::path file = folder / name;
+    if (fs::exists(file)) return file.lexically_normal().string();
+    tried += (tried.empty() ? "" : ", ") + folder.string();
+  }
+  refuse(610, name, "this file of the experiments is not to be found",
+         "looked in: " + tried + "; PRESA_EXPERIMENTS may name the folder experiments");
+}
+
+}  // namespace presa

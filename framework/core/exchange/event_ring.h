@@ -1,0 +1,34 @@
+#pragma once
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstddef>
+#include <cstdint>
+
+#include "framework/core/exchange/latest_value.h"
+
+namespace presa {
+
+/// Events in order from one writer thread to one reader thread. Its memory is taken at construction;
+/// when it is full an event is dropped and counted, never waited for.
+template <PlainData T>
+class EventRing {
+ public:
+  explicit EventRing(std::size_t capacity) : queue_(capacity) {}
+
+  /// Writer. Wait-free; false (and counted) when full.
+  bool push(const T& event) noexcept {
+    if (queue_.push(event)) return true;
+    dropped_.fetch_add(1, std::memory_order_relaxed);
+    return false;
+  }
+  /// Reader: takes the oldest event.
+  bool pop(T& event) noexcept { return queue_.pop(event); }
+
+  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+
+ private:
+  boost::lockfree::spsc_queue<T> queue_;
+  std::atomic<std::uint64_t> dropped_{0};
+};
+
+}  // namespace presa

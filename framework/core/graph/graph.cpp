@@ -1,0 +1,57 @@
+#include "framework/core/graph/graph.h"
+
+namespace presa {
+
+Module* Graph::find(const std::string& name) const noexcept {
+  for (const auto& module : modules_) {
+    if (module->name() == name) return module.get();
+  }
+  return nullptr;
+}
+
+void Graph::start(RateGroup group) {
+  for (Module* module : groupOf(group).modules) module->start();
+}
+
+void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
+  Group& g = groupOf(group);
+  for (std::size_t i = 0; i < g.inputs.size(); ++i) {
+    const std::uint64_t version = g.inputs[i]->pull();
+    if (row != nullptr) row->versions[i] = version;
+  }
+  if (row != nullptr) {
+    row->index = tick.index;
+    row->made_up = (tick.made_up ? 1U : 0U) | (tick.resumed ? 2U : 0U);
+  }
+  for (std::size_t i = 0; i < g.modules.size(); ++i) stepModule(g, i, tick);
+}
+
+void Graph::stepModule(Group& group, std::size_t i, const Tick& tick) noexcept {
+  group.modules[i]->step(tick);
+  for (BridgeBase* bridge : group.outputs[i].bridges) bridge->push(tick.time);
+}
+
+void Graph::pull(RateGroup group) noexcept {
+  for (BridgeBase* bridge : groupOf(group).inputs) bridge->pull();
+}
+
+void Graph::stop(RateGroup group) {
+  // in reverse, so that a reader never outlives what it reads
+  auto& modules = groupOf(group).modules;
+  for (auto it = modules.rbegin(); it != modules.rend(); ++it) (*it)->stop();
+}
+
+void Graph::keepHistory(std::size_t bytes) {
+  for (const auto& bridge : bridges_) bridge->keepHistory(bytes);
+}
+
+bool Graph::replayStep(RateGroup group, const Tick& tick, const ScheduleRow& row) noexcept {
+  Group& g = groupOf(group);
+  for (std::size_t i = 0; i < g.inputs.size(); ++i) {
+    if (!g.inputs[i]->pullVersion(row.versions[i])) return false;
+  }
+  for (std::size_t i = 0; i < g.modules.size(); ++i) stepModule(g, i, tick);
+  return true;
+}
+
+}  // namespace presa

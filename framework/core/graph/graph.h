@@ -1,0 +1,64 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "framework/core/graph/port.h"
+#include "framework/record/recording.h"
+
+namespace presa {
+
+/// A value's way from one module to another. Within a rate group the reader sees the writer's value in
+/// place; across groups it goes through a bridge.
+struct Connection {
+  const OutPortBase* from = nullptr;
+  const InPortBase* to = nullptr;
+  BridgeBase* bridge = nullptr;  ///< null within a rate group
+};
+
+/// The frozen graph: modules in step order and their connections. Made by GraphBuilder only.
+/// Each group's functions belong to the one thread that runs the group.
+class Graph {
+ public:
+  const std::vector<Connection>& connections() const noexcept { return connections_; }
+  /// Modules of one group in step order.
+  const std::vector<Module*>& modules(RateGroup group) const noexcept { return groupOf(group).modules; }
+  bool runs(RateGroup group) const noexcept { return !groupOf(group).modules.empty(); }
+  Module* find(const std::string& name) const noexcept;
+
+  void start(RateGroup group);
+  /// Pulls the group's inputs, steps its modules in order and publishes their outputs.
+  /// `row`, when given, receives the versions that were read.
+  void step(RateGroup group, const Tick& tick, ScheduleRow* row = nullptr) noexcept;
+  void stop(RateGroup group);
+  /// The parts of a step, for measuring: pull the group's inputs, then step the i-th of modules(group) and publish it.
+  void pull(RateGroup group) noexcept;
+  void stepModule(RateGroup group, std::size_t i, const Tick& tick) noexcept { stepModule(groupOf(group), i, tick); }
+
+  /// Replay: keep published values, then step with exactly the recorded ones.
+  void keepHistory(std::size_t bytes);
+  /// False, and nothing done, when a version in `row` has not been published yet.
+  bool replayStep(RateGroup group, const Tick& tick, const ScheduleRow& row) noexcept;
+
+ private:
+  friend class GraphBuilder;
+  struct Output {
+    Module* module;
+    std::vector<BridgeBase*> bridges;
+  };
+  struct Group {
+    std::vector<Module*> modules;
+    std::vector<Output> outputs;      ///< parallel to modules
+    std::vector<BridgeBase*> inputs;  ///< by name of the value: the order of ScheduleRow::versions
+  };
+  Group& groupOf(RateGroup group) noexcept { return groups_[static_cast<std::size_t>(group)]; }
+  const Group& groupOf(RateGroup group) const noexcept { return groups_[static_cast<std::size_t>(group)]; }
+  static void stepModule(Group& group, std::size_t i, const Tick& tick) noexcept;
+
+  std::vector<std::unique_ptr<Module>> modules_;
+  std::vector<std::unique_ptr<BridgeBase>> bridges_;
+  std::vector<Connection> connections_;
+  std::array<Group, kRateGroupCount> groups_;
+};
+
+}  // namespace presa

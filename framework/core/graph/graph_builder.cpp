@@ -1,0 +1,168 @@
+#include "framework/core/graph/graph_builder.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace presa {
+namespace {
+
+const SourceLocation kGraph{"graph", 0, 0};
+
+std::string path(const InPortBase& port) { return port.owner().name() + "." + port.name(); }
+std::string path(const OutPortBase& port) { return port.owner().name() + "." + port.name(); }
+
+}  // namespace
+
+void GraphBuilder::connect(OutPortBase& from, InPortBase& to) {
+  if (from.type() != to.type()) {
+    diagnostics_.error(502, kGraph, path(from) + " and " + path(to) + " carry different types",
+                       "connect ports of one type; their names usually agree");
+    return;
+  }
+  if (to.connected_) {
+    diagnostics_.error(503, kGraph, path(to) + " is connected twice, now to " + path(from),
+                       "an input has one writer; merge the two values in a module of their own");
+    return;
+  }
+  to.connected_ = true;
+  links_.push_back({&from, &to});
+}
+
+void GraphBuilder::connectByName() {
+  for (const auto& reader : modules_) {
+    for (InPortBase* input : reader->inputs()) {
+      if (input->connected()) continue;
+      OutPortBase* found = nullptr;
+      for (const auto& writer : modules_) {
+        for (OutPortBase* output : writer->outputs()) {
+          if (output->name() != input->name()) continue;
+          if (found != nullptr) {
+            diagnostics_.error(504, kGraph,
+                               "two modules write '" + input->name() + "': " + path(*found) + " and " + path(*output),
+                               "connect " + path(*input) + " to one of them by hand, or rename a port");
+          }
+          found = output;
+        }
+      }
+      if (found != nullptr) connect(*found, *input);
+    }
+  }
+}
+
+void GraphBuilder::checkNames() {
+  std::set<std::string> names;
+  for (const auto& module : modules_) {
+    if (!names.insert(module->name()).second) {
+      diagnostics_.error(505, kGraph, "two modules are named '" + module->name() + "'", "give each its own name");
+    }
+  }
+}
+
+void GraphBuilder::checkInputs() {
+  std::vector<std::string> outputs;
+  for (const auto& module : modules_) {
+    for (const OutPortBase* output : module->outputs()) outputs.push_back(output->name());
+  }
+  for (const auto& module : modules_) {
+    for (const InPortBase* input : module->inputs()) {
+      if (input->connected() || input->optional()) continue;
+      diagnostics_.error(501, kGraph, "nothing is connected to " + path(*input),
+                         "add the module that writes '" + input->name() + "'" + didYouMean(input->name(), outputs));
+    }
+  }
+  std::set<std::pair<const OutPortBase*, RateGroup>> bridges;
+  std::array<int, kRateGroupCount> count{};
+  for (const Link& link : links_) {
+    const RateGroup to = link.to->owner().group();
+    if (link.from->owner().group() == to || !bridges.insert({link.from, to}).second) continue;
+    if (++count[static_cast<std::size_t>(to)] == ScheduleRow::kMaxBridges + 1) {
+      diagnostics_.error(507, kGraph,
+                         std::string("the ") + toString(to) + " group reads more than " +
+                             std::to_string(ScheduleRow::kMaxBridges) + " values across rates");
+    }
+  }
+}
+
+// Kahn's algorithm, taking ready modules in the order in which they were added: the step order is the
+// same in every run.
+std::vector<Module*> GraphBuilder::order(RateGroup group) {
+  std::vector<Module*> open;
+  for (const auto& module : modules_) {
+    if (module->group() == group) open.push_back(module.get());
+  }
+  std::vector<Module*> done;
+  const auto waits_for = [&](const Module* module) -> const Link* {
+    for (const Link& link : links_) {
+      if (&link.to->owner() != module || link.from->owner().group() != group) continue;
+      if (std::find(done.begin(), done.end(), &link.from->owner()) == done.end()) return &link;
+    }
+    return nullptr;
+  };
+  while (!open.empty()) {
+    const auto ready = std::find_if(open.begin(), open.end(), [&](const Module* m) { return waits_for(m) == nullptr; });
+    if (ready == open.end()) {
+      // every open module waits for another: walk back until one repeats
+      std::vector<const Link*> walk;
+      const Module* at = open.front();
+      std::vector<const Module*> seen;
+      while (std::find(seen.begin(), seen.end(), at) == seen.end()) {
+        seen.push_back(at);
+        walk.push_back(waits_for(at));
+        at = &walk.back()->from->owner();
+      }
+      std::string loop;
+      for (auto link = walk.rbegin(); link != walk.rend(); ++link) {
+        loop += path(*(*link)->from) + " -> " + path(*(*link)->to) + "; ";
+        if (&(*link)->to->owner() == at) break;
+      }
+      diagnostics_.error(506, kGraph, std::string("the ") + toString(group) + " group has a loop: " + loop,
+                         "one of these must read the value of the tick before: give it state, or another rate");
+      return {};
+    }
+    done.push_back(*ready);
+    open.erase(ready);
+  }
+  return done;
+}
+
+Graph GraphBuilder::build() {
+  checkNames();
+  checkInputs();
+  Graph graph;
+  for (int g = 0; g < kRateGroupCount; ++g) {
+    auto& group = graph.groups_[static_cast<std::size_t>(g)];
+    group.modules = order(static_cast<RateGroup>(g));
+    for (Module* module : group.modules) group.outputs.push_back({module, {}});
+  }
+  if (diagnostics_.hasErrors()) throw InputError(diagnostics_);
+
+  // by name, so that a recording fits the graph that replays it, whatever else was connected then
+  std::stable_sort(links_.begin(), links_.end(),
+                   [](const Link& a, const Link& b) { return a.to->name() < b.to->name(); });
+  std::map<std::pair<const OutPortBase*, RateGroup>, BridgeBase*> bridges;
+  for (const Link& link : links_) {
+    const RateGroup from = link.from->owner().group(), to = link.to->owner().group();
+    if (from == to) {
+      link.from->connectDirect(*link.to);
+      graph.connections_.push_back({link.from, link.to, nullptr});
+      continue;
+    }
+    BridgeBase*& bridge = bridges[{link.from, to}];
+    if (bridge == nullptr) {
+      graph.bridges_.push_back(link.from->makeBridge());
+      bridge = graph.bridges_.back().get();
+      graph.groupOf(to).inputs.push_back(bridge);
+      for (auto& output : graph.groupOf(from).outputs) {
+        if (output.module == &link.from->owner()) output.bridges.push_back(bridge);
+      }
+    }
+    bridge->addReader(*link.to);
+    graph.connections_.push_back({link.from, link.to, bridge});
+  }
+  graph.modules_ = std::move(modules_);
+  return graph;
+}
+
+}  // namespace presa

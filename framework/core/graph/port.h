@@ -1,0 +1,181 @@
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <string>
+#include <typeindex>
+#include <vector>
+
+#include "framework/core/exchange/latest_value.h"
+#include "framework/core/graph/module.h"
+
+namespace presa {
+
+/// What a reader does with a value that has grown old.
+enum class WhenOld { kHold, kExtrapolate, kFadeToZero };
+
+/// One value's way into one rate group, as the executors and the replay see it. All readers of the group share it, so
+/// that within a tick they see the same version.
+class BridgeBase {
+ public:
+  virtual ~BridgeBase() = default;
+  virtual void addReader(InPortBase& reader) = 0;
+  /// Reader's side, before its group's step: takes the latest value; returns its version (0: none yet).
+  virtual std::uint64_t pull() noexcept = 0;
+  /// Writer's side, after its module's step.
+  virtual void push(double time) noexcept = 0;
+  /// Replay only: keep published values in about this much memory, and read exactly the given version.
+  virtual void keepHistory(std::size_t bytes) = 0;
+  virtual bool pullVersion(std::uint64_t version) noexcept = 0;
+};
+
+class OutPortBase {
+ public:
+  OutPortBase(Module& owner, std::string name, std::type_index type);
+  virtual ~OutPortBase() = default;
+  const Module& owner() const noexcept { return owner_; }
+  const std::string& name() const noexcept { return name_; }
+  std::type_index type() const noexcept { return type_; }
+
+ protected:
+  friend class GraphBuilder;
+  virtual std::unique_ptr<BridgeBase> makeBridge() = 0;
+  virtual void connectDirect(InPortBase& reader) = 0;
+
+ private:
+  Module& owner_;
+  std::string name_;
+  std::type_index type_;
+};
+
+class InPortBase {
+ public:
+  InPortBase(Module& owner, std::string name, std::type_index type, bool optional, WhenOld when_old, double old_after);
+  virtual ~InPortBase() = default;
+  const Module& owner() const noexcept { return owner_; }
+  const std::string& name() const noexcept { return name_; }
+  std::type_index type() const noexcept { return type_; }
+  bool optional() const noexcept { return optional_; }
+  WhenOld whenOld() const noexcept { return when_old_; }
+  /// Age in seconds from which the value counts as old.
+  double oldAfter() const noexcept { return old_after_; }
+  bool connected() const noexcept { return connected_; }
+
+ protected:
+  friend class GraphBuilder;
+  Module& owner_;
+  std::string name_;
+  std::type_index type_;
+  bool optional_;
+  WhenOld when_old_;
+  double old_after_;
+  bool connected_ = false;
+};
+
+template <ExchangedData T>
+class Out;
+
+/// Input port. Same rate: reads the writer's value in place. Across rates: the latest value pulled before
+/// this group's step, with its age.
+template <ExchangedData T>
+class In final : public InPortBase {
+ public:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  In(Module& owner, std::string name, WhenOld when_old = WhenOld::kHold, double old_after = kNever)
+      : InPortBase(owner, std::move(name), typeid(T), false, when_old, old_after) {}
+  struct Optional {};
+  In(Module& owner, std::string name, Optional, WhenOld when_old = WhenOld::kHold, double old_after = kNever)
+      : InPortBase(owner, std::move(name), typeid(T), true, when_old, old_after) {}
+
+  /// The value; a default T before the writer's first step.
+  const T& value() const noexcept { return *value_; }
+  const T* operator->() const noexcept { return value_; }
+  /// 0 until the first value, then growing by one with each.
+  std::uint64_t version() const noexcept { return version_; }
+  bool hasValue() const noexcept { return direct_ || version_ > 0; }
+  /// Seconds since the writer's tick (simulated time).
+  double age(const Tick& now) const noexcept { return direct_ ? 0.0 : now.time - time_; }
+  bool old(const Tick& now) const noexcept { return age(now) > old_after_; }
+
+ private:
+  template <ExchangedData U>
+  friend class Out;
+  template <ExchangedData U>
+  friend class Bridge;
+  inline static const T kDefault{};
+  const T* value_ = &kDefault;
+  std::uint64_t version_ = 0;
+  double time_ = 0;
+  bool direct_ = false;
+};
+
+template <ExchangedData T>
+class Bridge final : public BridgeBase {
+ public:
+  /// `source` has the size that it will have.
+  explicit Bridge(const T& source) : source_(source), latest_(source) {}
+
+  void addReader(InPortBase& reader) override { readers_.push_back(static_cast<In<T>*>(&reader)); }
+  std::uint64_t pull() noexcept override {
+    if (latest_.update()) show(latest_.value(), latest_.version(), latest_.time());
+    return latest_.version();
+  }
+  void push(double time) noexcept override {
+    if (history_.empty()) return latest_.publish(source_, time);
+    Kept& kept = history_[++pushed_ % history_.size()];
+    kept.value = source_;
+    kept.version = pushed_;
+    kept.time = time;
+  }
+  void keepHistory(std::size_t bytes) override {
+    std::size_t each = sizeof(Kept);
+    if constexpr (SizedAtLoad<T>) each += source_.roomBytes();
+    history_.resize(bytes / each + 64);
+    for (Kept& kept : history_) kept.value = source_;
+  }
+  bool pullVersion(std::uint64_t version) noexcept override {
+    if (version == 0) return true;
+    const Kept& kept = history_[version % history_.size()];
+    if (kept.version != version) return false;
+    show(kept.value, kept.version, kept.time);
+    return true;
+  }
+
+ private:
+  struct Kept {
+    T value{};
+    std::uint64_t version = 0;
+    double time = 0;
+  };
+  void show(const T& value, std::uint64_t version, double time) noexcept {
+    for (In<T>* reader : readers_) {
+      reader->value_ = &value;
+      reader->version_ = version;
+      reader->time_ = time;
+    }
+  }
+  const T& source_;
+  std::vector<In<T>*> readers_;
+  LatestValue<T> latest_;
+  std::vector<Kept> history_;
+  std::uint64_t pushed_ = 0;
+};
+
+/// Output port: the module writes `value` in its step; the graph publishes it. What is SizedAtLoad the module sizes in its
+/// constructor: the exchange makes room for it as it finds it, when the graph is built.
+template <ExchangedData T>
+class Out final : public OutPortBase {
+ public:
+  Out(Module& owner, std::string name) : OutPortBase(owner, std::move(name), typeid(T)) {}
+  T value{};
+
+ private:
+  std::unique_ptr<BridgeBase> makeBridge() override { return std::make_unique<Bridge<T>>(value); }
+  void connectDirect(InPortBase& reader) override {
+    auto& in = static_cast<In<T>&>(reader);
+    in.value_ = &value;
+    in.direct_ = true;
+  }
+};
+
+}  // namespace presa

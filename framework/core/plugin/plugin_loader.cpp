@@ -1,0 +1,81 @@
+#include "framework/core/plugin/plugin_loader.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <vector>
+
+#include "framework/core/diagnostics/refuse.h"
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folder of the shared object that contains this very function.
+fs::path frameworkFolder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<void*>(&pluginSymbol), &info) == 0 || info.dli_fname == nullptr) return {};
+  return fs::path(info.dli_fname).parent_path();
+}
+
+std::vector<fs::path> searchFolders() {
+  std::vector<fs::path> folders;
+  if (const char* list = std::getenv("PRESA_PLUGIN_PATH")) {
+    std::istringstream stream(list);
+    for (std::string folder; std::getline(stream, folder, ':');) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  folders.push_back(frameworkFolder());
+  return folders;
+}
+
+/// A name comes from a rig or scene file; it must not lead out of the plug-in folders.
+bool isPluginName(const std::string& name) {
+  return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+}
+
+void* openPlugin(const std::string& name) {
+  if (!isPluginName(name)) {
+    refuse(590, "", "'" + name + "' is not the name of a plug-in",
+           "a name consists of lower-case letters, digits and underscores");
+  }
+  const std::string file = "presa_" + name + ".so";
+  std::string tried;
+  for (const fs::path& folder : searchFolders()) {
+    const fs::path path = folder / file;
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) {
+      tried += (tried.empty() ? "" : ", ") + path.string();
+      continue;
+    }
+    // A plug-in that lacks a library must fail here, not at its first call in a running haptic loop: RTLD_NOW.
+    if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
+    const char* reason = dlerror();
+    refuse(591, "", "plug-in " + path.string() + " does not load: " + (reason ? reason : "unknown reason"),
+           "install the library it needs, or build it again with this version of Presa");
+  }
+  refuse(590, "", "there is no plug-in '" + name + "' (tried " + tried + ")",
+         "build it, or name its folder in the environment variable PRESA_PLUGIN_PATH");
+}
+
+}  // namespace
+
+void* pluginSymbol(const std::string& name, const char* symbol) {
+  static std::mutex mutex;
+  static std::map<std::string, void*> handles;
+  const std::lock_guard lock(mutex);
+  auto found = handles.find(name);
+  if (found == handles.end()) found = handles.emplace(name, openPlugin(name)).first;
+  if (void* address = dlsym(found->second, symbol)) return address;
+  refuse(592, "", "plug-in '" + name + "' has no symbol '" + symbol + "'", "build it again with this version of Presa");
+}
+
+std::string helperProgram(const std::string& name) { return frameworkFolder() / name; }
+
+}  // namespace presa

@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "framework/scene/scene.h"
+#include "framework/core/schedule/tick.h"
+
+namespace presa {
+
+/// The rates of a run in whole nanoseconds: every group's period is a whole number of haptic periods, so
+/// that all groups meet at the same instants of simulated time.
+class RateTable {
+ public:
+  explicit RateTable(const Rates& rates);
+
+  std::int64_t periodNs(RateGroup group) const noexcept { return haptic_ns_ * divisor(group); }
+  double period(RateGroup group) const noexcept { return static_cast<double>(periodNs(group)) * 1e-9; }
+  double rate(RateGroup group) const noexcept { return 1e9 / static_cast<double>(periodNs(group)); }
+  /// Haptic ticks per tick of the group.
+  std::int64_t divisor(RateGroup group) const noexcept { return divisors_[static_cast<std::size_t>(group)]; }
+  Tick tick(RateGroup group, std::uint64_t index) const noexcept;
+  /// Ticks of the group that begin within `duration` seconds.
+  std::uint64_t ticksWithin(RateGroup group, double duration) const noexcept;
+
+ private:
+  std::int64_t haptic_ns_;
+  std::array<std::int64_t, kRateGroupCount> divisors_;
+};
+
+}  // namespace presa

@@ -1,0 +1,146 @@
+#include "framework/device/supervision/supervisor.h"
+
+#include <poll.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "framework/device/transport_watch.h"
+#include "framework/session/plugin.h"
+#include "framework/session/session.h"
+#include "framework/core/schedule/clock.h"
+#include "framework/device/supervision/shared_memory.h"
+#include "framework/device/supervision/task.h"
+
+namespace presa {
+namespace {
+
+constexpr int kPriority = 84;  // above the program's haptic thread and a driver's own
+
+/// What is meant for the program is not for its supervisor: Ctrl-C, Ctrl-Z, a closed terminal.
+void ignoreSignals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGTTIN, SIGTTOU, SIGPIPE})
+    std::signal(signal, SIG_IGN);
+}
+
+void answer(SupervisorShare& share, const std::string& text, SupervisorShare::State state) {
+  share.answer_size = std::min(text.size(), sizeof share.answer);
+  std::memcpy(share.answer, text.data(), share.answer_size);
+  share.state.store(state, std::memory_order_release);
+}
+
+/// The part of a world that a driver of hardware may look at.
+World worldOf(const SupervisorTask& task) {
+  World world;
+  world.rig.file = task.rig_file;
+  world.rig.devices = {task.binding};
+  world.scene.devices.emplace_back().role = task.binding.role;
+  world.options.realtime = true;
+  return world;
+}
+
+std::unique_ptr<Device> openDevice(const SupervisorTask& task) {
+  Diagnostics diagnostics;
+  auto device = devicePlugin(task.binding.driver).create(task.binding, worldOf(task), diagnostics);
+  if (diagnostics.hasErrors() || !device) throw InputError(diagnostics);
+  device->open();
+  return device;
+}
+
+std::vector<std::string> becomeRealTime(const std::string& role) {
+  std::vector<std::string> notes;
+  const sched_param priority{.sched_priority = kPriority};
+  if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
+    notes.push_back(role + ": its supervisor runs without SCHED_FIFO (" + std::strerror(errno) +
+                    "): other programs may delay it");
+  if (mlockall(MCL_CURRENT) != 0)
+    notes.push_back(role + ": its supervisor's memory is not locked (" + std::strerror(errno) + ")");
+  prctl(PR_SET_TIMERSLACK, 1);
+  return notes;
+}
+
+bool isGone(int life_fd) noexcept {
+  pollfd life{.fd = life_fd, .events = 0, .revents = 0};
+  return poll(&life, 1, 0) > 0 && (life.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
+}
+
+void runCycles(Supervisor& supervisor, double period, int life_fd) {
+  const auto period_ns = static_cast<std::int64_t>(period * 1e9);
+  bool alone = false;
+  std::int64_t look = 0;  // once a millisecond is soon enough: a dead program is noticed by its silence, too
+  std::int64_t before = monotonicNs();
+  for (std::int64_t wake = before;;) {
+    wake += period_ns;
+    sleepUntilNs(wake);
+    const std::int64_t now = monotonicNs();
+    if (now > wake)
+      wake += (now - wake) / period_ns * period_ns;  // what is missed is missed; the next comes on its time
+    if (wake >= look) {
+      alone = alone || isGone(life_fd);
+      look = wake + 1'000'000;
+    }
+    if (!supervisor.cycle(alone, static_cast<double>(now - before) * 1e-9)) return;
+    before =
+        monotonicNs();  // the force was written by now: a cycle that was held up half-way gains no time for the next
+  }
+}
+
+}  // namespace
+
+Supervisor::Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, const DeviceRating& rating,
+                       CountAllocations count)
+    : share_(share),
+      device_(watched(std::move(device), limitsOf(rating), rating, control_)),
+      keeper_(rating),
+      count_(count),
+      allocated_before_(count()) {}
+
+bool Supervisor::cycle(bool alone, double elapsed) noexcept {
+  time_ += elapsed;
+  const Tick tick{.index = report_.cycles, .time = time_, .period = elapsed};
+  if (const std::uint32_t rearms = share_.rearms.load(std::memory_order_relaxed); rearms != report_.rearms_met) {
+    control_.rearms.store(rearms, std::memory_order_relaxed);
+    device_->rearm();
+    keeper_.rearm();
+    report_.rearms_met = rearms;
+  }
+  const bool ending = alone || share_.close.load(std::memory_order_relaxed);
+  report_.finger = device_->read(tick);
+  const bool fresh = share_.command.update();
+  report_.sent = keeper_.step(
+      {.fresh = fresh, .alone = ending, .command = share_.command.value().f_H_W, .finger = report_.finger}, elapsed);
+  device_->write(report_.sent, tick);
+  report_.dropped = keeper_.dropped();
+  ++report_.cycles;
+  report_.allocated = count_() - allocated_before_;
+  share_.report.publish(report_, tick.time);
+  farewell_ = ending && report_.sent == Vec3::Zero() ? farewell_ + elapsed : 0;
+  return farewell_ < kFarewell;
+}
+
+int superviseDevice(int share_fd, int life_fd, CountAllocations count) {
+  ignoreSignals();
+  SharedMemory<SupervisorShare> memory = SharedMemory<SupervisorShare>::joined(share_fd);
+  SupervisorShare& share = *memory;
+  const SupervisorTask task = unpackedTask({share.task, share.task_size});
+  try {
+    std::unique_ptr<Device> device = openDevice(task);
+    std::vector<std::string> notes = device->notes();
+    for (std::string& note : becomeRealTime(task.binding.role)) notes.push_back(std::move(note));
+    answer(share, packed(notes), SupervisorShare::State::kRunning);
+    Supervisor supervisor(share, std::move(device), devicePlugin(task.binding.driver).rating, count);
+    runCycles(supervisor, share.period, life_fd);
+    supervisor.close();
+  } catch (const InputError& error) {
+    answer(share, packed(error.diagnostics()), SupervisorShare::State::kRefused);
+    return 2;
+  }
+  share.state.store(SupervisorShare::State::kOver, std::memory_order_release);
+  return 0;
+}
+
+}  // namespace presa

@@ -1,0 +1,125 @@
+#include "framework/haptics/nearest_feasible.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace presa {
+namespace {
+
+// Two half-spaces count as one when their normals differ by less than 1e-7 rad: coplanar triangles.
+constexpr double kSameNormal = 1 - 0.5e-14;
+// Gram determinants below this mean normals that are nearly dependent: no corner there.
+constexpr double kDependent = 1e-12;
+
+class Search {
+ public:
+  Search(const HalfSpaces& all, const Vec3& g) : all_(all), g_(g) {
+    double scale = 0;
+    for (int i = 0; i < all_.count; ++i) scale = std::max(scale, std::abs(lack(i, g_)));
+    tolerance_ = 1e-9 * scale;  // relative to the depth: the same answer in metres and millimetres
+  }
+
+  // Active sets of one, two, three; the programme is strictly convex, so the first set whose point is
+  // feasible and whose multipliers are not negative is the answer.
+  Feasible solve() {
+    if (consider({}, {}, 0, g_)) return best_;
+    const int n = all_.count;
+    for (int i = 0; i < n; ++i) {
+      if (one(i)) return best_;
+    }
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        if (two(i, j)) return best_;
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        for (int k = j + 1; k < n; ++k) {
+          if (three(i, j, k)) return best_;
+        }
+      }
+    }
+    return best_;
+  }
+
+ private:
+  const Vec3& normal(int i) const { return all_.item[static_cast<std::size_t>(i)].nhat; }
+  // how far y is on the wrong side
+  double lack(int i, const Vec3& y) const { return all_.item[static_cast<std::size_t>(i)].offset - normal(i).dot(y); }
+
+  bool one(int i) {
+    const double lambda = lack(i, g_);
+    return lambda >= 0 && consider({i, -1, -1}, {lambda, 0, 0}, 1, g_ + lambda * normal(i));
+  }
+
+  bool two(int i, int j) {
+    const double c = normal(i).dot(normal(j));
+    const double det = 1 - c * c;
+    if (det < kDependent) return false;
+    const double ri = lack(i, g_), rj = lack(j, g_);
+    const double li = (ri - c * rj) / det, lj = (rj - c * ri) / det;
+    return li >= 0 && lj >= 0 && consider({i, j, -1}, {li, lj, 0}, 2, g_ + li * normal(i) + lj * normal(j));
+  }
+
+  bool three(int i, int j, int k) {
+    Mat3 gram;
+    const std::array<int, 3> set{i, j, k};
+    Vec3 r;
+    for (int a = 0; a < 3; ++a) {
+      r[a] = lack(set[static_cast<std::size_t>(a)], g_);
+      for (int b = 0; b < 3; ++b) {
+        gram(a, b) = normal(set[static_cast<std::size_t>(a)]).dot(normal(set[static_cast<std::size_t>(b)]));
+      }
+    }
+    const double det = gram.determinant();
+    if (det < kDependent) return false;
+    const Vec3 lambda = gram.inverse() * r;
+    if (lambda.minCoeff() < 0) return false;
+    return consider(set, {lambda[0], lambda[1], lambda[2]}, 3,
+                    g_ + lambda[0] * normal(i) + lambda[1] * normal(j) + lambda[2] * normal(k));
+  }
+
+  // Keeps the least violated candidate; true when it violates nothing.
+  bool consider(const std::array<int, 3>& active, const std::array<double, 3>& weight, int count, const Vec3& y) {
+    double worst = 0;
+    for (int i = 0; i < all_.count; ++i) worst = std::max(worst, lack(i, y));
+    if (worst < least_) {
+      least_ = worst;
+      best_ = {y, active, weight, count};
+    }
+    return worst <= tolerance_;
+  }
+
+  const HalfSpaces& all_;
+  const Vec3& g_;
+  double tolerance_ = 0;
+  double least_ = std::numeric_limits<double>::infinity();
+  Feasible best_;
+};
+
+}  // namespace
+
+bool HalfSpaces::add(const HalfSpace& half_space, const Vec3& x) noexcept {
+  const auto slack = [&x](const HalfSpace& h) { return h.nhat.dot(x) - h.offset; };
+  for (int i = 0; i < count; ++i) {
+    HalfSpace& other = item[static_cast<std::size_t>(i)];
+    if (other.nhat.dot(half_space.nhat) >= kSameNormal) {
+      if (slack(half_space) < slack(other)) other = half_space;
+      return true;
+    }
+  }
+  if (count < kCapacity) {
+    item[static_cast<std::size_t>(count++)] = half_space;
+    return true;
+  }
+  auto* loosest = std::max_element(item.begin(), item.end(),
+                                   [&](const HalfSpace& l, const HalfSpace& r) { return slack(l) < slack(r); });
+  if (slack(half_space) < slack(*loosest)) *loosest = half_space;
+  return false;
+}
+
+Feasible nearestFeasible(const HalfSpaces& half_spaces, const Vec3& g) noexcept {
+  return Search(half_spaces, g).solve();
+}
+
+}  // namespace presa

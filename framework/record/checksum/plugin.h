@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "framework/record/checksum/checksum.h"
+
+/// What the files of this folder share.
+namespace presa::checksum {
+
+/// Loaded at the first call. Throws what pluginSymbol throws.
+const ChecksumPlugin& plugin();
+
+std::string hexOf(const unsigned char* bytes, std::size_t count);
+/// False when the text is not `count` bytes in lower-case hexadecimal digits.
+bool bytesOf(std::string_view hex, unsigned char* bytes, std::size_t count);
+
+}  // namespace presa::checksum

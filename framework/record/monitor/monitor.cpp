@@ -1,0 +1,289 @@
+#include "framework/record/monitor/monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/record/monitor/state_hash.h"
+
+namespace presa {
+namespace {
+
+// 2.6 kB each: a run of any length keeps its plots within about 100 MB
+constexpr double kMaxTraceSamples = 40'000;
+
+std::uint64_t traceStride(const World& world, double trace_rate) {
+  const double haptic = world.scene.rates.haptic;
+  const double wanted = std::round(haptic / trace_rate);
+  const double fitting = std::ceil(world.options.duration * haptic / kMaxTraceSamples);
+  const double stride = std::max({1.0, wanted, std::isfinite(fitting) ? fitting : wanted});
+  return static_cast<std::uint64_t>(stride);
+}
+
+bool touches(const FingerContact& finger) noexcept { return finger.mode != ContactMode::kNone; }
+
+std::int32_t scriptedPhase(const DeviceState& device) noexcept {
+  for (std::size_t f = 0; f < static_cast<std::size_t>(device.count); ++f) {
+    if (device.fingers[f].phase >= 0) return device.fingers[f].phase;
+  }
+  return -1;
+}
+
+}  // namespace
+
+struct Monitor::Impl {
+  Impl(std::shared_ptr<const World> shared_world, double loosen, double trace_rate)
+      : world(std::move(shared_world)), loosen_time(loosen), reaction(world->scene) {
+    const std::vector<Body>& bodies = world->scene.bodies;
+    objects.resize(bodies.size());
+    fingers_on.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      objects[i].start = objects[i].highest = objects[i].final = bodies[i].X_WB.p;
+      if (bodies[i].fixed) continue;
+      free.push_back(i);
+      if (traced.size() < TraceSample{}.bodies.size()) traced.push_back(static_cast<std::int32_t>(i));
+    }
+    moving.reserve(free.size());
+    grasped.reserve(free.size());
+    for (auto& list : slip_onsets) list.reserve(kMaxSlipOnsets);
+    if (!(trace_rate > 0)) return;
+    stride = traceStride(*world, trace_rate);
+    const double samples = world->options.duration * world->scene.rates.haptic / static_cast<double>(stride) + 2;
+    // filled and emptied again, so that no page of it is met for the first time inside the haptic loop
+    trace.resize(static_cast<std::size_t>(std::clamp(samples, 1.0, kMaxTraceSamples)));
+    trace.clear();
+  }
+
+  /// One tick of a run, by the stages that Monitor lists.
+  template <class Watch>
+  void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
+               const ObjectState* state, std::uint64_t version, Watch& watch) noexcept;
+  // not inlined: each is a row of `explain --cost`
+  [[gnu::noinline]] void addToHash(const DeviceState& device, const ContactExchange& contact,
+                                   const ObjectState* fresh) noexcept;
+  [[gnu::noinline]] void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                                    bool fresh) noexcept;
+  void sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept;
+  void noteSlip(std::size_t f, const FingerContact& now, double time) noexcept;
+  [[gnu::noinline]] void sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                                    bool fresh) noexcept;
+  void follow(std::size_t i, const ObjectState& state, double time) noexcept;
+  void noteGrasp(std::size_t i, double time) noexcept;
+  [[gnu::noinline]] void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                                const ForceCommand& command, const ObjectState* state) noexcept;
+  Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
+    return state && body < state->count() ? state->poseAt(body, time)
+                                          : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
+  }
+
+  std::shared_ptr<const World> world;
+  double loosen_time;
+  ActionReaction reaction;
+  std::uint64_t solver_fallbacks = 0;
+  std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
+  std::uint64_t objects_version = 0;
+  double simulated_time = 0;
+  std::uint32_t object_faults = 0;
+  double object_fault_time = -1;
+  std::uint32_t pop_through = 0, coverage_lost = 0;
+  double first_coverage_lost = -1;
+  StateHash hash;
+  std::array<FingerSummary, kMaxFingers> fingers;
+  std::array<double, kMaxFingers> force_sum{};
+  std::array<std::uint64_t, kMaxFingers> ticks_in_contact{};
+  std::array<FingerContact, kMaxFingers> previous;
+  std::array<std::vector<SlipOnset>, kMaxFingers> slip_onsets;
+  std::vector<ObjectSummary> objects;
+  std::vector<std::int32_t> fingers_on;  ///< by body, this tick
+  // of thousands of bodies few move and few are held: only those are looked at in every tick
+  std::vector<std::size_t> free, moving, grasped;
+  std::vector<std::int32_t> traced;
+  std::vector<TraceSample> trace;
+};
+
+void Monitor::Impl::sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept {
+  FingerSummary& sum = fingers[f];
+  sum.seconds[static_cast<std::size_t>(now.mode)] += tick.period;
+  if (touches(now)) {
+    sum.max_normal_force = std::max(sum.max_normal_force, now.normal_force);
+    force_sum[f] += now.normal_force;
+    sum.mean_normal_force = force_sum[f] / static_cast<double>(++ticks_in_contact[f]);
+    if (now.body >= 0 && static_cast<std::size_t>(now.body) < fingers_on.size()) {
+      ++fingers_on[static_cast<std::size_t>(now.body)];
+    }
+  }
+  const FingerContact& before = previous[f];
+  if (now.mode == ContactMode::kSlip && before.mode == ContactMode::kStick && now.body == before.body) {
+    noteSlip(f, now, tick.time);
+  }
+  previous[f] = now;
+}
+
+void Monitor::Impl::noteSlip(std::size_t f, const FingerContact& now, double time) noexcept {
+  const FingerContact& before = previous[f];
+  const SlipOnset onset{time,
+                        now.body,
+                        now.normal_force,
+                        now.tangential_force_W.norm(),
+                        before.normal_force,
+                        before.tangential_force_W.norm()};
+  FingerSummary& sum = fingers[f];
+  ++sum.slip_onsets;
+  if (slip_onsets[f].size() < kMaxSlipOnsets) slip_onsets[f].push_back(onset);
+  if (time >= loosen_time && sum.loosening_slip.time < 0) sum.loosening_slip = onset;
+}
+
+void Monitor::Impl::follow(std::size_t i, const ObjectState& state, double time) noexcept {
+  ObjectSummary& object = objects[i];
+  object.final = poseOf(static_cast<std::int32_t>(i), &state, time).p;
+  if (object.final.z() > object.highest.z()) object.highest = object.final;
+}
+
+void Monitor::Impl::noteGrasp(std::size_t i, double time) noexcept {
+  ObjectSummary& object = objects[i];
+  // a stiff contact may bounce once before it holds: that is no loss
+  if (fingers_on[i] >= 2 && object.lost_at >= 0 && time - object.lost_at < kBounceTime) {
+    object.lost_at = -1;
+    object.dropped = false;
+  }
+  if (object.lost_at < 0 && fingers_on[i] == 0) {
+    object.lost_at = time;
+    object.dropped = time < loosen_time;
+  }
+}
+
+void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                               bool fresh) noexcept {
+  if (!fresh && state != nullptr) {
+    for (const std::size_t i : moving) follow(i, *state, tick.time);
+  } else if (fresh) {
+    moving.clear();
+    for (const std::size_t i : free) {
+      follow(i, *state, tick.time);
+      if (i >= state->bodies.size()) continue;
+      const BodyMotion& motion = state->bodies[i];
+      objects[i].peak_speed = std::max(objects[i].peak_speed, motion.v_WB.norm());
+      if (motion.X_WB_begin.p != motion.X_WB_end.p) moving.push_back(i);
+    }
+  }
+  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    const auto i = static_cast<std::size_t>(contact.fingers[f].body);
+    if (i >= objects.size() || fingers_on[i] < 2 || objects[i].grasped || world->scene.bodies[i].fixed) continue;
+    objects[i].grasped = true;
+    grasped.push_back(i);
+  }
+  for (const std::size_t i : grasped) noteGrasp(i, tick.time);
+}
+
+void Monitor::Impl::sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                           const ForceCommand& command, const ObjectState* state) noexcept {
+  if (tick.index % stride != 0 || trace.size() == trace.capacity()) return;
+  TraceSample& now = trace.emplace_back();
+  now.time = tick.time;
+  now.phase = scriptedPhase(device);
+  std::copy_n(contact.fingers.begin(), contact.count, now.fingers.begin());
+  now.f_command.fill(Vec3::Zero());
+  std::copy_n(command.f_H_W.begin(), command.count, now.f_command.begin());
+  for (std::size_t slot = 0; slot < traced.size(); ++slot) now.bodies[slot] = poseOf(traced[slot], state, tick.time);
+}
+
+Monitor::Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate)
+    : Module("monitor", RateGroup::kHaptic), impl_(std::make_unique<Impl>(std::move(world), loosen_time, trace_rate)) {}
+
+Monitor::~Monitor() = default;
+
+void Monitor::Impl::addToHash(const DeviceState& device, const ContactExchange& contact,
+                              const ObjectState* fresh) noexcept {
+  hash.add(device);
+  hash.add(contact);
+  if (fresh != nullptr) hash.add(*fresh);
+}
+
+void Monitor::Impl::sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
+                               bool fresh) noexcept {
+  if (state != nullptr) reaction.add(tick, contact, *state, fresh);
+  std::fill(fingers_on.begin(), fingers_on.end(), 0);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    sumFinger(f, contact.fingers[f], tick);
+    if (fingers[f].pop_through == 0 && contact.pop_through_by_finger[f] > 0) fingers[f].first_pop_through = tick.time;
+    fingers[f].pop_through = contact.pop_through_by_finger[f];
+    fingers[f].leaps = contact.leaps_by_finger[f];
+    fingers[f].reaction = reaction.of(f);
+  }
+  pop_through = contact.pop_through;
+  if (coverage_lost == 0 && contact.coverage_lost > 0) first_coverage_lost = tick.time;
+  coverage_lost = contact.coverage_lost;
+}
+
+template <class Watch>
+void Monitor::Impl::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                            const ForceCommand& command, const ObjectState* state, std::uint64_t version,
+                            Watch& watch) noexcept {
+  const bool fresh = state != nullptr && version != objects_version;
+  objects_version = version;
+  addToHash(device, contact, fresh ? state : nullptr);
+  watch.done(0);
+  sumFingers(tick, contact, state, fresh);
+  watch.done(1);
+  if (fresh && state->faults != 0) {
+    if (object_faults == 0) object_fault_time = tick.time;
+    object_faults |= state->faults;
+  }
+  if (fresh) solver_fallbacks = state->fallback_steps;
+  sumObjects(tick, contact, state, fresh);
+  simulated_time = static_cast<double>(tick.index + 1) * tick.period;
+  watch.done(2);
+  if (stride == 0) return;
+  sample(tick, device, contact, command, state);
+  watch.done(3);
+}
+
+void Monitor::step(const Tick& tick) noexcept {
+  const bool moving = objects_.connected() && objects_.hasValue();
+  observe(tick, device_.value(), contact_.value(), command_.value(), moving ? &objects_.value() : nullptr,
+          objects_.version());
+}
+
+void Monitor::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
+  const bool moving = objects_.connected() && objects_.hasValue();
+  impl_->observe(tick, device_.value(), contact_.value(), command_.value(), moving ? &objects_.value() : nullptr,
+                 objects_.version(), watch);
+}
+
+void Monitor::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                      const ForceCommand& command, const ObjectState* objects, std::uint64_t objects_version) noexcept {
+  NoStageWatch nobody;
+  impl_->observe(tick, device, contact, command, objects, objects_version, nobody);
+}
+
+std::vector<std::string> Monitor::stages() const {
+  std::vector<std::string> stages{"hash of Device, contact and Object State",
+                                  "time in each contact mode, normal force, slip onsets, impulse given and rendered",
+                                  "object path, grasp and loss"};
+  if (impl_->stride > 0) stages.push_back("trace sample every " + std::to_string(impl_->stride) + " ticks");
+  return stages;
+}
+
+std::vector<std::string> Monitor::stageFunctions() const {
+  const std::string impl = "presa::Monitor::Impl::";
+  std::vector<std::string> functions{impl + "addToHash", impl + "sumFingers", impl + "sumObjects"};
+  if (impl_->stride > 0) functions.push_back(impl + "sample");
+  return functions;
+}
+
+const std::array<FingerSummary, kMaxFingers>& Monitor::fingers() const noexcept { return impl_->fingers; }
+const std::vector<ObjectSummary>& Monitor::objects() const noexcept { return impl_->objects; }
+const std::vector<SlipOnset>& Monitor::slipOnsets(std::size_t finger) const noexcept {
+  return impl_->slip_onsets[finger];
+}
+std::uint64_t Monitor::hash() const noexcept { return impl_->hash.value(); }
+const std::vector<TraceSample>& Monitor::trace() const noexcept { return impl_->trace; }
+const std::vector<std::int32_t>& Monitor::tracedBodies() const noexcept { return impl_->traced; }
+std::uint32_t Monitor::popThrough() const noexcept { return impl_->pop_through; }
+std::uint32_t Monitor::coverageLost() const noexcept { return impl_->coverage_lost; }
+double Monitor::firstCoverageLost() const noexcept { return impl_->first_coverage_lost; }
+std::uint32_t Monitor::objectFaults() const noexcept { return impl_->object_faults; }
+double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_time; }
+std::uint64_t Monitor::solverFallbacks() const noexcept { return impl_->solver_fallbacks; }
+double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
+
+}  // namespace presa

@@ -1,0 +1,68 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/scene/xml/value_rule.h"
+
+namespace presa::xml {
+
+struct AttributeRule {
+  std::string name;
+  bool required = false;
+  std::optional<std::string> default_value;
+  std::string documentation;  ///< meaning and unit
+  ValueRule value;
+};
+
+struct ElementRule;
+
+/// Children of which `min` to `max` must stand in an element; more than one option: alternatives.
+struct ContentRule {
+  std::vector<const ElementRule*> options;
+  std::size_t min = 0;
+  std::size_t max = 1;
+};
+
+struct ElementRule {
+  std::string name;
+  std::vector<AttributeRule> attributes;
+  std::vector<ContentRule> content;
+
+  const AttributeRule* attribute(const std::string& attribute_name) const;
+  const ElementRule* child(const std::string& child_name) const;
+  const ContentRule* contentOf(const std::string& child_name) const;
+  std::vector<std::string> attributeNames() const;
+  std::vector<std::string> childNames() const;
+  /// No attribute and no child is required: the element may be left out or stand without anything in it.
+  bool mayBeEmpty() const;
+};
+
+/// An XSD in two forms: compiled by libxml2, which decides what is valid, and as rules in the words of our messages,
+/// defaults and overrides. Immutable; may be shared by threads.
+///
+/// The rules know the part of XSD 1.0 that Presa's schemas use; any other construct throws std::logic_error. One
+/// addition, which XSD 1.0 lacks: within a repeated choice (elements in any order) the attribute `p:occurs`
+/// ("1", "0..1", "1..*") in the namespace urn:presa:schema says how often an element may stand.
+class Schema {
+ public:
+  explicit Schema(const std::string& xsd);
+  ~Schema();
+  Schema(const Schema&) = delete;
+  Schema& operator=(const Schema&) = delete;
+
+  const ElementRule& root() const { return *root_; }
+  const std::vector<std::unique_ptr<ElementRule>>& elements() const { return elements_; }
+
+ private:
+  friend class Document;
+  friend class SchemaReader;
+  struct Compiled;
+  std::unique_ptr<Compiled> compiled_;
+  std::vector<std::unique_ptr<ElementRule>> elements_;
+  const ElementRule* root_ = nullptr;
+};
+
+}  // namespace presa::xml

@@ -1,0 +1,90 @@
+#include "framework/session/load_world.h"
+
+#include "framework/input/folders.h"
+#include "framework/session/realtime_policy.h"
+#include "framework/session/session.h"
+#include "framework/session/stiffness_bound.h"
+#include "framework/scene/bus_settings.h"
+#include "framework/scene/load.h"
+
+namespace presa {
+namespace {
+
+std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostics& diagnostics) {
+  std::vector<Override> overrides;
+  for (const std::string& set : sets) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      diagnostics.error(110, {"--set " + set, 0, 0}, "expected PATH=VALUE, found '" + set + "'",
+                        "for example --set body/cube/physics/mass=0.1");
+      continue;
+    }
+    overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+/// The scene with softer materials, as if --set had asked for them: a recording holds what was felt.
+void boundStiffness(Loaded& loaded, const DeviceList& devices, Diagnostics& diagnostics) {
+  World world = *loaded.world;
+  const auto lowered = boundedMaterials(world.scene, stiffnessBound(devices, loaded.plan, world.scene), diagnostics);
+  if (lowered.empty()) return;
+  const std::string name = world.scene.file;
+  world.scene = parseScene(world.scene.resolved_xml, name, ".", lowered, diagnostics);
+  loaded.world = std::make_shared<const World>(std::move(world));
+}
+
+Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics) {
+  Loaded loaded;
+  loaded.plan = makePlan(scene, rig, options, diagnostics);
+  if (options.realtime && options.flight.empty() && !options.hardware_flight.empty() && drivesHardware(loaded.plan)) {
+    options.flight = options.hardware_flight;
+    Diagnostics said;  // all of it already
+    loaded.plan = makePlan(scene, rig, options, said);
+  }
+  if (options.realtime) checkCommandRate(scene, rig, loaded.plan, diagnostics);
+  // meshes are read even when the scene has findings of its own: the user sees all at once
+  loaded.world =
+      std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
+  if (diagnostics.hasErrors()) return loaded;
+  const DeviceList devices = createDevices(*loaded.world, loaded.plan, diagnostics);
+  if (!diagnostics.hasErrors()) {
+    std::vector<std::string> notes;  // for those who run it
+    safetyOf(*loaded.world, notes, diagnostics);
+  }
+  if (!diagnostics.hasErrors() && loaded.world->options.bound_stiffness) boundStiffness(loaded, devices, diagnostics);
+  return loaded;
+}
+
+}  // namespace
+
+Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics) {
+  const std::vector<Override> overrides = parseSets(inputs.sets, diagnostics);
+  Scene scene = loadScene(inputs.scene, overrides, diagnostics);
+  const std::string rig_file = inputs.rig.empty() ? scene.default_rig : inputs.rig;
+  Rig rig;
+  const bool named = inputs.rig.empty() && !rig_file.empty();  // by the scene, not by a person
+  if (named && !input::checkNamed({inputs.scene, 0, 0}, rig_file, diagnostics)) return {};
+  if (!rig_file.empty()) rig = loadRig(rig_file, diagnostics);
+  if (inputs.rig.empty() && !options.bus && rig.bus && opensMoreThanASceneMay(*rig.bus))
+    diagnostics.error(751, {rig_file, 0, 0},
+                      "the scene chose this rig, which opens the network or takes commands: a scene may do neither",
+                      "--rig " + rig_file + " says that you want it, --bus none that you do not");
+  if (diagnostics.hasErrors() && scene.bodies.empty()) return {};
+  return finish(std::move(scene), std::move(rig), std::move(options), diagnostics);
+}
+
+Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_name, const std::string& rig_xml,
+                         RunOptions options, Diagnostics& diagnostics) {
+  Scene scene = parseScene(scene_xml, scene_name, ".", {}, diagnostics);
+  Rig rig;  // a scene without fingers needs none
+  if (!rig_xml.empty()) rig = parseRig(rig_xml, "rig of " + scene_name, ".", diagnostics);
+  if (diagnostics.hasErrors()) return {};
+  Loaded loaded;
+  loaded.plan = makePlan(scene, rig, options, diagnostics);
+  loaded.world =
+      std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
+  return loaded;
+}
+
+}  // namespace presa

@@ -1,0 +1,112 @@
+#include "framework/session/plan.h"
+
+#include <algorithm>
+
+namespace presa {
+namespace {
+
+constexpr double kFastestRealTime = 10000;  // [Hz]
+/// The haptic tick goes through so many bodies in less time than it takes to look into a list of those near.
+constexpr std::size_t kFewTouchables = 32;
+
+template <class Wanted>
+std::string firstBody(const Scene& scene, const Wanted& wanted) {
+  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), wanted);
+  return found == scene.bodies.end() ? std::string{} : found->name;
+}
+
+void bindDevices(Plan& plan, const Scene& scene, const Rig& rig, Diagnostics& diagnostics) {
+  std::vector<std::string> bound;
+  for (const DeviceBinding& binding : rig.devices) bound.push_back(binding.role);
+  for (const DeviceRole& role : scene.devices) {
+    const auto binding = std::find_if(rig.devices.begin(), rig.devices.end(),
+                                      [&](const DeviceBinding& b) { return b.role == role.role; });
+    if (binding == rig.devices.end()) {
+      diagnostics.error(405, role.where,
+                        "role '" + role.role + "' is played by no device of the rig '" + rig.name + "'" +
+                            didYouMean(role.role, bound),
+                        rig.file.empty() ? "name a rig: --rig FILE, or the scene's attribute rig"
+                                         : "add <device role=\"" + role.role + "\" driver=\"…\"/> to " + rig.file);
+      continue;
+    }
+    plan.devices.push_back({role.role, binding->driver});
+  }
+}
+
+const char* dynamicsPlugin(const Scene& scene) {
+  switch (scene.dynamics.engine) {
+    case DynamicsSettings::Engine::kMujoco:
+      return "dynamics_mujoco";
+    case DynamicsSettings::Engine::kBullet:
+      return "dynamics_bullet";
+    default:
+      return "dynamics_ode";
+  }
+}
+
+}  // namespace
+
+bool Plan::has(const std::string& plugin) const {
+  return std::any_of(modules.begin(), modules.end(), [&](const PlannedModule& m) { return m.plugin == plugin; });
+}
+
+Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Diagnostics& diagnostics) {
+  Plan plan;
+  bindDevices(plan, scene, rig, diagnostics);
+  const auto call = [&](bool wanted, const char* plugin, RateGroup group, std::string why, std::string why_not) {
+    if (wanted) {
+      plan.modules.push_back({plugin, group, std::move(why)});
+    } else {
+      plan.left_out.push_back({plugin, std::move(why_not)});
+    }
+  };
+
+  const std::string free = firstBody(scene, [](const Body& b) { return !b.fixed; });
+  const std::string mesh =
+      firstBody(scene, [](const Body& b) { return b.haptic && std::holds_alternative<MeshRef>(b.haptic->shape); });
+  const std::string touchable = firstBody(scene, [](const Body& b) { return b.haptic.has_value(); });
+  const bool fingers = !scene.devices.empty();
+
+  call(fingers, "haptics_proxy", RateGroup::kHaptic,
+       touchable.empty() ? "the scene has devices" : "fingers can touch body '" + touchable + "'",
+       "the scene has no device");
+  const auto touchables =
+      static_cast<std::size_t>(std::ranges::count_if(scene.bodies, [](const Body& b) { return b.haptic.has_value(); }));
+  call(fingers && (!mesh.empty() || touchables > kFewTouchables), "collision_fcl", RateGroup::kCollision,
+       mesh.empty() ? std::to_string(touchables) + " bodies can be touched"
+                    : "body '" + mesh + "' has a mesh as haptic geometry",
+       fingers ? "few haptic geometries, and all of them primitives, which the haptic tick handles exactly"
+               : "the scene has no device");
+  const char* dynamics = dynamicsPlugin(scene);
+  if (fingers && !free.empty() && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
+    diagnostics.error(
+        407, {scene.file, 0, 0}, std::string("the scene has devices, and ") + dynamics + " knows no fingers",
+        "engine=\"ode\" moves bodies that are held; the others are there to compare with, without fingers");
+  }
+  if (scene.assembly && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
+    diagnostics.error(409, {scene.file, 0, 0},
+                      std::string("the scene has an assembly, and ") + dynamics + " draws no bodies", "engine=\"ode\"");
+  }
+  if (options.realtime && scene.rates.haptic > kFastestRealTime) {
+    diagnostics.error(408, {scene.file, 0, 0}, "a haptic rate above 10000 Hz cannot be kept against the clock",
+                      "--lockstep, where finer steps are a reference for coarser ones");
+  }
+  call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
+       "the scene has no assembly");
+  call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
+  call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,
+       options.record.empty() ? "the last two seconds are kept for a fault" : "the run is recorded",
+       "nothing is recorded");
+  call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,
+       options.view == RunOptions::View::kWindow ? "--view window" : "a picture is wanted", "no view is wanted");
+  const std::optional<BusSettings> bus = busOf(scene, rig, options);
+  call(bus.has_value(), "bus_dds", RateGroup::kBus,
+       !bus          ? ""
+       : options.bus ? "--bus " + bus->network
+                     : (rig.bus ? "the rig '" + rig.name : "the scene '" + scene.name) + "' publishes on bus '" +
+                           bus->network + "'",
+       "nobody asked for a bus (--bus)");
+  return plan;
+}
+
+}  // namespace presa

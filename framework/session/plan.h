@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/core/graph/module.h"
+#include "framework/scene/world.h"
+#include "framework/core/schedule/tick.h"
+
+namespace presa {
+
+/// One plug-in that a run loads, and why.
+struct PlannedModule {
+  std::string plugin;  ///< folder name
+  RateGroup group = RateGroup::kHaptic;
+  std::string reason;  ///< "body 'cube' is free"
+};
+
+struct PlannedDevice {
+  std::string role, driver;
+};
+
+/// What a scene calls for, and nothing else. Pure decision: loads and starts nothing.
+struct Plan {
+  std::vector<PlannedModule> modules;
+  std::vector<PlannedDevice> devices;  ///< in the order of the scene's roles
+  std::vector<LeftOut> left_out;
+
+  bool has(const std::string& plugin) const;
+};
+
+/// Binds every role to a driver of the rig (E4xx when one is missing) and picks the plug-ins.
+Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Diagnostics& diagnostics);
+
+}  // namespace presa

@@ -1,0 +1,216 @@
+#include "framework/session/replay.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "framework/core/graph/port.h"
+#include "framework/scene/open_surfaces.h"
+#include "framework/core/schedule/rates.h"
+#include "framework/core/state/surface_change.h"
+#include "framework/core/state/surface_settings.h"
+
+namespace presa {
+namespace {
+
+bool sameBits(const Vec3& a, const Vec3& b) noexcept {
+  for (int i = 0; i < 3; ++i) {
+    if (std::bit_cast<std::uint64_t>(a[i]) != std::bit_cast<std::uint64_t>(b[i])) return false;
+  }
+  return true;
+}
+
+const ForceCommand* commandOf(const Graph& graph) {
+  for (const Connection& connection : graph.connections()) {
+    if (connection.from->name() != "force_command") continue;
+    return &static_cast<const Out<ForceCommand>*>(connection.from)->value;
+  }
+  return nullptr;
+}
+
+/// A finger of a recording: gives the recorded samples, ignores forces.
+class RecordedFinger final : public Device {
+ public:
+  RecordedFinger(const Recording& recording, std::size_t finger) : recording_(recording), finger_(finger) {}
+  FingerInput read(const Tick&) noexcept override { return recording_.device[row_++].fingers[finger_]; }
+  void write(const Vec3&, const Tick&) noexcept override {}
+
+ private:
+  const Recording& recording_;
+  std::size_t finger_;
+  std::size_t row_ = 0;
+};
+
+class RecordedSurfaces final : public Module {
+ public:
+  explicit RecordedSurfaces(const Recording& recording)
+      : Module("recorded_surfaces", RateGroup::kHaptic), recording_(recording) {}
+  void step(const Tick&) noexcept override { change_.value.happened = recording_.surfaces_changed[row_++] != 0; }
+  std::vector<std::string> stages() const override { return {"change the surfaces where they changed"}; }
+
+ private:
+  const Recording& recording_;
+  std::size_t row_ = 0;
+  Out<SurfaceChange> change_{*this, "surface_change"};
+};
+
+class RecordedCommands final : public Module {
+ public:
+  explicit RecordedCommands(const Recording& recording)
+      : Module("recorded_commands", RateGroup::kHaptic), recording_(recording) {}
+  void step(const Tick&) noexcept override {
+    const auto& commands = recording_.commands;
+    if (next_ < commands.size() && commands[next_].row == row_) {
+      const Recording::Command& command = commands[next_++];
+      SurfaceSettings& settings = settings_.value;
+      if (command.slot < settings.slots.size()) settings.slots[command.slot] = {++settings.newest, command.value};
+    }
+    ++row_;
+  }
+  std::vector<std::string> stages() const override { return {"set what commands set"}; }
+
+ private:
+  const Recording& recording_;
+  std::size_t row_ = 0, next_ = 0;
+  Out<SurfaceSettings> settings_{*this, "surface_settings"};
+};
+
+class Replayer {
+ public:
+  Replayer(const Recording& recording, Session& session, const RateTable& rates, RunControl& control)
+      : recording_(recording),
+        session_(session),
+        rates_(rates),
+        control_(control),
+        command_(commandOf(session.graph())) {
+    result_.recorded = recording.time.size();
+    result_.fingers = command_ == nullptr ? 0 : recording.fingers;
+  }
+
+  ReplayResult run() {
+    Graph& graph = session_.graph();
+    constexpr std::size_t kHistoryBytes = 32u << 20;
+    graph.keepHistory(kHistoryBytes);
+    for (RateGroup group : kGroups) graph.start(group);
+    // each group goes on while what its next tick read has been written: some order of the original run
+    bool moved = true;
+    while (moved) {
+      moved = false;
+      for (RateGroup group : kGroups) moved = advance(group) || moved;
+    }
+    for (RateGroup group : kGroups) graph.stop(group);
+    if (next_[static_cast<std::size_t>(RateGroup::kHaptic)] < rows(RateGroup::kHaptic)) {
+      result_.problem = "tick " + std::to_string(result_.ticks) + " read a value that the recording does not hold";
+    }
+    return result_;
+  }
+
+ private:
+  static constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
+
+  std::size_t rows(RateGroup group) const {
+    const std::size_t schedule = recording_.schedule[static_cast<std::size_t>(group)].size();
+    return group == RateGroup::kHaptic ? std::min(schedule, recording_.device.size()) : schedule;
+  }
+
+  bool advance(RateGroup group) {
+    if (!session_.graph().runs(group)) return false;
+    const auto g = static_cast<std::size_t>(group);
+    if (next_[g] >= rows(group)) return false;
+    const ScheduleRow& row = recording_.schedule[g][next_[g]];
+    if (group == RateGroup::kHaptic) {
+      control_.stop_requested = recording_.device[next_[g]].stop_requested;
+      control_.rearms = recording_.device[next_[g]].rearms;
+    }
+    Tick tick = rates_.tick(group, row.index);
+    tick.made_up = (row.made_up & 1U) != 0;
+    tick.resumed = (row.made_up & 2U) != 0;
+    if (!session_.graph().replayStep(group, tick, row)) return false;
+    if (group == RateGroup::kHaptic) compare(next_[g]);
+    ++next_[g];
+    return true;
+  }
+
+  void compare(std::size_t row) {
+    ++result_.ticks;
+    if (command_ == nullptr) return;
+    bool same = command_->count == recording_.command[row].count;
+    for (std::size_t f = 0; f < result_.fingers; ++f) {
+      const Vec3 &now = command_->f_H_W[f], &then = recording_.command[row].f_H_W[f];
+      if (sameBits(now, then)) continue;
+      same = false;
+      result_.largest_difference = std::max(result_.largest_difference, (now - then).norm());
+    }
+    if (same) return;
+    if (result_.differing++ == 0) result_.first_difference = recording_.time[row];
+  }
+
+  const Recording& recording_;
+  Session& session_;
+  const RateTable& rates_;
+  RunControl& control_;
+  const ForceCommand* command_;
+  std::array<std::size_t, kScheduledGroupCount> next_{};
+  ReplayResult result_;
+};
+
+DeviceList devicesOf(const Recording& recording) {
+  DeviceList devices;
+  for (std::size_t f = 0; f < recording.fingers; ++f) devices.push_back(std::make_unique<RecordedFinger>(recording, f));
+  return devices;
+}
+
+/// A session without devices of its own would open those of the rig: nothing is run whose fingers are not those of the scene.
+void checkBelongs(const Recording& recording, const Scene& scene, Diagnostics& diagnostics) {
+  const auto compare = [&](const std::string& what, auto recorded, auto in_scene) {
+    if (recorded == in_scene) return;
+    diagnostics.error(
+        677, {recording.file, 0, 0},
+        what + ": the recording has " + std::to_string(recorded) + ", its own scene_xml " + std::to_string(in_scene),
+        "scene and recording are of one run; was it changed since it was recorded?");
+  };
+  compare("fingers", recording.fingers, std::min<std::size_t>(scene.devices.size(), kMaxFingers));
+  compare("bodies", recording.bodies, scene.bodies.size());
+  compare("haptic period [s]", recording.haptic_period, RateTable(scene.rates).period(RateGroup::kHaptic));
+  const std::size_t open = openSurfaces(scene).size();
+  for (const Recording::Command& command : recording.commands) {
+    if (command.slot < open) continue;
+    return diagnostics.error(677, {recording.file, 0, 0},
+                             "haptic/ticks: column 'commanded', row " + std::to_string(command.row) + ": found " +
+                                 std::to_string(command.slot + 1) + ", its scene has " + std::to_string(open) +
+                                 " surfaces that a command can change");
+  }
+}
+
+/// What changed on the way does so again; modules only where something did.
+std::vector<std::unique_ptr<Module>> changesOf(const Recording& recording) {
+  std::vector<std::unique_ptr<Module>> changes;
+  const auto& changed = recording.surfaces_changed;
+  if (std::find(changed.begin(), changed.end(), 1) != changed.end())
+    changes.push_back(std::make_unique<RecordedSurfaces>(recording));
+  if (!recording.commands.empty()) changes.push_back(std::make_unique<RecordedCommands>(recording));
+  return changes;
+}
+
+}  // namespace
+
+RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) : recording_(recording) {
+  RunOptions options;
+  options.seed = recording.seed;
+  options.force_share = recording.force_share;
+  options.bus = BusSettings{.network = "none"};  // what is run again is not on show
+  options.bus_commands = !recording.commands.empty();
+  loaded_ = loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+  if (!diagnostics.hasErrors()) checkBelongs(recording, loaded_.world->scene, diagnostics);
+  if (diagnostics.hasErrors()) return;
+  Session::Options session_options;
+  session_options.devices = devicesOf(recording);
+  session_options.more = changesOf(recording);
+  session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
+}
+
+ReplayResult RecordedRun::run() {
+  const RateTable rates(loaded_.world->scene.rates);
+  return Replayer(recording_, *session_, rates, control_).run();
+}
+
+}  // namespace presa

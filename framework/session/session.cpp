@@ -1,0 +1,200 @@
+#include "framework/session/session.h"
+
+#include <algorithm>
+
+#include "framework/device/transport_watch.h"
+#include "framework/core/graph/graph_builder.h"
+#include "framework/session/plugin.h"
+#include "framework/core/plugin/plugin_loader.h"
+#include "framework/record/record_plugin.h"
+#include "framework/device/supervision/supervised_device.h"
+
+namespace presa {
+namespace {
+
+template <class Table>
+const Table& tableOf(const std::string& plugin, const char* symbol) {
+  using Entry = const Table* (*)();
+  const Table& table = *reinterpret_cast<Entry>(pluginSymbol(plugin, symbol))();
+  if (table.abi != kPluginAbi) {
+    Diagnostics diagnostics;
+    diagnostics.error(
+        510, {"presa_" + plugin + ".so", 0, 0},
+        "built for plug-in interface " + std::to_string(table.abi) + ", this program has " + std::to_string(kPluginAbi),
+        "build it again: ./dev build");
+    throw InputError(diagnostics);
+  }
+  return table;
+}
+
+}  // namespace
+
+const DevicePlugin& devicePlugin(const std::string& driver) {
+  const auto& table = tableOf<DevicePlugin>(driver, "presaDevicePlugin");
+  if (!isSound(table.rating)) {
+    Diagnostics diagnostics;
+    diagnostics.error(655, {"presa_" + driver + ".so", 0, 0},
+                      "the driver's rating is not finite, or its slew takes longer than 12 ms from its force to zero",
+                      "framework/device/device_rating.h says what a rating is");
+    throw InputError(diagnostics);
+  }
+  return table;
+}
+
+namespace {
+
+/// Null where the rig has none for the role.
+const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
+  const auto found = std::find_if(rig.devices.begin(), rig.devices.end(),
+                                  [&](const DeviceBinding& binding) { return binding.role == role; });
+  return found == rig.devices.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics) {
+  DeviceList devices;
+  for (const PlannedDevice& planned : plan.devices) {
+    const DeviceBinding* binding = bindingOf(world.rig, planned.role);
+    try {
+      const DevicePlugin& driver = devicePlugin(planned.driver);
+      if (auto device = driver.create(*binding, world, diagnostics)) devices.push_back(std::move(device));
+    } catch (const InputError& error) {
+      diagnostics.error(406, binding->where,
+                        "role '" + planned.role + "': driver '" + planned.driver + "' cannot be loaded", error.what());
+    }
+  }
+  return devices;
+}
+
+std::unique_ptr<View> makeView(std::shared_ptr<const World> world) {
+  auto module = tableOf<ModulePlugin>("view_osg", "presaModulePlugin").create(std::move(world));
+  return std::unique_ptr<View>(&dynamic_cast<View&>(*module.release()));
+}
+
+std::vector<std::string> whileOpening(const Plan& plan) {
+  std::vector<std::string> lines;
+  for (const PlannedDevice& planned : plan.devices) {
+    if (const char* what = devicePlugin(planned.driver).while_opening)
+      lines.push_back(planned.role + " (" + planned.driver + "): " + what);
+  }
+  return lines;
+}
+
+std::vector<std::string> engineVersions(const Plan& plan) {
+  std::vector<std::string> versions;
+  for (const PlannedModule& planned : plan.modules) {
+    if (planned.plugin == "record") continue;
+    const auto& table = tableOf<ModulePlugin>(planned.plugin, "presaModulePlugin");
+    if (table.library != nullptr) versions.push_back(table.library());
+  }
+  return versions;
+}
+
+namespace {
+
+/// Of the driver that the rig names; of an imagined finger where it names none: a replay and a study bring devices of their own.
+const DeviceRating& ratingOf(const DeviceBinding* binding) {
+  return binding == nullptr ? kImaginedRating : devicePlugin(binding->driver).rating;
+}
+
+}  // namespace
+
+std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes, Diagnostics& findings) {
+  std::vector<FingerSafety> safety;
+  for (const DeviceRole& role : world.scene.devices) {
+    const DeviceBinding* binding = bindingOf(world.rig, role.role);
+    safety.push_back(
+        safetyFor(role, binding == nullptr ? DeviceBinding{} : *binding, ratingOf(binding), notes, findings));
+    safety.back().limits.force *= world.options.force_share;
+  }
+  return safety;
+}
+
+Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
+    : devices_(std::move(options.devices)) {
+  Diagnostics said;  // when the world was loaded
+  const std::vector<FingerSafety> safety = safetyOf(*world, notes_, said);
+  if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);
+  if (options.wrap) devices_ = options.wrap(std::move(devices_));
+  for (std::size_t f = 0; f < devices_.size(); ++f)
+    devices_[f] = watched(std::move(devices_[f]), safety[f].limits,
+                          ratingOf(bindingOf(world->rig, world->scene.devices[f].role)), control);
+  GraphBuilder builder;
+  if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
+  for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
+  offerPointer();
+  if (!devices_.empty()) {
+    output_ =
+        &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world->scene.rates, world->options.realtime));
+  }
+  monitor_ = &builder.add(std::make_unique<Monitor>(world, phaseStart("loosen"), options.trace_rate));
+  for (auto& module : options.more) builder.add(std::move(module));
+  builder.connectByName();
+  graph_ = builder.build();
+}
+
+void Session::offerPointer() {
+  std::vector<std::size_t> fingers;
+  for (std::size_t f = 0; f < devices_.size(); ++f) {
+    if (devices_[f]->points()) fingers.push_back(f);
+  }
+  if (view_ != nullptr && !fingers.empty()) view_->offerPointer(fingers);
+}
+
+Session::~Session() {
+  for (const auto& device : devices_) device->close();
+}
+
+std::vector<Diagnostic> Session::reopenDevices(const std::atomic<bool>& stop) {
+  std::vector<Diagnostic> findings;
+  for (const auto& device : devices_) {
+    try {
+      device->reopen(stop);
+    } catch (const InputError& error) {
+      const auto& all = error.diagnostics().all();
+      findings.insert(findings.end(), all.begin(), all.end());
+    }
+  }
+  return findings;
+}
+
+void Session::bringUpDevices(const World& world, const Plan& plan, bool open) {
+  Diagnostics diagnostics;
+  devices_ = createDevices(world, plan, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  if (!open) return;
+  for (std::size_t f = 0; f < devices_.size() && world.options.realtime; ++f) {
+    const DeviceBinding& binding = *bindingOf(world.rig, plan.devices[f].role);
+    if (!devicePlugin(binding.driver).hardware) continue;
+    devices_[f] = std::make_unique<SupervisedDevice>(std::move(devices_[f]), binding, world.rig.file);
+  }
+  for (const auto& device : devices_) device->open();
+}
+
+std::unique_ptr<Module> Session::load(const PlannedModule& planned, const std::shared_ptr<const World>& world) {
+  if (planned.plugin == "record") {
+    auto recorder = recordPlugin().create(world);
+    recorder_ = recorder.get();
+    schedule_ = std::make_unique<ScheduleLog>();
+    recorder->attach(*schedule_);
+    return recorder;
+  }
+  auto module = tableOf<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world);
+  if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
+  if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
+  return module;
+}
+
+double Session::phaseStart(const std::string& phase) const {
+  for (const auto& device : devices_) {
+    const auto names = device->phases();
+    const auto times = device->phaseTimes();
+    const auto found = std::find(names.begin(), names.end(), phase);
+    const auto phase_index = static_cast<std::size_t>(found - names.begin());
+    if (phase_index < std::min(names.size(), times.size())) return times[phase_index];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace presa

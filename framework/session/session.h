@@ -1,0 +1,87 @@
+#pragma once
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "framework/device/device_modules.h"
+#include "framework/core/graph/graph.h"
+#include "framework/record/monitor/monitor.h"
+#include "framework/session/assembly_control.h"
+#include "framework/session/plan.h"
+#include "framework/session/view.h"
+#include "framework/record/recording.h"
+
+namespace presa {
+
+struct DevicePlugin;
+
+/// Names and versions of the libraries that the plan's modules work with: "ODE 0.16.2". Loads the plug-ins.
+std::vector<std::string> engineVersions(const Plan& plan);
+
+/// A planned run brought to life: plug-ins loaded, devices opened, graph built and frozen.
+/// Thread: main. The executor runs graph(); everything else is read after it, or through atomics.
+class Session {
+ public:
+  struct Options {
+    double trace_rate = 0;                      ///< samples per second for plots; 0: none
+    DeviceList devices;                         ///< replay: used instead of the rig's drivers
+    bool open_devices = true;                   ///< explain: looks at the drivers without touching hardware
+    std::vector<std::unique_ptr<Module>> more;  ///< the program's own taps
+    /// What the program puts around the rig's devices once they are open; none: nothing.
+    std::function<DeviceList(DeviceList)> wrap;
+  };
+  /// Throws InputError with every finding.
+  Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  Graph& graph() noexcept { return graph_; }
+  const DeviceList& devices() const noexcept { return devices_; }
+  /// Main thread, while the graph runs: opens again what was lost, each device for itself. What stays lost is in the findings.
+  std::vector<Diagnostic> reopenDevices(const std::atomic<bool>& stop);
+  /// Lines worth telling the user about the limits that hold.
+  const std::vector<std::string>& notes() const noexcept { return notes_; }
+  DeviceOutput* output() noexcept { return output_; }  ///< null without devices
+  const Monitor& monitor() const noexcept { return *monitor_; }
+  Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
+  ScheduleLog* schedule() noexcept { return schedule_.get(); }
+  View* view() noexcept { return view_; }                     ///< null without a view
+  AssemblyControl* assembly() noexcept { return assembly_; }  ///< null where nothing is put together
+
+  /// Start of the scripted phase of that name [s]; infinity when no device has one.
+  double phaseStart(const std::string& phase) const;
+
+ private:
+  void bringUpDevices(const World& world, const Plan& plan, bool open);
+  void offerPointer();
+  std::unique_ptr<Module> load(const PlannedModule& planned, const std::shared_ptr<const World>& world);
+
+  DeviceList devices_;
+  std::vector<std::string> notes_;
+  std::unique_ptr<ScheduleLog> schedule_;
+  Graph graph_;
+  DeviceOutput* output_ = nullptr;
+  Monitor* monitor_ = nullptr;
+  Recorder* recorder_ = nullptr;
+  View* view_ = nullptr;
+  AssemblyControl* assembly_ = nullptr;
+};
+
+/// The view of a world alone, for a graph of one's own (its plug-in is loaded; throws InputError when that cannot be done).
+std::unique_ptr<View> makeView(std::shared_ptr<const World> world);
+
+/// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
+const DevicePlugin& devicePlugin(const std::string& driver);
+
+/// What the output stages of a world's fingers keep to, in the order of its roles. What was lowered goes to `notes` and `findings`
+/// (safetyFor). Loads the drivers' plug-ins.
+std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes, Diagnostics& findings);
+
+/// What somebody has to do while the devices of a run open, a line for each.
+std::vector<std::string> whileOpening(const Plan& plan);
+
+/// The drivers of a rig, checked but not opened, in the order of the plan. Findings go to `diagnostics`.
+DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics);
+
+}  // namespace presa
