@@ -25,7 +25,7 @@ std::vector<Vec3> forcesOf(double end) {
 }  // namespace
 
 /// Whoever does not call a clock cannot be moved by it: no object that runs imports one that shows the wall's time. The
-/// recording's, that notes when it began, and the program's own, that dates results, are outside every tick. tests/faults lets
+/// recording's, that notes when it began, and the program's own, that dates results, are outside every tick. tests/experiments/faults lets
 /// the clock really jump.
 Outcome wallClockJumps(RandomStream& random) {
   Outcome outcome;

@@ -6,7 +6,7 @@
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
 #include "framework/core/schedule/executor.h"
-#include "tests/app/support.h"
+#include "tests/apps/presa/support.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {

@@ -8,7 +8,7 @@
 #include "apps/presa/explain/module_times.h"
 #include "framework/session/session.h"
 #include "framework/core/schedule/executor.h"
-#include "tests/app/support.h"
+#include "tests/apps/presa/support.h"
 #include "tests/effects/instructions.h"
 
 namespace presa {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/app/support.h"
+#include "tests/apps/presa/support.h"
 
 namespace presa::test {
 namespace {

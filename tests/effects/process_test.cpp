@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/app/support.h"
+#include "tests/apps/presa/support.h"
 
 namespace presa {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "framework/record/checksum/checksum.h"
 #include "framework/core/plugin/plugin_loader.h"
-#include "tests/record/mutation.h"
+#include "tests/framework/record/mutation.h"
 
 extern "C" const presa::ChecksumPlugin presaChecksums;
 
@@ -37,7 +37,7 @@ struct Files {
 
 }  // namespace
 
-/// Any bytes are damage to a recording, which is then refused or sound (tests/record/mutation.h).
+/// Any bytes are damage to a recording, which is then refused or sound (tests/framework/record/mutation.h).
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Files files;
   std::filesystem::copy_file(files.specimen, files.run, std::filesystem::copy_options::overwrite_existing);

@@ -1,0 +1,129 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/experiment/operator/operator.h"
+#include "apps/experiment/session.h"
+#include "apps/common/scratch_folder.h"
+#include "experiments/runner/definition/read.h"
+#include "devices/simulated_subject/model/traits.h"
+#include "tests/apps/experiment/contents.h"
+#include "tests/apps/experiment/refusal.h"
+
+// A model that takes part is a person of its own under its number, and nothing that it leaves behind passes for a person's.
+namespace presa::experiment {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kFolder = std::string(PRESA_SOURCE_DIR) + "/experiments/grip_slip/";
+const std::string kModel = "simulated subject, level L1: a model, not a person";
+
+Experiment gripStudy(const std::string& level, const std::string& rig = {}) {
+  Diagnostics diagnostics;
+  auto experiment = readExperiment(kFolder + "experiment.xml", rig, diagnostics, level);
+  EXPECT_TRUE(experiment) << diagnostics.text();
+  return experiment.value_or(Experiment{});
+}
+
+double factOf(const std::vector<DeviceFact>& facts, const std::string& name) {
+  for (const DeviceFact& fact : facts) {
+    if (fact.name == name) return fact.value;
+  }
+  return NAN;
+}
+
+TEST(Simulated, IsCalledAModelWhereverItComesFrom) {
+  EXPECT_EQ(gripStudy("L1").model, kModel);
+  EXPECT_EQ(gripStudy("L1").rig, kFolder + "rig_simulated.xml");
+  EXPECT_EQ(gripStudy({}, kFolder + "rig_simulated.xml").model, "simulated subject, level L0: a model, not a person");
+  EXPECT_EQ(gripStudy({}).model, "scripted fingers: no person");
+}
+
+TEST(Simulated, IsDrawnFromTheSeedOfTheExperimentAndItsNumber) {
+  Experiment experiment = gripStudy("L1");
+  for (const int number : {1, 2}) {
+    const subject::Population population(subject::Level::kL1);
+    const subject::Traits expected = population.draw(experiment.seed, static_cast<std::uint64_t>(number));
+    const std::vector<DeviceFact> traits = traitsOf(experiment, number);
+    ASSERT_EQ(traits.size(), population.traits().size());
+    for (const subject::Trait& trait : population.traits())
+      EXPECT_EQ(factOf(traits, std::string(trait.name)), expected.*trait.value) << trait.name;
+  }
+  const double before = factOf(traitsOf(experiment, 1), "safety_margin");
+  EXPECT_NE(factOf(traitsOf(experiment, 2), "safety_margin"), before);
+  ++experiment.seed;
+  EXPECT_NE(factOf(traitsOf(experiment, 1), "safety_margin"), before);
+}
+
+TrialResult runTrial(const Experiment& experiment, const PlannedTrial& trial, const TrialSetting& setting) {
+  return present(experiment, presentationsOf(experiment, trial).front(), trial.seed, setting);
+}
+
+// What subjects feel may not be changed by somebody elsewhere: neither the session begins nor a trial.
+TEST(Simulated, AnExperimentTakesNoCommands) {
+  const ScratchFolder folder;
+  std::string rig = contentsOf(kFolder + "rig_simulated.xml");
+  rig.insert(rig.rfind("</rig>"), "<bus network=\"loopback\" commands=\"true\"/>");
+  std::ofstream(folder.file("rig.xml")) << rig;
+  const Experiment open = gripStudy({}, folder.file("rig.xml"));
+  EXPECT_THAT(refusalOf([&] { traitsOf(open, 1); }), HasSubstr("error[E730]"));
+  EXPECT_THAT(refusalOf([&] { runTrial(open, planTrials(open, 1, 1).front(), {.subject = 1}); }),
+              HasSubstr("error[E730]"));
+}
+
+// The trial's seed draws what differs from trial to trial; the person stays.
+TEST(Simulated, IsTheSamePersonInEveryTrialAndAnotherUnderAnotherNumber) {
+  const Experiment experiment = gripStudy("L1");
+  PlannedTrial trial = planTrials(experiment, 1, 1).front();
+  const TrialSetting first{.subject = 1}, second{.subject = 2};
+  const TrialResult once = runTrial(experiment, trial, first), again = runTrial(experiment, trial, first);
+  EXPECT_EQ(once.state, Trial::State::kDone) << once.reason;
+  EXPECT_THAT(again.values, testing::ElementsAreArray(once.values));
+  EXPECT_NE(runTrial(experiment, trial, second).values, once.values);
+  ++trial.seed;
+  const TrialResult other = runTrial(experiment, trial, first);
+  for (const char* name : {"device_resolution", "slip_threshold_of_trial", "misjudgement_of_trial"}) {
+    EXPECT_EQ(factOf(again.facts, name), factOf(once.facts, name)) << name;
+    EXPECT_NE(factOf(other.facts, name), factOf(once.facts, name)) << name;
+  }
+}
+
+TEST(Simulated, NeedsARigForIt) {
+  ScratchFolder scratch;
+  std::string text = contentsOf(kFolder + "experiment.xml");
+  const std::string attribute = "simulated_rig=\"rig_simulated.xml\"", scene = "scene=\"";
+  text.replace(text.find(attribute), attribute.size(), "");
+  text.replace(text.find(scene), scene.size(), scene + kFolder);
+  std::ofstream(scratch.file("experiment.xml")) << text;
+  Diagnostics diagnostics;
+  EXPECT_FALSE(readExperiment(scratch.file("experiment.xml"), {}, diagnostics, "L1"));
+  EXPECT_THAT(diagnostics.text(), HasSubstr("experiment.xml:4:1: error[E912]: a simulated subject is asked for"));
+}
+
+TEST(Simulated, TheSessionSaysSoAndKeepsItsLevel) {
+  ScratchFolder scratch;
+  Experiment experiment = gripStudy("L1");
+  for (Factor& factor : experiment.factors) factor.levels.resize(1);
+  experiment.design = {.repeats = 1};
+  const SessionStart start{.experiment_file = experiment.file,
+                           .subject = {"S03", 3},
+                           .simulated = experiment.level,
+                           .model = experiment.model};
+  const SessionFolder folder = SubjectSession::begin(experiment, start, scratch.file("data")).folder();
+  const auto logged = [&] { return readLog(folder.journal(), Journal::read(folder.journal()).records); };
+  EXPECT_EQ(logged().start.simulated, "L1");
+  EXPECT_EQ(logged().start.model, kModel);
+  SubjectSession session = SubjectSession::resume(experiment, folder);
+  EXPECT_EQ(session.start().model, kModel);
+  ASSERT_EQ(session.run(*silentOperator(1), "en"), SubjectSession::End::kComplete);
+
+  const auto records = Journal::read(folder.journal()).records;
+  const double margin = factOf(traitsOf(experiment, 3), "safety_margin");
+  EXPECT_EQ(records.front().at("traits").at("safety_margin"), (Json{{"value", margin}, {"unit", "1"}}));
+  EXPECT_EQ(logged().runs.at(0).end.at("model").at(0).at("device_resolution").at("unit"), "m");
+  EXPECT_THAT(contentsOf(folder.file("trials.csv")), HasSubstr("\nS03,1,\"" + kModel + "\",1,"));
+  EXPECT_THAT(contentsOf(folder.file("trials.json")), HasSubstr(kModel));
+}
+
+}  // namespace
+}  // namespace presa::experiment

@@ -1,0 +1,214 @@
+#include "apps/common/grasp_figures.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/common/losses.h"
+#include "apps/common/report/report.h"
+#include "apps/common/summary.h"
+#include "apps/common/terminal/closing.h"
+#include "apps/common/terminal/status_line.h"
+#include "apps/common/verdict.h"
+#include "tests/framework/record/monitor/synthetic_run.h"
+
+namespace presa {
+namespace {
+
+using test::Feed;
+using test::pinchWorld;
+
+/// 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad, then loosening: 4 N falling by 2 N/s, slip below 1.197 N.
+struct Grasp {
+  Feed feed{pinchWorld(6), 4.0, 250};
+  RunResult result;
+
+  explicit Grasp(double wobble = 0) {
+    for (int i = 0; i < 6000; ++i) showTick(i, wobble);
+    result.world = feed.world;
+    result.phases = {{"lift", 0, 1}, {"hold", 1, 4}, {"loosen", 4, 6}};
+    takeMonitor(feed.monitor, result);
+  }
+
+  void showTick(int i, double wobble) {
+    const double t = i * 1e-3;
+    const bool up = t >= 1;
+    const Pose X_WB{Vec3(0, 0, up ? 0.135 : 0.035), Quat(Eigen::AngleAxisd(up ? 0.5 : 0.0, Vec3::UnitX()))};
+    feed.objects.bodies[1].X_WB_begin = feed.objects.bodies[1].X_WB_end = X_WB;
+    ++feed.version;
+    // ripple of exactly 2 % peak to peak over the mean, seen at every trace sample of 4 ms
+    const double grip = t < 4 ? 4 * (1 + 0.01 * ((i / 4) % 2 == 0 ? 1 : -1)) : std::max(0.0, 4 - 2 * (t - 4));
+    for (std::size_t f = 0; f < 2; ++f) {
+      const ContactMode mode = grip <= 0               ? ContactMode::kNone
+                               : t > 4 && grip < 1.197 ? ContactMode::kSlip
+                                                       : ContactMode::kStick;
+      feed.touch(f, mode, grip, f == 0 ? 0.75 * 0.981 : 1.25 * 0.981);
+      const Vec3 p_BP(f == 0 ? -0.043 : 0.043, 0, 0.01 + (i % 8 == 0 ? wobble : 0));
+      feed.contact.fingers[f].p_WP = X_WB * p_BP;
+    }
+    feed.tick();
+  }
+};
+
+// Every figure of a grasp whose answer is known in advance, on an object that turns while it is lifted.
+TEST(GraspFigures, MatchAGraspThatIsKnownExactly) {
+  const Grasp grasp;
+  const auto figures = graspFigures(grasp.result);
+  ASSERT_TRUE(figures);
+  ASSERT_EQ(figures->fingers.size(), 2u);
+  // means of 750 samples and a rotation there and back: a few hundred roundings of numbers near 1
+  EXPECT_NEAR(figures->lift_height, 0.1, 1e-12);
+  EXPECT_NEAR(figures->held_in_stick, 3.0, 1e-12);
+  EXPECT_NEAR(figures->slip_limit, 0.2 * 9.81 / (2 * 0.8), 1e-12);
+  EXPECT_NEAR(figures->fingers[0].weight_share, 0.75, 1e-12);
+  EXPECT_NEAR(figures->fingers[1].weight_share, 1.25, 1e-12);
+  for (const FingerGrasp& finger : figures->fingers) {
+    EXPECT_EQ(finger.stick_fraction, 1);
+    EXPECT_LT(finger.offset_range, 1e-15);
+    ASSERT_TRUE(finger.grip_ripple);
+    EXPECT_NEAR(*finger.grip_ripple, 0.02, 1e-12);
+    ASSERT_TRUE(finger.slip);
+    // 4 - 2 (t - 4) is below 1.197 N from the tick at 5.402 s on, between two trace samples: the haptic rate is kept
+    EXPECT_NEAR(finger.slip->time, 5.402, 1e-12);
+    EXPECT_NEAR(finger.slip->normal_force, 1.196, 1e-12);
+  }
+}
+
+// The offset is measured in the object's coordinates: a finger that creeps on it shows, whatever the object does.
+TEST(GraspFigures, OffsetRangeShowsCreepOnTheObject) {
+  const Grasp grasp(2e-5);
+  EXPECT_NEAR(graspFigures(grasp.result)->fingers[0].offset_range, 2e-5, 1e-15);
+}
+
+// Without the phases that give the figures a meaning there are none, and the summary has no such key.
+TEST(GraspFigures, NeedTheirPhases) {
+  Grasp grasp;
+  grasp.result.phases.pop_back();
+  EXPECT_FALSE(graspFigures(grasp.result));
+  EXPECT_FALSE(nlohmann::json::parse(summaryJson(grasp.result)).contains("grasp"));
+}
+
+// Scripts read these keys: names, units and nulls are a promise.
+TEST(Summary, KeepsItsKeys) {
+  Grasp grasp;
+  GroupTiming haptic;
+  haptic.ticks = 6000;
+  haptic.execution.add(12'000);
+  grasp.result.rates = {{RateGroup::kHaptic, 1000, &haptic}};
+  grasp.result.faults = {{1.5, "thumb: \"lost\""}};
+  const auto json = nlohmann::json::parse(summaryJson(grasp.result));
+  EXPECT_EQ(json["scene"], "pinch");
+  EXPECT_EQ(json["mode"], "lockstep");
+  EXPECT_EQ(json["duration_s"], 6.0);
+  EXPECT_EQ(json["rates"]["haptic"]["ticks"], 6000);
+  EXPECT_EQ(json["rates"]["haptic"]["execution_us"]["max"], 12.0);
+  EXPECT_TRUE(json["rates"]["haptic"]["lateness_us"].is_null());
+  EXPECT_TRUE(json["rates"]["haptic"]["period_us"].is_null());
+  ASSERT_EQ(json["contact_points"].size(), 2u);
+  EXPECT_EQ(json["contact_points"][1]["name"], "index");
+  EXPECT_NEAR(json["contact_points"][0]["seconds"]["slip"].get<double>(), 0.598, 1e-9);  // ticks 5.402 … 5.999 s
+  EXPECT_EQ(json["contact_points"][0]["pop_through"], 0);
+  ASSERT_EQ(json["objects"].size(), 1u) << "free bodies only";
+  EXPECT_EQ(json["objects"][0]["grasped"], true);
+  EXPECT_EQ(json["objects"][0]["dropped"], false);
+  EXPECT_EQ(json["faults"][0]["what"], "thumb: \"lost\"");
+  EXPECT_EQ(json["state_hash"].get<std::string>().size(), 18u);
+  EXPECT_FALSE(json.contains("recording"));
+  EXPECT_EQ(json["grasp"]["fingers"].size(), 2u);
+}
+
+// A name from a scene file is text, never markup; and the page names no address it could ask.
+TEST(Report, EscapesNamesAndAsksNobody) {
+  Grasp grasp;
+  grasp.result.contact_points[0].name = "<script>alert('x')</script>";
+  grasp.result.notes = {"a < b & c"};
+  const std::string page = reportHtml(grasp.result);
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;alert"), std::string::npos);
+  EXPECT_NE(page.find("a &lt; b &amp; c"), std::string::npos);
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  EXPECT_EQ(page.find("http://"), std::string::npos);
+  EXPECT_EQ(page.find("https://"), std::string::npos);
+}
+
+// A surface that a finger could not see, or got past, is told wherever a run is told of, with the time; such a run is not good.
+TEST(Losses, AreToldEverywhere) {
+  Grasp grasp;
+  grasp.feed.contact.coverage_lost = 2;
+  grasp.feed.tick();
+  takeMonitor(grasp.feed.monitor, grasp.result);
+  EXPECT_EQ(grasp.result.coverage_lost.count, 2u);
+  EXPECT_DOUBLE_EQ(grasp.result.coverage_lost.first, 6);
+  grasp.result.coverage_lost = {37, 1.204};
+  grasp.result.contact_points[1].summary.pop_through = 1;
+  grasp.result.contact_points[1].summary.first_pop_through = 2.5;
+  const std::string unseen =
+      "the surface near a finger was not fully known in 37 ticks (first at 1.204 s): forces there are not right";
+  const std::string passed =
+      "finger 'index' got past a surface 1 time (first at 2.500 s): what it felt from then on is not right";
+  EXPECT_EQ(lossesOf(grasp.result), (std::vector{unseen, passed}));
+  EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kNeutral);
+  const std::string closing = closingText(grasp.result, "", "", false);
+  EXPECT_NE(closing.find("warning: " + unseen + "\n"), std::string::npos) << closing;
+  EXPECT_NE(closing.find("warning: " + passed + "\n"), std::string::npos) << closing;
+  const std::string page = reportHtml(grasp.result);
+  EXPECT_NE(page.find("<p class=\"warning\">Warning: the surface near a finger was not fully known in 37 ticks"),
+            std::string::npos);
+  EXPECT_NE(page.find("got past a surface 1 time"), std::string::npos);
+  const auto json = nlohmann::json::parse(summaryJson(grasp.result));
+  EXPECT_EQ(json["coverage_lost"]["ticks"], 37);
+  EXPECT_EQ(json["coverage_lost"]["first_s"], 1.204);
+  EXPECT_EQ(json["contact_points"][1]["first_pop_through_s"], 2.5);
+  EXPECT_EQ(json["warnings"], (std::vector{unseen, passed}));
+  LiveStatus status;
+  status.losses = 38;
+  EXPECT_NE(statusText(status, 1, 200, false).find("38 lost"), std::string::npos);
+}
+
+// With one finger it is that one.
+TEST(Losses, NameTheFingerWhereThereIsOne) {
+  Grasp grasp;
+  grasp.result.coverage_lost = {1, 0.5};
+  grasp.result.contact_points.resize(1);
+  EXPECT_EQ(
+      lossesOf(grasp.result).at(0),
+      "the surface near finger 'thumb' was not fully known in 1 tick (first at 0.500 s): forces there are not right");
+}
+
+// XML allows the control characters above U+007F in a name; U+009B begins an escape sequence.
+TEST(Closing, ShowsWhatATerminalWouldObey) {
+  Grasp grasp;
+  grasp.result.contact_points[0].name = "thumb\u009B2J";
+  grasp.result.contact_points[0].summary.pop_through = 1;
+  const std::string closing = closingText(grasp.result, "", "", false);
+  EXPECT_EQ(closing.find("\u009B"), std::string::npos) << closing;
+  EXPECT_NE(closing.find("thumb\\u{9B}2J"), std::string::npos) << closing;
+}
+
+// A run in which nothing was lost says nothing of it.
+TEST(Losses, WhichThereAreNotAreNotToldOf) {
+  const Grasp grasp;
+  EXPECT_TRUE(lossesOf(grasp.result).empty());
+  EXPECT_EQ(closingText(grasp.result, "", "", false).find("warning"), std::string::npos);
+  EXPECT_EQ(reportHtml(grasp.result).find("class=\"warning\""), std::string::npos);
+  const auto json = nlohmann::json::parse(summaryJson(grasp.result));
+  EXPECT_TRUE(json["warnings"].empty());
+  EXPECT_EQ(json["coverage_lost"]["ticks"], 0);
+  EXPECT_TRUE(json["coverage_lost"]["first_s"].is_null());
+  EXPECT_TRUE(json["contact_points"][0]["first_pop_through_s"].is_null());
+  EXPECT_EQ(statusText({}, 1, 200, false).find("lost"), std::string::npos);
+}
+
+// Losing the object early or a fault turns the verdict, whatever else went well.
+TEST(Verdict, DropOrFaultIsBad) {
+  Grasp grasp;
+  EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kGood);
+  grasp.result.faults = {{1, "gone"}};
+  EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kBad);
+  grasp.result.faults.clear();
+  grasp.result.objects[0].summary.dropped = true;
+  EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kBad);
+}
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "framework/record/record_plugin.h"
+#include "tests/apps/presa/support.h"
+
+namespace presa {
+namespace {
+
+using test::presa;
+using test::scratch;
+using test::source;
+
+const std::string kCube = source("config/scenes/cube.xml");
+
+nlohmann::json readJson(const std::string& file) {
+  std::ifstream in(file);
+  return nlohmann::json::parse(in);
+}
+
+// The summary has what other work relies on, with the names that the manual gives.
+TEST(Run, WritesTheSummaryThatIsPromised) {
+  const std::string file = scratch("summary.json");
+  const auto outcome = presa("run " + kCube + " --lockstep --for 10 --quiet --summary " + file);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto summary = readJson(file);
+  EXPECT_DOUBLE_EQ(summary.at("duration_s"), 10);
+  EXPECT_EQ(summary.at("rates").at("haptic").at("ticks"), 10'000);
+  EXPECT_EQ(summary.at("rates").at("dynamics").at("ticks"), 2000);
+  EXPECT_EQ(summary.at("contact_points").size(), 2u);
+  EXPECT_EQ(summary.at("contact_points")[0].at("name"), "thumb");
+  EXPECT_EQ(summary.at("contact_points")[0].at("pop_through"), 0);
+  EXPECT_EQ(summary.at("objects")[0].at("name"), "cube");
+  EXPECT_NEAR(summary.at("objects")[0].at("highest_position_m")[2].get<double>(), 0.135, 0.001);
+  EXPECT_EQ(summary.at("objects")[0].at("dropped"), false);
+  EXPECT_TRUE(summary.at("faults").empty());
+  EXPECT_EQ(summary.at("state_hash").get<std::string>().size(), 18u);
+}
+
+// Rates that only a reference needs are for virtual time.
+TEST(Run, RefusesRatesThatNoClockKeeps) {
+  const std::string fast = "run " + kCube + " --view none --quiet --for 0.01 --set rates/haptic=20000 ";
+  const auto refused = presa(fast + "--realtime");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("error[E408]"), std::string::npos) << refused.err;
+  EXPECT_EQ(presa(fast + "--lockstep").status, 0);
+}
+
+// A recording of a lockstep run, and one of real threads with their random timing: both give every force again.
+TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
+  for (const std::string mode : {"--lockstep", "--realtime --view none"}) {
+    const std::string file = scratch("replay.h5");
+    ASSERT_EQ(presa("run " + source("config/scenes/pinch_and_lift.xml") + " " + mode +
+                    " --for 2.5 --quiet --overwrite --record " + file)
+                  .status,
+              0);
+    const auto outcome = presa("replay " + file + " --verify");
+    EXPECT_EQ(outcome.status, 0) << mode << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("checksum right"), std::string::npos) << outcome.out;
+    const std::string ticks = std::to_string(recordPlugin().read(file).time.size());
+    EXPECT_NE(outcome.out.find("verified: " + ticks + " ticks of 2 fingers, all of the recording"), std::string::npos)
+        << outcome.out;
+  }
+}
+
+// ... and verification is not blind: with another object mass in the recorded scene the forces differ. That is damage where the
+// recording has a checksum, and a difference where it is of a format from before there was one.
+TEST(Replay, NoticesADifferenceAndTellsItFromDamage) {
+  const std::string file = scratch("different.h5");
+  ASSERT_EQ(presa("run " + kCube + " --lockstep --for 2 --quiet --overwrite --record " + file).status, 0);
+  std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string all((std::istreambuf_iterator<char>(bytes)), {});
+  const auto write = [&](std::size_t at, const std::string& text) {
+    ASSERT_LT(at, all.size());
+    bytes.clear();
+    bytes.seekp(static_cast<std::streamoff>(at));
+    bytes << text << std::flush;
+  };
+  write(all.find("mass=\"0.2\""), "mass=\"0.3\"");  // same length, so that the bytes can be exchanged in place
+  const auto damaged = presa("replay " + file + " --verify");
+  EXPECT_EQ(damaged.status, 2) << damaged.out << damaged.err;
+  EXPECT_NE(damaged.err.find(file + ": error[E676]"), std::string::npos) << damaged.err;
+  EXPECT_EQ(damaged.out.find("verified"), std::string::npos) << damaged.out;
+  // attribute message: name in 16 bytes, number type in 16, scalar space in 8, then the value
+  write(all.find(std::string("format_version\0", 15)) + 40, "\x05");
+  const auto different = presa("replay " + file + " --verify");
+  EXPECT_EQ(different.status, 1) << different.out << different.err;
+  EXPECT_NE(different.out.find("no checksum"), std::string::npos) << different.out;
+  EXPECT_NE(different.out.find("NOT the same"), std::string::npos) << different.out;
+}
+
+// What a scene does not call for is not in the process: read from the process itself.
+TEST(Explain, MapsOnlyWhatTheSceneCallsFor) {
+  const std::string fixed = scratch("fixed.xml");
+  std::ofstream(fixed) << R"(<scene version="1.0" name="fixed" rig=")" << source("config/rigs/hover.xml") << R"(">
+    <world gravity="0 0 -9.81"/>
+    <materials><material name="wood" stiffness="2000"/></materials>
+    <body name="table" fixed="true"><haptic><box size="1 1 0.1"/></haptic></body>
+    <devices><device role="thumb"/><device role="index"/></devices></scene>)";
+  const auto libraries = [](const std::string& scene) {
+    const auto outcome = presa("explain " + scene + " --format json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out).at("libraries").dump();
+  };
+  const std::string bare = libraries(fixed), cube = libraries(kCube),
+                    mesh = libraries(source("config/scenes/pinch_and_lift.xml"));
+  for (const char* absent : {"libode", "libfcl", "libosg", "libhdf5", "libassimp"}) {
+    EXPECT_EQ(bare.find(absent), std::string::npos) << absent;
+  }
+  EXPECT_NE(cube.find("libode"), std::string::npos);
+  EXPECT_EQ(cube.find("libfcl"), std::string::npos);
+  EXPECT_NE(mesh.find("libfcl"), std::string::npos);
+}
+
+// Every kind of bad input: exit status 2, a place and a code, and nothing written.
+TEST(BadInput, IsRefusedWithAPlaceAndNothingIsWritten) {
+  const std::string zeros = scratch("zeros.obj"), bad_mesh = scratch("bad_mesh.xml"), summary = scratch("never.json");
+  std::ofstream(zeros) << std::string(4096, '\0');
+  std::ofstream(bad_mesh) << R"(<scene version="1.0" name="m"><world gravity="0 0 0"/>
+    <materials><material name="wood" stiffness="2000"/></materials>
+    <body name="b" fixed="true"><haptic><mesh file="zeros.obj"/></haptic></body></scene>)";
+  const std::string garbage = scratch("garbage.xml");
+  std::ofstream(garbage) << "<scene version=\"1.0\"><world gravity=\"0 0 -9.81\">";
+  struct Case {
+    std::string arguments, expected;
+  };
+  const Case cases[] = {
+      {"/nowhere/scene.xml", "error[E"},
+      {garbage, garbage + ":1:"},
+      {bad_mesh, bad_mesh + ":3:"},
+      {kCube + " --set body/cub/physics/mass=1", "did you mean"},
+      {kCube + " --set body/cube/physics/mass=0", "error[E"},
+      {kCube + " --set body/cube/physics/mass=-1 --set rates/dynamics=300", "error[E"},
+      {kCube + " --set nonsense", "PATH=VALUE"},
+      {kCube + " --rig /nowhere/rig.xml", "error[E"},
+      {kCube + " --view none --screenshot " + scratch("x.png"), "error[E121]"},
+  };
+  for (const Case& bad : cases) {
+    const auto outcome = presa("run " + bad.arguments + " --lockstep --summary " + summary);
+    EXPECT_EQ(outcome.status, 2) << bad.arguments << outcome.err;
+    EXPECT_NE(outcome.err.find(bad.expected), std::string::npos) << bad.arguments << '\n' << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(summary)) << bad.arguments;
+  }
+  EXPECT_EQ(presa("run").status, 2);
+  EXPECT_EQ(presa("fly").status, 2);
+  EXPECT_EQ(presa("--help").status, 0);
+  EXPECT_EQ(presa("--version").status, 0);
+}
+
+TEST(Check, SaysThatEveryShippedSceneIsGood) {
+  std::string scenes;
+  for (const auto& entry : std::filesystem::directory_iterator(source("config/scenes"))) {
+    if (entry.path().extension() == ".xml") scenes += ' ' + entry.path().string();
+  }
+  const auto outcome = presa("check" + scenes);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+// Ctrl-C in the middle of a real-time grasp: status 130, forces faded to nothing in the recording, file whole.
+TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
+  const std::string file = scratch("interrupted.h5");
+  const auto outcome =
+      test::shell("timeout --foreground --preserve-status -s INT 2.6 " + std::string(PRESA_BINARY_DIR) +
+                  "/bin/presa run " + kCube + " --realtime --view none --quiet --overwrite --record " + file);
+  ASSERT_EQ(outcome.status, 130) << outcome.err;
+  const Recording recording = recordPlugin().read(file);
+  ASSERT_GT(recording.command.size(), 100u);
+  EXPECT_TRUE(recording.complete);
+  EXPECT_TRUE(recording.device.back().stop_requested);
+  for (int f = 0; f < 2; ++f) EXPECT_EQ(recording.command.back().f_H_W[static_cast<std::size_t>(f)].norm(), 0);
+}
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "framework/session/load_world.h"
+#include "framework/record/record_plugin.h"
+#include "framework/session/replay.h"
+#include "framework/core/schedule/executor.h"
+#include "tests/apps/presa/support.h"
+
+namespace presa {
+namespace {
+
+constexpr double kDuration = 3.5, kStall = 3.0;  // [s] the cube is held in the air
+
+/// The pinched cube, with a haptic loop that sleeps for 50 ms while it holds.
+Recording recordStalledRun(const std::string& file, double force_share = 1) {
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.force_share = force_share;
+  options.record = file;
+  options.overwrite = true;
+  const Loaded loaded = loadWorld({test::source("config/scenes/cube.xml"), "", {}}, options, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  RunControl control;
+  Session session(loaded.world, loaded.plan, control, {});
+  LockstepExecutor executor(session.graph(), RateTable(loaded.world->scene.rates), control);
+  executor.recordTo(session.schedule());
+  executor.delay([](RateGroup group, double time) {
+    return group == RateGroup::kHaptic && time >= kStall && time < kStall + 0.05;
+  });
+  executor.run(kDuration);
+  session.recorder()->finish();
+  return recordPlugin().read(file);
+}
+
+ReplayResult again(const Recording& recording) {
+  Diagnostics diagnostics;
+  return RecordedRun(recording, diagnostics).run();
+}
+
+// Which ticks were made up after a stall is part of the recording: with it every force comes again to the bit, without it
+// the slew limit would act on other ticks and the forces differ.
+TEST(Replay, KnowsTheTicksThatAStallMadeUp) {
+  const std::string file = test::scratch("stall.h5");
+  Recording recording = recordStalledRun(file);
+  auto& haptic = recording.schedule[static_cast<std::size_t>(RateGroup::kHaptic)];
+  const auto made_up =
+      std::count_if(haptic.begin(), haptic.end(), [](const ScheduleRow& row) { return row.made_up != 0; });
+  EXPECT_EQ(made_up, 50);
+  // what the device held: nothing moves in the stall, and after it by no more than the slew limit (1000 N/s) at once
+  for (std::size_t i = 1; i < recording.command.size(); ++i) {
+    const double step = (recording.command[i].f_H_W[0] - recording.command[i - 1].f_H_W[0]).norm();
+    ASSERT_LE(step, haptic[i].made_up != 0 ? 0.0 : 1 + 1e-9) << recording.time[i];
+  }
+  const ReplayResult same = again(recording);
+  EXPECT_EQ(same.problem, "");
+  EXPECT_EQ(same.ticks, recording.time.size());
+  EXPECT_EQ(same.differing, 0u);
+
+  for (ScheduleRow& row : haptic) row.made_up = 0;
+  EXPECT_GT(again(recording).differing, 0u);
+  std::filesystem::remove(file);
+}
+
+// Hardware without real-time rights runs with half of its limits: what was held back is part of the recording, too.
+TEST(Replay, KnowsTheShareOfTheForceThatWasAllowed) {
+  Recording recording = recordStalledRun(test::scratch("share.h5"), 0.3);  // 3 N, of the 6 N that the grip wants
+  EXPECT_EQ(recording.force_share, 0.3);
+  EXPECT_EQ(again(recording).differing, 0u);
+  recording.force_share = 1;
+  EXPECT_GT(again(recording).differing, 1000u);
+}
+
+}  // namespace
+}  // namespace presa

@@ -1,0 +1,38 @@
+#include "tests/apps/presa/support.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "apps/common/file_text.h"
+
+namespace presa::test {
+
+std::string scratch(const std::string& name) {
+  const auto folder = std::filesystem::temp_directory_path() / ("presa_app_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  return (folder / name).string();
+}
+
+std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets, RunOptions options,
+                              double trace_rate) {
+  Diagnostics diagnostics;
+  if (options.duration == RunOptions{}.duration) options.duration = 0;  // to the end of the script
+  const Loaded loaded = loadWorld({source(scene), "", sets}, options, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = trace_rate, .quiet = true, .command = ""});
+  run->execute();
+  return run;
+}
+
+Outcome shell(const std::string& command) {
+  const std::string out = scratch("stdout"), err = scratch("stderr");
+  const int status = std::system((command + " >" + out + " 2>" + err).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentsOf(out), contentsOf(err)};
+}
+
+Outcome presa(const std::string& arguments) { return shell(std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments); }
+
+}  // namespace presa::test

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include "apps/temple/ruins.h"
+#include "apps/temple/spots.h"
+#include "tests/apps/temple/support.h"
+
+namespace presa::temple {
+namespace {
+
+using test::shippedBuilding;
+
+constexpr auto kGoOn = [](std::size_t, std::size_t, const std::string&) { return true; };
+
+Ruins ruinsOf(const Building& building, std::uint64_t seed) {
+  return strewRuins(building, seed, test::scratch("ruins"), kGoOn);
+}
+
+/// At rest, on the field, on the ground and in no other.
+void expectGoodRuins(const Building& building, const Ruins& ruins) {
+  // what contacts that are all but rigid leave of a heap
+  constexpr double kContact = 2e-4;  // [m]
+  ASSERT_EQ(ruins.X_WB.size(), building.blocks.size());
+  EXPECT_LT(ruins.still, 2e-4);  // the eye sees nothing, and the dynamics lets it sleep
+  const Field field = fieldFor(building);
+  for (std::size_t i = 0; i < building.blocks.size(); ++i) {
+    const Block& block = building.blocks[i];
+    EXPECT_TRUE(field.holds(ruins.X_WB[i].p)) << block.name;
+    for (const Vec3& corner : cornersOf(block, ruins.X_WB[i])) {
+      // corners of a cylinder stand for a prism around it
+      const double beyond = std::holds_alternative<Cylinder>(block.physics) ? 5e-4 : 0;
+      EXPECT_GT(corner.z(), -kContact - beyond) << block.name;
+    }
+    for (std::size_t j = i + 1; j < building.blocks.size(); ++j) {
+      const Block& other = building.blocks[j];
+      if ((ruins.X_WB[i].p - ruins.X_WB[j].p).norm() > radiusOf(block.visual) + radiusOf(other.visual)) continue;
+      EXPECT_LT(test::overlap(block, ruins.X_WB[i], other, ruins.X_WB[j]), kContact)
+          << block.name << ", " << other.name;
+    }
+  }
+}
+
+TEST(Ruins, OfAColumnLieStillForEverySeed) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const Building column = shippedBuilding("column", seed);
+    expectGoodRuins(column, ruinsOf(column, seed));
+  }
+}
+
+TEST(Ruins, OfAFacadeLieStill) {
+  const Building facade = shippedBuilding("facade", 1);
+  expectGoodRuins(facade, ruinsOf(facade, 1));
+}
+
+TEST(Ruins, AreTheSameForTheSameSeedOnly) {
+  const Building column = shippedBuilding("column");
+  const Ruins one = ruinsOf(column, 3), same = ruinsOf(column, 3), other = ruinsOf(column, 4);
+  double apart = 0;
+  for (std::size_t i = 0; i < column.blocks.size(); ++i) {
+    EXPECT_EQ(one.X_WB[i].p, same.X_WB[i].p);
+    EXPECT_EQ(one.X_WB[i].q.coeffs(), same.X_WB[i].q.coeffs());
+    apart = std::max(apart, (one.X_WB[i].p - other.X_WB[i].p).norm());
+  }
+  EXPECT_GT(apart, 0.02);
+}
+
+TEST(Ruins, StopWhenAskedTo) {
+  const Building column = shippedBuilding("column");
+  const auto stop = [](std::size_t, std::size_t, const std::string&) { return false; };
+  EXPECT_TRUE(strewRuins(column, 1, test::scratch("stopped"), stop).X_WB.empty());
+}
+
+}  // namespace
+}  // namespace presa::temple

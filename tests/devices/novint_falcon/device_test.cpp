@@ -1,0 +1,276 @@
+// The device as the graph sees it, with its real thread and a hand-written Falcon behind it. Threads wait for each other, not
+// for a time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <thread>
+
+#include "devices/novint_falcon/codes.h"
+#include "devices/novint_falcon/falcon_device.h"
+#include "devices/novint_falcon/finger.h"
+#include "tests/devices/novint_falcon/hand_written_falcon.h"
+#include "tests/support/alloc_lock_guard.h"
+
+namespace presa::falcon {
+namespace {
+
+/// Passes everything on to a Falcon that outlives the device, one call at a time, so that a test may look at it meanwhile.
+class Lent final : public FalconTransport {
+ public:
+  Lent(HandWrittenFalcon& falcon, std::mutex& mutex) : falcon_(falcon), mutex_(mutex) {}
+  bool control(Control control, double now) noexcept override {
+    const std::scoped_lock lock(mutex_);
+    return falcon_.control(control, now);
+  }
+  bool write(std::span<const std::uint8_t> bytes, double now) noexcept override {
+    const std::scoped_lock lock(mutex_);
+    return falcon_.write(bytes, now);
+  }
+  std::size_t read(std::span<std::uint8_t> buffer, double now) noexcept override {
+    const std::scoped_lock lock(mutex_);
+    return falcon_.read(buffer, now);
+  }
+  bool lost() const noexcept override {
+    const std::scoped_lock lock(mutex_);
+    return falcon_.lost();
+  }
+
+ private:
+  HandWrittenFalcon& falcon_;
+  std::mutex& mutex_;
+};
+
+/// A Falcon, and the lock under which it may be looked at.
+struct Desk {
+  template <class Function>
+  auto with(Function function) {
+    const std::scoped_lock lock(mutex);
+    return function(falcon);
+  }
+  FalconDevice::Connect connect() {
+    return [this] { return std::make_unique<Lent>(falcon, mutex); };
+  }
+  std::unique_ptr<FalconTransport> transport() { return std::make_unique<Lent>(falcon, mutex); }
+
+  HandWrittenFalcon falcon;
+  std::mutex mutex;
+};
+
+FalconSettings settingsOf(const Pose& X_WD = {}, double scale = 1) {
+  FalconSettings settings;
+  settings.role = "thumb";
+  settings.where = {"desk.xml", 3, 1};
+  settings.X_WD = X_WD;
+  settings.scale = scale;
+  settings.realtime = true;
+  return settings;
+}
+
+const Tick kTick{.index = 1, .time = 0, .period = 1e-3};
+
+template <class Condition>
+void waitUntil(Condition condition) {
+  while (!condition()) std::this_thread::yield();
+}
+
+/// The code of the one error, and its text.
+std::pair<int, std::string> refusal(FalconDevice& device) {
+  try {
+    device.open();
+  } catch (const InputError& error) {
+    return {error.diagnostics().all().at(0).code, error.what()};
+  }
+  return {0, "it was opened"};
+}
+
+TEST(FalconIo, CarriesSamplesOneWayAndForcesTheOther) {
+  Desk desk;
+  desk.falcon.encoders = {300, -200, 100};
+  {
+    FalconIo io(desk.transport(), {}, {});
+    waitUntil([&] { return io.latest(kTick).valid; });
+    EXPECT_NEAR((io.latest(kTick).p_DH * 1e3 - Vec3(14.528, -11.579, 136.148)).norm(), 0, 1e-3);
+    waitUntil([&] {
+      io.push({1, 2, 3});
+      return desk.with([](auto& falcon) { return !falcon.sent.back().zero(); });
+    });
+  }
+  // it went in peace: the last of all packets are zero
+  ASSERT_GT(desk.falcon.sent.size(), 13U);
+  for (std::size_t i = desk.falcon.sent.size() - 3; i < desk.falcon.sent.size(); ++i)
+    EXPECT_TRUE(desk.falcon.sent[i].zero());
+}
+
+TEST(FalconIo, TheHapticThreadNeitherWaitsNorAllocates) {
+  Desk desk;
+  FalconIo io(desk.transport(), {}, {});
+  waitUntil([&] { return io.latest(kTick).valid; });
+  RealTimeGuard guard;
+  for (int i = 0; i < 1000; ++i) {
+    static_cast<void>(io.latest(kTick));
+    io.push({1, 0, 0});
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+}
+
+// The thread is stuck in the kernel: after two ticks without a sign of life its last sample is not believed any more.
+// Ticks made up after a stall come at one instant and do not count.
+TEST(FalconIo, ASilentThreadIsNoticedByTheHapticThread) {
+  Desk desk;
+  FalconIo io(desk.transport(), {}, {});
+  waitUntil([&] { return io.latest(kTick).valid; });
+  Tick made_up = kTick;
+  made_up.made_up = true;
+  std::unique_lock stuck(desk.mutex, std::defer_lock);
+  bool survived = false;
+  for (int attempt = 0; attempt < 100 && !survived; ++attempt) {  // its last word may have been that a reply is late
+    waitUntil([&] { return io.latest(kTick).valid; });
+    stuck.lock();
+    for (int i = 0; i < 50; ++i) survived = io.latest(made_up).valid;
+    if (!survived) stuck.unlock();
+  }
+  ASSERT_TRUE(survived) << "made-up ticks take no time";
+  int held = 0;
+  while (io.latest(kTick).valid) ++held;
+  EXPECT_LE(held, 2 + 1);  // one more when its last word comes in the meantime
+  EXPECT_FALSE(io.latest(kTick).valid);
+  stuck.unlock();
+  waitUntil([&] { return io.latest(kTick).valid; });
+}
+
+TEST(FalconIo, UnpluggedIsSaid) {
+  Desk desk;
+  FalconIo io(desk.transport(), {}, {});
+  waitUntil([&] { return io.latest(kTick).valid; });
+  desk.with([](auto& falcon) { falcon.unplugged = true; });
+  waitUntil([&] { return io.status().state == LinkState::kDead; });
+  EXPECT_EQ(io.status().fault, LinkFault::kLost);
+  EXPECT_FALSE(io.latest(kTick).valid);
+}
+
+TEST(FalconIo, AFaultIsLeftByArmingAgain) {
+  Desk desk;
+  FalconIo io(desk.transport(), {}, {});
+  waitUntil([&] { return io.latest(kTick).valid; });
+  desk.with([](auto& falcon) { falcon.homed = 3; });
+  waitUntil([&] { return io.status().state == LinkState::kLatched; });
+  desk.with([](auto& falcon) { falcon.homed = 7; });
+  io.rearm();
+  waitUntil([&] { return io.latest(kTick).valid; });
+}
+
+TEST(FalconIo, EndsWhileADeviceIsStillSilent) {
+  Desk desk;
+  desk.falcon.loaded = false;
+  FalconIo io(desk.transport(), {0xaa, 0x08}, {});
+  waitUntil([&] { return io.status().state == LinkState::kStarting; });
+}
+
+// p = X_WD (scale p_D): a quarter turn about x takes the device's z, towards the user, to -y, and its y up to z.
+TEST(FalconDevice, StandsInTheWorldWhereTheRigPutsIt) {
+  Desk desk;
+  const double half = std::sqrt(0.5);
+  FalconDevice device(settingsOf({{0.1, 0.2, 0.3}, Quat(half, half, 0, 0)}, 2), desk.connect());
+  device.open();
+  FingerInput finger;
+  waitUntil([&] { return (finger = device.read(kTick)).valid; });
+  EXPECT_NEAR((finger.p_WH - Vec3(0.1, 0.2 - 2 * 0.134602, 0.3)).norm(), 0, 1e-6);
+
+  // 2 N along -y of the world push along the device's z, whatever the scale: -249.4 counts a newton
+  waitUntil([&] {
+    device.write({0, -2, 0}, kTick);
+    return desk.with([](auto& falcon) { return falcon.sent.back().force[0] == -499; });
+  });
+  desk.with([](auto& falcon) { EXPECT_EQ(falcon.sent.back().force, (Counts{-499, -499, -499})); });
+  device.close();
+  EXPECT_FALSE(device.read(kTick).valid);
+}
+
+TEST(FalconDevice, TheMiddleButtonIsTheParticipants) {
+  const auto finger_with = [](int buttons) {
+    LinkSample sample;
+    sample.buttons = static_cast<std::uint8_t>(buttons);
+    return fingerOf(sample, {}, 1).buttons;
+  };
+  EXPECT_EQ(finger_with(kButtonCentre), 1U);
+  EXPECT_EQ(finger_with(kButtonForward), 2U);
+  EXPECT_EQ(finger_with(kButtonPlus), 4U);
+  EXPECT_EQ(finger_with(kButtonMinus), 8U);
+  EXPECT_EQ(finger_with(0), 0U);
+}
+
+TEST(FalconDevice, VelocityTurnsAndScalesWithThePosition) {
+  LinkSample sample;
+  sample.v_DH = {0, 0, 1};
+  const double half = std::sqrt(0.5);
+  EXPECT_NEAR((fingerOf(sample, {{5, 5, 5}, Quat(half, half, 0, 0)}, 3).v_WH - Vec3(0, -3, 0)).norm(), 0, 1e-12);
+}
+
+// In virtual time an hour may pass in a second: no hand is held to that.
+TEST(FalconDevice, RefusesVirtualTime) {
+  Desk desk;
+  FalconSettings settings = settingsOf();
+  settings.realtime = false;
+  FalconDevice device(settings, desk.connect());
+  const auto [code, text] = refusal(device);
+  EXPECT_EQ(code, kNeedsRealTime);
+  EXPECT_NE(text.find("desk.xml:3:1: error[E486]"), std::string::npos) << text;
+  EXPECT_TRUE(desk.falcon.controls.empty());
+}
+
+/// Refused so after `homing_wait`, and nothing but zero was sent.
+void expectUnhomed(Desk& desk, double homing_wait, Code wanted, const std::string& words) {
+  FalconSettings settings = settingsOf();
+  settings.homing_wait = homing_wait;
+  FalconDevice device(settings, desk.connect());
+  const auto [code, text] = refusal(device);
+  EXPECT_EQ(code, wanted);
+  EXPECT_NE(text.find(words), std::string::npos) << text;
+  EXPECT_TRUE(std::all_of(desk.falcon.sent.begin(), desk.falcon.sent.end(), [](auto& s) { return s.zero(); }));
+}
+
+TEST(FalconDevice, NotHomedIsSaidWithTheEncodersThatAreMissing) {
+  Desk desk;
+  desk.falcon.homed = 2;
+  expectUnhomed(desk, 0.02, kNotHomed, "no reference seen by encoder 1, 3");
+}
+
+// It moves nobody's fingers before it answers evenly; that this is not the grip's fault is said.
+TEST(FalconDevice, GapsInItsRepliesAreSaidForWhatTheyAre) {
+  Desk desk;
+  desk.falcon.damage = [replies = 0](Bytes reply) mutable { return ++replies % 5 == 0 ? Bytes{} : reply; };
+  expectUnhomed(desk, 0.05, kUnevenReplies, "the grip is homed, but its replies leave gaps");
+}
+
+TEST(FalconDevice, NoFirmwareIsSaidWithTheSettingToAdd) {
+  Desk desk;
+  desk.falcon.loaded = false;
+  FalconDevice device(settingsOf(), desk.connect());
+  const auto [code, text] = refusal(device);
+  EXPECT_EQ(code, kNoFirmwareNamed);
+  EXPECT_NE(text.find("<set key=\"firmware\""), std::string::npos) << text;
+}
+
+TEST(FalconDevice, TenWrongEchoesNameThePowerAndTheHub) {
+  Desk desk;
+  desk.falcon.loaded = false;
+  desk.falcon.wont_run = true;
+  desk.falcon.garble = [](int, std::size_t, Bytes echo) {
+    echo[2] = 0x77;
+    return echo;
+  };
+  FalconSettings settings = settingsOf();
+  settings.firmware = {0xaa, 0x08, 0x00, 0x00};
+  FalconDevice device(settings, desk.connect());
+  const auto [code, text] = refusal(device);
+  EXPECT_EQ(code, kEchoWrong);
+  EXPECT_NE(text.find("byte 2 of 4: sent 00, echoed 77"), std::string::npos) << text;
+  EXPECT_NE(text.find("10 attempts"), std::string::npos) << text;
+  EXPECT_NE(text.find("power"), std::string::npos);
+  EXPECT_NE(text.find("hub"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace presa::falcon

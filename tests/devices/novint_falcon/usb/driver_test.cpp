@@ -1,0 +1,221 @@
+// The driver through the real libusb, the model behind an emulated bus. What is judged is what the model received, by its own laws; of the
+// clock only that things happen, one after the other: the machine is shared.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "devices/novint_falcon/codes.h"
+#include "devices/novint_falcon/falcon_device.h"
+#include "devices/novint_falcon/usb_bus.h"
+#include "framework/core/schedule/clock.h"
+#include "tests/devices/novint_falcon/usb/drivers.h"
+
+namespace presa::falcon_model::test {
+namespace {
+
+using falcon::FalconDevice;
+using falcon::LinkState;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kPatience = 20;  // [s] after which a thing that should happen never does
+
+/// A Falcon on the bus and its driver, with a haptic loop of 1 kHz that pushes with a constant force.
+struct Desk {
+  explicit Desk(const ModelSettings& settings = ready()) : falcon(bus.add(settings)) {
+    falcon.with([](FalconModel& model, double) {
+      // the bus delays and bunches requests: between two of them lies a period of the driver's clock, not of the device's
+      model.limits({.force = 8, .force_rate = 1000, .jitter = 1e-3});
+    });
+  }
+  /// A hand that pulls the grip out and pushes it in, again and again.
+  void moveHand() {
+    falcon.with([](FalconModel& model, double) {
+      model.grip().hand([](double time) -> Vec3 { return {0, 0, 0.145 + 0.025 * std::sin(6 * time)}; });
+    });
+  }
+  /// Runs the loop until the condition on (model, what the driver says) holds; false: it never did.
+  bool until(const std::function<bool(FalconModel&, const FingerInput&)>& condition) {
+    const std::int64_t begin = monotonicNs();
+    late = 0;
+    for (std::int64_t wake = begin;; wake += 1'000'000) {
+      sleepUntilNs(wake);
+      ++tick.index;
+      tick.time += tick.period;
+      const FingerInput finger = driver.read(tick);
+      driver.write(force, tick);
+      late += finger.valid ? 0 : 1;
+      if (falcon.with([&](FalconModel& model, double) { return condition(model, finger); })) return true;
+      if (static_cast<double>(monotonicNs() - begin) * 1e-9 > kPatience) return false;
+    }
+  }
+  bool untilFelt(double newtons) {
+    return until(
+        [newtons](FalconModel& model, const FingerInput&) { return model.received().meant_D.norm() > newtons; });
+  }
+  bool untilZero() {
+    return until([](FalconModel& model, const FingerInput&) { return model.received().counts == std::array{0, 0, 0}; });
+  }
+  std::vector<std::string> violations() {
+    return falcon.with([](FalconModel& model, double) { return model.violations(); });
+  }
+
+  EmulatedBus bus;
+  EmulatedFalcon& falcon;
+  FalconDevice driver = driverOf("");
+  Vec3 force{0, 0, 2};
+  Tick tick{.period = 1e-3};
+  int late = 0;  ///< samples that were too old or none, while it waited last
+};
+
+TEST(FalconOverUsb, EnumeratesAndClaims) {
+  EmulatedBus bus;
+  bus.add(ready());
+  bus.add(ready());
+  falcon::UsbFailure failure;
+  auto found = falcon::listFalcons(failure);
+  std::ranges::sort(found, {}, &falcon::UsbFalcon::port);
+  ASSERT_EQ(found.size(), 2U);
+  for (int i = 0; i < 2; ++i) {
+    const auto& one = found[static_cast<std::size_t>(i)];
+    EXPECT_EQ(one.port, "1-" + std::to_string(i + 1));
+    EXPECT_EQ(one.serial, "FALCON" + std::to_string(i + 1));
+    EXPECT_EQ(one.product, "FALCON HAPTIC");
+    EXPECT_EQ(one.problem, falcon::UsbProblem::kNone) << one.detail;
+  }
+  EXPECT_FALSE(falcon::openFalcon("", failure));
+  EXPECT_EQ(failure.problem, falcon::UsbProblem::kSeveral);
+  falcon::UsbFailure fine;
+  const auto second = falcon::openFalcon("FALCON2", fine);
+  ASSERT_TRUE(second) << fine.detail;
+  // row 19: whoever comes later is refused, and told why
+  falcon::UsbFailure later;
+  EXPECT_FALSE(falcon::openFalcon("1-2", later));
+  EXPECT_EQ(later.problem, falcon::UsbProblem::kBusy);
+  EXPECT_THAT(falcon::describe(later, "1-2"), HasSubstr("another program holds /dev/bus/usb/001/003"));
+}
+
+// Seven times the echo is wrong, each time at another byte; at the eighth attempt the firmware runs.
+// Ten are allowed, the tenth is tried in virtual time: here a busy machine may spoil one or two more.
+TEST(FalconOverUsb, LoadsFirmwareAfterSevenBadAttempts) {
+  ModelSettings settings;
+  settings.loader.firmware = firmware();
+  for (int attempt = 0; attempt < 7; ++attempt)
+    settings.loader.faults.push_back({attempt, static_cast<std::size_t>(attempt * 37), UploadFault::Kind::kWrongEcho});
+  Desk desk(settings);
+  desk.moveHand();
+  const bool opened = opensInTime(desk.driver);
+  // the firmware runs and is obeyed whether or not its replies come evenly then
+  desk.falcon.with([](FalconModel& model, double) { EXPECT_GE(model.processor().uploads(), 8); });
+  EXPECT_THAT(desk.violations(), IsEmpty());
+  SKIP_UNLESS_OPENED(opened);
+  EXPECT_GE(desk.driver.status().load.attempts, 7);
+  EXPECT_EQ(desk.driver.status().state, LinkState::kOperating);
+  REACHED_OR_LATE(desk.untilFelt(1), desk.late);
+  EXPECT_THAT(desk.violations(), IsEmpty());
+}
+
+TEST(FalconOverUsb, TenWrongEchoesAreSaid) {
+  ModelSettings settings;
+  settings.loader.firmware = firmware();
+  for (int attempt = 0; attempt < 20; ++attempt)
+    settings.loader.faults.push_back({attempt, 5, UploadFault::Kind::kCorruptByte});
+  Desk desk(settings);
+  try {
+    desk.driver.open();
+    FAIL() << "it was opened";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics().all().at(0).code, falcon::kEchoWrong);
+    EXPECT_THAT(error.what(), HasSubstr("byte 5 of 700"));
+    EXPECT_THAT(error.what(), HasSubstr("10 attempts"));
+  }
+  desk.falcon.with([](FalconModel& model, double) {
+    EXPECT_EQ(model.processor().uploads(), 10);
+    EXPECT_EQ(model.requests(), 0);
+  });
+}
+
+TEST(FalconOverUsb, ARefusedSettingIsSaid) {
+  Desk desk;
+  desk.falcon.with([](FalconModel& model, double) { model.refuseRequests(3); });
+  EXPECT_THROW(desk.driver.open(), InputError);
+}
+
+TEST(FalconOverUsb, ShortAndMergedRepliesAreLivedThrough) {
+  Desk desk;
+  OPENED_OR_LATE(desk.driver);
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  RandomStream random(1, "replies");
+  int mutated = 0;
+  desk.falcon.with([&](FalconModel& model, double) {
+    model.onReply([&](ReplyFate& reply) {
+      if (random.below(10) == 0) shorten(reply, random), ++mutated;
+      reply.waits = random.below(10) == 0;
+    });
+  });
+  ASSERT_TRUE(desk.until([&](FalconModel&, const FingerInput&) { return mutated > 50; }));
+  desk.falcon.with([](FalconModel& model, double) { model.onReply(nullptr); });
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  EXPECT_EQ(desk.driver.status().state, LinkState::kOperating);
+  EXPECT_THAT(desk.violations(), IsEmpty());
+}
+
+// No reply for half a second of the device's clock: zero meanwhile, and back.
+TEST(FalconOverUsb, SilenceTakesTheForceAwayAndItComesBack) {
+  Desk desk;
+  OPENED_OR_LATE(desk.driver);
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  desk.falcon.with([](FalconModel& model, double now) { model.mute(now, now + 0.5); });
+  EXPECT_TRUE(desk.untilZero());
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  EXPECT_THAT(desk.violations(), IsEmpty());
+}
+
+// A stall ends transfers but not the device: the halt is cleared and the exchange goes on.
+TEST(FalconOverUsb, AStallIsCleared) {
+  Desk desk;
+  OPENED_OR_LATE(desk.driver);
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  desk.falcon.stallBulk(true);
+  EXPECT_TRUE(desk.until([](FalconModel&, const FingerInput& finger) { return !finger.valid; }));
+  desk.falcon.stallBulk(false);
+  EXPECT_TRUE(desk.until([](FalconModel&, const FingerInput& finger) { return finger.valid; }));
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  EXPECT_THAT(desk.violations(), IsEmpty());
+}
+
+TEST(FalconOverUsb, PulledOutInTheGraspAndBackItStartsFromTheBeginning) {
+  Desk desk;
+  OPENED_OR_LATE(desk.driver);
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  const double pulled = desk.falcon.now();
+  desk.falcon.unplug();
+  ASSERT_TRUE(desk.until([](FalconModel&, const FingerInput& finger) { return finger.lost; }));
+  RecordProperty("noticed_ms", static_cast<int>(1e3 * (desk.falcon.now() - pulled)));
+  EXPECT_EQ(desk.driver.status().fault, falcon::LinkFault::kLost);
+  desk.falcon.plug();
+  const int requests = desk.falcon.with([](FalconModel& model, double) { return model.requests(); });
+  desk.driver.rearm();
+  for (int i = 0; i < 50; ++i) desk.until([](FalconModel&, const FingerInput&) { return true; });
+  EXPECT_EQ(desk.falcon.with([](FalconModel& model, double) { return model.requests(); }), requests);
+  desk.driver.close();
+  desk.moveHand();
+  OPENED_OR_LATE(desk.driver);  // firmware and references again
+  desk.falcon.with([](FalconModel& model, double) { EXPECT_EQ(model.processor().uploads(), 1); });
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  EXPECT_THAT(desk.violations(), IsEmpty());
+}
+
+// Closing takes the force to zero, and says so to the device.
+TEST(FalconOverUsb, ClosedItLeavesZeroBehind) {
+  Desk desk;
+  OPENED_OR_LATE(desk.driver);
+  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  desk.driver.close();
+  desk.falcon.with([](FalconModel& model, double) {
+    EXPECT_FALSE(model.holdsForce());
+    EXPECT_THAT(model.violations(), IsEmpty());
+  });
+}
+
+}  // namespace
+}  // namespace presa::falcon_model::test

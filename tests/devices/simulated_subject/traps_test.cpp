@@ -1,0 +1,126 @@
+// Mistakes that a model of gripping invites, each of which was made once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/devices/simulated_subject/study.h"
+
+namespace presa::subject {
+namespace {
+
+Senses holding(double height, double seen) {
+  Senses senses;
+  for (DigitSenses& digit : senses.digits) digit = {.q = 2e-3, .y = height, .normal = 2, .load = 1};
+  senses.sight = {.object = true, .height = seen};
+  return senses;
+}
+
+// The fingers settle after a lift; a detector that starts then takes their drift for a slip, and the subject remembers a
+// grip at which nothing slipped. Heavy slippery cubes drift most.
+TEST(Traps, NoSlipIsNoticedThatHasNotBegun) {
+  for (const Level level : {Level::kL0, Level::kL1, Level::kL2}) {
+    const Population population(level);
+    for (std::uint64_t subject = 0; subject < 40; ++subject) {
+      const Traits traits = population.draw(2, subject);
+      for (const double stiffness : {500.0, 1000.0, 2000.0}) {
+        const Cube cube{.mass = 0.4, .mu_s = 0.4, .mu_d = 0.3, .stiffness = stiffness};
+        StandAlone world(traits, {.cube = cube, .subject = subject, .resolution = 90e-6});
+        while (world.brain().phase() <= Phase::kLoosen) ASSERT_TRUE(world.step());
+        EXPECT_FALSE(std::isnan(world.result().notice_delay))
+            << nameOf(level) << ", subject " << subject << ", k " << stiffness;
+      }
+    }
+  }
+}
+
+// A grip that follows the load it feels comes too late at friction 0.4: it must go with the lift that is meant.
+TEST(Traps, GripGoesAheadWithTheLiftThatIsCommanded) {
+  Brain brain(Population(Level::kL0).draw(1, 0), {}, RandomStream(1, "perception"), 1e-3);
+  Senses senses = holding(0, 0);
+  for (DigitSenses& digit : senses.digits) digit.load = 0;
+  while (brain.phase() != Phase::kLoad) brain.step(senses);
+  senses.effort = 1;
+  for (int i = 0; i < 100; ++i) brain.step(senses);
+  // 1 + 3.25 N/N, reached to exp(-100 ms / 20 ms)
+  EXPECT_NEAR(brain.intent().grip, 4.25, 3.25 * std::exp(-5));
+}
+
+// With soft skin and strong muscles the grip builds up late and the cube slides; the lift must wait, or the fingers leave it
+// on the table and the subject remembers how hard it gripped nothing.
+TEST(Traps, TheCubeComesAlongWhenLifted) {
+  const Population population(Level::kL0);
+  for (std::uint64_t subject = 0; subject < 60; ++subject) {
+    const Cube cube{.mass = 0.4, .mu_s = 0.4, .mu_d = 0.3, .stiffness = 500};
+    StandAlone world(population.draw(3, subject), {.cube = cube, .subject = subject, .resolution = 90e-6});
+    while (world.brain().phase() <= Phase::kSettle) ASSERT_TRUE(world.step());
+    EXPECT_GT(world.cubeHeight(), 0.01) << "subject " << subject;  // lost is 30 mm below the fingers, which are at 40
+  }
+}
+
+// A hand that sinks with what it holds has lost nothing; a cube that stays in place while the hand rises is lost.
+TEST(Traps, LostIsRelativeToTheFingers) {
+  Perception perception(1e-3);
+  for (int i = 0; i < 1000; ++i) perception.step(holding(0.04, 0));
+  for (int i = 0; i < 1000; ++i) perception.step(holding(-0.10, 0));
+  EXPECT_FALSE(perception.lost());
+  for (int i = 0; i < 100; ++i) perception.step(holding(0.04, -0.04));
+  EXPECT_TRUE(perception.lost());
+}
+
+// Felt with the fingers, not told: stiffness to its own just noticeable difference (23 %) would do; it comes to 5 %.
+TEST(Traps, StiffnessAndWeightAreFelt) {
+  for (const Level level : {Level::kL0, Level::kL1, Level::kL2}) {
+    const Traits traits = Population(level).draw(4, 0);
+    for (const Cube& cube : studyCubes()) {
+      StandAlone world(traits, {.cube = cube, .seed = 4, .resolution = 90e-6});
+      while (world.brain().phase() <= Phase::kSettle) ASSERT_TRUE(world.step());
+      EXPECT_NEAR(world.brain().perception().stiffness() / cube.stiffness, 1, 0.05) << nameOf(level);
+      EXPECT_NEAR(world.brain().perception().load() / (cube.mass * Cube::kGravity / 2), 1, 0.05) << nameOf(level);
+    }
+  }
+}
+
+// Fingers that open still touch what they held: that is not the next grasp.
+TEST(Traps, LettingGoForgetsWhereTheObjectWasUntilItIsTouchedAnew) {
+  Perception perception(1e-3);
+  const auto live = [&](const Senses& senses) {
+    for (int i = 0; i < 500; ++i) perception.step(senses);
+  };
+  live(holding(0.04, 0));
+  perception.letGo();
+  live(holding(0.04, -0.04));
+  EXPECT_EQ(perception.fallen(), 0);
+  Senses open = holding(0.04, -0.04);
+  for (DigitSenses& digit : open.digits) digit.normal = digit.load = 0;
+  live(open);
+  live(holding(0, 0));
+  EXPECT_FALSE(perception.lost());
+  live(holding(0.04, -0.04));
+  EXPECT_TRUE(perception.lost());
+}
+
+TEST(Traps, WithEyesClosedTheCubeIsLostWhenNothingIsTouched) {
+  Perception perception(1e-3);
+  Senses senses = holding(0.04, -0.04);
+  senses.sight = {};
+  perception.step(senses);
+  EXPECT_FALSE(perception.lost());
+  for (DigitSenses& digit : senses.digits) digit.normal = 0;
+  perception.step(senses);
+  EXPECT_TRUE(perception.lost());
+}
+
+TEST(Traps, ReachingMeetsTheCubeGently) {
+  const Cube cube{.mass = 0.2, .mu_s = 0.8, .mu_d = 0.6, .stiffness = 1000};
+  StandAlone world(Population(Level::kL0).draw(1, 1), {.cube = cube, .subject = 1, .resolution = 90e-6, .reach = 0.02});
+  EXPECT_EQ(world.brain().phase(), Phase::kReach);
+  EXPECT_EQ(world.hand().q(0), -0.02);
+  while (world.brain().phase() == Phase::kReach) ASSERT_TRUE(world.step());
+  EXPECT_LT(world.result().peak, 0.5);
+  const TrialResult result = world.run();
+  EXPECT_TRUE(result.completed);
+  EXPECT_GT(result.grip, cube.slipForce());
+}
+
+}  // namespace
+}  // namespace presa::subject

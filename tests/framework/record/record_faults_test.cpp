@@ -1,0 +1,268 @@
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/record/record_plugin/reader.h"
+#include "tests/framework/record/recording_fixture.h"
+
+namespace presa::record {
+namespace {
+
+/// A child process that writes numbers to the parent. It leaves by _exit: no test clean-up runs twice.
+class Child {
+ public:
+  template <class Work>
+  explicit Child(const Work& work) {
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("pipe");
+    id_ = fork();
+    if (id_ == 0) {
+      close(ends[0]);
+      work(ends[1]);
+      _exit(0);
+    }
+    close(ends[1]);
+    from_ = ends[0];
+  }
+  ~Child() {
+    close(from_);
+    if (id_ > 0) killNow();
+  }
+  /// False when the child has ended.
+  bool next(std::uint64_t& number) const { return read(from_, &number, sizeof number) == sizeof number; }
+  void killNow() {
+    kill(id_, SIGKILL);
+    wait();
+  }
+  int wait() {
+    int status = 0;
+    waitpid(id_, &status, 0);
+    id_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t id_ = -1;
+  int from_ = -1;
+};
+
+void send(int to, std::uint64_t number) {
+  if (write(to, &number, sizeof number) != sizeof number) _exit(1);
+}
+
+int codeOf(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.diagnostics().all().front().code;
+  }
+  return 0;
+}
+
+int readCode(const std::string& file) {
+  return codeOf([&] { readRecording(file); });
+}
+
+std::string bytesOf(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void writeBytes(const std::string& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+
+void recordTicks(const std::string& file, std::uint64_t ticks) {
+  RecordedRun run(recordedWorld(file, false));
+  run.step(ticks);
+  run.recorder->finish();
+}
+
+// A lab's power strip, an impatient Ctrl-\, the OOM killer: what was flushed is not lost. The child flushes after every
+// block and reports it, flat out, so that the kill falls between or inside writes alike.
+TEST(KilledRun, IsReadableUpToItsLastFlush) {
+  std::mt19937 random(7);
+  for (int repeat = 0; repeat < 12; ++repeat) {
+    const ScratchFolder folder;
+    const std::string file = folder.file("run.h5");
+    Child child([&](int to_parent) {
+      WriterSettings settings;
+      settings.look_every = std::chrono::milliseconds(0);
+      settings.flush_every = std::chrono::milliseconds(0);
+      settings.after_flush = [&](std::uint64_t ticks) { send(to_parent, ticks); };
+      RecordedRun run(recordedWorld(file, false), settings);
+      run.step(1'000'000);
+    });
+    std::uint64_t flushed = 0;
+    const auto flushes = 1 + random() % 40;
+    for (std::uint32_t i = 0; i < flushes || flushed == 0; ++i) ASSERT_TRUE(child.next(flushed));
+    // a while that differs from kill to kill and sleeps nowhere
+    for (volatile std::uint32_t spin = random() % 2'000'000; spin > 0;) spin = spin - 1;
+    child.killNow();
+
+    const Recording recording = readRecording(file);
+    EXPECT_GE(recording.time.size() + 1, flushed);  // a tick's schedule row follows its step: the newest may lack it
+    EXPECT_FALSE(recording.complete);
+    EXPECT_EQ(differenceFromPrefix(recording), "");
+  }
+}
+
+/// Records until the file cannot grow; sends rows, dropped and failed.
+void recordUntilFull(const std::string& file, int to_parent) {
+  WriterSettings settings;
+  settings.flush_every = std::chrono::milliseconds(0);
+  RecordedRun run(recordedWorld(file, false), settings);
+  run.step(30'000);  // about 25 MB
+  run.recorder->finish();
+  const RecorderStatus status = run.recorder->status();
+  for (const std::uint64_t number : {status.rows, status.dropped, std::uint64_t{status.failed}})
+    send(to_parent, number);
+}
+
+void expectFailedButReadable(const Child& child, const std::string& file) {
+  std::uint64_t rows = 0, dropped = 0, failed = 0;
+  ASSERT_TRUE(child.next(rows) && child.next(dropped) && child.next(failed));
+  EXPECT_EQ(failed, 1u);
+  EXPECT_GT(rows, 0u);
+  EXPECT_GE(rows + dropped, 30'000u);  // schedule rows that were thrown away count too
+  const Recording recording = readRecording(file);
+  EXPECT_LE(recording.time.size(), rows);
+  EXPECT_GE(recording.time.size() + 1, rows);  // a tick's schedule row follows its step: the newest may lack it
+  EXPECT_FALSE(recording.complete);
+  EXPECT_EQ(differenceFromPrefix(recording), "");
+}
+
+// A file may reach its limit; by default the signal of that would end the program with the force still on the finger.
+TEST(FullDisk, FileSizeLimitEndsTheRecordingNotTheRun) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("run.h5");
+  Child child([&](int to_parent) {
+    const rlimit limit{9'000'000, 9'000'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    recordUntilFull(file, to_parent);
+  });
+  expectFailedButReadable(child, file);
+  EXPECT_EQ(child.wait(), 0);
+}
+
+// The real thing: a file system of 8 MB. It lives in a mount name space of the child, which copies the file out.
+TEST(FullDisk, FullFileSystemEndsTheRecordingNotTheRun) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("run.h5");
+  const std::string disk = folder.file("disk");
+  std::filesystem::create_directory(disk);
+  Child child([&](int to_parent) {
+    const bool mounted = unshare(CLONE_NEWNS) == 0 && mount("", "/", "", MS_REC | MS_PRIVATE, nullptr) == 0 &&
+                         mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=8m") == 0;
+    send(to_parent, mounted ? 1 : 0);
+    if (!mounted) return;
+    int numbers[2];
+    if (pipe(numbers) != 0) _exit(1);
+    recordUntilFull(disk + "/run.h5", numbers[1]);
+    std::filesystem::copy_file(disk + "/run.h5", file);
+    for (int i = 0; i < 3; ++i) {
+      std::uint64_t number = 0;
+      if (read(numbers[0], &number, sizeof number) != sizeof number) _exit(1);
+      send(to_parent, number);
+    }
+  });
+  std::uint64_t mounted = 0;
+  ASSERT_TRUE(child.next(mounted));
+  if (mounted == 0) GTEST_SKIP() << "mounting a small file system needs more rights";
+  expectFailedButReadable(child, file);
+  EXPECT_EQ(child.wait(), 0);
+}
+
+// Two runs under one name: the first one's data is not the price of a forgotten option.
+TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("run.h5");
+  recordTicks(file, 10);
+  const auto world = recordedWorld(file, false);
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(world); }), 601);
+  EXPECT_EQ(readRecording(file).time.size(), 10u);
+  world->options.overwrite = true;
+  {
+    RecordedRun run(world);
+    run.step(20);
+    run.recorder->finish();
+  }
+  EXPECT_EQ(readRecording(file).time.size(), 20u);
+}
+
+// Each refusal names its reason before anything runs.
+TEST(Recorder, RefusesWhatCannotBeWritten) {
+  const ScratchFolder folder;
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(recordedWorld(folder.file("none/run.h5"), false)); }), 602);
+  const auto world = recordedWorld(folder.path().string(), false);
+  world->options.overwrite = true;
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(world); }), 602);
+}
+
+// While a run writes, nobody reads half of it or writes over it.
+TEST(Recorder, KeepsOthersAwayWhileItWrites) {
+  const ScratchFolder folder;
+  const auto world = recordedWorld(folder.file("run.h5"), true);
+  RecordedRun run(world);
+  EXPECT_EQ(readCode(folder.file("run.h5")), 603);
+  auto second = std::make_shared<World>(*world);
+  second->options.overwrite = true;
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(second); }), 602);
+  run.step(5);
+  run.recorder->finish();
+  EXPECT_EQ(readRecording(folder.file("run.h5")).time.size(), 5u);
+}
+
+// A reader says which of the things that can be wrong with a file it is.
+TEST(Reader, RefusesEveryWrongFileWithItsReason) {
+  const ScratchFolder folder;
+  const std::string good = folder.file("good.h5"), bad = folder.file("bad.h5");
+  recordTicks(good, 2000);
+  const std::string bytes = bytesOf(good);
+
+  EXPECT_EQ(readCode(folder.file("none.h5")), 603);
+  EXPECT_EQ(readCode(folder.path().string()), 603);
+  writeBytes(bad, "time,x,y,z\n0,1,2,3\n");
+  EXPECT_EQ(readCode(bad), 604);
+
+  std::string other = bytes;
+  const std::size_t format = other.find("presa-recording");
+  ASSERT_NE(format, std::string::npos);
+  other.replace(format, 5, "other");
+  writeBytes(bad, other);
+  EXPECT_EQ(readCode(bad), 605);
+
+  // attribute message: name in 16 bytes, number type in 16, scalar space in 8, then the value
+  std::string newer = bytes;
+  const std::size_t version = newer.find(std::string("format_version\0", 15));
+  ASSERT_NE(version, std::string::npos);
+  ASSERT_EQ(newer[version + 40], 6);
+  newer[version + 40] = 7;
+  writeBytes(bad, newer);
+  EXPECT_EQ(readCode(bad), 606);
+
+  const std::string empty = folder.file("empty.h5");
+  recordTicks(empty, 0);
+  EXPECT_EQ(readCode(empty), 607);
+
+  writeBytes(bad, bytes.substr(0, bytes.size() / 2));
+  EXPECT_EQ(readCode(bad), 608);
+  std::string renamed = bytes;
+  for (std::size_t at = renamed.find("command_count"); at != std::string::npos;
+       at = renamed.find("command_count", at)) {
+    renamed.replace(at, 7, "COMMAND");
+  }
+  writeBytes(bad, renamed);
+  EXPECT_EQ(readCode(bad), 672);
+}
+
+}  // namespace
+}  // namespace presa::record

@@ -1,0 +1,173 @@
+#include "framework/scene/ages.h"
+#include "tests/framework/scene/scene_text.h"
+
+namespace presa::scene_test {
+namespace {
+
+Scene load(const std::vector<Override>& overrides, const std::string& text = kScene) {
+  Diagnostics findings;
+  Scene scene = parseScene(text, "scene.xml", "/lab", overrides, findings);
+  EXPECT_FALSE(findings.hasErrors()) << findings.text();
+  return scene;
+}
+
+Diagnostic onlyFinding(const std::string& path, const std::string& value) {
+  const Diagnostics findings = findingsOf(kScene, {{path, value}});
+  EXPECT_EQ(findings.all().size(), 1U) << findings.text();
+  return findings.all().empty() ? Diagnostic{} : findings.all()[0];
+}
+
+TEST(Override, ReachesEveryKindOfValue) {
+  EXPECT_EQ(load({{"body/cube/physics/mass", "0.5"}}).bodies[1].mass, 0.5);
+  EXPECT_EQ(load({{"material/rubber/stiffness", "700"}}).materials[0].stiffness, 700);
+  EXPECT_EQ(load({{"material/rubber/friction/static", "0.9"}}).materials[0].friction_static, 0.9);
+  EXPECT_EQ(load({{"rates/dynamics", "500"}}).rates.dynamics, 500);
+  EXPECT_EQ(load({{"world/gravity", "0 0 -1.62"}}).gravity.z(), -1.62);
+  EXPECT_EQ(load({{"device/thumb/limits/force", "3"}}).devices[0].limits.force, 3);
+  EXPECT_EQ(load({{"body/cube/pos", "1 2 3"}}).bodies[1].X_WB.p, Vec3(1, 2, 3));
+  EXPECT_EQ(load({{"body/cube/physics/cylinder/radius", "0.04"}}).bodies[1].physics->shape.index(), 3U);
+  EXPECT_EQ(load({{"name", "other"}}).name, "other");
+}
+
+TEST(Override, ListsMayBeWrittenOrSkipped) {
+  EXPECT_EQ(load({{"materials/material/wood/stiffness", "700"}}).materials[1].stiffness, 700);
+  EXPECT_EQ(load({{"devices/device/index/fingertip_radius", "0.01"}}).devices[1].fingertip_radius, 0.01);
+}
+
+// A value that has a default and stands not in the file is a value all the same.
+TEST(Override, ReachesValuesThatStandNotInTheFile) {
+  EXPECT_EQ(load({{"material/wood/damping", "3"}}).materials[1].damping, 3);
+  EXPECT_EQ(load({{"material/wood/friction/dynamic", "0.3"}}).materials[1].friction_dynamic, 0.3);
+  EXPECT_EQ(load({{"device/index/limits/force_rate", "300"}}).devices[1].limits.force_rate, 300);
+  const std::string without_rates =
+      edited(kScene, "  <rates haptic=\"1000\" collision=\"100\" dynamics=\"200\" view=\"60\"/>\n", "");
+  const Scene scene = load({{"rates/haptic", "2000"}}, without_rates);
+  EXPECT_EQ(scene.rates.haptic, 2000);
+  EXPECT_EQ(scene.rates.dynamics, 200);
+}
+
+// The two say the same thing: giving one takes the other back.
+TEST(Override, DensityReplacesMassAndQuatReplacesEuler) {
+  const Scene scene = load({{"body/cube/physics/density", "500"}, {"body/cube/quat", "0 1 0 0"}});
+  EXPECT_FALSE(scene.bodies[1].mass);
+  EXPECT_EQ(scene.bodies[1].density, 500);
+  EXPECT_EQ(scene.bodies[1].X_WB.q.x(), 1);
+}
+
+TEST(Override, LastOneWins) {
+  EXPECT_EQ(load({{"body/cube/physics/mass", "1"}, {"body/cube/physics/mass", "2"}}).bodies[1].mass, 2);
+}
+
+TEST(Override, IsPartOfTheResolvedScene) {
+  const Scene scene = load({{"body/cube/physics/mass", "0.5"}});
+  EXPECT_EQ(load({}, scene.resolved_xml).bodies[1].mass, 0.5);
+}
+
+struct BadPath {
+  const char* path;
+  const char* says;
+};
+
+TEST(Override, PathThatLeadsNowhereSaysWhatExistsThere) {
+  const BadPath kBad[] = {
+      {"body/cub/physics/mass", "no body 'cub' (did you mean 'cube'?)"},
+      {"body/cub/physics/mass", "table, cube"},
+      {"bdy/cube/physics/mass", "did you mean 'body'"},
+      {"body/cube/phisics/mass", "did you mean 'physics'"},
+      {"body/cube/physics/mas", "did you mean 'mass'"},
+      {"body/cube/physics/box/size", "it holds <cylinder>"},
+      {"body/table/visual/pos", "has no <visual>"},
+      {"body/cube", "the path ends at an element"},
+      {"body", "the path ends at an element"},
+      {"body/cube/physics", "mass, density"},
+      {"world/gravity/z", "nothing can follow"},
+      {"material/ruber/stiffness", "did you mean 'rubber'"},
+      {"device/thumb/limits/forse", "did you mean 'force'"},
+      {"", "a part of the path is empty"},
+      {"body//physics/mass", "a part of the path is empty"},
+      {"colour", "world, rates"},
+  };
+  for (const BadPath& bad : kBad) {
+    const Diagnostic finding = onlyFinding(bad.path, "1");
+    EXPECT_EQ(finding.code, 202) << bad.path;
+    EXPECT_EQ(finding.where.file, std::string("--set ") + bad.path + "=1");
+    EXPECT_NE((finding.message + "\n" + finding.help).find(bad.says), std::string::npos)
+        << format(finding) << "\nshould say: " << bad.says;
+  }
+}
+
+// A wrong value is the same mistake as in the file; it is told with the place where it was made.
+TEST(Override, WrongValueIsToldWithItsPlaceOnTheCommandLine) {
+  const Diagnostic mass = onlyFinding("body/cube/physics/mass", "-1");
+  EXPECT_EQ(mass.code, 117);
+  EXPECT_EQ(format(mass).rfind("--set body/cube/physics/mass=-1: error[E117]: ", 0), 0U) << format(mass);
+  EXPECT_EQ(onlyFinding("rates/dynamics", "300").code, 209);
+  EXPECT_EQ(onlyFinding("body/cube/material", "ruber").code, 204);
+  EXPECT_EQ(onlyFinding("body/cube/name", "table").code, 203);
+}
+
+// A watchdog that somebody set is not changed behind his back: with a slower dynamics it would bark all the time, and the place
+// where it stands is told. Two periods are enough; without a body that moves there is nothing to watch.
+TEST(Override, ASlowDynamicsIsRefusedWhereAWatchdogWouldNotBearIt) {
+  const Diagnostic finding = onlyFinding("rates/dynamics", "50");
+  EXPECT_EQ(finding.code, 222);
+  const Marked place = marked(edited(kScene, "watchdog_ms", "@watchdog_ms"));
+  EXPECT_EQ(finding.where.line, place.line) << format(finding);
+  EXPECT_EQ(finding.where.column, place.column) << format(finding);
+  EXPECT_NE(finding.message.find("found 20 ms at 50 Hz"), std::string::npos) << finding.message;
+  EXPECT_NE(finding.help.find("\"40\""), std::string::npos) << finding.help;
+  EXPECT_FALSE(findingsOf(kScene, {{"rates/dynamics", "100"}}).hasErrors());
+  EXPECT_FALSE(findingsOf(kScene, {{"rates/dynamics", "50"}, {"device/thumb/limits/watchdog_ms", "40"}}).hasErrors());
+  EXPECT_EQ(findingsOf(kScene, {{"rates/dynamics", "50"}, {"device/thumb/limits/watchdog_ms", "39"}}).errorCount(), 1U);
+}
+
+// Fingers cannot hold a body that stands still for 100 ms at a time; a slow one that they can hold badly is warned of. Without
+// fingers, or without a body that moves, any rate will do.
+TEST(Override, ADynamicsTooSlowToHoldABodyIsRefused) {
+  const std::string free = edited(kScene, " watchdog_ms=\"20\"", "");
+  const Diagnostics slow = findingsOf(free, {{"rates/dynamics", "10"}});
+  ASSERT_EQ(slow.all().size(), 1U) << slow.text();
+  EXPECT_EQ(format(slow.all()[0]).rfind("--set rates/dynamics=10: error[E223]: ", 0), 0U) << slow.text();
+  const Diagnostics slowish = findingsOf(free, {{"rates/dynamics", "25"}});
+  ASSERT_EQ(slowish.all().size(), 1U) << slowish.text();
+  EXPECT_EQ(format(slowish.all()[0]).rfind("--set rates/dynamics=25: warning[W223]: ", 0), 0U) << slowish.text();
+  EXPECT_TRUE(findingsOf(free, {{"rates/dynamics", "40"}}).all().empty());
+  EXPECT_FALSE(
+      findingsOf(edited(free, "<body name=\"cube\"", "<body name=\"cube\" fixed=\"true\""), {{"rates/dynamics", "1"}})
+          .hasErrors());
+}
+
+// What nobody set is two periods of the dynamics, and never under 20 ms; it stands in the resolved scene, which is read again.
+TEST(Override, AWatchdogThatNobodySetFollowsTheDynamics) {
+  const std::string scene = edited(kScene, " watchdog_ms=\"20\"", "");
+  for (const auto& [rate, watchdog_ms] :
+       {std::pair{"40", 50.}, {"50", 40.}, {"100", 20.}, {"200", 20.}, {"1000", 20.}}) {
+    const Scene loaded = load({{"rates/dynamics", rate}}, scene);
+    Diagnostics findings;
+    const Scene again = parseScene(loaded.resolved_xml, "again", "/", {}, findings);
+    EXPECT_TRUE(findings.all().empty()) << findings.text();
+    for (const Scene* one : {&loaded, &again}) {
+      for (const DeviceRole& device : one->devices) EXPECT_DOUBLE_EQ(device.limits.watchdog_ms, watchdog_ms) << rate;
+    }
+  }
+}
+
+// At the usual rates every age is 20 ms to the bit: what ran before runs the same.
+TEST(Ages, AreTwoPeriodsOfTheWriterAndNeverUnderTwentyMilliseconds) {
+  const Rates usual;
+  EXPECT_EQ(ages::patches(usual), 0.020);
+  EXPECT_EQ(ages::objects(usual), 0.020);
+  EXPECT_EQ(ages::fingers(usual), 0.020);
+  Rates slow;
+  slow.collision = 10, slow.dynamics = 40;
+  EXPECT_DOUBLE_EQ(ages::patches(slow), 0.200);
+  EXPECT_DOUBLE_EQ(ages::objects(slow), 0.050);
+  EXPECT_DOUBLE_EQ(ages::fingers(slow), 0.027);  // two haptic ticks, and the step that is solved meanwhile
+  Rates fast;
+  fast.haptic = 4000, fast.collision = fast.dynamics = 1000;
+  EXPECT_EQ(ages::patches(fast), 0.020);
+  EXPECT_EQ(ages::objects(fast), 0.020);
+}
+
+}  // namespace
+}  // namespace presa::scene_test

@@ -1,0 +1,144 @@
+#include "framework/scene/schemas.h"
+#include "framework/scene/xml/xml.h"
+#include "tests/framework/scene/scene_text.h"
+
+namespace presa::scene_test {
+namespace {
+
+const std::string kRig = R"(<rig version="1.0" name="desk">
+  <device role="thumb" driver="scripted" serial="A1"><set key="motion" value="../motions/a.xml"/><set key="gain" value="../2"/></device>
+  <device role="index" driver="replay"><set key="file" value="/data/run.h5"/></device>
+</rig>
+)";
+
+Diagnostics rigFindings(const std::string& text) {
+  Diagnostics findings;
+  parseRig(text, "rig.xml", "/lab/rigs", findings);
+  return findings;
+}
+
+// Only settings that name a file are paths; everything else is the driver's own.
+TEST(Rig, ReadsBindingsAndResolvesFiles) {
+  Diagnostics findings;
+  const Rig rig = parseRig(kRig, "rig.xml", "/lab/rigs", findings);
+  ASSERT_TRUE(findings.all().empty()) << findings.text();
+  EXPECT_EQ(rig.name, "desk");
+  ASSERT_EQ(rig.devices.size(), 2U);
+  EXPECT_EQ(rig.devices[0].role, "thumb");
+  EXPECT_EQ(rig.devices[0].driver, "scripted");
+  EXPECT_EQ(rig.devices[0].settings.at("serial").value, "A1");
+  EXPECT_EQ(rig.devices[0].settings.at("motion").value, "/lab/motions/a.xml");
+  EXPECT_EQ(rig.devices[0].settings.at("gain").value, "../2");
+  EXPECT_EQ(rig.devices[1].settings.at("file").value, "/data/run.h5");
+  const SourceLocation& where = rig.devices[0].settings.at("gain").where;
+  const Marked expected = marked(edited(kRig, "value=\"../2\"", "@value=\"../2\""));
+  EXPECT_EQ(where.line, expected.line);
+  EXPECT_EQ(where.column, expected.column);
+}
+
+TEST(Rig, ResolvedTextReadsBackAsTheSameRig) {
+  Diagnostics findings;
+  const Rig rig = parseRig(kRig, "rig.xml", "/lab/rigs", findings);
+  const Rig again = parseRig(rig.resolved_xml, "resolved", "/elsewhere", findings);
+  ASSERT_TRUE(findings.all().empty()) << findings.text();
+  EXPECT_EQ(again.resolved_xml, rig.resolved_xml);
+  EXPECT_EQ(again.devices[0].settings.at("motion").value, "/lab/motions/a.xml");
+}
+
+TEST(Rig, ExampleIsGood) {
+  Diagnostics findings;
+  const Rig rig = loadRig(PRESA_SOURCE_DIR "/config/rigs/pinch_cube.xml", findings);
+  EXPECT_TRUE(findings.all().empty()) << findings.text();
+  EXPECT_EQ(rig.devices.size(), 2U);
+}
+
+TEST(Rig, MistakesGiveOneMessageAtTheirPlace) {
+  struct Slip {
+    int code;
+    const char* from;
+    const char* to;
+  };
+  const Slip kSlips[] = {
+      {401, "version=\"1.0\"", "@version=\"3.0\""},
+      {402, "role=\"index\"", "@role=\"thumb\""},
+      {403, "key=\"gain\"", "@key=\"motion\""},
+      {403, "key=\"gain\"", "@key=\"serial\""},
+      {115, "<device role=\"index\" driver=\"replay\">", "@<device role=\"index\">"},
+      {114, "driver=\"replay\"", "@drivr=\"replay\""},
+      {116, "serial=\"A1\"", "@serial=\"\""},
+      {111, "<set key=\"gain\"", "@<sett key=\"gain\""},
+      {110, "<rig version=\"1.0\" name=\"desk\">", "@<scene>"},
+  };
+  for (const Slip& slip : kSlips) {
+    std::string text = edited(kRig, slip.from, slip.to);
+    if (slip.code == 110) text = edited(text, "</rig>", "</scene>");
+    const Marked rig = marked(text);
+    const Diagnostics findings = rigFindings(rig.text);
+    ASSERT_EQ(findings.all().size(), 1U) << slip.to << "\n" << findings.text();
+    EXPECT_EQ(findings.all()[0].code, slip.code) << findings.text();
+    EXPECT_EQ(findings.all()[0].where.line, rig.line) << findings.text();
+    EXPECT_EQ(findings.all()[0].where.column, rig.column) << findings.text();
+  }
+}
+
+TEST(Rig, NeedsADevice) {
+  const Diagnostics findings = rigFindings("<rig version=\"1.0\" name=\"x\"/>");
+  ASSERT_EQ(findings.all().size(), 1U);
+  EXPECT_EQ(findings.all()[0].code, 113);
+}
+
+const std::string kMotion = R"(<motion version="1.0" name="pinch">
+  <finger mass="0.1" stiffness="300" damping="auto"/>
+  <grasp point="0 0 0.04" axis="1 0 0" width="0.07" open="0.03"/>
+  <phase name="reach" duration="0.8" open="0.002"/>
+  <phase name="squeeze" duration="0.5" grip="6" move="0 0 0.1"/>
+</motion>
+)";
+
+Diagnostics motionFindings(const std::string& text) {
+  Diagnostics findings;
+  const auto document = xml::Document::parse(text, "motion.xml", findings);
+  if (document) document->validate(schemas::motion, findings);
+  return findings;
+}
+
+TEST(MotionSchema, AllowsNumberOrAutoAsDamping) {
+  EXPECT_TRUE(motionFindings(kMotion).all().empty()) << motionFindings(kMotion).text();
+  const std::string with_number = edited(kMotion, "damping=\"auto\"", "damping=\"12.5\"");
+  EXPECT_TRUE(motionFindings(with_number).all().empty()) << motionFindings(with_number).text();
+}
+
+TEST(MotionSchema, MistakesGiveOneMessage) {
+  struct Slip {
+    int code;
+    const char* from;
+    const char* to;
+  };
+  const Slip kSlips[] = {
+      {116, "damping=\"auto\"", "@damping=\"automatic\""},
+      {117, "damping=\"auto\"", "@damping=\"-1\""},
+      {117, "duration=\"0.8\"", "@duration=\"0\""},
+      {117, "grip=\"6\"", "@grip=\"-6\""},
+      {117, "width=\"0.07\"", "@width=\"0\""},
+      {117, "open=\"0.002\"", "@open=\"-1\""},
+      {118, "axis=\"1 0 0\"", "@axis=\"1 0\""},
+      {115, "<phase name=\"reach\" duration=\"0.8\"", "@<phase name=\"reach\""},
+      {111, "<grasp point", "@<grap point"},
+  };
+  for (const Slip& slip : kSlips) {
+    const Marked motion = marked(edited(kMotion, slip.from, slip.to));
+    const Diagnostics findings = motionFindings(motion.text);
+    ASSERT_EQ(findings.all().size(), 1U) << slip.to << "\n" << findings.text();
+    EXPECT_EQ(findings.all()[0].code, slip.code) << findings.text();
+    EXPECT_EQ(findings.all()[0].where.line, motion.line) << findings.text();
+    EXPECT_EQ(findings.all()[0].where.column, motion.column) << findings.text();
+  }
+}
+
+TEST(MotionSchema, NeedsGraspAndPhase) {
+  const Diagnostics findings = motionFindings("<motion version=\"1.0\" name=\"x\"/>");
+  EXPECT_EQ(findings.all().size(), 2U) << findings.text();
+}
+
+}  // namespace
+}  // namespace presa::scene_test

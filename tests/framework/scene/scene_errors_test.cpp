@@ -1,0 +1,265 @@
+#include <filesystem>
+#include <fstream>
+
+#include "framework/scene/xml/xml.h"
+#include "tests/framework/scene/scene_text.h"
+
+namespace presa::scene_test {
+namespace {
+
+/// One slip in the scene: `to` replaces `from` and marks with '@' where the message must point.
+struct Slip {
+  const char* name;
+  int code;
+  const char* from;
+  const char* to;
+  const char* says;  ///< words that must be in the message or its help
+};
+
+class OneSlip : public testing::TestWithParam<Slip> {};
+
+// Every kind of mistake gives exactly one message, at its place, with what helps: no echo, no second report.
+TEST_P(OneSlip, GivesOneMessageAtItsPlace) {
+  const Slip& slip = GetParam();
+  const Marked scene = marked(edited(kScene, slip.from, slip.to));
+  const Diagnostics findings = findingsOf(scene.text);
+  ASSERT_EQ(findings.all().size(), 1U) << findings.text();
+  const Diagnostic& finding = findings.all()[0];
+  EXPECT_EQ(finding.code, slip.code) << findings.text();
+  EXPECT_EQ(finding.where.file, "scene.xml");
+  EXPECT_EQ(finding.where.line, scene.line) << findings.text();
+  EXPECT_EQ(finding.where.column, scene.column) << findings.text();
+  EXPECT_NE((finding.message + "\n" + finding.help).find(slip.says), std::string::npos) << findings.text();
+}
+
+const Slip kWellFormedness[] = {
+    {"WrongEndTag", 104, "</haptic>\n    <physics><box", "@</haptik>\n    <physics><box",
+     "</haptik> does not close <haptic>"},
+    {"ForgottenEndTag", 104, "  </devices>\n</scene>", "  @</scene>", "opened in line"},
+    {"NoQuotes", 104, "fingertip_radius=\"0.008\"", "@fingertip_radius=0.008", "'fingertip_radius' is not in quotes"},
+    {"NoValue", 104, "fixed=\"true\"", "@fixed", "'fixed' has no value"},
+    {"RepeatedAttribute", 104, "mass=\"0.2\"", "mass=\"0.2\" @mass=\"0.3\"", "'mass' twice"},
+    {"OpenQuote", 104, "radius=\"0.035\"/>", "@radius=\"0.035/>", "'radius' is not closed with a quote"},
+    {"Doctype", 105, "<!-- Größe", "@<!DOCTYPE scene [<!ENTITY a \"b\">]><!-- Größe", "DOCTYPE"},
+    {"Ampersand", 104, "description=\"two bodies, two fingers\"", "description=\"this &that;@ too\"", "&amp;"},
+};
+const Slip kNames[] = {
+    {"Element", 111, "<cylinder", "@<cyllinder", "did you mean 'cylinder'"},
+    {"Container", 111, "<rates haptic", "@<rate haptic", "did you mean 'rates'"},
+    {"ElementElsewhere", 111, "<haptic><sphere", "@<friction static=\"1\"/><haptic><sphere", "belongs in <material>"},
+    {"AttributeAsElement", 111, "<physics mass=\"0.2\">", "<physics>@<mass>0.2</mass>", "it is an attribute"},
+    {"UnknownElement", 111, "<haptic><sphere radius=\"0.035\"/>", "<haptic>@<torus radius=\"0.035\"/>",
+     "mesh, box, sphere"},
+    {"Attribute", 114, "stiffness=\"1000\"", "@stifness=\"1000\"", "did you mean 'stiffness'"},
+    {"AttributeCase", 114, "fixed=\"true\"", "@Fixed=\"true\"", "did you mean 'fixed'"},
+    {"AttributeElsewhere", 114, "<body name=\"cube\"", "<body @density=\"200\" name=\"cube\"", "belongs on <physics>"},
+    {"ElementAsAttribute", 114, "name=\"rubber\" stiff", "name=\"rubber\" @friction=\"1\" stiff",
+     "an element of its own"},
+    {"Namespace", 120, "> <scene version", "> @<scene xmlns=\"http://example.org\" version", "no XML namespace"},
+    {"StrayText", 119, "<materials>\n", "<materials>\n  @rubber\n", "only elements may stand"},
+};
+const Slip kCounts[] = {
+    {"SecondWorld", 112, "  <rates", "  @<world gravity=\"0 0 0\"/><rates", "only one <world>"},
+    {"SecondRates", 112, "  <materials>", "  @<rates/><materials>", "only one <rates>"},
+    {"SecondMaterials", 112, "  <devices>", "  @<materials/><devices>", "only one <materials>"},
+    {"SecondDevices", 112, "</scene>", "@<devices/></scene>", "only one <devices>"},
+    {"SecondShape", 112, "<sphere radius=\"0.035\"/>", "<sphere radius=\"0.035\"/>@<box size=\"1 1 1\"/>",
+     "only one of"},
+    {"NoShape", 113, "<haptic><sphere radius=\"0.035\"/></haptic>", "@<haptic/>", "needs one of <mesh>, <box>"},
+    {"NoWorld", 113,
+     "> <scene version=\"1.0\" name=\"test\"\n       description=\"two bodies, two fingers\">\n  <world gravity=\"0 0 "
+     "-9.81\"/>",
+     "> @<scene version=\"1.0\" name=\"test\">\n", "needs <world>"},
+    {"NoStiffness", 115, "<material name=\"wood\" stiffness=\"2000\"/>", "@<material name=\"wood\"/>", "[N/m]"},
+    {"NoVersion", 115, "> <scene version=\"1.0\"", "> @<scene", "no 'version'"},
+};
+const Slip kValues[] = {
+    {"Word", 116, "mass=\"0.2\"", "@mass=\"heavy\"", "a number > 0, found 'heavy'"},
+    {"Unit", 116, "mass=\"0.2\"", "@mass=\"200g\"", "without a unit"},
+    {"DecimalComma", 116, "static=\"0.8\"", "@static=\"0,8\"", "0.8"},
+    {"Empty", 116, "mass=\"0.2\"", "@mass=\"\"", "found ''"},
+    {"Boolean", 116, "fixed=\"true\"", "@fixed=\"yes\"", "'true' or 'false', found 'yes'"},
+    {"Name", 116, "<body name=\"table\"", "<body @name=\"my table\"", "a name"},
+    {"Version", 116, "> <scene version=\"1.0\"", "> <scene @version=\"one\"", "such as 1.0"},
+    {"EmptyFile", 116, "file=\"meshes/cube.obj\"", "@file=\"\"", "not empty"},
+    {"MassZero", 117, "mass=\"0.2\"", "@mass=\"0\"", "> 0, found '0'"},
+    {"MassNegative", 117, "mass=\"0.2\"", "@mass=\"-0.2\"", "> 0"},
+    {"MassNaN", 117, "mass=\"0.2\"", "@mass=\"NaN\"", "finite"},
+    {"MassInfinite", 117, "mass=\"0.2\"", "@mass=\"INF\"", "finite"},
+    {"MassTooLarge", 117, "mass=\"0.2\"", "@mass=\"1e999\"", "finite"},
+    {"DensityNegative", 117, "mass=\"0.2\"", "@density=\"-1\"", "[kg/m^3]"},
+    {"Stiffness", 117, "stiffness=\"1000\"", "@stiffness=\"0\"", "[N/m]"},
+    {"Damping", 117, "damping=\"1\"", "@damping=\"-1\"", ">= 0"},
+    {"Color", 117, "color=\"0.75 0.25 0.2\"", "@color=\"0.75 0.25 20\"", "in [0, 1], found '20'"},
+    {"FrictionNegative", 117, "dynamic=\"0.6\"", "@dynamic=\"-0.6\"", ">= 0"},
+    {"Radius", 117, "radius=\"0.035\"", "@radius=\"-0.035\"", "[m]"},
+    {"Size", 117, "<physics><box size=\"0.6 0.4 0.04\"", "<physics><box @size=\"0.6 0 0.04\"",
+     "3 numbers > 0, found '0'"},
+    {"Fingertip", 117, "fingertip_radius=\"0.008\"", "@fingertip_radius=\"-0.001\"", "[m]"},
+    {"Watchdog", 117, "watchdog_ms=\"20\"", "@watchdog_ms=\"-20\"", "[ms]"},
+    {"CollisionRateTooLow", 117, "collision=\"100\"", "@collision=\"8\"", "[10, 40000]"},
+    {"HapticRate", 117, "haptic=\"1000\"", "@haptic=\"50\"", "[100, 40000]"},
+    {"GravityNaN", 117, "gravity=\"0 0 -9.81\"", "@gravity=\"0 nan 0\"", "finite"},
+    {"VectorShort", 118, "gravity=\"0 0 -9.81\"", "@gravity=\"0 -9.81\"", "3 numbers, found 2"},
+    {"VectorLong", 118, "pos=\"0 0 0.035\"", "@pos=\"0 0 0.035 1\"", "3 numbers, found 4"},
+    {"QuatShort", 118, "euler_deg=\"0 0 90\"", "@quat=\"1 0 0\"", "4 numbers, found 3"},
+};
+const Slip kMeaning[] = {
+    {"Major", 201, "> <scene version=\"1.0\"", "> <scene @version=\"2.0\"", "reads 1.x"},
+    {"DuplicateBody", 203, "<body name=\"cube\"", "<body @name=\"table\"", "the first is in line 10"},
+    {"DuplicateMaterial", 203, "<material name=\"wood\" stiffness=\"2000\"/>",
+     "<material name=\"wood\" stiffness=\"2000\"/><material @name=\"wood\" stiffness=\"1\"/>", "second material"},
+    {"DuplicateRole", 203, "role=\"index\"", "@role=\"thumb\"", "second device role"},
+    {"Material", 204, "material=\"rubber\"", "@material=\"ruber\"", "did you mean 'rubber'"},
+    {"NoMaterialOfBody", 205, "<body name=\"cube\" material=\"rubber\"", "@<body name=\"cube\"", "rubber, wood"},
+    {"NoPhysics", 206, "<body name=\"cube\" material=\"rubber\" pos=\"0 0 0.035\" euler_deg=\"0 0 90\">",
+     "@<body name=\"new\" material=\"wood\"/><body name=\"cube\" material=\"rubber\">", "no <physics>"},
+    {"NeitherMassNorDensity", 207, "<physics mass=\"0.2\">", "@<physics>", "found neither"},
+    {"BothMassAndDensity", 207, "<physics mass=\"0.2\">", "<physics mass=\"0.2\" @density=\"500\">", "found both"},
+    {"ChangedFriction", 208, "dynamic=\"0.6\"/>",
+     "dynamic=\"0.6\"><changed static=\"0.4\" @dynamic=\"0.5\"/></friction>", "0.5 > 0.4"},
+    {"Friction", 208, "dynamic=\"0.6\"", "@dynamic=\"0.9\"", "0.9 > 0.8"},
+    {"DynamicsRate", 209, "dynamics=\"200\"", "@dynamics=\"300\"", "250, 500"},
+    {"CollisionRate", 209, "collision=\"100\"", "@collision=\"2000\"", "1000"},
+    {"RatesByDefault", 209, "haptic=\"1000\" collision=\"100\" dynamics=\"200\"", "@haptic=\"900\" collision=\"100\"",
+     "900 / 200"},
+    {"WatchdogUnderTwoPeriods", 222, "watchdog_ms=\"20\"", "@watchdog_ms=\"9.9\"",
+     "at least two periods of the dynamics, found 9.9 ms at 200 Hz\nwrite watchdog_ms=\"10\" or more"},
+    {"DynamicsThatHoldsNothing", 223, "dynamics=\"200\"", "@dynamics=\"10\"", "20 Hz or more"},
+    {"TwoOrientations", 211, "euler_deg=\"0 0 90\"", "euler_deg=\"0 0 90\" @quat=\"1 0 0 0\"", "both"},
+    {"ZeroQuat", 212, "euler_deg=\"0 0 90\"", "@quat=\"0 0 0 0\"", "zero"},
+    {"MassOfFixed", 220, "<physics><box", "<physics @mass=\"3\"><box", "no effect"},
+    {"NoGeometry", 221, "  <devices>", "  @<body name=\"ghost\" fixed=\"true\" material=\"wood\"/><devices>",
+     "no geometry"},
+    {"NewerMinor", 201, "> <scene version=\"1.0\"", "> <scene @version=\"1.7\"", "newer"},
+};
+
+std::string nameOf(const testing::TestParamInfo<Slip>& info) { return info.param.name; }
+INSTANTIATE_TEST_SUITE_P(WellFormedness, OneSlip, testing::ValuesIn(kWellFormedness), nameOf);
+INSTANTIATE_TEST_SUITE_P(Names, OneSlip, testing::ValuesIn(kNames), nameOf);
+INSTANTIATE_TEST_SUITE_P(Counts, OneSlip, testing::ValuesIn(kCounts), nameOf);
+INSTANTIATE_TEST_SUITE_P(Values, OneSlip, testing::ValuesIn(kValues), nameOf);
+INSTANTIATE_TEST_SUITE_P(Meaning, OneSlip, testing::ValuesIn(kMeaning), nameOf);
+
+std::vector<int> codesOf(const Diagnostics& findings) {
+  std::vector<int> codes;
+  for (const Diagnostic& finding : findings.all()) codes.push_back(finding.code);
+  std::sort(codes.begin(), codes.end());
+  return codes;
+}
+
+// A misspelt list must not hide the mistakes within it, nor make everything that refers to it look wrong.
+TEST(SceneErrors, AreAllToldAtOnce) {
+  std::string scene = edited(kScene, "<materials>", "<materals>");
+  scene = edited(scene, "</materials>", "</materals>");
+  scene = edited(scene, "stiffness=\"1000\"", "stifness=\"-5\"");
+  scene = edited(scene, "dynamic=\"0.6\"", "dynamic=\"0.9\"");
+  scene = edited(scene, "material=\"rubber\"", "material=\"ruber\"");
+  scene = edited(scene, "mass=\"0.2\"", "mas=\"0\"");
+  scene = edited(scene, "role=\"index\"", "role=\"thumb\"");
+  scene = edited(scene, "collision=\"100\"", "colision=\"70\"");
+  const Diagnostics findings = findingsOf(scene);
+  EXPECT_EQ(codesOf(findings), (std::vector<int>{111, 114, 114, 114, 117, 117, 203, 204, 208, 209})) << findings.text();
+}
+
+// The end of the file is where it is noticed; the tag left open is where to look.
+TEST(SceneErrors, TruncatedFileNamesTheOpenElement) {
+  const Marked scene = marked(kScene.substr(0, kScene.find("<haptic><sphere")) + "@<haptic>");
+  const Diagnostics findings = findingsOf(scene.text);
+  ASSERT_EQ(codesOf(findings), std::vector<int>{104}) << findings.text();
+  EXPECT_EQ(findings.all()[0].message, "<haptic> is not closed before the end of the file");
+  EXPECT_EQ(findings.all()[0].where.line, scene.line);
+  EXPECT_EQ(findings.all()[0].where.column, scene.column);
+}
+
+TEST(SceneErrors, WrongRootElementIsTheOnlyMessage) {
+  const Diagnostics findings = findingsOf("<secne version=\"1.0\"><nonsense/></secne>");
+  ASSERT_EQ(codesOf(findings), std::vector<int>{110}) << findings.text();
+  EXPECT_EQ(findings.all()[0].message, "the root element is <secne>, expected <scene> (did you mean 'scene'?)");
+}
+
+TEST(SceneErrors, EmptySceneNeedsABody) {
+  const Diagnostics findings = findingsOf("<scene version=\"1.0\" name=\"x\"><world gravity=\"0 0 0\"/></scene>");
+  EXPECT_EQ(codesOf(findings), std::vector<int>{213}) << findings.text();
+}
+
+TEST(SceneErrors, BodiesNeedAMaterialInTheScene) {
+  const Diagnostics findings = findingsOf(
+      "<scene version=\"1.0\" name=\"x\"><world gravity=\"0 0 0\"/><body name=\"a\" fixed=\"true\">"
+      "<haptic><sphere radius=\"1\"/></haptic></body></scene>");
+  EXPECT_EQ(codesOf(findings), std::vector<int>{205}) << findings.text();
+}
+
+// The exchange buffers have room for so many fingers: one more must be refused here, not overrun there.
+TEST(SceneErrors, CapacityIsAHardLimit) {
+  std::string devices;
+  for (int i = 0; i < 6; ++i) devices += "<device role=\"d" + std::to_string(i) + "\"/>\n";
+  std::string scene = edited(kScene, "  <devices>\n", "<devices>\n" + devices);
+  EXPECT_TRUE(findingsOf(scene).all().empty()) << findingsOf(scene).text();
+  scene = edited(scene, "<devices>\n", "<devices>\n<device role=\"last\"/>");
+  EXPECT_EQ(codesOf(findingsOf(scene)), std::vector<int>{210});
+}
+
+// Ten levels of ten would be 10^10 characters; refused before anything expands.
+TEST(SceneErrors, EntityBombIsRefused) {
+  std::string bomb = "<?xml version=\"1.0\"?>\n<!DOCTYPE scene [<!ENTITY a0 \"ha\">";
+  for (int i = 1; i <= 10; ++i) {
+    bomb += "<!ENTITY a" + std::to_string(i) + " \"";
+    for (int k = 0; k < 10; ++k) bomb += "&a" + std::to_string(i - 1) + ";";
+    bomb += "\">";
+  }
+  bomb += "]><scene version=\"1.0\" name=\"&a10;\"/>";
+  const Diagnostics findings = findingsOf(bomb);
+  ASSERT_EQ(codesOf(findings), std::vector<int>{105}) << findings.text();
+  EXPECT_EQ(findings.all()[0].where.line, 2);
+  EXPECT_EQ(findings.all()[0].where.column, 1);
+}
+
+// A file that is no text says where it stops to be one; an empty one has a place too.
+TEST(SceneErrors, WhatIsNoTextHasAPlace) {
+  const Diagnostics zero = findingsOf(std::string("<scene>\n <a\0/>", 14));
+  ASSERT_EQ(codesOf(zero), std::vector<int>{103}) << zero.text();
+  EXPECT_EQ(zero.all()[0].where.line, 2);
+  EXPECT_EQ(zero.all()[0].where.column, 4);
+  for (const char* text : {"", "\xFF\xFE<"}) EXPECT_EQ(findingsOf(text).all().at(0).where.line, 1);
+}
+
+TEST(SceneErrors, DepthIsLimited) {
+  std::string deep = "<scene>";
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_EQ(codesOf(findingsOf(deep)), std::vector<int>{106});
+}
+
+TEST(SceneErrors, SizeIsLimited) {
+  EXPECT_EQ(codesOf(findingsOf("<scene>" + std::string(xml::Document::kMaxBytes, ' ') + "</scene>")),
+            std::vector<int>{106});
+}
+
+TEST(SceneErrors, WhatIsNoTextIsSaidToBeNone) {
+  EXPECT_EQ(codesOf(findingsOf("")), std::vector<int>{102});
+  EXPECT_EQ(codesOf(findingsOf(" \n\t ")), std::vector<int>{102});
+  EXPECT_EQ(codesOf(findingsOf(std::string("<scene\0>", 8))), std::vector<int>{103});
+  EXPECT_EQ(codesOf(findingsOf("\xFF\xFE<")), std::vector<int>{103});
+  EXPECT_EQ(codesOf(findingsOf("<scene name=\"\xE4\"/>")), std::vector<int>{103});
+  EXPECT_EQ(codesOf(findingsOf("hello")), std::vector<int>{104});
+}
+
+TEST(SceneErrors, MissingFileAndDirectoryAreTold) {
+  Diagnostics findings;
+  const Scene scene = loadScene("no/such/file.xml", {}, findings);
+  EXPECT_EQ(scene.file, "no/such/file.xml");
+  loadScene(PRESA_SOURCE_DIR "/config", {}, findings);
+  EXPECT_EQ(codesOf(findings), (std::vector<int>{101, 101})) << findings.text();
+  EXPECT_NE(findings.text().find("directory"), std::string::npos);
+}
+
+// An editor finds the XSD by this hint; it is neither an error nor a file for us to open.
+TEST(SceneErrors, SchemaHintForEditorsIsAllowed) {
+  const std::string hint =
+      "> <scene xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"no/such.xsd\" ";
+  const Diagnostics findings = findingsOf(edited(kScene, "> <scene ", hint));
+  EXPECT_TRUE(findings.all().empty()) << findings.text();
+}
+
+}  // namespace
+}  // namespace presa::scene_test

@@ -1,0 +1,172 @@
+// Bodies that an assembly draws and puts: the law against its closed solution, and what it must never do.
+#include <gtest/gtest.h>
+
+#include "modules/dynamics_ode/attractor.h"
+#include "tests/modules/dynamics_ode/support.h"
+
+namespace presa::ode {
+namespace {
+
+constexpr double kRate = 20;  // [1/s]
+
+Attractions towards(const Pose& X_WB, double speed, double most, std::int32_t body = 0) {
+  Attractions attractions;
+  attractions.bodies.push_back({.body = body, .X_WB = X_WB, .rate = kRate, .speed = speed, .most = most});
+  return attractions;
+}
+
+Attractions putAt(const Pose& X_WB, std::int32_t body = 0) {
+  Attractions attractions = towards(X_WB, 0, 0, body);
+  attractions.bodies[0].fixed = true;
+  return attractions;
+}
+
+Pose turned(double angle, const Vec3& axis, const Vec3& p = Vec3::Zero()) {
+  return {p, Quat(Eigen::AngleAxisd(angle, axis.normalized()))};
+}
+
+class Attracted : public testing::Test {
+ protected:
+  /// Alone in empty space, unless the test says otherwise.
+  WorldMaker maker = [] {
+    WorldMaker one;
+    one.gravity(Vec3::Zero()).box({0.06, 0.04, 0.02}, 0.1, {});
+    return one;
+  }();
+  ObjectState state;
+  void run(OdeWorld& bodies, double h, double from, double to) {
+    for (double t = from; t < to - h / 2; t += h) bodies.step({}, t, h, state);
+  }
+};
+
+// Each step takes rate h of the way that is left: x_n = x_0 (1 - rate h)^n, which is exp(-rate t) in small steps.
+TEST_F(Attracted, TheWayThatIsLeftDecays) {
+  const Vec3 goal(0.02, -0.01, 0.015);
+  OdeWorld bodies(maker.world(), awake());
+  bodies.attract(towards({goal, Quat::Identity()}, 10, 1e6));
+  for (int n = 1; n <= 100; ++n) {
+    bodies.step({}, (n - 1) * kStep, kStep, state);
+    EXPECT_LT((state.bodies[0].X_WB_end.p - goal * (1 - std::pow(1 - kRate * kStep, n))).norm(), 1e-6 * goal.norm());
+  }
+}
+
+// The turn likewise, about any axis; the drift of the rotation is not a chord, hence 1 %.
+TEST_F(Attracted, AndTheTurn) {
+  const double angle = 0.4;
+  const Quat goal = turned(angle, {1, 2, -1}).q;
+  OdeWorld bodies(maker.world(), awake());
+  bodies.attract(towards({Vec3::Zero(), goal}, 10, 1e6));
+  for (int n = 1; n <= 40; ++n) {
+    bodies.step({}, (n - 1) * kStep, kStep, state);
+    EXPECT_NEAR(state.bodies[0].X_WB_end.q.angularDistance(goal), angle * std::pow(1 - kRate * kStep, n), 0.01 * angle);
+  }
+}
+
+// From far away: never harder than `most` and no faster than `speed`.
+TEST_F(Attracted, IsNeverDrawnHarderOrFasterThanAsked) {
+  OdeWorld bodies(maker.world(), awake());
+  bodies.attract(towards({{1, 0, 0}, Quat::Identity()}, 0.1, 3));
+  for (int n = 1; n <= 20; ++n) {
+    bodies.step({}, (n - 1) * kStep, kStep, state);
+    EXPECT_NEAR(state.bodies[0].v_WB.x(), std::min(0.1, 3 * n * kStep), 1e-6);
+  }
+}
+
+TEST_F(Attracted, IsNeverBrakedHarderThanAsked) {
+  OdeWorld bodies(maker.world(), awake());
+  bodies.setVelocity(0, {0, 2, 0}, Vec3::Zero());
+  bodies.attract(towards({}, 0.1, 20));
+  bodies.step({}, 0, kStep, state);
+  EXPECT_NEAR(state.bodies[0].v_WB.y(), 2 - 20 * kStep, 1e-6);
+}
+
+// Stronger than friction it arrives exactly; weaker it does not move at all.
+TEST_F(Attracted, FrictionStopsOnlyAPullThatIsWeaker) {
+  maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
+  for (const double weights : {0.4, 0.6}) {
+    OdeWorld bodies(maker.world());
+    run(bodies, kStep, 0, 2);
+    ASSERT_TRUE(state.bodies[0].asleep);
+    bodies.attract(towards({{0.01, 0, state.bodies[0].X_WB_end.p.z()}, Quat::Identity()}, 0.1, weights * kGravity));
+    run(bodies, kStep, 2, 4);
+    EXPECT_NEAR(state.bodies[0].X_WB_end.p.x(), weights < 0.5 ? 0 : 0.01, 2e-5) << weights << " of 0.5";
+  }
+}
+
+TEST_F(Attracted, APutBodyIsCarriedSlowlyAndStandsExactly) {
+  const Pose goal = turned(0.01, Vec3::UnitZ(), {0.0005, 0, 0});
+  OdeWorld bodies(maker.world());
+  bodies.attract(putAt(goal));
+  bodies.step({}, 0, kStep, state);
+  EXPECT_NEAR(state.bodies[0].X_WB_end.p.x(), Attractor::kCarrySpeed * kStep, 1e-12);
+  run(bodies, kStep, kStep, 0.1);
+  EXPECT_LT((state.bodies[0].X_WB_end.p - goal.p).norm(), 1e-15);
+  EXPECT_LT(state.bodies[0].X_WB_end.q.angularDistance(goal.q), 1e-7);
+}
+
+// Another body leans on it as on a fixed one; when it is taken it falls, from rest, as anything falls.
+TEST_F(Attracted, APutBodyCarriesOthersAndFallsWhenItIsTaken) {
+  maker.gravity({0, 0, -kGravity}).box({0.04, 0.04, 0.02}, 0.1, {{0, 0, 0.0201}, Quat::Identity()});
+  OdeWorld bodies(maker.world());
+  bodies.attract(putAt({}));
+  run(bodies, kStep, 0, 2);
+  EXPECT_EQ(state.bodies[0].X_WB_end.p.z(), 0);
+  EXPECT_NEAR(state.bodies[1].X_WB_end.p.z(), 0.02, 1e-5) << "stands on it";
+  EXPECT_TRUE(state.bodies[1].asleep);
+  bodies.attract({});
+  run(bodies, kStep, 2, 2.2);
+  const int n = 40;  // semi-implicit Euler: sum of the speeds after each step
+  EXPECT_NEAR(state.bodies[0].X_WB_end.p.z(), -kGravity * kStep * kStep * n * (n + 1) / 2, 1e-6)
+      << "1e-6: the other lets go of it";
+  EXPECT_LT(state.bodies[1].X_WB_end.p.z(), -0.1) << "woken, and without support";
+}
+
+// Drawn against a wall it sleeps like anything that stays where it is, until it is drawn elsewhere.
+TEST_F(Attracted, WhatIsHeldUpSleepsUntilThereIsNews) {
+  maker.fixedBox({0.02, 1, 1}, {{0.0401, 0, 0}, Quat::Identity()});
+  OdeWorld bodies(maker.world());
+  bodies.attract(towards({{0.1, 0, 0}, Quat::Identity()}, 0.1, 3));
+  run(bodies, kStep, 0, 2);
+  ASSERT_TRUE(state.bodies[0].asleep);
+  bodies.attract(towards({{0.1, 0, 0}, Quat::Identity()}, 0.1, 3));
+  run(bodies, kStep, 2, 2.1);
+  EXPECT_TRUE(state.bodies[0].asleep) << "nothing new";
+  bodies.attract(towards({{-0.1, 0, 0}, Quat::Identity()}, 0.1, 3));
+  run(bodies, kStep, 2.1, 2.2);
+  EXPECT_LT(state.bodies[0].X_WB_end.p.x(), -0.005);
+}
+
+// It pushes what sleeps in its way before it; gone through that instead, it would be let go inside it, and thrown away.
+TEST_F(Attracted, WhatIsCarriedPushesWhatSleepsInItsWay) {
+  maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
+  maker.box({0.06, 0.04, 0.02}, 0.1, {{0.1, 0, 0}, Quat::Identity()});
+  OdeWorld bodies(maker.world());
+  run(bodies, kStep, 0, 2);
+  ASSERT_TRUE(state.bodies[2].asleep);
+  Attractions carried = putAt({{0.1, 0, 0}, Quat::Identity()});
+  carried.bodies[0].speed = 0.1;
+  bodies.attract(carried);
+  run(bodies, kStep, 2, 3.5);
+  EXPECT_NEAR(state.bodies[0].X_WB_end.p.x(), 0.1, 1e-12);
+  EXPECT_NEAR(state.bodies[2].X_WB_end.p.x(), 0.16, 2e-3);
+  bodies.attract({});
+  run(bodies, kStep, 3.5, 3.6);
+  EXPECT_LT(state.bodies[0].v_WB.norm() + state.bodies[2].v_WB.norm(), 0.05);
+}
+
+// A heap elsewhere is none of its business: to wake it costs a second of solving.
+TEST_F(Attracted, WhatIsPutAndTakenWakesOnlyItsNeighbours) {
+  maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
+  const double beside = 0.0605, far = 0.065;  // from centre to centre: gaps of 0.5 and 5 mm
+  for (const double x : {beside, -far}) maker.box({0.06, 0.04, 0.02}, 0.1, {{x, 0, 0}, Quat::Identity()});
+  OdeWorld bodies(maker.world());
+  run(bodies, kStep, 0, 2);
+  for (const std::size_t i : {0U, 2U, 3U}) ASSERT_TRUE(state.bodies[i].asleep) << i;
+  bodies.attract(putAt(state.bodies[0].X_WB_end));
+  bodies.step({}, 2, kStep, state);
+  EXPECT_FALSE(state.bodies[2].asleep);
+  EXPECT_TRUE(state.bodies[3].asleep);
+}
+
+}  // namespace
+}  // namespace presa::ode

@@ -1,0 +1,302 @@
+#include "tests/modules/dynamics_ode/support.h"
+
+namespace presa::ode {
+namespace {
+
+constexpr double kEdge = 0.05;
+const Vec3 kCube(kEdge, kEdge, kEdge);
+
+struct Grip {
+  double stiffness, mass;
+};
+class PinchedCube : public testing::TestWithParam<Grip> {};
+
+// Two fingers fixed in space, 2 mm inside opposite faces, must press with k * depth each and hold the cube still:
+// for every stiffness and down to 1 g, where a penalty force handed over once per step is unstable. Start 0.1 mm
+// off centre. 0.1 % is what a psychophysical grip force needs; rest is speed below 1 um/s.
+TEST_P(PinchedCube, IsHeldAtRestWithTheRenderedForce) {
+  const auto [k, mass] = GetParam();
+  Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, mass, {{1e-4, 0, 0}, turn(0.01, {0, 1, 1})}).world());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, k, 1);
+  for (ReferenceFinger& finger : fingers) finger.damping = 0.2 * std::sqrt(k * mass);
+  for (int n = 0; n < 1000; ++n) runner.step(exchangeOf(fingers, runner));
+  const ContactExchange exchange = exchangeOf(fingers, runner);
+  EXPECT_LT(runner[0].v_WB.norm(), 1e-6);
+  EXPECT_LT(runner[0].w_WB.norm(), 1e-4);
+  for (std::size_t f = 0; f < 2; ++f) {
+    // what the finger feels and what the body gets are opposite
+    EXPECT_LT((runner.bodies.fingerForce(f) + exchange.fingers[f].f_H_W).norm(), 1e-3 * k * 0.002);
+    EXPECT_NEAR(-runner.bodies.fingerForce(f).dot(exchange.fingers[f].nhat_W), k * 0.002, 1e-3 * k * 0.002);
+  }
+  EXPECT_EQ(runner.bodies.faults().count, 0U);
+  EXPECT_EQ(runner.bodies.fallbackSteps(), 0U);
+}
+INSTANTIATE_TEST_SUITE_P(StiffnessAndMass, PinchedCube,
+                         testing::Values(Grip{500, 0.001}, Grip{500, 0.05}, Grip{500, 1}, Grip{2000, 0.001},
+                                         Grip{2000, 0.05}, Grip{2000, 1}, Grip{10000, 0.001}, Grip{10000, 0.05},
+                                         Grip{10000, 1}));
+
+// The same grip through penalty forces is the known failure: h^2 K / 2 per axis, K = 2 k. 10 % either side of it.
+TEST(ExplicitCoupling, IsUnstableBelowItsMassLimit) {
+  const double k = 2000, limit = kStep * kStep * 2 * k / 4;
+  const auto amplitude = [&](double mass) {
+    OdeOptions options;
+    options.method.coupling = DynamicsSettings::Coupling::kExplicit;
+    WorldMaker maker;
+    maker.gravity(Vec3::Zero())
+        .add(Box{kCube}, {{1e-6, 0, 0}, Quat::Identity()}, {mass, Vec3::Zero(), 1e3 * Mat3::Identity()});
+    Runner runner(maker.world(), options);
+    std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, k, 0);
+    double worst = 0;
+    for (int n = 0; n < 400; ++n) {
+      runner.step(exchangeOf(fingers, runner));
+      worst = std::max(worst, std::abs(runner[0].X_WB_end.p.x()));
+    }
+    return worst;
+  };
+  EXPECT_LT(amplitude(1.1 * limit), 1e-5);
+  EXPECT_GT(amplitude(0.9 * limit), 1e-3);
+}
+
+// Hanging between two fingers, a cube sags by the tangential springs alone: m g / (2 k).
+TEST(Finger, HeldCubeSagsByItsWeightOverTheTangentialStiffness) {
+  const double k = 2000, mass = 0.1;
+  Runner runner(WorldMaker().box(kCube, mass, {}).world());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, k, 1);
+  for (ReferenceFinger& finger : fingers) finger.damping = 1;
+  for (int n = 0; n < 2000; ++n) runner.step(exchangeOf(fingers, runner));
+  const double sag = mass * kGravity / (2 * k);
+  EXPECT_NEAR(-runner[0].X_WB_end.p.z(), sag, 1e-3 * sag);
+  EXPECT_NEAR(runner.bodies.fingerForce(0).z(), mass * kGravity / 2, 1e-3 * mass * kGravity);
+  // ... and does not creep
+  const double before = runner[0].X_WB_end.p.z();
+  for (int n = 0; n < 800; ++n) runner.step(exchangeOf(fingers, runner));
+  EXPECT_NEAR(runner[0].X_WB_end.p.z(), before, 1e-9);
+}
+
+// The friction cone of a grip: two fingers of mu 0.5 that press 4 N each carry a 4 N weight. 2 % below it the cube
+// stays (less than 0.5 mm in 5 s), 2 % above it falls.
+TEST(Finger, GripHoldsBelowTheConeAndSlipsAbove) {
+  const double k = 2000, depth = 0.002, mu = 0.5;
+  const auto fall = [&](double weight) {
+    Runner runner(WorldMaker().box(kCube, weight / kGravity, {}).world());
+    std::vector<ReferenceFinger> fingers = pinch(0, kEdge, depth, k, mu);
+    for (ReferenceFinger& finger : fingers) {
+      finger.slides = true;
+      finger.damping = 20;
+    }
+    double settled = 0;
+    for (int n = 0; n < 1100; ++n) {
+      runner.step(exchangeOf(fingers, runner));
+      if (n == 100) settled = runner[0].X_WB_end.p.z();
+    }
+    return settled - runner[0].X_WB_end.p.z();
+  };
+  const double limit = 2 * mu * k * depth;
+  EXPECT_LT(fall(0.98 * limit), 5e-4);
+  EXPECT_GT(fall(1.02 * limit), 5e-3);
+}
+
+// The cone is round: a single finger pressing a cube on an icy table drags it with mu N whatever the direction.
+TEST(Finger, SlippingForceIsMuTimesNormalForceInEveryDirection) {
+  const double k = 2000, depth = 0.002, mu = 0.5;
+  for (double heading = 0; heading <= 90; heading += 15) {
+    // so heavy and hard to turn that it stays put while the finger slides over it
+    WorldMaker maker;
+    maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+    Runner runner(maker.world());
+    std::vector<ReferenceFinger> fingers{{0, {0, 0, kEdge / 2}, Vec3::UnitZ()}};
+    fingers[0].stiffness = k;
+    fingers[0].mu_static = fingers[0].mu_dynamic = mu;
+    fingers[0].slides = true;
+    fingers[0].v_WH = 0.02 * Vec3(std::cos(radians(heading)), std::sin(radians(heading)), 0);
+    const Vec3 start = fingers[0].p_BP - depth * Vec3::UnitZ();
+    for (int n = 0; n < 200; ++n) {
+      fingers[0].p_WH = start + runner.time * fingers[0].v_WH;
+      runner.step(exchangeOf(fingers, runner));
+    }
+    const Vec3 f = runner.bodies.fingerForce(0);
+    EXPECT_NEAR(f.z(), -k * depth, 1e-5 * k * depth);
+    EXPECT_NEAR(f.head<2>().norm(), mu * k * depth, 1e-5 * k * depth) << heading;
+    EXPECT_NEAR(degrees(std::atan2(f.y(), f.x())), heading, 1e-4);
+  }
+}
+
+// Two fingers carry a 1 g cube through a 30 mm, 1 Hz sine, along the grip and across it. The oracle integrates the two
+// springs with steps of 10 us (symplectic Euler); 0.05 mm is half of what a finger can tell.
+TEST(Finger, MovingPairCarriesALightCubeLikeAFineIntegration) {
+  const double k = 10000, mass = 0.001, d = 0.1 * std::sqrt(k * mass);
+  for (const Vec3& direction : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
+    Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, mass, {}).world());
+    std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, k, 1);
+    const std::vector<ReferenceFinger> rest = fingers;
+    const auto hand = [](double t) { return 0.03 * std::sin(2 * std::numbers::pi * t); };
+    const auto hand_speed = [](double t) { return 0.03 * 2 * std::numbers::pi * std::cos(2 * std::numbers::pi * t); };
+    double x = 0, v = 0, t = 0, worst = 0;
+    runner.bodies.setVelocity(0, hand_speed(0) * direction, Vec3::Zero());
+    v = hand_speed(0);
+    for (int n = 0; n < 400; ++n) {
+      for (std::size_t f = 0; f < 2; ++f) {
+        fingers[f].damping = d;
+        fingers[f].p_WH = rest[f].p_WH + hand(runner.time) * direction;
+        fingers[f].v_WH = hand_speed(runner.time) * direction;
+      }
+      runner.step(exchangeOf(fingers, runner));
+      for (int i = 0; i < 500; ++i, t += 1e-5) {
+        v += 1e-5 / mass * (2 * k * (hand(t) - x) + 2 * d * (hand_speed(t) - v));
+        x += 1e-5 * v;
+      }
+      worst = std::max(worst, (runner[0].X_WB_end.p - x * direction).norm());
+    }
+    EXPECT_LT(worst, 5e-5);
+    for (std::size_t f = 0; f < 2; ++f) {
+      EXPECT_NEAR(-runner.bodies.fingerForce(f).dot(fingers[f].nhat_B), k * 0.002, 0.02 * k * 0.002);
+    }
+  }
+}
+
+// A fingertip larger than the body it holds: the proxy moves faster than the surface when the body turns, which
+// an implicit step must count or light bodies flutter.
+TEST(Finger, LightBodyThinnerThanTheFingertipStaysAtRest) {
+  const double edge = 0.004, k = 10000;
+  Runner runner(
+      WorldMaker().gravity(Vec3::Zero()).box({edge, edge, edge}, 0.001, {{0, 0, 1e-5}, turn(0.01, {0, 1, 1})}).world());
+  std::vector<ReferenceFinger> fingers = pinch(0, edge, 0.0005, k, 1);
+  for (int n = 0; n < 1000; ++n) runner.step(exchangeOf(fingers, runner));
+  EXPECT_LT(runner[0].v_WB.norm(), 1e-6);
+  EXPECT_LT(runner[0].w_WB.norm(), 1e-3);
+}
+
+// The sample is older than the step: the HIP is carried on with its velocity. A finger moving with its body at 0.2 m/s,
+// sampled 4 ms ago, must press with the same force as one sampled now.
+TEST(Finger, OldSampleIsExtrapolatedWithItsVelocity) {
+  const Vec3 v(0, 0, 0.2);
+  const auto force = [&](double age) {
+    WorldMaker maker;
+    maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+    Runner runner(maker.world());
+    runner.bodies.setVelocity(0, v, Vec3::Zero());
+    std::vector<ReferenceFinger> fingers{{0, {0, 0, -kEdge / 2}, -Vec3::UnitZ()}};
+    fingers[0].p_WH = fingers[0].p_BP + Vec3(0.0005, 0, 0.002) - age * v;
+    fingers[0].v_WH = v;
+    ContactExchange exchange;
+    exchange.count = 1;
+    exchange.time = -age;
+    exchange.fingers[0] = fingers[0].contact({-age * v, Quat::Identity()});
+    runner.step(exchange);
+    return runner.bodies.fingerForce(0);
+  };
+  EXPECT_LT((force(0.004) - force(0)).norm(), 1e-9);
+  EXPECT_NEAR(force(0).z(), 2, 1e-6);
+  EXPECT_NEAR(force(0).x(), 0.5, 1e-6);
+}
+
+// A proxy that sticks and comes to its static bound within the step lets go there: what is rendered from then on is sliding
+// friction, and the body gets no more than that. mu 0.8 and 0.6 over 2 N; stretched to 1.5 and to 1.7 mm at the end of the step.
+TEST(Finger, LetsGoInTheStepInWhichItsStaticBoundIsReached) {
+  const auto friction = [](double end) {
+    WorldMaker maker;
+    maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+    Runner runner(maker.world());
+    ReferenceFinger finger(0, {0, 0, kEdge / 2}, Vec3::UnitZ());
+    finger.p_WH = finger.p_BP - Vec3(0.0014, 0, 0.002);
+    finger.v_WH = Vec3(-(end - 0.0014) / kStep, 0, 0);
+    ContactExchange exchange;
+    exchange.count = 1;
+    exchange.fingers[0] = finger.contact({});
+    exchange.fingers[0].mode = ContactMode::kStick;
+    exchange.fingers[0].friction_static = 0.8;
+    exchange.fingers[0].friction_dynamic = 0.6;
+    runner.step(exchange);
+    const Vec3 force = runner.bodies.fingerForce(0);
+    EXPECT_NEAR(-force.z(), 2, 1e-6);
+    return -force.x();
+  };
+  EXPECT_NEAR(friction(0.0015), 1.5, 1e-6);
+  EXPECT_NEAR(friction(0.0017), 0.6 * 2, 1e-6);
+}
+
+// Of a finger on a heavy cube, 2 N, last heard of so long before the step [N].
+double forceAtAge(WorldMaker maker, double age) {
+  maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+  Runner runner(maker.world());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, 1000, 1);
+  ContactExchange exchange = exchangeOf(fingers, runner);
+  exchange.time = -age;
+  runner.step(exchange);
+  return runner.bodies.fingerForce(0).norm();
+}
+
+// Reported ten times as seldom, a finger is older before it is missed: two haptic periods and the step that is being solved, 45 ms.
+TEST(Finger, ThatIsReportedSeldomFadesLater) {
+  const auto force = [](double age) { return forceAtAge(WorldMaker().rates(100, 40), age); };
+  EXPECT_NEAR(force(0.044), 2, 1e-6);
+  EXPECT_NEAR(force(0.055), 1, 1e-6);  // half of the 20 ms in which it fades
+  EXPECT_EQ(force(0.066), 0);
+}
+
+// Fingers that are no longer reported must let go smoothly, not hold for ever: full up to 20 ms, gone at 40 ms.
+TEST(Finger, FadesWhenNoLongerReported) {
+  const auto force = [](double age) { return forceAtAge(WorldMaker(), age); };
+  EXPECT_NEAR(force(0.020), 2, 1e-9);
+  EXPECT_NEAR(force(0.030), 1, 1e-9);
+  EXPECT_EQ(force(0.040), 0);
+  EXPECT_EQ(force(10), 0);
+}
+
+// Action equals reaction: over any 0.1 s of a grasp the impulse that the object state reports is the integral of what was rendered on
+// the finger. A cube is gripped, lifted with acceleration and held; rendered at 1 kHz against the interpolated pose, as the
+// haptic thread does. 1 % of the window's impulse.
+TEST(Finger, ImpulseOnTheBodyIsWhatTheFingerFelt) {
+  const double k = 2000;
+  Runner runner(WorldMaker().box(kCube, 0.2, {}).world());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.003, k, 1);
+  const std::vector<ReferenceFinger> rest = fingers;
+  constexpr int kTicks = 5, kWindow = 20;
+  std::vector<std::array<Vec3, 2>> given, felt;
+  std::array<Vec3, 2> sum{Vec3::Zero(), Vec3::Zero()};
+  for (int n = 0; n < 400; ++n) {
+    const auto lift = [](double t) { return 0.02 * (1 - std::cos(4 * t)); };
+    for (std::size_t f = 0; f < 2; ++f) {
+      fingers[f].damping = 5;
+      fingers[f].p_WH = rest[f].p_WH + lift(runner.time) * Vec3::UnitZ();
+      fingers[f].v_WH = 0.02 * 4 * std::sin(4 * runner.time) * Vec3::UnitZ();
+    }
+    const double begin = runner.time;
+    runner.step(exchangeOf(fingers, runner));
+    for (int tick = 0; tick < kTicks; ++tick) {
+      const double t = begin + (tick + 0.5) * kStep / kTicks;
+      for (std::size_t f = 0; f < 2; ++f) {
+        const Vec3 p_WH = rest[f].p_WH + lift(t) * Vec3::UnitZ();
+        sum[f] += kStep / kTicks * k * (runner.state.poseAt(0, t) * fingers[f].p_BP - p_WH);
+      }
+    }
+    given.push_back({runner.state.finger_impulse_W[0], runner.state.finger_impulse_W[1]});
+    felt.push_back(sum);
+  }
+  for (std::size_t n = 60; n + kWindow < given.size(); ++n) {
+    for (std::size_t f = 0; f < 2; ++f) {
+      const Vec3 on_body = given[n + kWindow][f] - given[n][f], on_finger = felt[n + kWindow][f] - felt[n][f];
+      ASSERT_LT((on_body + on_finger).norm(), 0.01 * on_finger.norm()) << n << " finger " << f;
+    }
+  }
+}
+
+// A finger that has left the surface since its sample must not pull, nor push before it is back.
+TEST(Finger, GivesNoForceAcrossAGap) {
+  for (const double speed : {0.0, -0.1, 0.1}) {
+    Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, 0.1, {}).world());
+    ReferenceFinger finger(0, {0, 0, kEdge / 2}, Vec3::UnitZ());
+    finger.p_WH = finger.p_BP - 1e-6 * Vec3::UnitZ();
+    ContactExchange exchange;
+    exchange.count = 1;
+    exchange.fingers[0] = finger.contact({});
+    exchange.fingers[0].p_WH = finger.p_BP + 0.001 * Vec3::UnitZ();  // 1 mm away; at 0.1 m/s it closes 0.5 mm
+    exchange.fingers[0].v_WH = -speed * Vec3::UnitZ();
+    runner.step(exchange);
+    EXPECT_EQ(runner.bodies.fingerForce(0), Vec3(Vec3::Zero())) << speed;
+  }
+}
+
+}  // namespace
+}  // namespace presa::ode

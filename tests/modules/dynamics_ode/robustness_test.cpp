@@ -1,0 +1,185 @@
+#include <cstring>
+#include <limits>
+
+#include "framework/core/graph/graph_builder.h"
+#include "modules/dynamics_ode/dynamics_module.h"
+#include "tests/modules/dynamics_ode/support.h"
+
+namespace presa::ode {
+namespace {
+
+const Vec3 kCube(0.05, 0.05, 0.05);
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// n x n x n cubes dropped on a table a little apart and a little turned.
+std::shared_ptr<const World> heap(int n) {
+  WorldMaker maker;
+  maker.table();
+  for (int i = 0; i < n * n * n; ++i) {
+    const Vec3 cell(i % n, i / n % n, i / (n * n));
+    maker.box(kCube, 0.1, {0.052 * cell + Vec3(0, 0, 0.026), turn(0.1 * i, {0.1, 0.2 * (i % 3), 1})});
+  }
+  return maker.world();
+}
+
+bool sameBits(const ObjectState& a, const ObjectState& b) {
+  bool same = a.count() == b.count() && a.time_end == b.time_end;
+  for (std::size_t i = 0; same && i < a.bodies.size(); ++i) {
+    same = a.bodies[i].X_WB_end.p == b.bodies[i].X_WB_end.p &&
+           a.bodies[i].X_WB_end.q.coeffs() == b.bodies[i].X_WB_end.q.coeffs() && a.bodies[i].v_WB == b.bodies[i].v_WB &&
+           a.bodies[i].w_WB == b.bodies[i].w_WB;
+  }
+  return same;
+}
+
+// Recordings are replayed to the bit: two worlds of the same scene, stepped in turn (so that ODE's global random
+// numbers would mix), with memory taken between them, must agree in every bit. Both solvers.
+TEST(Determinism, SameCallsGiveTheSameBits) {
+  for (const std::uint32_t limit : {0U, 150U}) {
+    OdeOptions options;
+    options.direct_limit = limit;
+    const auto world = heap(3);
+    Runner a(world, options);
+    const std::vector<std::unique_ptr<int>> elsewhere(1000);
+    Runner b(world, options);
+    std::vector<ReferenceFinger> fingers = pinch(14, 0.05, 0.002, 2000, 0.8);
+    for (ReferenceFinger& finger : fingers) finger.p_WH += a[14].X_WB_end.p;
+    for (int n = 0; n < 200; ++n) {
+      const ContactExchange exchange = exchangeOf(fingers, a);
+      a.step(exchange);
+      b.step(exchange);
+      ASSERT_TRUE(sameBits(a.state, b.state)) << n;
+    }
+    EXPECT_FALSE(a.bodies.contacts().empty());
+  }
+}
+
+// The iterative solver is used above the limit only for the island that exceeds it: a light cube held apart keeps the
+// direct solver's exact grip while a heap next to it is solved with two iterations.
+TEST(Islands, HeldCubeIsSolvedExactlyBesideALargeHeap) {
+  WorldMaker maker;
+  maker.table();
+  for (int i = 0; i < 27; ++i)
+    maker.box(kCube, 0.1, {{0.05 * (i % 3), 0.05 * (i / 3 % 3), 0.025 + 0.05 * (i / 9)}, Quat::Identity()});
+  maker.box(kCube, 0.001, {{0, 0.8, 0.5}, Quat::Identity()});
+  OdeOptions options;
+  options.direct_limit = 20;
+  options.method.iterations = 2;
+  Runner runner(maker.world(), options);
+  std::vector<ReferenceFinger> fingers = pinch(28, 0.05, 0.002, 10000, 1);
+  for (ReferenceFinger& finger : fingers) {
+    finger.damping = 0.5;
+    finger.p_WH += runner[28].X_WB_end.p;
+  }
+  for (int n = 0; n < 400; ++n) runner.step(exchangeOf(fingers, runner));
+  EXPECT_GT(runner.bodies.contacts().size(), 20U);
+  for (std::size_t f = 0; f < 2; ++f) EXPECT_NEAR(runner.bodies.fingerForce(f).norm(), 20, 0.02);
+}
+
+// What comes over from another thread may be wrong. It is ignored and counted, the bodies go on.
+TEST(Faults, BadFingerContactIsIgnoredAndCounted) {
+  Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, 0.1, {}).table().world());
+  std::vector<ReferenceFinger> fingers = pinch(0, 0.05, 0.002, 1000, 1);
+  const ContactExchange good = exchangeOf(fingers, runner);
+  std::vector<ContactExchange> bad(4, good);
+  for (ContactExchange& exchange : bad) exchange.fingers[1].mode = ContactMode::kNone;
+  bad[0].fingers[0].p_WH.x() = kNan;
+  bad[1].fingers[0].stiffness = std::numeric_limits<double>::infinity();
+  bad[2].fingers[0].body = 7;
+  bad[3].fingers[0].nhat_B.setZero();
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    runner.step(bad[i]);
+    EXPECT_EQ(runner.bodies.faults().count, i + 1);
+    EXPECT_EQ(runner.bodies.fingerForce(0), Vec3(Vec3::Zero()));
+    EXPECT_EQ(runner.bodies.faults().bits, Faults::kBadFinger);
+  }
+  // a contact with a fixed body is no fault: it moves nothing
+  ContactExchange table = good;
+  table.fingers[0].body = table.fingers[1].body = 1;
+  runner.step(table);
+  EXPECT_EQ(runner.bodies.faults().count, bad.size());
+  EXPECT_TRUE(runner[0].X_WB_end.p.allFinite());
+}
+
+// A finger that has run away (1 m inside at 1e9 N/m) throws a body out of all bounds: it freezes at its last good
+// pose, as an obstacle the others still rest on.
+TEST(Faults, RunawayBodyFreezesAtItsLastGoodPose) {
+  WorldMaker maker;
+  maker.table().box(kCube, 0.1, {{0, 0, 0.025}, Quat::Identity()}).box(kCube, 0.1, {{0, 0, 0.075}, Quat::Identity()});
+  Runner runner(maker.world());
+  runner.run(1);
+  const Pose good = runner[1].X_WB_end;
+  ReferenceFinger finger(1, {0.025, 0, 0}, {1, 0, 0});
+  finger.stiffness = 1e9;
+  finger.p_WH = Vec3(-1e3, 0, 0.025);
+  std::vector<ReferenceFinger> fingers{finger};
+  runner.step(exchangeOf(fingers, runner));
+  EXPECT_NE(runner.bodies.faults().bits & Faults::kBodyFrozen, 0U);
+  EXPECT_LT((runner[1].X_WB_end.p - good.p).norm(), 1e-12);
+  EXPECT_EQ(runner[1].v_WB, Vec3(Vec3::Zero()));
+  runner.run(1);
+  EXPECT_LT((runner[1].X_WB_end.p - good.p).norm(), 1e-12);
+  EXPECT_NEAR(runner[2].X_WB_end.p.z(), 0.075, 1e-3);
+}
+
+// A failed assertion inside ODE (here: a step of no duration) would end the process. It must freeze the bodies instead,
+// be flagged, and stay so; another world goes on.
+TEST(Faults, FailureInsideTheEngineFreezesThatWorldOnly) {
+  const auto world = WorldMaker().box(kCube, 0.1, {{0, 0, 1}, Quat::Identity()}).world();
+  Runner broken(world), other(world);
+  broken.step();
+  const Vec3 p = broken[0].X_WB_end.p;
+  broken.step({}, 0);
+  EXPECT_EQ(broken.bodies.faults().bits, Faults::kEngineFailed);
+  broken.step();
+  EXPECT_EQ(broken[0].X_WB_end.p, p);
+  EXPECT_EQ(broken[0].v_WB, Vec3(Vec3::Zero()));
+  other.run(0.1);
+  EXPECT_LT(other[0].X_WB_end.p.z(), 0.99);
+  EXPECT_EQ(other.bodies.faults().count, 0U);
+}
+
+// A contact so redundant and so squeezed that the direct solver gives up must be undone and solved iteratively: the
+// state stays finite and bounded, and the step is counted.
+TEST(Faults, DirectSolverInTroubleFallsBack) {
+  WorldMaker maker;
+  maker.table().fixedBox({2, 2, 0.1}, {{0, 0, 0.145}, Quat::Identity()});  // a lid 5 mm into everything below
+  for (int i = 0; i < 12; ++i) {
+    maker.box({0.1, 0.1, 0.1}, i % 2 == 0 ? 1e-4 : 1e3, {{0.095 * (i % 4), 0.095 * (i / 4), 0.05}, Quat::Identity()});
+  }
+  OdeOptions options;
+  options.direct_limit = 150;
+  options.contact_softness = 1e-9;
+  Runner runner(maker.world(), options);
+  for (int n = 0; n < 100; ++n) runner.step();
+  RecordProperty("fallback_steps", static_cast<int>(runner.bodies.fallbackSteps()));
+  EXPECT_GT(runner.bodies.fallbackSteps(), 0U);
+  EXPECT_EQ(runner.bodies.faults().count, 0U);
+  for (std::size_t i = 2; i < 14; ++i) EXPECT_LT(runner[i].X_WB_end.p.norm(), 1);
+}
+
+// The module is the same world behind ports, started and stopped by an executor's thread.
+TEST(Module, PublishesTheStateOfItsWorld) {
+  const auto world = WorldMaker().table().box(kCube, 0.1, {{0, 0, 0.3}, Quat::Identity()}).world();
+  GraphBuilder builder;
+  auto& module = builder.add(std::make_unique<DynamicsModule>(world));
+  const Graph graph = builder.build();
+  const auto& out = static_cast<const Out<ObjectState>&>(*module.outputs().at(0));
+  module.start();
+  EXPECT_EQ(out.value.count(), 2);
+  Runner runner(world);
+  for (std::uint64_t n = 0; n < 50; ++n) {
+    module.step({n, static_cast<double>(n) * kStep, kStep});
+    runner.time = static_cast<double>(n) * kStep;
+    runner.step();
+    ASSERT_TRUE(sameBits(out.value, runner.state)) << n;
+  }
+  EXPECT_EQ(module.faults().count, 0U);
+  EXPECT_EQ(module.group(), RateGroup::kDynamics);
+  EXPECT_EQ(module.inputs().at(0)->name(), "contact_exchange");
+  EXPECT_EQ(module.outputs().at(0)->name(), "object_state");
+  module.stop();
+}
+
+}  // namespace
+}  // namespace presa::ode

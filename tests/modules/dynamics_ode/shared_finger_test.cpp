@@ -1,0 +1,45 @@
+// A finger between two free bodies: each gets its own part of the reaction.
+#include "tests/modules/dynamics_ode/support.h"
+
+namespace presa::ode {
+namespace {
+
+// Two cubes in free space, pushed apart by one fingertip with 0.5 N down and 0.4 N sideways each, for 20 ms: Newton's second law.
+// The spring is implicit: it gives by h^2 k / m as the cubes yield within a step, here 0.05 %.
+TEST(SharedFinger, EachBodyGetsItsOwnPart) {
+  constexpr double kMass = 50, kStiffness = 1000, kTime = 0.02;
+  WorldMaker maker;
+  maker.gravity(Vec3::Zero()).friction(0);
+  maker.box({0.05, 0.05, 0.05}, kMass, {{-0.03, 0, -0.025}, Quat::Identity()});
+  maker.box({0.05, 0.05, 0.05}, kMass, {{0.03, 0, -0.025}, Quat::Identity()});
+  Runner runner(maker.world());
+  const Vec3 on_left(0.4, 0, 0.5), on_right(-0.4, 0, 0.5);  // forces of the bodies on the finger
+  for (int n = 0; n < std::lround(kTime / kStep); ++n) {
+    ContactExchange exchange;
+    exchange.time = runner.time;
+    exchange.count = 1;
+    FingerContact& contact = exchange.fingers[0];
+    contact.mode = ContactMode::kSlip;
+    contact.stiffness = kStiffness;
+    contact.body = 0;
+    contact.p_WP = Vec3(0, 0, 0.00624);
+    contact.p_WH = contact.p_WP - (on_left + on_right) / kStiffness;
+    contact.part_count = 2;
+    for (const std::int32_t body : {0, 1}) {
+      ContactPart& part = contact.parts[static_cast<std::size_t>(body)];
+      const Pose& X_WB = runner[static_cast<std::size_t>(body)].X_WB_end;
+      const Vec3 force = body == 0 ? on_left : on_right;
+      part = {body, X_WB.inverseTimes(contact.p_WP), X_WB.q.conjugate() * force.normalized(), force / kStiffness};
+    }
+    contact.p_BP = contact.parts[0].p_BP;
+    contact.p_BC = contact.p_BP;
+    contact.nhat_B = contact.parts[0].nhat_B;
+    runner.step(exchange);
+    EXPECT_NEAR((runner.bodies.fingerForce(0) + on_left + on_right).norm(), 0, 0.01);
+  }
+  EXPECT_NEAR((kMass * runner[0].v_WB + on_left * kTime).norm(), 0, 0.01 * 0.64 * kTime);
+  EXPECT_NEAR((kMass * runner[1].v_WB + on_right * kTime).norm(), 0, 0.01 * 0.64 * kTime);
+}
+
+}  // namespace
+}  // namespace presa::ode

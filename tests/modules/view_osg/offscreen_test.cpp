@@ -1,0 +1,246 @@
+#include <gtest/gtest.h>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <osg/Image>
+#include <osgDB/ReadFile>
+
+#include "modules/view_osg/view_module.h"
+#include "tests/modules/view_osg/pinch_world.h"
+
+namespace presa::view_test {
+namespace {
+
+std::string tempFile(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "presa_view";
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / name).string();
+  std::filesystem::remove(file);
+  return file;
+}
+
+struct Color {
+  int r, g, b;
+};
+
+class PngPicture {
+ public:
+  explicit PngPicture(const std::string& file) : image_(osgDB::readRefImageFile(file)) {
+    if (!image_) throw std::runtime_error("no picture " + file);
+  }
+  int width() const { return image_->s(); }
+  int height() const { return image_->t(); }
+  /// x from the left, y from the top.
+  Color at(int x, int y) const {
+    const unsigned char* p = image_->data(x, image_->t() - 1 - y);
+    return {p[0], p[1], p[2]};
+  }
+
+ private:
+  osg::ref_ptr<osg::Image> image_;
+};
+
+/// The rubber: red is over 1.5 times green and blue in light or shadow (linear 0.75 : 0.25 : 0.2, sRGB 0.88 : 0.54 : 0.48).
+bool isCubeRed(const Color& c) { return c.r > 60 && 2 * c.r > 3 * c.g && 2 * c.r > 3 * c.b; }
+
+struct Blob {
+  double x = 0, y = 0;
+  int pixels = 0;
+};
+Blob redBlob(const PngPicture& picture) {
+  Blob blob;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 300; x < 980; ++x)
+      if (isCubeRed(picture.at(x, y))) blob.x += x, blob.y += y, ++blob.pixels;
+  blob.x /= blob.pixels;
+  blob.y /= blob.pixels;
+  return blob;
+}
+
+/// Runs an off-screen view over one tick and returns what became of the picture.
+View::Screenshot drawOnce(const std::shared_ptr<World>& world, const PinchStates& states) {
+  view::ViewModule module(world);
+  Feed feed(module);
+  module.start();
+  feed.publish(states, 0.5);
+  module.step({30, 0.5, 1.0 / 60});
+  module.stop();
+  return module.screenshot();
+}
+
+class Offscreen : public testing::Test {
+ protected:
+  // a display would hide that the view needs none
+  void SetUp() override { unsetenv("DISPLAY"); }
+};
+
+// The picture in the README and in reports must come out on a server: a PNG of the promised size whose header any
+// reader understands, with the cube in its middle and the figures on it.
+TEST_F(Offscreen, PictureHasTheSizeTheCubeAndTheDisplay) {
+  const std::string file = tempFile("pinch.png");
+  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+  const View::Screenshot made = drawOnce(world, makePinchStates(*world, {0, 0, 0.08}));
+  ASSERT_EQ(made.outcome, View::Screenshot::Outcome::kWritten) << made.message;
+
+  // PNG: signature, then the IHDR chunk with big-endian width and height
+  std::array<unsigned char, 24> head{};
+  std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
+  const auto number = [&](std::size_t at) {
+    return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
+  };
+  EXPECT_EQ(std::string(head.begin() + 1, head.begin() + 4), "PNG");
+  EXPECT_EQ(number(16), 1280);
+  EXPECT_EQ(number(20), 720);
+
+  const PngPicture picture(file);
+  const Color middle = picture.at(640, 360);
+  EXPECT_TRUE(isCubeRed(middle)) << middle.r << ' ' << middle.g << ' ' << middle.b;
+  EXPECT_FALSE(isCubeRed(picture.at(640, 20)));
+
+  // text is nearly white; nothing else at the upper left is
+  int ink = 0;
+  for (int y = 20; y < 60; ++y)
+    for (int x = 18; x < 120; ++x) {
+      const Color c = picture.at(x, y);
+      ink += c.r > 200 && c.g > 200 && c.b > 200;
+    }
+  EXPECT_GT(ink, 100);
+}
+
+// Poses come from Object State, not from the scene: a cube moved to the right, with no finger near, is drawn further right
+// than the one that stays while the camera keeps both in view.
+TEST_F(Offscreen, MovingTheObjectMovesItsPixels) {
+  std::array<Blob, 2> blobs;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string file = tempFile("moved_" + std::to_string(i) + ".png");
+    const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+    // a free anchor of another colour on either side holds the framing still
+    for (const double x : {-0.15, 0.15}) {
+      Body anchor = world->scene.bodies[1];
+      anchor.material = 0;
+      anchor.X_WB.p = {x, 0, kCubeEdge / 2};
+      world->scene.bodies.push_back(anchor);
+    }
+    world->meshes.resize(4);
+    PinchStates states = makePinchStates(*world, {i == 0 ? -0.03 : 0.03, 0, kCubeEdge / 2});
+    states.device.count = states.contacts.count = 0;
+    ASSERT_EQ(drawOnce(world, states).outcome, View::Screenshot::Outcome::kWritten);
+    blobs[i] = redBlob(PngPicture(file));
+    ASSERT_GT(blobs[i].pixels, 500);
+  }
+  EXPECT_GT(blobs[1].x, blobs[0].x + 40);
+}
+
+// Without dynamics (a fixed world, or before the first step) nobody publishes Object State: bodies stay where the scene put them.
+TEST_F(Offscreen, WithoutObjectStateBodiesStandAtTheirStart) {
+  const std::string file = tempFile("start.png");
+  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+  view::ViewModule module(world);
+  module.start();
+  module.step({0, 0, 1.0 / 60});
+  module.stop();
+  ASSERT_EQ(module.screenshot().outcome, View::Screenshot::Outcome::kWritten);
+  EXPECT_TRUE(isCubeRed(PngPicture(file).at(640, 360)));
+}
+
+// The picture shows the moment asked for: taken at the first tick not before it, and later ticks leave it alone.
+TEST_F(Offscreen, PictureIsTakenAtItsTime) {
+  const std::string file = tempFile("timed.png");
+  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+  world->options.screenshot_time = 0.1;
+  view::ViewModule module(world);
+  Feed feed(module);
+  module.start();
+  const PinchStates states = makePinchStates(*world, {0, 0, 0.08});
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    const double time = static_cast<double>(i) / 60;
+    feed.publish(states, time);
+    module.step({i, time, 1.0 / 60});
+    EXPECT_EQ(std::filesystem::exists(file), time >= 0.1) << time;
+  }
+  module.stop();
+  EXPECT_NE(module.screenshot().message.find("t = 0.100 s"), std::string::npos) << module.screenshot().message;
+}
+
+// A path that cannot be written is the user's mistake, found late: the run must end with the reason, not with a crash.
+TEST_F(Offscreen, UnwritablePathIsReported) {
+  const auto world = makePinchWorld(RunOptions::View::kOffscreen, "/nowhere/at/all/picture.png");
+  const View::Screenshot made = drawOnce(world, makePinchStates(*world, {0, 0, 0.08}));
+  EXPECT_EQ(made.outcome, View::Screenshot::Outcome::kFailed);
+  EXPECT_NE(made.message.find("/nowhere/at/all/picture.png"), std::string::npos);
+}
+
+// A window without a display is refused before the run begins, with a way out.
+TEST_F(Offscreen, WindowWithoutDisplayIsAnInputError) {
+  view::ViewModule module(makePinchWorld(RunOptions::View::kWindow, ""));
+  try {
+    module.start();
+    FAIL() << "opened a window without a display";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.diagnostics().text().find("DISPLAY"), std::string::npos) << error.diagnostics().text();
+  }
+}
+
+/// Pixels of a wire: much more of `strong` than of `weak`.
+template <class Strong, class Weak>
+int wires(const PngPicture& picture, Strong strong, Weak weak) {
+  int pixels = 0;
+  for (int y = 70; y < 650; ++y)
+    for (int x = 300; x < 980; ++x)
+      pixels += picture.at(x, y).*strong > 150 && 2 * picture.at(x, y).*weak < picture.at(x, y).*strong;
+  return pixels;
+}
+
+// --show brings up lines of the haptic (blue) and the physics (magenta) geometry, and leaves the bodies out; without it there are none.
+TEST_F(Offscreen, ShowsWhatIsAskedFor) {
+  const auto draw = [](std::vector<std::string> show) {
+    const std::string file = tempFile("show.png");
+    auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+    world->options.show = std::move(show);
+    PinchStates states = makePinchStates(*world, {0, 0, 0.08});
+    states.device.count = states.contacts.count = 0;
+    EXPECT_EQ(drawOnce(world, states).outcome, View::Screenshot::Outcome::kWritten);
+    return PngPicture(file);
+  };
+  const auto blue = [](const PngPicture& p) { return wires(p, &Color::b, &Color::r); };
+  const PngPicture plain = draw({}), haptic = draw({"haptic"}), physics = draw({"physics", "no-visual"});
+  EXPECT_EQ(blue(plain), 0);
+  EXPECT_GT(blue(haptic), 300);
+  EXPECT_GT(redBlob(plain).pixels, 5000);
+  EXPECT_GT(wires(physics, &Color::b, &Color::g), 300);
+  EXPECT_LT(redBlob(physics).pixels, 1000);
+  auto world = makePinchWorld(RunOptions::View::kOffscreen, "");
+  world->options.show = {"hiptic"};
+  EXPECT_THROW(view::ViewModule module(world), InputError);
+}
+
+// Over the last of five seconds thumb and index press with a constant force each; the larger one is the scale's end, so that its line
+// runs along the top of the plot (364 lines above the lower edge) for the last fifth of its width, and the rest is empty.
+TEST_F(Offscreen, PlotsTheLastSeconds) {
+  const std::string file = tempFile("plots.png");
+  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+  world->options.show = {"plots"};
+  {
+    view::ViewModule module(world);
+    Feed feed(module);
+    module.start();
+    for (std::uint64_t i = 0; i <= 60; ++i) {
+      feed.publish(makePinchStates(*world, {0, 0, 0.08}), static_cast<double>(i) / 60);
+      module.step({i, static_cast<double>(i) / 60, 1.0 / 60});
+    }
+    module.stop();
+  }
+  const PngPicture picture(file);
+  const auto line = [&](int x) {  // within two lines of where it should be: it is one line thick, and averaged
+    int most = 0;
+    for (int y = 354; y <= 358; ++y) most = std::max(most, picture.at(x, y).b - picture.at(x, y).r);
+    return most;
+  };
+  for (const int x : {225, 245, 262}) EXPECT_GT(line(x), 60) << x;
+  for (const int x : {60, 120, 200}) EXPECT_LT(line(x), 30) << x;
+}
+
+}  // namespace
+}  // namespace presa::view_test

@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <osg/GraphicsContext>
+#include <osgViewer/GraphicsWindow>
+#include <sstream>
+
+#include "modules/view_osg/view_module.h"
+#include "tests/modules/view_osg/pinch_world.h"
+
+namespace presa::view_test {
+namespace {
+
+// Opens a real window on the display it finds: run by the test below under its own X server.
+TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
+  const std::string file = testing::TempDir() + "presa_window_" + std::to_string(getpid()) + ".png";
+  const auto world = makePinchWorld(RunOptions::View::kWindow, file);
+  view::ViewModule module(world);
+  Feed feed(module);
+  module.start();
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const double time = static_cast<double>(i) / 60;
+    feed.publish(makePinchStates(*world, {0, 0, 0.08}), time);
+    module.step({i, time, 1.0 / 60});
+    EXPECT_FALSE(module.wantsStop());
+  }
+  module.stop();
+  EXPECT_EQ(module.screenshot().outcome, View::Screenshot::Outcome::kWritten) << module.screenshot().message;
+  EXPECT_GT(std::filesystem::file_size(file), 20000U);  // a uniform 1280 x 720 picture packs to a few kilobytes
+  std::filesystem::remove(file);
+}
+
+/// A window that is driven through OSG's event queue, as its X events are. The scene stands still.
+class Driven {
+ public:
+  explicit Driven(bool pointer = false) : module_(world_), feed_(module_) {
+    if (pointer) module_.offerPointer({0, 1});
+    // pictures that a key asks for go there, and into nobody else's
+    const std::string folder = testing::TempDir() + "presa_view_" + std::to_string(getpid());
+    std::filesystem::create_directories(folder);
+    std::filesystem::current_path(folder);
+    module_.start();
+    frame();
+    for (osg::GraphicsContext* context : osg::GraphicsContext::getAllRegisteredGraphicsContexts()) {
+      if (auto* window = dynamic_cast<osgViewer::GraphicsWindow*>(context); window && window->valid()) window_ = window;
+    }
+    std::filesystem::remove(picture());
+  }
+  ~Driven() {
+    module_.stop();
+    const std::filesystem::path folder = std::filesystem::current_path();
+    std::filesystem::current_path(testing::TempDir());
+    std::filesystem::remove_all(folder);
+  }
+
+  void frame() {
+    feed_.publish(states_, 0);
+    module_.step({0, 0, 1.0 / 60});
+  }
+  void press(int key, int modifier = 0) {
+    events().getCurrentEventState()->setModKeyMask(modifier);
+    events().keyPress(key);
+    events().keyRelease(key);
+    frame();
+    events().getCurrentEventState()->setModKeyMask(0);
+  }
+  void drag(const osg::Vec2& from, const osg::Vec2& to, unsigned button = 1, int modifier = 0) {
+    events().getCurrentEventState()->setModKeyMask(modifier);
+    events().mouseButtonPress(from.x(), from.y(), button);
+    frame();
+    for (int i = 1; i <= 5; ++i) {
+      const osg::Vec2 at = from + (to - from) * (static_cast<float>(i) / 5);
+      events().mouseMotion(at.x(), at.y());
+      frame();
+    }
+    events().mouseButtonRelease(to.x(), to.y(), button);
+    frame();
+    events().getCurrentEventState()->setModKeyMask(0);
+  }
+  void doubleClick(const osg::Vec2& at) {
+    events().mouseDoubleButtonPress(at.x(), at.y(), 1);
+    events().mouseButtonRelease(at.x(), at.y(), 1);
+    frame();
+    frame();
+  }
+  void scroll(int modifier = 0) {
+    events().getCurrentEventState()->setModKeyMask(modifier);
+    events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
+    frame();
+    events().getCurrentEventState()->setModKeyMask(0);
+  }
+  /// What the view says of the pair; as the graph would read it.
+  const PointerState& pair() const {
+    for (const OutPortBase* port : module_.outputs()) {
+      if (port->name() == kPointerPort) return static_cast<const Out<PointerState>*>(port)->value;
+    }
+    throw std::logic_error("the view has no pointer");
+  }
+  /// Pixels from the left and from the top at which the window shows a point.
+  osg::Vec2 pixelOf(const Vec3& p_W) const {
+    const osg::Camera& camera = **window_->getCameras().begin();
+    const osg::Vec3d at = osg::Vec3d(p_W.x(), p_W.y(), p_W.z()) * camera.getViewMatrix() *
+                          camera.getProjectionMatrix() * camera.getViewport()->computeWindowMatrix();
+    return {static_cast<float>(at.x()), static_cast<float>(camera.getViewport()->height() - at.y())};
+  }
+
+  /// Where the camera is and what it looks at, some way off [m].
+  std::pair<osg::Vec3d, osg::Vec3d> look() const {
+    osg::Vec3d eye, center, up;
+    (*window_->getCameras().begin())->getViewMatrixAsLookAt(eye, center, up);
+    return {eye, center - eye};
+  }
+  /// Bytes of the picture that the key 's' saves; the file is gone afterwards.
+  std::string pictureByKey() {
+    press('s');
+    std::ostringstream bytes;
+    bytes << std::ifstream(picture(), std::ios::binary).rdbuf();
+    std::filesystem::remove(picture());
+    return bytes.str();
+  }
+  bool wantsStop() const { return module_.wantsStop(); }
+  bool found() const { return window_ != nullptr && !window_->getCameras().empty(); }
+
+ private:
+  osgGA::EventQueue& events() { return *window_->getEventQueue(); }
+  std::string picture() const { return "presa-" + world_->scene.name + "-0.000s.png"; }
+
+  std::shared_ptr<const World> world_ = makePinchWorld(RunOptions::View::kWindow, "");
+  view::ViewModule module_;
+  Feed feed_;
+  PinchStates states_ = makePinchStates(*world_, {0, 0, 0.08});
+  osgViewer::GraphicsWindow* window_ = nullptr;
+};
+
+// What the help of the window promises, key by key and with the mouse.
+TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
+  Driven view;
+  ASSERT_TRUE(view.found());
+  const auto framed = view.look();
+  view.press(' ');  // reserved: must not jump to the manipulator's home
+  EXPECT_LT((view.look().first - framed.first).length(), 1e-9);
+
+  const std::string plain = view.pictureByKey();
+  EXPECT_GT(plain.size(), 20000U);
+  const std::string told = view.pictureByKey();  // now with the line that says what was saved
+  view.press('?');
+  EXPECT_FALSE(view.pictureByKey() == told);
+  view.press('?');
+  EXPECT_TRUE(view.pictureByKey() == told);
+
+  view.drag({640, 360}, {840, 360});
+  const auto turned = view.look();
+  EXPECT_GT((turned.first - framed.first).length(), 0.1 * framed.first.length());
+  view.scroll();
+  EXPECT_GT((view.look().first - turned.first).length(), 1e-3);
+  const auto before = view.look();
+  view.press(osgGA::GUIEventAdapter::KEY_Right);  // flies: eye and target together, to the camera's right
+  EXPECT_GT((view.look().first - before.first).length(), 1e-3);
+  EXPECT_LT((view.look().second - before.second).length(), 1e-9);
+  view.press('h');  // back to where everything is in the picture
+  view.frame();
+  EXPECT_LT((view.look().first - framed.first).length(), 1e-6);
+
+  // a part comes with its key; pictures are compared without being printed
+  const std::string all = view.pictureByKey();
+  for (const char key : {'3', '0', 'g'}) {
+    view.press(key);
+    EXPECT_FALSE(view.pictureByKey() == all) << key;
+    view.press(key);
+  }
+
+  // a click on the cube tells of it, a click on nothing no more; two in a row bring it to the middle of the picture
+  const osg::Vec2 cube = view.pixelOf({0.02, -0.034, 0.09});
+  view.drag(cube, cube);
+  EXPECT_FALSE(view.pictureByKey() == all);
+  view.drag({640, 5}, {640, 5});
+  EXPECT_TRUE(view.pictureByKey() == all);
+  view.doubleClick(cube);
+  EXPECT_LT((view.pixelOf({0.02, -0.034, 0.09}) - osg::Vec2(640, 360)).length(),
+            8);  // the ray meets the cube's face close by
+
+  EXPECT_FALSE(view.wantsStop());
+  view.press(osgGA::GUIEventAdapter::KEY_Escape);
+  view.frame();
+  EXPECT_TRUE(view.wantsStop());
+}
+
+// The pair follows the mouse, pixel for pixel, in the plane that is asked for; the camera stays. Keys and wheel move it by their steps.
+TEST(OnDisplay, DISABLED_MovesThePair) {
+  Driven view(true);
+  ASSERT_TRUE(view.found());
+  view.frame();
+  EXPECT_EQ(view.pair().sequence, 0u);
+  const auto looked = view.look();
+  const Vec3 start = view.pair().p_WT;
+  EXPECT_LT((start - Vec3(0, 0, 0.08)).norm(), 0.02);  // between the fingertips that hold the cube at 80 mm
+
+  const osg::Vec2 from = view.pixelOf(start);
+  view.drag({600, 400}, {680, 370});
+  EXPECT_LT((view.pixelOf(view.pair().p_WT) - from - osg::Vec2(80, -30)).length(),
+            6);  // nearer and farther changes the scale
+  EXPECT_DOUBLE_EQ(view.pair().p_WT.z(), start.z());
+  const Vec3 level = view.pair().p_WT;
+  view.drag({600, 400}, {600, 340}, 1, osgGA::GUIEventAdapter::MODKEY_LEFT_SHIFT);
+  EXPECT_NEAR(view.pair().p_WT.x(), level.x(), 1e-12);
+  EXPECT_NEAR(view.pair().p_WT.y(), level.y(), 1e-12);
+  EXPECT_LT((view.pixelOf(view.pair().p_WT) - view.pixelOf(level) - osg::Vec2(0, -60)).length(), 6);
+  EXPECT_LT((view.look().first - looked.first).length(), 1e-6);
+
+  const Vec3 dragged = view.pair().p_WT;
+  view.press(osgGA::GUIEventAdapter::KEY_Page_Up);
+  EXPECT_LT((view.pair().p_WT - dragged - Vec3(0, 0, 0.005)).norm(), 1e-12);
+  view.press(osgGA::GUIEventAdapter::KEY_Page_Down, osgGA::GUIEventAdapter::MODKEY_LEFT_SHIFT);
+  EXPECT_LT((view.pair().p_WT - dragged - Vec3(0, 0, 0.004)).norm(), 1e-12);
+  view.scroll();
+  view.press('+');
+  EXPECT_NEAR(view.pair().closing, 0.08, 1e-12);
+  view.press('-');
+  view.press('q');
+  EXPECT_NEAR(view.pair().closing, 0.04, 1e-12);
+  EXPECT_NEAR(view.pair().yaw, 5 * std::numbers::pi / 180, 1e-12);
+
+  const PointerState held = view.pair();
+  view.drag({600, 400}, {700, 400}, 3);
+  EXPECT_GT((view.look().first - looked.first).length(), 0.1 * looked.first.length());
+  const auto turned = view.look();
+  view.scroll(osgGA::GUIEventAdapter::MODKEY_LEFT_CTRL);
+  EXPECT_GT((view.look().first - turned.first).length(), 1e-3);
+  view.press(osgGA::GUIEventAdapter::KEY_Up, osgGA::GUIEventAdapter::MODKEY_LEFT_CTRL);
+  EXPECT_EQ(view.pair().sequence, held.sequence);
+}
+
+/// Status of one of the tests above under an X server of its own; what it said is in `log`.
+int onDisplay(const std::string& test, const std::string& log) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  return std::system(("xvfb-run -a -s '-screen 0 1400x900x24' '" + program + "' --gtest_filter=OnDisplay.DISABLED_" +
+                      test + " --gtest_also_run_disabled_tests > '" + log + "' 2>&1")
+                         .c_str());
+}
+
+// The window must work on any X server, also one with a software renderer: opens, draws five frames, saves, closes.
+TEST(Window, OpensDrawsAndClosesUnderXvfb) {
+  const std::string log = testing::TempDir() + "presa_window_" + std::to_string(getpid()) + ".log";
+  EXPECT_EQ(onDisplay("DrawsFiveFrames", log), 0) << "see " << log;
+}
+
+TEST(Window, MovesThePairUnderXvfb) {
+  const std::string log = testing::TempDir() + "presa_pair_" + std::to_string(getpid()) + ".log";
+  EXPECT_EQ(onDisplay("MovesThePair", log), 0) << "see " << log;
+}
+
+TEST(Window, AnswersKeysAndMouseUnderXvfb) {
+  const std::string log = testing::TempDir() + "presa_keys_" + std::to_string(getpid()) + ".log";
+  EXPECT_EQ(onDisplay("AnswersKeysAndMouse", log), 0) << "see " << log;
+}
+
+}  // namespace
+}  // namespace presa::view_test
