@@ -6,9 +6,9 @@
 #include <set>
 
 #include "apps/common/atomic_file.h"
-#include "apps/experiment/delimited.h"
-#include "apps/experiment/journal.h"
+#include "apps/common/delimited.h"
 #include "apps/common/file_text.h"
+#include "apps/experiment/journal.h"
 
 namespace presa::experiment {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/temple/visit_log.h"
 #include "apps/temple/visit_tap.h"
 #include "framework/core/diagnostics/printable.h"
-#include "framework/session/plugin.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::temple {
 namespace {

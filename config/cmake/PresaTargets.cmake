@@ -35,6 +35,43 @@ function(presa_plugin name)
   target_link_libraries(presa_${name} PUBLIC presa_framework PRIVATE ${ARG_LIBRARIES})
 endfunction()
 
+# presa_library(NAME LIBRARIES …): a static library from every .cpp of the calling folder and below, without its programs (main.cpp)
+function(presa_library name)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main.cpp$")
+  add_library(presa_${name} STATIC ${sources})
+  target_link_libraries(presa_${name} PUBLIC presa_framework ${ARG_LIBRARIES})
+endfunction()
+
+# presa_program(COMMAND MAIN main.cpp LIBRARIES …): the program presa-COMMAND, which `presa COMMAND` starts. The target presa_programs
+# builds all of them.
+function(presa_program command)
+  cmake_parse_arguments(ARG "" "MAIN" "LIBRARIES" ${ARGN})
+  if(NOT ARG_MAIN)
+    set(ARG_MAIN main.cpp)
+  endif()
+  add_executable(presa-${command} ${ARG_MAIN})
+  target_link_libraries(presa-${command} PRIVATE ${ARG_LIBRARIES})
+  add_dependencies(presa_programs presa-${command})
+endfunction()
+
+# presa_embed(TARGET HEADER NAMESPACE FILES…): the texts of these files as strings, each under its file's name, so that the program needs
+# no file beside itself. HEADER declares them.
+function(presa_embed target header namespace)
+  get_filename_component(name ${header} NAME_WE)
+  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${target}_${name}.cpp)
+  set(text "#include \"${header}\"\nnamespace ${namespace} {\n")
+  foreach(file IN LISTS ARGN)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+    get_filename_component(name ${file} NAME_WE)
+    file(READ ${PROJECT_SOURCE_DIR}/${file} contents)
+    string(APPEND text "const char* const ${name} = R\"TEXT(${contents})TEXT\";\n")
+  endforeach()
+  file(GENERATE OUTPUT ${embedded} CONTENT "${text}}\n")
+  target_sources(${target} PRIVATE ${embedded})
+endfunction()
+
 # presa_add_each(FOLDER): every sub-folder that has a CMakeLists.txt
 function(presa_add_each folder)
   file(GLOB lists CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*/CMakeLists.txt)

@@ -1,7 +1,7 @@
 #include "devices/admittance/settings.h"
 #include "devices/hand/scripted_hand.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa {
 namespace {

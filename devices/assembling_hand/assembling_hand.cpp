@@ -1,7 +1,7 @@
 #include "devices/assembling_hand/planner.h"
 #include "devices/hand/planned_finger.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::assembling {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "devices/clumsy_hand/clumsy_plan.h"
 #include "devices/hand/planned_finger.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::clumsy {
 namespace {

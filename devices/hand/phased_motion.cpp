@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "devices/hand/motion.h"
-#include "framework/scene/schemas.h"
+#include "devices/hand/motion_schema.h"
 #include "framework/scene/xml/xml.h"
 
 namespace presa {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "framework/session/plugin.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::falcon {
 

@@ -1,4 +1,4 @@
-#include "framework/session/plugin.h"
+#include "framework/device/device_plugin.h"
 
 #include "devices/novint_falcon/diagnose.h"
 #include "devices/novint_falcon/falcon_device.h"

@@ -4,15 +4,15 @@
 #include <optional>
 #include <sstream>
 
+#include "devices/hand/hand_settings.h"
+#include "devices/hand/scripted_hand.h"
+#include "devices/percro_arm/calibration/calibration_plugin.h"
 #include "devices/percro_arm/characterise.h"
 #include "devices/percro_arm/linked_arms.h"
 #include "devices/percro_arm/steps.h"
 #include "devices/percro_arm/switched_on.h"
-#include "devices/percro_arm/calibration/calibration_plugin.h"
-#include "devices/hand/hand_settings.h"
-#include "devices/hand/scripted_hand.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa {
 namespace {

@@ -4,11 +4,11 @@
 #include <memory>
 #include <mutex>
 
+#include "devices/hand/hand_settings.h"
 #include "devices/pointer/pair.h"
 #include "framework/core/diagnostics/refuse.h"
-#include "devices/hand/hand_settings.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::pointer {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "devices/replay/settings.h"
-#include "framework/session/plugin.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa {
 namespace {

@@ -1,8 +1,8 @@
 #include "devices/hand/finger_plant.h"
 #include "devices/hand/hand_settings.h"
 #include "devices/hand/scripted_hand.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa {
 namespace {

@@ -3,8 +3,8 @@
 #include <mutex>
 
 #include "devices/simulated_subject/settings.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa {
 namespace {

@@ -99,26 +99,16 @@ Vec3 Touchables::velocityAt(std::int32_t body, const Vec3& p_W) const noexcept {
   return motion.v_WB + motion.w_WB.cross(p_W - placed(body).p);
 }
 
-void Touchables::moveToFrame(Finger& finger, Vec3& point, std::int32_t body) const noexcept {
-  if (finger.frame == body) return;
-  const Pose X_BA = frameOf(body).inverse() * frameOf(finger.frame);
-  finger.tip.x = X_BA * finger.tip.x;
-  finger.tip.god = X_BA * finger.tip.god;
-  finger.tip.hold = X_BA * finger.tip.hold;
-  point = X_BA * point;
-  finger.frame = body;
-}
-
-double Touchables::surround(const Finger& finger, const Vec3& p_WH, double reach, double moved, double period,
-                            const FingerPatch* patch) const noexcept {
-  finger.near->begin();
-  const Look look{finger, frameOf(finger.frame).inverse(), p_WH, reach, moved, period};
+double Touchables::surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved,
+                            double period, const FingerPatch* patch) const noexcept {
+  near.begin();
+  const Look look{near, frame, frameOf(frame).inverse(), p_WH, reach, moved, period};
   double approach = 0;
   if (patch != nullptr && (p_WH - patch->center_W).norm() + reach <= patch->radius) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch->body_count); ++i) {
-      const NearBody& near = patch->bodies[i];
-      const std::int32_t t = touchable_of_[static_cast<std::size_t>(near.body)];
-      if (t >= 0) approach = std::max(approach, meet(touchables_[static_cast<std::size_t>(t)], look, &near));
+      const NearBody& body = patch->bodies[i];
+      const std::int32_t t = touchable_of_[static_cast<std::size_t>(body.body)];
+      if (t >= 0) approach = std::max(approach, meet(touchables_[static_cast<std::size_t>(t)], look, &body));
     }
   } else {
     for (const Touchable& touchable : touchables_) approach = std::max(approach, meet(touchable, look, nullptr));
@@ -138,16 +128,16 @@ double Touchables::meet(const Touchable& touchable, const Look& look, const Near
   }
   const double reach = look.reach + kTicksAhead * approach;
   if ((X_WB * touchable.center_B - look.p_WH).norm() > touchable.radius + reach) return 0;
-  const bool own = touchable.body == look.finger.frame;
+  const bool own = touchable.body == look.frame;
   if (touchable.tree == nullptr) {
     ConvexPiece piece = touchable.primitive;
     if (!own) std::get_if<Primitive>(&piece.shape)->X_AG = look.X_AW * (X_WB * touchable.X_BG);
-    look.finger.near->add(piece);
+    look.near.add(piece);
   } else {
     const Pose X_AG = own ? touchable.X_BG : look.X_AW * (X_WB * touchable.X_BG);
     const bool same = own && isIdentity(touchable.X_BG);
-    look.finger.near->addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near,
-                              look.X_AW * look.p_WH, reach);
+    look.near.addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near,
+                      look.X_AW * look.p_WH, reach);
   }
   return approach;
 }

@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/object_state.h"
-#include "modules/haptics_proxy/finger_stage.h"
+#include "framework/haptics/surroundings.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 
@@ -26,13 +26,12 @@ class Touchables {
   Pose frameOf(std::int32_t body) const noexcept { return body == kNoBody ? Pose{} : placed(body); }
   /// Velocity of the body's point that is at p_W now [m/s].
   Vec3 velocityAt(std::int32_t body, const Vec3& p_W) const noexcept;
-  /// Sets what the finger can meet while its centre stays within `reach` of the HIP, which has `moved` since the tick before.
+  /// Puts into `near`, in the coordinates of the body `frame`, what a fingertip can meet while its centre stays within `reach` of the
+  /// HIP, which has `moved` since the tick before.
   /// `patch` null or of no use here: every body is looked at. Returns how much nearer a surface may have come to the HIP in a
   /// tick of `period` [m].
-  double surround(const Finger& finger, const Vec3& p_WH, double reach, double moved, double period,
+  double surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved, double period,
                   const FingerPatch* patch) const noexcept;
-  /// Carries the finger, and the point that goes with it, into the coordinates of `body`.
-  void moveToFrame(Finger& finger, Vec3& point, std::int32_t body) const noexcept;
 
  private:
   struct Touchable {
@@ -47,7 +46,8 @@ class Touchables {
   const Pose& placed(std::int32_t body) const noexcept;
   /// What one finger looks for in one tick.
   struct Look {
-    const Finger& finger;
+    Surroundings& near;
+    std::int32_t frame;
     Pose X_AW;
     Vec3 p_WH;
     double reach, moved, period;

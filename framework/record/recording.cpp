@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "framework/session/plugin.h"
 #include "framework/core/plugin/plugin_loader.h"
 #include "framework/record/record_plugin.h"
 

@@ -7,33 +7,13 @@
 
 #include "framework/core/exchange/event_ring.h"
 #include "framework/core/graph/module.h"
-#include "framework/scene/world.h"
+#include "framework/core/schedule/schedule_log.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa {
-
-/// One tick of one rate group, whether it came too late for the device, and the version of every value that it read across
-/// rates, in the graph's bridge order. Threads make these versions differ from run to run; with them a replay is exact.
-struct ScheduleRow {
-  static constexpr int kMaxBridges = 12;
-  std::uint64_t index = 0;
-  std::uint64_t made_up = 0;  ///< bit 0: Tick::made_up, bit 1: Tick::resumed
-  std::array<std::uint64_t, kMaxBridges> versions{};
-};
-
-/// Groups whose ticks are recorded: all but the bus, which only carries away what the others made. A replay does without it, and
-/// recordings stay as they were.
-inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
-constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
-
-/// The executors write here when a run is recorded: one ring per rate group (one writer each), drained by
-/// the recorder's thread.
-struct ScheduleLog {
-  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;
-  ScheduleLog();
-};
 
 struct RecorderStatus {
   std::uint64_t rows = 0;     ///< haptic ticks on disk or on their way

@@ -8,6 +8,7 @@
 
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/core/math/spatial.h"
+#include "framework/core/schedule/rates.h"
 #include "framework/scene/assembly_words.h"
 
 /// A scene as plain data: what the user wrote, with every default filled in. SI units throughout.
@@ -99,14 +100,6 @@ struct DeviceRole {
   double fingertip_radius = 0.008;  ///< [m]; 0: a point
   DeviceLimits limits;
   SourceLocation where;
-};
-
-struct Rates {
-  double haptic = 1000;    ///< [Hz]
-  double collision = 100;  ///< [Hz], haptic / collision is a whole number
-  double dynamics = 200;   ///< [Hz], haptic / dynamics is a whole number
-  double view = 60;        ///< [Hz]
-  double bus = 200;        ///< at which the state is published [Hz]; no scene changes it
 };
 
 /// How fingers are rendered. The defaults are Presa's methods, the others what they replace.

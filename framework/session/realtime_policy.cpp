@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/session/plugin.h"
-#include "framework/session/session.h"
-#include "framework/scene/ages.h"
+#include "framework/device/device_plugin.h"
 #include "framework/device/supervision/command_keeper.h"
+#include "framework/scene/ages.h"
 #include "framework/scene/xml/value_rule.h"
+#include "framework/session/session.h"
 
 namespace presa {
 namespace {

@@ -2,45 +2,15 @@
 
 #include <algorithm>
 
-#include "framework/device/transport_watch.h"
 #include "framework/core/graph/graph_builder.h"
-#include "framework/session/plugin.h"
 #include "framework/core/plugin/plugin_loader.h"
-#include "framework/record/record_plugin.h"
+#include "framework/device/device_plugin.h"
 #include "framework/device/supervision/supervised_device.h"
+#include "framework/device/transport_watch.h"
+#include "framework/record/record_plugin.h"
+#include "framework/session/module_plugin.h"
 
 namespace presa {
-namespace {
-
-template <class Table>
-const Table& tableOf(const std::string& plugin, const char* symbol) {
-  using Entry = const Table* (*)();
-  const Table& table = *reinterpret_cast<Entry>(pluginSymbol(plugin, symbol))();
-  if (table.abi != kPluginAbi) {
-    Diagnostics diagnostics;
-    diagnostics.error(
-        510, {"presa_" + plugin + ".so", 0, 0},
-        "built for plug-in interface " + std::to_string(table.abi) + ", this program has " + std::to_string(kPluginAbi),
-        "build it again: ./dev build");
-    throw InputError(diagnostics);
-  }
-  return table;
-}
-
-}  // namespace
-
-const DevicePlugin& devicePlugin(const std::string& driver) {
-  const auto& table = tableOf<DevicePlugin>(driver, "presaDevicePlugin");
-  if (!isSound(table.rating)) {
-    Diagnostics diagnostics;
-    diagnostics.error(655, {"presa_" + driver + ".so", 0, 0},
-                      "the driver's rating is not finite, or its slew takes longer than 12 ms from its force to zero",
-                      "framework/device/device_rating.h says what a rating is");
-    throw InputError(diagnostics);
-  }
-  return table;
-}
-
 namespace {
 
 /// Null where the rig has none for the role.
@@ -68,7 +38,7 @@ DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diag
 }
 
 std::unique_ptr<View> makeView(std::shared_ptr<const World> world) {
-  auto module = tableOf<ModulePlugin>("view_osg", "presaModulePlugin").create(std::move(world));
+  auto module = pluginTable<ModulePlugin>("view_osg", "presaModulePlugin").create(std::move(world));
   return std::unique_ptr<View>(&dynamic_cast<View&>(*module.release()));
 }
 
@@ -85,7 +55,7 @@ std::vector<std::string> engineVersions(const Plan& plan) {
   std::vector<std::string> versions;
   for (const PlannedModule& planned : plan.modules) {
     if (planned.plugin == "record") continue;
-    const auto& table = tableOf<ModulePlugin>(planned.plugin, "presaModulePlugin");
+    const auto& table = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin");
     if (table.library != nullptr) versions.push_back(table.library());
   }
   return versions;
@@ -180,7 +150,7 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned, const std::s
     recorder->attach(*schedule_);
     return recorder;
   }
-  auto module = tableOf<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world);
+  auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world);
   if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
   if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
   return module;

@@ -3,13 +3,13 @@
 #include <limits>
 #include <memory>
 
-#include "framework/device/device_modules.h"
 #include "framework/core/graph/graph.h"
+#include "framework/device/device_modules.h"
 #include "framework/record/monitor/monitor.h"
+#include "framework/record/recording.h"
 #include "framework/session/assembly_control.h"
 #include "framework/session/plan.h"
 #include "framework/session/view.h"
-#include "framework/record/recording.h"
 
 namespace presa {
 
@@ -70,9 +70,6 @@ class Session {
 
 /// The view of a world alone, for a graph of one's own (its plug-in is loaded; throws InputError when that cannot be done).
 std::unique_ptr<View> makeView(std::shared_ptr<const World> world);
-
-/// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
-const DevicePlugin& devicePlugin(const std::string& driver);
 
 /// What the output stages of a world's fingers keep to, in the order of its roles. What was lowered goes to `notes` and `findings`
 /// (safetyFor). Loads the drivers' plug-ins.

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdio>
 
-#include "framework/session/plugin.h"
-#include "framework/session/session.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_plugin.h"
+#include "framework/session/session.h"
 
 namespace presa {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/session/plugin.h"
+#include "framework/session/module_plugin.h"
 
 #include <dds/version.h>
 

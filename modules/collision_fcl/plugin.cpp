@@ -1,6 +1,6 @@
 #include <fcl/config.h>
 
-#include "framework/session/plugin.h"
+#include "framework/session/module_plugin.h"
 #include "modules/collision_fcl/collision_module.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "framework/core/graph/port.h"
-#include "framework/session/plugin.h"
 #include "framework/core/state/object_state.h"
+#include "framework/session/module_plugin.h"
 #include "modules/dynamics_mujoco/mjcf.h"
 
 namespace presa::mujoco {

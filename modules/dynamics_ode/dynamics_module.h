@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/session/plugin.h"
+#include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/ode_world.h"
 #include "modules/dynamics_ode/stages.h"
 

@@ -3,15 +3,14 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/surface_change.h"
+#include "framework/haptics/touchables.h"
+#include "framework/scene/world.h"
 #include "modules/haptics_proxy/god_object.h"
 
 namespace presa {
-
-class Touchables;
 
 /// What one finger carries from tick to tick.
 struct Finger {
@@ -24,6 +23,9 @@ struct Finger {
   Vec3 p_WH = Vec3::Zero();          ///< HIP of the tick before
   std::unique_ptr<Surroundings> near;
 };
+
+/// Carries the finger, and the point that goes with it, into the coordinates of `body`.
+void moveToFrame(Finger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept;
 
 /// The surfaces that fingers touch, as they are in force. Both outlive whoever holds it.
 struct SurfacesInForce {

@@ -8,6 +8,7 @@
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
 #include "framework/haptics/touchables.h"
+#include "modules/haptics_proxy/finger_stage.h"
 
 namespace presa {
 

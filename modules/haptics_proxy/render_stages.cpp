@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "modules/haptics_proxy/finger_stage.h"
 #include "framework/haptics/touchables.h"
+#include "modules/haptics_proxy/finger_stage.h"
 
 namespace presa {
 namespace {
@@ -48,7 +48,7 @@ void Spring::apply(FingerTick& tick) noexcept {
   }
   finger.tip = contact.state;
   out.p_WP = tick.X_WA * contact.x;
-  tick.touchables.moveToFrame(finger, contact.x, touching ? contact.body : nearestBody(tick));
+  moveToFrame(finger, contact.x, touching ? contact.body : nearestBody(tick), tick.touchables);
   if (!touching) {
     out.p_BP = out.p_WP;
     return;
@@ -165,6 +165,16 @@ class Damping final : public FingerStage {
 
 std::unique_ptr<FingerStage> makeGodObject() { return std::make_unique<GodObject>(); }
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces) { return std::make_unique<Spring>(surfaces); }
+void moveToFrame(Finger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept {
+  if (finger.frame == body) return;
+  const Pose X_BA = touchables.frameOf(body).inverse() * touchables.frameOf(finger.frame);
+  finger.tip.x = X_BA * finger.tip.x;
+  finger.tip.god = X_BA * finger.tip.god;
+  finger.tip.hold = X_BA * finger.tip.hold;
+  point = X_BA * point;
+  finger.frame = body;
+}
+
 std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces) {
   return std::make_unique<Damping>(surfaces);
 }

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <osg/Notify>
 
-#include "framework/core/diagnostics/refuse.h"
 #include "framework/assembly/standing.h"
-#include "framework/session/plugin.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/session/module_plugin.h"
 #include "modules/view_osg/frame_image.h"
 
 namespace presa::view {

@@ -132,7 +132,7 @@ Finding opensAFileByItself(const SourceFile& file) {
       "apps/presa/explain/description.cpp",
       "apps/presa/explain/instruction_counts.cpp",
       "apps/common/machine.cpp",
-      "apps/presa/device/periods.cpp",
+      "apps/studies/faults/periods.cpp",
       "apps/studies/cost/measure.cpp",
       "framework/record/record_plugin/open_file.cpp"};  // HDF5 has a way of its own, behind the door's look
   const std::string top = file.topFolder();

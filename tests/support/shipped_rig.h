@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/common/run_session.h"
-#include "framework/session/plugin.h"
+#include "framework/device/device_plugin.h"
 #include "tests/support/alloc_lock_guard.h"
 
 /// A shipped scene with a shipped rig, for the tests of the rig's devices.

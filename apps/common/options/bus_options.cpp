@@ -4,48 +4,48 @@
 
 namespace presa {
 
-void addBusOptions(CLI::App& command, std::optional<BusSettings>& bus, const std::string& what_for) {
+void addBusOptions(Command command, std::optional<BusSettings>& bus, const std::string& what_for) {
   const auto settings = [&bus]() -> BusSettings& {
     if (!bus) bus.emplace();
     return *bus;
   };
   command
-      .add_option_function<std::string>(
+      .each(
           "--bus", [settings](const std::string& network) { settings().network = network; },
           what_for + ": loopback (this machine), lan or lan:INTERFACE (others, too), none")
-      ->check(CLI::Validator(
+      .checked(
           [](const std::string& network) {
             return isBusNetwork(network) ? std::string{}
                                          : "a network is loopback, lan, lan:INTERFACE or none, found '" + network + "'";
           },
-          "NETWORK"));
+          "NETWORK");
   command
-      .add_option_function<int>(
+      .eachNumber(
           "--domain", [settings](const int& domain) { settings().domain = domain; },
           "number of the bus, where several are in use (default 0)")
-      ->check(CLI::Range(kLeastBusDomain, kMostBusDomain));
-  command.add_option_function<std::string>(
+      .withinCount(kLeastBusDomain, kMostBusDomain);
+  command.each(
       "--bus-keys", [settings](const std::string& folder) { settings().keys = folder; },
       "folder of this process's certificate, one of DIR/run, DIR/viewer and DIR/commander that presa bus keys makes");
 }
 
-void addMeshesOption(CLI::App& command, std::vector<std::string>& folders) {
+void addMeshesOption(Command command, std::vector<std::string>& folders) {
   std::error_code unknown;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
   const auto shipped = program.parent_path().parent_path().parent_path() / "config" / "meshes";
   if (std::filesystem::is_directory(shipped, unknown)) folders.push_back(shipped.string());
   command
-      .add_option_function<std::string>(
+      .each(
           "--meshes", [&folders](const std::string& folder) { folders.push_back(folder); },
           "a folder with meshes that the run's scene may need, found there by their SHA-256 (besides Presa's\n"
           "config/meshes); a path that the bus names is never opened; may be repeated")
-      ->check(CLI::ExistingDirectory)
-      ->trigger_on_parse();
+      .existingFolder()
+      .atOnce();
 }
 
-void addBusCommandsOption(CLI::App& command, bool& open) {
-  command.add_flag("--bus-commands", open,
-                   "let others on the bus set parameters of the run (presa bus set); without it nobody is listened to");
+void addBusCommandsOption(Command command, bool& open) {
+  command.flag("--bus-commands", open,
+               "let others on the bus set parameters of the run (presa bus set); without it nobody is listened to");
 }
 
 }  // namespace presa

@@ -1,20 +1,20 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+#include "apps/common/options/command_line.h"
 
 #include "framework/scene/scene.h"
 
 namespace presa {
 
 /// Adds --bus NETWORK, --domain N and --bus-keys DIR; `bus` stays empty where the user says neither.
-void addBusOptions(CLI::App& command, std::optional<BusSettings>& bus, const std::string& what_for);
+void addBusOptions(Command command, std::optional<BusSettings>& bus, const std::string& what_for);
 
 /// Adds --meshes DIR; the folder of the meshes that ship goes before those that the user names.
-void addMeshesOption(CLI::App& command, std::vector<std::string>& folders);
+void addMeshesOption(Command command, std::vector<std::string>& folders);
 
 /// Adds --bus-commands.
-void addBusCommandsOption(CLI::App& command, bool& open);
+void addBusCommandsOption(Command command, bool& open);
 
 }  // namespace presa

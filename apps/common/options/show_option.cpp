@@ -4,14 +4,14 @@
 
 namespace presa {
 
-void addShowOption(CLI::App& command, std::vector<std::string>& show) {
+void addShowOption(Command command, std::vector<std::string>& show) {
   std::string parts;
   for (const std::string_view part : kShownPartNames) (parts += parts.empty() ? "" : ", ") += part;
   command
-      .add_option("--show", show,
-                  "what the picture shows besides its own choice, by commas: " + parts + ";\nno-PART leaves one out")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+      .option("--show", show,
+              "what the picture shows besides its own choice, by commas: " + parts + ";\nno-PART leaves one out")
+      .separatedBy(',')
+      .oneValueEach();
 }
 
 }  // namespace presa

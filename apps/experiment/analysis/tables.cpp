@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "apps/experiment/analysis/section.h"
-#include "apps/experiment/delimited.h"
+#include "apps/common/delimited.h"
 #include "apps/common/report/html.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/section.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa::experiment::analysis {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <system_error>
 
-#include "apps/experiment/commands/experiment_commands.h"
-#include "apps/experiment/analysis/analyse.h"
 #include "apps/common/terminal/job_progress.h"
+#include "apps/experiment/analysis/analyse.h"
+#include "apps/experiment/commands/experiment_commands.h"
 
 namespace presa {
 namespace {
@@ -53,22 +53,19 @@ int analyseAll(const Arguments& a) {
 
 }  // namespace
 
-void addAnalyse(CLI::App& app, int& status) {
+void addAnalyse(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("analyse", "Statistics and figures of a dataset, as its experiment names them");
-  command->add_option("DIR", a->request.data, "folder of a dataset, or of one session in it")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  command->add_option("--out", a->out, "folder of report.html, analysis.json and tables/*.csv (default: DIR/analysis)");
+  Command command = app.command("analyse", "Statistics and figures of a dataset, as its experiment names them");
+  command.option("DIR", a->request.data, "folder of a dataset, or of one session in it").required().existingFolder();
+  command.option("--out", a->out, "folder of report.html, analysis.json and tables/*.csv (default: DIR/analysis)");
   command
-      ->add_option("--experiment", a->request.experiment,
-                   "experiment file whose <analysis> is wanted (default: the dataset's own copy)")
-      ->check(CLI::ExistingFile);
-  command->footer(
+      .option("--experiment", a->request.experiment,
+              "experiment file whose <analysis> is wanted (default: the dataset's own copy)")
+      .existingFile();
+  command.footer(
       "Exit status: 0 done, 1 cannot be written, 2 bad input (nothing was written), 130 Ctrl-C.\n"
       "Example:  presa experiment analyse data");
-  command->callback([a, &status] { status = analyseAll(*a); });
+  command.action([a, &status] { status = analyseAll(*a); });
 }
 
 }  // namespace presa

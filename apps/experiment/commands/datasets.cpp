@@ -79,30 +79,30 @@ int signAll(const SignArguments& a) {
   return all ? kExitOk : kExitFault;
 }
 
-void addValidate(CLI::App& app, int& status) {
+void addValidate(Command app, int& status) {
   auto a = std::make_shared<ValidateArguments>();
-  CLI::App* command = app.add_subcommand("validate", "Prove that a dataset is complete and unaltered");
-  addFolder(*command, a->data);
-  command->add_option("--key", a->key, "public key of the laboratory: every session must be signed by it");
-  command->footer(
+  Command command = app.command("validate", "Prove that a dataset is complete and unaltered");
+  addFolder(command, a->data);
+  command.option("--key", a->key, "public key of the laboratory: every session must be signed by it");
+  command.footer(
       "Without --key this proves accidents, not malice: who alters a session on purpose can make its sums anew.");
-  command->callback([a, &status] { status = validateAll(*a); });
+  command.action([a, &status] { status = validateAll(*a); });
 }
 
-void addSign(CLI::App& app, int& status) {
+void addSign(Command app, int& status) {
   auto a = std::make_shared<SignArguments>();
-  CLI::App* command = app.add_subcommand("sign", "Sign the seal of every finished session with the laboratory's key");
-  addFolder(*command, a->data);
-  command->add_option("--key", a->key, "secret key, made by presa experiment key")->required();
-  command->footer("Exit status: 0 all signed, 1 a session is not in order and was not signed, 2 bad input.");
-  command->callback([a, &status] { status = signAll(*a); });
+  Command command = app.command("sign", "Sign the seal of every finished session with the laboratory's key");
+  addFolder(command, a->data);
+  command.option("--key", a->key, "secret key, made by presa experiment key").required();
+  command.footer("Exit status: 0 all signed, 1 a session is not in order and was not signed, 2 bad input.");
+  command.action([a, &status] { status = signAll(*a); });
 }
 
-void addKey(CLI::App& app) {
+void addKey(Command app) {
   auto file = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("key", "Make the laboratory's key: FILE, to be kept secret, and FILE.pub");
-  command->add_option("FILE", *file, "where to; nothing is overwritten")->required();
-  command->callback([file] {
+  Command command = app.command("key", "Make the laboratory's key: FILE, to be kept secret, and FILE.pub");
+  command.option("FILE", *file, "where to; nothing is overwritten").required();
+  command.action([file] {
     makeKeyFiles(*file);
     std::printf("%s is secret: keep it away from the data\n%s.pub goes to whoever checks\n", file->c_str(),
                 file->c_str());
@@ -154,22 +154,19 @@ int forgetSubject(const ForgetArguments& a) {
   return kExitOk;
 }
 
-void addForget(CLI::App& app, int& status) {
+void addForget(Command app, int& status) {
   auto a = std::make_shared<ForgetArguments>();
-  CLI::App* command =
-      app.add_subcommand("forget", "Remove a subject from a dataset for good, and say what was removed");
-  command->add_option("--subject", a->subject, "pseudonym")->required();
-  command->add_option("--data", a->data, "folder of the dataset, exports below it included")
-      ->check(CLI::ExistingDirectory)
-      ->capture_default_str();
-  command->add_flag("--yes", a->yes, "do not ask");
-  command->footer("Exit status: 0 removed or nothing there, 2 not confirmed.");
-  command->callback([a, &status] { status = forgetSubject(*a); });
+  Command command = app.command("forget", "Remove a subject from a dataset for good, and say what was removed");
+  command.option("--subject", a->subject, "pseudonym").required();
+  command.option("--data", a->data, "folder of the dataset, exports below it included").existingFolder().showDefault();
+  command.flag("--yes", a->yes, "do not ask");
+  command.footer("Exit status: 0 removed or nothing there, 2 not confirmed.");
+  command.action([a, &status] { status = forgetSubject(*a); });
 }
 
 }  // namespace
 
-void addDatasetCommands(CLI::App& app, int& status) {
+void addDatasetCommands(Command app, int& status) {
   addValidate(app, status);
   addKey(app);
   addSign(app, status);

@@ -2,20 +2,18 @@
 
 namespace presa {
 
-void addFolder(CLI::App& command, std::string& folder) {
-  command.add_option("DIR", folder, "folder of a dataset, or of one session in it")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+void addFolder(Command command, std::string& folder) {
+  command.option("DIR", folder, "folder of a dataset, or of one session in it").required().existingFolder();
 }
 
-void addExperiment(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("experiment", "Psychophysics: from an experiment's definition to its data");
-  command->require_subcommand(1);
-  addSessionCommands(*command, status);
-  addSimulate(*command, status);
-  addDatasetCommands(*command, status);
-  addExport(*command, status);
-  addAnalyse(*command, status);
+void addExperiment(Command app, int& status) {
+  Command command = app.command("experiment", "Psychophysics: from an experiment's definition to its data");
+  command.needCommand();
+  addSessionCommands(command, status);
+  addSimulate(command, status);
+  addDatasetCommands(command, status);
+  addExport(command, status);
+  addAnalyse(command, status);
 }
 
 }  // namespace presa

@@ -1,19 +1,22 @@
 #pragma once
 #include <string>
 
-#include "apps/common/options/commands.h"
+#include "apps/common/exit_status.h"
+#include "apps/common/options/command_line.h"
 
 namespace presa {
 
-/// `presa experiment …`, by what it works on.
-void addSessionCommands(CLI::App& app, int& status);  ///< dry-run, run, resume
-void addDatasetCommands(CLI::App& app, int& status);  ///< validate, key, sign, forget
-void addExport(CLI::App& app, int& status);
-void addAnalyse(CLI::App& app, int& status);
+/// `presa experiment`.
+void addExperiment(Command app, int& status);
 
-void addSimulate(CLI::App& app, int& status);  ///< simulate
+/// Its commands, by what they work on.
+void addSessionCommands(Command app, int& status);  ///< dry-run, run, resume
+void addDatasetCommands(Command app, int& status);  ///< validate, key, sign, forget
+void addExport(Command app, int& status);
+void addAnalyse(Command app, int& status);
+void addSimulate(Command app, int& status);
 
 /// The argument DIR.
-void addFolder(CLI::App& command, std::string& folder);
+void addFolder(Command command, std::string& folder);
 
 }  // namespace presa

@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/common/terminal/job_progress.h"
 #include "apps/experiment/commands/experiment_commands.h"
 #include "apps/experiment/export/csv.h"
-#include "apps/common/terminal/job_progress.h"
 #include "framework/core/diagnostics/refuse.h"
 
 namespace presa {
@@ -59,25 +59,22 @@ int exportDataset(const ExportArguments& a) {
 
 }  // namespace
 
-void addExport(CLI::App& app, int& status) {
+void addExport(Command app, int& status) {
   auto a = std::make_shared<ExportArguments>();
-  CLI::App* command = app.add_subcommand("export", "Write a dataset for others: BIDS, CSV");
-  command->add_option("DIR", a->data, "folder of a dataset, or of one session in it")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  command->add_option("--bids", a->bids, "new folder for a BIDS dataset (beh, motion)");
-  command->add_option("--csv", a->csv, "new folder for trials.csv and a time series for each recording");
+  Command command = app.command("export", "Write a dataset for others: BIDS, CSV");
+  command.option("DIR", a->data, "folder of a dataset, or of one session in it").required().existingFolder();
+  command.option("--bids", a->bids, "new folder for a BIDS dataset (beh, motion)");
+  command.option("--csv", a->csv, "new folder for trials.csv and a time series for each recording");
   command
-      ->add_option("--rate", a->rate,
-                   "rows per second of the time series in CSV (default: 1000, at most the haptic rate)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--license", a->options.license, "of the BIDS dataset, for example CC0");
-  command->add_option("--author", a->options.authors, "of the BIDS dataset; one --author for each");
-  command->footer(
+      .option("--rate", a->rate, "rows per second of the time series in CSV (default: 1000, at most the haptic rate)")
+      .positive();
+  command.option("--license", a->options.license, "of the BIDS dataset, for example CC0");
+  command.option("--author", a->options.authors, "of the BIDS dataset; one --author for each");
+  command.footer(
       "Every file is checked against the log first: nothing that was altered is exported.\n"
       "Exit status: 0 exported, 1 disk failed, 2 bad input (nothing was written), 130 Ctrl-C.\n"
       "Example:  presa experiment export data --bids data_bids --csv data_csv --rate 100");
-  command->callback([a, &status] { status = exportDataset(*a); });
+  command.action([a, &status] { status = exportDataset(*a); });
 }
 
 }  // namespace presa

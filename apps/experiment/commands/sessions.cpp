@@ -135,67 +135,64 @@ int resume(const std::string& data, const OperatorChoice& choice) {
   return runToEnd(session, choice);
 }
 
-void addWho(CLI::App& command, Arguments& a) {
-  command.add_option("EXPERIMENT", a.file, "experiment file")->required();
-  command.add_option("--subject", a.subject, "pseudonym that ends in the subject's number")->capture_default_str();
-  command.add_option("--number", a.number, "number of the subject, from 1 (default: the pseudonym's digits)")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--session", a.session, "from 1")->check(CLI::PositiveNumber)->capture_default_str();
-  command.add_option("--seed", a.seed, "instead of the experiment's own")->check(CLI::PositiveNumber);
-  auto* rig = command.add_option("--rig", a.rig, "rig file instead of the experiment's");
-  command.add_option("--simulated", a.simulated, "a model instead of a person, at level L0, L1 or L2")
-      ->check(CLI::IsMember({"L0", "L1", "L2"}))
-      ->excludes(rig);
+void addWho(Command command, Arguments& a) {
+  command.option("EXPERIMENT", a.file, "experiment file").required();
+  command.option("--subject", a.subject, "pseudonym that ends in the subject's number").showDefault();
+  command.option("--number", a.number, "number of the subject, from 1 (default: the pseudonym's digits)").positive();
+  command.option("--session", a.session, "from 1").positive().showDefault();
+  command.option("--seed", a.seed, "instead of the experiment's own").positive();
+  Option rig = command.option("--rig", a.rig, "rig file instead of the experiment's");
+  command.option("--simulated", a.simulated, "a model instead of a person, at level L0, L1 or L2")
+      .oneOf({"L0", "L1", "L2"})
+      .excludes(rig);
 }
 
-void addOperator(CLI::App& command, OperatorChoice& choice) {
-  command.add_option("--operator", choice.kind, "where the operator sees the session: auto, terminal, window or none")
-      ->check(CLI::IsMember({"auto", "terminal", "window", "none"}))
-      ->capture_default_str();
-  command.add_option("--language", choice.language, "of the texts for the participant")->capture_default_str();
+void addOperator(Command command, OperatorChoice& choice) {
+  command.option("--operator", choice.kind, "where the operator sees the session: auto, terminal, window or none")
+      .oneOf({"auto", "terminal", "window", "none"})
+      .showDefault();
+  command.option("--language", choice.language, "of the texts for the participant").showDefault();
 }
 
-void addDryRun(CLI::App& app, int& status) {
+void addDryRun(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("dry-run", "List every trial with its order and seeds; nothing is run");
-  addWho(*command, *a);
-  command->add_option("--format", a->format, "text, csv or json")
-      ->check(CLI::IsMember({"text", "csv", "json"}))
-      ->capture_default_str();
-  command->footer("Example:  presa experiment dry-run experiments/grip_slip/experiment.xml --subject S02");
-  command->callback([a, &status] { status = dryRun(*a); });
+  Command command = app.command("dry-run", "List every trial with its order and seeds; nothing is run");
+  addWho(command, *a);
+  command.option("--format", a->format, "text, csv or json").oneOf({"text", "csv", "json"}).showDefault();
+  command.footer("Example:  presa experiment dry-run experiments/grip_slip/experiment.xml --subject S02");
+  command.action([a, &status] { status = dryRun(*a); });
 }
 
-void addRunSession(CLI::App& app, int& status) {
+void addRunSession(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("run", "Run a session; every trial is on disk before the next begins");
-  addWho(*command, *a);
-  command->get_option("--subject")->required();
-  command->add_option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N")->required();
-  command->add_flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
-  command->add_flag("--no-recording", a->no_recording, "keep the row of each trial, not every haptic tick");
-  command->add_flag("--window", a->window,
-                    "the participant sees the scene in a window; the operator's view stays in the terminal");
-  addOperator(*command, a->operator_choice);
-  command->footer(
+  Command command = app.command("run", "Run a session; every trial is on disk before the next begins");
+  addWho(command, *a);
+  command.named("--subject").required();
+  command.option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N").required();
+  command.flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
+  command.flag("--no-recording", a->no_recording, "keep the row of each trial, not every haptic tick");
+  command.flag("--window", a->window,
+               "the participant sees the scene in a window; the operator's view stays in the terminal");
+  addOperator(command, a->operator_choice);
+  command.footer(
       "Exit status: 0 complete, 1 disk, device or dynamics failed, 2 bad input (nothing was run), 130 Ctrl-C (after 1 "
       "and 130 go on with resume).\n"
       "Example:  presa experiment run experiments/grip_slip/experiment.xml --subject S01 --data data");
-  command->callback([a, &status] { status = run(*a); });
+  command.action([a, &status] { status = run(*a); });
 }
 
-void addResume(CLI::App& app, int& status) {
+void addResume(Command app, int& status) {
   auto folder = std::make_shared<std::string>();
   auto choice = std::make_shared<OperatorChoice>();
-  CLI::App* command = app.add_subcommand("resume", "Finish a session that was stopped or killed");
-  addFolder(*command, *folder);
-  addOperator(*command, *choice);
-  command->callback([folder, choice, &status] { status = resume(*folder, *choice); });
+  Command command = app.command("resume", "Finish a session that was stopped or killed");
+  addFolder(command, *folder);
+  addOperator(command, *choice);
+  command.action([folder, choice, &status] { status = resume(*folder, *choice); });
 }
 
 }  // namespace
 
-void addSessionCommands(CLI::App& app, int& status) {
+void addSessionCommands(Command app, int& status) {
   addDryRun(app, status);
   addRunSession(app, status);
   addResume(app, status);

@@ -3,12 +3,12 @@
 #include <memory>
 
 #include "apps/common/atomic_file.h"
+#include "apps/common/file_text.h"
 #include "apps/experiment/commands/experiment_commands.h"
 #include "apps/experiment/simulate/power.h"
 #include "apps/experiment/simulate/studies.h"
-#include "apps/common/file_text.h"
-#include "framework/core/diagnostics/refuse.h"
 #include "experiments/runner/definition/read.h"
+#include "framework/core/diagnostics/refuse.h"
 
 namespace presa {
 namespace {
@@ -66,33 +66,29 @@ int simulate(StudiesPlan plan, const std::string& shard) {
 
 }  // namespace
 
-void addSimulate(CLI::App& app, int& status) {
+void addSimulate(Command app, int& status) {
   auto plan = std::make_shared<StudiesPlan>();
   auto shard = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("simulate", "Many studies with simulated subjects: what to expect before any person comes");
-  command->add_option("EXPERIMENT", plan->experiment_file, "experiment file")->required()->check(CLI::ExistingFile);
-  command->add_option("--subjects", plan->subjects, "in each study")->check(CLI::Range(1, 999))->capture_default_str();
-  command
-      ->add_option("--seeds", plan->studies,
-                   "studies; the first has the experiment's own seed, the next those after it")
-      ->check(CLI::Range(1, 999))
-      ->capture_default_str();
-  command->add_option("--simulated", plan->level, "level of the simulated subjects: L0, L1 or L2")
-      ->check(CLI::IsMember({"L0", "L1", "L2"}));
-  command->add_option("--rig", plan->rig_file, "rig with simulated devices instead")->check(CLI::ExistingFile);
-  command->add_option("--jobs", plan->jobs, "sessions at once (default: one per processor)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--shard", *shard,
-                      "i/N: every N-th session from the i-th, for several machines; afterwards, with all in one "
-                      "folder, once more without");
-  command->add_flag("--recordings", plan->recordings, "keep every haptic tick too");
-  command->add_option("--out", plan->out, "folder; the same command goes on with what is there")->required();
-  command->footer(
+  Command command =
+      app.command("simulate", "Many studies with simulated subjects: what to expect before any person comes");
+  command.option("EXPERIMENT", plan->experiment_file, "experiment file").required().existingFile();
+  command.option("--subjects", plan->subjects, "in each study").withinCount(1, 999).showDefault();
+  command.option("--seeds", plan->studies, "studies; the first has the experiment's own seed, the next those after it")
+      .withinCount(1, 999)
+      .showDefault();
+  command.option("--simulated", plan->level, "level of the simulated subjects: L0, L1 or L2").oneOf({"L0", "L1", "L2"});
+  command.option("--rig", plan->rig_file, "rig with simulated devices instead").existingFile();
+  command.option("--jobs", plan->jobs, "sessions at once (default: one per processor)").positive();
+  command.option("--shard", *shard,
+                 "i/N: every N-th session from the i-th, for several machines; afterwards, with all in one "
+                 "folder, once more without");
+  command.flag("--recordings", plan->recordings, "keep every haptic tick too");
+  command.option("--out", plan->out, "folder; the same command goes on with what is there").required();
+  command.footer(
       "Exit status: 0 complete, 1 a session failed, 2 bad input, 130 Ctrl-C (the same command goes on).\n"
       "Example:  presa experiment simulate experiments/grip_slip/experiment.xml --simulated L1 --subjects 3 --seeds 20 "
       "--out power");
-  command->callback([plan, shard, &status] { status = simulate(*plan, *shard); });
+  command.action([plan, shard, &status] { status = simulate(*plan, *shard); });
 }
 
 }  // namespace presa

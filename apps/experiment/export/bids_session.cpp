@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "apps/experiment/delimited.h"
+#include "apps/common/delimited.h"
 #include "apps/common/file_text.h"
 #include "apps/common/terminal/text.h"
 #include "framework/record/record_plugin.h"

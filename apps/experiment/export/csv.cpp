@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/experiment/delimited.h"
+#include "apps/common/delimited.h"
+#include "apps/common/terminal/text.h"
 #include "apps/experiment/export/motion.h"
 #include "apps/experiment/export/staging.h"
-#include "apps/common/terminal/text.h"
-#include "framework/core/diagnostics/refuse.h"
 #include "experiments/runner/definition/definition.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/record/record_plugin.h"
 
 namespace presa::experiment {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <map>
 
-#include "apps/experiment/dataset.h"
-#include "apps/experiment/delimited.h"
+#include "apps/common/delimited.h"
 #include "apps/common/file_text.h"
-#include "framework/record/checksum/checksum.h"
+#include "apps/experiment/dataset.h"
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/scene/xml/xml.h"
 
 namespace presa::experiment {

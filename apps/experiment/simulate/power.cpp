@@ -7,12 +7,12 @@
 #include <set>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
-#include "apps/experiment/analysis/analyse.h"
+#include "apps/common/exit_status.h"
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/analyse.h"
 
 namespace presa::experiment {
 namespace {

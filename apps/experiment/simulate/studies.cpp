@@ -14,10 +14,10 @@
 #include <system_error>
 #include <thread>
 
-#include "apps/experiment/session_log.h"
 #include "apps/common/file_text.h"
 #include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/session_log.h"
 
 namespace presa::experiment {
 namespace {
@@ -93,10 +93,10 @@ class Workers {
   };
 
   std::vector<std::string> wordsFor(const StudySession& session, const SessionFolder& folder, bool resume) const {
-    if (resume) return {"presa", "experiment", "resume", folder.path};
+    if (resume) return {"presa-experiment", "resume", folder.path};
     std::vector<std::string> words{
-        "presa",  "experiment", "run",    plan_.experiment_file,       "--subject", session.subject_id, "--lockstep",
-        "--data", session.data, "--seed", std::to_string(session.seed)};
+        "presa-experiment", "run",    plan_.experiment_file, "--subject", session.subject_id,
+        "--lockstep",       "--data", session.data,          "--seed",    std::to_string(session.seed)};
     if (!plan_.level.empty()) words.insert(words.end(), {"--simulated", plan_.level});
     if (!plan_.rig_file.empty()) words.insert(words.end(), {"--rig", plan_.rig_file});
     if (!plan_.recordings) words.emplace_back("--no-recording");

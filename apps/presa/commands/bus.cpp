@@ -4,10 +4,10 @@
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/options/bus_options.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/terminal/interruption.h"
+#include "apps/presa/commands/commands.h"
 #include "apps/presa/remote/measure.h"
 #include "apps/presa/remote/viewer.h"
-#include "apps/common/terminal/interruption.h"
 #include "framework/core/state/limits.h"
 
 namespace presa {
@@ -31,7 +31,7 @@ bool clean(const Heard& heard) {
   return heard.joined && heard.received > 0 && heard.lost == 0 && heard.overrun == 0 && heard.refused == 0;
 }
 
-void addListen(CLI::App& app, int& status) {
+void addListen(Command app, int& status) {
   struct Arguments {
     std::vector<std::string> meshes;
     double wait = 10, duration = 10;
@@ -39,19 +39,16 @@ void addListen(CLI::App& app, int& status) {
   };
   auto a = std::make_shared<Arguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
-  CLI::App* command =
-      app.add_subcommand("listen", "Join a run without a picture, and say what is lost and how long it takes");
-  addBusOptions(*command, *bus, "the network that the run is on");
-  command->add_option("--wait", a->wait, "seconds to wait for a run")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  addMeshesOption(*command, a->meshes);
-  command->add_option("--for", a->duration, "seconds to listen")->check(CLI::PositiveNumber)->capture_default_str();
-  command->add_flag("--json", a->json, "the figures as JSON");
-  command->add_flag("--quiet", a->quiet, "nothing on stderr");
-  command->footer(
+  Command command = app.command("listen", "Join a run without a picture, and say what is lost and how long it takes");
+  addBusOptions(command, *bus, "the network that the run is on");
+  command.option("--wait", a->wait, "seconds to wait for a run").nonNegative().showDefault();
+  addMeshesOption(command, a->meshes);
+  command.option("--for", a->duration, "seconds to listen").positive().showDefault();
+  command.flag("--json", a->json, "the figures as JSON");
+  command.flag("--quiet", a->quiet, "nothing on stderr");
+  command.footer(
       "Latencies mean something on the machine of the run only. Exit status: 0 nothing lost, 1 something, 3 no run.");
-  command->callback([=, &status] {
+  command.action([=, &status] {
     const terminal::Interruption interruption;
     const Heard heard = listen(bus->value_or(BusSettings{}), a->meshes, a->wait, a->duration, a->quiet);
     if (a->json)
@@ -62,25 +59,20 @@ void addListen(CLI::App& app, int& status) {
   });
 }
 
-void addMeasure(CLI::App& app, int& status) {
+void addMeasure(Command app, int& status) {
   auto settings = std::make_shared<MeasureSettings>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
   auto out = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("measure", "Objects at 200 Hz to viewers in processes of their own: loss and latency");
-  command->add_option("--objects", settings->objects, "bodies that move")
-      ->check(CLI::Range(1, kMaxBodies))
-      ->capture_default_str();
-  command->add_option("--viewers", settings->viewers, "processes that listen")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
-  command->add_option("--for", settings->duration, "seconds")->check(CLI::Range(0.5, 1e5))->capture_default_str();
-  addBusOptions(*command, *bus, "network to measure (default: loopback, on a domain of its own)");
-  command->add_option("--json", *out, "file for the figures");
-  command->add_flag("--quiet", settings->quiet, "no progress");
-  command->footer(
+  Command command = app.command("measure", "Objects at 200 Hz to viewers in processes of their own: loss and latency");
+  command.option("--objects", settings->objects, "bodies that move").withinCount(1, kMaxBodies).showDefault();
+  command.option("--viewers", settings->viewers, "processes that listen").withinCount(1, 16).showDefault();
+  command.option("--for", settings->duration, "seconds").within(0.5, 1e5).showDefault();
+  addBusOptions(command, *bus, "network to measure (default: loopback, on a domain of its own)");
+  command.option("--json", *out, "file for the figures");
+  command.flag("--quiet", settings->quiet, "no progress");
+  command.footer(
       "Exit status: 0 nothing lost, 1 something lost.\nExample:  presa bus measure --objects 120 --viewers 2 --for 60");
-  command->callback([=, &status] {
+  command.action([=, &status] {
     if (*bus)
       settings->bus = **bus;
     else
@@ -101,15 +93,14 @@ void addMeasure(CLI::App& app, int& status) {
 
 }  // namespace
 
-void addBus(CLI::App& app, int& status) {
-  CLI::App* command =
-      app.add_subcommand("bus", "Runs on the network: which there are, what is lost, setting their parameters");
-  command->require_subcommand(1);
-  addBusList(*command, status);
-  addBusSet(*command, status);
-  addBusKeys(*command, status);
-  addListen(*command, status);
-  addMeasure(*command, status);
+void addBus(Command app, int& status) {
+  Command command = app.command("bus", "Runs on the network: which there are, what is lost, setting their parameters");
+  command.needCommand();
+  addBusList(command, status);
+  addBusSet(command, status);
+  addBusKeys(command, status);
+  addListen(command, status);
+  addMeasure(command, status);
 }
 
 }  // namespace presa

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/options/bus_options.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/terminal/interruption.h"
+#include "apps/presa/commands/commands.h"
 #include "apps/presa/remote/commanding.h"
 #include "apps/presa/remote/viewer.h"
-#include "apps/common/terminal/interruption.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/core/diagnostics/refuse.h"
 
@@ -188,31 +188,26 @@ int list(const Arguments& arguments, const BusSettings& bus) {
 
 }  // namespace
 
-void addBusList(CLI::App& app, int& status) {
+void addBusList(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
-  CLI::App* command = app.add_subcommand("list", "The runs on the bus, and what of them may be set");
-  addBusOptions(*command, *bus, "the network to look on");
-  command->add_option("--wait", a->wait, "seconds to look for runs")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_flag("--json", a->json, "as JSON");
-  command->footer("Exit status: 0 there is a run, 3 none within --wait, 130 Ctrl-C.");
-  command->callback([=, &status] { status = list(*a, bus->value_or(BusSettings{})); });
+  Command command = app.command("list", "The runs on the bus, and what of them may be set");
+  addBusOptions(command, *bus, "the network to look on");
+  command.option("--wait", a->wait, "seconds to look for runs").nonNegative().showDefault();
+  command.flag("--json", a->json, "as JSON");
+  command.footer("Exit status: 0 there is a run, 3 none within --wait, 130 Ctrl-C.");
+  command.action([=, &status] { status = list(*a, bus->value_or(BusSettings{})); });
 }
 
-void addBusSet(CLI::App& app, int& status) {
+void addBusSet(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
-  CLI::App* command = app.add_subcommand("set", "Set parameters of a run that takes commands");
-  command->add_option("NAME=VALUE", a->words, "a parameter and its new value, as presa bus list shows them")
-      ->required();
-  command->add_option("--run", a->run, "id of the run, where several take commands");
-  addBusOptions(*command, *bus, "the network that the run is on");
-  command->add_option("--wait", a->wait, "seconds to wait for the run, and for each answer")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->footer(
+  Command command = app.command("set", "Set parameters of a run that takes commands");
+  command.option("NAME=VALUE", a->words, "a parameter and its new value, as presa bus list shows them").required();
+  command.option("--run", a->run, "id of the run, where several take commands");
+  addBusOptions(command, *bus, "the network that the run is on");
+  command.option("--wait", a->wait, "seconds to wait for the run, and for each answer").nonNegative().showDefault();
+  command.footer(
       "What may be set, where the run has it: material/NAME/stiffness (up to what the scene loaded with),\n"
       "material/NAME/friction/static and /dynamic (up to twice that), time/held (0, 1) and time/speed of a lockstep "
       "run\n"
@@ -222,7 +217,7 @@ void addBusSet(CLI::App& app, int& status) {
       "Exit status: 0 all accepted, 1 one was refused, 2 bad input, 3 no such run or no answer, 130 Ctrl-C.\n"
       "Example:  presa run config/scenes/cube.xml --bus loopback --bus-commands &\n"
       "          presa bus list;  presa bus set material/rubber/stiffness=500");
-  command->callback([=, &status] { status = set(*a, bus->value_or(BusSettings{})); });
+  command.action([=, &status] { status = set(*a, bus->value_or(BusSettings{})); });
 }
 
 }  // namespace presa

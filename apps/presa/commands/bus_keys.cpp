@@ -2,16 +2,16 @@
 #include <memory>
 #include <string>
 
-#include "apps/common/options/commands.h"
+#include "apps/presa/commands/commands.h"
 #include "framework/bus/bus_keys.h"
 
 namespace presa {
 
-void addBusKeys(CLI::App& app, int& status) {
+void addBusKeys(Command app, int& status) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("keys", "Make the certificates with which a network is only yours");
-  command->add_option("DIR", *folder, "a folder that does not exist yet")->required();
-  command->footer(
+  Command command = app.command("keys", "Make the certificates with which a network is only yours");
+  command.option("DIR", *folder, "a folder that does not exist yet").required();
+  command.footer(
       "Makes DIR/run, DIR/viewer and DIR/commander: take each to the machine that plays that part, and name it there "
       "with\n"
       "--bus-keys. Who has none of them can neither join, nor read, nor forge; a viewer cannot command. DIR/authority "
@@ -20,7 +20,7 @@ void addBusKeys(CLI::App& app, int& status) {
       "Example:  presa bus keys lab\n"
       "          presa run config/scenes/cube.xml --bus lan --bus-commands --bus-keys lab/run\n"
       "          presa bus set material/rubber/stiffness=500 --bus lan --bus-keys lab/commander");
-  command->callback([=, &status] {
+  command.action([=, &status] {
     bus::makeKeys(*folder);
     std::printf("%s/run, %s/viewer, %s/commander: valid for ten years; the key in %s/authority signed them\n",
                 folder->c_str(), folder->c_str(), folder->c_str(), folder->c_str());

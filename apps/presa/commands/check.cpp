@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/common/options/commands.h"
+#include "apps/presa/commands/commands.h"
 #include "framework/session/load_world.h"
 
 namespace presa {
@@ -58,16 +58,15 @@ int check(const Arguments& arguments) {
 
 }  // namespace
 
-void addCheck(CLI::App& app, int& status) {
+void addCheck(Command app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("check", "Read scenes with their rigs and meshes, and report everything that is wrong");
-  command->add_option("SCENE", arguments->scenes, "scene files")->required();
-  command->add_option("--rig", arguments->rig, "rig file instead of the scene's own");
-  command->add_option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");
-  command->add_option("--format", arguments->format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  command->footer("Exit status: 0 every scene is good, 2 otherwise.\nExample:  presa check config/scenes/*.xml");
-  command->callback([arguments, &status] { status = check(*arguments); });
+  Command command = app.command("check", "Read scenes with their rigs and meshes, and report everything that is wrong");
+  command.option("SCENE", arguments->scenes, "scene files").required();
+  command.option("--rig", arguments->rig, "rig file instead of the scene's own");
+  command.option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");
+  command.option("--format", arguments->format, "text or json").oneOf({"text", "json"});
+  command.footer("Exit status: 0 every scene is good, 2 otherwise.\nExample:  presa check config/scenes/*.xml");
+  command.action([arguments, &status] { status = check(*arguments); });
 }
 
 }  // namespace presa

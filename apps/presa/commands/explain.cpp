@@ -2,11 +2,11 @@
 #include <memory>
 
 #include "apps/common/options/bus_options.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/scratch_folder.h"
+#include "apps/presa/commands/commands.h"
 #include "apps/presa/explain/cost.h"
 #include "apps/presa/explain/description.h"
 #include "apps/presa/explain/printout.h"
-#include "apps/common/scratch_folder.h"
 #include "framework/core/diagnostics/printable.h"
 
 namespace presa {
@@ -62,26 +62,25 @@ int explain(const Arguments& arguments) {
 
 }  // namespace
 
-void addExplain(CLI::App& app, int& status) {
+void addExplain(Command app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("explain", "Say which parts a scene calls for, why, and what is left out");
-  command->add_option("SCENE", arguments->inputs.scene, "scene file")->required();
-  command->add_option("--rig", arguments->inputs.rig, "rig file instead of the scene's own");
-  command->add_option("--set", arguments->inputs.sets, "PATH=VALUE; may be repeated")->allow_extra_args(false);
-  command->add_option("--format", arguments->format, "text, json or dot (for graphviz)")
-      ->check(CLI::IsMember({"text", "json", "dot"}));
-  command->add_flag("--record", arguments->record, "explain a run that is recorded (to a file that is thrown away)");
-  command->add_option("--view", arguments->view, "explain a run with this view: window, offscreen or none (default)")
-      ->check(CLI::IsMember({"window", "offscreen", "none"}));
-  addBusOptions(*command, arguments->bus, "explain a run that is published");
-  command->add_flag("--cost", arguments->cost,
-                    "play the scene with its devices and tell time and instructions per tick of each module and\n"
-                    "stage; takes up to a minute");
-  command->footer(
+  Command command = app.command("explain", "Say which parts a scene calls for, why, and what is left out");
+  command.option("SCENE", arguments->inputs.scene, "scene file").required();
+  command.option("--rig", arguments->inputs.rig, "rig file instead of the scene's own");
+  command.option("--set", arguments->inputs.sets, "PATH=VALUE; may be repeated").oneValueEach();
+  command.option("--format", arguments->format, "text, json or dot (for graphviz)").oneOf({"text", "json", "dot"});
+  command.flag("--record", arguments->record, "explain a run that is recorded (to a file that is thrown away)");
+  command.option("--view", arguments->view, "explain a run with this view: window, offscreen or none (default)")
+      .oneOf({"window", "offscreen", "none"});
+  addBusOptions(command, arguments->bus, "explain a run that is published");
+  command.flag("--cost", arguments->cost,
+               "play the scene with its devices and tell time and instructions per tick of each module and\n"
+               "stage; takes up to a minute");
+  command.footer(
       "Examples:  presa explain config/scenes/cube.xml --cost\n"
       "           presa explain config/scenes/cube.xml --cost --record --view offscreen\n"
       "           presa explain config/scenes/cube.xml --format dot | dot -Tsvg > cube.svg");
-  command->callback([arguments, &status] { status = explain(*arguments); });
+  command.action([arguments, &status] { status = explain(*arguments); });
 }
 
 }  // namespace presa

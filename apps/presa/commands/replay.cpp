@@ -2,15 +2,15 @@
 #include <memory>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/losses.h"
 #include "apps/common/options/show_option.h"
 #include "apps/common/options/view_choice.h"
-#include "apps/common/losses.h"
-#include "apps/presa/playback/player.h"
 #include "apps/common/report/recording_page.h"
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/playback/player.h"
 #include "framework/core/diagnostics/printable.h"
-#include "framework/session/load_world.h"
 #include "framework/record/record_plugin.h"
+#include "framework/session/load_world.h"
 #include "framework/session/replay.h"
 
 namespace presa {
@@ -142,31 +142,27 @@ int runReplay(const Arguments& arguments) {
 
 }  // namespace
 
-void addReplay(CLI::App& app, int& status) {
+void addReplay(Command app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("replay", "Run a recording again from its device input, or show the record of a fault");
+  Command command = app.command("replay", "Run a recording again from its device input, or show the record of a fault");
+  command.option("FILE", arguments->file, "recording made with presa run --record, or the record of a fault (--flight)")
+      .required();
+  command.flag("--verify", arguments->verify, "compare every commanded force with the recorded one, bit by bit");
   command
-      ->add_option("FILE", arguments->file,
-                   "recording made with presa run --record, or the record of a fault (--flight)")
-      ->required();
-  command->add_flag("--verify", arguments->verify, "compare every commanded force with the recorded one, bit by bit");
-  command
-      ->add_option("--view", arguments->view,
-                   "window: look at it, hold it, move about in it; offscreen: with --screenshot or --video")
-      ->check(CLI::IsMember({"window", "offscreen"}));
-  command->add_option("--speed", arguments->speed, "seconds of the recording in a second of the window (default 1)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--screenshot", arguments->shown.screenshot, "PNG of one moment");
-  command->add_option("--screenshot-at", arguments->shown.screenshot_time, "which moment [s] (default: the end)");
-  command->add_option("--video", arguments->shown.video, "MP4 of all of it, through ffmpeg");
-  addShowOption(*command, arguments->shown.show);
-  command->add_option("--page", arguments->page,
-                      "forces, penetration, speed and place of every finger as an HTML page");
-  command->footer(
+      .option("--view", arguments->view,
+              "window: look at it, hold it, move about in it; offscreen: with --screenshot or --video")
+      .oneOf({"window", "offscreen"});
+  command.option("--speed", arguments->speed, "seconds of the recording in a second of the window (default 1)")
+      .positive();
+  command.option("--screenshot", arguments->shown.screenshot, "PNG of one moment");
+  command.option("--screenshot-at", arguments->shown.screenshot_time, "which moment [s] (default: the end)");
+  command.option("--video", arguments->shown.video, "MP4 of all of it, through ffmpeg");
+  addShowOption(command, arguments->shown.show);
+  command.option("--page", arguments->page, "forces, penetration, speed and place of every finger as an HTML page");
+  command.footer(
       "Nothing is run again for a view: it shows what was recorded.\nExit status: 0 replayed (and, with --verify, "
       "equal), 1 different, 2 not a recording.");
-  command->callback([arguments, &status] { status = runReplay(*arguments); });
+  command.action([arguments, &status] { status = runReplay(*arguments); });
 }
 
 }  // namespace presa

@@ -3,15 +3,15 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/common/machine.h"
 #include "apps/common/options/bus_options.h"
-#include "apps/common/options/commands.h"
 #include "apps/common/options/show_option.h"
 #include "apps/common/options/view_choice.h"
-#include "apps/common/machine.h"
 #include "apps/common/report/report.h"
 #include "apps/common/run_session.h"
 #include "apps/common/summary.h"
 #include "apps/common/terminal/closing.h"
+#include "apps/presa/commands/commands.h"
 #include "framework/bus/bus_keys.h"
 #include "framework/session/load_world.h"
 
@@ -96,55 +96,52 @@ int run(Arguments arguments) {
 
 }  // namespace
 
-void addRun(CLI::App& app, int& status) {
+void addRun(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
   a->options.duration = 0;
-  CLI::App* command = app.add_subcommand("run", "Run a scene, live or as fast as the machine goes");
-  command->add_option("SCENE", a->inputs.scene, "scene file, e.g. config/scenes/cube.xml")->required();
-  command->add_option("--rig", a->inputs.rig,
-                      "which devices play the scene's roles (default: the rig the scene names)");
-  auto* lockstep = command->add_flag("--lockstep", a->lockstep, "virtual time on one thread: deterministic to the bit");
-  command->add_flag("--realtime", a->realtime, "one thread per rate, against the clock (default)")->excludes(lockstep);
+  Command command = app.command("run", "Run a scene, live or as fast as the machine goes");
+  command.option("SCENE", a->inputs.scene, "scene file, e.g. config/scenes/cube.xml").required();
+  command.option("--rig", a->inputs.rig, "which devices play the scene's roles (default: the rig the scene names)");
+  Option lockstep = command.flag("--lockstep", a->lockstep, "virtual time on one thread: deterministic to the bit");
+  command.flag("--realtime", a->realtime, "one thread per rate, against the clock (default)").excludes(lockstep);
   command
-      ->add_option("--for", a->options.duration,
-                   "simulated seconds (default: to the end of the scripted motion, else 10)")
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--allow-no-rt", a->options.allow_no_rt,
-                    "let hardware run where the system refuses real-time scheduling: with half the force");
-  command->add_option("--seed", a->options.seed, "seed of every random stream");
+      .option("--for", a->options.duration, "simulated seconds (default: to the end of the scripted motion, else 10)")
+      .positive();
+  command.flag("--allow-no-rt", a->options.allow_no_rt,
+               "let hardware run where the system refuses real-time scheduling: with half the force");
+  command.option("--seed", a->options.seed, "seed of every random stream");
   command
-      ->add_option("--set", a->inputs.sets,
-                   "PATH=VALUE: change any value of the scene, e.g. body/cube/physics/mass=0.1,\n"
-                   "material/rubber/stiffness=2000, rates/dynamics=400; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--record", a->options.record, "record the run at haptic rate (HDF5)");
-  command->add_option("--flight", a->options.flight,
-                      "keep the last two seconds in memory and write them here when a fault occurs\n"
-                      "(default with real devices: flight-TIME.h5; presa replay opens it)");
-  command->add_flag("--overwrite", a->options.overwrite, "let --record replace an existing file");
-  command->add_option("--view", a->view, "window, offscreen or none (default: window when there is a display)")
-      ->check(CLI::IsMember({"window", "offscreen", "none"}));
-  command->add_option("--screenshot", a->options.screenshot,
-                      "PNG of the scene, at the middle of the hold when there is one");
-  command->add_option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]");
-  command->add_option("--video", a->options.video,
-                      "MP4 of the run through ffmpeg, 30 pictures for each simulated second");
+      .option("--set", a->inputs.sets,
+              "PATH=VALUE: change any value of the scene, e.g. body/cube/physics/mass=0.1,\n"
+              "material/rubber/stiffness=2000, rates/dynamics=400; may be repeated")
+      .oneValueEach();
+  command.option("--record", a->options.record, "record the run at haptic rate (HDF5)");
+  command.option("--flight", a->options.flight,
+                 "keep the last two seconds in memory and write them here when a fault occurs\n"
+                 "(default with real devices: flight-TIME.h5; presa replay opens it)");
+  command.flag("--overwrite", a->options.overwrite, "let --record replace an existing file");
+  command.option("--view", a->view, "window, offscreen or none (default: window when there is a display)")
+      .oneOf({"window", "offscreen", "none"});
+  command.option("--screenshot", a->options.screenshot,
+                 "PNG of the scene, at the middle of the hold when there is one");
+  command.option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]");
+  command.option("--video", a->options.video, "MP4 of the run through ffmpeg, 30 pictures for each simulated second");
   command
-      ->add_option(
+      .option(
           "--speed", a->speed,
           "simulated seconds in a second, of a lockstep run (default: with a window 1, where the keys [ and ] change\n"
           "it; without as many as the machine makes)")
-      ->check(CLI::PositiveNumber);
-  addShowOption(*command, a->options.show);
-  addBusOptions(*command, a->options.bus, "publish the state for presa view --join");
-  addBusCommandsOption(*command, a->options.bus_commands);
-  command->add_option("--summary", a->summary, "results as JSON");
-  command->add_option("--report", a->report, "results as one HTML page with plots");
-  command->add_flag("--quiet", a->quiet, "no status line and no closing text");
-  command->footer(
+      .positive();
+  addShowOption(command, a->options.show);
+  addBusOptions(command, a->options.bus, "publish the state for presa view --join");
+  addBusCommandsOption(command, a->options.bus_commands);
+  command.option("--summary", a->summary, "results as JSON");
+  command.option("--report", a->report, "results as one HTML page with plots");
+  command.flag("--quiet", a->quiet, "no status line and no closing text");
+  command.footer(
       "Exit status: 0 no fault, 1 fault while running, 2 bad input (nothing written), 130 Ctrl-C.\n"
       "Example:  presa run config/scenes/cube.xml --lockstep --set body/cube/physics/mass=0.5 --report out.html");
-  command->callback([a, &status] { status = run(*a); });
+  command.action([a, &status] { status = run(*a); });
 }
 
 }  // namespace presa

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/exit_status.h"
 #include "apps/presa/device/driver_symbol.h"
 #include "apps/presa/device/rig_bases.h"
 #include "apps/presa/device/samples_file.h"

@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
-#include "apps/presa/device/driver_symbol.h"
+#include "apps/common/exit_status.h"
 #include "apps/common/terminal/status_line.h"
+#include "apps/presa/device/driver_symbol.h"
 
 namespace presa::device {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/session/plugin.h"
 #include "framework/core/plugin/plugin_loader.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::device {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/session/plugin.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::device {
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "apps/experiment/delimited.h"
+#include "apps/common/delimited.h"
 #include "apps/common/file_text.h"
 #include "apps/common/terminal/text.h"
 #include "framework/core/diagnostics/refuse.h"

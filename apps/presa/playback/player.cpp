@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/common/options/commands.h"
-#include "apps/presa/playback/recorded_moment.h"
+#include "apps/common/exit_status.h"
 #include "apps/common/terminal/interruption.h"
+#include "apps/presa/playback/recorded_moment.h"
 #include "framework/core/graph/graph_builder.h"
-#include "framework/session/session.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/session/session.h"
 
 namespace presa {
 namespace {

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/common/options/commands.h"
-#include "apps/presa/remote/join.h"
+#include "apps/common/exit_status.h"
 #include "apps/common/terminal/interruption.h"
+#include "apps/presa/remote/join.h"
 #include "framework/bus/mesh_shelf.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/core/graph/graph_builder.h"
+#include "framework/core/schedule/clock.h"
+#include "framework/scene/load.h"
 #include "framework/session/session.h"
 #include "framework/session/view.h"
-#include "framework/scene/load.h"
-#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

@@ -3,9 +3,9 @@
 #include "apps/studies/cost/knobs.h"
 #include "apps/studies/cost/metrics.h"
 #include "apps/studies/cost/plan.h"
+#include "apps/studies/cost/study_schema.h"
 #include "framework/input/folders.h"
 #include "framework/input/input.h"
-#include "framework/scene/schemas.h"
 #include "framework/scene/xml/schema.h"
 #include "framework/scene/xml/xml.h"
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/exit_status.h"
 #include "apps/common/terminal/job_progress.h"
-#include "framework/core/diagnostics/refuse.h"
-#include "framework/core/schedule/realtime_rights.h"
 #include "experiments/study/experiment_file.h"
 #include "experiments/study/jobs.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/core/schedule/realtime_rights.h"
 
 namespace presa::faults {
 namespace {

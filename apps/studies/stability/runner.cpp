@@ -7,11 +7,11 @@
 #include <memory>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/exit_status.h"
+#include "apps/common/terminal/job_progress.h"
 #include "apps/studies/stability/report.h"
 #include "apps/studies/stability/rows.h"
 #include "apps/studies/stability/table.h"
-#include "apps/common/terminal/job_progress.h"
 #include "experiments/study/jobs.h"
 
 namespace presa::stability {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "framework/scene/schemas.h"
+#include "apps/temple/building/building_schemas.h"
 #include "apps/temple/building/shipped.h"
 #include "framework/scene/xml/schema.h"
 #include "framework/scene/xml/xml.h"

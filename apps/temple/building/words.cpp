@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "framework/scene/scene_parts.h"
-#include "framework/scene/schemas.h"
+#include "apps/temple/building/building_schemas.h"
 #include "apps/temple/building/shipped.h"
+#include "framework/scene/scene_parts.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa::temple {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/record/recording.h"
+#include "framework/core/schedule/schedule_log.h"
 
 namespace presa {
 

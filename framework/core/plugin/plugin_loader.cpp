@@ -76,6 +76,13 @@ void* pluginSymbol(const std::string& name, const char* symbol) {
   refuse(592, "", "plug-in '" + name + "' has no symbol '" + symbol + "'", "build it again with this version of Presa");
 }
 
+void requireAbi(const std::string& plugin, int abi) {
+  if (abi == kPluginAbi) return;
+  refuse(510, "presa_" + plugin + ".so",
+         "built for plug-in interface " + std::to_string(abi) + ", this program has " + std::to_string(kPluginAbi),
+         "build it again: ./dev build");
+}
+
 std::string helperProgram(const std::string& name) { return frameworkFolder() / name; }
 
 }  // namespace presa

@@ -3,12 +3,27 @@
 
 namespace presa {
 
+/// Version of the interface between the program and its plug-ins; a plug-in of another version is refused (E510).
+inline constexpr int kPluginAbi = 9;
+
 /// Address of the C symbol `symbol` in the plug-in `presa_<name>.so`. The plug-in is looked for in the folders of the
 /// environment variable PRESA_PLUGIN_PATH (separated by colons), then beside the framework library; it is loaded at the
 /// first call and stays loaded until the process ends, so that addresses remain valid.
 /// Thread: any (not the haptic group). Throws InputError: E590 no such plug-in (with the paths tried), E591 it does not
 /// load, E592 it has no such symbol.
 void* pluginSymbol(const std::string& name, const char* symbol);
+
+/// Throws InputError E510 when a plug-in was built for another version of the interface.
+void requireAbi(const std::string& plugin, int abi);
+
+/// The table that the plug-in's C function `symbol` returns. Throws as pluginSymbol and requireAbi do.
+template <class Table>
+const Table& pluginTable(const std::string& plugin, const char* symbol) {
+  using Entry = const Table* (*)();
+  const Table& table = *reinterpret_cast<Entry>(pluginSymbol(plugin, symbol))();
+  requireAbi(plugin, table.abi);
+  return table;
+}
 
 /// Path of a program that Presa starts itself; it lies beside the framework library.
 std::string helperProgram(const std::string& name);

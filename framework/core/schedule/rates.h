@@ -2,10 +2,17 @@
 #include <array>
 #include <cstdint>
 
-#include "framework/scene/scene.h"
 #include "framework/core/schedule/tick.h"
 
 namespace presa {
+
+struct Rates {
+  double haptic = 1000;    ///< [Hz]
+  double collision = 100;  ///< [Hz], haptic / collision is a whole number
+  double dynamics = 200;   ///< [Hz], haptic / dynamics is a whole number
+  double view = 60;        ///< [Hz]
+  double bus = 200;        ///< at which the state is published [Hz]; no scene changes it
+};
 
 /// The rates of a run in whole nanoseconds: every group's period is a whole number of haptic periods, so
 /// that all groups meet at the same instants of simulated time.

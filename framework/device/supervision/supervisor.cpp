@@ -9,12 +9,11 @@
 #include <csignal>
 #include <cstring>
 
-#include "framework/device/transport_watch.h"
-#include "framework/session/plugin.h"
-#include "framework/session/session.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/device/device_plugin.h"
 #include "framework/device/supervision/shared_memory.h"
 #include "framework/device/supervision/task.h"
+#include "framework/device/transport_watch.h"
 
 namespace presa {
 namespace {

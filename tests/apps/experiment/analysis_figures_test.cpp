@@ -89,7 +89,7 @@ TEST_F(FigureTest, TimeCourseWithoutRecordingSaysSo) {
 // it slips in the release, and not before.
 TEST(TimeCourse, OfAHeldCube) {
   ScratchFolder scratch;
-  const std::string tests = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/";
+  const std::string tests = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/";
   Diagnostics diagnostics;
   const auto experiment = readExperiment(tests + "lift.xml", {}, diagnostics);
   ASSERT_TRUE(experiment) << diagnostics.text();

@@ -43,7 +43,7 @@ class ExportTest : public testing::Test {
   static void runSession(const std::string& id, const std::string& data, bool recording) {
     Diagnostics diagnostics;
     SessionStart start;
-    start.experiment_file = kSource + "/tests/experiment/fixtures/lift.xml";
+    start.experiment_file = kSource + "/tests/apps/experiment/fixtures/lift.xml";
     const auto experiment = readExperiment(start.experiment_file, "", diagnostics);
     ASSERT_EQ(diagnostics.text(), "");
     start.subject = {id, id.back() - '0'};

@@ -16,7 +16,7 @@ namespace presa::experiment {
 namespace {
 
 const std::string kProgram = std::string(PRESA_BINARY_DIR) + "/bin/presa";
-const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/lift.xml";
+const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/lift.xml";
 
 TEST(OperatorWindow, TakesANoteAndStops) {
   const ScratchFolder scratch;

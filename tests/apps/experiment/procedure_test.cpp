@@ -20,7 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string kFixtures = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/";
+const std::string kFixtures = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/";
 
 Experiment fixture(const std::string& name) {
   Diagnostics diagnostics;

@@ -23,9 +23,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const std::string kProgram = std::string(PRESA_BINARY_DIR) + "/bin/presa";
-const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/lift.xml";
+const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/lift.xml";
 
-const std::string kRub = std::string(PRESA_SOURCE_DIR) + "/tests/experiment/fixtures/rub.xml";
+const std::string kRub = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/rub.xml";
 
 /// The program in a process of its own, its output in a file.
 class Process {

@@ -8,9 +8,9 @@
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/diagnose.h"
 #include "devices/novint_falcon/firmware.h"
-#include "framework/session/plugin.h"
-#include "framework/session/session.h"
+#include "framework/device/device_plugin.h"
 #include "framework/scene/load.h"
+#include "framework/session/session.h"
 
 namespace presa::falcon {
 namespace {

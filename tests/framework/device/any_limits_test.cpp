@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 
-#include "framework/device/device_modules.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/math/random.h"
-#include "framework/session/plugin.h"
-#include "framework/session/session.h"
-#include "framework/scene/load.h"
+#include "framework/device/device_modules.h"
+#include "framework/device/device_plugin.h"
 #include "framework/device/supervision/command_keeper.h"
+#include "framework/scene/load.h"
+#include "framework/session/session.h"
 #include "tests/framework/device/stand_ins.h"
 
 // Ten thousand random scenes and rigs, each through the readers of the files, the limits, the output stage and the supervisor's keeper:

@@ -81,7 +81,7 @@ TEST_F(BadFile, JournalThatIsAPipe) {
   EXPECT_EQ(validated.status, 1) << validated.text;
   EXPECT_NE(validated.text.find("ALTERED"), std::string::npos) << validated.text;
   const Outcome begun = bench.presa("experiment run " + test::kSource +
-                                    "/tests/experiment/fixtures/lift.xml --subject S01 --lockstep --data data");
+                                    "/tests/apps/experiment/fixtures/lift.xml --subject S01 --lockstep --data data");
   EXPECT_EQ(begun.status, 2) << begun.text;
 }
 
@@ -181,7 +181,7 @@ TEST_F(BadFile, NamedElsewhereWhereThatIsAllowed) {
 
 // A list of checksums is a list of names in its own folder.
 TEST_F(BadFile, ChecksumOfAFileElsewhere) {
-  const std::string lift = test::kSource + "/tests/experiment/fixtures/lift.xml";
+  const std::string lift = test::kSource + "/tests/apps/experiment/fixtures/lift.xml";
   ASSERT_EQ(bench.presa("experiment run " + lift + " --subject S01 --lockstep --no-recording --data data").status, 0);
   const std::string forge = R"(python3 - <<'END'
 import hashlib, json

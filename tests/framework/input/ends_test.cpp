@@ -17,7 +17,7 @@ using test::kProgram;
 using test::Outcome;
 
 const std::string kCube = test::kSource + "/config/scenes/cube.xml";
-const std::string kLift = test::kSource + "/tests/experiment/fixtures/lift.xml";
+const std::string kLift = test::kSource + "/tests/apps/experiment/fixtures/lift.xml";
 
 /// Once the run goes on, as the signals that it catches show; a command that goes on for ten seconds more is killed, with status 137.
 Outcome signalled(const Bench& bench, const std::string& signal, const std::string& arguments) {

@@ -1,4 +1,4 @@
-#include "framework/scene/schemas.h"
+#include "devices/hand/motion_schema.h"
 #include "framework/scene/xml/xml.h"
 #include "tests/framework/scene/scene_text.h"
 

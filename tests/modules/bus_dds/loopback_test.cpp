@@ -72,7 +72,7 @@ struct Seen {
 };
 
 Seen fromTheOtherHost(const std::string& network) {
-  const std::string script = std::string(PRESA_SOURCE_DIR) + "/tests/bus_dds/two_hosts.sh",
+  const std::string script = std::string(PRESA_SOURCE_DIR) + "/tests/modules/bus_dds/two_hosts.sh",
                     command = "bash " + script + " " + PRESA_BINARY_DIR + "/bin/presa " + PRESA_SOURCE_DIR +
                               "/config/scenes/cube.xml " + network;
   Seen seen;

@@ -6,18 +6,18 @@
 
 namespace presa {
 
-void addCharacterise(CLI::App& app, int& status) {
+void addCharacterise(Command app, int& status) {
   auto options = std::make_shared<device::CharacteriseOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.command(
       "characterise",
       "Resolution, workspace, forces, stiffness and bandwidth of a driver, beside what is printed of the device");
-  command->add_option("DRIVER", options->driver, "folder under devices/, e.g. percro_arm")->required();
-  command->add_option("--out", options->out, "folder for report.html and characteristics.json");
-  command->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  command->footer(
+  command.option("DRIVER", options->driver, "folder under devices/, e.g. percro_arm").required();
+  command.option("--out", options->out, "folder for report.html and characteristics.json");
+  command.option("--format", options->format, "text or json").oneOf({"text", "json"});
+  command.footer(
       "Exit status: 0 every figure agrees with the printed one, 1 some do not, 2 bad input.\n"
       "Example:  presa device characterise percro_arm --out out/percro");
-  command->callback([options, &status] { status = device::characterise(*options); });
+  command.action([options, &status] { status = device::characterise(*options); });
 }
 
 }  // namespace presa

@@ -1,9 +1,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/common/terminal/status_line.h"
 #include "apps/presa/commands/device/device_commands.h"
 #include "apps/presa/device/findings.h"
-#include "apps/common/terminal/status_line.h"
 #include "framework/scene/load.h"
 
 namespace presa {
@@ -26,17 +26,17 @@ int checkRig(const std::string& file, const std::string& format) {
 
 }  // namespace
 
-void addDeviceCheck(CLI::App& app, int& status) {
+void addDeviceCheck(Command app, int& status) {
   auto rig = std::make_shared<std::string>();
   auto format = std::make_shared<std::string>("text");
-  CLI::App* command = app.add_subcommand("check", "Whether the devices of a rig are there and ready");
-  command->add_option("RIG", *rig, "rig file")->required();
-  command->add_option("--format", *format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  command->footer(
+  Command command = app.command("check", "Whether the devices of a rig are there and ready");
+  command.option("RIG", *rig, "rig file").required();
+  command.option("--format", *format, "text or json").oneOf({"text", "json"});
+  command.footer(
       "No force is sent and no firmware loaded.\n"
       "Exit status: 0 all are ready, 1 something keeps one from being used, 2 bad input.\n"
       "Example:  presa device check config/rigs/pinch_cube.xml");
-  command->callback([rig, format, &status] { status = checkRig(*rig, *format); });
+  command.action([rig, format, &status] { status = checkRig(*rig, *format); });
 }
 
 }  // namespace presa

@@ -1,15 +1,13 @@
 #pragma once
-#include "apps/common/options/commands.h"
+#include "apps/presa/commands/commands.h"
 
 namespace presa {
 
 /// `presa device …`, one per subcommand.
-void addDeviceList(CLI::App& app, int& status);
-void addDeviceCheck(CLI::App& app, int& status);
-void addDeviceDoctor(CLI::App& app, int& status);
-void addCharacterise(CLI::App& app, int& status);
-void addCalibrate(CLI::App& app, int& status);
-void addFaults(CLI::App& app, int& status);
-void addPeriods(CLI::App& app, int& status);
+void addDeviceList(Command app, int& status);
+void addDeviceCheck(Command app, int& status);
+void addDeviceDoctor(Command app, int& status);
+void addCharacterise(Command app, int& status);
+void addCalibrate(Command app, int& status);
 
 }  // namespace presa

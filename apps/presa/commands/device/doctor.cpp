@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/presa/commands/device/device_commands.h"
 #include "apps/common/terminal/status_line.h"
+#include "apps/presa/commands/device/device_commands.h"
 
 namespace presa {
 namespace {
@@ -33,17 +33,16 @@ int doctor(const Arguments& arguments) {
 
 }  // namespace
 
-void addDeviceDoctor(CLI::App& app, int& status) {
+void addDeviceDoctor(Command app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("doctor", "What this computer and its devices lack for real time, and how to get it");
-  command->add_flag("--install-udev", arguments->install, "write the rules that let users open devices (as root)");
-  command->add_option("--udev-folder", arguments->udev, "where these rules stand")->capture_default_str();
-  command->add_option("--format", arguments->format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  command->footer(
+  Command command = app.command("doctor", "What this computer and its devices lack for real time, and how to get it");
+  command.flag("--install-udev", arguments->install, "write the rules that let users open devices (as root)");
+  command.option("--udev-folder", arguments->udev, "where these rules stand").showDefault();
+  command.option("--format", arguments->format, "text or json").oneOf({"text", "json"});
+  command.footer(
       "Exit status: 0 no problem (there may be warnings), 1 a problem, 2 the rules cannot be written.\n"
       "Example:  sudo presa device doctor --install-udev");
-  command->callback([arguments, &status] { status = doctor(*arguments); });
+  command.action([arguments, &status] { status = doctor(*arguments); });
 }
 
 }  // namespace presa

@@ -1,9 +1,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/common/terminal/status_line.h"
 #include "apps/presa/commands/device/device_commands.h"
 #include "apps/presa/device/findings.h"
-#include "apps/common/terminal/status_line.h"
 
 namespace presa {
 namespace {
@@ -21,14 +21,14 @@ int list(const std::vector<std::string>& names, const std::string& format) {
 
 }  // namespace
 
-void addDeviceList(CLI::App& app, int& status) {
+void addDeviceList(Command app, int& status) {
   auto names = std::make_shared<std::vector<std::string>>();
   auto format = std::make_shared<std::string>("text");
-  CLI::App* command = app.add_subcommand("list", "Drivers, and the devices of each that are plugged in");
-  command->add_option("DRIVER", *names, "only these");
-  command->add_option("--format", *format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  command->footer("Exit status: 0.\nExample:  presa device list novint_falcon");
-  command->callback([names, format, &status] { status = list(*names, *format); });
+  Command command = app.command("list", "Drivers, and the devices of each that are plugged in");
+  command.option("DRIVER", *names, "only these");
+  command.option("--format", *format, "text or json").oneOf({"text", "json"});
+  command.footer("Exit status: 0.\nExample:  presa device list novint_falcon");
+  command.action([names, format, &status] { status = list(*names, *format); });
 }
 
 }  // namespace presa

@@ -9,10 +9,10 @@
 #include <cmath>
 
 #include "experiments/faults/press.h"
-#include "framework/session/plugin.h"
-#include "framework/session/session.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/device/device_plugin.h"
 #include "framework/device/supervision/supervised_device.h"
+#include "framework/session/session.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {

@@ -67,7 +67,7 @@ Way follow(const std::string& motion) {
 // The way of a finger that was found inside 50.621 s after it set out, 2 mm deep in one tick, from 0.6 s before that
 // on.
 TEST(PopThrough, NeverHappensOnTheWayWhereItOnceDid) {
-  const Way way = follow(PRESA_SOURCE_DIR "/tests/surface/man_path.csv");
+  const Way way = follow(PRESA_SOURCE_DIR "/tests/modules/haptics_proxy/surface/man_path.csv");
   EXPECT_EQ(way.first_inside, -1) << "[s]";
   EXPECT_EQ(way.popped, 0u);
   // a tip of 2 mm: what presses holds its centre 2 mm off; 1 % for tolerances that are relative to the radius

@@ -4,24 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "framework/core/plugin/plugin_loader.h"
 #include "framework/device/device.h"
 #include "framework/device/device_rating.h"
-#include "framework/core/graph/module.h"
 #include "framework/scene/world.h"
 
-/// A plug-in is a shared object `presa_<folder>.so` built from one folder under modules/ or devices/. It exports one
-/// C function that returns its table; it is loaded only when the plan calls for it.
+/// The table of a driver, a plug-in under devices/ (see plugin_loader.h).
 namespace presa {
-
-inline constexpr int kPluginAbi = 9;
-
-struct ModulePlugin {
-  int abi = kPluginAbi;
-  const char* name;     ///< folder name
-  const char* summary;  ///< one line for --help and explain
-  std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world);
-  std::string (*library)() = nullptr;  ///< what does its work: "ODE 0.16.2"; null: nothing but Presa
-};
 
 /// What a driver finds when it is asked how its devices are: one line each, good news too.
 struct DeviceFinding {
@@ -52,9 +41,10 @@ struct DevicePlugin {
   const char* while_opening = nullptr;
 };
 
+/// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
+const DevicePlugin& devicePlugin(const std::string& driver);
+
 }  // namespace presa
 
-#define PRESA_MODULE_PLUGIN(table) \
-  extern "C" __attribute__((visibility("default"))) const presa::ModulePlugin* presaModulePlugin() { return &(table); }
 #define PRESA_DEVICE_PLUGIN(table) \
   extern "C" __attribute__((visibility("default"))) const presa::DevicePlugin* presaDevicePlugin() { return &(table); }

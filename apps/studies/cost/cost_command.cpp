@@ -2,7 +2,8 @@
 #include <memory>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/exit_status.h"
+#include "apps/common/options/command_line.h"
 #include "apps/studies/cost/analysis.h"
 #include "apps/studies/cost/driver.h"
 #include "apps/studies/cost/plan.h"
@@ -60,41 +61,37 @@ int runCost(Arguments a) {
 
 }  // namespace
 
-void addCost(CLI::App& app, int& status) {
+void addCost(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("cost", "Show what accuracy costs in time: many settings of a scene against a fine reference");
+  Command command =
+      app.command("cost", "Show what accuracy costs in time: many settings of a scene against a fine reference");
+  command.option("SCENE", a->request.input, "scene file, or a study such as experiments/accuracy_cost/cube_grasp.xml")
+      .required();
   command
-      ->add_option("SCENE", a->request.input, "scene file, or a study such as experiments/accuracy_cost/cube_grasp.xml")
-      ->required();
+      .option("--knob", a->request.knobs,
+              "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, coupling, …\n"
+              "or a path as after --set (default: a sweep of what the scene uses)")
+      .oneValueEach();
+  command.option("--metric", a->request.metrics, "error to show (default: all that the scene has)").oneValueEach();
+  command.option("--out", a->request.out,
+                 "folder for report.html, front.svg, cost.csv and cost.json (default: cost_NAME)");
+  command.option("--jobs", a->jobs, "watched runs at a time (default: one per processor); timed runs go alone")
+      .positive();
+  command.flag("--resume", a->resume, "keep the runs that an interrupted study has made");
+  command.flag("--instructions", a->instructions,
+               "count instructions too (valgrind; about 50 times the time of a run)");
+  command.flag("--quick", a->request.quick, "few settings, two repeats: below a minute for a small scene");
+  command.option("--rig", a->request.rig, "rig file instead of the scene's own");
+  command.option("--set", a->request.sets, "PATH=VALUE for all settings; may be repeated").oneValueEach();
+  command.option("--seed", a->request.seed, "seed of every random stream").positive();
   command
-      ->add_option("--knob", a->request.knobs,
-                   "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, coupling, …\n"
-                   "or a path as after --set (default: a sweep of what the scene uses)")
-      ->allow_extra_args(false);
-  command->add_option("--metric", a->request.metrics, "error to show (default: all that the scene has)")
-      ->allow_extra_args(false);
-  command->add_option("--out", a->request.out,
-                      "folder for report.html, front.svg, cost.csv and cost.json (default: cost_NAME)");
-  command->add_option("--jobs", a->jobs, "watched runs at a time (default: one per processor); timed runs go alone")
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--resume", a->resume, "keep the runs that an interrupted study has made");
-  command->add_flag("--instructions", a->instructions,
-                    "count instructions too (valgrind; about 50 times the time of a run)");
-  command->add_flag("--quick", a->request.quick, "few settings, two repeats: below a minute for a small scene");
-  command->add_option("--rig", a->request.rig, "rig file instead of the scene's own");
-  command->add_option("--set", a->request.sets, "PATH=VALUE for all settings; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--seed", a->request.seed, "seed of every random stream")->check(CLI::PositiveNumber);
-  command
-      ->add_option("--for", a->request.duration,
-                   "simulated seconds (default: to the end of the scripted motion, else 10)")
-      ->check(CLI::PositiveNumber);
-  command->footer(
+      .option("--for", a->request.duration, "simulated seconds (default: to the end of the scripted motion, else 10)")
+      .positive();
+  command.footer(
       "Exit status: 0 done, 1 the reference could not be run, 2 bad input (nothing was run), 130 Ctrl-C (kept for "
       "--resume).\n"
       "Example:  presa cost config/scenes/cube.xml --knob dynamics_rate=100,200,500 --knob coupling=soft,explicit");
-  command->callback([a, &status] { status = runCost(*a); });
+  command.action([a, &status] { status = runCost(*a); });
 }
 
 }  // namespace presa

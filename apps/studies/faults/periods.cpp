@@ -1,4 +1,4 @@
-#include "apps/presa/device/periods.h"
+#include "apps/studies/faults/periods.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/exit_status.h"
 #include "apps/common/machine.h"
 #include "apps/common/run_session.h"
 #include "apps/common/terminal/job_progress.h"
-#include "framework/core/diagnostics/refuse.h"
-#include "framework/core/math/random.h"
-#include "framework/core/schedule/realtime_rights.h"
 #include "experiments/runner/statistics/means.h"
 #include "experiments/runner/statistics/resampling.h"
 #include "experiments/study/jobs.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/core/math/random.h"
+#include "framework/core/schedule/realtime_rights.h"
 
 namespace presa::device {
 namespace {

@@ -7,18 +7,19 @@
 #include <tuple>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/options/commands.h"
+#include "apps/common/exit_status.h"
+#include "apps/common/options/command_line.h"
 #include "apps/common/options/show_option.h"
 #include "apps/common/options/view_choice.h"
 #include "apps/common/run_session.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/common/terminal/job_progress.h"
+#include "apps/temple/building/building.h"
+#include "apps/temple/building/words.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/visit.h"
 #include "apps/temple/written_scene.h"
-#include "apps/common/terminal/job_progress.h"
 #include "framework/core/diagnostics/printable.h"
-#include "apps/temple/building/building.h"
-#include "apps/temple/building/words.h"
 
 namespace presa {
 namespace {
@@ -272,66 +273,64 @@ int runTemple(Arguments a) {
 
 }  // namespace
 
-void addTemple(CLI::App& app, int& status) {
+void addTemple(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("temple", "A Doric temple in blocks that two fingers can hold: its ruins, or the building");
-  command->add_flag("--auto", a->automatic,
-                    "two simulated fingers rebuild it from its ruins, by friction alone, against the clock");
-  auto* lockstep = command->add_flag("--lockstep", a->lockstep, "in virtual time, as fast as the machine goes");
-  command->add_option("--time-scale", a->time_scale, "in virtual time, so many seconds in one of the clock")
-      ->check(CLI::PositiveNumber)
-      ->excludes(lockstep);
-  command->add_option("--for", a->limit, "end after so many simulated seconds (default with --auto: 100 a block)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--summary", a->summary, "JSON: what was placed, how exactly, in what time");
-  command->add_option("--language", a->language, "of what visitors are told")
-      ->check(CLI::IsMember(temple::shippedLanguages()))
-      ->capture_default_str();
-  command->add_option(
-      "--session", a->visits,
-      "folder for log.jsonl (what happened, nothing of a person) and session.json (what stands), or none\n"
-      "(default against the clock: " +
-          temple::defaultVisitFolder() + ", else none)");
+  Command command =
+      app.command("temple", "A Doric temple in blocks that two fingers can hold: its ruins, or the building");
+  command.flag("--auto", a->automatic,
+               "two simulated fingers rebuild it from its ruins, by friction alone, against the clock");
+  Option lockstep = command.flag("--lockstep", a->lockstep, "in virtual time, as fast as the machine goes");
+  command.option("--time-scale", a->time_scale, "in virtual time, so many seconds in one of the clock")
+      .positive()
+      .excludes(lockstep);
+  command.option("--for", a->limit, "end after so many simulated seconds (default with --auto: 100 a block)")
+      .positive();
+  command.option("--summary", a->summary, "JSON: what was placed, how exactly, in what time");
+  command.option("--language", a->language, "of what visitors are told")
+      .oneOf(temple::shippedLanguages())
+      .showDefault();
+  command.option("--session", a->visits,
+                 "folder for log.jsonl (what happened, nothing of a person) and session.json (what stands), or none\n"
+                 "(default against the clock: " +
+                     temple::defaultVisitFolder() + ", else none)");
   command
-      ->add_option("--attract", a->attract,
-                   "after so many seconds without a touch simulated hands go on, until somebody touches anything "
-                   "(default: never)")
-      ->check(CLI::PositiveNumber);
+      .option("--attract", a->attract,
+              "after so many seconds without a touch simulated hands go on, until somebody touches anything "
+              "(default: never)")
+      .positive();
   command
-      ->add_option("--continue", a->kept,
-                   "go on with what stood, after a crash as well: a session.json (default: of --session)")
-      ->expected(0, 1);
-  command->add_option("--size", a->size, "column: six pieces; facade: a front of four columns, 45 pieces")
-      ->check(CLI::IsMember(temple::shippedNames()))
-      ->capture_default_str();
-  command->add_flag("--assembled,--no-ruins", a->assembled,
-                    "every block where it belongs, instead of ruins strewn by a physics drop");
-  command->add_option("--seed", a->seed, "where stone broke off and blocks fell")->capture_default_str();
-  command->add_option("--write", a->folder,
-                      "folder for scene.xml and its meshes, which presa check, explain and run take");
-  command->add_flag("--overwrite", a->overwrite, "let --write replace what the folder holds");
+      .option("--continue", a->kept,
+              "go on with what stood, after a crash as well: a session.json (default: of --session)")
+      .values(0, 1);
+  command.option("--size", a->size, "column: six pieces; facade: a front of four columns, 45 pieces")
+      .oneOf(temple::shippedNames())
+      .showDefault();
+  command.flag("--assembled,--no-ruins", a->assembled,
+               "every block where it belongs, instead of ruins strewn by a physics drop");
+  command.option("--seed", a->seed, "where stone broke off and blocks fell").showDefault();
+  command.option("--write", a->folder, "folder for scene.xml and its meshes, which presa check, explain and run take");
+  command.flag("--overwrite", a->overwrite, "let --write replace what the folder holds");
   command
-      ->add_option("--rig", a->rig,
-                   "rig of the visitor's thumb and index (default: mouse and keyboard in the window; a written scene "
-                   "has no fingers)")
-      ->check(CLI::ExistingFile);
-  command->add_option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
-  command->add_option("--video", a->video, "MP4 of the visit through ffmpeg, 30 pictures for each simulated second");
-  addShowOption(*command, a->show);
-  command->add_option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every so many simulated seconds")
-      ->expected(2);
+      .option("--rig", a->rig,
+              "rig of the visitor's thumb and index (default: mouse and keyboard in the window; a written scene "
+              "has no fingers)")
+      .existingFile();
+  command.option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
+  command.option("--video", a->video, "MP4 of the visit through ffmpeg, 30 pictures for each simulated second");
+  addShowOption(command, a->show);
+  command.option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every so many simulated seconds")
+      .values(2, 2);
   command
-      ->add_option("--view", a->view,
-                   "window, offscreen or none (default: window against the clock, where there is a display)")
-      ->check(CLI::IsMember({"window", "offscreen", "none"}));
-  command->add_flag("--allow-no-rt", a->allow_no_rt,
-                    "let hardware run where the system refuses real-time scheduling: with half the force");
+      .option("--view", a->view,
+              "window, offscreen or none (default: window against the clock, where there is a display)")
+      .oneOf({"window", "offscreen", "none"});
+  command.flag("--allow-no-rt", a->allow_no_rt,
+               "let hardware run where the system refuses real-time scheduling: with half the force");
   command
-      ->add_option("--parameters", a->parameters,
-                   "proportions of another building, as in config/temple/facade.xml, each with its source")
-      ->excludes("--size");
-  command->footer(
+      .option("--parameters", a->parameters,
+              "proportions of another building, as in config/temple/facade.xml, each with its source")
+      .excludes(command.named("--size"));
+  command.footer(
       "Exit status: 0 done, 1 the picture could not be drawn or not every block was placed, 2 bad input or blocks that "
       "do not come to rest (nothing\n"
       "written), 130 Ctrl-C (likewise).\n"
@@ -340,8 +339,8 @@ void addTemple(CLI::App& app, int& status) {
       "  presa temple --auto --lockstep --seed 7 --screenshot column.png\n"
       "  presa temple --size facade --screenshot ruins.png\n"
       "  presa temple --size column --assembled --write out/column && presa run out/column/scene.xml --lockstep");
-  command->callback([a, command, &status] {
-    a->go_on = command->count("--continue") > 0;
+  command.action([a, command, &status] {
+    a->go_on = command.given("--continue");
     status = runTemple(*a);
   });
 }

@@ -1,4 +1,4 @@
-#include "apps/experiment/delimited.h"
+#include "apps/common/delimited.h"
 
 #include <utility>
 

@@ -1,0 +1,148 @@
+#include "apps/common/options/program.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "apps/common/exit_status.h"
+#include "apps/common/standard_streams.h"
+#include "apps/common/version.h"
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/diagnostics/printable.h"
+#include "framework/input/folders.h"
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// --allow-folder, of every command that has no commands of its own.
+void offerFolders(CLI::App& app) {
+  const auto commands = app.get_subcommands([](CLI::App*) { return true; });
+  for (CLI::App* command : commands) offerFolders(*command);
+  if (!commands.empty()) return;
+  app.add_option_function<std::vector<std::string>>(
+         "--allow-folder",
+         [](const std::vector<std::string>& folders) {
+           for (const std::string& folder : folders) input::allowFolder(folder);
+         },
+         "files may name files in this folder, too (repeatable; also PRESA_ALLOW_FOLDERS)")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+fs::path programFolder() {
+  std::error_code unknown;
+  return fs::read_symlink("/proc/self/exe", unknown).parent_path();
+}
+
+/// Becomes the program that the first one or two words name, where there is one; otherwise returns.
+void becomeNamed(int argc, char** argv) {
+  for (const int words : {2, 1}) {
+    if (argc <= words) continue;
+    std::string name = "presa";
+    for (int i = 1; i <= words; ++i) name += std::string("-") + argv[i];
+    if (name.find('/') != std::string::npos || name.find("--") != std::string::npos) continue;
+    const std::string path = programFolder() / name;
+    if (access(path.c_str(), X_OK) != 0) continue;
+    std::vector<char*> arguments{argv[0]};
+    arguments.insert(arguments.end(), argv + 1 + words, argv + argc);
+    arguments.push_back(nullptr);
+    execv(path.c_str(), arguments.data());
+    std::fprintf(stderr, "presa: error: %s does not start: %s\n", path.c_str(), std::strerror(errno));
+    std::exit(kExitFault);
+  }
+}
+
+/// What a program beside this one says about itself in one line; empty if it does not.
+std::string summaryOf(const fs::path& program) {
+  std::string quoted;  // a path of our own installation, which may hold any character all the same
+  for (const char c : program.string()) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  const auto close = [](FILE* pipe) { pclose(pipe); };
+  const std::unique_ptr<FILE, decltype(close)> pipe(popen(("'" + quoted + "' --summary 2>/dev/null").c_str(), "r"),
+                                                    close);
+  std::array<char, 256> line{};
+  if (pipe == nullptr || std::fgets(line.data(), line.size(), pipe.get()) == nullptr) return {};
+  return printable(std::string(line.data(), std::strcspn(line.data(), "\n")));
+}
+
+/// Lists the programs beside this one in the help, each where its words put it.
+void listPrograms(CLI::App& app) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(programFolder(), error)) {
+    if (entry.path().filename().string().starts_with("presa-") && access(entry.path().c_str(), X_OK) == 0)
+      found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  for (const fs::path& program : found) {
+    const std::string name = program.filename().string().substr(std::strlen("presa-"));
+    const std::size_t dash = name.find('-');
+    const auto groups = app.get_subcommands([&](const CLI::App* command) {
+      return dash != std::string::npos && command->get_name() == name.substr(0, dash);
+    });
+    CLI::App* group = groups.empty() ? nullptr : groups.front();
+    (group != nullptr ? *group : app)
+        .add_subcommand(group != nullptr ? name.substr(dash + 1) : name, summaryOf(program));
+  }
+}
+
+bool asksForHelp(int argc, char** argv) {
+  return argc < 2 || std::any_of(argv + 1, argv + argc, [](const char* word) {
+           return std::strcmp(word, "--help") == 0 || std::strcmp(word, "-h") == 0;
+         });
+}
+
+/// The words that `presa` was called with, the program's own among them; the option parser takes them from the back.
+std::vector<std::string> wordsOf(int argc, char** argv, const Program& program) {
+  std::vector<std::string> words = program.words;
+  words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+}  // namespace
+
+int runProgram(int argc, char** argv, const Program& program) {
+  openStandardStreams();
+  if (program.words.empty()) becomeNamed(argc, argv);
+  input::allowFoldersOf(argc, argv);
+  CLI::App app{"Presa: virtual environments that people pick up with their fingers"};
+  app.name("presa");
+  app.set_version_flag("--version", std::string("presa ") + kVersion);
+  app.require_subcommand(1);
+  app.footer(program.footer);
+  int status = kExitOk;
+  program.declare(Command(app), status);
+  if (argc == 2 && std::strcmp(argv[1], "--summary") == 0 && !program.words.empty()) {
+    const CLI::App* command = &app;
+    for (const std::string& word : program.words) command = command->get_subcommand(word);
+    std::puts(command->get_description().c_str());
+    return kExitOk;
+  }
+  offerFolders(app);
+  if (program.words.empty() && asksForHelp(argc, argv)) listPrograms(app);
+  try {
+    app.parse(wordsOf(argc, argv, program));
+  } catch (const CLI::ParseError& error) {
+    // help and version are not errors; everything else is bad input
+    return app.exit(error) == 0 ? kExitOk : kExitBadInput;
+  } catch (const InputError& error) {
+    std::fputs(error.diagnostics().text().c_str(), stderr);
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "presa: error: %s\n", printableLines(error.what()).c_str());
+    return kExitFault;
+  }
+  return outputLost() && status == kExitOk ? kExitFault : status;
+}
+
+}  // namespace presa

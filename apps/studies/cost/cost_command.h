@@ -1,0 +1,9 @@
+#pragma once
+#include "apps/common/options/command_line.h"
+
+namespace presa {
+
+/// `presa cost`.
+void addCost(Command app, int& status);
+
+}  // namespace presa

@@ -1,0 +1,24 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "framework/core/graph/module.h"
+#include "framework/core/plugin/plugin_loader.h"
+#include "framework/scene/world.h"
+
+/// A plug-in is a shared object `presa_<folder>.so` built from one folder under modules/ or devices/. It exports one
+/// C function that returns its table; it is loaded only when the plan calls for it.
+namespace presa {
+
+struct ModulePlugin {
+  int abi = kPluginAbi;
+  const char* name;     ///< folder name
+  const char* summary;  ///< one line for --help and explain
+  std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world);
+  std::string (*library)() = nullptr;  ///< what does its work: "ODE 0.16.2"; null: nothing but Presa
+};
+
+}  // namespace presa
+
+#define PRESA_MODULE_PLUGIN(table) \
+  extern "C" __attribute__((visibility("default"))) const presa::ModulePlugin* presaModulePlugin() { return &(table); }
