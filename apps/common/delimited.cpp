@@ -2,11 +2,11 @@
 
 #include <utility>
 
-namespace presa::experiment {
+namespace presa {
 
-std::vector<Record> recordsOf(std::string_view text, char separator) {
-  std::vector<Record> records;
-  Record record;
+std::vector<DelimitedRecord> recordsOf(std::string_view text, char separator) {
+  std::vector<DelimitedRecord> records;
+  DelimitedRecord record;
   std::string cell;
   bool quoted = false;
   std::size_t begin = 0;
@@ -43,4 +43,4 @@ std::string quotedCell(const std::string& text, char separator) {
   return quoted + "\"";
 }
 
-}  // namespace presa::experiment
+}  // namespace presa

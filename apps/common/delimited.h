@@ -3,18 +3,18 @@
 #include <string_view>
 #include <vector>
 
-namespace presa::experiment {
+namespace presa {
 
 /// One record of a CSV or TSV file: its bytes with their line end, and its cells without quotes. A quoted cell may hold line
 /// ends and separators [RFC 4180].
-struct Record {
+struct DelimitedRecord {
   std::string_view raw;
   std::vector<std::string> cells;
 };
 /// `text` outlives the records.
-std::vector<Record> recordsOf(std::string_view text, char separator);
+std::vector<DelimitedRecord> recordsOf(std::string_view text, char separator);
 
 /// A cell as it has to be written.
 std::string quotedCell(const std::string& text, char separator);
 
-}  // namespace presa::experiment
+}  // namespace presa

@@ -27,7 +27,7 @@ bool isText(const fs::path& file) {
 }
 
 /// Its first cell is the subject, as BIDS and as trials.csv write it.
-bool isRowOf(const Record& record, const std::string& subject) {
+bool isRowOf(const DelimitedRecord& record, const std::string& subject) {
   const std::string& cell = record.cells.front();
   return cell == subject || cell == "sub-" + subject;
 }
@@ -35,14 +35,14 @@ bool isRowOf(const Record& record, const std::string& subject) {
 bool hasRows(const fs::path& file, const std::string& subject) {
   const std::string text = contentsOf(file);
   const auto records = recordsOf(text, separatorOf(file));
-  return std::any_of(records.begin(), records.end(), [&](const Record& one) { return isRowOf(one, subject); });
+  return std::any_of(records.begin(), records.end(), [&](const DelimitedRecord& one) { return isRowOf(one, subject); });
 }
 
 /// Every other byte as it was.
 std::string withoutRows(const fs::path& file, const std::string& subject) {
   const std::string text = contentsOf(file);
   std::string kept;
-  for (const Record& record : recordsOf(text, separatorOf(file))) {
+  for (const DelimitedRecord& record : recordsOf(text, separatorOf(file))) {
     if (!isRowOf(record, subject)) kept += record.raw;
   }
   return kept;

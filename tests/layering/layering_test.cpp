@@ -54,35 +54,32 @@ TEST(Layering, NothingThatRunsReadsTheWallClock) { EXPECT_THAT(offenders(readsTh
 // A pipe that is waited for, a device without an end, a file of another folder: one place knows how to refuse them.
 TEST(Layering, FilesFromOutsideComeThroughOneDoor) { EXPECT_THAT(offenders(opensAFileByItself), IsEmpty()); }
 
-TEST(Layering, EveryFolderSaysWhatItIsFor) {
+// A newcomer reads one page a room; deeper pages are for what the code cannot say.
+TEST(Layering, EveryRoomSaysWhatItIsFor) {
   std::vector<std::string> silent;
-  for (const std::string& folder : folders()) {
-    if (!std::filesystem::exists(std::filesystem::path(PRESA_SOURCE_DIR) / folder / "README.md"))
-      silent.push_back(folder);
+  for (const std::string& room : rooms()) {
+    if (!std::filesystem::exists(std::filesystem::path(PRESA_SOURCE_DIR) / room / "README.md")) silent.push_back(room);
   }
   EXPECT_THAT(silent, IsEmpty());
 }
 
+// What the author of a module reads fits into an afternoon.
+TEST(Layering, TheCoreStaysSmall) {
+  std::size_t lines = 0;
+  for (const SourceFile& file : sourceTree()) {
+    if (file.isCpp() && file.path.starts_with("framework/core/")) lines += file.lines();
+  }
+  EXPECT_GT(lines, 1000U);
+  EXPECT_LE(lines, 2300U);
+}
+
 // The shape of the root is fixed; what tools demand there is listed by name.
 TEST(Layering, TheRootHoldsNothingElse) {
-  const std::set<std::string> allowed{"CMakeLists.txt",
-                                      "CMakePresets.json",
-                                      "README.md",
-                                      "LICENSE",
-                                      "CONTRIBUTING.md",
-                                      "dev",
-                                      ".ci",
-                                      ".gitignore",
-                                      ".clang-format",
-                                      ".clang-tidy",
-                                      ".editorconfig",
-                                      "framework",
-                                      "modules",
-                                      "devices",
-                                      "apps",
-                                      "config",
-                                      "experiments",
-                                      "tests"};
+  const std::set<std::string> allowed{"CMakeLists.txt",  "CMakePresets.json", "README.md",   "LICENSE",
+                                      "CONTRIBUTING.md", "CHANGELOG.md",      "dev",         ".ci",
+                                      ".gitignore",      ".clang-format",     ".clang-tidy", ".editorconfig",
+                                      "framework",       "modules",           "devices",     "apps",
+                                      "config",          "experiments",       "tests"};
   std::vector<std::string> others;
   for (const std::string& entry : rootEntries()) {
     if (!allowed.contains(entry)) others.push_back(entry);
@@ -116,6 +113,15 @@ TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
     }
   }
   EXPECT_THAT(wrong, IsEmpty());
+}
+
+// `presa run` is the command that people start most: it maps nothing of the other uses.
+TEST(Layering, TheProgramHoldsNothingOfTheOtherUses) {
+  const std::set<std::string> mapped = nameSpaces(std::filesystem::path(PRESA_BINARY_DIR) / "bin/presa");
+  EXPECT_TRUE(mapped.contains("bus")) << "the names of the program's functions were not read";
+  for (const char* use : {"temple", "experiment", "cost", "stability", "faults", "psychophysics", "statistics"}) {
+    EXPECT_FALSE(mapped.contains(use)) << use;
+  }
 }
 
 }  // namespace

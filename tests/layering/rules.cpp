@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <regex>
 #include <set>
+#include <vector>
 
 namespace presa::layering {
 namespace {
@@ -32,26 +32,56 @@ constexpr std::array kLibraries{
     Library{"(libusb-1.0/)?libusb\\.h", "devices/novint_falcon/"},
     Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},
     Library{"meshoptimizer.*", "framework/geometry/mesh_decimate_plugin/"},
-    Library{"(CLI|nlohmann)/.*", "apps/"},
+    Library{"CLI/.*", "apps/common/options/"},
+    Library{"nlohmann/.*", "apps/"},
     Library{"boost/math/.*", "experiments/runner/statistics/"},
     Library{"(gtest|gmock|benchmark|rapidcheck)[./].*", "tests/"},
 };
 
-/// Where one part may know of another against the arrows, and what of it.
-struct Bridge {
-  const char *from, *to;
-};
-constexpr std::array kBridges{
-    // a model of a device stands behind the narrow interface of the device's driver
-    Bridge{"devices/falcon_model/", "devices/novint_falcon/transport.h"},
-    // faults are rehearsed on the driver and a model of its device
-    Bridge{"experiments/faults/", "devices/novint_falcon/"},
-    Bridge{"experiments/faults/", "devices/falcon_model/"},
+/// What the files below one folder may include of the tree, beside that folder itself. The longest folder that fits a file counts.
+struct Arrows {
+  const char* from;
+  std::vector<std::string> to;
 };
 
-bool isBridged(const std::string& from, const std::string& to) {
-  return std::ranges::any_of(
-      kBridges, [&](const Bridge& bridge) { return from.starts_with(bridge.from) && to.starts_with(bridge.to); });
+const std::vector<Arrows>& arrows() {
+  static const std::vector<Arrows> kArrows{
+      {"framework/core/", {}},
+      {"framework/input/", {"framework/core/"}},
+      {"framework/geometry/", {"framework/core/", "framework/input/"}},
+      {"framework/scene/", {"framework/core/", "framework/input/", "framework/geometry/"}},
+      {"framework/haptics/", {"framework/core/", "framework/geometry/", "framework/scene/"}},
+      {"framework/assembly/", {"framework/core/", "framework/scene/"}},
+      {"framework/device/", {"framework/core/", "framework/scene/"}},
+      {"framework/record/", {"framework/core/", "framework/input/", "framework/scene/"}},
+      {"framework/bus/",
+       {"framework/core/", "framework/input/", "framework/scene/", "framework/device/", "framework/record/"}},
+      {"framework/session/",
+       {"framework/core/", "framework/input/", "framework/scene/", "framework/device/", "framework/record/"}},
+      {"modules/", {"framework/"}},
+      {"devices/", {"framework/", "devices/hand/"}},
+      // a model of a device stands behind the narrow interface of the device's driver
+      {"devices/falcon_model/", {"framework/", "devices/hand/", "devices/novint_falcon/transport.h"}},
+      {"experiments/runner/", {"framework/"}},
+      {"experiments/study/", {"framework/"}},
+      {"experiments/stability/", {"framework/", "experiments/study/"}},
+      // faults are rehearsed on the driver and a model of its device
+      {"experiments/faults/", {"framework/", "experiments/study/", "devices/novint_falcon/", "devices/falcon_model/"}},
+      {"apps/common/", {"framework/"}},
+      {"apps/presa/", {"framework/", "devices/", "apps/common/"}},
+      {"apps/experiment/", {"framework/", "experiments/runner/", "apps/common/"}},
+      {"apps/temple/", {"framework/", "experiments/study/", "apps/common/"}},
+      {"apps/studies/", {"framework/", "experiments/", "apps/common/"}},
+      {"apps/supervisor/", {"framework/"}},
+      {"tests/", {"framework/", "modules/", "devices/", "experiments/", "apps/"}},
+  };
+  return kArrows;
+}
+
+/// Modules and devices are plug-ins: each of their folders knows itself only.
+std::string ownRoom(const Arrows& arrows, const SourceFile& file) {
+  const std::string from = arrows.from;
+  return from == "modules/" || from == "devices/" || from == "apps/studies/" ? file.part() + "/" : from;
 }
 
 }  // namespace
@@ -69,24 +99,19 @@ Finding includesForeignLibrary(const SourceFile& file) {
 }
 
 Finding includesAgainstTheArrows(const SourceFile& file) {
-  // apps -> modules, devices, experiments -> framework; beside that only a part's own headers
-  static const std::map<std::string, std::set<std::string>> kMayInclude{
-      {"framework", {"framework"}},
-      {"modules", {"framework"}},
-      {"devices", {"framework"}},
-      {"experiments", {"framework"}},
-      {"apps", {"framework", "modules", "devices", "experiments", "apps"}},
-      {"tests", {"framework", "modules", "devices", "experiments", "apps", "tests"}},
-  };
-  const auto allowed = kMayInclude.find(file.topFolder());
-  if (!file.isCpp() || allowed == kMayInclude.end()) return {};
+  static const std::regex kOurs("(framework|modules|devices|experiments|apps|tests)/.*");
+  if (!file.isCpp() || !std::regex_match(file.path, kOurs)) return {};
+  const Arrows* longest = nullptr;
+  for (const Arrows& candidate : arrows()) {
+    const std::string from = candidate.from;
+    if (file.path.starts_with(from) && (longest == nullptr || from.size() > std::string(longest->from).size()))
+      longest = &candidate;
+  }
+  if (longest == nullptr) return "is in a room that tests/layering/rules.cpp has no arrows for";
   for (const std::string& name : file.includes()) {
-    const SourceFile included{name, ""};
-    if (!kMayInclude.contains(included.topFolder())) continue;  // not one of ours
-    if (isBridged(file.path, name)) continue;
-    if (!allowed->second.contains(included.topFolder()) && included.part() != file.part()) {
-      return "includes \"" + name + "\": " + file.topFolder() + " may not know " + included.part();
-    }
+    if (!std::regex_match(name, kOurs) || name.starts_with(ownRoom(*longest, file))) continue;
+    if (std::ranges::none_of(longest->to, [&](const std::string& to) { return name.starts_with(to); }))
+      return "includes \"" + name + "\", which " + longest->from + " may not know";
   }
   return {};
 }

@@ -25,18 +25,40 @@ TEST(LayeringRules, ALibraryHasOneHome) {
 }
 
 TEST(LayeringRules, IncludesFollowTheArrows) {
-  EXPECT_TRUE(includesAgainstTheArrows({"modules/a/x.cpp", include("modules/b/y.h")}));
-  EXPECT_TRUE(includesAgainstTheArrows({"devices/a/x.cpp", include("modules/b/y.h")}));
-  EXPECT_TRUE(includesAgainstTheArrows({"devices/a/x.cpp", include("devices/b/y.h")}));
-  EXPECT_FALSE(includesAgainstTheArrows({"devices/falcon_model/x.h", include("devices/novint_falcon/transport.h")}));
-  EXPECT_TRUE(includesAgainstTheArrows({"devices/falcon_model/x.h", include("devices/novint_falcon/packet.h")}));
-  EXPECT_TRUE(includesAgainstTheArrows({"framework/a/x.h", include("modules/b/y.h")}));
-  EXPECT_TRUE(includesAgainstTheArrows({"framework/a/x.h", include("tests/support/y.h")}));
-  EXPECT_TRUE(includesAgainstTheArrows({"modules/a/x.cpp", include("apps/presa/y.h")}));
-  EXPECT_FALSE(includesAgainstTheArrows({"modules/a/x.cpp", include("modules/a/y.h")}));
-  EXPECT_FALSE(includesAgainstTheArrows({"modules/a/deep/x.cpp", include("modules/a/y.h")}));
-  EXPECT_FALSE(includesAgainstTheArrows({"apps/presa/x.cpp", include("modules/b/y.h")}));
-  EXPECT_FALSE(includesAgainstTheArrows({"framework/a/x.h", include("framework/b/y.h")}));
+  const auto refused = [](const char* from, const char* to) { return includesAgainstTheArrows({from, include(to)}); };
+  EXPECT_TRUE(refused("modules/a/x.cpp", "modules/b/y.h"));
+  EXPECT_TRUE(refused("devices/a/x.cpp", "modules/b/y.h"));
+  EXPECT_TRUE(refused("devices/a/x.cpp", "devices/b/y.h"));
+  EXPECT_FALSE(refused("devices/a/x.cpp", "devices/hand/y.h"));
+  EXPECT_FALSE(refused("devices/falcon_model/x.h", "devices/novint_falcon/transport.h"));
+  EXPECT_TRUE(refused("devices/falcon_model/x.h", "devices/novint_falcon/packet.h"));
+  EXPECT_TRUE(refused("framework/session/x.h", "modules/b/y.h"));
+  EXPECT_TRUE(refused("framework/session/x.h", "tests/support/y.h"));
+  EXPECT_TRUE(refused("framework/session/x.h", "experiments/study/y.h"));
+  EXPECT_TRUE(refused("modules/a/x.cpp", "apps/presa/y.h"));
+  EXPECT_FALSE(refused("modules/a/x.cpp", "modules/a/y.h"));
+  EXPECT_FALSE(refused("modules/a/deep/x.cpp", "modules/a/y.h"));
+}
+
+TEST(LayeringRules, NoArrowRunsUpWithinTheFramework) {
+  const auto refused = [](const char* from, const char* to) { return includesAgainstTheArrows({from, include(to)}); };
+  EXPECT_TRUE(refused("framework/core/graph/x.h", "framework/scene/y.h"));
+  EXPECT_TRUE(refused("framework/scene/x.h", "framework/session/y.h"));
+  EXPECT_TRUE(refused("framework/device/supervision/x.h", "framework/session/y.h"));
+  EXPECT_TRUE(refused("framework/record/x.h", "framework/session/y.h"));
+  EXPECT_FALSE(refused("framework/session/x.h", "framework/record/y.h"));
+  EXPECT_FALSE(refused("framework/core/graph/x.h", "framework/core/state/y.h"));
+  EXPECT_TRUE(refused("framework/new_room/x.h", "framework/core/state/y.h"));
+}
+
+TEST(LayeringRules, UsesDoNotKnowEachOther) {
+  const auto refused = [](const char* from, const char* to) { return includesAgainstTheArrows({from, include(to)}); };
+  EXPECT_TRUE(refused("apps/common/x.h", "apps/presa/y.h"));
+  EXPECT_TRUE(refused("apps/presa/x.h", "apps/temple/y.h"));
+  EXPECT_TRUE(refused("apps/temple/x.h", "apps/experiment/y.h"));
+  EXPECT_TRUE(refused("apps/presa/x.h", "experiments/runner/y.h"));
+  EXPECT_FALSE(refused("apps/experiment/x.h", "apps/common/y.h"));
+  EXPECT_FALSE(refused("apps/experiment/x.h", "experiments/runner/y.h"));
 }
 
 TEST(LayeringRules, HeadersWithoutGuardAreFound) {

@@ -89,21 +89,21 @@ std::vector<std::string> rootEntries() {
   return names;
 }
 
-std::vector<std::string> folders() {
+std::vector<std::string> rooms() {
   std::set<std::string> names;
   for (const SourceFile& file : sourceTree()) {
     if (file.path.starts_with('.') || file.path.find('/') == std::string::npos) continue;
     names.insert(file.topFolder());
-    const std::string part = file.part();
-    if (part != file.path) names.insert(part);
+    if (file.topFolder() != "tests" && file.part() != file.path) names.insert(file.part());
   }
   return {names.begin(), names.end()};
 }
 
-std::vector<std::string> neededLibraries(const std::string& file) {
-  if (!fs::exists(file)) throw std::runtime_error(file + " was not built");
+namespace {
+
+std::string outputOf(const std::string& command) {
   const auto close = [](FILE* pipe) { pclose(pipe); };
-  const std::unique_ptr<FILE, decltype(close)> pipe(popen(("LC_ALL=C readelf -d '" + file + "'").c_str(), "r"), close);
+  const std::unique_ptr<FILE, decltype(close)> pipe(popen(command.c_str(), "r"), close);
   std::string output;
   std::array<char, 4096> block{};
   while (pipe != nullptr) {
@@ -111,13 +111,30 @@ std::vector<std::string> neededLibraries(const std::string& file) {
     if (size == 0) break;
     output.append(block.data(), size);
   }
+  return output;
+}
+
+std::set<std::string> firstGroups(const std::string& text, const std::regex& pattern) {
+  std::set<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+    found.insert((*match)[1]);
+  return found;
+}
+
+}  // namespace
+
+std::set<std::string> neededLibraries(const std::string& file) {
+  if (!fs::exists(file)) throw std::runtime_error(file + " was not built");
   static const std::regex kNeeded(R"(\(NEEDED\)[^\[]*\[([^\]]+)\])");
-  std::vector<std::string> names;
-  for (std::sregex_iterator match(output.begin(), output.end(), kNeeded), end; match != end; ++match) {
-    names.push_back((*match)[1]);
-  }
+  auto names = firstGroups(outputOf("LC_ALL=C readelf -d '" + file + "'"), kNeeded);
   if (names.empty()) throw std::runtime_error("readelf named no library for " + file);  // libc at least is there
   return names;
+}
+
+std::set<std::string> nameSpaces(const std::string& file) {
+  if (!fs::exists(file)) throw std::runtime_error(file + " was not built");
+  static const std::regex kSpace(R"([Tt] presa::([a-z_]+)::)");  // defined functions
+  return firstGroups(outputOf("LC_ALL=C nm -C '" + file + "'"), kSpace);
 }
 
 }  // namespace presa::layering

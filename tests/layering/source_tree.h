@@ -1,4 +1,5 @@
 #pragma once
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,12 @@ struct SourceFile {
 const std::vector<SourceFile>& sourceTree();
 /// Names at the root, without what git ignores.
 std::vector<std::string> rootEntries();
-/// Folders of the first and second level ("framework", "framework/core/graph") that hold anything.
-std::vector<std::string> folders();
+/// Folders of the first and second level ("framework", "framework/core"); of the tests, which mirror them, the first alone.
+std::vector<std::string> rooms();
 
 /// Shared libraries that an ELF file asks for by name (DT_NEEDED), as readelf lists them. Throws when it cannot.
-std::vector<std::string> neededLibraries(const std::string& file);
+std::set<std::string> neededLibraries(const std::string& file);
+/// Name spaces below presa:: of the functions that an ELF file defines, as nm lists them.
+std::set<std::string> nameSpaces(const std::string& file);
 
 }  // namespace presa::layering

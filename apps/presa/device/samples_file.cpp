@@ -34,7 +34,7 @@ std::array<std::size_t, 6> columnsOf(const std::string& file, const std::vector<
 
 std::vector<LinkedSample> readSamples(const std::string& file) {
   const std::string text = contentsOf(file);
-  const auto records = experiment::recordsOf(text, ',');
+  const auto records = recordsOf(text, ',');
   if (records.empty()) refuse(474, file, "the file is missing or empty");
   const auto columns = columnsOf(file, records[0].cells);
   std::vector<LinkedSample> samples;
