@@ -8,7 +8,7 @@ namespace presa {
 /// Point of segment (a, b) nearest to p. Exact up to rounding; a == b is a point. Any unit, any scale.
 Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b);
 
-/// A triangle with all that a closest-point query needs of it alone: for many queries of one triangle.
+/// A triangle with the products that a closest-point query needs, computed once for many queries of the same triangle.
 struct PreparedTriangle {
   /// Below this sine of the angle at a corner, rounding may put a point into the wrong region.
   static constexpr double kSliverSine = 1e-4;
@@ -31,17 +31,17 @@ struct PreparedTriangle {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
   Vec3 ab = Vec3::Zero(), ac = Vec3::Zero();
   double ab_ab = 0, ac_ac = 0, ab_ac = 0;
-  bool sliver = true;  ///< rounding may put a point into the wrong region
+  bool sliver = true;  ///< use closestOnSliver(): the region test is not reliable for this triangle
 };
 
 namespace detail {
-// The minimum over all features: right for every shape, at the price of looking at each.
+// Minimum over the three edges and the face: correct for every shape, and slower than the region test.
 Vec3 closestOnSliver(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace detail
 
-/// Point of the triangle nearest to p. The result is a convex combination of the corners even when the triangle is a
-/// sliver or has no area, so its distance is never too small. No tolerance, hence any unit and any scale.
-/// Thread: any; no allocation. Source: [Ericson2004 5.1] by regions, with the minimum over all features for slivers.
+/// Point of the triangle nearest to p. The result is always a convex combination of the corners, also for slivers and
+/// triangles without area, so the distance is never underestimated. No absolute tolerance: any unit and any scale.
+/// Thread: any; no allocation. Source: region test of [Ericson2004 5.1]; for slivers the minimum over all features.
 inline Vec3 closestOnTriangle(const Vec3& p, const PreparedTriangle& t) {
   if (t.sliver) return detail::closestOnSliver(p, t.a, t.b, t.c);
   // corner, edge or inside: the region in which p lies
@@ -62,7 +62,7 @@ inline Vec3 closestOnTriangle(const Vec3& p, const PreparedTriangle& t) {
   return t.a + t.ab * (vb / sum) + t.ac * (vc / sum);
 }
 
-/// The same of triangle (a, b, c), for one query.
+/// As above for a single query of triangle (a, b, c).
 inline Vec3 closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   return closestOnTriangle(p, PreparedTriangle(a, b, c));
 }

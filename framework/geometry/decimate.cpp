@@ -9,7 +9,7 @@
 namespace presa {
 namespace {
 
-/// Boxes around boxes around triangles: nearest distance in logarithmic time.
+/// Hierarchy of axis-aligned boxes over the triangles of a mesh: nearest distance in logarithmic time.
 class DistanceTree {
  public:
   explicit DistanceTree(const TriMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
@@ -18,7 +18,7 @@ class DistanceTree {
     build(0, order_.size());
   }
 
-  /// Squared distance of p, or `bound` when it is farther.
+  /// Squared distance of p from the mesh [m^2], or `bound` when it is larger.
   double squaredDistance(const Vec3& p, double bound) const { return search(0, p, bound); }
 
  private:
@@ -94,7 +94,7 @@ double farthest(const TriMesh& from, const TriMesh& to) {
     const Vec3& b = from.vertices[static_cast<std::size_t>(triangle[1])];
     const Vec3& c = from.vertices[static_cast<std::size_t>(triangle[2])];
     look((a + b + c) / 3);
-    // each edge once: its other triangle has it the other way round
+    // visit each edge once: the other triangle of the edge runs through it in the opposite direction
     if (triangle[0] < triangle[1]) look((a + b) / 2);
     if (triangle[1] < triangle[2]) look((b + c) / 2);
     if (triangle[2] < triangle[0]) look((c + a) / 2);

@@ -5,13 +5,14 @@
 
 namespace presa {
 
-/// The same shape with about `triangles` triangles, through the plug-in presa_mesh_decimate (meshoptimizer), which is loaded
-/// at the first call. Its vertices are some of the mesh's; it may keep more triangles when the topology asks for them.
-/// Thread: any, not the haptic group. Throws InputError when the plug-in is missing.
+/// Simplifies a mesh to about `triangles` triangles with the plug-in presa_mesh_decimate (meshoptimizer), which is
+/// loaded at the first call. The vertices are a subset of the input's. The result has more triangles than asked for
+/// when the topology forbids further collapses. Thread: any, not the haptic group. Throws InputError when the plug-in
+/// is missing.
 TriMesh decimateMesh(const TriMesh& mesh, std::size_t triangles);
 
-/// Largest distance of a point of either surface from the other [m]: at vertices, edge middles and centres of triangles
-/// (a lower bound of the Hausdorff distance, exact where it lies at one of these).
+/// Symmetric Hausdorff distance of two surfaces [m], sampled at vertices, edge midpoints and triangle centres: a lower
+/// bound, exact where the maximum lies at a sample.
 double hausdorffDistance(const TriMesh& a, const TriMesh& b);
 
 }  // namespace presa

@@ -14,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Vertices nearer than this part of the diagonal are one [-]: above single-precision rounding of the files (6e-8),
-/// below any detail that can be felt (0.1 um on a 10 cm object).
+/// Vertices nearer than this fraction of the bounding-box diagonal are merged [-]: above the single-precision rounding
+/// of the files (6e-8), below any detail that can be felt (0.1 um on a 10 cm object).
 constexpr double kWeldTolerance = 1e-6;
-/// From so many degenerate triangles on, a mesh is broken rather than untidy.
+/// With this many degenerate triangles a mesh is refused; fewer are dropped with a warning.
 constexpr std::size_t kTooManyDegenerate = 10;
 
 std::string counted(std::size_t n, const char* one, const char* many) {
@@ -30,7 +30,7 @@ std::string text(const Vec3& p) {
   return stream.str();
 }
 
-/// Reads, checks and repairs one file; the first finding that makes the mesh useless ends it.
+/// Reads, checks and repairs one file; stops at the first error.
 class Import {
  public:
   Import(const std::string& file, const ImportOptions& options, const SourceLocation& where, Diagnostics& diagnostics)
@@ -71,7 +71,7 @@ class Import {
 
 bool Import::checkScale() {
   const bool usable = options_.scale.allFinite() && (options_.scale.array() != 0).all();
-  return usable || fail(312, "scale " + text(options_.scale) + " leaves nothing of it",
+  return usable || fail(312, "scale " + text(options_.scale) + " makes the mesh vanish or is not finite",
                         "each factor must be finite and not zero");
 }
 
@@ -106,13 +106,13 @@ bool Import::read() {
     for (const Diagnostic& found : error.diagnostics().all()) fail(300, found.message, found.help);
     return false;
   } catch (const std::bad_alloc&) {
-    return fail(303, "it does not fit into memory", "simplify it");
+    return fail(303, "the mesh does not fit into memory", "simplify the mesh");
   }
 }
 
 bool Import::take(const ImportedMesh& imported) {
   if (imported.abi != kMeshImportAbi)
-    return fail(300, "the mesh reader is of another version", "build presa_mesh_import again");
+    return fail(300, "the mesh reader belongs to another version", "rebuild presa_mesh_import");
   if (imported.problem != nullptr && imported.code != 0)
     return fail(imported.code, imported.problem, imported.help != nullptr ? imported.help : "");
   if (imported.problem != nullptr) {
@@ -156,7 +156,7 @@ bool Import::repair() {
   const AxisBox box = boundsOf(mesh_);
   const double diagonal = (box.high - box.low).norm();
   if (!(diagonal > 0) || !std::isfinite(diagonal)) {
-    return fail(307, "all its points are one, or too far apart to measure", "check the scale and the export");
+    return fail(307, "all points coincide or are too far apart to measure", "check the scale and the export");
   }
   const std::size_t before = mesh_.triangles.size();
   weld(mesh_, kWeldTolerance * diagonal);
@@ -203,7 +203,7 @@ bool Import::checkClosed(const MeshReport& report) {
   }
   if (report.inverted) {
     turnInsideOut(mesh_);
-    warn(311, "it is inside out and was turned", "flip its normals to be rid of this warning");
+    warn(311, "it is inside out and was turned", "flip the normals in the file to avoid this warning");
   }
   return true;
 }

@@ -10,8 +10,9 @@ namespace {
 using Node = MeshTree::Node;
 using Facet = MeshTree::Facet;
 
-constexpr double kRounding = 1e-12;  ///< of lengths within a node [-]; the rest is rounded up to single precision
-/// Boxes of larger nodes are made from those of their children: looser, and a pass over all vertices per level is spared.
+constexpr double kRounding = 1e-12;  ///< margin for rounding in double precision, relative to the size of a node [-]
+/// A node with more triangles gets its box from its children's boxes: looser, but saves a pass over all vertices per
+/// level.
 constexpr std::int32_t kExactBoxes = 256;
 
 struct Center {
@@ -22,8 +23,8 @@ struct Center {
 std::array<float, 3> toFloats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
-/// What a query will read. GCC 12 vectorises double -> float -> double into nothing, and the box would be fitted around a
-/// centre that was never rounded.
+/// The values as a query will read them. Without volatile, GCC 12 optimises double -> float -> double away when it
+/// vectorises, and the box would be fitted around a centre that was never rounded.
 std::array<float, 3> stored(const std::array<float, 3>& v) {
   const volatile float x = v[0], y = v[1], z = v[2];
   return {x, y, z};
@@ -34,7 +35,8 @@ float roundUp(double value) {
 
 float sizeOf(const Node& node) { return std::max({node.half[0], node.half[1], node.half[2]}); }
 
-/// Splits at the median of the centres along the longest axis: the same tree with every standard library, since ids decide ties.
+/// Splits at the median of the centroids along the longest axis. Ids break ties: the same tree with every standard
+/// library.
 class Builder {
  public:
   Builder(const TriMesh& mesh, std::vector<Node>& nodes, std::vector<Facet>& facets)
@@ -58,7 +60,7 @@ class Builder {
     return mesh_.vertices[static_cast<std::size_t>(mesh_.triangles[triangle][i])];
   }
 
-  /// Makes the node over centers_[begin, end); returns the sum of its triangles' area vectors.
+  /// Makes the node over centers_[begin, end); returns the sum of the area vectors of its triangles (twice the area).
   Vec3 split(std::int32_t index, std::int32_t begin, std::int32_t end) {
     const auto at = static_cast<std::size_t>(index);
     Vec3 area = Vec3::Zero();
@@ -118,14 +120,14 @@ class Builder {
     return area;
   }
 
-  /// Sets the long axis of a box: `along`, made orthogonal to the normal.
+  /// Sets the long axis of a box: `along` projected into the plane orthogonal to the normal.
   static void setAlong(Node& node, const Vec3& normal, const Vec3& along) {
     const Vec3 flat = along - normal.dot(along) * normal;
     const double length = flat.norm();
     node.along = stored(toFloats(length > 1e-6 * along.norm() ? Vec3(flat / length) : normal.unitOrthogonal()));
   }
 
-  // The longest edge says how a few triangles lie, slivers above all; many lie as their vertices spread.
+  // Leaf: direction of the longest edge, which suits slivers. Inner node: principal axis of the vertices in the plane.
   Vec3 longAxis(const Node& node, const Vec3& normal, std::int32_t begin, std::int32_t end) const {
     Vec3 longest = Vec3::Zero();
     if (node.isLeaf()) {
@@ -151,7 +153,7 @@ class Builder {
     return std::cos(angle) * u + std::sin(angle) * v;
   }
 
-  // Around the vertices, as they lie against the rounded axes and centre.
+  // Fits the box around the vertices with the axes and the centre as rounded to single precision.
   void fitBox(Node& node, const Vec3& normal, std::int32_t begin, std::int32_t end) const {
     setAlong(node, normal, longAxis(node, normal, begin, end));
     const Mat3 to_box = MeshTree::axesOf(node).transpose();
@@ -186,7 +188,8 @@ class Builder {
     setHalf(node, sum);
   }
 
-  /// Calls visit(centre, half extents) for both children's boxes, along the axes of another, from `origin`.
+  /// Calls visit(centre, half extents) for the boxes of both children, expressed in the axes `to_box`, relative to
+  /// `origin`.
   template <class Visit>
   static void forEachChild(const Node& left, const Node& right, const Mat3& to_box, const Vec3& origin,
                            const Visit& visit) {

@@ -11,35 +11,36 @@
 
 namespace presa {
 
-/// A distance bound: for every point p, the distance of p from what is bounded is at least nhat . p + offset. The distance
-/// from a convex set is a convex function of the point, so it lies above each of its tangent planes.
+/// A linear lower bound of a distance: for every point p, the distance of p from the bounded set is at least
+/// nhat . p + offset. The distance from a convex set is a convex function of p, so it lies above its tangent planes.
 struct TangentBound {
   Vec3 nhat = Vec3::Zero();
   double offset = 0;  ///< [m]
   double at(const Vec3& p) const noexcept { return nhat.dot(p) + offset; }
 };
 
-/// Immutable hierarchy over the triangles of one mesh, shared by every thread. Each node is bounded by an oriented box, flat
-/// along the mean normal of its triangles. A patch of a smooth surface of size s is s^2 / 8R thick, so such a box lies closer than
-/// one along the coordinate axes, whichever way the surface faces: few nodes come near a fingertip that touches.
-/// Frame: mesh coordinates. Thread: any; queries are const, allocate nothing and take no lock.
+/// Immutable bounding-volume hierarchy over the triangles of one mesh. The bounding volume of a node is an oriented box
+/// whose thin side is the mean normal of its triangles. A patch of size s on a smooth surface with radius of curvature
+/// R is s^2 / 8R thick, so such a box fits more tightly than an axis-aligned one and few nodes come near a touching
+/// fingertip. Frame: mesh coordinates [m]. Thread: any; queries are const, allocate nothing and take no lock.
 /// Throws std::invalid_argument when the mesh is empty or has a vertex that is not finite.
 class MeshTree {
  public:
   static constexpr int kLeafTriangles = 6;
 
-  /// Single precision halves the memory; `half` is rounded up for the centre and the axes as they are rounded.
+  /// Single precision halves the memory. `half` is rounded up so that the box with rounded centre and axes encloses the
+  /// node.
   struct Node {
     std::array<float, 3> center{}, normal{0, 0, 1}, along{1, 0, 0};
-    std::array<float, 3> half{};  ///< of the box: along the normal, along, and across both [m]
-    std::int32_t first = 0;       ///< inner: the left child, the right one is the next; leaf: its first facet
-    std::int32_t count = 0;       ///< facets of a leaf; 0: inner
+    std::array<float, 3> half{};  ///< half extents along normal, along, and normal x along [m]
+    std::int32_t first = 0;       ///< inner node: left child, the right child follows it; leaf: first facet
+    std::int32_t count = 0;       ///< number of facets of a leaf; 0: inner node
     bool isLeaf() const noexcept { return count > 0; }
   };
-  /// A triangle, in the order of the leaves.
+  /// A triangle, stored in the order of the leaves.
   struct Facet {
-    TriMesh::Triangle corners{};  ///< vertices in the order of the leaves: corner()
-    std::int32_t id = -1;         ///< triangle of the mesh
+    TriMesh::Triangle corners{};  ///< indices into this tree's own copy of the vertices: read with corner()
+    std::int32_t id = -1;         ///< index of the triangle in mesh()
   };
 
   explicit MeshTree(std::shared_ptr<const TriMesh> mesh);
@@ -53,8 +54,8 @@ class MeshTree {
     return vertices_[static_cast<std::size_t>(facet.corners[i])];
   }
 
-  /// The axes of a node's box as columns: normal, along, across. Orthonormal to single precision only; the box is what lies
-  /// between these very planes.
+  /// The axes of a node's box as columns: normal, along, normal x along. Orthonormal to single precision only; the box
+  /// is defined by exactly these axes.
   static Mat3 axesOf(const Node& node) noexcept {
     Mat3 axes;
     axes.col(0) << node.normal[0], node.normal[1], node.normal[2];
@@ -64,11 +65,11 @@ class MeshTree {
   }
   static Vec3 centerOf(const Node& node) noexcept { return {node.center[0], node.center[1], node.center[2]}; }
 
-  /// Tangent bound of a node's triangles, taken at p; its value there is `distance`, 0 where p is inside the box.
+  /// Tangent bound of a node's triangles at p; `distance` is its value there [m], 0 when p is inside the box.
   TangentBound bound(std::int32_t node, const Vec3& p, double& distance) const noexcept;
 
-  /// Nodes that together hold every triangle within `radius` of `center`, at most out.size() of them, largest split first.
-  /// Returns how many. With room for one it is the root.
+  /// A cut through the tree that holds every triangle within `radius` of `center`: at most out.size() nodes, refined by
+  /// splitting the largest node first. Returns their number. Room for one node gives the root.
   std::size_t cut(const Vec3& center, double radius, std::span<std::int32_t> out) const noexcept;
 
   /// Calls visit(facet index) for every triangle of each leaf whose bound is within `radius` of `center`.
@@ -84,7 +85,7 @@ class MeshTree {
     forEachWithin(center, radius, visit, n.first + 1);
   }
 
-  /// Sphere around all vertices [m].
+  /// Bounding sphere of all vertices [m].
   const Vec3& sphereCenter() const noexcept { return sphere_center_; }
   double sphereRadius() const noexcept { return sphere_radius_; }
 
@@ -92,13 +93,13 @@ class MeshTree {
   std::shared_ptr<const TriMesh> mesh_;
   std::vector<Node> nodes_;
   std::vector<Facet> facets_;
-  std::vector<Vec3> vertices_;  // a copy in the order of the leaves: neighbours share a line of the cache
+  std::vector<Vec3> vertices_;  // copy in the order of the leaves: neighbours share a cache line
   Vec3 sphere_center_ = Vec3::Zero();
   double sphere_radius_ = 0;
 };
 
 inline TangentBound MeshTree::bound(std::int32_t index, const Vec3& p, double& distance) const noexcept {
-  // The axes are a little more or less than unit vectors, so that the plane may seem farther than it is: by this much less [-].
+  // The axes are unit vectors only to single precision; this factor [-] keeps the bound below the true distance.
   constexpr double kShorter = 1 - 5e-7;
   const Node& n = node(index);
   const Mat3 axes = axesOf(n);
@@ -108,7 +109,7 @@ inline TangentBound MeshTree::bound(std::int32_t index, const Vec3& p, double& d
   TangentBound result;
   distance = 0;
   if (!(squared > 0)) return result;
-  // for every q of the box beyond . axes^T (q - center) is at most |beyond| . half: a plane, whatever the axes are
+  // for every q of the box: beyond . axes^T (q - center) <= |beyond| . half, even if the axes are not quite orthonormal
   const double inverse = kShorter / std::sqrt(squared);
   result.nhat = axes * (inverse * beyond);
   result.offset = -result.nhat.dot(center) - inverse * beyond.cwiseAbs().dot(half);

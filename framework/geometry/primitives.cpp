@@ -115,14 +115,14 @@ TriMesh makeCylinder(double radius, double length, int segments) {
 
 TriMesh makeCapsule(double radius, double length, int segments) {
   segments = std::max(segments, 4);
-  const int rings = std::max(segments / 4, 1);  // per half-sphere, so that facets are about square
+  const int rings = std::max(segments / 4, 1);  // per half-sphere; makes the facets about square
   TriMesh mesh;
   const std::int32_t bottom = addVertex(mesh, {0, 0, -length / 2 - radius});
   std::int32_t previous = -1;
   for (int half = -1; half <= 1; half += 2) {
-    // a capsule without length is a sphere: its equators are one ring
+    // a capsule of length 0 is a sphere: the two equators coincide
     for (int i = half > 0 && length == 0 ? 1 : 0; i < rings; ++i) {
-      // from the pole to the equator below, from the equator to the pole above
+      // lower half: from the pole to the equator; upper half: from the equator to the pole
       const double latitude = 0.5 * pi * (half < 0 ? i + 1 - rings : i) / rings;
       const std::int32_t ring =
           addRing(mesh, radius * std::cos(latitude), half * length / 2 + radius * std::sin(latitude), segments);

@@ -8,11 +8,11 @@
 namespace presa {
 namespace {
 
-/// A triangle is degenerate when its height is below this part of its longest edge [-]. Coordinates come with single
-/// precision (6e-8 relative): a flatter triangle has no direction of its own, only rounding.
+/// A triangle is degenerate when its height is below this fraction of its longest edge [-]. Coordinates have single
+/// precision (6e-8 relative), so the normal of a flatter triangle is only rounding.
 constexpr double kFlat = 1e-7;
 
-/// One side of one triangle; sorting brings the sides of an edge together.
+/// One side of a triangle; sorting brings the half-edges of an edge together.
 struct HalfEdge {
   std::int32_t low, high;  // vertices, low < high
   std::int32_t triangle;
@@ -44,7 +44,7 @@ std::vector<HalfEdge> sortedHalfEdges(const TriMesh& mesh) {
   return edges;
 }
 
-/// Calls visit(first, count) for the half-edges of each edge.
+/// Calls visit(first, count) once per edge, with the half-edges of that edge.
 template <class Visitor>
 void forEachEdge(const std::vector<HalfEdge>& edges, const Visitor& visit) {
   for (std::size_t first = 0; first < edges.size();) {

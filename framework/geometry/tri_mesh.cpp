@@ -29,8 +29,8 @@ double radiusOf(const TriMesh& mesh) {
 
 MassProperties massProperties(const TriMesh& mesh) {
   if (mesh.triangles.empty()) return {};
-  // Signed tetrahedra over each triangle; their apex in the middle of the mesh keeps cancellation small even when the
-  // mesh lies far from the origin.
+  // Sum of signed tetrahedra over the triangles. The apex in the middle of the mesh keeps cancellation small even when
+  // the mesh lies far from the origin.
   const AxisBox box = boundsOf(mesh);
   const Vec3 apex = 0.5 * (box.low + box.high);
   double volume6 = 0;             // 6 V

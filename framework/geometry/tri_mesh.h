@@ -9,12 +9,12 @@
 
 namespace presa {
 
-/// Indexed triangle mesh, counter-clockwise seen from outside [m].
+/// Indexed triangle mesh [m]. Triangles are counter-clockwise seen from outside.
 struct TriMesh {
   using Triangle = std::array<std::int32_t, 3>;
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
-  /// Across edge (v[i], v[i+1]) of each triangle: index of the neighbour, -1 none. Filled by buildAdjacency.
+  /// Neighbour across edge (v[i], v[(i+1)%3]) of each triangle: a triangle index, or -1. Filled by buildAdjacency.
   std::vector<Triangle> adjacency;
 };
 
@@ -24,8 +24,8 @@ struct AxisBox {
 AxisBox boundsOf(const TriMesh& mesh);
 /// Largest distance of a vertex from the origin [m].
 double radiusOf(const TriMesh& mesh);
-/// Enclosed volume [m^3] (negative: inside out), first moment / volume, and inertia about the centre of
-/// mass for density 1 [kg m^2]: exact for a closed mesh (divergence theorem) [Mirtich1996].
+/// Volume [m^3] (negative: inside out), centre of mass, and inertia about the centre of mass for density 1 kg/m^3
+/// [kg m^2], in mesh axes. Exact for a closed mesh (divergence theorem) [Mirtich1996].
 struct MassProperties {
   double volume = 0;
   Vec3 center = Vec3::Zero();
@@ -33,17 +33,17 @@ struct MassProperties {
 };
 MassProperties massProperties(const TriMesh& mesh);
 
-/// Merges each vertex into the first earlier kept one not farther than `tolerance` [m], drops triangles that collapse by
-/// it, returns vertices removed. Tolerance 0 merges equal ones. Deterministic; all indices must be valid.
+/// Merges each vertex into the first kept vertex within `tolerance` [m] and drops triangles that collapse. Returns the
+/// number of vertices removed. Tolerance 0 merges equal vertices. Deterministic; all indices must be valid.
 std::size_t weld(TriMesh& mesh, double tolerance);
-/// Removes vertices that no triangle names; returns how many.
+/// Removes vertices that no triangle uses; returns their number.
 std::size_t dropUnused(TriMesh& mesh);
 /// Fills TriMesh::adjacency. An edge of one triangle or of more than two has no neighbour (-1).
 void buildAdjacency(TriMesh& mesh);
-/// Reverses every triangle (and the adjacency with it).
+/// Reverses the orientation of every triangle and updates the adjacency.
 void turnInsideOut(TriMesh& mesh);
 
-/// What a mesh is fit for. Counts of what is wrong; all zero: a closed, consistently oriented surface.
+/// Result of checkMesh: counts of defects. All zero: a closed, consistently oriented surface.
 struct MeshReport {
   std::size_t vertices = 0, triangles = 0;
   std::size_t non_finite = 0;     ///< vertices with NaN or infinity
@@ -63,17 +63,17 @@ TriMesh makeSphere(double radius, int subdivisions = 4);
 TriMesh makeCylinder(double radius, double length, int segments = 96);
 TriMesh makeCapsule(double radius, double length, int segments = 104);
 
-/// Reads OBJ, STL, PLY, glTF/GLB or COLLADA through the mesh-import plug-in (assimp), which is loaded at the first call;
-/// scales, welds (tolerance: 1e-6 of the diagonal), drops what is degenerate, checks, and builds adjacency.
-/// Findings (missing file, empty, NaN, degenerate, non-manifold, open, inverted) go to `diagnostics` at `where`; an
-/// inverted closed mesh is turned with a warning; few degenerate triangles are dropped with a warning.
-/// Axes and units: OBJ, STL and PLY state none and are taken as metres, z up. glTF is metres, y up by its standard, and
-/// COLLADA states both: they are turned and scaled to metres, z up. Coordinates pass through single precision (assimp).
+/// Reads OBJ, STL, PLY, glTF/GLB or COLLADA through the mesh-import plug-in (assimp), which is loaded at the first
+/// call. Scales, welds (tolerance: 1e-6 of the bounding-box diagonal), drops degenerate triangles, checks, builds the
+/// adjacency. Findings go to `diagnostics` at `where` (numbers: README.md). A closed mesh that is inside out is
+/// corrected and fewer than ten degenerate triangles are dropped, each with a warning.
+/// Axes and units: OBJ, STL and PLY state none and are read as metres, z up. glTF (metres, y up) and COLLADA (both
+/// stated in the file) are converted to metres, z up. Coordinates pass through single precision (assimp).
 /// Thread: any, not the haptic group. Never throws for bad input: the result is empty when an error was reported.
 struct ImportOptions {
   bool must_be_closed = true;  ///< false: an open mesh is a warning
-  bool display_only = false;   ///< topology does not matter: open, non-manifold or degenerate is no finding
-  Vec3 scale = Vec3::Ones();   ///< a negative factor mirrors (the triangles are turned with it)
+  bool display_only = false;   ///< for drawing only: open, non-manifold and degenerate meshes are accepted silently
+  Vec3 scale = Vec3::Ones();   ///< per axis [-]; a negative factor mirrors, and the triangles are flipped accordingly
 };
 TriMesh importMesh(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                    Diagnostics& diagnostics);

@@ -10,8 +10,8 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// Hash grid over the vertices kept so far. Cells are as wide as the tolerance, so that whatever is near lies in one
-/// of 27 cells; colliding hashes only cost time, because the distance decides.
+/// Hash grid over the vertices kept so far. Cells are as wide as the tolerance, so all candidates lie in 27 cells. Hash
+/// collisions cost only time, because the distance decides.
 class VertexGrid {
  public:
   VertexGrid(const AxisBox& box, double cell_size, std::size_t vertices)
@@ -35,7 +35,7 @@ class VertexGrid {
     return first;
   }
 
-  /// Vertices are added with the indices 0, 1, 2 ...
+  /// Indices are assigned in order of addition: 0, 1, 2 ...
   void add(const Vec3& point) {
     const std::size_t bucket = hash(cellOf(point));
     next_.push_back(head_[bucket]);
@@ -48,7 +48,7 @@ class VertexGrid {
   Cell cellOf(const Vec3& point) const {
     Cell cell{};
     for (int i = 0; i < 3; ++i) {
-      // not finite, or too far for an integer: any cell will do, such a vertex has nothing near it
+      // not finite, or too large for an integer: any cell will do, because such a vertex has no neighbours
       const double index = std::floor((point[i] - origin_[i]) / cell_size_);
       cell[static_cast<std::size_t>(i)] = std::abs(index) < 1e18 ? static_cast<std::int64_t>(index) : 0;
     }
@@ -84,7 +84,8 @@ void renumber(TriMesh& mesh, const std::vector<std::int32_t>& new_index) {
 std::size_t weld(TriMesh& mesh, double tolerance) {
   if (mesh.vertices.empty()) return 0;
   const AxisBox box = boundsOf(mesh);
-  // a cell never so small that the grid index of an ordinary mesh overflows (tolerance 0: equal vertices only)
+  // lower limit of the cell size, so that the grid index of an ordinary mesh cannot overflow (tolerance 0: equal
+  // vertices)
   const double smallest = std::max((box.high - box.low).maxCoeff() * 1e-9, 1e-300);
   VertexGrid grid(box, std::max(tolerance, smallest), mesh.vertices.size());
   std::vector<Vec3> kept;

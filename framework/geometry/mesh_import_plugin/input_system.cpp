@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kUnreadable = 303;
 
-/// A file's bytes in memory.
+/// A read-only stream over the bytes of a file in memory.
 class Bytes final : public Assimp::IOStream {
  public:
   explicit Bytes(std::string text) : text_(std::move(text)) {}
@@ -29,7 +29,7 @@ class Bytes final : public Assimp::IOStream {
   std::size_t Write(const void* /*from*/, std::size_t /*size*/, std::size_t /*count*/) override { return 0; }
   aiReturn Seek(std::size_t offset, aiOrigin origin) override {
     const std::size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : text_.size();
-    const std::size_t to = base + offset;  // a negative offset arrives wrapped, and wraps back
+    const std::size_t to = base + offset;  // assimp passes negative offsets as wrapped unsigned numbers
     if (to > text_.size()) return aiReturn_FAILURE;
     at_ = to;
     return aiReturn_SUCCESS;
@@ -72,7 +72,7 @@ Assimp::IOStream* InputSystem::Open(const char* file, const char* mode) {
            refusal.help);
     return nullptr;
   }
-  // a file may be opened several times: what it takes is given back by Close
+  // assimp may open a file several times; Close returns its bytes to the budget
   left_ -= text->size();
   return new Bytes(std::move(*text));
 }

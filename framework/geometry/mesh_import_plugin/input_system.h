@@ -8,17 +8,18 @@
 
 namespace presa {
 
-/// Assimp's way to files: each goes through framework/input, also those that a mesh names (mtllib, buffers), which must lie where a
-/// mesh may name them. All together have at most kMaxMeshBytes.
+/// File access for assimp. Every file goes through framework/input, including files that the mesh names (mtllib,
+/// buffers), which must lie in a folder where input::mayName allows them. All open files together have at most
+/// kMaxMeshBytes.
 class InputSystem final : public Assimp::IOSystem {
  public:
   explicit InputSystem(const std::string& mesh);
   bool Exists(const char* file) const override;
   char getOsSeparator() const override { return '/'; }
-  /// Null when it does not exist, and when it is refused; then problem() says why. Nothing is opened for writing.
+  /// Null when the file does not exist or is refused; problem() then gives the reason. Read only.
   Assimp::IOStream* Open(const char* file, const char* mode) override;
   void Close(Assimp::IOStream* stream) override;
-  /// The first file that was there and refused.
+  /// The first file that existed and was refused.
   const std::optional<RawMesh::Problem>& problem() const { return problem_; }
 
  private:

@@ -16,7 +16,7 @@
 namespace presa {
 namespace {
 
-/// Sizes of what follows in the pipe: problem, help, coordinates, indices.
+/// Sizes of the arrays that follow in the pipe: problem, help, coordinates, indices.
 struct Header {
   std::uint64_t problem = 0, help = 0, coordinates = 0, indices = 0, ignored_faces = 0;
   std::int64_t code = 0;
@@ -70,7 +70,7 @@ bool receive(int descriptor, RawMesh& mesh) {
          readAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
 }
 
-/// Writable memory this process has mapped already [bytes]: the limit of the child counts from there.
+/// Writable memory that this process has mapped already [bytes]; the child's limit is added to it.
 std::size_t mappedData() {
   std::ifstream statm("/proc/self/statm");
   std::size_t pages = 0;
@@ -84,11 +84,11 @@ void limit(int resource, std::size_t value) {
 }
 
 [[noreturn]] void child(int descriptor, const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
-  // what a crashing reader prints would only hide the finding that names the file
+  // messages of a crashing reader would hide the finding that names the file
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
   for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM, SIGHUP})
     std::signal(number, SIG_DFL);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for it any more
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // die with the parent
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.seconds);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of shadow memory
@@ -99,13 +99,13 @@ void limit(int resource, std::size_t value) {
     work(mesh);
   } catch (const std::bad_alloc&) {
     mesh = {};
-    mesh.problem = "it claims more data than it holds";
+    mesh.problem = "the file claims more data than it holds";
   } catch (const std::exception& error) {
     mesh = {};
     mesh.problem = error.what();
   }
   send(descriptor, mesh);
-  _exit(0);  // neither destructors nor exit handlers of the parent
+  _exit(0);  // run neither destructors nor exit handlers of the parent
 }
 
 std::string causeOfDeath(int status) {

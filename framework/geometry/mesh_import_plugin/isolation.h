@@ -7,13 +7,13 @@
 namespace presa {
 
 struct IsolationLimits {
-  std::size_t memory = 0;  ///< what the work may allocate [bytes]
+  std::size_t memory = 0;  ///< additional memory that the work may allocate [bytes]
   unsigned seconds = 0;    ///< processor time [s]
 };
 
-/// Does `work` in a child process and brings its mesh back. Whatever happens to the child (exception, crash, memory or
-/// time exhausted) becomes RawMesh::problem. The readers of assimp 5.2 crash on some damaged COLLADA, glTF and PLY
-/// files and allocate what a header claims; a scene with such a file must be refused, not take the program down.
+/// Runs `work` in a child process and returns its mesh. An exception, a crash, or exhausted memory or time in the child
+/// becomes RawMesh::problem. Reason: the readers of assimp 5.2 crash on some damaged COLLADA, glTF and PLY files and
+/// allocate as much as a header claims; a scene with such a file must be refused, not take the program down.
 RawMesh runIsolated(const IsolationLimits& limits, const std::function<void(RawMesh&)>& work);
 
 }  // namespace presa

@@ -9,16 +9,17 @@
 namespace presa {
 namespace {
 
-/// What a reader may allocate: assimp keeps below 100 bytes for each byte of a file (ASCII formats less), small files
-/// need room for its own tables. A header that claims more than that is lying.
+/// Memory limit of a reader: assimp needs less than 100 bytes for each byte of a file (less for ASCII formats), plus
+/// its own tables. A header that claims more is wrong.
 constexpr std::size_t kBaseMemory = 64u << 20;
 constexpr std::size_t kMemoryPerByte = 100;
 constexpr std::size_t kMostMemory = std::size_t{6} << 30;
-/// Processor time: a good megabyte takes below a second even as text, several under valgrind (`presa explain --cost`).
+/// Processor time limit: a megabyte of text takes less than 1 s, several seconds under valgrind (`presa explain
+/// --cost`).
 constexpr unsigned kBaseSeconds = 2;
 constexpr unsigned kSecondsPerMegabyte = 4;
 
-/// The arrays live as long as the result.
+/// The result with the arrays that it points to.
 struct OwnedMesh : ImportedMesh {
   explicit OwnedMesh(RawMesh mesh) : raw(std::move(mesh)) {
     problem = raw.problem.empty() ? nullptr : raw.problem.c_str();

@@ -16,8 +16,8 @@
 namespace presa {
 namespace {
 
-/// Assimp tries every one of its 40-odd readers on a file that the first one refuses. A broken OBJ file is a broken OBJ
-/// file: leave only the readers of its extension.
+/// Removes all readers but those of the extension. Otherwise assimp tries each of its 40-odd readers on a file that the
+/// right one refuses.
 void keepReadersOf(Assimp::Importer& importer, const std::string& extension) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     Assimp::BaseImporter* reader = importer.GetImporter(i);
@@ -46,7 +46,7 @@ bool verticesFinite(const aiMesh& mesh) {
   return true;
 }
 
-/// Whether polygons may be split by assimp, which trusts indices and positions.
+/// Whether assimp may triangulate the polygons: it does not check indices and positions itself.
 bool sound(const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     if (!indicesValid(*scene.mMeshes[m]) || !verticesFinite(*scene.mMeshes[m])) return false;
@@ -54,8 +54,8 @@ bool sound(const aiScene& scene) {
   return true;
 }
 
-/// Position of a vertex in the scene, in double precision. One that is not finite stays as it is, so that the report shows
-/// which coordinate is wrong.
+/// Position of a vertex in the scene, in double precision. A vertex that is not finite is returned untransformed, so
+/// that the finding shows which coordinate is wrong.
 std::array<double, 3> place(const aiMatrix4x4& m, const aiVector3D& v) {
   const double x = v.x, y = v.y, z = v.z;
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return {x, y, z};

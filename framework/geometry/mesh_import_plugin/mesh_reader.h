@@ -5,10 +5,10 @@
 
 namespace presa {
 
-/// A file's triangles, or why there are none.
+/// The triangles of a file, or the reason why it could not be read (`problem` is not empty).
 struct RawMesh {
   struct Problem {
-    std::int32_t code = 0;  ///< of framework/input; 0: of the mesh itself
+    std::int32_t code = 0;  ///< error number of framework/input; 0: the mesh itself is bad
     std::string what, help;
   };
   std::string problem, help;
@@ -18,7 +18,7 @@ struct RawMesh {
   std::vector<std::int32_t> indices;
 };
 
-/// Reads a mesh file with assimp. May throw, and assimp may crash or run away on a broken file: see isolation.h.
+/// Reads a mesh file with assimp. May throw; assimp may crash or not terminate on a damaged file, see isolation.h.
 void readMesh(const std::string& file, const std::string& extension, RawMesh& out);
 
 }  // namespace presa

@@ -9,13 +9,13 @@ TEST(Hausdorff, IsTheDistanceOfParallelSurfacesAndOfAMissingCorner) {
   const TriMesh small = makeSphere(0.05), large = makeSphere(0.06);
   EXPECT_NEAR(hausdorffDistance(small, large), 0.01, 0.0001);  // chords of the triangulation are 0.12 % short
   EXPECT_LT(hausdorffDistance(small, small), 1e-15);
-  // a long box against a short one: only one direction sees it
+  // a long box against a short one: only one of the two directed distances is 0.1 m
   const TriMesh box = makeBox({0.1, 0.1, 0.1}), tall = makeBox({0.1, 0.1, 0.3});
   EXPECT_NEAR(hausdorffDistance(box, tall), 0.1, 1e-12);
   EXPECT_NEAR(hausdorffDistance(tall, box), 0.1, 1e-12);
 }
 
-// On a sphere of n triangles the distance falls as 1 / n. The best there is, n equal triangles between two spheres,
+// On a sphere of n triangles the distance falls as 1 / n. The optimum, n equal triangles between two spheres,
 // has half their sagitta 4 π r / (3 √3 n).
 TEST(Decimate, KeepsTheShapeAsFarAsTheTrianglesGo) {
   const TriMesh sphere = makeSphere(0.05, 5);

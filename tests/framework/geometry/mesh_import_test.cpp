@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Little-endian bytes of a number, as binary formats want them.
+/// Little-endian bytes of a number, for binary formats.
 template <class T>
 std::string bytes(T value) {
   std::string out(sizeof value, '\0');
@@ -31,7 +31,7 @@ std::string number(double value) {
   return stream.str();
 }
 
-/// glTF and COLLADA (without up_axis) are y up: the point that must come out as (x, y, z) is written as (x, z, -y).
+/// glTF and COLLADA (without up_axis) are y up: the point (x, y, z) is written as (x, z, -y).
 Vec3 yUp(const Vec3& p) { return {p.x(), p.z(), 0.0 - p.y()}; }
 
 std::string floats(
@@ -162,7 +162,7 @@ class MeshImport : public testing::Test {
     diagnostics_ = {};
     return importMesh(file.string(), options, {"scene.xml", 7, 5}, diagnostics_);
   }
-  /// The one finding there is, at the place in the scene that named the mesh.
+  /// Expects exactly one finding, at the place in the scene that named the mesh.
   void expectFinding(int code, Diagnostic::Severity severity = Diagnostic::Severity::kError) {
     ASSERT_EQ(diagnostics_.all().size(), 1u) << diagnostics_.text();
     const Diagnostic& found = diagnostics_.all()[0];
@@ -177,7 +177,8 @@ class MeshImport : public testing::Test {
   const TriMesh box_ = makeBox({0.2, 0.4, 0.6});
 };
 
-// Seven encodings of one box, indexed or soup, y up or z up: one welded, closed mesh with the same mass.
+// Seven encodings of one box (indexed or soup, y up or z up) give one welded, closed mesh with the same mass
+// properties.
 TEST_F(MeshImport, EveryFormatGivesTheSameWeldedMesh) {
   const MassProperties expected = massProperties(box_);
   const std::vector<std::pair<std::string, std::string>> files{
@@ -278,7 +279,7 @@ TEST_F(MeshImport, EachBadSurfaceIsNamedForWhatItIs) {
   expectFinding(308);
 }
 
-// Nine collapsed triangles are untidy, ten are a broken mesh.
+// Nine collapsed triangles are dropped with a warning; ten are an error.
 TEST_F(MeshImport, FewDegenerateTrianglesAreDroppedManyAreRefused) {
   TriMesh mesh = box_;
   for (int i = 0; i < 9; ++i) mesh.triangles.push_back({0, 0, 1});
@@ -327,7 +328,7 @@ TEST_F(MeshImport, TwoHundredDamagedFilesAreSurvived) {
   EXPECT_GT(refused, 50);
 }
 
-// The amphora of the pinch_and_lift scene is what the scene says it is where fingers hold it.
+// The amphora of the pinch_and_lift scene has the width that the scene states at the grip.
 TEST(Amphora, IsClosedAndEightyMillimetresWideAtTheGrip) {
   Diagnostics diagnostics;
   const TriMesh mesh = importMesh(PRESA_SOURCE_DIR "/config/meshes/amphora.obj", {}, {"scene.xml", 1, 1}, diagnostics);

@@ -30,7 +30,7 @@ void collect(const MeshTree& tree, std::int32_t node, std::vector<std::int32_t>&
   collect(tree, n.first + 1, facets);
 }
 
-// Random points near and far, on and in the surface.
+// Random points near the surface, far from it, on it and inside.
 std::vector<Vec3> points(const MeshTree& tree, int count) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -56,8 +56,8 @@ TEST(MeshTree, HoldsEveryTriangleOnce) {
   }
 }
 
-// The bound of every node lies below the distance of each of its triangles, at the point where it was taken and at any other.
-// Rounding: of coordinates of up to 30 m in double precision.
+// The bound of every node lies below the distance of each of its triangles, at the point where it was taken and at any
+// other. Tolerance: rounding of coordinates of up to 30 m in double precision.
 TEST(MeshTree, BoundsTheDistanceFromBelowEverywhere) {
   for (const auto& mesh : meshes()) {
     const MeshTree tree(mesh);
@@ -80,7 +80,7 @@ TEST(MeshTree, BoundsTheDistanceFromBelowEverywhere) {
   }
 }
 
-// Nothing within the radius is left out, by a cut or by a query, whatever room there is.
+// No triangle within the radius is missing from a cut or a query, for any size of the output.
 TEST(MeshTree, CutsAndQueriesAreComplete) {
   for (const auto& mesh : meshes()) {
     const MeshTree tree(mesh);

@@ -40,14 +40,14 @@ void expectSound(const TriMesh& mesh) {
   EXPECT_GT(massProperties(mesh).volume, 0);
 }
 
-// What the framework makes itself must pass the checks it demands of users, and draw round things round.
+// The framework's own primitives pass the checks demanded of users, and round shapes are round.
 TEST(Primitives, AreClosedConsistentAndRound) {
   expectSound(makeBox({1, 2, 3}));
   expectSound(makeSphere(0.03));
   expectSound(makeCylinder(0.03, 0.1));
   expectSound(makeCapsule(0.03, 0.1));
   expectSound(makeCapsule(0.03, 0.0));
-  // chord error: the promise of the header, 0.12 % of the radius, at the centre of each triangle, where it is largest
+  // chord error: the header states 0.12 % of the radius; measured at the centre of each triangle, where it is largest
   const auto worstChord = [](const TriMesh& mesh, auto distance) {
     double worst = 0;
     for (const auto& t : mesh.triangles) {
@@ -78,8 +78,8 @@ TEST(MassProperties, OfABoxAreTheClosedFormAnywhere) {
   EXPECT_LT((result.inertia - R * moments.asDiagonal() * R.transpose()).norm(), 1e-15);
 }
 
-// Polyhedra inscribed in a sphere fall short of it by a part that quarters with each subdivision: second-order
-// convergence to 4/3 pi r^3 and 2/5 V r^2 shows that volume and inertia have the right limit.
+// A polyhedron inscribed in a sphere lacks a part that quarters with each subdivision: second-order convergence
+// to 4/3 pi r^3 and 2/5 V r^2 shows that volume and inertia have the right limit.
 TEST(MassProperties, OfASphereConvergeWithSecondOrder) {
   const double r = 0.04, volume = 4.0 / 3 * pi * r * r * r, inertia = 0.4 * volume * r * r;
   double previous_volume = 0, previous_inertia = 0;
@@ -95,7 +95,7 @@ TEST(MassProperties, OfASphereConvergeWithSecondOrder) {
   }
 }
 
-// A right prism has exact formulas whatever the number of segments: area n/2 r^2 sin(2 pi/n).
+// A right prism has exact formulas for any number of segments: area n/2 r^2 sin(2 pi/n).
 TEST(MassProperties, OfAPrismAreTheClosedForm) {
   const double r = 0.03, length = 0.11;
   const int n = 7;
@@ -115,8 +115,8 @@ TEST(MassProperties, OfAMeshInsideOutHaveNegativeVolume) {
   EXPECT_TRUE(checkMesh(mesh).inverted);
 }
 
-// Three independent corners per triangle, displaced by less than half the tolerance in any direction, must come back
-// as the mesh they were taken from: same counts, closed again.
+// Soup of three independent corners per triangle, each displaced by less than half the tolerance, must weld back to the
+// original mesh: same counts, closed again.
 TEST(Weld, RestoresAMeshFromSoupInSpiteOfNoise) {
   const TriMesh sphere = makeSphere(0.05, 4);
   TriMesh soup = soupOf(sphere);
@@ -131,7 +131,7 @@ TEST(Weld, RestoresAMeshFromSoupInSpiteOfNoise) {
   expectSound(soup);
 }
 
-// Cells are no finer than the tolerance, so a pair may straddle any cell border: brute force over all pairs is the oracle.
+// Cells are as wide as the tolerance, so a pair may straddle any cell border: brute force over all pairs is the oracle.
 TEST(Weld, KeptVerticesAreApartAndNoVertexMovesFartherThanTheTolerance) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -192,7 +192,7 @@ TEST(Adjacency, SurvivesTurningInsideOut) {
   EXPECT_EQ(adjacency, turned.adjacency);
 }
 
-// Each defect is counted where it is, and nowhere else.
+// Each defect is counted once, under its own name only.
 TEST(CheckMesh, NamesEachDefectOnce) {
   const TriMesh good = makeBox({1, 1, 1});
   TriMesh open = good;
@@ -228,7 +228,7 @@ TEST(CheckMesh, NamesEachDefectOnce) {
   EXPECT_EQ(checkMesh(flat).degenerate, 1u);
 }
 
-// "Degenerate" is a matter of shape: the same sliver in metres, millimetres or micrometres is the same sliver.
+// "Degenerate" depends on shape only: the same sliver in metres, millimetres or micrometres.
 TEST(CheckMesh, JudgesSliversWithoutScale) {
   for (const double scale : {1e-6, 1e-3, 1.0, 1e3}) {
     TriMesh mesh;
@@ -268,7 +268,7 @@ TEST(ClosestPoint, AgreesWithAnIndependentMinimisationInEveryRegion) {
   }
 }
 
-// Corner, edge and face answers of one triangle, by hand.
+// Corner, edge and face answers of one triangle, worked out by hand.
 TEST(ClosestPoint, IsExactOnCornersEdgesAndFace) {
   const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 3, 0);
   EXPECT_EQ(closestOnTriangle({-1, -1, 2}, a, b, c), a);
@@ -278,7 +278,8 @@ TEST(ClosestPoint, IsExactOnCornersEdgesAndFace) {
   EXPECT_LT((closestOnTriangle({2 + 3, 1.5 + 4, 1}, a, b, c) - Vec3(2, 1.5, 0)).norm(), 1e-15);
 }
 
-// In a sliver of any flatness the point stays in the triangle and is not farther than its nearest corner or edge.
+// In a sliver of any flatness the closest point lies in the triangle, no farther from p than the nearest corner or
+// edge.
 TEST(ClosestPoint, StaysInSlivers) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -296,7 +297,7 @@ TEST(ClosestPoint, StaysInSlivers) {
   }
 }
 
-// Metres, millimetres or a factor of twenty give the same answer, scaled: powers of two even to the bit.
+// Scaling the input scales the answer; powers of two exactly, to the bit.
 TEST(ClosestPoint, HasNoScale) {
   const Vec3 a(0.1, 0.2, 0.3), b(0.7, -0.1, 0.4), c(0.2, 0.9, -0.5), p(0.5, 0.6, 0.9);
   const Vec3 q = closestOnTriangle(p, a, b, c);

@@ -21,7 +21,7 @@ Body freeBody(const Shape& shape, double mass, const Pose& X_BG = {}) {
   return body;
 }
 
-// A shape's closed form against the divergence theorem on its own triangulation, refined: the two must meet.
+// The closed form of a shape and the divergence theorem on its refined triangulation agree.
 TEST(Inertia, ClosedFormsAgreeWithTheirTriangulations) {
   const auto compare = [](const Shape& shape, const TriMesh& mesh, double tolerance) {
     const MassProperties exact = massPropertiesOf(shape, nullptr), meshed = massProperties(mesh);
@@ -29,7 +29,8 @@ TEST(Inertia, ClosedFormsAgreeWithTheirTriangulations) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(meshed.inertia(i, i) / exact.inertia(i, i), 1, 2 * tolerance);
   };
   compare(Box{{0.1, 0.2, 0.3}}, makeBox({0.1, 0.2, 0.3}), 1e-14);
-  // an inscribed polygon of n sides lacks (2 pi / n)^2 / 6 of the circle's area; a sphere's facets about twice that
+  // an inscribed polygon of n sides lacks (2 pi / n)^2 / 6 of the circle's area; a faceted sphere lacks about twice
+  // that
   const double lack = std::pow(2 * pi / 2000, 2) / 6;
   compare(Cylinder{0.03, 0.2}, makeCylinder(0.03, 0.2, 2000), 2 * lack);
   const double coarse = std::pow(2 * pi / 400, 2) / 6;
@@ -37,7 +38,7 @@ TEST(Inertia, ClosedFormsAgreeWithTheirTriangulations) {
   compare(Sphere{0.03}, makeCapsule(0.03, 0.0, 400), 4 * coarse);
 }
 
-// Geometry placed in the body moves the centre of mass and turns the inertia; mass and density say the same thing.
+// Offset geometry shifts the centre of mass and rotates the inertia; mass and density give the same result.
 TEST(Inertia, FollowsTheGeometryInTheBody) {
   const Pose X_BG{Vec3(0.1, 0, -0.2), Quat(Eigen::AngleAxisd(pi / 2, Vec3::UnitX()))};
   Diagnostics diagnostics;
@@ -64,7 +65,7 @@ TEST(Inertia, RefusesWhatCannotMove) {
   EXPECT_EQ(diagnostics.all().at(0).code, 320);
 }
 
-// One file at one scale is one mesh in memory, whoever uses it; another scale is another mesh.
+// Each file is read once per scale, however many bodies use it.
 TEST(BuildWorld, ReadsEachFileOncePerScale) {
   Scene scene;
   Body body = freeBody(Box{{0.05, 0.05, 0.14}}, 0.25);
