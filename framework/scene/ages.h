@@ -3,28 +3,28 @@
 
 #include "framework/scene/scene.h"
 
-/// When what another rate group wrote counts as old. The one place that says so.
+/// Maximum age of data from another rate group before it counts as stale [s]. The only definition of these limits.
 ///
-/// A value that is written every period P is up to P old just before the next one comes, and up to P more while the next
-/// one is being worked out, or where one is missed. Older than 2 P, its writer has stopped. A writer that is fast is given
-/// 20 ms all the same: its thread may have to wait that long for a processor. At the usual rates (collision 100 Hz,
-/// dynamics 200 Hz) each age is 20 ms.
+/// A value written every period P is up to P old just before the next write, and up to 2 P old while that write is
+/// being computed or when one write is missed. Data older than 2 P means that the writer has stopped. The lower limit
+/// of 20 ms allows for the time a thread may wait for a processor. At the usual rates (collision 100 Hz, dynamics 200
+/// Hz) every limit is 20 ms.
 ///     old after = max(20 ms, 2 P)
 namespace presa::ages {
 
-inline constexpr double kPeriods = 2;    ///< of the writer
-inline constexpr double kFloor = 0.020;  ///< [s]
+inline constexpr double kPeriods = 2;    ///< maximum age in periods of the writer [-]
+inline constexpr double kFloor = 0.020;  ///< smallest limit [s]
 
 inline double oldAfter(double rate) noexcept { return std::max(kFloor, kPeriods / rate); }
 
-/// Of the contact patches, which the collision thread writes [s].
+/// Limit for the contact patches, written by the collision thread [s].
 inline double patches(const Rates& rates) noexcept { return oldAfter(rates.collision); }
-/// Of the Object State, which the dynamics writes, for a finger whose `watchdog_ms` says nothing else [s].
+/// Limit for the object states, written by the dynamics, for a finger without its own `watchdog_ms` [s].
 inline double objects(const Rates& rates) noexcept { return oldAfter(rates.dynamics); }
-/// A shorter `watchdog_ms` than this lets forces fade while all is well [s].
+/// Smallest permitted `watchdog_ms` [s]: a shorter one would fade the force in normal operation.
 inline double shortestWatchdog(double dynamics_rate) noexcept { return kPeriods / dynamics_rate; }
-/// Of the fingers, which the haptic thread writes. The dynamics solves a step in parts, of which the last begins up to a
-/// period of its own after the fingers were read [s].
+/// Limit for the finger states, written by the haptic thread [s]. The dynamics solves a step in substeps, and the last
+/// one begins up to one dynamics period after the fingers were read.
 inline double fingers(const Rates& rates) noexcept {
   return std::max(kFloor, kPeriods / rates.haptic + 1 / rates.dynamics);
 }

@@ -82,18 +82,18 @@ class AssemblyCheck {
     const std::string name = goal.attribute("element");
     if (name.empty() || std::find(elements_.begin(), elements_.end(), name) != elements_.end()) return;
     diagnostics_.error(kElement, goal.where("element"),
-                       goal.label() + " is an element " + quote(name) + ", of which <words> says nothing" +
+                       goal.label() + " names element " + quote(name) + ", which <words> does not define" +
                            didYouMean(name, elements_),
                        "<words><element name=" + quote(name) + " called=\"…\"/></words>");
   }
 
-  /// Whatever can be filled is filled, until nothing more can: what is left waits for itself.
+  /// Topological sort: fills every goal whose predecessors are filled. The goals left over are on or behind a cycle.
   void checkOrder() {
-    std::map<std::string, std::vector<std::size_t>> waiting;  // by what they wait for
+    std::map<std::string, std::vector<std::size_t>> waiting;  // goals by the predecessor that they wait for
     std::vector<std::size_t> missing(goals_.size()), ready;
     for (std::size_t g = 0; g < goals_.size(); ++g) {
       for (const std::string& before : splitWords(goals_[g].attribute("after"))) {
-        if (!known_goals_.contains(before)) continue;  // has been reported
+        if (!known_goals_.contains(before)) continue;  // reported by checkAfter
         waiting[before].push_back(g);
         ++missing[g];
       }
@@ -111,7 +111,7 @@ class AssemblyCheck {
     for (std::size_t g = 0; g < goals_.size(); ++g) {
       if (filled.contains(names_[g])) continue;
       diagnostics_.error(kGoalLoop, goals_[g].where("after"),
-                         goals_[g].label() + " can never be filled: it waits for itself",
+                         goals_[g].label() + " can never be filled: its predecessors form a cycle",
                          "after=" + quote(goals_[g].attribute("after")));
     }
   }

@@ -45,8 +45,8 @@ void checkPhrase(const xml::Element& words, const AssemblyPhrase& phrase, Diagno
   for (const std::string& place : placesIn(words.attribute(phrase.attribute))) {
     if (std::find(phrase.places.begin(), phrase.places.end(), place) != phrase.places.end()) continue;
     diagnostics.error(219, words.where(phrase.attribute),
-                      std::string("nothing is filled in for {") + place + "} of " + quote(phrase.attribute),
-                      allowed.empty() ? "this phrase stands as it is" : "here stands for something: " + allowed);
+                      quote(phrase.attribute) + " has no placeholder {" + place + "}",
+                      allowed.empty() ? "this phrase takes no placeholders" : "available placeholders: " + allowed);
   }
 }
 

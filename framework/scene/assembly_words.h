@@ -6,15 +6,15 @@ namespace presa {
 
 inline constexpr std::size_t kNoElement = static_cast<std::size_t>(-1);
 
-/// What people are told about an assembly, in one language. In a phrase {count}, {all}, {element} and {time} are filled in; which of
-/// them a phrase may hold is in assemblyPhrases().
+/// The texts shown to a user about an assembly, in one language. The placeholders {count}, {all}, {element} and {time}
+/// are replaced; assemblyPhrases() lists the placeholders that each phrase may use.
 struct AssemblyWords {
-  /// A kind of body: "capital".
+  /// A kind of body, such as "capital".
   struct Element {
-    std::string name;    ///< by which goals refer to it
-    std::string called;  ///< as people call it, as at the beginning of a sentence
+    std::string name;    ///< identifier that goals refer to
+    std::string called;  ///< name shown to the user, capitalised
     std::string says;    ///< one sentence about it
-    std::string waits;   ///< why it cannot be put yet: "The capital needs its drum first."
+    std::string waits;   ///< reason why it cannot be placed yet: "The capital needs its drum first."
   };
   std::string language = "en";
   std::string progress = "{count} of {all}";
@@ -28,7 +28,7 @@ struct AssemblyWords {
   std::vector<Element> elements;
 };
 
-/// A phrase, the attribute that holds it, and what is filled in there.
+/// A phrase: its attribute in the XML, its text, and the placeholders it may use.
 struct AssemblyPhrase {
   const char* attribute;
   std::string AssemblyWords::*text;
@@ -36,9 +36,9 @@ struct AssemblyPhrase {
 };
 const std::vector<AssemblyPhrase>& assemblyPhrases();
 
-/// `text` with {place} replaced by what stands for it.
+/// `text` with every {place} replaced by `value`.
 std::string fillIn(std::string text, const std::string& place, const std::string& value);
-/// Places in a phrase: "{count} of {all}" has count and all.
+/// Placeholders of a phrase: "{count} of {all}" has count and all.
 std::vector<std::string> placesIn(const std::string& text);
 
 }  // namespace presa

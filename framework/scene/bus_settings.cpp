@@ -8,7 +8,7 @@
 namespace presa {
 
 bool isBusNetwork(const std::string& network) {
-  constexpr std::size_t kLongestInterface = 15;  // IFNAMSIZ without its end
+  constexpr std::size_t kLongestInterface = 15;  // IFNAMSIZ without the terminating zero
   if (network == "loopback" || network == "lan" || network == "none") return true;
   if (!network.starts_with("lan:")) return false;
   const std::string interface = network.substr(4);
@@ -33,10 +33,10 @@ void checkSceneBus(const xml::Element& root, Diagnostics& diagnostics) {
     if (!bus.flawed("network") && network.starts_with("lan"))
       diagnostics.error(
           751, bus.where("network"),
-          "a scene does not open the network, found " + quote(network) + "; loopback and none are allowed",
+          "a scene must not open the network, found " + quote(network) + "; loopback and none are allowed",
           "--bus " + network + " " + help);
     if (!bus.flawed("commands") && bus.boolean("commands", false))
-      diagnostics.error(751, bus.where("commands"), "a scene does not let others set parameters of its run",
+      diagnostics.error(751, bus.where("commands"), "a scene must not let others set parameters of its run",
                         "--bus-commands " + help + ": commands=\"true\"");
   }
 }

@@ -3,7 +3,8 @@
 
 namespace presa {
 
-/// The network of others, or commands: what is for the command line to open, and for a rig that it names; never for a scene.
+/// True for a network beyond this machine, or for commands: only the command line and a rig named on it may enable
+/// those.
 bool opensMoreThanASceneMay(const BusSettings& bus);
 
 }  // namespace presa

@@ -10,7 +10,7 @@ Way wayBetween(const Pose& a, const Pose& b) {
   return {(b.p - a.p).norm(), 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()))};
 }
 
-// The turn about z that brings the goal nearest is the twist of the remaining rotation (swing-twist decomposition).
+// Swing-twist decomposition: the twist about z of the remaining rotation is the turn that brings the goal nearest.
 Pose nearestTurn(const Pose& X_WB, std::size_t fold, const Quat& q_WB) {
   if (fold == 1) return X_WB;
   const Quat rest = X_WB.q.conjugate() * q_WB;

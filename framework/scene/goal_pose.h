@@ -5,15 +5,15 @@
 
 namespace presa {
 
-/// How far a body is from where it belongs.
+/// Distance between two poses of a body: translation and rotation angle.
 struct Way {
   double distance = 0;  ///< [m]
   double angle = 0;     ///< [rad], 0 to pi
 };
 Way wayBetween(const Pose& a, const Pose& b);
 
-/// Of all poses in which a body looks the same at `X_WB` — turned about its own z axis by multiples of 1/fold, or by anything
-/// when fold is 0 — the one nearest to the orientation `q_WB`.
+/// The goal pose nearest to the orientation `q_WB`, among the poses that look the same as `X_WB`: turned about the
+/// body's own z axis by multiples of 2 pi / fold, or by any angle when `fold` is 0. The position is that of `X_WB`.
 Pose nearestTurn(const Pose& X_WB, std::size_t fold, const Quat& q_WB);
 
 }  // namespace presa

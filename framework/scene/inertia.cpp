@@ -8,7 +8,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Moments of a real body obey the triangle inequality; this much rounding is forgiven [-].
+/// Principal moments of a real body obey the triangle inequality; allowance for rounding [-].
 constexpr double kInequalitySlack = 1e-9;
 
 MassProperties centred(double volume, const Vec3& moments) { return {volume, Vec3::Zero(), moments.asDiagonal()}; }
@@ -36,7 +36,7 @@ MassProperties of(const Capsule& capsule) {
   const double r = capsule.radius, l = capsule.length;
   const MassProperties middle = of(Cylinder{r, l});
   const MassProperties caps = of(Sphere{r});
-  // each half-sphere has its centre 3/8 r beyond the end of the cylinder
+  // the centroid of each half-sphere lies 3/8 r beyond the end of the cylinder
   const double across = middle.inertia(0, 0) + caps.inertia(0, 0) + caps.volume * (l * l / 4 + 3 * l * r / 8);
   return centred(middle.volume + caps.volume, {across, across, middle.inertia(2, 2) + caps.inertia(2, 2)});
 }
@@ -78,7 +78,7 @@ BodyInertia inertiaOf(const Body& body, const TriMesh* physics_mesh, Diagnostics
   if (!physical(result)) {
     diagnostics.error(321, body.physics->where,
                       "body '" + body.name + "': its physics geometry gives a mass of " + std::to_string(result.mass) +
-                          " kg and a volume of " + std::to_string(unit.volume) + " m^3, and no inertia of a real body",
+                          " kg and a volume of " + std::to_string(unit.volume) + " m^3, no physically valid inertia",
                       "give a positive mass or density and a geometry that encloses a volume");
     return {};
   }

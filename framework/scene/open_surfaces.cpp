@@ -7,8 +7,8 @@
 namespace presa {
 namespace {
 
-constexpr double kLeastStiffness = 1;  // [N/m]; none at all would be no surface
-constexpr double kMostFriction = 2;    // times what was loaded
+constexpr double kLeastStiffness = 1;  // [N/m]; the surface must not vanish
+constexpr double kMostFriction = 2;    // multiple of the loaded coefficient [-]
 
 }  // namespace
 

@@ -6,20 +6,23 @@
 
 namespace presa {
 
-/// One number of a material that commands may set while a run goes on, and its range.
+/// A material parameter that bus commands may change during a run, and its range.
 struct OpenSurface {
   std::size_t material = 0;           ///< index into Scene::materials
-  double Material::*value = nullptr;  ///< which of its numbers
-  std::string name;                   ///< as a path of --set: material/steel/stiffness
-  double least = 0, most = 0;         ///< both included
+  double Material::*value = nullptr;  ///< the parameter
+  std::string name;                   ///< its path, as for --set: material/steel/stiffness
+  double least = 0, most = 0;         ///< minimum and maximum, both included
 };
 
-/// Of every material that fingers can touch, in the order of the scene:
-/// - stiffness from 1 N/m to what the scene loaded with. That has passed the bound of stability, and less is as stable; more is not.
-/// - friction up to twice what the scene loaded with. A cone takes energy whatever its width, and the spring within it has the same
-///   stiffness; twice is as far as a surface may become another. A material without friction stays without, and friction that an
-///   experiment changes (<changed>) is not for others.
-/// The first SurfaceSettings::kMost at most.
+/// The open parameters of every material that fingers can touch, in the order of the scene:
+/// - stiffness from 1 N/m to the loaded value. The loaded value has passed the stability check; a lower one is as
+///   stable.
+/// - friction up to twice the loaded value. Friction dissipates whatever the width of the cone, and the stiffness
+///   within the
+///   cone stays the same; the factor two limits how much a surface may change. A material without friction stays
+///   without,
+///   and friction that an experiment changes (<changed>) is closed to commands.
+/// At most the first SurfaceSettings::kMost parameters.
 std::vector<OpenSurface> openSurfaces(const Scene& scene);
 
 }  // namespace presa

@@ -100,7 +100,7 @@ Rig readDocument(xml::Document& document, const std::string& directory, Diagnost
     rig.bus = readBus(root);
     rig.resolved_xml = document.text();
   }
-  if (diagnostics.errorCount() > errors_before) rig = {};  // all or nothing: no half-read rig
+  if (diagnostics.errorCount() > errors_before) rig = {};  // all or nothing
   rig.file = document.name();
   return rig;
 }

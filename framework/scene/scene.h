@@ -11,12 +11,12 @@
 #include "framework/core/schedule/rates.h"
 #include "framework/scene/assembly_words.h"
 
-/// A scene as plain data: what the user wrote, with every default filled in. SI units throughout.
-/// Immutable after loading; every module reads it, none keeps a second copy of a value.
+/// A scene as plain data: the user's values with every default filled in. SI units throughout.
+/// Immutable after loading. Every module reads it; no module keeps a second copy of a value.
 namespace presa {
 
 struct MeshRef {
-  std::string file;  ///< absolute or relative to the working directory, already resolved
+  std::string file;  ///< resolved path: absolute, or relative to the working directory
   Vec3 scale = Vec3::Ones();
 };
 struct Box {
@@ -35,7 +35,7 @@ struct Capsule {
 };  ///< axis z, centred; length without the caps [m]
 using Shape = std::variant<MeshRef, Box, Sphere, Cylinder, Capsule>;
 
-/// Of the sphere around a primitive, about its own origin [m]; a mesh is not known here and gives 0.
+/// Radius of the bounding sphere of a primitive about its own origin [m]; 0 for a mesh, whose size is not known here.
 inline double boundingRadius(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return (box->size / 2).norm();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
@@ -49,7 +49,7 @@ struct Geometry {
   Shape shape;
   Pose X_BG;
   SourceLocation where;
-  bool smooth = false;  ///< haptic mesh: felt with normals interpolated over its facets
+  bool smooth = false;  ///< haptic mesh: rendered with normals interpolated over the facets (force shading)
 };
 
 struct FrictionCoefficients {
@@ -63,9 +63,9 @@ struct Material {
   double damping = 0;           ///< [N s/m], >= 0
   double friction_static = 0;   ///< [-], >= dynamic
   double friction_dynamic = 0;  ///< [-]
-  double torsion = 0;           ///< a soft fingertip resists turning about its normal by friction at this radius [m]
+  double torsion = 0;           ///< torsional friction radius of a soft fingertip about the contact normal [m]
   std::optional<FrictionCoefficients>
-      changed_friction;       ///< under a finger after the surfaces have changed; none: as before
+      changed_friction;       ///< friction under a finger after the surface change of an experiment; none: no change
   Vec3 color{0.7, 0.7, 0.7};  ///< linear RGB in [0, 1]
   enum class Texture { kNone, kStone, kEarth };
   Texture texture = Texture::kNone;  ///< how it is drawn
@@ -76,33 +76,43 @@ struct Body {
   std::string name;
   bool fixed = false;
   Pose X_WB;                        ///< start pose; B's origin is the centre of mass for primitives
-  Vec3 v_WCm = Vec3::Zero();        ///< of the centre of mass at the start [m/s]
-  Vec3 w_WB = Vec3::Zero();         ///< at the start [rad/s]
-  Vec3 force_W = Vec3::Zero();      ///< constant, at the centre of mass [N]
+  Vec3 v_WCm = Vec3::Zero();        ///< initial velocity of the centre of mass [m/s]
+  Vec3 w_WB = Vec3::Zero();         ///< initial angular velocity [rad/s]
+  Vec3 force_W = Vec3::Zero();      ///< constant external force at the centre of mass [N]
   std::size_t material = 0;         ///< index into Scene::materials
   std::optional<double> mass;       ///< [kg]; exactly one of mass and density for a free body
   std::optional<double> density;    ///< [kg/m^3]
-  std::optional<Geometry> visual;   ///< absent: drawn as haptic, else as physics
+  std::optional<Geometry> visual;   ///< absent: the haptic geometry is drawn, else the physics geometry
   std::optional<Geometry> haptic;   ///< absent: fingers pass through
   std::optional<Geometry> physics;  ///< absent (fixed bodies only): other bodies pass through
   SourceLocation where;
 };
 
+/// Limits that the scene sets for a device role. The rig may tighten them.
 struct DeviceLimits {
   double force = 8;          ///< magnitude [N]
   double force_rate = 1000;  ///< slew [N/s]
-  double watchdog_ms = 20;   ///< age of the contact information at which the force fades [ms]
+  double watchdog_ms = 20;   ///< age of the object state at which the force fades [ms]
 };
 
-/// A device role: what the scene asks for. The rig says which hardware plays it.
+/// A device role that the scene asks for. The rig binds hardware to it.
 struct DeviceRole {
   std::string role;
-  double fingertip_radius = 0.008;  ///< [m]; 0: a point
+  double fingertip_radius = 0.008;  ///< [m]; 0: point contact
   DeviceLimits limits;
   SourceLocation where;
 };
 
-/// How fingers are rendered. The defaults are Presa's methods, the others what they replace.
+struct Rates {
+  double haptic = 1000;    ///< [Hz]
+  double collision = 100;  ///< [Hz], haptic / collision is a whole number
+  double dynamics = 200;   ///< [Hz], haptic / dynamics is a whole number
+  double view = 60;        ///< [Hz]
+  double bus = 200;        ///< publishing rate of the run's state [Hz]; not settable in a scene
+};
+
+/// Haptic rendering method. The defaults are Presa's methods; the other values select the conventional ones for
+/// comparison.
 struct HapticSettings {
   enum class Renderer { kGodObject, kPenalty };
   enum class PoseUse { kInterpolate, kHold };
@@ -111,13 +121,13 @@ struct HapticSettings {
 };
 
 struct CollisionSettings {
-  double margin = 0;              ///< of the patch beyond the fingertip [m]; 0: from the finger's motion
-  std::size_t max_triangles = 0;  ///< without effect; accepted for the sake of older scenes
+  double margin = 0;              ///< extent of the patch beyond the fingertip [m]; 0: chosen from the finger's motion
+  std::size_t max_triangles = 0;  ///< no effect; accepted for older scenes
 };
 
-/// How moving bodies are stepped. The defaults are Presa's methods, the others what they replace.
+/// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.
 struct DynamicsSettings {
-  enum class Engine { kOde, kMujoco, kBullet };  ///< all but the first: to compare with, without fingers
+  enum class Engine { kOde, kMujoco, kBullet };  ///< kMujoco and kBullet: for comparison only, without fingers
   enum class Coupling { kSoft, kExplicit };
   enum class Solver { kAuto, kDirect, kIterative };
   enum class Friction { kIsotropic, kPyramid };
@@ -126,55 +136,55 @@ struct DynamicsSettings {
   Engine engine = Engine::kOde;
   Coupling coupling = Coupling::kSoft;
   Solver solver = Solver::kAuto;
-  std::size_t iterations = 0;  ///< of the iterative solver; 0: as many as the period allows
-  std::size_t substeps = 0;    ///< within one period; 0: chosen for each island
+  std::size_t iterations = 0;  ///< of the iterative solver; 0: as many as fit into the period
+  std::size_t substeps = 0;    ///< per period; 0: chosen for each island
   Friction friction = Friction::kIsotropic;
   Rotation rotation = Rotation::kExact;
   bool sleeping = true;
 };
 
-/// A place of an assembly, and what may stand there.
+/// A goal of an assembly: a target pose and the bodies that may fill it.
 struct AssemblyGoal {
   std::string name;
-  std::vector<std::size_t> bodies;   ///< indices into Scene::bodies: any one of them fits
-  Pose X_WB;                         ///< of the body that stands here
-  std::size_t fold = 1;              ///< turned by 1/fold about its own z axis it is the same; 0: by anything
-  std::vector<std::size_t> after;    ///< goals that have to be filled first, indices into Assembly::goals
+  std::vector<std::size_t> bodies;   ///< indices into Scene::bodies; any one of them fits
+  Pose X_WB;                         ///< target pose of the body
+  std::size_t fold = 1;              ///< order of rotational symmetry about the body's z axis (n-fold; 0: continuous)
+  std::vector<std::size_t> after;    ///< goals that must be filled first, indices into Assembly::goals
   std::size_t element = kNoElement;  ///< index into AssemblyWords::elements
 };
 
-/// Bodies that are to be put together: each is drawn to its place when it is near, and stays there.
+/// An assembly task. A body near a free goal is pulled to it and then stays there.
 struct Assembly {
-  double reach = 0.02;             ///< a place draws what is this near [m]
-  double reach_angle_deg = 30;     ///< and turned away by no more than this
-  double tolerance = 0.0005;       ///< in its place: this near [m]
-  double tolerance_angle_deg = 1;  ///< and turned away by no more than this
-  double pull = 1.5;               ///< most that a place draws with, in weights of the body on Earth
-  /// A body that leaves this box, axes along W's, is brought back; none: it may go where it likes.
+  double reach = 0.02;             ///< snap distance: a goal pulls bodies within it [m]
+  double reach_angle_deg = 30;     ///< snap angle: maximum rotation away from the goal [deg]
+  double tolerance = 0.0005;       ///< a body counts as placed within this distance [m]
+  double tolerance_angle_deg = 1;  ///< and within this angle [deg]
+  double pull = 1.5;               ///< maximum snap force, in multiples of the body's weight on Earth [-]
+  /// Workspace, an axis-aligned box in W: a body that leaves it is brought back. None: unlimited.
   struct Field {
     Vec3 centre = Vec3::Zero(), size = Vec3::Zero();  ///< [m]
   };
   std::optional<Field> field;
   std::vector<AssemblyGoal> goals;
   AssemblyWords words;
-  double spent = 0;  ///< that people have worked on it before this run [s]
+  double spent = 0;  ///< assembly time carried over from earlier runs [s]
 };
 
 /// Where a run's state is published for viewers (framework/bus).
 struct BusSettings {
   std::string network = "loopback";  ///< loopback, lan, lan:INTERFACE, or none
-  int domain = 0;                    ///< viewers join the same; kLeastBusDomain to kMostBusDomain
-  bool commands = false;             ///< others may set parameters of the run; else nobody listens
-  std::string keys{};                ///< folder of this process's certificate (presa bus keys); empty: none
+  int domain = 0;                    ///< DDS domain that viewers must join; kLeastBusDomain to kMostBusDomain
+  bool commands = false;             ///< accept commands that set parameters of the run
+  std::string keys{};                ///< folder with this process's certificate (presa bus keys); empty: no security
 };
 inline constexpr int kLeastBusDomain = 0, kMostBusDomain = 200;
-/// Whether that names a network.
+/// Whether `network` is a valid value of BusSettings::network.
 bool isBusNetwork(const std::string& network);
 
 struct Scene {
   std::string name;
   std::string description;
-  std::string file;           ///< as given
+  std::string file;           ///< path as given by the user
   std::string default_rig;    ///< resolved path, may be empty
   Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Rates rates;
@@ -186,10 +196,10 @@ struct Scene {
   std::vector<DeviceRole> devices;
   std::optional<Assembly> assembly;
   std::optional<BusSettings> bus;
-  std::string resolved_xml;  ///< the document after --set and defaults, as saved with recordings
+  std::string resolved_xml;  ///< document after --set and defaults, as stored in recordings
 
   const Material& materialOf(const Body& body) const { return materials[body.material]; }
-  /// Something that fingers touch has friction to change to, and a renderer that has friction.
+  /// Whether some touchable material has changed_friction and the renderer supports friction.
   bool surfacesChange() const;
 };
 
@@ -202,21 +212,21 @@ struct DeviceBinding {
   std::string role;
   std::string driver;                       ///< folder name under devices/
   std::map<std::string, Setting> settings;  ///< <set key= value=/>; the driver checks keys and values
-  /// What this desk allows, beside what the scene wants; where nothing is said, the driver's rating holds.
+  /// Limits of this installation, beside those of the scene. Absent values: the driver's rating applies.
   struct Limits {
     std::optional<double> force, force_rate, soft_start, continuous, speed;  ///< [N] [N/s] [s] [N] [m/s]
-    bool records_overload = false;  ///< past `continuous` is an event, no limit
-    bool passivity = false;         ///< the hand may get no net energy
+    bool records_overload = false;  ///< exceeding `continuous` is recorded as an event instead of being limited
+    bool passivity = false;         ///< passivity control: no net energy to the hand
   };
   Limits limits;
   SourceLocation where;
 };
 
-/// A lab's devices. The scene stays portable, the rig is this desk.
+/// The devices of one laboratory. Scenes are portable; the rig describes one installation.
 struct Rig {
   std::string name;
   std::string file;
-  std::optional<BusSettings> bus;  ///< goes before the scene's
+  std::optional<BusSettings> bus;  ///< takes precedence over the scene's
   std::vector<DeviceBinding> devices;
   std::string resolved_xml;
 };

@@ -33,11 +33,12 @@ enum Code {
   kSlowDynamics = 223
 };
 
-// Between two steps a held body goes on in a straight line. The scripted grasp of 20 and 200 g at 0.5 to 4 N/mm is the same from
-// 40 Hz on within 0.5 mm; at 25 and 20 Hz a stiff body wanders up to 16 mm in the fingers, at 10 Hz one reaches 13 m/s.
+// Between two dynamics steps a held body moves on in a straight line. The scripted grasp of 20 and 200 g at 0.5 to 4
+// N/mm agrees within 0.5 mm for rates from 40 Hz up; at 25 and 20 Hz a stiff body drifts up to 16 mm in the fingers, at
+// 10 Hz one reaches 13 m/s.
 constexpr double kHeldBadlyBelow = 40, kHeldNowhereBelow = 20;  // [Hz]
 
-/// Different values of one attribute, in order.
+/// Distinct values of one attribute, in document order.
 std::vector<std::string> valuesOf(const std::vector<Element>& elements, const std::string& attribute) {
   std::vector<std::string> values;
   std::set<std::string> known;
@@ -115,7 +116,7 @@ class SceneCheck {
     wholeRatio(rates, haptic, "dynamics", defaults.dynamics);
   }
 
-  // Of bodies that move and fingers that may hold them.
+  // For scenes with fingers and free bodies.
   void checkDynamics(const std::vector<Element>& devices) {
     double dynamics = Rates().dynamics;
     for (const Element& rates : root_.children("rates")) {
@@ -126,13 +127,13 @@ class SceneCheck {
                            "at this dynamics rate no finger can hold a body: must be " + shortText(kHeldNowhereBelow) +
                                " Hz or more where there are devices and bodies that move, found " + shortText(dynamics),
                            shortText(kHeldBadlyBelow) + " Hz or more holds without a warning; 200 is usual");
-        return;  // a watchdog to go with it would be no help
+        return;  // the watchdog check would only repeat this
       }
       if (dynamics < kHeldBadlyBelow) {
         diagnostics_.warning(kSlowDynamics, rates.where("dynamics"),
                              "at a dynamics rate of " + shortText(dynamics) +
-                                 " Hz a body with a stiff surface wanders in the fingers that hold it",
-                             shortText(kHeldBadlyBelow) + " Hz or more does not; 200 is usual");
+                                 " Hz a body with a stiff surface drifts in the fingers that hold it",
+                             shortText(kHeldBadlyBelow) + " Hz or more avoids this; 200 is usual");
       }
     }
     for (const Element& device : devices) checkWatchdog(device, dynamics);
@@ -145,7 +146,7 @@ class SceneCheck {
       if (watchdog >= shortest * (1 - 1e-9)) continue;
       diagnostics_.error(
           kWatchdog, limits.where("watchdog_ms"),
-          "the force of " + device.label() + " would fade while the dynamics is in time: " + quote("watchdog_ms") +
+          "the force of " + device.label() + " would fade although the dynamics is on time: " + quote("watchdog_ms") +
               " must be at least two periods of the dynamics, found " + shortText(1e3 * watchdog) + " ms at " +
               shortText(dynamics) + " Hz",
           "write watchdog_ms=" + quoted(shortText(std::ceil(1e3 * shortest))) +
@@ -160,7 +161,7 @@ class SceneCheck {
     if (rates.flawed(name)) return;
     const double rate = rates.number(name, fallback);
     const double ratio = haptic / rate;
-    // 1e-9: a rate such as 333.3333333333 is meant as a third, a rate such as 333 is not
+    // 1e-9: 333.3333333333 is accepted as a third, 333 is not
     const bool is_whole = ratio > 0.5 && std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
     if (is_whole) return;
     const std::string culprit = rates.hasAttribute(name) ? name : "haptic";
@@ -176,7 +177,7 @@ class SceneCheck {
     return text;
   }
 
-  /// The next slower and the next faster rate that divide `haptic` and are short to write.
+  /// The nearest slower and the nearest faster rate that divide `haptic` and have few digits.
   static std::string fittingRates(double haptic, double ratio) {
     const auto is_short = [&](double n) { return std::abs(haptic / n * 1000 - std::round(haptic / n * 1000)) < 1e-9; };
     std::vector<std::string> rates;
@@ -260,7 +261,7 @@ class SceneCheck {
         "mass [kg] or density [kg/m^3]; a body that never moves has fixed=\"true\"");
   }
 
-  /// The mass stands where it does not belong: the schema has complained about that already.
+  /// The mass is given in the wrong place, which the schema check has reported already.
   static bool isMisplaced(const Element& body, const Element& physics) {
     for (const char* name : {"mass", "density"}) {
       if (body.hasAttribute(name) || !body.children(name).empty() || !physics.children(name).empty()) return true;
@@ -285,7 +286,7 @@ void checkOrientation(const Element& element, Diagnostics& diagnostics) {
   const std::vector<double> quat = element.numbers("quat");
   if (quat == std::vector<double>{0, 0, 0, 0}) {
     diagnostics.error(kZeroQuat, element.where("quat"), "'quat' of " + element.label() + " is zero: no rotation",
-                      "quat: w x y z; no turn is \"1 0 0 0\"");
+                      "quat: w x y z; the identity is \"1 0 0 0\"");
   }
 }
 

@@ -26,7 +26,7 @@ Scene loadDocument(xml::Document& document, const std::string& directory, const 
   checkVersion(document.root(), "scene", kVersion, diagnostics);
   checkScene(document.root(), diagnostics);
   checkSceneBus(document.root(), diagnostics);
-  if (diagnostics.errorCount() > errors_before) return scene;  // all or nothing: no half-read scene
+  if (diagnostics.errorCount() > errors_before) return scene;  // all or nothing
   resolveScene(document, sceneSchema(), directory);
   scene = readScene(document.root(), document.name(), directory);
   scene.resolved_xml = document.text();
@@ -49,7 +49,7 @@ void checkVersion(const xml::Element& root, const std::string& kind, int code, D
   } else if (minor > kFormatMinor) {
     diagnostics.warning(code, root.where("version"),
                         "this " + kind + " is written in format " + quote(version) + ", newer than " + ours,
-                        "names that are new in it are refused as unknown");
+                        "names that are new in that format are reported as unknown");
   }
 }
 

@@ -29,7 +29,8 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The attribute that tells elements of one kind apart: a path names it after the element. "" for single elements.
+/// The attribute that distinguishes elements of one kind; in a path it follows the element's name. "" for single
+/// elements.
 std::string identityAttribute(const ElementRule& rule) {
   for (const char* name : {"name", "role"}) {
     if (rule.attribute(name)) return name;
@@ -37,13 +38,14 @@ std::string identityAttribute(const ElementRule& rule) {
   return {};
 }
 
-/// A list such as <materials>: no values of its own, one kind of element. A path may leave it out.
+/// For a list element such as <materials> (no attributes, one kind of child): that child, else null. A path may omit
+/// the list.
 const ElementRule* listedElement(const ElementRule& rule) {
   const bool is_list = rule.attributes.empty() && rule.content.size() == 1 && rule.content[0].options.size() == 1;
   return is_list ? rule.content[0].options[0] : nullptr;
 }
 
-/// Setting one of these replaces the other: they say the same thing in two ways.
+/// The alternative of an attribute (mass and density, euler_deg and quat): setting one removes the other.
 std::string rivalOf(const std::string& attribute) {
   static const std::pair<const char*, const char*> kRivals[] = {{"mass", "density"}, {"euler_deg", "quat"}};
   for (const auto& [a, b] : kRivals) {
@@ -87,7 +89,7 @@ class PathWalk {
     return path;
   }
 
-  /// All that may stand at this place of the path.
+  /// Names that may follow at this place of the path.
   std::vector<std::string> choices() const {
     std::vector<std::string> names = rule_->attributeNames();
     for (const xml::ContentRule& content : rule_->content) {
@@ -155,7 +157,7 @@ class PathWalk {
     std::vector<std::string> names;
     for (const Element& candidate : candidates) names.push_back(candidate.attribute(identity));
     const std::string kind = next.name;
-    ++index_;  // from the element's name to its identity; the path holds at least one more part
+    ++index_;  // from the element's name to its identity; the path has at least one more part
     const std::string& wanted = parts_[index_];
     const auto found = std::find(names.begin(), names.end(), wanted);
     if (found == names.end()) {

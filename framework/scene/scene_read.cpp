@@ -18,7 +18,7 @@ Vec3 readVec3(const Element& element, const std::string& attribute, const Vec3& 
   return v.size() == 3 ? Vec3(v[0], v[1], v[2]) : fallback;
 }
 
-/// Half-turn angles are reduced in degrees, where that is exact: 180 degrees give a cosine of exactly 0.
+/// Half angles are reduced in degrees, where this is exact: a turn of 180 degrees has a cosine of exactly 0.
 Quat turnAbout(const Vec3& axis, double degrees) {
   int quarter = 0;
   const double rest = std::remquo(degrees / 2, 90.0, &quarter) * (EIGEN_PI / 180);
@@ -35,7 +35,7 @@ Quat turnAbout(const Vec3& axis, double degrees) {
   return {c, s * axis.x(), s * axis.y(), s * axis.z()};
 }
 
-/// Scaled by the largest entry first, so that neither huge nor tiny numbers overflow or vanish on being squared.
+/// Scales by the largest entry first, so that the squares of huge or tiny entries neither overflow nor underflow.
 Quat unitQuat(const std::vector<double>& wxyz) {
   Eigen::Vector4d v(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   v /= v.cwiseAbs().maxCoeff();
@@ -97,7 +97,7 @@ Material readMaterial(const Element& element) {
   return material;
 }
 
-/// Where each name stands: a list of thousands is not searched for each of thousands.
+/// Index of each name: avoids a linear search per reference in scenes with thousands of bodies.
 using Places = std::map<std::string, std::size_t>;
 
 template <class Named>
@@ -177,7 +177,7 @@ DeviceRole readDevice(const Element& element) {
   return device;
 }
 
-/// The value of the word that stands in an attribute; the schema has seen to it that it is one of them.
+/// Maps the word in an attribute to an enum value; the schema has checked that it is one of the allowed words.
 template <class Value>
 Value choose(const Element& element, const std::string& attribute, Value fallback,
              std::initializer_list<std::pair<const char*, Value>> words) {

@@ -7,7 +7,7 @@ namespace {
 
 using xml::Element;
 
-/// One coefficient alone is both; none is no friction.
+/// A single coefficient is used for both static and dynamic friction; without any, friction is 0.
 void resolveFriction(Element friction) {
   const std::string only = friction.attribute("static", friction.attribute("dynamic", "0"));
   for (const char* attribute : {"static", "dynamic"}) {
@@ -27,7 +27,7 @@ void resolveMesh(Element geometry, const std::string& directory) {
   }
 }
 
-/// By device: somebody said at which age its force is to fade.
+/// For each device: whether the scene sets its watchdog.
 std::vector<bool> watchdogsSet(const Element& root) {
   std::vector<bool> set;
   for (const Element& device : deviceElements(root)) {
@@ -37,7 +37,7 @@ std::vector<bool> watchdogsSet(const Element& root) {
   return set;
 }
 
-/// What nobody set follows from the rate of the dynamics: the schema's value is that of the usual rate.
+/// Watchdogs that the scene does not set follow from the dynamics rate; the default of the schema fits the usual rate.
 void resolveWatchdogs(const Element& root, const std::vector<bool>& set) {
   Rates rates;
   for (const Element& given : root.children("rates")) rates.dynamics = given.number("dynamics", rates.dynamics);

@@ -11,7 +11,7 @@ namespace {
 
 using MeshPointer = std::shared_ptr<const TriMesh>;
 
-/// One file at one scale, with the strictest of the demands its users make on it.
+/// A mesh file at one scale, with the strictest import options among its users.
 struct MeshRequest {
   MeshRef ref;
   ImportOptions options;
@@ -23,7 +23,7 @@ int strictness(const ImportOptions& options) { return options.display_only ? 0 :
 
 class MeshLibrary {
  public:
-  /// Asks for the mesh of a geometry, when it has one; index of the request or -1.
+  /// Registers the mesh of a geometry; returns the index of the request, or -1 for primitives and absent geometry.
   int request(const std::optional<Geometry>& geometry, ImportOptions options) {
     const auto* ref = geometry ? std::get_if<MeshRef>(&geometry->shape) : nullptr;
     if (ref == nullptr) return -1;
@@ -49,7 +49,7 @@ class MeshLibrary {
     }
   }
 
-  /// Null where there is no mesh, or it could not be read.
+  /// Null when there is no mesh or it could not be read.
   MeshPointer get(int request) const {
     return request < 0 ? nullptr : requests_[static_cast<std::size_t>(request)].mesh;
   }
@@ -75,7 +75,7 @@ World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnost
     const Body& body = world.scene.bodies[b];
     const auto& [visual, haptic, physics] = requests[b];
     world.meshes.push_back({library.get(visual), library.get(haptic), library.get(physics), nullptr});
-    // a physics mesh that could not be read has been reported; its mass would only be a second finding
+    // an unreadable physics mesh has been reported; checking its mass would only add a second finding
     const bool unread = physics >= 0 && !world.meshes.back().physics;
     world.inertias.push_back(unread ? BodyInertia{} : inertiaOf(body, world.meshes.back().physics.get(), diagnostics));
   }
@@ -85,7 +85,7 @@ World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnost
 
 void indexHapticMeshes(World& world) {
   if (world.scene.devices.empty()) return;
-  std::map<const TriMesh*, std::shared_ptr<const MeshTree>> trees;  // bodies of one mesh share its hierarchy
+  std::map<const TriMesh*, std::shared_ptr<const MeshTree>> trees;  // bodies with the same mesh share its hierarchy
   for (BodyMeshes& meshes : world.meshes) {
     if (!meshes.haptic) continue;
     std::shared_ptr<const MeshTree>& tree = trees[meshes.haptic.get()];

@@ -31,7 +31,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string tag(const std::string& name) { return "<" + name + ">"; }
 
-/// Walks a document beside the rules of its schema and says all that does not fit.
+/// Walks a document alongside the rules of its schema and reports every deviation.
 class Checker {
  public:
   Checker(const Schema& schema, DocumentData& data, Diagnostics& diagnostics)
@@ -56,7 +56,7 @@ class Checker {
     element(root, schema_.root());
   }
 
-  /// Renames what was clearly meant, so that later checks see it.
+  /// Corrects misspelt names in the tree, so that later checks recognise them.
   void correctNames() {
     for (const auto& [node, name] : corrections_) xmlNodeSetName(node, toXml(name));
   }
@@ -94,7 +94,7 @@ class Checker {
     }
   }
 
-  /// Returns the rule that was meant, if that is clear.
+  /// Returns the rule of the attribute that was meant, if there is one clear candidate.
   const AttributeRule* unknownAttribute(xmlNode* node, xmlAttr* attribute, const std::string& name,
                                         const ElementRule& rule, const std::set<std::string>& present) {
     std::vector<std::string> free_names;
@@ -164,13 +164,13 @@ class Checker {
                          labelOf(node) + " may hold " + limit + ", this is another one",
                          "the first is in line " + std::to_string(first.line));
     }
-    // what is missing may be what an unknown element was to be: one message is enough
+    // an unknown child may be the missing one misspelt: one message is enough
     if (found.size() >= content.min || has_unclear) return;
     const std::string what = names.size() > 1 ? "one of " + joined(names) : names.front();
     diagnostics_.error(kMissingElement, data_.locate(node), labelOf(node) + " needs " + what + ", found none");
   }
 
-  /// Returns the name that was meant, or "".
+  /// Returns the name that was meant, or "" when there is no clear candidate.
   std::string unknownElement(xmlNode* node, const std::string& name, const ElementRule& parent) {
     const SourceLocation where = data_.locate(node);
     const std::string in = labelOf(node->parent);
@@ -233,7 +233,7 @@ void collectFinding(void* context, xmlErrorPtr error) {
   verdict->findings.error(kOther, verdict->data->locate(error->node), message);
 }
 
-/// What libxml2 says of the document: the last word on what the XSD allows.
+/// Findings of libxml2's validator, which decides what the XSD allows.
 Diagnostics validateWithLibrary(xmlSchema* schema, DocumentData& data) {
   Verdict verdict{&data, {}};
   const std::unique_ptr<xmlSchemaValidCtxt, decltype(&xmlSchemaFreeValidCtxt)> context(xmlSchemaNewValidCtxt(schema),

@@ -24,7 +24,7 @@ struct FreeParser {
   void operator()(xmlParserCtxt* context) const { xmlFreeParserCtxt(context); }
 };
 
-/// libxml2's errors point into its own memory, which the next error reuses: numbers are kept, and the two texts in use.
+/// libxml2's errors point into memory that the next error overwrites. Only the numbers are kept.
 struct ErrorList {
   std::vector<xmlError> errors;
   static constexpr std::size_t kKept = 64;
@@ -39,7 +39,7 @@ void collectError(void* context, xmlErrorPtr error) {
   list->errors.push_back(kept);
 }
 
-/// True when the bytes can be XML in an encoding we read; else says why not.
+/// True when the text is in an encoding that can be parsed; otherwise reports the reason.
 bool isText(const std::string& text, const std::string& name, Diagnostics& diagnostics) {
   const SourceLocation where{name, 1, 1};
   if (text.size() > Document::kMaxBytes) {
@@ -90,8 +90,8 @@ void notePositions(DocumentData& data, const SourceScan& scan) {
   visit(visit, data.root());
 }
 
-/// The hint that lets an editor find the XSD (xsi:noNamespaceSchemaLocation). We bring our own, and libxml2 would
-/// follow it to whatever file it names.
+/// Removes the hint for editors (xsi:noNamespaceSchemaLocation). Validation uses the embedded schema, and libxml2 would
+/// open any file that the hint names.
 void dropSchemaHint(xmlNode* root) {
   for (const char* hint : {"noNamespaceSchemaLocation", "schemaLocation"}) {
     xmlAttr* attribute = xmlHasNsProp(root, reinterpret_cast<const xmlChar*>(hint),
@@ -134,7 +134,7 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
   if (!isText(text, name, diagnostics)) return nullptr;
   const SourceScan scan = scanSource(text);
   if (scan.doctype) {
-    // refused before libxml2 sees it: no entity can expand, no external subset can be asked for
+    // refuse before libxml2 sees the text: no entity can expand, no external subset can be loaded
     diagnostics.error(kDoctype, {name, scan.doctype->line, scan.doctype->column},
                       "<!DOCTYPE> and entities are not allowed in Presa files", "remove the DOCTYPE declaration");
     return nullptr;
@@ -145,7 +145,7 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
                       attribute.empty() ? "the file has more than " + std::to_string(kMaxElements) + " elements"
                                         : "this element has more than " + std::to_string(kMaxAttributes) +
                                               " attributes: " + quote(attribute) + " is one too many",
-                      "no file of Presa's comes near that");
+                      "valid files stay far below this limit");
     return nullptr;
   }
   auto data = std::make_unique<DocumentData>();

@@ -17,13 +17,13 @@ struct FreeDoc {
   void operator()(xmlDoc* doc) const { xmlFreeDoc(doc); }
 };
 
-/// A libxml2 tree and what we know of its nodes (keys: xmlNode* or xmlAttr*; looked up, never iterated).
+/// A libxml2 tree and data about its nodes (keys: xmlNode* or xmlAttr*; looked up, never iterated).
 struct DocumentData {
   std::string name;
   std::unique_ptr<xmlDoc, FreeDoc> doc;
   std::unordered_map<const void*, SourceLocation> where;
-  std::unordered_map<const void*, SourceLocation> text_where;  ///< of stray text, by its element
-  std::unordered_set<const void*> flawed;                      ///< attributes with a wrong value
+  std::unordered_map<const void*, SourceLocation> text_where;  ///< place of stray text, by its element
+  std::unordered_set<const void*> flawed;                      ///< attributes with an invalid value
 
   xmlNode* root() const { return xmlDocGetRootElement(doc.get()); }
   SourceLocation locate(const void* node) const {
@@ -36,12 +36,12 @@ struct DocumentData {
   }
 };
 
-/// Before the first use of libxml2 in any thread.
+/// Must be called before the first use of libxml2 in any thread.
 void prepareLibrary();
 
 inline const xmlChar* toXml(const std::string& text) { return reinterpret_cast<const xmlChar*>(text.c_str()); }
 inline std::string fromXml(const xmlChar* text) { return text ? reinterpret_cast<const char*>(text) : ""; }
-/// Name with the prefix as written ("xsi:type").
+/// Name with its prefix as written ("xsi:type").
 std::string qualifiedName(const xmlNs* ns, const xmlChar* local);
 std::string nameOf(const xmlNode* node);
 std::optional<std::string> attributeOf(const xmlNode* node, const std::string& attribute);
@@ -49,7 +49,7 @@ std::optional<std::string> attributeOf(const xmlNode* node, const std::string& a
 std::string labelOf(const xmlNode* node);
 std::vector<xmlNode*> childElements(const xmlNode* node);
 
-/// Why the text could not be parsed, in our words: one finding, or one for each repeated attribute.
+/// Reports why the text could not be parsed: one finding, or one for each repeated attribute.
 void reportParseErrors(const std::string& name, const SourceScan& scan, const std::vector<xmlError>& errors,
                        Diagnostics& diagnostics);
 

@@ -9,7 +9,7 @@ xmlNode* asNode(void* node) { return static_cast<xmlNode*>(node); }
 
 xmlAttr* findAttribute(void* node, const std::string& attribute) { return xmlHasProp(asNode(node), toXml(attribute)); }
 
-/// The attribute that tells elements of one kind apart, or "".
+/// The quoted value of the attribute that distinguishes elements of one kind, or "".
 std::string identityOf(const xmlNode* node) {
   for (const char* attribute : {"name", "role", "key"}) {
     const auto value = attributeOf(node, attribute);

@@ -15,7 +15,7 @@ struct Words {
   const char* help;
 };
 
-/// What the commonest slips look like to libxml2, and what they are to the writer of the file.
+/// Messages for the most common libxml2 errors, worded for the author of the file.
 const std::map<int, Words>& wordsByCode() {
   static const std::map<int, Words> words{
       {XML_ERR_DOCUMENT_EMPTY, {"this is no XML: it does not start with '<'", ""}},
@@ -23,7 +23,7 @@ const std::map<int, Words>& wordsByCode() {
        {"something follows after the end of the root element",
         "a file holds one root element; is one closed too early?"}},
       {XML_ERR_SPACE_REQUIRED,
-       {"a start tag is broken here", "between two attributes stands a space; the tag ends with '>' or '/>'"}},
+       {"a start tag is broken here", "separate attributes by spaces and end the tag with '>' or '/>'"}},
       {XML_ERR_NAME_REQUIRED,
        {"a name of an element or attribute is expected here",
         "is the tag before it closed with '>' or '/>'? A real '<' is written &lt;, a real '&' is written &amp;"}},
@@ -34,14 +34,14 @@ const std::map<int, Words>& wordsByCode() {
       {XML_ERR_HYPHEN_IN_COMMENT, {"'--' is not allowed within a comment", "a comment ends with '-->'"}},
       {XML_ERR_COMMENT_NOT_FINISHED, {"a comment is not closed", "end it with '-->'"}},
       {XML_ERR_RESERVED_XML_NAME,
-       {"'<?xml' is allowed only at the very start of the file", "remove what stands before it"}},
+       {"'<?xml' is allowed only at the very start of the file", "remove everything before it"}},
       {XML_NS_ERR_UNDEFINED_NAMESPACE,
        {"a name with ':' uses a namespace that is not declared", "names in Presa files have no ':'"}},
   };
   return words;
 }
 
-/// The scan knows better than libxml2 where a mistake begins: at the tag or attribute that was left open.
+/// Uses the scan, which knows better than libxml2 where a mistake begins: at the unclosed tag or attribute.
 bool reportFromScan(const std::string& name, const SourceScan& scan, int code, Diagnostics& diagnostics) {
   const auto at = [&](const Position& position) { return SourceLocation{name, position.line, position.column}; };
   if (code == XML_ERR_TAG_NAME_MISMATCH && scan.mismatch) {
@@ -79,7 +79,7 @@ bool reportFromScan(const std::string& name, const SourceScan& scan, int code, D
   }
 }
 
-/// A repeated attribute does not stop the parser, so that all of them can be told.
+/// A repeated attribute does not stop the parser, so all of them are reported.
 bool reportRepeatedAttributes(const std::string& name, const SourceScan& scan, Diagnostics& diagnostics) {
   bool found = false;
   for (const ScannedTag& tag : scan.tags) {
@@ -98,7 +98,7 @@ bool reportRepeatedAttributes(const std::string& name, const SourceScan& scan, D
 
 void reportParseErrors(const std::string& name, const SourceScan& scan, const std::vector<xmlError>& errors,
                        Diagnostics& diagnostics) {
-  // what follows the first mistake is mostly its echo
+  // only the first error counts: later ones are mostly its consequences
   const xmlError first = errors.empty() ? xmlError{} : errors.front();
   const SourceLocation where{name, first.line, first.int2};
   if (first.code == XML_ERR_ATTRIBUTE_REDEFINED && reportRepeatedAttributes(name, scan, diagnostics)) return;

@@ -19,7 +19,7 @@ struct AttributeRule {
 
 struct ElementRule;
 
-/// Children of which `min` to `max` must stand in an element; more than one option: alternatives.
+/// Between `min` and `max` children of an element; several options are alternatives.
 struct ContentRule {
   std::vector<const ElementRule*> options;
   std::size_t min = 0;
@@ -36,16 +36,16 @@ struct ElementRule {
   const ContentRule* contentOf(const std::string& child_name) const;
   std::vector<std::string> attributeNames() const;
   std::vector<std::string> childNames() const;
-  /// No attribute and no child is required: the element may be left out or stand without anything in it.
+  /// True when no attribute and no child is required.
   bool mayBeEmpty() const;
 };
 
-/// An XSD in two forms: compiled by libxml2, which decides what is valid, and as rules in the words of our messages,
-/// defaults and overrides. Immutable; may be shared by threads.
+/// An XSD in two forms: compiled by libxml2, which decides validity, and as rules for messages, defaults and overrides.
+/// Immutable; may be shared by threads.
 ///
-/// The rules know the part of XSD 1.0 that Presa's schemas use; any other construct throws std::logic_error. One
-/// addition, which XSD 1.0 lacks: within a repeated choice (elements in any order) the attribute `p:occurs`
-/// ("1", "0..1", "1..*") in the namespace urn:presa:schema says how often an element may stand.
+/// The rules support the part of XSD 1.0 that Presa's schemas use; any other construct throws std::logic_error. One
+/// extension, which XSD 1.0 lacks: within a repeated choice (elements in any order) the attribute `p:occurs`
+/// ("1", "0..1", "1..*") in the namespace urn:presa:schema limits how often an element may occur.
 class Schema {
  public:
   explicit Schema(const std::string& xsd);

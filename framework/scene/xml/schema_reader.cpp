@@ -39,7 +39,7 @@ std::size_t occurrence(const xmlNode* node, const char* attribute) {
   return readCount(attributeOf(node, attribute).value_or("1"));
 }
 
-/// p:occurs; any number when absent.
+/// Minimum and maximum from p:occurs; any number when it is absent.
 std::pair<std::size_t, std::size_t> statedOccurrence(const xmlNode* node) {
   const std::unique_ptr<xmlChar, void (*)(void*)> value(
       xmlGetNsProp(node, reinterpret_cast<const xmlChar*>("occurs"), reinterpret_cast<const xmlChar*>(kExtensions)),

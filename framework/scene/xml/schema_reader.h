@@ -7,7 +7,7 @@
 
 namespace presa::xml {
 
-/// Turns the text of an XSD into ElementRules.
+/// Builds the ElementRules of a Schema from the text of an XSD.
 class SchemaReader {
  public:
   explicit SchemaReader(Schema& schema) : schema_(schema) {}
@@ -27,7 +27,7 @@ class SchemaReader {
   const xmlNode* global(const std::string& kind, const std::string& name) const;
 
   Schema& schema_;
-  std::map<std::pair<std::string, std::string>, const xmlNode*> globals_;  ///< by element name and `name` attribute
+  std::map<std::pair<std::string, std::string>, const xmlNode*> globals_;  ///< by kind of definition and its name
 };
 
 }  // namespace presa::xml

@@ -45,7 +45,7 @@ class Scanner {
     return std::string(text_.substr(first, index_ - first));
   }
 
-  /// One piece of markup or one character of text; false: stop here.
+  /// Scans one piece of markup or one character of text. False: stop.
   bool step() {
     if (current() != '<') {
       if (!isSpace(current())) noteText();

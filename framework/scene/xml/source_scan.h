@@ -6,7 +6,7 @@
 
 namespace presa::xml {
 
-/// Line and column count from 1; a column is one character (of UTF-8), a tab is one too.
+/// Line and column, both from 1. A column is one UTF-8 character; a tab counts as one.
 struct Position {
   int line = 0;
   int column = 0;
@@ -19,33 +19,34 @@ struct ScannedAttribute {
 
 struct ScannedTag {
   std::string name;
-  Position at;  ///< of '<'
+  Position at;  ///< position of '<'
   std::vector<ScannedAttribute> attributes;
-  Position text;  ///< of the first character in the element that is neither markup nor white space; line 0: none
+  Position text;  ///< first character in the element that is neither markup nor white space; line 0: none
 };
 
 struct MismatchedEnd {
-  std::string name;  ///< what stands in </name>
+  std::string name;  ///< name in the end tag </name>
   Position at;
-  std::size_t open_tag;  ///< index of the tag that is open there
+  std::size_t open_tag;  ///< index of the tag that should have been closed
 };
 
-/// Where everything stands in a source text: libxml2's tree knows lines only. Element i of `tags` is the i-th element
-/// of the document in document order. The scan stops at the first thing it does not understand (libxml2 says what).
+/// Positions of all tags and attributes in a source text, because libxml2's tree knows lines only. Element i of `tags`
+/// is the i-th element in document order. The scan stops at the first construct it does not understand; libxml2 reports
+/// it.
 struct SourceScan {
   std::vector<ScannedTag> tags;
   std::vector<std::size_t> open;  ///< tags still open at the end, innermost last
   std::optional<MismatchedEnd> mismatch;
-  std::optional<ScannedAttribute> broken_attribute;  ///< without value or quotes, or running on to the next '<'
-  std::optional<Position> doctype;                   ///< of "<!DOCTYPE"; the scan stops there
+  std::optional<ScannedAttribute> broken_attribute;  ///< no value, no quotes, or a value that runs on to the next '<'
+  std::optional<Position> doctype;                   ///< position of "<!DOCTYPE", where the scan stops
   std::optional<ScannedAttribute>
-      crowded;  ///< an element's first attribute too many, or the first element; stops there
+      crowded;  ///< first attribute beyond kMaxAttributes, or (name empty) element beyond kMaxElements; the scan stops
 };
 SourceScan scanSource(std::string_view text);
 
-/// What no file of ours comes near: libxml2 compares each attribute of an element with each.
+/// Limit per element, far above any valid file: libxml2 compares every attribute of an element with every other.
 inline constexpr std::size_t kMaxAttributes = 256;
-/// 100 000 bodies with all defaults written out have a million.
+/// Limit per document: 100 000 bodies with all defaults written out have a million elements.
 inline constexpr std::size_t kMaxElements = 2'000'000;
 
 }  // namespace presa::xml

@@ -52,7 +52,7 @@ std::string listText(const std::vector<std::string>& parts) {
   return text;
 }
 
-/// The two slips that are most often behind a number that is none.
+/// Help for the two most common mistakes in a number: a decimal comma and a unit.
 std::string numberHelp(const std::string& word) {
   const auto comma = word.find(',');
   if (comma != std::string::npos) {

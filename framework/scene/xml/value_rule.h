@@ -6,7 +6,7 @@
 
 namespace presa::xml {
 
-/// What an XSD allows as the value of an attribute.
+/// The values that an XSD allows for an attribute.
 struct ValueRule {
   enum class Kind { kText, kName, kPattern, kNumber, kBoolean, kWord };
   struct Bound {
@@ -14,13 +14,13 @@ struct ValueRule {
     bool included = true;
   };
   Kind kind = Kind::kText;
-  std::optional<Bound> min, max;        ///< of a number
-  std::size_t count = 1;                ///< numbers in the value, separated by spaces; 0: any, at least one
-  std::size_t min_length = 0;           ///< of a text
-  std::vector<std::string> words;       ///< of kWord: all that is allowed
-  std::string pattern;                  ///< of kPattern
-  std::string documentation;            ///< of kPattern: the pattern in words
-  std::vector<ValueRule> alternatives;  ///< of a union: one of them must fit, this rule itself says nothing
+  std::optional<Bound> min, max;        ///< kNumber: range
+  std::size_t count = 1;                ///< kNumber: how many numbers, separated by spaces; 0: one or more
+  std::size_t min_length = 0;           ///< kText: minimum length
+  std::vector<std::string> words;       ///< kWord: the allowed words
+  std::string pattern;                  ///< kPattern: regular expression
+  std::string documentation;            ///< kPattern: the pattern in words
+  std::vector<ValueRule> alternatives;  ///< union: one of these must fit; the other members are not used
 };
 
 /// "a number > 0", "3 numbers in [0, 1]", "'true' or 'false'", ...
@@ -31,13 +31,13 @@ struct ValueProblem {
   std::string message;  ///< "must be a number > 0, found '-1'"
   std::string help;     ///< may be empty
 };
-/// What is wrong with `value`, if anything. Numbers must be finite, whatever the XSD type says of NaN and INF.
+/// The problem with `value`, or none. Numbers must be finite, although the XSD type permits NaN and INF.
 std::optional<ValueProblem> problemOf(const ValueRule& rule, const std::string& value);
 
 /// Shortest text that reads back as the same number.
 std::string numberText(double value);
 enum class NumberKind { kFinite, kNotFinite, kNotANumber };
-/// XML white space around the number and a leading '+' are allowed; decimal point, never the locale's sign.
+/// Allows XML white space around the number and a leading '+'. The decimal sign is always a point, in every locale.
 NumberKind readNumber(std::string_view text, double& value);
 std::vector<std::string> splitWords(const std::string& text);
 

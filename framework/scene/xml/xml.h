@@ -5,8 +5,8 @@
 
 #include "framework/core/diagnostics/diagnostics.h"
 
-/// Thin view of an XML document: the only user of libxml2. Errors carry file, line and column (of the start tag or the
-/// attribute at fault; columns count characters). A Document belongs to one thread; different ones may be used at once.
+/// Thin interface to an XML document over libxml2. Errors carry file, line and column of the start tag or attribute at
+/// fault; columns count characters. A Document belongs to one thread; different Documents may be used concurrently.
 namespace presa::xml {
 
 class Element;
@@ -15,26 +15,26 @@ struct DocumentData;
 
 class Document {
  public:
-  /// Parses `file` (network off, no DOCTYPE, at most kMaxBytes). nullptr and diagnostics on failure.
+  /// Parses `file` (network off, no DOCTYPE, at most kMaxBytes). On failure: nullptr and diagnostics.
   static std::unique_ptr<Document> load(const std::string& file, Diagnostics& diagnostics);
   static std::unique_ptr<Document> parse(const std::string& text, const std::string& name, Diagnostics& diagnostics);
   ~Document();
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
-  /// Checks against an XSD (framework/scene/schemas.h). All findings are reported, unknown names get "did you mean".
-  /// False when anything was wrong. Then names that were clearly meant are corrected in the document, so that the
-  /// caller's own checks can go on and find what else is wrong; values at fault answer Element::flawed.
+  /// Validates against an XSD (framework/scene/schemas.h). Reports all findings; unknown names get "did you mean".
+  /// Returns false when there were errors. Misspelt names are then corrected in the document, so that the caller's own
+  /// checks find further errors; attributes with invalid values answer Element::flawed.
   bool validate(const std::string& schema, Diagnostics& diagnostics);
   bool validate(const Schema& schema, Diagnostics& diagnostics);
-  /// Writes out every default the schema states, with the optional elements that consist of nothing else.
+  /// Writes out every default of the schema, including optional elements that consist of defaults only.
   void writeDefaults(const Schema& schema);
   Element root() const;
-  /// The document as indented text, with all changes made to it.
+  /// The document as indented text, including changes.
   std::string text() const;
   const std::string& name() const;
 
-  /// 100 000 bodies with all defaults written out; meshes live in their own files.
+  /// Enough for 100 000 bodies with all defaults written out; meshes are in separate files.
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
 
  private:
@@ -43,16 +43,16 @@ class Document {
   friend class Element;
 };
 
-/// Handle to one element; valid while its Document lives and is not validated again.
+/// Handle to one element; valid while its Document exists and is not validated again.
 class Element {
  public:
   std::string name() const;
   /// For messages: "<body> 'cube'" or "<physics> in body 'cube'".
   std::string label() const;
   bool hasAttribute(const std::string& attribute) const;
-  /// Value or `fallback` when absent.
+  /// The value, or `fallback` when absent.
   std::string attribute(const std::string& attribute, const std::string& fallback = {}) const;
-  /// Number or `fallback` when absent or not a finite number (validate() has reported the latter).
+  /// The number, or `fallback` when absent or not a finite number (which validate() has reported).
   double number(const std::string& attribute, double fallback) const;
   /// Space-separated numbers; empty when absent or one of them is not a finite number.
   std::vector<double> numbers(const std::string& attribute) const;
@@ -61,13 +61,13 @@ class Element {
   std::vector<std::string> attributeNames() const;
   /// Element children in document order; only those named `name` when it is given.
   std::vector<Element> children(const std::string& name = {}) const;
-  /// Location of the element's start tag, or of one of its attributes (the start tag when it is absent).
+  /// Location of the start tag, or of the attribute (the start tag when the attribute is absent).
   SourceLocation where() const;
   SourceLocation where(const std::string& attribute) const;
-  /// validate() has found the value of this attribute to be wrong.
+  /// Whether validate() found the value of this attribute to be invalid.
   bool flawed(const std::string& attribute) const;
 
-  /// Changes; `origin` is what where() answers for them from then on.
+  /// Changes to the document; where() answers `origin` for the changed attribute or element.
   void setAttribute(const std::string& attribute, const std::string& value);
   void setAttribute(const std::string& attribute, const std::string& value, const SourceLocation& origin);
   void removeAttribute(const std::string& attribute);

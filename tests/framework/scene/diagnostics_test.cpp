@@ -8,7 +8,7 @@
 namespace presa {
 namespace {
 
-// Editors and CI systems parse this form; a code has three digits and tells warnings from errors.
+// Editors and CI systems parse this form. A code has three digits and the letter E or W.
 TEST(Diagnostics, TextIsFileLineColumnCodeMessageHelp) {
   Diagnostics diagnostics;
   diagnostics.error(203, {"a.xml", 7, 3}, "wrong", "do this");
@@ -20,7 +20,7 @@ TEST(Diagnostics, TextIsFileLineColumnCodeMessageHelp) {
             "a.xml:9: warning[W220]: odd\n");
 }
 
-// A reader works through a file from top to bottom; what is found first is an accident of the program.
+// Findings are sorted by place in the file, because the order of detection is an accident of the program.
 TEST(Diagnostics, AreSortedByPlaceAndKeepTheirOrderAtOnePlace) {
   Diagnostics diagnostics;
   diagnostics.error(203, {"b.xml", 1, 1}, "e");
@@ -34,7 +34,7 @@ TEST(Diagnostics, AreSortedByPlaceAndKeepTheirOrderAtOnePlace) {
   EXPECT_EQ(order, "abcde");
 }
 
-// Thousands of findings have one cause. Errors must not be crowded out by warnings that came first.
+// Thousands of findings usually have one cause. Warnings that came first must not crowd out errors.
 TEST(Diagnostics, KeepsFiftyErrorsBeforeWarningsAndCountsTheRest) {
   Diagnostics diagnostics;
   for (int i = 0; i < 50; ++i) diagnostics.warning(220, {"a.xml", i + 1, 1}, "odd");
@@ -58,7 +58,7 @@ TEST(Diagnostics, InputErrorSaysAllThatWasFound) {
   EXPECT_STREQ(error.what(), diagnostics.text().c_str());
 }
 
-// One slip of each kind: missing, extra, wrong, swapped letter, wrong case.
+// One typing error of each kind: missing, extra, wrong, swapped letter, wrong case.
 TEST(NearestName, FindsOneSlip) {
   const std::vector<std::string> names{"stiffness", "damping", "color", "mass", "name"};
   EXPECT_EQ(nearestName("stifness", names), "stiffness");
@@ -68,7 +68,7 @@ TEST(NearestName, FindsOneSlip) {
   EXPECT_EQ(nearestName("MASS", names), "mass");
 }
 
-// A guess far from the word misleads more than none.
+// A distant guess is more misleading than none.
 TEST(NearestName, StaysSilentWhenNothingIsNear) {
   const std::vector<std::string> names{"mass", "pos", "x"};
   EXPECT_EQ(nearestName("gravity", names), "");
@@ -79,7 +79,7 @@ TEST(NearestName, StaysSilentWhenNothingIsNear) {
   EXPECT_EQ(didYouMean("mas", names), " (did you mean 'mass'?)");
 }
 
-// What a file holds goes to a terminal: never its control characters, never a whole megabyte.
+// Text from a file is printed on a terminal: without control characters, and shortened.
 TEST(Quote, ShortensAndDisarms) {
   EXPECT_EQ(quote("a\x1b[2Jb"), "'a?[2Jb'");
   EXPECT_EQ(quote(std::string(100, 'a')), "'" + std::string(60, 'a') + "...'");
@@ -88,7 +88,7 @@ TEST(Quote, ShortensAndDisarms) {
   EXPECT_EQ(quote(umlauts), "'" + umlauts + "'");
 }
 
-// What a terminal would obey is shown, not obeyed; what people read stays.
+// Control sequences for terminals are shown as escapes; readable text stays unchanged.
 TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable("cube_2 – würfel 立方体 ὕδωρ 🏺"), "cube_2 – würfel 立方体 ὕδωρ 🏺");
   EXPECT_EQ(printable("a\x1b[2Jb\r\n\t\x07\x7f"), "a\\x1B[2Jb\\x0D\\x0A\\x09\\x07\\x7F");
@@ -103,7 +103,7 @@ TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable("abc", 3), "abc");
 }
 
-// Whatever the bytes, the answer is UTF-8 without a control character.
+// For any bytes, the result is UTF-8 without control characters.
 TEST(Printable, LetsNoByteThrough) {
   RandomStream random(1, "bytes");
   for (int i = 0; i < 20000; ++i) {
@@ -112,7 +112,7 @@ TEST(Printable, LetsNoByteThrough) {
       byte = static_cast<char>(random.below(3) == 0 ? 0x80 + random.below(128) : random.below(256));
     const std::string shown = printable(bytes);
     for (const char c : shown) ASSERT_TRUE(static_cast<unsigned char>(c) >= 0x20 && c != 0x7F);
-    ASSERT_EQ(printable(shown), shown);  // nothing left to do: what is not ASCII in it is UTF-8 that is harmless
+    ASSERT_EQ(printable(shown), shown);  // idempotent: all remaining non-ASCII characters are harmless UTF-8
   }
 }
 

@@ -1,5 +1,4 @@
-// Scenes of thousands of bodies. None of these may search a list of thousands for each of thousands: that takes minutes, and the test's
-// time runs out.
+// Scenes with thousands of bodies. A linear search per reference would take minutes, and the test would time out.
 #include "tests/framework/scene/scene_text.h"
 
 namespace presa::scene_test {
@@ -32,7 +31,7 @@ TEST(ManyBodies, AreReadInOrder) {
   ASSERT_EQ(read.bodies.size(), static_cast<std::size_t>(kMany));
   EXPECT_EQ(read.bodies.back().name, numbered("box", kMany - 1));
   EXPECT_EQ(read.bodies.back().X_WB.p.x(), kMany - 1);
-  // what the run keeps of it, and a replay reads again
+  // the resolved text is stored with the run, and a replay parses it again
   EXPECT_EQ(parseScene(read.resolved_xml, "again", ".", {}, diagnostics).bodies.size(), read.bodies.size());
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
 }
@@ -51,7 +50,7 @@ TEST(ManyBodies, MayEachHaveAMaterialOfTheirOwn) {
     EXPECT_EQ(read.materialOf(read.bodies[i]).name, numbered("m", 4999 - static_cast<int>(i)));
 }
 
-// Each after the one behind it in the file: no pass through the list fills more than one.
+// Each goal comes after the one behind it in the file: one pass over the list fills only one goal.
 TEST(ManyBodies, MayBePutTogetherFromTheLastToTheFirst) {
   std::string goals = "<assembly>";
   for (int i = 0; i < kMany; ++i) {

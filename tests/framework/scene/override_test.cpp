@@ -34,7 +34,7 @@ TEST(Override, ListsMayBeWrittenOrSkipped) {
   EXPECT_EQ(load({{"devices/device/index/fingertip_radius", "0.01"}}).devices[1].fingertip_radius, 0.01);
 }
 
-// A value that has a default and stands not in the file is a value all the same.
+// An attribute with a default can be overridden even if it is absent from the file.
 TEST(Override, ReachesValuesThatStandNotInTheFile) {
   EXPECT_EQ(load({{"material/wood/damping", "3"}}).materials[1].damping, 3);
   EXPECT_EQ(load({{"material/wood/friction/dynamic", "0.3"}}).materials[1].friction_dynamic, 0.3);
@@ -46,7 +46,7 @@ TEST(Override, ReachesValuesThatStandNotInTheFile) {
   EXPECT_EQ(scene.rates.dynamics, 200);
 }
 
-// The two say the same thing: giving one takes the other back.
+// Both attributes of a pair express the same thing: setting one removes the other.
 TEST(Override, DensityReplacesMassAndQuatReplacesEuler) {
   const Scene scene = load({{"body/cube/physics/density", "500"}, {"body/cube/quat", "0 1 0 0"}});
   EXPECT_FALSE(scene.bodies[1].mass);
@@ -96,7 +96,7 @@ TEST(Override, PathThatLeadsNowhereSaysWhatExistsThere) {
   }
 }
 
-// A wrong value is the same mistake as in the file; it is told with the place where it was made.
+// A wrong value on the command line gives the same error as in the file, located at the --set option.
 TEST(Override, WrongValueIsToldWithItsPlaceOnTheCommandLine) {
   const Diagnostic mass = onlyFinding("body/cube/physics/mass", "-1");
   EXPECT_EQ(mass.code, 117);
@@ -106,8 +106,8 @@ TEST(Override, WrongValueIsToldWithItsPlaceOnTheCommandLine) {
   EXPECT_EQ(onlyFinding("body/cube/name", "table").code, 203);
 }
 
-// A watchdog that somebody set is not changed behind his back: with a slower dynamics it would bark all the time, and the place
-// where it stands is told. Two periods are enough; without a body that moves there is nothing to watch.
+// A watchdog set by the user is not changed silently. With a slower dynamics it would trigger all the time, so it is an
+// error at its place in the file. Two periods are enough; without free bodies nothing is checked.
 TEST(Override, ASlowDynamicsIsRefusedWhereAWatchdogWouldNotBearIt) {
   const Diagnostic finding = onlyFinding("rates/dynamics", "50");
   EXPECT_EQ(finding.code, 222);
@@ -121,8 +121,8 @@ TEST(Override, ASlowDynamicsIsRefusedWhereAWatchdogWouldNotBearIt) {
   EXPECT_EQ(findingsOf(kScene, {{"rates/dynamics", "50"}, {"device/thumb/limits/watchdog_ms", "39"}}).errorCount(), 1U);
 }
 
-// Fingers cannot hold a body that stands still for 100 ms at a time; a slow one that they can hold badly is warned of. Without
-// fingers, or without a body that moves, any rate will do.
+// Fingers cannot hold a body that is updated every 100 ms; a rate at which they hold it badly gives a warning. Without
+// fingers or free bodies any rate is allowed.
 TEST(Override, ADynamicsTooSlowToHoldABodyIsRefused) {
   const std::string free = edited(kScene, " watchdog_ms=\"20\"", "");
   const Diagnostics slow = findingsOf(free, {{"rates/dynamics", "10"}});
@@ -137,7 +137,7 @@ TEST(Override, ADynamicsTooSlowToHoldABodyIsRefused) {
           .hasErrors());
 }
 
-// What nobody set is two periods of the dynamics, and never under 20 ms; it stands in the resolved scene, which is read again.
+// An unset watchdog becomes two periods of the dynamics, at least 20 ms, and is written into the resolved scene.
 TEST(Override, AWatchdogThatNobodySetFollowsTheDynamics) {
   const std::string scene = edited(kScene, " watchdog_ms=\"20\"", "");
   for (const auto& [rate, watchdog_ms] :
@@ -152,7 +152,7 @@ TEST(Override, AWatchdogThatNobodySetFollowsTheDynamics) {
   }
 }
 
-// At the usual rates every age is 20 ms to the bit: what ran before runs the same.
+// At the usual rates every limit is exactly 20 ms.
 TEST(Ages, AreTwoPeriodsOfTheWriterAndNeverUnderTwentyMilliseconds) {
   const Rates usual;
   EXPECT_EQ(ages::patches(usual), 0.020);
@@ -162,7 +162,7 @@ TEST(Ages, AreTwoPeriodsOfTheWriterAndNeverUnderTwentyMilliseconds) {
   slow.collision = 10, slow.dynamics = 40;
   EXPECT_DOUBLE_EQ(ages::patches(slow), 0.200);
   EXPECT_DOUBLE_EQ(ages::objects(slow), 0.050);
-  EXPECT_DOUBLE_EQ(ages::fingers(slow), 0.027);  // two haptic ticks, and the step that is solved meanwhile
+  EXPECT_DOUBLE_EQ(ages::fingers(slow), 0.027);  // two haptic ticks plus the dynamics step solved meanwhile
   Rates fast;
   fast.haptic = 4000, fast.collision = fast.dynamics = 1000;
   EXPECT_EQ(ages::patches(fast), 0.020);

@@ -17,7 +17,7 @@ Diagnostics rigFindings(const std::string& text) {
   return findings;
 }
 
-// Only settings that name a file are paths; everything else is the driver's own.
+// Only settings that name a file are resolved as paths; all other settings belong to the driver.
 TEST(Rig, ReadsBindingsAndResolvesFiles) {
   Diagnostics findings;
   const Rig rig = parseRig(kRig, "rig.xml", "/lab/rigs", findings);

@@ -7,18 +7,18 @@
 namespace presa::scene_test {
 namespace {
 
-/// One slip in the scene: `to` replaces `from` and marks with '@' where the message must point.
+/// One mistake in the scene: `to` replaces `from` and marks with '@' the expected place of the message.
 struct Slip {
   const char* name;
   int code;
   const char* from;
   const char* to;
-  const char* says;  ///< words that must be in the message or its help
+  const char* says;  ///< words expected in the message or its help
 };
 
 class OneSlip : public testing::TestWithParam<Slip> {};
 
-// Every kind of mistake gives exactly one message, at its place, with what helps: no echo, no second report.
+// Every kind of mistake gives exactly one message, at its place, with a helpful hint, and no follow-up errors.
 TEST_P(OneSlip, GivesOneMessageAtItsPlace) {
   const Slip& slip = GetParam();
   const Marked scene = marked(edited(kScene, slip.from, slip.to));
@@ -148,7 +148,7 @@ std::vector<int> codesOf(const Diagnostics& findings) {
   return codes;
 }
 
-// A misspelt list must not hide the mistakes within it, nor make everything that refers to it look wrong.
+// A misspelt list must neither hide the mistakes within it nor make references to its content look wrong.
 TEST(SceneErrors, AreAllToldAtOnce) {
   std::string scene = edited(kScene, "<materials>", "<materals>");
   scene = edited(scene, "</materials>", "</materals>");
@@ -162,7 +162,7 @@ TEST(SceneErrors, AreAllToldAtOnce) {
   EXPECT_EQ(codesOf(findings), (std::vector<int>{111, 114, 114, 114, 117, 117, 203, 204, 208, 209})) << findings.text();
 }
 
-// The end of the file is where it is noticed; the tag left open is where to look.
+// The parser notices an unclosed tag at the end of the file; the message must point to the tag.
 TEST(SceneErrors, TruncatedFileNamesTheOpenElement) {
   const Marked scene = marked(kScene.substr(0, kScene.find("<haptic><sphere")) + "@<haptic>");
   const Diagnostics findings = findingsOf(scene.text);
@@ -190,7 +190,7 @@ TEST(SceneErrors, BodiesNeedAMaterialInTheScene) {
   EXPECT_EQ(codesOf(findings), std::vector<int>{205}) << findings.text();
 }
 
-// The exchange buffers have room for so many fingers: one more must be refused here, not overrun there.
+// The exchange buffers have a fixed capacity: one device too many must be refused here, not overrun them later.
 TEST(SceneErrors, CapacityIsAHardLimit) {
   std::string devices;
   for (int i = 0; i < 6; ++i) devices += "<device role=\"d" + std::to_string(i) + "\"/>\n";
@@ -200,7 +200,7 @@ TEST(SceneErrors, CapacityIsAHardLimit) {
   EXPECT_EQ(codesOf(findingsOf(scene)), std::vector<int>{210});
 }
 
-// Ten levels of ten would be 10^10 characters; refused before anything expands.
+// Ten levels of ten entities would expand to 10^10 characters; the file is refused before anything expands.
 TEST(SceneErrors, EntityBombIsRefused) {
   std::string bomb = "<?xml version=\"1.0\"?>\n<!DOCTYPE scene [<!ENTITY a0 \"ha\">";
   for (int i = 1; i <= 10; ++i) {
@@ -215,7 +215,7 @@ TEST(SceneErrors, EntityBombIsRefused) {
   EXPECT_EQ(findings.all()[0].where.column, 1);
 }
 
-// A file that is no text says where it stops to be one; an empty one has a place too.
+// A binary file is reported at the first non-text byte; an empty file has a place too.
 TEST(SceneErrors, WhatIsNoTextHasAPlace) {
   const Diagnostics zero = findingsOf(std::string("<scene>\n <a\0/>", 14));
   ASSERT_EQ(codesOf(zero), std::vector<int>{103}) << zero.text();
@@ -253,7 +253,7 @@ TEST(SceneErrors, MissingFileAndDirectoryAreTold) {
   EXPECT_NE(findings.text().find("directory"), std::string::npos);
 }
 
-// An editor finds the XSD by this hint; it is neither an error nor a file for us to open.
+// Editors find the XSD by this hint; it is not an error, and Presa does not open the file.
 TEST(SceneErrors, SchemaHintForEditorsIsAllowed) {
   const std::string hint =
       "> <scene xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"no/such.xsd\" ";

@@ -34,7 +34,7 @@ std::string poseText(const Pose& pose) {
   return text.str();
 }
 
-/// Every value of a scene (not its places in a file), to 17 digits: equal texts are equal scenes to the bit.
+/// Every value of a scene (except source locations) to 17 digits: equal texts mean scenes equal to the bit.
 std::string contentOf(const Scene& scene) {
   std::ostringstream text;
   text.precision(17);
@@ -108,7 +108,7 @@ TEST(SceneLoad, ReadsEveryValue) {
   EXPECT_EQ(scene.devices[0].limits.force, 10);
 }
 
-// The defaults stand in the XSD and in scene.h: a value that is left out must be the same from both.
+// Defaults are stated in the XSD and in scene.h: an omitted value must be the same from both.
 TEST(SceneLoad, DefaultsOfTheSchemaAreThoseOfTheHeader) {
   const Scene scene = load(
       "<scene version=\"1.0\" name=\"x\"><world gravity=\"0 0 0\"/>"
@@ -189,7 +189,7 @@ TEST(SceneLoad, EulerAnglesTurnAboutXThenNewYThenNewZ) {
     x << 1, 0, 0, 0, cx, -sx, 0, sx, cx;
     y << cy, 0, sy, 0, 1, 0, -sy, 0, cy;
     z << cz, -sz, 0, sz, cz, 0, 0, 0, 1;
-    // 1e-14: a few roundings of numbers up to 1, and of an angle up to 13 rad
+    // 1e-14: a few roundings of numbers up to 1 and of an angle up to 13 rad
     EXPECT_TRUE(scene.bodies[1].X_WB.q.toRotationMatrix().isApprox(x * y * z, 1e-14)) << text;
   }
 }
@@ -199,7 +199,7 @@ TEST(SceneLoad, HalfTurnIsExact) {
   EXPECT_EQ(scene.bodies[1].X_WB.q.coeffs(), Eigen::Vector4d(0, 0, 1, 0));
 }
 
-// w x y z, of any length: also where the squares of the entries overflow or vanish.
+// w x y z of any length, also where the squares of the entries overflow or underflow.
 TEST(SceneLoad, QuaternionIsNormalised) {
   for (const char* quat : {"0 2 0 0", "0 1e300 0 0", "0 1e-300 0 0"}) {
     const Scene scene = load(edited(kScene, "euler_deg=\"0 0 90\"", std::string("quat=\"") + quat + "\""));
@@ -215,12 +215,12 @@ TEST(SceneLoad, ElementsStandInAnyOrder) {
   EXPECT_EQ(contentOf(load(turned)), contentOf(load(kScene)));
 }
 
-// Only the point is a decimal sign, whatever the user's language.
+// The decimal sign is a point in every locale.
 TEST(SceneLoad, NumbersMayHaveSignExponentAndSpace) {
   EXPECT_EQ(load(edited(kScene, "mass=\"0.2\"", "mass=\" +2.5e-1\t\"")).bodies[1].mass, 0.25);
 }
 
-// A recording stores this text; a replay must run the very same scene from it, from any directory.
+// A recording stores the resolved text; a replay must read exactly the same scene from it, from any directory.
 TEST(ResolvedScene, ReadsBackAsTheSameScene) {
   for (const char* edit : {"euler_deg=\"0 0 90\"", "quat=\"0.3 0.1 -0.7 2\"", "", "fixed=\"true\""}) {
     Diagnostics findings;
@@ -254,7 +254,7 @@ TEST(ResolvedScene, StatesEveryDefault) {
   }
 }
 
-/// A few random edits of the bytes of `text`: cut, double, replace, swap of two words.
+/// A few random edits of the bytes of `text`: cut, duplicate, replace, swap two words.
 std::string mutated(std::string text, std::mt19937_64& random) {
   static const std::string kAlphabet = "<>/\"='&;!-[] \n0123456789.eENaxm\xC3\x01";
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % std::max<std::size_t>(n, 1)); };
@@ -282,8 +282,8 @@ std::string mutated(std::string text, std::mt19937_64& random) {
   return text;
 }
 
-// Whatever a file holds, it is either a scene that reads back as itself or errors and no scene: nothing in between.
-// E199 would be a mistake that libxml2's validator sees and our own words do not cover.
+// Any file gives either a scene that reads back as itself, or errors and no scene.
+// E199 would be an error that libxml2's validator finds and the rules do not explain.
 TEST(SceneLoad, MutatedSceneIsReadWholeOrRefused) {
   std::mt19937_64 random(20261121);
   int good = 0;

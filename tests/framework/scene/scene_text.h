@@ -6,7 +6,7 @@
 
 #include "framework/scene/load.h"
 
-/// A small scene, edits of it, and the place an edit marks.
+/// A small scene, functions that edit it, and the place that an edit marks.
 namespace presa::scene_test {
 
 inline const std::string kScene = R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -42,7 +42,7 @@ inline std::string edited(std::string text, const std::string& from, const std::
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// A text with one '@', which marks a place; line and column are counted here, by other means than the reader's.
+/// A text with one '@' as a mark. Line and column are counted here, independently of the reader.
 struct Marked {
   std::string text;
   int line = 0;
