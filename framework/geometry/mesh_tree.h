@@ -22,7 +22,8 @@ struct TangentBound {
 /// Immutable bounding-volume hierarchy over the triangles of one mesh. The bounding volume of a node is an oriented box
 /// whose thin side is the mean normal of its triangles. A patch of size s on a smooth surface with radius of curvature
 /// R is s^2 / 8R thick, so such a box fits more tightly than an axis-aligned one and few nodes come near a touching
-/// fingertip. Frame: mesh coordinates [m]. Thread: any; queries are const, allocate nothing and take no lock.
+/// fingertip.
+/// Frame: mesh coordinates [m]. Thread: any; queries are const, allocate nothing and take no lock.
 /// Throws std::invalid_argument when the mesh is empty or has a vertex that is not finite.
 class MeshTree {
  public:

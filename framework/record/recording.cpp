@@ -8,8 +8,8 @@
 namespace presa {
 namespace {
 
-// Eight seconds at the highest haptic rate (4 kHz); no group is faster than the haptic one. The recorder counts on
-// twice as many rows here as in its own ring, see Recorder::step in lockstep.
+// Eight seconds at the highest haptic rate (4 kHz); no group is faster than the haptic one. In lockstep the recorder
+// relies on this being twice the capacity of its own ring, see FileRecorder::handOver.
 constexpr std::size_t kScheduleCapacity = 32768;
 
 }  // namespace
@@ -17,7 +17,7 @@ constexpr std::size_t kScheduleCapacity = 32768;
 ScheduleLog::ScheduleLog() {
   for (auto& ring : rings) {
     ring = std::make_unique<EventRing<ScheduleRow>>(kScheduleCapacity);
-    // touch every page now, so that no tick pays for a page fault
+    // touch every page now, so that no tick causes a page fault
     ScheduleRow row;
     for (std::size_t i = 0; i < kScheduleCapacity; ++i) ring->push(row);
     while (ring->pop(row)) {
@@ -38,7 +38,7 @@ const RecordPlugin& recordPlugin() {
   if (plugin->abi != kPluginAbi) {
     Diagnostics diagnostics;
     diagnostics.error(600, {}, "the plug-in presa_record.so belongs to another version of Presa",
-                      "build it again with this version");
+                      "rebuild it with this version");
     throw InputError(std::move(diagnostics));
   }
   return *plugin;

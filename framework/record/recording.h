@@ -15,53 +15,75 @@
 
 namespace presa {
 
-struct RecorderStatus {
-  std::uint64_t rows = 0;     ///< haptic ticks on disk or on their way
-  std::uint64_t dropped = 0;  ///< haptic ticks or schedule rows lost because the disk was too slow
-  bool failed = false;        ///< the file could not be written (disk full)
+/// One tick of one rate group: whether it was a catch-up tick, and the version of every value read across rates, in the
+/// graph's bridge order. Thread timing makes these versions differ from run to run; recording them makes a replay
+/// exact.
+struct ScheduleRow {
+  static constexpr int kMaxBridges = 12;
+  std::uint64_t index = 0;
+  std::uint64_t made_up = 0;  ///< bit 0: Tick::made_up, bit 1: Tick::resumed
+  std::array<std::uint64_t, kMaxBridges> versions{};
 };
 
-/// Haptic-rate tap with its own writer thread. In ports: "device_state", "contact_exchange", "force_command",
-/// "object_state" (optional). In real time step() only copies into a ring, and drops and counts a row that finds it
-/// full. In lockstep, where no deadline exists, step() waits for the disk instead: nothing is ever dropped.
+/// Groups whose ticks are recorded: all but the bus, which only publishes the others' results and is not needed for a
+/// replay.
+inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
+constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
+
+/// Log to which the executors write when a run is recorded: one ring per rate group (one writer each), drained by the
+/// recorder's writer thread.
+struct ScheduleLog {
+  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;
+  ScheduleLog();
+};
+
+struct RecorderStatus {
+  std::uint64_t rows = 0;     ///< haptic ticks accepted: written or waiting to be written
+  std::uint64_t dropped = 0;  ///< haptic ticks or schedule rows lost because the disk was too slow
+  bool failed = false;        ///< the file could not be written, for example because the disk is full
+};
+
+/// Haptic-rate observer with its own writer thread. In ports: "device_state", "contact_exchange", "force_command",
+/// "object_state" (all optional). In real time step() only copies a row into a ring; when the ring is full the row is
+/// dropped and counted. In lockstep, without deadlines, step() waits for the disk: nothing is dropped.
 class Recorder : public Module {
  public:
   using Module::Module;
-  /// The graph's schedule; before start().
+  /// The schedule log of the executors; call before start().
   virtual void attach(ScheduleLog& schedule) = 0;
-  /// Main thread: something went wrong in the run. A flight recorder writes its file now.
+  /// Main thread. Reports a fault at `time` [s]; a flight recorder then writes its file.
   virtual void fault(double time, const std::string& what) = 0;
   /// Flushes everything and closes the file; after the executor has stopped.
   virtual void finish() = 0;
   virtual RecorderStatus status() const noexcept = 0;
-  /// Files that were written; after finish().
+  /// Files written; valid after finish().
   virtual std::vector<std::string> files() const = 0;
 };
 
-/// A recording read back whole.
+/// A recording read back for replay.
 struct Recording {
-  std::string file;        ///< that it was read from
-  std::string scene_xml;   ///< resolved scene, as it ran
-  std::string scene_file;  ///< name it had
+  std::string file;        ///< path it was read from
+  std::string scene_xml;   ///< resolved scene
+  std::string scene_file;  ///< original path of the scene
   std::string rig_xml;
   std::string program_version;
   std::uint64_t seed = 0;
   bool realtime = false;
-  bool complete = false;  ///< false: the run was killed; everything up to its last flush is here
+  bool complete = false;  ///< false: the run was killed; the data end at its last flush
   std::uint64_t dropped = 0;
-  double force_share = 1;           ///< of the force limits that the run might use
-  std::vector<std::string> faults;  ///< with their times, in words
+  double force_share = 1;           ///< fraction of the force limits that the run was allowed to use [-]
+  std::vector<std::string> faults;  ///< texts with their times
   double haptic_period = 0;         ///< [s]
-  bool checksum = false;            ///< it has one, and it is right; false: an older format, or the run was killed
-  std::uint64_t first_tick = 0;     ///< not 0: it begins in the middle of a run, and cannot be run again
-  std::uint64_t left_out = 0;       ///< ticks at the end of a killed run of which a part is missing
-  std::size_t fingers = 0;          ///< of every tick
-  std::size_t bodies = 0;           ///< of its scene, fixed ones too
+  bool checksum = false;            ///< present and correct; false: older format, or the run was killed
+  std::uint64_t first_tick = 0;     ///< not 0: a flight recording, which starts in mid-run and cannot be replayed
+  std::uint64_t left_out = 0;       ///< incomplete ticks at the end of a killed run, not included here
+  std::size_t fingers = 0;          ///< number of fingers
+  std::size_t bodies = 0;           ///< number of bodies in the scene, fixed ones included
   std::vector<double> time;         ///< one entry per haptic tick
   std::vector<DeviceState> device;
   std::vector<ForceCommand> command;
-  std::vector<std::uint8_t> surfaces_changed;  ///< 1: they had their other friction
-  /// What commands changed, in the order of ticks: entry of `time`, slot of SurfaceSettings, value.
+  std::vector<std::uint8_t> surfaces_changed;  ///< per tick; 1: surfaces had their changed friction
+  /// A parameter change by command, in the order of ticks: index into `time`, slot of SurfaceSettings, value.
   struct Command {
     std::size_t row, slot;
     double value;
@@ -70,48 +92,49 @@ struct Recording {
   std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
 };
 
-/// A table of a recording by column, one value per haptic tick. What the columns hold: README.md, or their own description.
+/// A table of a recording by column, one value per haptic tick. The columns are described in the file.
 struct RecordedTable {
   struct Column {
     std::string name, unit, description;
     std::vector<double> values;
   };
-  std::string name;  ///< role of a finger, name of a body
+  std::string name;  ///< role of the finger or name of the body
   std::vector<Column> columns;
   /// Throws std::out_of_range when there is no such column.
   const std::vector<double>& values(const std::string& column) const;
 };
 
-/// What was felt and what moved, to be looked at: every table of the haptic ticks.
+/// A recording read back for analysis: every table of the haptic ticks.
 struct RecordedSamples {
   double haptic_period = 0;  ///< [s]
-  bool complete = false;     ///< false: the run was killed; everything up to its last flush is here
+  bool complete = false;     ///< false: the run was killed; the data end at its last flush
   std::uint64_t dropped = 0;
-  std::string scene_file;              ///< name it had
-  std::string start_utc;               ///< of the run, or of the file of a fault
-  std::vector<std::string> faults;     ///< with their times, in words
-  bool checksum = false;               ///< it has one, and it is right; false: an older format, or the run was killed
-  std::uint64_t first_tick = 0;        ///< not 0: it begins in the middle of a run, and cannot be run again
+  std::string scene_file;              ///< original path of the scene
+  std::string start_utc;               ///< start of the run, or time of the fault for a flight recording
+  std::vector<std::string> faults;     ///< texts with their times
+  bool checksum = false;               ///< present and correct; false: older format, or the run was killed
+  std::uint64_t first_tick = 0;        ///< not 0: a flight recording, which starts in mid-run and cannot be replayed
   std::vector<double> time;            ///< one entry per haptic tick
   std::vector<std::uint32_t> status;   ///< OutputStatus bits of all fingers together
   std::vector<RecordedTable> fingers;  ///< in the order of the scene's roles
-  std::vector<RecordedTable> bodies;   ///< that can move, in the order of the scene
+  std::vector<RecordedTable> bodies;   ///< free bodies, in the order of the scene
 };
 
 /// The record plug-in (HDF5), loaded when a run is recorded or replayed.
 struct RecordPlugin {
   int abi;
-  /// Creates the file world.options.record or, where that is empty, keeps the last two seconds for a fault, which writes them to
-  /// world.options.flight. Throws InputError: E601 it exists (and options.overwrite is not set),
-  /// E602 it cannot be written. Call it from an ordinary thread: the writer inherits priority and CPU set.
+  /// Creates the file world.options.record, or, when that is empty, keeps the last two seconds in memory; a fault then
+  /// writes them to world.options.flight. Throws InputError: E601 the file exists (and options.overwrite is not set),
+  /// E602 it cannot be written. Call from an ordinary thread, because the writer thread inherits its priority and CPU
+  /// set.
   std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world);
-  /// Checks the whole file before anything is made of it. Throws InputError with every finding: E603 cannot be read, E604 not HDF5,
-  /// E605 not a recording, E606 newer format, E607 holds no tick, E608 damaged, E670 something is stored outside of the file or otherwise
-  /// than a recording is, E671 an attribute, E672 an object or a column, E673 rows that are not stored, or tables of different length,
-  /// E674 an index or a time, E675 a value of a row, E676 the checksum. The file of a killed run is read up to its last flush. What is
-  /// read takes memory in proportion to the length of the file, whatever it says.
+  /// Checks the whole file before building anything from it. Throws InputError with every finding: E603 cannot be read,
+  /// E604 not HDF5, E605 not a recording, E606 newer format, E607 no tick, E608 damaged, E670 storage other than a
+  /// recording's, E671 attribute, E672 object or column, E673 rows not stored or tables of different length, E674 index
+  /// or time, E675 value of a row, E676 checksum. The file of a killed run is read up to its last flush. Memory use is
+  /// bounded by the length of the file, whatever the file claims.
   Recording (*read)(const std::string& file);
-  /// The same file by column, for people; throws the same.
+  /// Reads the same file by column, for analysis. Throws as read.
   RecordedSamples (*samples)(const std::string& file);
 };
 

@@ -3,23 +3,24 @@
 
 namespace presa {
 
-/// A private key and what says whose it is, both PEM. Elliptic curve P-256, SHA-256.
+/// A private key and its X.509 certificate, both PEM. Elliptic curve P-256, SHA-256.
 struct Certificate {
   std::string key, certificate;
 };
 
-/// What the plug-in exports (OpenSSL). All throw std::runtime_error with OpenSSL's reason. Thread: any but the haptic one.
+/// Functions exported by the plug-in (OpenSSL). All throw std::runtime_error with OpenSSL's reason. Thread: any but the
+/// haptic one.
 struct CertifyPlugin {
-  /// One that signs others, and itself.
+  /// Makes a self-signed certificate authority.
   Certificate (*authority)(const std::string& name, int days);
-  /// One of somebody else; `name` is its only field, CN.
+  /// Makes a key and a certificate signed by the authority; `name` becomes the subject's CN, its only field.
   Certificate (*certify)(const Certificate& authority, const std::string& name, int days);
-  /// The text with the authority's signature: S/MIME, PKCS#7, the text readable beside it.
+  /// Signs a text with the authority's key: S/MIME with a detached PKCS#7 signature, the text in clear.
   std::string (*sign)(const Certificate& authority, const std::string& text);
 };
 inline constexpr const char* kCertifySymbol = "presaCertify";
 
-/// Loads the plug-in at the first call; throws what pluginSymbol throws.
+/// Loads the plug-in at the first call. Throws as pluginSymbol.
 const CertifyPlugin& certifyPlugin();
 
 }  // namespace presa

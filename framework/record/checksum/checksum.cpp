@@ -12,7 +12,7 @@
 namespace presa {
 namespace {
 
-/// As for the largest of them, a recording.
+/// Maximum file size [bytes]: that of a recording, the largest kind of file.
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40U;
 
 constexpr std::string_view kDigits = "0123456789abcdef";

@@ -4,10 +4,10 @@
 
 #include "framework/record/checksum/checksum.h"
 
-/// What the files of this folder share.
+/// Shared by the files of this folder.
 namespace presa::checksum {
 
-/// Loaded at the first call. Throws what pluginSymbol throws.
+/// The plug-in, loaded at the first call. Throws as pluginSymbol.
 const ChecksumPlugin& plugin();
 
 std::string hexOf(const unsigned char* bytes, std::size_t count);

@@ -22,7 +22,8 @@ bool ActionReaction::moves(std::int32_t body) const noexcept {
 void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const ObjectState& objects,
                          bool fresh) noexcept {
   fingers_ = contact.count;
-  // a late dynamics thread may be behind; then its sums are not comparable and that step is passed over
+  // a late dynamics thread may publish a step that has already ended; its sums are not comparable, so the step is
+  // skipped
   if (fresh && objects.time_end >= tick.time && pending_count_ < pending_.size()) {
     const double half_step = (objects.time_end - objects.time_begin) / 2;
     pending_[pending_count_++] = {objects.time_end + half_step + tick.period / 2, objects.finger_impulse_W};
@@ -30,7 +31,7 @@ void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const
   pair(tick);
   for (std::size_t f = 0; f < static_cast<std::size_t>(fingers_); ++f) {
     const FingerContact& finger = contact.fingers[f];
-    // a finger that several bodies hold gives each its part: the sum over the free ones is not what is rendered
+    // a finger in contact with several bodies splits its force among them: the rendered sum is not comparable
     if (finger.body != body_[f] || finger.mode == ContactMode::kNone || finger.part_count > 1) ++sums_.grasp[f];
     body_[f] = finger.body;
     force_[f] = finger.f_H_W;
@@ -38,14 +39,14 @@ void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const
   }
 }
 
-// What was rendered up to this tick is known now: the ends of steps that it reached can be compared.
+// Compares every step end that the rendered sums have reached by this tick.
 void ActionReaction::pair(const Tick& tick) noexcept {
   std::size_t done = 0;
   while (done < pending_count_ && pending_[done].time <= tick.time + 1e-3 * tick.period) {
     Sums now = sums_;
     now.time = pending_[done].time;
     now.given = pending_[done].impulse;
-    // the force is held over a tick: what the last one rendered after that time is taken off again
+    // the force is held over a tick: subtract the part of the last tick that lies after the time of comparison
     for (std::size_t f = 0; f < now.rendered.size(); ++f) now.rendered[f] -= (tick.time - now.time) * force_[f];
     compare(now);
     ring_[count_++ % ring_.size()] = now;

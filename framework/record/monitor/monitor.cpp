@@ -8,7 +8,7 @@
 namespace presa {
 namespace {
 
-// 2.6 kB each: a run of any length keeps its plots within about 100 MB
+// a sample has 2.6 kB: limits the trace of a run of any length to about 100 MB
 constexpr double kMaxTraceSamples = 40'000;
 
 std::uint64_t traceStride(const World& world, double trace_rate) {
@@ -48,16 +48,16 @@ struct Monitor::Impl {
     if (!(trace_rate > 0)) return;
     stride = traceStride(*world, trace_rate);
     const double samples = world->options.duration * world->scene.rates.haptic / static_cast<double>(stride) + 2;
-    // filled and emptied again, so that no page of it is met for the first time inside the haptic loop
+    // touch every page now, so that the haptic loop pays for no page fault
     trace.resize(static_cast<std::size_t>(std::clamp(samples, 1.0, kMaxTraceSamples)));
     trace.clear();
   }
 
-  /// One tick of a run, by the stages that Monitor lists.
+  /// Processes one tick, in the stages that Monitor::stages() lists.
   template <class Watch>
   void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
                const ObjectState* state, std::uint64_t version, Watch& watch) noexcept;
-  // not inlined: each is a row of `explain --cost`
+  // not inlined, because `explain --cost` lists each as a row
   [[gnu::noinline]] void addToHash(const DeviceState& device, const ContactExchange& contact,
                                    const ObjectState* fresh) noexcept;
   [[gnu::noinline]] void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
@@ -93,8 +93,8 @@ struct Monitor::Impl {
   std::array<FingerContact, kMaxFingers> previous;
   std::array<std::vector<SlipOnset>, kMaxFingers> slip_onsets;
   std::vector<ObjectSummary> objects;
-  std::vector<std::int32_t> fingers_on;  ///< by body, this tick
-  // of thousands of bodies few move and few are held: only those are looked at in every tick
+  std::vector<std::int32_t> fingers_on;  ///< number of fingers by body, in this tick
+  // few of thousands of bodies move or are held: each tick visits only those
   std::vector<std::size_t> free, moving, grasped;
   std::vector<std::int32_t> traced;
   std::vector<TraceSample> trace;
@@ -140,7 +140,7 @@ void Monitor::Impl::follow(std::size_t i, const ObjectState& state, double time)
 
 void Monitor::Impl::noteGrasp(std::size_t i, double time) noexcept {
   ObjectSummary& object = objects[i];
-  // a stiff contact may bounce once before it holds: that is no loss
+  // a stiff contact may bounce once before it holds: a short interruption is no loss
   if (fingers_on[i] >= 2 && object.lost_at >= 0 && time - object.lost_at < kBounceTime) {
     object.lost_at = -1;
     object.dropped = false;

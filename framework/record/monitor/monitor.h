@@ -17,86 +17,87 @@
 
 namespace presa {
 
-/// A change from stick to slip on the same body, as seen in the first slipping tick and in the tick before it.
+/// A transition from stick to slip on the same body: values of the first slipping tick and of the tick before it.
 struct SlipOnset {
-  double time = -1;  ///< first slipping tick [s]; -1: there was none
+  double time = -1;  ///< first slipping tick [s]; -1: no slip
   std::int32_t body = kNoBody;
   double normal_force = 0;                 ///< first slipping tick [N]
   double tangential_force = 0;             ///< magnitude, first slipping tick [N]
   double last_stick_normal_force = 0;      ///< tick before [N]
-  double last_stick_tangential_force = 0;  ///< magnitude, tick before: the friction that gave way [N]
+  double last_stick_tangential_force = 0;  ///< magnitude, tick before: friction force at the onset of slip [N]
 };
-inline constexpr std::size_t kMaxSlipOnsets = 64;  ///< kept per finger; later ones are only counted
+inline constexpr std::size_t kMaxSlipOnsets = 64;  ///< stored per finger; further ones are only counted
 
-/// What one contact point felt over a run.
+/// Contact summary of one finger over a run.
 struct FingerSummary {
   std::array<double, 3> seconds{};  ///< by ContactMode: none, stick, slip
   double max_normal_force = 0;      ///< [N]
   double mean_normal_force = 0;     ///< over the ticks in contact [N]
-  std::uint32_t pop_through = 0;    ///< times the fingertip got past a surface
+  std::uint32_t pop_through = 0;    ///< times that the fingertip passed through a surface
   double first_pop_through = -1;    ///< [s]; -1: never
-  std::uint32_t leaps = 0;          ///< ticks in which it left a fold (ContactExchange::leaps_by_finger)
+  std::uint32_t leaps = 0;          ///< ticks in which the proxy left a fold (ContactExchange::leaps_by_finger)
   std::uint64_t slip_onsets = 0;    ///< changes from stick to slip
-  SlipOnset loosening_slip;         ///< the first one at or after loosen_time
-  ActionReaction::Result reaction;  ///< impulse given to free bodies against impulse rendered, over any 0.1 s of touch
+  SlipOnset loosening_slip;         ///< first slip onset at or after loosen_time
+  ActionReaction::Result reaction;  ///< impulse given to free bodies against impulse rendered
 };
 
-/// A grasp regained this soon was not lost [s].
+/// A grasp regained within this time does not count as lost [s].
 inline constexpr double kBounceTime = 0.05;
 
 struct ObjectSummary {
   Vec3 start = Vec3::Zero(), highest = Vec3::Zero(), final = Vec3::Zero();  ///< body origins [m]
-  bool grasped = false;  ///< was held by at least two fingers at once
-  double lost_at = -1;   ///< first loss after a grasp: no finger in contact, nor again within kBounceTime [s]; -1 never
-  bool dropped = false;  ///< lost before the scripted loosening began (any loss when nothing is scripted)
+  bool grasped = false;                                                     ///< at least two fingers held it at once
+  double lost_at = -1;    ///< first tick without contact after a grasp, not regained within kBounceTime [s]; -1: never
+  bool dropped = false;   ///< lost before the scripted loosening began (any loss when there is no script)
   double peak_speed = 0;  ///< [m/s]
 };
 
-/// One sample of the plots: everything figure 12 of the PERCRO paper shows.
+/// One sample of the plots, with the quantities of figure 12 of the PERCRO paper.
 struct TraceSample {
   double time = 0;
   std::int32_t phase = -1;
   std::array<FingerContact, kMaxFingers> fingers;  ///< HIP, proxy, mode, forces
   std::array<Vec3, kMaxFingers> f_command;         ///< after the output stage [N]
-  std::array<Pose, 4> bodies;                      ///< the first four free bodies at this time
+  std::array<Pose, 4> bodies;                      ///< poses of the first four free bodies
 };
 
-/// Haptic-rate observer: sums, hash and a decimated trace. Allocates everything at construction.
-/// In ports, all optional (a scene without fingers has none): device_state, contact_exchange, force_command, object_state.
+/// Haptic-rate observer: summaries, state hash and a decimated trace. Allocates all memory at construction.
+/// Thread: haptic (step); read the results after the executor has stopped. In ports, all optional (a scene without
+/// fingers has none): device_state, contact_exchange, force_command, object_state.
 class Monitor final : public Module, public WatchedStages {
  public:
-  /// `loosen_time`: scripted start of letting go [s], or infinity. trace_rate 0: no trace.
+  /// `loosen_time`: start of the scripted release [s], or infinity. `trace_rate` [Hz]; 0: no trace.
   Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate);
   ~Monitor() override;
   void step(const Tick& tick) noexcept override;
   void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
-  /// What step does, on states given directly; `objects` null: no dynamics, bodies rest where the scene puts them.
-  /// An Object State is summed and hashed when `objects_version` changes.
+  /// As step, for states passed as arguments. `objects` null: no dynamics, bodies keep their start poses.
+  /// An object state is summed and hashed when `objects_version` changes.
   void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
                const ObjectState* objects, std::uint64_t objects_version) noexcept;
   std::vector<std::string> stages() const override;
   std::vector<std::string> stageFunctions() const override;
 
   const std::array<FingerSummary, kMaxFingers>& fingers() const noexcept;
-  /// As Scene::bodies.
+  /// Same order as Scene::bodies.
   const std::vector<ObjectSummary>& objects() const noexcept;
   /// The first kMaxSlipOnsets of one finger, in time order.
   const std::vector<SlipOnset>& slipOnsets(std::size_t finger) const noexcept;
-  /// FNV-1a over the bits of every Device, Object and contact state of the run, as StateHash says.
+  /// State hash of the run, see StateHash.
   std::uint64_t hash() const noexcept;
   const std::vector<TraceSample>& trace() const noexcept;
   /// Scene indices of the bodies in TraceSample::bodies.
   const std::vector<std::int32_t>& tracedBodies() const noexcept;
   std::uint32_t popThrough() const noexcept;
-  /// Ticks in which a fingertip could not see every surface in its reach, those of all fingers together, and when the first came [s];
-  /// -1: none did.
+  /// Ticks in which a fingertip had no complete list of the surfaces in its reach, summed over the fingers, and the
+  /// time of the first [s]; -1: none.
   std::uint32_t coverageLost() const noexcept;
   double firstCoverageLost() const noexcept;
   double simulatedTime() const noexcept;
-  /// ObjectFault bits seen, and when the first came [s]; -1: none.
+  /// ObjectFault bits that occurred, and the time of the first [s]; -1: none.
   std::uint32_t objectFaults() const noexcept;
   double objectFaultTime() const noexcept;
-  /// Dynamics steps in which the direct solver gave up on an island and the iterative one took over.
+  /// Dynamics steps in which the direct solver failed on an island and the iterative solver replaced it.
   std::uint64_t solverFallbacks() const noexcept;
 
  private:

@@ -9,11 +9,11 @@
 
 namespace presa {
 
-/// FNV-1a, 64 bit, over the bits of the states in the order they are added. Two runs with the same hash went the
-/// same way to the bit: -0 differs from +0, one NaN from another, and no padding is read.
+/// FNV-1a, 64 bit, over the bits of the states in the order they are added. Equal hashes mean runs that are equal to
+/// the bit: -0 differs from +0, NaNs with different bits differ, and padding is not read.
 ///
-/// Order: Device State, contact exchange, and Object State when a new one has arrived, tick after tick. Within a state:
-/// members as declared, entries in use only; vectors x y z; quaternions w x y z; numbers least significant byte
+/// Order: device state, contact exchange, and the object state when a new one has arrived, tick after tick. Within a
+/// state: members as declared, only entries in use; vectors x y z; quaternions w x y z; numbers least significant byte
 /// first, booleans as one byte.
 /// Source: [Fowler–Noll–Vo, FNV-1a 64]
 class StateHash {
@@ -35,7 +35,7 @@ class StateHash {
   }
   template <class Word>
   void addWord(Word word) noexcept {
-    if (word == 0) {  // as byte by byte, which only multiplies; most of thousands of bodies do not move
+    if (word == 0) {  // same result as byte by byte, faster: most of thousands of bodies do not move
       constexpr std::uint64_t kAll = power(kPrime, sizeof(Word));
       hash_ *= kAll;
       return;

@@ -57,19 +57,19 @@ class ContentReader {
   void shorten(std::size_t rows) { contents_.count = std::min(contents_.count, rows); }
 
   bool isSchedule(const StoredTable& table) const { return table.path.starts_with("schedule/"); }
-  /// Rows that count. A killed run's newest may be anything.
+  /// Number of rows to report on: in a killed run the newest rows may be anything.
   std::uint64_t reported(const StoredTable& table) const {
     return stored_.complete || isSchedule(table) ? table.rows : contents_.count;
   }
 
-  /// The rows of a table up to the first that cannot be read or is out of order: in a recording that was closed there is none such, in a
-  /// killed run's file the newest chunk may be unreadable, or hold what was there before.
+  /// Reads the rows of a table up to the first that cannot be read or is out of order. A complete recording has no such
+  /// row; in a killed run's file the newest chunk may be unreadable or hold old data.
   template <class Row>
   std::vector<Row> rows(const StoredTable& table, const std::vector<Rule>& rules, bool keep) {
     RowCheck& check = checks_.emplace_back(RowCheck(table.path, table.columns, rules), &table).first;
     std::vector<Row> all, block;
     Row before;
-    std::uint64_t sound = 0;  // rows so far
+    std::uint64_t sound = 0;  // valid rows so far
     for (bool whole = true; whole && sound < table.rows;) {
       whole = readBlock(table, sound, block);
       if (!whole) break;
@@ -85,11 +85,11 @@ class ContentReader {
     return all;
   }
 
-  /// The next rows, at most a chunk. False when they cannot be read.
+  /// Reads the next rows, at most a chunk. False when they cannot be read.
   template <class Row>
   bool readBlock(const StoredTable& table, hsize_t begin, std::vector<Row>& block) {
     const hsize_t length = std::min<hsize_t>(kBlockRows, table.rows - begin);
-    block.assign(length, Row{});  // an older format lacks columns
+    block.assign(length, Row{});  // default values for columns that an older format lacks
     const h5::Handle type = h5::compoundType(table.columns, h5::Side::kMemory);
     const h5::Handle space(H5Dget_space(table.dataset), H5Sclose, "table space");
     const h5::Handle memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "row space");
@@ -101,7 +101,8 @@ class ContentReader {
     return false;
   }
 
-  /// How many of a block have the index and time that they should have. `before`: the row before it, then its last.
+  /// Number of leading rows of a block with the expected index and time. `before`: in, the preceding row; out, the last
+  /// good one.
   template <class Row>
   std::size_t soundRows(const StoredTable& table, std::uint64_t begin, const std::vector<Row>& block, Row& before,
                         RowCheck& check) {
@@ -123,7 +124,7 @@ class ContentReader {
           "rows count from 0; was it changed since it was recorded?");
   }
 
-  /// What is wrong with index and time of a row; "" when nothing is.
+  /// The error in the index or time of a row, or "".
   template <class Row>
   std::string keyProblem(const StoredTable& table, std::uint64_t number, const Row& row, const Row* before) const {
     const std::vector<TickRow>& ticks = contents_.ticks;
@@ -131,21 +132,21 @@ class ContentReader {
       return "index: found " + std::to_string(row.index) + ", allowed up to " + std::to_string(kMostTicks);
     if (before != nullptr && row.index <= before->index)
       return "index: found " + std::to_string(row.index) + " after " + std::to_string(before->index) +
-             ", allowed is more";
+             ", must be larger";
     if (followsTicks(table) && number < ticks.size() && row.index != ticks[number].index)
-      return "index: found " + std::to_string(row.index) + ", allowed is that of haptic/ticks, " +
-             std::to_string(ticks[number].index);
+      return "index: found " + std::to_string(row.index) + ", haptic/ticks has " + std::to_string(ticks[number].index);
     if constexpr (Timed<Row>) {
       const double time = std::isnan(stored_.haptic_period) ? row.time : timeOf(row.index);
       if (std::bit_cast<std::uint64_t>(row.time) != std::bit_cast<std::uint64_t>(time))
-        return "time: found " + numberText(row.time) + ", allowed is that of tick " + std::to_string(row.index) + ", " +
+        return "time: found " + numberText(row.time) + ", tick " + std::to_string(row.index) + " is at " +
                numberText(time);
     }
     return {};
   }
 
-  /// The tables of the haptic ticks, and their schedule where it is that of a whole run: a fault's record has more or less of it, and
-  /// where rows were dropped it has rows that no tick has.
+  /// Whether the table must have the indices of haptic/ticks: the haptic tables, and the haptic schedule of a complete
+  /// run without drops. The schedule in a flight recording is longer or shorter, and with drops it has rows without a
+  /// tick.
   bool followsTicks(const StoredTable& table) const {
     if (&table == &stored_.ticks) return false;
     if (!isSchedule(table)) return true;
@@ -156,7 +157,7 @@ class ContentReader {
            contents_.ticks.front().index == 0;
   }
 
-  /// As RateTable has it: whole nanoseconds.
+  /// Computed as in RateTable: whole nanoseconds.
   double timeOf(std::uint64_t index) const {
     const auto period_ns = static_cast<std::int64_t>(std::llround(stored_.haptic_period * 1e9));
     return static_cast<double>(static_cast<std::int64_t>(index) * period_ns) * 1e-9;
@@ -167,7 +168,7 @@ class ContentReader {
       if (table.rows != stored_.ticks.rows)
         wrong(673,
               table.path + ": found " + std::to_string(table.rows) + " rows, haptic/ticks has " +
-                  std::to_string(stored_.ticks.rows) + "; the run ended in order, so they are as many",
+                  std::to_string(stored_.ticks.rows) + "; in a complete run the numbers are equal",
               "was it changed since it was recorded?");
     };
     for (const StoredTable& table : stored_.fingers) compare(table);
@@ -180,9 +181,9 @@ class ContentReader {
     const std::size_t before = findings_.errorCount();
     for (std::size_t i = 0; i < sums_.size(); ++i)
       compareSum(sums_[i].path, sums_[i].path, sums_[i].sha256, "its rows are");
-    // when the tables are as they were, what is not is in the rest
+    // if all tables are intact, a difference is in the attributes or texts
     if (findings_.errorCount() == before)
-      compareSum("", "/", seal::sumOf(stored_.file, sums_), "what its attributes and texts say is");
+      compareSum("", "/", seal::sumOf(stored_.file, sums_), "its attributes and texts are");
     contents_.checksum = findings_.errorCount() == before;
   }
 

@@ -9,25 +9,26 @@
 
 namespace presa::record {
 
-/// Everything that a recording says, checked as a whole.
+/// The checked contents of a recording.
 struct Contents {
   StoredRecording stored;
-  std::size_t count = 0;  ///< ticks that every table has; rows beyond belong to none
-  bool checksum = false;  ///< there is one, and it is right
+  std::size_t count = 0;  ///< ticks that every table has; rows beyond are ignored
+  bool checksum = false;  ///< the file has a checksum and it matches
   std::vector<TickRow> ticks;
   std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
 };
 
-/// Who takes the rows of fingers and bodies, table by table, in order; what is not asked for is checked only. Nothing of it is to be
-/// used before readContents has returned: the next row may be one that is refused.
+/// Callbacks that receive the rows of fingers and bodies, table by table, in order. Tables without a callback are only
+/// checked. Do not use the rows before readContents has returned: a later row may be refused.
 struct TakeRows {
   std::function<void(const StoredTable&, std::vector<FingerRow>)> finger;
   std::function<void(const StoredTable&, std::vector<BodyRow>)> body;
 };
 
-/// Reads and checks a file against its schema, and its checksum. The tables of a run that ended in order have the same ticks; those of a
-/// killed one agree up to its last flush, and `count` ends there. Throws InputError with every finding: E603 to E608, E670 to E673 as
-/// openStored, E673 tables of different length, E674 an index or a time, E675 a value of a row, E676 the checksum.
+/// Reads and checks a file against its schema and its checksum. In a complete run all tables have the same ticks; in a
+/// killed run they agree up to the last flush, where `count` ends. Throws InputError with every finding: E603 to E608
+/// and E670 to E673 as openStored, E673 tables of different length, E674 index or time, E675 value of a row, E676
+/// checksum.
 Contents readContents(const std::string& file, const TakeRows& take);
 
 }  // namespace presa::record

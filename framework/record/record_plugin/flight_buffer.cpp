@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostFiles = 99;  // of one run: a device that faults all the time must not fill the disk
+constexpr int kMostFiles = 99;  // per run: a device that faults repeatedly must not fill the disk
 
 void checkFolder(const std::string& file) {
   fs::path folder = fs::path(file).parent_path();
@@ -35,11 +35,11 @@ FlightBuffer::FlightBuffer(std::shared_ptr<const World> world)
       after_(static_cast<std::size_t>(std::ceil(kAfter * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       kept_(capacity_ * layout_.words()) {
   checkFolder(world_->options.flight);
-  const Sha256 loaded;  // now, not when a fault is to be written
+  const Sha256 loaded;  // loads the plug-in now rather than at the first fault
 }
 
 void FlightBuffer::append(const std::uint64_t* rows, std::size_t count) {
-  if (missing_ == 0) close();  // only now: the schedule of its last rows came after them
+  if (missing_ == 0) close();  // not earlier: the schedule of the last rows arrives after the rows
   for (std::size_t i = 0; i < count; ++i) {
     std::copy_n(rows + i * layout_.words(), layout_.words(), &kept_[next_ * layout_.words()]);
     next_ = (next_ + 1) % capacity_;
@@ -60,7 +60,7 @@ void FlightBuffer::appendSchedule(RateGroup group, const ScheduleRow* rows, std:
 }
 
 void FlightBuffer::addFault(const std::string& what) {
-  if (missing_ == 0) close();  // this fault came after its last row
+  if (missing_ == 0) close();  // this fault belongs to the next file
   if (!file_) begin();
   if (file_) file_->addFault(what);
 }

@@ -7,12 +7,12 @@
 
 namespace presa::record {
 
-/// The last two seconds of a run, kept in memory; a fault writes them to a file of their own, with the half second that follows.
-/// Another fault, later, goes to another file.
+/// Flight recorder: keeps the last two seconds of a run in memory. A fault writes them to a file, with the half second
+/// that follows. A later fault goes to another file.
 class FlightBuffer final : public RowSink {
  public:
-  /// world.options.flight names the first file; NAME-2.h5 and so on follow, and none that exists is ever replaced. Throws
-  /// InputError E602 when its folder cannot be written.
+  /// world.options.flight names the first file; further ones are NAME-2.h5 and so on. Existing files are never
+  /// replaced. Throws InputError E602 when the folder is not writable.
   explicit FlightBuffer(std::shared_ptr<const World> world);
 
   const RowLayout& layout() const noexcept override { return layout_; }
@@ -26,7 +26,7 @@ class FlightBuffer final : public RowSink {
   void rollBack() noexcept override;
   std::vector<std::string> files() const override { return files_; }
 
-  static constexpr double kBefore = 2.0, kAfter = 0.5;  ///< of a fault [s]
+  static constexpr double kBefore = 2.0, kAfter = 0.5;  ///< recorded time before and after a fault [s]
 
  private:
   void begin();
@@ -36,11 +36,11 @@ class FlightBuffer final : public RowSink {
   std::shared_ptr<const World> world_;
   RowLayout layout_;
   std::size_t capacity_, after_;       // rows
-  std::vector<std::uint64_t> kept_;    // a circle of `capacity_` rows
+  std::vector<std::uint64_t> kept_;    // circular buffer of `capacity_` rows
   std::size_t next_ = 0, filled_ = 0;  // rows
   std::array<std::deque<ScheduleRow>, kScheduledGroupCount> schedule_;
-  std::unique_ptr<RecordingFile> file_;  // while a fault is being written
-  std::size_t missing_ = 0;              // rows that it still wants
+  std::unique_ptr<RecordingFile> file_;  // open while a fault is being written
+  std::size_t missing_ = 0;              // rows still to be written to it
   std::uint64_t dropped_ = 0;
   std::vector<std::string> files_;
 };

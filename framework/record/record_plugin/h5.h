@@ -9,7 +9,7 @@
 
 #include "framework/record/record_plugin/rows.h"
 
-/// The little of HDF5 that a recording needs, with owned handles and errors as exceptions.
+/// Thin wrapper over the part of HDF5 that recordings use: owning handles, errors as exceptions.
 namespace presa::record::h5 {
 
 class Failure : public std::runtime_error {
@@ -17,9 +17,9 @@ class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whoever calls HDF5 holds one of these: the library promises nothing about threads. It also keeps error text (a
-/// setting of each thread) off stderr, and switches off the clean-up at exit, which would try again, and print, what
-/// failed when a disk was full.
+/// Lock that every caller of HDF5 must hold, because the library is not thread-safe. The constructor also turns off
+/// HDF5's error output on stderr (a per-thread setting) and its clean-up at exit, which would retry, and print, writes
+/// that failed on a full disk.
 class Library {
  public:
   Library();
@@ -32,13 +32,13 @@ class Handle {
  public:
   using Close = herr_t (*)(hid_t);
   Handle() = default;
-  /// Takes `id`; throws Failure(what) when it is not valid.
+  /// Takes ownership of `id`; throws Failure(what) when it is not valid.
   Handle(hid_t id, Close close, const std::string& what);
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle& operator=(Handle&& other) noexcept;
   ~Handle() { reset(); }
   operator hid_t() const noexcept { return id_; }
-  /// False when closing failed: what was not flushed before may be lost.
+  /// Closes the handle. False when that failed: data that were not flushed may be lost.
   bool reset() noexcept;
 
  private:
@@ -59,7 +59,7 @@ void writeAttribute(hid_t object, const std::string& name, const std::string& va
 void writeAttribute(hid_t object, const std::string& name, const std::vector<std::string>& values);
 void writeAttribute(hid_t object, const std::string& name, double value);
 void writeAttribute(hid_t object, const std::string& name, std::uint64_t value);
-/// Text that may be longer than the 64 kB an attribute holds.
+/// A text as a dataset, because an attribute holds at most 64 kB.
 void writeText(hid_t parent, const std::string& name, const std::string& text);
 void writeTexts(hid_t parent, const std::string& name, const std::vector<std::string>& texts);
 

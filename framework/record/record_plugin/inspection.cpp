@@ -10,7 +10,7 @@
 namespace presa::record {
 namespace {
 
-constexpr std::size_t kLongestAttribute = 65536;  // HDF5's own bound where it is stored with its object
+constexpr std::size_t kLongestAttribute = 65536;  // HDF5's limit for attributes stored in the object header
 
 std::string shortText(double number) {
   std::ostringstream text;
@@ -20,7 +20,7 @@ std::string shortText(double number) {
 
 std::string kindOf(const H5L_info_t& link) {
   if (link.type == H5L_TYPE_SOFT) return "a soft link";
-  return link.type == H5L_TYPE_EXTERNAL ? "an external link" : "a link of a kind of its own";
+  return link.type == H5L_TYPE_EXTERNAL ? "an external link" : "a user-defined link";
 }
 
 std::string filterText(hid_t properties) {
@@ -30,14 +30,14 @@ std::string filterText(hid_t properties) {
   return "filter " + std::to_string(filter);
 }
 
-/// Values of an attribute or a dataset; -1: it is no list of them.
+/// Number of values of an attribute or dataset; -1 when it is neither scalar nor one-dimensional.
 hssize_t valuesOf(hid_t space) {
   const H5S_class_t kind = H5Sget_simple_extent_type(space);
   if (kind == H5S_SCALAR) return 1;
   return kind == H5S_SIMPLE && H5Sget_simple_extent_ndims(space) == 1 ? H5Sget_simple_extent_npoints(space) : -1;
 }
 
-/// HDF5 divides by the length of a type, and a file may say 0.
+/// A fixed-length text type. Length 0 is rejected, because HDF5 divides by it.
 bool isFixedText(hid_t type) {
   return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 && H5Tget_size(type) > 0;
 }
@@ -50,7 +50,7 @@ bool isNumber(hid_t type, H5T_class_t kind) {
 }  // namespace
 
 void Inspection::wrong(int code, const std::string& object, const std::string& what) {
-  const std::string help = code == 670 ? "a recording has every byte in its own file, as it was written"
+  const std::string help = code == 670 ? "a recording stores all data in its own file, without filters"
                                        : "was it copied completely, or changed since it was recorded?";
   findings_.error(code, {name_, 0, 0}, (object.empty() ? "" : object + ": ") + what, help);
 }
@@ -72,11 +72,11 @@ bool Inspection::isLinkedPlainly(const std::string& parent, const std::string& n
   H5L_info_t link;
   h5::check(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT), "link " + path);
   if (link.type == H5L_TYPE_HARD) return true;
-  wrong(670, path, "is " + kindOf(link) + "; only what stands in the file itself is read");
+  wrong(670, path, "is " + kindOf(link) + "; only data in the file itself is read");
   return false;
 }
 
-/// The last link on the way; those before it were looked at when their groups were asked for.
+/// Checks the last link of the path; the ones before it were checked when their groups were opened.
 bool Inspection::isReached(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? isLinkedPlainly("", path, path)
@@ -105,11 +105,11 @@ std::optional<h5::Handle> Inspection::dataset(const std::string& path) {
     return {};
   }
   if (!seen_.insert(info.addr).second) {
-    wrong(670, path, "is another name of an object that has one already");
+    wrong(670, path, "is a second link to the same object");
     return {};
   }
   h5::Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
-  // its properties before its extent: that of a virtual one would be looked up in other files
+  // inspect the properties before the extent: HDF5 looks up the extent of a virtual dataset in other files
   const h5::Handle properties(H5Dget_create_plist(dataset), H5Pclose, path);
   if (!isStoredPlainly(path, properties)) return {};
   return dataset;
@@ -122,7 +122,7 @@ bool Inspection::isStoredPlainly(const std::string& path, hid_t properties) {
   } else if (layout == H5D_CONTIGUOUS && H5Pget_external_count(properties) != 0) {
     wrong(670, path, "keeps its values in another file (external storage)");
   } else if (layout == H5D_CHUNKED && H5Pget_nfilters(properties) != 0) {
-    wrong(670, path, "is stored through " + filterText(properties) + "; recordings are stored as they are");
+    wrong(670, path, "is stored through " + filterText(properties) + "; recordings are stored without filters");
   } else if (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT) {
     wrong(670, path, "is stored in an unknown way");
   } else {
@@ -216,7 +216,7 @@ std::string Inspection::longText(const std::string& path) {
   const std::size_t bytes = H5Tget_size(type);
   if (H5Dget_storage_size(*found) < bytes || !spend(bytes)) {
     wrong(673, path,
-          "says " + std::to_string(bytes) + " bytes of text that are not stored; the file has " +
+          "claims " + std::to_string(bytes) + " bytes of text that are not stored; the file has " +
               std::to_string(file_bytes_));
     return {};
   }
@@ -240,14 +240,14 @@ std::uint64_t Inspection::textCount(const std::string& path, std::uint64_t most)
   const std::uint64_t stored = H5Dget_storage_size(*found);
   if (texts > most || stored / H5Tget_size(type) < texts || !spend(stored)) {
     wrong(673, path,
-          "says " + std::to_string(texts) + " texts of " + std::to_string(H5Tget_size(type)) + " bytes; " +
+          "claims " + std::to_string(texts) + " texts of " + std::to_string(H5Tget_size(type)) + " bytes; " +
               std::to_string(stored) + " bytes are stored, at most " + std::to_string(most) + " texts are allowed");
     return 0;
   }
   return texts;
 }
 
-/// By name, as they are read: older versions of the format have rows of another length.
+/// Columns are matched by name, because rows of older formats have other lengths.
 bool Inspection::hasColumns(const std::string& path, hid_t dataset, const Table& columns) {
   const h5::Handle stored(H5Dget_type(dataset), H5Tclose, path);
   if (H5Tget_class(stored) != H5T_COMPOUND) {
@@ -267,7 +267,7 @@ bool Inspection::hasColumns(const std::string& path, hid_t dataset, const Table&
       continue;
     }
     const h5::Handle is(H5Tget_member_type(stored, static_cast<unsigned>(member)), H5Tclose, path);
-    if (H5Tequal(is, should) <= 0) wrong(672, path, "column '" + name + "' has another type than it was recorded with");
+    if (H5Tequal(is, should) <= 0) wrong(672, path, "column '" + name + "' has the wrong type");
   }
   if (H5Tget_size(stored) < bytes) wrong(672, path, "its rows are shorter than their columns");
   return findings_.errorCount() == before;
@@ -294,7 +294,7 @@ std::optional<Inspection::Rows> Inspection::table(const std::string& path, const
   if (may_lack) rows = std::min(rows, stored);
   if (rows > stored || !spend(rows * row_bytes)) {
     wrong(673, path,
-          "says " + std::to_string(rows) + " rows of " + std::to_string(row_bytes) + " bytes; " +
+          "claims " + std::to_string(rows) + " rows of " + std::to_string(row_bytes) + " bytes; " +
               std::to_string(stored) + " are stored, in a file of " + std::to_string(file_bytes_) + " bytes");
     return {};
   }

@@ -10,39 +10,39 @@
 
 namespace presa::record {
 
-/// Looks at the objects of a file that nobody vouches for, without opening what is not stored in it plainly: each link on the way is a
-/// hard one, each object has one name, bytes are neither filtered nor virtual nor in another file, and all of them together are no more
-/// than the file has. Findings go to `findings`; what is asked for then has its default. "" is the root.
-/// Thread: holder of the library. Throws h5::Failure where HDF5 itself fails.
+/// Inspects the objects of an untrusted file without opening unsafe storage. Every link on a path must be hard, every
+/// object must have one name, data must be neither filtered nor virtual nor external, and the total size must not
+/// exceed the file's. Findings go to `findings`; a query that fails returns its default value. The path "" is the root.
+/// Thread: holder of an h5::Library. Throws h5::Failure when HDF5 itself fails.
 class Inspection {
  public:
   Inspection(const std::string& name, hid_t file, std::uint64_t file_bytes, Diagnostics& findings)
       : name_(name), file_(file), file_bytes_(file_bytes), left_(file_bytes), findings_(findings) {}
 
   void wrong(int code, const std::string& object, const std::string& what);
-  /// So many bytes more than the file has.
+  /// Raises the limit on the total size by `bytes` beyond the file's size.
   void allow(std::uint64_t bytes) { left_ += bytes; }
 
-  /// Those around it were asked for before.
+  /// The parent groups must have been checked before.
   bool isGroup(const std::string& path);
   std::vector<std::string> members(const std::string& path) const;
 
   std::optional<std::uint64_t> count(const std::string& object, const std::string& attribute, std::uint64_t min,
                                      std::uint64_t max);
-  /// NaN where it is none.
+  /// NaN when the attribute is missing, of another type or out of range.
   double real(const std::string& object, const std::string& attribute, double min, double max);
   std::string text(const std::string& object, const std::string& attribute);
 
-  /// A dataset that is one text.
+  /// The text of a dataset that holds exactly one.
   std::string longText(const std::string& path);
-  /// How many texts a dataset lists.
+  /// Number of texts in a dataset.
   std::uint64_t textCount(const std::string& path, std::uint64_t most);
 
   struct Rows {
     h5::Handle dataset;
     std::uint64_t rows;
   };
-  /// A table with these columns. `may_lack`: rows at its end may be without bytes (the run was killed), and do not count.
+  /// A table with these columns. `may_lack`: rows at the end may be unallocated (killed run); they are not counted.
   std::optional<Rows> table(const std::string& path, const Table& columns, bool may_lack);
 
  private:

@@ -12,10 +12,11 @@
 namespace presa::record {
 namespace {
 
-/// Days of ten fingers.
+/// Maximum size of a recording [bytes]: days of ten fingers.
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40U;
 
-/// The system's own reason when a file cannot be read; HDF5 keeps none. Returns its length.
+/// Checks that the file can be read and reports the system's reason if not, which HDF5 does not keep. Returns its
+/// length.
 std::uint64_t checkReadable(const std::string& file) {
   input::Refusal refusal;
   const auto opened = input::open(file, kMaxBytes, refusal);

@@ -14,11 +14,11 @@ FingerInput inputOf(const FingerRow& row) {
           .v_WH = Vec3(row.v_WH),
           .phase = row.phase,
           .valid = valid,
-          .age = valid ? 0 : 1.0,  // not to be bridged again
+          .age = valid ? 0 : 1.0,  // old enough that the gap is not bridged a second time
           .lost = (row.valid & 2) != 0};
 }
 
-/// What a tick says, its fingers apart.
+/// Copies the per-tick values that do not belong to a finger.
 void takeTicks(const Contents& contents, Recording& recording) {
   for (std::size_t i = 0; i < contents.count; ++i) {
     const TickRow& tick = contents.ticks[i];
@@ -77,7 +77,7 @@ Recording readRecording(const std::string& file) {
   recording.first_tick = contents.ticks.front().index;
   recording.schedule = std::move(contents.schedule);
   std::vector<ScheduleRow>& haptic = recording.schedule[static_cast<std::size_t>(RateGroup::kHaptic)];
-  // of a killed run a tick's schedule row follows its step: the newest may lack it
+  // the schedule row of a tick is written after its step, so in a killed run the newest tick may lack it
   if (!recording.complete && recording.first_tick == 0) contents.count = std::min(contents.count, haptic.size());
   if (contents.count == 0) refuse(607, file, "holds no tick", "the run ended before its first flush");
   if (haptic.size() > contents.count) haptic.resize(contents.count);

@@ -14,7 +14,7 @@
 namespace presa::record {
 namespace {
 
-/// Four seconds of rows, at most 16384 (half of what a schedule ring holds) and 256 MB.
+/// Four seconds of rows, at most 16384 (half the capacity of a schedule ring) and 256 MB.
 std::size_t ringRows(const World& world, std::size_t row_bytes) {
   const double rate = RateTable(world.scene.rates).rate(RateGroup::kHaptic);
   const auto four_seconds = static_cast<std::size_t>(std::clamp(4 * rate, 256.0, 16384.0));
@@ -90,7 +90,7 @@ void FileRecorder::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
 
 void FileRecorder::handOver() noexcept {
   if (!realtime_) {
-    // also keeps the schedule rings from overflowing: they hold twice as many rows, and are emptied as often
+    // also keeps the schedule rings from overflowing: they hold twice as many rows and are drained as often
     if (ring_.crowded()) hurryWriter();
     if (ring_.full()) waitForSpace();
   }
@@ -189,7 +189,7 @@ void FileRecorder::waitForSpace() noexcept {
 // ---- writer thread
 
 void FileRecorder::startWriter() {
-  // signals are for the program's own threads; SIGXFSZ blocked here becomes an error of write()
+  // the program's own threads handle signals; with SIGXFSZ blocked, a file-size limit becomes an error of write()
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -204,7 +204,7 @@ void FileRecorder::write() {
       std::unique_lock lock(mutex_);
       wake_.wait_for(lock, settings_.look_every, [this] { return stop_ || hurry_.load(std::memory_order_relaxed); });
       hurry_.store(false, std::memory_order_relaxed);
-      last = stop_;  // read before the last round, so that it takes everything
+      last = stop_;  // read before the last round, so that this round drains everything
     }
     if (settings_.before_round) settings_.before_round();
     drain();
@@ -225,7 +225,7 @@ void FileRecorder::drain() {
 std::size_t FileRecorder::drainBlock() {
   const std::size_t rows = ring_.pop(block_.data(), block_.size() / layout_.words());
   if (!realtime_) {
-    { const std::scoped_lock lock(mutex_); }  // step() is either before its test for space or in its wait
+    { const std::scoped_lock lock(mutex_); }  // ensures that step() is either before its test for space or waiting
     space_.notify_one();
   }
   if (rows > 0) onFile([&] { file_->append(block_.data(), rows); });
@@ -245,7 +245,7 @@ void FileRecorder::drainSchedule() {
   }
 }
 
-// After the rows: what led to a fault is there before it.
+// Called after the rows have been written, so that the rows that led to a fault precede it.
 void FileRecorder::writeFaults() {
   std::vector<std::string> faults;
   {
@@ -282,14 +282,14 @@ void FileRecorder::closeFile() {
   file_.reset();
 }
 
-/// After a failure rows are taken and thrown away: nobody waits for a full disk.
+/// After a failure rows are discarded, so that no thread waits for a full disk.
 template <class Work>
 void FileRecorder::onFile(const Work& work) {
   if (failed_.load(std::memory_order_relaxed)) return;
   const h5::Library library;
   try {
     work();
-  } catch (const std::exception&) {  // whatever it is: the run goes on
+  } catch (const std::exception&) {  // on any error the run goes on without recording
     file_->rollBack();
     kept_.store(file_->flushedTicks(), std::memory_order_relaxed);
     failed_.store(true, std::memory_order_release);
@@ -316,7 +316,7 @@ void FileRecorder::fault(double time, const std::string& what) {
   ++faults_unwritten_;
   hurry_.store(true, std::memory_order_relaxed);
   wake_.notify_one();
-  // virtual time would run away from the fault meanwhile
+  // in lockstep, wait until the fault is written; otherwise virtual time would run on meanwhile
   if (!realtime_) space_.wait(lock, [this] { return faults_unwritten_ == 0; });
 }
 

@@ -19,7 +19,7 @@
 
 namespace presa::record {
 
-/// How often the writer looks, and what a test may do meanwhile (on the writer's thread).
+/// Writer intervals, and hooks for tests (called on the writer's thread).
 struct WriterSettings {
   std::chrono::milliseconds look_every{100};
   std::chrono::milliseconds flush_every{800};
@@ -27,9 +27,9 @@ struct WriterSettings {
   std::function<void(std::uint64_t flushed_ticks)> after_flush;
 };
 
-/// Records into world.options.record, or, where only world.options.flight is named, keeps what a fault will write there.
-/// Two threads: step() belongs to the haptic one and puts rows into a ring; the writer, an ordinary thread, takes
-/// them out and is, between construction and finish(), the only one that touches the file.
+/// Records into world.options.record, or, when only world.options.flight is set, keeps a flight recording for faults.
+/// Two threads: step() runs on the haptic thread and puts rows into a ring; the writer, an ordinary thread, drains the
+/// ring and is, between construction and finish(), the only thread that touches the file.
 class FileRecorder final : public Recorder, public WatchedStages {
  public:
   explicit FileRecorder(std::shared_ptr<const World> world, WriterSettings settings = {});
@@ -45,7 +45,7 @@ class FileRecorder final : public Recorder, public WatchedStages {
   std::vector<std::string> files() const override { return files_; }
   RecorderStatus status() const noexcept override;
 
-  /// Rows that the ring holds.
+  /// Capacity of the ring in rows.
   std::size_t capacity() const noexcept { return capacity_; }
 
  private:
@@ -76,7 +76,7 @@ class FileRecorder final : public Recorder, public WatchedStages {
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
   In<SurfaceChange> surfaces_{*this, "surface_change", In<SurfaceChange>::Optional{}};
-  std::optional<In<SurfaceSettings>> commanded_;  // where the run takes commands
+  std::optional<In<SurfaceSettings>> commanded_;  // only when the run takes commands
   SettingsTaker commands_;
 
   std::shared_ptr<const World> world_;
@@ -84,7 +84,7 @@ class FileRecorder final : public Recorder, public WatchedStages {
   const bool realtime_;
   std::unique_ptr<RowSink> file_;
   RowLayout layout_;
-  std::vector<std::int32_t> free_bodies_;  ///< scene indices, as the body tables
+  std::vector<std::int32_t> free_bodies_;  ///< scene indices, in the order of the body tables
   std::size_t capacity_;
   RowRing ring_;
   std::vector<std::uint64_t> row_;    ///< haptic thread: the row being filled
@@ -95,18 +95,18 @@ class FileRecorder final : public Recorder, public WatchedStages {
 
   std::atomic<std::uint64_t> accepted_{0};
   std::atomic<std::uint64_t> dropped_{0};
-  std::atomic<std::uint64_t> kept_{0};  ///< ticks in the file when it failed
+  std::atomic<std::uint64_t> kept_{0};  ///< ticks in the file at the time of the failure
   std::atomic<bool> failed_{false};
 
   std::mutex mutex_;
   std::condition_variable wake_;   ///< the writer waits
   std::condition_variable space_;  ///< step() waits, in lockstep only
   std::atomic<bool> hurry_{false};
-  std::vector<std::string> faults_;  ///< to be written
+  std::vector<std::string> faults_;  ///< not yet taken by the writer
   std::size_t faults_unwritten_ = 0;
   bool stop_ = false;
   bool complete_ = false;
-  std::vector<std::string> files_;  ///< after finish()
+  std::vector<std::string> files_;  ///< valid after finish()
   std::thread writer_;
 };
 

@@ -19,7 +19,7 @@
 namespace presa::record {
 namespace {
 
-/// Makes sure that the file may be written, with the system's own reason when not, and that nothing is lost.
+/// Checks that the file can be written and that no other data are lost; errors carry the system's reason.
 void claim(const std::string& file, bool overwrite) {
   const int exclusive = overwrite ? 0 : O_EXCL;
   const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC | exclusive, 0666);
@@ -40,8 +40,8 @@ void claim(const std::string& file, bool overwrite) {
 h5::Handle createFile(const std::string& name) {
   const h5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   h5::check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "file access");
-  // space is taken from the file system in large steps: the end of file that the superblock states, written last in
-  // a flush, then almost always covers the new chunks that the rest of the flush refers to
+  // allocate file space in large steps: the end of file in the superblock, which a flush writes last, then almost
+  // always covers the new chunks that the rest of the flush refers to
   h5::check(H5Pset_small_data_block_size(access, hsize_t{4} << 20), "file access");
   h5::check(H5Pset_meta_block_size(access, hsize_t{64} << 10), "file access");
   h5::check(H5Pset_file_locking(access, true, true), "file access");
@@ -57,7 +57,7 @@ std::string utcNow() {
   return text;
 }
 
-/// A name as HDF5 link: '/' would start a sub-group.
+/// A name as an HDF5 link name: '/' would start a sub-group.
 std::string linkName(std::string name) {
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
@@ -95,7 +95,7 @@ RecordingFile::RecordingFile(const World& world) : name_(world.options.record), 
   } catch (const h5::Failure& failure) {
     file_.reset();
     std::error_code ignored;
-    std::filesystem::remove(name, ignored);  // it holds nothing yet
+    std::filesystem::remove(name, ignored);  // it has no content yet
     refuse(602, "--record", "'" + name + "' cannot be written: " + failure.what(),
            "make room, or choose another folder");
   }
@@ -154,7 +154,7 @@ RecordingFile::TableFile RecordingFile::createTable(const std::string& group, co
   const h5::Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "table space");
   const h5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "table properties");
   h5::check(H5Pset_chunk(properties, 1, &chunk), "table properties");
-  // space when a table grows, not when it is flushed: see reserve()
+  // allocate space when a table grows, not at the flush: see reserve()
   h5::check(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), "table properties");
   h5::check(H5Pset_obj_track_times(properties, false), "table properties");
   const h5::Handle file_type = h5::compoundType(table, h5::Side::kFile);
@@ -221,10 +221,10 @@ void RecordingFile::reserve() {
   h5::check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle), "file descriptor");
   rlimit limit{};
   if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && size > limit.rlim_cur) throw h5::Failure(std::strerror(EFBIG));
-  // only space, not length: that one is HDF5's business
+  // reserve space only; the length of the file is managed by HDF5
   const int fd = *static_cast<const int*>(handle);
   while (fallocate(fd, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(reserved_), static_cast<off_t>(size - reserved_)) != 0) {
-    if (errno == EOPNOTSUPP) break;  // this file system cannot promise space
+    if (errno == EOPNOTSUPP) break;  // this file system cannot reserve space
     if (errno != EINTR) throw h5::Failure(std::strerror(errno));
   }
   reserved_ = size;
@@ -238,7 +238,7 @@ void RecordingFile::flush() {
 }
 
 void RecordingFile::close() {
-  tables_.erase(tables_.begin() + 1, tables_.end());  // the first one keeps its row counts for flushedTicks()
+  tables_.erase(tables_.begin() + 1, tables_.end());  // keep the first one: flushedTicks() needs its row count
   schedule_.clear();
   tables_.front().dataset.reset();
   tables_.front().memory_type.reset();
@@ -259,7 +259,7 @@ void RecordingFile::seal() {
 void RecordingFile::finish() {
   seal();
   flush();
-  h5::writeAttribute(file_, "complete", std::uint64_t{1});  // only when everything else is there
+  h5::writeAttribute(file_, "complete", std::uint64_t{1});  // last, when everything else has been written
   close();
 }
 
@@ -270,7 +270,7 @@ void RecordingFile::rollBack() noexcept {
   try {
     close();
   } catch (const h5::Failure&) {
-    // the disk refuses even this: what was flushed before is on it already
+    // the disk refuses even this; the data of earlier flushes are already stored
   }
 }
 

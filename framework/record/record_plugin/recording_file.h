@@ -11,18 +11,18 @@
 
 namespace presa::record {
 
-/// Version of the layout below; a reader refuses a higher one.
+/// Version of the file layout; a reader refuses a higher one.
 inline constexpr std::uint64_t kFormatVersion =
     6;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256
 inline constexpr const char* kFormatName = "presa-recording";
-/// Rows of one chunk in the file and of one write.
+/// Rows per chunk of the file and per write.
 inline constexpr std::size_t kBlockRows = 1024;
 
 Table scheduleTable();
 
-/// A recording being written: tables of named columns that only grow, and are flushed as a whole. Killed at any
-/// moment, the file reads up to its last flush, which is why nothing is compressed (a compressed chunk moves when it
-/// grows) and why library bounds are the default ones (newer ones mark the file as open). See README.md.
+/// A recording being written: tables of named columns that only grow and are flushed together. After a kill at any
+/// moment the file is readable up to its last flush. For this reason nothing is compressed (a compressed chunk moves
+/// when it grows) and the library bounds are the default ones (newer ones mark the file as open). See README.md.
 /// Thread: one at a time, holding an h5::Library. Throws h5::Failure.
 class RecordingFile final : public RowSink {
  public:
@@ -40,7 +40,7 @@ class RecordingFile final : public RowSink {
   void rollBack() noexcept override;
   std::vector<std::string> files() const override { return {name_}; }
 
-  static constexpr std::uint64_t kMostFaults = 1000;  ///< that a file names
+  static constexpr std::uint64_t kMostFaults = 1000;  ///< stored per file
 
  private:
   struct TableFile {
@@ -56,10 +56,9 @@ class RecordingFile final : public RowSink {
   void describe(const World& world);
   TableFile createTable(const std::string& group, const std::string& name, const Table& table);
   static void appendTo(TableFile& table, const void* rows, std::size_t count);
-  /// Takes the space that the next flush will fill from the file system, so that a full disk shows before it, not
-  /// half-way through it.
+  /// Reserves disk space for the next flush, so that a full disk is detected before the flush, not half-way through it.
   void reserve();
-  /// The checksums: only when nothing will be added any more.
+  /// Writes the checksums; only after all rows have been added.
   void seal();
   void close();
 
@@ -70,7 +69,7 @@ class RecordingFile final : public RowSink {
   std::vector<TableFile> tables_;    ///< as RowLayout: the ticks, each finger, each free body
   std::vector<TableFile> schedule_;  ///< by RateGroup
   std::vector<std::byte> gathered_;
-  hsize_t reserved_ = 0;  ///< bytes of the file that surely have their space
+  hsize_t reserved_ = 0;  ///< bytes of the file with reserved space
 };
 
 }  // namespace presa::record

@@ -11,7 +11,7 @@
 namespace presa::record {
 namespace {
 
-/// "" when the rule holds, else what was found.
+/// The offending value as text, or "" when the rule holds.
 std::string broken(const Rule& rule, const Column& column, const void* row) {
   if (rule.finite) {
     const auto value = valueAt<double>(row, column.offset);
@@ -84,7 +84,7 @@ void RowCheck::check(const void* row, std::uint64_t number) {
 void RowCheck::report(const std::string& file, std::uint64_t rows, Diagnostics& findings) const {
   for (const Watched& one : watched_) {
     if (one.broken == 0 || one.first >= rows) continue;
-    const std::string more = one.broken > 1 ? "; so are " + std::to_string(one.broken - 1) + " more rows" : "";
+    const std::string more = one.broken > 1 ? "; " + std::to_string(one.broken - 1) + " more rows are wrong" : "";
     findings.error(675, {file, 0, 0},
                    path_ + ": column '" + one.column.name + "', row " + std::to_string(one.first) + ": found " +
                        one.found + ", allowed " + allowed(one.rule) + more,

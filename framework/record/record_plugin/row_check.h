@@ -8,26 +8,26 @@
 
 namespace presa::record {
 
-/// What a column may hold: whole numbers in a range, or, without a range, any real number that is one.
+/// Allowed values of a column: whole numbers from `min` to `max`, or (`finite`) any finite real number.
 struct Rule {
   std::string column;
   std::int64_t min = 0, max = -1;
   bool finite = false;
 };
 
-/// The rules of a recording with so many fingers whose scene has so many bodies; values that are measured have none.
+/// Rules for a recording with this many fingers and scene bodies. Measured values have no rules.
 std::vector<Rule> tickRules(std::uint64_t fingers);
 std::vector<Rule> fingerRules(std::uint64_t scene_bodies);
 std::vector<Rule> scheduleRules();
 
-/// Applies rules to the rows of one table, and keeps of each the first that breaks it.
+/// Applies rules to the rows of one table and remembers the first violation of each.
 class RowCheck {
  public:
-  /// Rules of columns that the table does not have (an older version of the format) fall away.
+  /// Rules for columns that the table lacks (older format) are ignored.
   RowCheck(std::string path, const Table& table, const std::vector<Rule>& rules);
-  /// `row`: laid out as the table says.
+  /// `row` has the layout of the table.
   void check(const void* row, std::uint64_t number);
-  /// What was broken in the first `rows`, as E675.
+  /// Reports violations in the first `rows` rows as E675.
   void report(const std::string& file, std::uint64_t rows, Diagnostics& findings) const;
 
  private:

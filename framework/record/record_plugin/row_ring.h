@@ -7,12 +7,12 @@
 
 namespace presa::record {
 
-/// Rows of equal length, fixed at construction, from one writer thread to one reader thread: an EventRing whose
-/// element size depends on the scene. A row appears whole or not at all.
+/// Lock-free ring of rows between one writer and one reader thread: an EventRing whose element size is fixed at
+/// construction, because it depends on the scene. A row becomes visible as a whole or not at all.
 class RowRing {
  public:
   RowRing(std::size_t words_per_row, std::size_t rows) : words_(words_per_row), queue_(words_per_row * rows) {
-    // touch every page now, so that no tick pays for a page fault
+    // touch every page now, so that no tick causes a page fault
     const std::vector<std::uint64_t> zero(words_, 0);
     while (push(zero)) {
     }
@@ -26,10 +26,10 @@ class RowRing {
     return true;
   }
   bool full() const noexcept { return queue_.write_available() < words_; }
-  /// Writer. True when more than half of the ring waits to be read.
+  /// Writer. True when more than half of the ring is unread.
   bool crowded() const noexcept { return crowded_below_ > queue_.write_available(); }
 
-  /// Reader: takes up to `max_rows` of the oldest rows.
+  /// Reader. Takes up to `max_rows` of the oldest rows and returns their number.
   std::size_t pop(std::uint64_t* rows, std::size_t max_rows) noexcept {
     return queue_.pop(rows, max_rows * words_) / words_;
   }

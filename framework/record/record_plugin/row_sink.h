@@ -8,7 +8,7 @@
 
 namespace presa::record {
 
-/// Where a recorder's writer puts the rows.
+/// Destination of the rows that a recorder's writer thread drains.
 /// Thread: one at a time, holding an h5::Library. Throws h5::Failure.
 class RowSink {
  public:
@@ -17,20 +17,20 @@ class RowSink {
   /// `count` rows of layout().bytes() each.
   virtual void append(const std::uint64_t* rows, std::size_t count) = 0;
   virtual void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) = 0;
-  /// Something went wrong in the run, in words with its time.
+  /// Stores a fault of the run, a text with its time.
   virtual void addFault(const std::string& what) = 0;
   virtual void writeDropped(std::uint64_t dropped) = 0;
   virtual void flush() = 0;
   virtual std::uint64_t flushedTicks() const noexcept = 0;
-  /// Marks the run as ended in order, and closes.
+  /// Marks the run as complete and closes.
   virtual void finish() = 0;
-  /// After a Failure: takes back what was not flushed and closes, so that the rest stays readable.
+  /// After a Failure: discards unflushed data and closes, so that the flushed data stay readable.
   virtual void rollBack() noexcept = 0;
   /// Files that were written.
   virtual std::vector<std::string> files() const = 0;
 };
 
-/// What a row of this world consists of.
+/// The row layout for this world.
 RowLayout layoutOf(const World& world);
 
 }  // namespace presa::record

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// The tables of a recording, as C++ structs and as named columns with units. Every table repeats index and time, so
-/// that each can be used alone, and so that a reader can prove that a row is whole.
+/// that it can be used alone and so that a reader can verify each row.
 namespace presa::record {
 
 /// /haptic/ticks
@@ -53,7 +53,7 @@ struct BodyRow {
   double v_WB[3] = {}, w_WB[3] = {};
 };
 
-// rows travel through the ring as 64-bit words and go to the file byte by byte: no padding may hide in them
+// rows pass through the ring as 64-bit words and are written byte by byte, so they must not contain padding
 template <class Row>
 inline constexpr bool kPacked = std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(std::uint64_t) == 0;
 static_assert(kPacked<TickRow> && sizeof(TickRow) == 9 * 8 + 6 * 4);
@@ -66,11 +66,11 @@ struct Column {
   std::string name;
   std::size_t offset;
   Cell cell;
-  std::string unit;  ///< "1" for a number without unit
+  std::string unit;  ///< "1": dimensionless
   std::string description;
 };
 
-/// What a row, as it lies in memory or in the file, holds at an offset.
+/// The value at an offset of a row.
 template <class Value>
 Value valueAt(const void* row, std::size_t offset) noexcept {
   Value value;
@@ -87,7 +87,7 @@ Table tickTable();
 Table fingerTable();
 Table bodyTable();
 
-/// One row of everything, as it travels through the ring: the tick, then each finger, then each free body.
+/// Layout of a complete row in the ring: the tick, then each finger, then each free body.
 struct RowLayout {
   std::size_t fingers = 0;
   std::size_t bodies = 0;
@@ -97,7 +97,7 @@ struct RowLayout {
   std::size_t words() const { return bytes() / sizeof(std::uint64_t); }
 };
 
-/// The part of a table that a replay needs, read by name into the same structs.
+/// The table reduced to these columns (vectors by prefix), read by name into the same structs.
 Table subset(const Table& table, const std::vector<std::string>& columns);
 
 }  // namespace presa::record

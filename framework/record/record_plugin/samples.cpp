@@ -19,7 +19,7 @@ double numberAt(const void* row, const Column& column) {
   return valueAt<double>(row, column.offset);
 }
 
-/// Every column but the key of the rows, which are those of the ticks.
+/// All columns except index and time, which are the same in every table.
 template <class Row>
 RecordedTable byColumn(const StoredTable& table, const std::vector<Row>& rows) {
   RecordedTable result{table.name, {}};

@@ -8,9 +8,9 @@
 namespace presa::record::seal {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of an attribute
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // maximum size of an attribute
 
-/// All that a run writes; `complete` comes after the checksum.
+/// All attributes that a run writes, except `complete`, which is written after the checksum.
 const char* const kRootAttributes[] = {"format",         "format_version",    "dropped",          "program_version",
                                        "start_utc",      "scene_name",        "scene_file",       "rig_file",
                                        "seed",           "force_share",       "realtime",         "haptic_period_s",
@@ -20,7 +20,7 @@ const char* const kTableAttributes[] = {"finger", "body", "fingertip_radius_m", 
 
 class Sum {
  public:
-  /// With its length, so that no two lists of words give the same bytes.
+  /// Prefixes the length, so that different lists of words never give the same bytes.
   void add(const std::string& word) {
     const std::uint64_t length = word.size();
     sum_.add(&length, sizeof length);
@@ -52,10 +52,10 @@ class Sum {
                              std::size_t most = kMostBytes) {
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     const std::size_t size = H5Tget_size(type);
-    // what a variable-length value takes is not in its size
+    // variable-length values are refused: their size is not in the type
     if (count < 0 || size == 0 || H5Tdetect_class(type, H5T_VLEN) != 0 || H5Tis_variable_str(type) > 0 ||
         static_cast<std::uint64_t>(count) > most / size)
-      throw h5::Failure(what + " is too long, or of a kind that is not recorded");
+      throw h5::Failure(what + " is too long or has a type that recordings do not use");
     std::string bytes(static_cast<std::size_t>(count) * size, '\0');
     if (!bytes.empty()) h5::check(read(bytes.data()), what);
     return bytes;

@@ -5,15 +5,15 @@
 
 #include "framework/record/record_plugin/h5.h"
 
-/// The checksum of a recording, so that damage is told from a simulation that came out differently. It proves accidents, not malice:
-/// it has no key. SHA-256 of each table's rows, as attribute of the table, and one of everything, as attribute of the root: of what the
-/// root's attributes and texts say, of the tables' names, lengths, own attributes and checksums.
+/// The checksum of a recording, which distinguishes a damaged file from a different simulation result. It has no key,
+/// so it detects accidents, not malice. Each table has the SHA-256 of its rows as attribute; the root has one over
+/// everything: the root's attributes and texts, and the names, lengths, attributes and checksums of the tables.
 namespace presa::record::seal {
 
-/// Since this version of the format a recording that was closed has one.
+/// First format version whose complete recordings have a checksum.
 inline constexpr std::uint64_t kSince = 6;
 inline constexpr const char* kAttribute = "sha256";
-/// What stands there while a run goes on, and for ever when it is killed.
+/// Placeholder value of the attribute during the run; it remains when the run is killed.
 std::string open();
 
 struct TableSum {
@@ -22,7 +22,8 @@ struct TableSum {
   std::string sha256;  ///< of its rows
 };
 
-/// Of everything but the rows, given their checksums; in any order. Throws h5::Failure, std::system_error.
+/// The root's checksum, from the file and the checksums of the tables in any order. Throws h5::Failure,
+/// std::system_error.
 std::string sumOf(hid_t file, std::vector<TableSum> tables);
 
 }  // namespace presa::record::seal

@@ -11,14 +11,14 @@
 namespace presa::record {
 namespace {
 
-// of a haptic tick, as the schema of scenes bounds its rate; a tenth more, because periods are rounded to nanoseconds
+// range of the haptic period [s]: the schema's range of rates plus 10 %, because periods are rounded to nanoseconds
 constexpr double kShortestPeriod = 0.9 / 40'000, kLongestPeriod = 1.1 / 100;
 constexpr int kAttributeCode = 671;
-// of a killed run the newest rows may have their place in the file and not yet their bytes: chunks in the cache of each table, and
-// what HDF5 takes at once
+// allowance for a killed run [bytes]: its newest rows may be part of the tables' extents but not yet written (chunk
+// caches, and HDF5's allocation steps)
 constexpr std::uint64_t kUnwritten = std::uint64_t{64} << 20;
 
-/// A table as the file has it: without a column that came with a later version of the format.
+/// The table as in an older format: without the columns that were added in version `since`.
 Table asIn(std::uint64_t version, Table table, std::initializer_list<const char*> added, std::uint64_t since) {
   if (version >= since) return table;
   std::erase_if(table.columns, [&](const Column& column) {
@@ -60,7 +60,7 @@ class Structure {
     stored_.dropped = look_.count("", "dropped", 0, kAny).value_or(0);
     stored_.seed = look_.count("", "seed", 0, kAny).value_or(0);
     stored_.haptic_period = look_.real("", "haptic_period_s", kShortestPeriod, kLongestPeriod);
-    // it came without a version of its own
+    // this attribute was added without a new format version
     if (h5::hasAttribute(stored_.file, "force_share"))
       stored_.force_share = look_.real("", "force_share", std::nextafter(0.0, 1.0), 1);
     stored_.program_version = look_.text("", "program_version");
@@ -83,7 +83,7 @@ class Structure {
     return true;
   }
 
-  /// The tables of a group, each with a number of its own below `most`.
+  /// Reads the tables of a group, each with its own number below `most`.
   void group(const std::string& path, const std::string& number, const Table& columns, std::uint64_t most,
              std::vector<StoredTable>& tables) {
     if (!look_.isGroup(path)) return;
@@ -101,7 +101,7 @@ class Structure {
     }
     std::sort(tables.begin(), tables.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
     for (std::size_t i = 0; i < tables.size() && numbered; ++i) {
-      // free bodies leave out the numbers of fixed ones; fingers have none to leave out
+      // body numbers skip fixed bodies; finger numbers must be consecutive
       const bool taken = i > 0 && tables[i].place == tables[i - 1].place;
       if (taken || (number == "finger" && names.size() == tables.size() && tables[i].place != i))
         look_.wrong(671, tables[i].path,

@@ -10,31 +10,31 @@
 
 namespace presa::record {
 
-/// Most that a recording may say. A phase is a number that a device gives its motion; a tick beyond this is 24 days at 4 kHz.
+/// Limits on values in a recording. A phase is chosen by the device; kMostTicks is 24 days at 4 kHz.
 inline constexpr std::int32_t kMostPhases = 65536;
 inline constexpr std::uint64_t kMostTicks = std::uint64_t{1} << 33;
 
-/// A table whose type and storage are those of this format: no link, filter, other file or virtual dataset, and every row has its bytes
-/// in the file.
+/// A table with the types and storage of this format: no links, filters, external or virtual storage, and every row is
+/// stored in the file.
 struct StoredTable {
   std::string path;  ///< "haptic/fingers/thumb"
   std::string name;  ///< "thumb"
   h5::Handle dataset;
-  Table columns;            ///< as this version of the format has them
-  std::uint64_t rows = 0;   ///< that have their bytes in the file
-  std::uint64_t place = 0;  ///< of a finger among the roles, of a body in the scene
+  Table columns;            ///< as in the file's format version
+  std::uint64_t rows = 0;   ///< stored rows
+  std::uint64_t place = 0;  ///< index of the finger among the roles, or of the body in the scene
 };
 
-/// A recording as it is stored, before a row of it is read.
+/// A recording whose structure has been checked, before its rows are read.
 struct StoredRecording {
-  std::string name;  ///< of the file
+  std::string name;  ///< file name
   h5::Handle file;
-  std::uint64_t version = 0;  ///< of the format
+  std::uint64_t version = 0;  ///< format version
   std::string program_version, scene_file, scene_xml, rig_xml, start_utc;
   std::vector<std::string> faults;
   std::uint64_t seed = 0, dropped = 0;
   bool realtime = false, complete = false;
-  double haptic_period = 0;  ///< NaN: it does not say
+  double haptic_period = 0;  ///< [s]; NaN: attribute missing or invalid
   double force_share = 1;
   std::uint64_t scene_bodies = 0;
   StoredTable ticks;
@@ -43,10 +43,10 @@ struct StoredRecording {
   std::array<StoredTable, kScheduledGroupCount> schedule;
 };
 
-/// Checks the structure of a file against the schema: which objects there are and of which kind, their types, where their bytes are, the
-/// attributes. What is read takes no more memory than the file is long. Throws InputError: E603 to E606, E608, and, with every finding
-/// of `findings`, E670 stored elsewhere or otherwise than a recording is, E672 a type or an object that is not there, E673 rows without
-/// bytes. E671, an attribute, only goes to `findings`: the rows can be checked in spite of it. Thread: holder of the library.
+/// Checks the structure of a file against the schema: objects and their kinds, types, storage, attributes. Takes no
+/// more memory than the file's length. Throws InputError: E603 to E606, E608, and, with all findings in `findings`,
+/// E670 storage other than a recording's, E672 missing object or wrong type, E673 rows that are not stored. E671
+/// (attributes) only goes to `findings`, because the rows can still be checked. Thread: holder of an h5::Library.
 StoredRecording openStored(const std::string& file, Diagnostics& findings);
 
 }  // namespace presa::record

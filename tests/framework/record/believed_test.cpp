@@ -1,4 +1,4 @@
-// What a recording says is believed only after it was checked: counts, lengths, times, phases, and where its bytes are.
+// A recording is used only after it was checked: counts, lengths, times, phases, and where its data are stored.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -28,7 +28,7 @@ class Believed : public testing::Test {
     Damage damage(file_);
     work(damage);
   }
-  /// What both readers say, which must be the same; "" when they take it.
+  /// The findings of both readers, which must agree; "" when the file is accepted.
   std::string refusal() const {
     const auto said = [](const std::function<void()>& read) -> std::string {
       try {
@@ -42,7 +42,7 @@ class Believed : public testing::Test {
     EXPECT_EQ(text, said([&] { readSamples(file_); }));
     return text;
   }
-  /// The damage is refused with these words, among them the file.
+  /// Expects the damaged file to be refused with a message that contains these words and the file name.
   void expectRefused(const std::function<void(Damage&)>& work, const std::vector<std::string>& words) {
     damage(work);
     const std::string text = refusal();
@@ -61,7 +61,7 @@ class Believed : public testing::Test {
 
 TEST_F(Believed, AWholeRecordingIs) { EXPECT_EQ(refusal(), ""); }
 
-// 7 and 8 wrote past the fingers, 9 and more past the memory, 0 and -1 were "verified" without a finger.
+// Former bugs: 7 and 8 wrote past the fingers, 9 and more past the memory, 0 and -1 were "verified" without a finger.
 TEST_F(Believed, CountsAreThoseOfTheFingerTables) {
   for (const std::int64_t count : {7, 8, 9, 1'000'000, 2147483647, 1, 0, -1}) {
     for (const char* column : {"device_count", "command_count"}) {
@@ -122,7 +122,7 @@ TEST_F(Believed, AttributesAreInTheirRange) {
   expectRefused([](Damage& d) { d.attribute("haptic/bodies/cube", "body", std::uint64_t{9}); }, {"body", "found 9"});
 }
 
-// Where a byte of a recording is: in its own file, as it was written, under one name.
+// Storage: all data are in the file itself, unfiltered, under one name.
 TEST_F(Believed, NothingIsElsewhere) {
   const std::string outside = folder_.file("outside.h5");
   std::filesystem::copy_file(file_, outside);
@@ -139,8 +139,8 @@ TEST_F(Believed, NothingIsElsewhere) {
   expectRefused([&](Damage& d) { d.chunked(finger, 1); }, {"E670", finger, "1024"});
 }
 
-// A few kilobytes asked for gigabytes. The bound is that of the file, not that of its words: reading is done in an address space that
-// has no room for them.
+// Files of a few kilobytes once made the reader allocate gigabytes. Memory must be bounded by the file's size, not by
+// the sizes it claims: the test limits the address space accordingly.
 TEST_F(Believed, NoMemoryIsTakenForWhatIsNotStored) {
 #ifdef PRESA_SANITIZE
   GTEST_SKIP() << "the sanitizers reserve address space of their own";
@@ -155,20 +155,20 @@ TEST_F(Believed, NoMemoryIsTakenForWhatIsNotStored) {
   };
   for (const char* path : {"scene_xml", "rig_xml"}) {
     refused([&](Damage& d) { d.hugeText(path, 1'000'000'000'000); }, {"E673", path, "not stored"});
-    // a file has 32 bits for it: of this length 0 is left, by which HDF5 divided
+    // this length is stored in 32 bits and becomes 0, by which HDF5 used to divide
     refused([&](Damage& d) { d.hugeText(path, std::uint64_t{1} << 33); }, {"E672", path, "not one text"});
   }
   for (const char* path : {"haptic/ticks", "haptic/fingers/thumb", "haptic/bodies/cube", "schedule/haptic"}) {
     refused([&](Damage& d) { d.unallocated(path, 40'000'000); }, {"E673", path, "40000000 rows"});
     refused([&](Damage& d) { d.unallocated(path, std::uint64_t{1} << 62); }, {"E673", path});
-    // also in a run that was killed, where the newest rows may be missing: all are, for a view it needs no schedule
+    // also in a killed run, where the newest rows may be missing; here all are (the column reader needs no schedule)
     if (std::string(path) == "schedule/haptic") continue;
     refused([&](Damage& d) { d.attribute("/", "complete", std::uint64_t{0}), d.unallocated(path, 40'000'000); },
             {"E607"});
   }
 }
 
-// Any bit of what a run wrote, where no rule but the checksum can tell that it is another.
+// Any changed bit of the data, where no rule but the checksum can detect it.
 TEST_F(Believed, AChecksumTellsDamageFromDifference) {
   EXPECT_TRUE(readRecording(file_).checksum);
   EXPECT_TRUE(readSamples(file_).checksum);
@@ -187,7 +187,7 @@ TEST_F(Believed, AChecksumTellsDamageFromDifference) {
   expectRefused([](Damage& d) { d.dropAttribute("haptic/ticks", "sha256"); }, {"E676", "haptic/ticks"});
 }
 
-// What was recorded before there were checksums, and what was killed before it had one, is read and said to have none.
+// Recordings of an older format and of killed runs have no checksum; they are read and reported as such.
 TEST_F(Believed, WithoutAChecksumItIsSaidToHaveNone) {
   damage([](Damage& d) { d.attribute("/", "format_version", std::uint64_t{5}); });
   EXPECT_EQ(refusal(), "");
@@ -198,7 +198,7 @@ TEST_F(Believed, WithoutAChecksumItIsSaidToHaveNone) {
   EXPECT_FALSE(readSamples(file_).checksum);
 }
 
-// A killed run's tables may end apart; then it is said how much of it is not there.
+// The tables of a killed run may end at different ticks; the number of incomplete ticks is reported.
 TEST_F(Believed, WhatAKilledRunLeftOutIsCounted) {
   damage([](Damage& d) {
     d.attribute("/", "complete", std::uint64_t{0});

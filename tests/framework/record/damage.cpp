@@ -96,7 +96,7 @@ void Damage::hardLink(const std::string& path, const std::string& target) {
   h5::check(H5Lcreate_hard(file_, target.c_str(), file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
 }
 
-/// The attributes of the old one go with it but those that say which finger or body it is.
+/// Replaces a dataset. Of its attributes only the number of the finger or body is kept.
 h5::Handle Damage::replace(const std::string& path, const h5::Handle& space, const h5::Handle& properties) {
   const h5::Handle old = table(path);
   const h5::Handle type(H5Dget_type(old), H5Tclose, path);

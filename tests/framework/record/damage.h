@@ -6,8 +6,8 @@
 
 namespace presa::record {
 
-/// A recording opened for writing, to make of it what nobody recorded. Objects are named by their paths, "haptic/ticks"; "/" is the
-/// root. Thread: the test's, which holds the library as long as this lives. Throws h5::Failure.
+/// Opens a recording and changes it in ways that no run would. Objects are named by path, "haptic/ticks"; "/" is the
+/// root. Thread: the test's, which holds the library while this object exists. Throws h5::Failure.
 class Damage {
  public:
   explicit Damage(const std::string& file);
@@ -27,13 +27,13 @@ class Damage {
   void softLink(const std::string& path, const std::string& target);
   void hardLink(const std::string& path, const std::string& target);
 
-  /// In the place of a table one of the same type whose rows are elsewhere, or nowhere.
+  /// Replaces a table by one of the same type whose rows are stored elsewhere or nowhere.
   void virtualTable(const std::string& path, const std::string& file, const std::string& source);
   void externallyStored(const std::string& path, const std::string& file);
   void unallocated(const std::string& path, std::uint64_t rows);
   void filtered(const std::string& path, int filter);
   void chunked(const std::string& path, std::uint64_t rows_of_a_chunk);
-  /// A fixed string of that many bytes, of which none is stored.
+  /// A fixed-length string of that many bytes, none of which is stored.
   void hugeText(const std::string& path, std::uint64_t bytes);
 
   std::uint64_t rowsOf(const std::string& table) const;

@@ -20,7 +20,7 @@ std::shared_ptr<World> flownWorld(const std::string& flight) {
   return world;
 }
 
-/// Until the writer has it, or five seconds.
+/// Waits until the writer has created the file, at most five seconds.
 bool appears(const std::string& file) {
   for (int i = 0; i < 500 && !fs::exists(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return fs::exists(file);

@@ -155,7 +155,7 @@ void mutateOnce(Damage& damage, Words& words) {
     }
     case 3: {
       const std::string table = words.of(kTables);
-      // allocated as it grows: no more than a disk of the test has
+      // the rows are allocated, so their number is limited to protect the test's disk
       return damage.rows(table, static_cast<std::uint64_t>(words.whole()) % 20'000);
     }
     case 4: {
@@ -176,7 +176,7 @@ void mutateOnce(Damage& damage, Words& words) {
       return mutateStorage(damage, words);
     default: {
       const std::string object = words.object(), name = words.of(kAttributes);
-      // an older format is one without a checksum: what is behind it is reached
+      // half of the time declare an older format, without checksum, so that the mutation reaches the later checks
       if (words.byte() % 2 == 0) return damage.attribute("/", "format_version", std::uint64_t{1} + words.byte() % 6);
       return damage.dropAttribute(object, name);
     }
@@ -271,7 +271,7 @@ void mutate(const std::string& file, const std::uint8_t* bytes, std::size_t coun
     try {
       mutateOnce(damage, words);
     } catch (const h5::Failure&) {
-      // what is no longer there cannot be changed
+      // an object removed by an earlier mutation cannot be changed
     }
   }
 }

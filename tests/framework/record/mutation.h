@@ -5,15 +5,16 @@
 
 namespace presa::record {
 
-/// A short recording of two fingers and a free cube that was closed in order, made without running anything.
+/// A short, complete recording of two fingers and a free cube, made without a simulation.
 void writeSpecimen(const std::string& file, std::uint64_t ticks);
 
-/// Changes values, lengths, attributes, links and storage of a recording as `bytes` say; any bytes say something.
+/// Changes values, lengths, attributes, links and storage of a recording as directed by `bytes`; every sequence is
+/// valid.
 void mutate(const std::string& file, const std::uint8_t* bytes, std::size_t count);
 
-/// Reads a recording in both ways. Any file is refused with an InputError or is sound: as many fingers as it says, tables of one length,
-/// times that rise, phases in range. One that is said to have its right checksum is the specimen. Returns what does not hold, or "".
-/// `accepted`, when given: whether it was read.
+/// Reads a recording with both readers. A file is either refused with an InputError or sound: the stated number of
+/// fingers, tables of one length, increasing times, phases in range; with a correct checksum it is the specimen.
+/// Returns the violated property, or "". `accepted`, when given, receives whether the file was read.
 std::string judge(const std::string& file, std::uint64_t specimen_ticks, bool* accepted = nullptr);
 
 }  // namespace presa::record

@@ -10,7 +10,7 @@
 namespace presa::record {
 namespace {
 
-// A few hundred of what `./dev fuzz` tries by the million: random damage to values, lengths, attributes, links and storage.
+// A few hundred of the mutations that `./dev fuzz` tries by the million: values, lengths, attributes, links, storage.
 TEST(Mutation, AnyDamageIsRefusedOrLeavesASoundRecording) {
   constexpr std::uint64_t kTicks = 40;
   const ScratchFolder folder;
@@ -29,7 +29,7 @@ TEST(Mutation, AnyDamageIsRefusedOrLeavesASoundRecording) {
     ASSERT_EQ(judge(file, kTicks, &accepted), "") << "round " << round;
     taken += accepted ? 1 : 0;
   }
-  // neither is everything refused at the door, nor is everything let in
+  // the mutations are neither all refused nor all accepted
   EXPECT_GT(taken, 5);
   EXPECT_LT(taken, 295);
 }

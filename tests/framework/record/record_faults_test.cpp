@@ -17,7 +17,7 @@
 namespace presa::record {
 namespace {
 
-/// A child process that writes numbers to the parent. It leaves by _exit: no test clean-up runs twice.
+/// A child process that sends numbers to the parent. It ends with _exit, so that no test clean-up runs twice.
 class Child {
  public:
   template <class Work>
@@ -86,8 +86,8 @@ void recordTicks(const std::string& file, std::uint64_t ticks) {
   run.recorder->finish();
 }
 
-// A lab's power strip, an impatient Ctrl-\, the OOM killer: what was flushed is not lost. The child flushes after every
-// block and reports it, flat out, so that the kill falls between or inside writes alike.
+// Flushed data survive a kill (power strip, Ctrl-\, OOM killer). The child flushes after every block and reports it,
+// without pause, so that the kill falls between or inside writes.
 TEST(KilledRun, IsReadableUpToItsLastFlush) {
   std::mt19937 random(7);
   for (int repeat = 0; repeat < 12; ++repeat) {
@@ -104,18 +104,18 @@ TEST(KilledRun, IsReadableUpToItsLastFlush) {
     std::uint64_t flushed = 0;
     const auto flushes = 1 + random() % 40;
     for (std::uint32_t i = 0; i < flushes || flushed == 0; ++i) ASSERT_TRUE(child.next(flushed));
-    // a while that differs from kill to kill and sleeps nowhere
+    // a delay that differs from kill to kill, without sleeping
     for (volatile std::uint32_t spin = random() % 2'000'000; spin > 0;) spin = spin - 1;
     child.killNow();
 
     const Recording recording = readRecording(file);
-    EXPECT_GE(recording.time.size() + 1, flushed);  // a tick's schedule row follows its step: the newest may lack it
+    EXPECT_GE(recording.time.size() + 1, flushed);  // the newest tick may lack its schedule row, written after its step
     EXPECT_FALSE(recording.complete);
     EXPECT_EQ(differenceFromPrefix(recording), "");
   }
 }
 
-/// Records until the file cannot grow; sends rows, dropped and failed.
+/// Records until the file cannot grow; sends rows, dropped and failed to the parent.
 void recordUntilFull(const std::string& file, int to_parent) {
   WriterSettings settings;
   settings.flush_every = std::chrono::milliseconds(0);
@@ -132,15 +132,15 @@ void expectFailedButReadable(const Child& child, const std::string& file) {
   ASSERT_TRUE(child.next(rows) && child.next(dropped) && child.next(failed));
   EXPECT_EQ(failed, 1u);
   EXPECT_GT(rows, 0u);
-  EXPECT_GE(rows + dropped, 30'000u);  // schedule rows that were thrown away count too
+  EXPECT_GE(rows + dropped, 30'000u);  // discarded schedule rows are counted too
   const Recording recording = readRecording(file);
   EXPECT_LE(recording.time.size(), rows);
-  EXPECT_GE(recording.time.size() + 1, rows);  // a tick's schedule row follows its step: the newest may lack it
+  EXPECT_GE(recording.time.size() + 1, rows);  // the newest tick may lack its schedule row, written after its step
   EXPECT_FALSE(recording.complete);
   EXPECT_EQ(differenceFromPrefix(recording), "");
 }
 
-// A file may reach its limit; by default the signal of that would end the program with the force still on the finger.
+// A file-size limit raises SIGXFSZ, whose default action would end the program with a force still on the finger.
 TEST(FullDisk, FileSizeLimitEndsTheRecordingNotTheRun) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -153,7 +153,7 @@ TEST(FullDisk, FileSizeLimitEndsTheRecordingNotTheRun) {
   EXPECT_EQ(child.wait(), 0);
 }
 
-// The real thing: a file system of 8 MB. It lives in a mount name space of the child, which copies the file out.
+// A full file system of 8 MB, mounted in a mount namespace of the child, which copies the file out.
 TEST(FullDisk, FullFileSystemEndsTheRecordingNotTheRun) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -181,7 +181,7 @@ TEST(FullDisk, FullFileSystemEndsTheRecordingNotTheRun) {
   EXPECT_EQ(child.wait(), 0);
 }
 
-// Two runs under one name: the first one's data is not the price of a forgotten option.
+// A second run with the same file name must not destroy the first one's data because an option was forgotten.
 TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -198,7 +198,7 @@ TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
   EXPECT_EQ(readRecording(file).time.size(), 20u);
 }
 
-// Each refusal names its reason before anything runs.
+// Every refusal gives its reason before the run starts.
 TEST(Recorder, RefusesWhatCannotBeWritten) {
   const ScratchFolder folder;
   EXPECT_EQ(codeOf([&] { FileRecorder recorder(recordedWorld(folder.file("none/run.h5"), false)); }), 602);
@@ -207,7 +207,7 @@ TEST(Recorder, RefusesWhatCannotBeWritten) {
   EXPECT_EQ(codeOf([&] { FileRecorder recorder(world); }), 602);
 }
 
-// While a run writes, nobody reads half of it or writes over it.
+// While a run writes a file, no reader and no other run may open it.
 TEST(Recorder, KeepsOthersAwayWhileItWrites) {
   const ScratchFolder folder;
   const auto world = recordedWorld(folder.file("run.h5"), true);
@@ -221,7 +221,7 @@ TEST(Recorder, KeepsOthersAwayWhileItWrites) {
   EXPECT_EQ(readRecording(folder.file("run.h5")).time.size(), 5u);
 }
 
-// A reader says which of the things that can be wrong with a file it is.
+// A reader distinguishes the ways in which a file can be wrong.
 TEST(Reader, RefusesEveryWrongFileWithItsReason) {
   const ScratchFolder folder;
   const std::string good = folder.file("good.h5"), bad = folder.file("bad.h5");

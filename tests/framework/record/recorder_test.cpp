@@ -12,7 +12,7 @@
 namespace presa::record {
 namespace {
 
-// A replay starts from these bits; one that is lost makes every later tick differ.
+// A replay starts from these bits; one wrong bit makes every later tick differ.
 TEST(Recording, RestoresEveryBitOfInputsForcesAndSchedule) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -27,7 +27,7 @@ TEST(Recording, RestoresEveryBitOfInputsForcesAndSchedule) {
   EXPECT_EQ(differenceFromPrefix(recording), "");
 }
 
-// The scene travels with the data, however long it is: an attribute would end at 64 kB.
+// The scene is stored with the data, whatever its length: an attribute would be limited to 64 kB.
 TEST(Recording, CarriesSceneRigSeedAndMode) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -48,8 +48,8 @@ TEST(Recording, CarriesSceneRigSeedAndMode) {
   EXPECT_FALSE(recording.program_version.empty());
 }
 
-// Virtual time has no deadline: the run waits for the disk. The writer is held until the ring is full, so the next
-// step must wait, and the schedule rows of the wait must fit too.
+// In lockstep there is no deadline, so the run waits for the disk. The writer is held until the ring is full, so the
+// next step must wait, and the schedule rows of that time must fit too.
 TEST(Recorder, LosesNothingInLockstepWhenTheDiskIsBehind) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -73,7 +73,7 @@ TEST(Recorder, LosesNothingInLockstepWhenTheDiskIsBehind) {
   EXPECT_EQ(differenceFromPrefix(recording), "");
 }
 
-// In real time the finger goes first: a full ring costs rows, each of them counted.
+// In real time the haptic loop has priority: a full ring drops rows and counts them.
 TEST(Recorder, DropsAndCountsInRealTimeWhenTheRingIsFull) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -98,7 +98,7 @@ TEST(Recorder, DropsAndCountsInRealTimeWhenTheRingIsFull) {
   EXPECT_EQ(differenceFromPrefix(recording), "");
 }
 
-// The recorder sits in the haptic loop of every recorded run.
+// The recorder's step runs in the haptic loop of every recorded run.
 TEST(Recorder, StepNeitherAllocatesNorLocksNorCallsTheSystem) {
   const ScratchFolder folder;
   std::binary_semaphore go(0);
@@ -114,7 +114,7 @@ TEST(Recorder, StepNeitherAllocatesNorLocksNorCallsTheSystem) {
   }
   {
     RealTimeGuard guard;
-    run.step(run.recorder->capacity() + 10);  // with room, and without
+    run.step(run.recorder->capacity() + 10);  // covers both an open and a full ring
     EXPECT_EQ(guard.violations(), 0) << guard.first();
   }
   if (syscallTrapWorks()) {
@@ -123,7 +123,7 @@ TEST(Recorder, StepNeitherAllocatesNorLocksNorCallsTheSystem) {
   go.release();
 }
 
-// Whoever throws between plan and end leaves what there is, marked as not complete.
+// A recorder destroyed by an exception leaves a readable file that is marked incomplete.
 TEST(Recorder, LeavesAReadableFileWhenItIsDestroyedWithoutFinish) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
@@ -137,7 +137,7 @@ TEST(Recorder, LeavesAReadableFileWhenItIsDestroyedWithoutFinish) {
   EXPECT_EQ(differenceFromPrefix(recording), "");
 }
 
-// A haptic thread at 4 kHz must find room for the four seconds that a disk may stall.
+// At 4 kHz the schedule rings hold the four seconds that a disk may stall.
 TEST(ScheduleLog, HoldsFourSecondsOfTheFastestRun) {
   ScheduleLog log;
   for (auto& ring : log.rings) {
@@ -146,12 +146,12 @@ TEST(ScheduleLog, HoldsFourSecondsOfTheFastestRun) {
   }
 }
 
-// The program reaches HDF5 through this table only.
+// The program uses HDF5 only through this function table.
 TEST(RecordPlugin, LoadsBesideTheFrameworkAndMakesRecorders) {
   const ScratchFolder folder;
   EXPECT_EQ(recordPlugin().abi, kPluginAbi);
   const auto world = recordedWorld(folder.file("run.h5"), false);
-  world->scene.devices.clear();  // nobody is connected
+  world->scene.devices.clear();  // ports stay unconnected
   const auto recorder = recordPlugin().create(world);
   EXPECT_EQ(recorder->group(), RateGroup::kHaptic);
   ScheduleLog schedule;

@@ -12,7 +12,7 @@
 
 namespace presa::record {
 
-/// A number whose every bit depends on tick and place: any pattern, NaN and infinity included.
+/// A 64-bit pattern that depends on tick and place: any bits, NaN and infinity included.
 inline std::uint64_t bitsAt(std::uint64_t tick, std::uint64_t place) {
   std::uint64_t z = (tick * 1000003 + place + 1) * 0x9E3779B97F4A7C15ull;  // splitmix64
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
@@ -20,7 +20,7 @@ inline std::uint64_t bitsAt(std::uint64_t tick, std::uint64_t place) {
   return z ^ (z >> 31);
 }
 inline double realAt(std::uint64_t tick, std::uint64_t place) { return std::bit_cast<double>(bitsAt(tick, place)); }
-/// A time: from 1 to 2, any bits of its mantissa.
+/// A time from 1 to 2 with arbitrary mantissa bits.
 inline double fractionAt(std::uint64_t tick, std::uint64_t place) {
   return std::bit_cast<double>((bitsAt(tick, place) >> 12) | 0x3FF0000000000000ull);
 }
@@ -30,10 +30,10 @@ inline Vec3 vectorAt(std::uint64_t tick, std::uint64_t place) {
 
 DeviceState deviceAt(std::uint64_t tick);
 ForceCommand commandAt(std::uint64_t tick);
-/// Ordinary numbers: the cube falls and turns, so that poses can be checked by formula.
+/// Smooth motion: the cube falls and turns, so that poses can be checked by formula.
 void setObjects(ObjectState& state, std::uint64_t tick, double time);
 
-/// Plays the whole haptic and dynamics side.
+/// Stands in for all modules of the haptic and dynamics groups.
 class Source final : public Module {
  public:
   Source() : Module("source", RateGroup::kHaptic) { objects.value.bodies.resize(2); }
@@ -47,7 +47,7 @@ class Source final : public Module {
 /// Two fingers, a fixed table and a free cube.
 std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime);
 
-/// A recorder at work: source and recorder in one graph.
+/// A recorder connected to a Source in one graph.
 struct RecordedRun {
   explicit RecordedRun(std::shared_ptr<const World> world, WriterSettings settings = {});
   ~RecordedRun();
@@ -60,7 +60,7 @@ struct RecordedRun {
   std::uint64_t next = 0;
 };
 
-/// "" when the recording is the first recording.time.size() ticks of a RecordedRun, bit by bit, else the difference.
+/// "" when the recording equals the first recording.time.size() ticks of a RecordedRun bit by bit, else the difference.
 std::string differenceFromPrefix(const Recording& recording);
 
 }  // namespace presa::record

@@ -37,7 +37,7 @@ std::vector<double> dataNumbers(const std::string& text) {
   return numbers;
 }
 
-/// A finished recording as HDF5's own tool sees it: a reader that shares nothing with ours.
+/// A finished recording as read by HDF5's own tool, which shares no code with Presa's reader.
 class RecordingTables : public testing::Test {
  protected:
   void SetUp() override {
@@ -52,7 +52,7 @@ class RecordingTables : public testing::Test {
   const ScratchFolder folder_;
 };
 
-// A subject's data is read by people with other tools: each column says what it is and in which unit.
+// People read a subject's data with other tools: each column states its meaning and unit.
 TEST_F(RecordingTables, NameTheirColumnsAndUnits) {
   const std::string columns = dump("-a /haptic/bodies/cube/columns");
   for (const char* name : {"index", "time", "p_WB_x", "p_WB_z", "q_WB_w", "q_WB_z", "v_WB_y", "w_WB_z"}) {
@@ -67,13 +67,13 @@ TEST_F(RecordingTables, NameTheirColumnsAndUnits) {
   }
 }
 
-// A pose in the file is that of its tick, not that of the step's end: a quarter of the way from begin to end here.
+// A recorded pose is that of its tick, not of the end of the step: here a quarter of the way from start to end.
 TEST_F(RecordingTables, HoldThePoseAtTheTick) {
   const auto numbers = dataNumbers(dump("-y -d /haptic/bodies/cube -m %.17g"));
   constexpr std::size_t kColumns = 15;
   ASSERT_GE(numbers.size(), 20 * kColumns);
   const double* row = &numbers[7 * kColumns];
-  // times of about 0.01 s subtract with 2e-18 of error, 5e-16 of the 4 ms span; 4 m of way and the slerp: 1e-14
+  // times of about 0.01 s subtract with an error of 2e-18, 5e-16 of the 4 ms span; 4 m of travel and the slerp: 1e-14
   constexpr double kTolerance = 1e-14;
   const double eighth = std::acos(-1.0) / 8;  // a quarter of 180 degrees, halved by the quaternion
   EXPECT_EQ(row[0], 7);
@@ -86,7 +86,8 @@ TEST_F(RecordingTables, HoldThePoseAtTheTick) {
 
 std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-// Columns are what was recorded, bit by bit, fingers in the order of the roles; bodies as HDF5's own tool reads them.
+// Columns equal the recorded values bit by bit, fingers in the order of the roles, bodies as HDF5's own tool reads
+// them.
 TEST_F(RecordingTables, ComeBackByColumn) {
   const RecordedSamples samples = readSamples(folder_.file("run.h5"));
   ASSERT_EQ(samples.time.size(), 20U);

@@ -62,7 +62,7 @@ void extend(X509* certificate, X509* issuer, int kind, const char* value) {
   require(extension && X509_add_ext(certificate, extension.get(), -1) == 1, "extend a certificate");
 }
 
-/// Its subject and key are set; a null issuer: itself.
+/// Issues a certificate for `key`. A null `issuer` means self-signed.
 Certificate issue(const Key& key, const std::string& name, int days, X509* issuer, EVP_PKEY* issuer_key) {
   const Cert certificate(X509_new());
   require(certificate != nullptr, "make a certificate");
@@ -72,8 +72,8 @@ Certificate issue(const Key& key, const std::string& name, int days, X509* issue
   serial[0] = static_cast<unsigned char>((serial[0] & 0x7FU) | 1U);  // positive, not 0
   const std::unique_ptr<BIGNUM, Freed<BN_free>> number(BN_bin2bn(serial, sizeof serial, nullptr));
   require(number && BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(cert)) != nullptr, "number a certificate");
-  X509_set_version(cert, 2);                                // counts from 0: X.509 v3
-  X509_gmtime_adj(X509_getm_notBefore(cert), -24L * 3600);  // clocks differ
+  X509_set_version(cert, 2);                                // zero-based: X.509 v3
+  X509_gmtime_adj(X509_getm_notBefore(cert), -24L * 3600);  // tolerates clocks that differ by a day
   X509_gmtime_adj(X509_getm_notAfter(cert), 24L * 3600 * days);
   X509_NAME* const subject = X509_get_subject_name(cert);
   require(X509_NAME_add_entry_by_txt(subject, "CN", MBSTRING_UTF8, reinterpret_cast<const unsigned char*>(name.c_str()),

@@ -17,8 +17,9 @@ Scene sceneWithOneBody(bool fixed) {
   return scene;
 }
 
-/// Half a second of a finger that presses with 2 + sin N while the object gets `share` of it: the samples within half a step
-/// of the end of each step. In lockstep a step is published at its begin. The finger touches from `touch` on.
+/// Half a second in which a finger presses with 2 + sin N and the object receives `share` of it: the samples within
+/// half a step of the end of each step. In lockstep a step is published at its start. The finger touches from time
+/// `touch` on.
 ActionReaction::Result run(double share, bool fixed = false, double touch = 0) {
   ActionReaction reaction(sceneWithOneBody(fixed));
   ContactExchange contact;

@@ -8,7 +8,7 @@
 
 #include "tests/framework/record/monitor/synthetic_run.h"
 
-// the whole program counts what it allocates
+// counts the allocations of the whole program
 namespace {
 std::atomic<std::uint64_t> allocations{0};
 }
@@ -28,7 +28,7 @@ using test::Feed;
 using test::kCube;
 using test::pinchWorld;
 
-// The tick runs a thousand times a second on the haptic thread: its memory is taken before.
+// step runs a thousand times a second on the haptic thread, so all its memory is allocated before.
 TEST(Monitor, TickNeverAllocates) {
   Feed feed(pinchWorld(0.5), 0.2, 1000);
   const std::uint64_t before = allocations.load();
@@ -43,7 +43,7 @@ TEST(Monitor, TickNeverAllocates) {
   EXPECT_EQ(feed.monitor.fingers()[0].slip_onsets, 300u);
 }
 
-// What should not happen is kept with the time of its first tick, by finger where the contact state tells.
+// Faults are kept with the time of their first tick, per finger where the contact state allows it.
 TEST(Monitor, KeepsWhenASurfaceWasFirstLostAndFirstPassed) {
   Feed feed(pinchWorld(1));
   feed.ticks(100);
@@ -63,7 +63,7 @@ TEST(Monitor, KeepsWhenASurfaceWasFirstLostAndFirstPassed) {
   EXPECT_EQ(feed.monitor.fingers()[0].first_pop_through, -1);
 }
 
-// Time in each mode is a count of ticks: it adds up to the run. 1e-12 s is the rounding of 400 additions of 1 ms.
+// The times in the three modes add up to the run. 1e-12 s is the rounding of 400 additions of 1 ms.
 TEST(Monitor, SecondsByModeAddUpAndForcesAreOverTheTicksInContact) {
   Feed feed(pinchWorld(1));
   feed.ticks(100);
@@ -82,7 +82,7 @@ TEST(Monitor, SecondsByModeAddUpAndForcesAreOverTheTicksInContact) {
   EXPECT_EQ(feed.monitor.simulatedTime(), 400 * 0.001);
 }
 
-// A grasp is two fingers in the same tick, not two fingers one after the other.
+// A grasp requires two fingers in the same tick, not one after the other.
 TEST(Monitor, GraspNeedsTwoFingersAtOnce) {
   Feed feed(pinchWorld(1));
   feed.touch(0, ContactMode::kStick);
@@ -96,7 +96,7 @@ TEST(Monitor, GraspNeedsTwoFingersAtOnce) {
   EXPECT_TRUE(feed.monitor.objects()[kCube].grasped);
 }
 
-// Two fingers on two bodies hold neither.
+// Two fingers on two different bodies grasp neither.
 TEST(Monitor, FingersOnDifferentBodiesGraspNothing) {
   Feed feed(pinchWorld(1));
   feed.touch(0, ContactMode::kStick);
@@ -107,7 +107,7 @@ TEST(Monitor, FingersOnDifferentBodiesGraspNothing) {
   EXPECT_FALSE(feed.monitor.objects()[0].grasped);
 }
 
-// Letting go is what the script asks for; losing it before that is a failure of the grasp.
+// A loss after the scripted release is intended; a loss before it is a failure of the grasp.
 TEST(Monitor, LossCountsAsADropOnlyBeforeTheLoosening) {
   for (const bool early : {true, false}) {
     Feed feed(pinchWorld(1), 0.100);
@@ -126,7 +126,7 @@ TEST(Monitor, LossCountsAsADropOnlyBeforeTheLoosening) {
   }
 }
 
-// A contact that bounces as it closes has not lost the object; one that stays away has, from its first moment.
+// A short bounce after closing is no loss; a longer interruption is one, from its first tick.
 TEST(Monitor, ABounceIsNoLoss) {
   for (const int away : {20, 80}) {
     Feed feed(pinchWorld(1), 10);
@@ -144,7 +144,7 @@ TEST(Monitor, ABounceIsNoLoss) {
   }
 }
 
-// Between two dynamics steps the object is where the interpolation puts it, not at either end.
+// Between two dynamics steps the object's pose is interpolated to the time of the tick.
 TEST(Monitor, ObjectIsTakenAtTheTimeOfTheTick) {
   Feed feed(pinchWorld(1), 1, 1000);
   feed.ticks(2);
@@ -166,7 +166,7 @@ TEST(Monitor, ObjectIsTakenAtTheTimeOfTheTick) {
   EXPECT_EQ(cube.start.z(), 0.035);
 }
 
-// A scene in which nothing moves has no dynamics: its bodies rest where the scene puts them.
+// Without moving bodies there is no dynamics, and bodies keep their start poses.
 TEST(Monitor, WithoutDynamicsObjectsRest) {
   Feed feed(pinchWorld(1), 1, 1000);
   for (int i = 0; i < 5; ++i) feed.tick(false);
@@ -177,7 +177,7 @@ TEST(Monitor, WithoutDynamicsObjectsRest) {
   EXPECT_EQ(feed.monitor.trace().back().bodies[0].p, Vec3(0, 0, 0.035));
 }
 
-// The plots are decimated, the slip is not: the onset carries the forces of exactly its tick and of the one before.
+// The trace is decimated, slip detection is not: the onset carries the forces of its tick and of the tick before.
 TEST(Monitor, SlipOnsetIsLatchedAtHapticRate) {
   Feed feed(pinchWorld(1), 0.020, 10);
   feed.touch(1, ContactMode::kStick, 3.0, 0.9);
@@ -204,7 +204,7 @@ TEST(Monitor, SlipOnsetIsLatchedAtHapticRate) {
   EXPECT_TRUE(feed.monitor.slipOnsets(0).empty());
 }
 
-// Chatter early in a run fills the list; the slip that matters is kept all the same.
+// Early chatter fills the list of onsets; the first slip after the loosening is kept all the same.
 TEST(Monitor, LooseningSlipSurvivesAFullList) {
   Feed feed(pinchWorld(1), 0.300);
   for (int i = 0; i < 300; ++i) {
@@ -220,7 +220,7 @@ TEST(Monitor, LooseningSlipSurvivesAFullList) {
   EXPECT_EQ(feed.monitor.fingers()[0].loosening_slip.normal_force, 1.5);
 }
 
-// A trace rate is a wish: samples lie on ticks, and a run too long for the memory is sampled more thinly.
+// The trace rate is approximate: samples lie on ticks, and a very long run is sampled more sparsely.
 TEST(Monitor, TraceIsDecimatedEvenlyAndBounded) {
   Feed feed(pinchWorld(0.5), 1, 250);
   feed.ticks(500);

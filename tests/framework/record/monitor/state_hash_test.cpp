@@ -20,14 +20,14 @@ std::uint64_t hashOf(const std::string& bytes) {
   return hash.value();
 }
 
-// Published test vectors of FNV-1a, 64 bit (draft-eastlake-fnv, appendix): the hash means the same everywhere.
+// Published test vectors of FNV-1a, 64 bit (draft-eastlake-fnv, appendix).
 TEST(StateHash, MatchesThePublishedVectors) {
   EXPECT_EQ(hashOf(""), 0xcbf29ce484222325ULL);
   EXPECT_EQ(hashOf("a"), 0xaf63dc4c8601ec8cULL);
   EXPECT_EQ(hashOf("foobar"), 0x85944171f73967e8ULL);
 }
 
-/// Everything the hash covers, so that each field can be changed in turn.
+/// All hashed states, so that each field can be changed in turn.
 struct States {
   DeviceState device;
   ContactExchange contact;
@@ -48,7 +48,7 @@ States filledStates() {
   return s;
 }
 
-// "Same hash" is only worth saying when no field is left out: each one, changed alone, changes the hash.
+// Changing any single field changes the hash.
 TEST(StateHash, EveryFieldCounts) {
   const std::vector<std::function<void(States&)>> changes{
       [](States& s) { s.device.time = 1e-300; },
@@ -106,7 +106,7 @@ TEST(StateHash, EveryFieldCounts) {
   }
 }
 
-// Bits, not values: -0 equals +0 and NaN equals nothing, yet both must be told apart or repeated faithfully.
+// The hash covers bits, not values: -0 and +0 differ, and a NaN hashes like the same NaN.
 TEST(StateHash, SignedZeroAndNanAreTakenAsTheyAre) {
   States zero = filledStates(), negative = filledStates(), nan = filledStates(), nan_again = filledStates();
   negative.contact.fingers[0].depth = -0.0;
@@ -116,13 +116,13 @@ TEST(StateHash, SignedZeroAndNanAreTakenAsTheyAre) {
   EXPECT_NE(nan.hash(), zero.hash());
 }
 
-// What lies between and behind the fields in memory is not state.
+// Padding and unused entries are not part of the hash.
 TEST(StateHash, PaddingAndUnusedEntriesDoNotCount) {
   std::vector<unsigned char> memory(sizeof(States));
   std::vector<std::uint64_t> hashes;
   for (const int fill : {0x00, 0xff}) {
     std::memset(memory.data(), fill, memory.size());
-    // default-initialised, so that padding keeps the fill
+    // default-initialised, so that padding keeps the fill pattern
     States* s = new (memory.data()) States;
     s->device.count = s->contact.count = 1;
     s->objects.bodies.resize(2);
@@ -136,7 +136,7 @@ TEST(StateHash, PaddingAndUnusedEntriesDoNotCount) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// Two runs that pass through the same states in another order are different runs.
+// The same states in another order give another hash.
 TEST(StateHash, MonitorHashFollowsTheWholePath) {
   const auto run = [](double first, double second) {
     test::Feed feed(test::pinchWorld(1));
@@ -150,7 +150,7 @@ TEST(StateHash, MonitorHashFollowsTheWholePath) {
   EXPECT_NE(run(0.1, 0.2), run(0.2, 0.1));
 }
 
-// An Object State is one value however many haptic ticks read it: what counts is the tick at which it arrives.
+// An object state is hashed once, at the tick of its arrival, however many ticks read it.
 TEST(StateHash, ObjectStateCountsWhenItArrives) {
   const auto run = [](int arrival) {
     test::Feed feed(test::pinchWorld(1));

@@ -39,7 +39,7 @@ inline std::shared_ptr<World> pinchWorld(double duration) {
 }
 inline constexpr std::int32_t kCube = 1;
 
-/// The states of one tick, to be changed and shown to a monitor.
+/// The states of one tick, which a test changes and feeds to a monitor.
 struct Feed {
   explicit Feed(std::shared_ptr<const World> shared_world, double loosen_time = std::numeric_limits<double>::infinity(),
                 double trace_rate = 0)

@@ -20,7 +20,7 @@ std::int64_t exactPercentile(std::vector<std::int64_t> values, double q) {
   return values[rank - 1];
 }
 
-// A percentile that flatters would hide a deadline miss: it may be read too high by a bucket, never too low.
+// A percentile that is too low would hide a deadline miss: it may be one bucket too high, never too low.
 TEST(DurationHistogram, PercentilesAreNeverTooLowAndAtMostOneBucketTooHigh) {
   std::mt19937_64 random(7);
   for (const double octaves : {2.0, 12.0, 30.0}) {
@@ -40,7 +40,7 @@ TEST(DurationHistogram, PercentilesAreNeverTooLowAndAtMostOneBucketTooHigh) {
   }
 }
 
-// Every power of two and its neighbours lie on bucket borders, where an index is easily one off.
+// Powers of two and their neighbours lie on bucket borders, where an index is easily off by one.
 TEST(DurationHistogram, EachDurationAloneIsFoundExactlyBecauseTheMaximumBoundsItsBucket) {
   for (int octave = 0; octave < 62; ++octave) {
     for (const std::int64_t offset : {-1, 0, 1}) {
@@ -52,7 +52,7 @@ TEST(DurationHistogram, EachDurationAloneIsFoundExactlyBecauseTheMaximumBoundsIt
   }
 }
 
-// The same borders with a larger maximum present: now the bucket's own edge is what is read.
+// As above with a larger maximum present, so that the bucket's own edge is returned.
 TEST(DurationHistogram, BucketsOnOctaveBordersKeepTheirWidth) {
   for (int octave = 0; octave < 60; ++octave) {
     for (const std::int64_t offset : {-1, 0, 1}) {
@@ -67,7 +67,7 @@ TEST(DurationHistogram, BucketsOnOctaveBordersKeepTheirWidth) {
   }
 }
 
-// Mean and maximum are sums, not buckets: exact. A clock that steps back counts as zero, not as a wrapped number.
+// Mean and maximum are exact, because they do not use buckets. A clock that steps back counts as zero.
 TEST(DurationHistogram, MeanAndMaximumAreExactAndNegativeDurationsCountAsZero) {
   DurationHistogram histogram;
   EXPECT_EQ(histogram.percentile(0.5), 0);
