@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int kDays = 3650;
 
-/// One part that a process plays, and the topics of modules/bus_dds that are its.
+/// A role of a process on the bus, and the topics of modules/bus_dds that it may use.
 struct Part {
   std::string name;
   std::vector<std::string> publishes, subscribes;
@@ -44,13 +44,13 @@ const std::string kHead =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<dds xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\">\n";
 const std::string kDomains = "<domains><id_range><min>0</min><max>230</max></id_range></domains>\n";
 
-/// Every packet of every topic is encrypted, and so is what tells who is there; who has no certificate is not let in.
+/// DDS security governance: all topics and discovery are encrypted, and participants without a certificate are refused.
 std::string governance() {
   const std::string topic =
       element("topic_expression", "*") + element("enable_discovery_protection", "true") +
       element("enable_liveliness_protection", "true") + element("enable_read_access_control", "true") +
       element("enable_write_access_control", "true") + element("metadata_protection_kind", "ENCRYPT") +
-      element("data_protection_kind", "NONE");  // inside of what is encrypted already
+      element("data_protection_kind", "NONE");  // the submessages are encrypted already
   const std::string rule = kDomains + element("allow_unauthenticated_participants", "false") +
                            element("enable_join_access_control", "true") +
                            element("discovery_protection_kind", "ENCRYPT") +
@@ -68,7 +68,7 @@ std::string topicsOf(const char* verb, const std::vector<std::string>& topics) {
 
 std::string permissions(const Part& part, const std::string& subject) {
   return kHead + "<permissions><grant name=\"" + part.name + "\">\n" + element("subject_name", "CN=" + subject) +
-         // the certificate, which is needed as well, ends before
+         // the certificate, which is also required, expires earlier
          element("validity",
                  element("not_before", "2020-01-01T00:00:00") + element("not_after", "2100-01-01T00:00:00")) +
          element("allow_rule",
@@ -84,7 +84,7 @@ void makeFolder(const fs::path& folder) {
   if (mkdir(folder.c_str(), 0700) != 0) fail(folder.string());
 }
 
-/// Private from the first moment.
+/// Writes a file that is private to the owner from its creation on.
 void write(const fs::path& file, const std::string& text) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) fail(file.string());
@@ -109,10 +109,10 @@ KeyFiles checkedKeys(const std::string& folder) {
     struct stat status {};
     if (stat(file->c_str(), &status) != 0 || !S_ISREG(status.st_mode)) {
       diagnostics.error(
-          753, {*file, 0, 0}, "no such file, and keys for the bus need it",
+          753, {*file, 0, 0}, "no such file; it is part of the keys for the bus",
           "presa bus keys DIR makes them; --bus-keys takes one part: DIR/run, DIR/viewer or DIR/commander");
     } else if (file == &files.key && (status.st_mode & 077U) != 0) {
-      diagnostics.error(753, {*file, 0, 0}, "others on this machine may read the private key", "chmod 600 on it");
+      diagnostics.error(753, {*file, 0, 0}, "others on this machine may read the private key", "run chmod 600 on it");
     }
   }
   if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
@@ -121,7 +121,7 @@ KeyFiles checkedKeys(const std::string& folder) {
 
 void makeKeys(const std::string& folder) {
   if (fs::exists(folder))
-    refuse(754, folder, "is there already; keys are never written over", "name a folder that does not exist");
+    refuse(754, folder, "exists already; keys are never overwritten", "name a folder that does not exist");
   const Certificate authority = certifyPlugin().authority("presa authority", kDays);
   const fs::path root(folder);
   makeFolder(root);
@@ -145,7 +145,7 @@ void makeKeys(const std::string& folder) {
 void requireKeysForCommands(const BusSettings& settings) {
   if (!settings.network.starts_with("lan") || !settings.keys.empty()) return;
   refuse(752, "bus",
-         "commands on network '" + settings.network + "' need keys: without them anybody there could command",
+         "commands on network '" + settings.network + "' need keys: without them anyone on it could send commands",
          "presa bus keys DIR makes them; then --bus-keys DIR/run here and --bus-keys DIR/commander for presa bus set");
 }
 

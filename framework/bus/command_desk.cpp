@@ -12,7 +12,7 @@ CommandDesk::CommandDesk(const Scene& scene, Open open) : open_(std::move(open))
   for (std::size_t slot = 0; slot < surfaces.size(); ++slot) offerSurface(surfaces, slot);
 }
 
-// The two coefficients of a material bound each other: what sticks holds at least what slips.
+// The coefficients of a material bound each other: static friction is never below dynamic friction.
 void CommandDesk::offerSurface(const std::vector<OpenSurface>& open, std::size_t slot) {
   const OpenSurface& surface = open[slot];
   const auto slotOf = [&](double Material::*value) {
@@ -61,7 +61,8 @@ Answer CommandDesk::judge(const Command& command, double time) {
     return judged.sender == command.sender && judged.parameter == command.parameter;
   });
   if (known != judged_.end() && command.number == known->answer.number) return known->answer;
-  // far from what this sender has reached, forged or damaged: it neither acts nor moves what counts as old
+  // a number far ahead of this sender's last one is forged or damaged: it has no effect, not even on the order of later
+  // ones
   std::uint64_t reached = 0;
   for (const Judged& judged : judged_)
     if (judged.sender == command.sender) reached = std::max(reached, judged.answer.number);
@@ -77,7 +78,7 @@ Answer CommandDesk::judge(const Command& command, double time) {
     return answer;
   }
   const Answer answer = decide(command, time);
-  if (answer.verdict == Answer::Verdict::kUnknown) return answer;  // nothing to remember: it is never known
+  if (answer.verdict == Answer::Verdict::kUnknown) return answer;  // not remembered: repeating it gives the same answer
   if (known != judged_.end())
     judged_.erase(known);
   else if (judged_.size() == kRemembered)

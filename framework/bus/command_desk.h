@@ -10,44 +10,44 @@
 
 namespace presa::bus {
 
-/// Judges the commands that come to a run: whether they are meant for it, known, within their range and not overtaken. What was
-/// judged once is answered again and does not act again; a number far ahead of its sender's others is refused, so that no forged one
-/// makes all that follow look overtaken. Surfaces it keeps itself, for the haptic thread to read; the rest is acted
-/// on by whoever offered it. Nothing here reaches a force, a limit or a latched fault.
-/// Thread: that of the bus group; in lockstep, where there is one thread, anybody's.
+/// Parameter server of a run. Checks each command: run, parameter, range and order. A repeated command gets the same
+/// answer and does not act again; a number far ahead of the sender's others is refused, so that a forged one cannot
+/// make later ones look overtaken. Surface parameters are stored here for the haptic thread; other parameters act
+/// through the Offer's functions. Forces, force limits and latched faults are out of reach.
+/// Thread: the bus group's; in lockstep the single thread of the run.
 class CommandDesk {
  public:
   using Open = std::function<std::unique_ptr<CommandPost>()>;
-  /// What else may be set. The functions are called by serve().
+  /// An additional open parameter. The functions are called by serve().
   struct Offer {
     std::string name;
     std::function<double()> value, least, most;
-    std::function<void(double)> set;  ///< within the range of that moment
+    std::function<void(double)> set;  ///< called with a value within the current range
   };
 
   CommandDesk(const Scene& scene, Open open);
-  /// Before start().
+  /// Adds a parameter; before start().
   void offer(Offer offer) { offers_.push_back(std::move(offer)); }
   void start(std::uint64_t run);
-  /// Everything that has arrived; `time` is the run's [s].
+  /// Processes all commands that have arrived. `time`: simulated time of the run [s].
   void serve(double time) noexcept;
-  /// From now on nobody listens.
+  /// Stops listening.
   void stop() noexcept { post_.reset(); }
   const SurfaceSettings& surfaces() const noexcept { return surfaces_; }
 
-  /// What was set, in words. After stop().
+  /// An accepted change: time [s], parameter, value.
   struct Done {
     double time;
     std::string name;
     double value;
   };
   const std::vector<Done>& done() const noexcept { return done_; }
-  /// Of these the first kKept are kept; how many there were.
+  /// Number of accepted changes; done() holds the first kKept of them.
   std::size_t doneCount() const noexcept { return done_count_; }
 
  private:
   static constexpr std::size_t kKept = 32, kRemembered = 256;
-  static constexpr std::uint64_t kFarthest = 4096;  // commands that a sender may be ahead of the last that was judged
+  static constexpr std::uint64_t kFarthest = 4096;  // maximum lead over the sender's last judged number
   struct Judged {
     std::uint64_t sender = 0;
     std::string parameter;
@@ -61,11 +61,11 @@ class CommandDesk {
   Open open_;
   std::unique_ptr<CommandPost> post_;
   std::uint64_t run_ = 0;
-  std::vector<double> surface_values_;  // by slot: asked for
+  std::vector<double> surface_values_;  // commanded values, by slot
   SurfaceSettings surfaces_;
   std::vector<Offer> offers_;
   std::vector<OpenParameter> shown_;  // as offers_
-  std::vector<Judged> judged_;        // the last of each sender and parameter, the oldest first
+  std::vector<Judged> judged_;        // last answer to each sender and parameter, oldest first
   std::vector<Done> done_;
   std::size_t done_count_ = 0;
 };
@@ -74,7 +74,7 @@ class CommandDesk {
 class Commandable {
  public:
   virtual ~Commandable() = default;
-  /// Null where it takes none.
+  /// Null when the run takes no commands.
   virtual CommandDesk* desk() noexcept = 0;
 };
 

@@ -9,13 +9,13 @@
 
 namespace presa::bus {
 
-/// What has arrived for one reader and was not taken yet. Any threads put in, one takes out; they share a lock, so that neither may
-/// be the haptic thread.
+/// Queue of received samples for one reader. Any thread may put, one takes; they share a lock, so neither may be the
+/// haptic thread.
 class Inbox {
  public:
   using Item = std::variant<ObjectSample, FingerSample, Beat, Event, RunInfo>;
 
-  /// Beyond so many items the newest are thrown away and counted.
+  /// When `capacity` samples are waiting, new ones are discarded and counted in overrun().
   explicit Inbox(std::size_t capacity) : capacity_(capacity) {}
   void put(const Item& item, std::int64_t received_ns);
   void take(Listener& listener);
@@ -31,7 +31,7 @@ class Inbox {
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::vector<Received> items_;
-  std::vector<Received> taken_;  // the reader's; swapped, so that memory is kept
+  std::vector<Received> taken_;  // reader's buffer, swapped with items_ to keep the memory
   std::uint64_t overrun_ = 0;
 };
 

@@ -22,10 +22,10 @@ struct LocalBus::Hub {
   std::size_t capacity;
   std::mutex mutex;
   std::vector<Inbox*> inboxes;
-  std::optional<RunInfo> run;  // for who comes later
+  std::optional<RunInfo> run;  // kept for late readers
   std::vector<std::vector<Command>*> posts;
   std::vector<Commander::Heard*> commanders;
-  std::map<std::pair<std::uint64_t, std::string>, OpenParameter> parameters;  // for who comes later
+  std::map<std::pair<std::uint64_t, std::string>, OpenParameter> parameters;  // kept for late commanders
 };
 
 class LocalBus::LocalWriter final : public Writer {

@@ -6,11 +6,11 @@
 
 namespace presa::bus {
 
-/// A bus within this process, for tests and for whoever brings a network of his own. Writers and readers may be on any threads; they
-/// share one lock, so none of them belongs on the haptic thread. Readers get copies, each from a queue of its own.
+/// A bus within this process, for tests and for programs with their own network. Writers and readers may be on any
+/// threads but the haptic one, because they share a lock. Each reader gets copies from its own queue.
 class LocalBus {
  public:
-  /// `capacity`: samples that a reader may leave lying; beyond that the newest are thrown away and counted (Reader::overrun).
+  /// `capacity`: unread samples per reader; beyond it new samples are discarded and counted (Reader::overrun).
   explicit LocalBus(std::size_t capacity = 65536);
   ~LocalBus();
   std::unique_ptr<Writer> writer();

@@ -16,12 +16,13 @@ long bindAsAsked(int socket, const sockaddr* address, socklen_t length) noexcept
 
 }  // namespace
 
-// Everybody's bind(), not only Cyclone's: without a LoopbackOnly on this thread it does what the C library's does.
+// Replaces bind() for the whole process; without a LoopbackOnly on the calling thread it behaves as in the C library.
 extern "C" __attribute__((visibility("default"))) int bind(int socket, const sockaddr* address,
                                                            socklen_t length) noexcept {
   if (depth == 0 || address == nullptr || length < sizeof(sockaddr_in) || address->sa_family != AF_INET)
     return static_cast<int>(bindAsAsked(socket, address, length));
-  // a route may lead 127.0.0.1 in from elsewhere (route_localnet); kernels before 5.7 let only root choose the interface
+  // route_localnet may route 127.0.0.1 from outside, so bind to the interface, too (before Linux 5.7 only root may do
+  // this)
   setsockopt(socket, SOL_SOCKET, SO_BINDTODEVICE, "lo", sizeof "lo");
   sockaddr_in loopback = *reinterpret_cast<const sockaddr_in*>(address);
   loopback.sin_addr.s_addr = htonl(INADDR_LOOPBACK);

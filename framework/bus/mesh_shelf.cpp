@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kDigits = 64;
-constexpr std::size_t kMostFiles = 20000;  // a folder with more holds no meshes alone
+constexpr std::size_t kMostFiles = 20000;  // search limit per folder
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30U;
 
 bool isMesh(const fs::directory_entry& entry) {
@@ -28,7 +28,7 @@ bool isMesh(const fs::directory_entry& entry) {
          entry.file_size(unknown) <= kMostBytes && !unknown;
 }
 
-/// Files by their sums; each is read once, when it is asked for something that was not found before.
+/// Mesh files by checksum. Each file is read at most once, only when an unknown checksum is requested.
 class Shelf {
  public:
   explicit Shelf(const std::vector<std::string>& folders) {
@@ -41,7 +41,7 @@ class Shelf {
     std::ranges::sort(unread_);
     std::ranges::reverse(unread_);
   }
-  /// Empty: there is none.
+  /// Path of the file with this checksum, or "".
   std::string find(const std::string& sum) {
     while (!found_.contains(sum) && !unread_.empty()) {
       const std::string file = std::move(unread_.back());
@@ -49,7 +49,7 @@ class Shelf {
       try {
         found_.try_emplace(sha256OfFile(file), file);
       } catch (const std::system_error&) {
-        continue;  // gone, or not ours to read
+        continue;  // deleted or not readable
       }
     }
     const auto at = found_.find(sum);
@@ -62,7 +62,7 @@ class Shelf {
 };
 
 std::vector<MeshRef*> meshesOf(Scene& scene) {
-  std::vector<MeshRef*> meshes;  // as filesNamedBy
+  std::vector<MeshRef*> meshes;  // in the order of filesNamedBy
   for (Body& body : scene.bodies) {
     for (auto* geometry : {&body.visual, &body.haptic, &body.physics}) {
       if (!geometry->has_value()) continue;
@@ -75,7 +75,7 @@ std::vector<MeshRef*> meshesOf(Scene& scene) {
 std::string listOf(const std::vector<std::string>& folders) {
   std::string list;
   for (const std::string& folder : folders) list += (list.empty() ? "" : ", ") + folder;
-  return list.empty() ? "no folder is allowed" : "looked in " + list;
+  return list.empty() ? "no folder to search" : "looked in " + list;
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ void takeFromShelf(Scene& scene, const RunInfo& run, const std::vector<std::stri
                    Diagnostics& diagnostics) {
   const std::vector<MeshRef*> meshes = meshesOf(scene);
   if (meshes.empty()) return;
-  for (const std::string& folder : folders) input::allowFolder(folder);  // the user named them, not the run
+  for (const std::string& folder : folders) input::allowFolder(folder);  // named by the user, not by the run
   Shelf shelf(folders);
   std::istringstream sums(run.mesh_sums);
   std::map<std::string, bool> told;
@@ -109,11 +109,12 @@ void takeFromShelf(Scene& scene, const RunInfo& run, const std::vector<std::stri
     sums >> sum;
     if (sum.size() == kDigits) mesh->file = shelf.find(sum);
     if (mesh->file.empty() && !std::exchange(told[named], true))
-      diagnostics.error(755, {scene.file, 0, 0},
-                        "no mesh here is the run's " + quote(fs::path(named).filename().string()) +
-                            (sum.size() == kDigits ? ", SHA-256 " + quote(sum) : ", of which it sent no checksum") +
-                            " (" + listOf(folders) + ")",
-                        "copy the file here; --meshes DIR says where, or name the scene file itself");
+      diagnostics.error(
+          755, {scene.file, 0, 0},
+          "no local file equals the run's mesh " + quote(fs::path(named).filename().string()) +
+              (sum.size() == kDigits ? ", SHA-256 " + quote(sum) : ", for which it sent no checksum") + " (" +
+              listOf(folders) + ")",
+          "copy the mesh to this machine and name its folder with --meshes DIR, or name the scene file itself");
   }
 }
 

@@ -8,12 +8,13 @@
 
 namespace presa::bus {
 
-/// RunInfo::mesh_sums of a scene whose meshes are files. One that cannot be read gets zeros, which no viewer finds.
+/// Value of RunInfo::mesh_sums for a scene. A mesh that cannot be read gets zeros, which match no file.
 std::string sumsOfMeshes(const Scene& scene);
 
-/// Lets the meshes of a run's scene, as parsed from RunInfo::scene_xml, be files of this machine: those in `folders` and below whose bytes
-/// have the sums that the run names. No path that came over the bus is opened, only regular files with a mesh's ending in
-/// those folders. Reports E755 for each mesh that is not there; then its path is empty.
+/// Replaces the meshes of a run's scene (parsed from RunInfo::scene_xml) by files of this machine: those in or below
+/// `folders` whose bytes have the checksums that the run sent. No path received over the bus is opened, only regular
+/// files with a mesh extension in those folders. Reports E755 for each mesh that is not found and leaves its path
+/// empty.
 void takeFromShelf(Scene& scene, const RunInfo& run, const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 }  // namespace presa::bus

@@ -22,7 +22,7 @@ Publisher::Publisher(std::shared_ptr<const World> world, Open open, CommandDesk:
   if (takesCommands(*world_)) desk_ = std::make_unique<Desk>(*this, world_->scene, std::move(open_post));
   const auto& bodies = world_->scene.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (bodies[b].fixed) continue;  // the scene says where it is
+    if (bodies[b].fixed) continue;  // its pose is in the scene
     ObjectSample sample;
     sample.body = static_cast<std::int32_t>(b);
     sample.X_WB = bodies[b].X_WB;
@@ -68,7 +68,7 @@ void Publisher::step(const Tick& tick) noexcept {
 void Publisher::stop() {
   if (!writer_) return;
   if (desk_) desk_->desk.stop();
-  // the last states again, so that the end is no gap
+  // publish the last states once more, so that the end does not look like a loss
   const Stamp stamp{run_, beat_.stamp.sequence + 1, beat_.stamp.time, monotonicNs()};
   beat_.stamp = stamp;
   beat_.last = true;
@@ -107,7 +107,7 @@ void Publisher::fillFingers(const Stamp& stamp) noexcept {
   }
 }
 
-// A force that went to zero and stays there, a body that froze.
+// Publishes newly latched output faults and newly frozen bodies.
 void Publisher::tellEvents(const Stamp& stamp) noexcept {
   const std::uint32_t status = command_->status & kOutputLatches;
   if (const std::uint32_t fresh = status & ~told_status_; fresh != 0)

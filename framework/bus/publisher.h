@@ -11,14 +11,14 @@
 
 namespace presa::bus {
 
-/// Publishes a run: every free body and every finger once a tick of the bus group. It only reads its ports, which the haptic thread
-/// fills without waiting. Ports, all optional: device_state, contact_exchange, force_command, object_state; and, only where the run
-/// takes commands (takesCommands), surface_settings to the haptic thread.
+/// Publishes every free body and finger of a run once per tick of the bus group. Only reads its ports, which the haptic
+/// thread fills wait-free. Ports, all optional: device_state, contact_exchange, force_command, object_state; only when
+/// the run takes commands (takesCommands) also the out port surface_settings to the haptic thread.
 class Publisher final : public Module, public Commandable {
  public:
   using Open = std::function<std::unique_ptr<Writer>()>;
-  /// `open` and `open_post` are called in start(), on the thread of the group; they may throw InputError. The second only where the
-  /// run takes commands.
+  /// `open` and `open_post` are called in start(), on the thread of the group, and may throw InputError; `open_post`
+  /// only when the run takes commands.
   Publisher(std::shared_ptr<const World> world, Open open, CommandDesk::Open open_post = {});
   ~Publisher() override;
   void start() override;
@@ -55,7 +55,7 @@ class Publisher final : public Module, public Commandable {
   std::uint32_t told_status_ = 0, told_faults_ = 0;
 };
 
-/// A number for a run that no other has: random, not 0.
+/// Random id of a run, never 0.
 std::uint64_t newRunId();
 
 }  // namespace presa::bus

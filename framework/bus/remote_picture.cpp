@@ -11,12 +11,12 @@
 namespace presa::bus {
 namespace {
 
-// How fast the way from sender to here may be believed to become longer: somewhat faster than the clocks of two machines drift apart,
-// so slowly that packets which are late now and then do not pull the picture.
+// Maximum rate at which the estimated transport delay may grow [-]: somewhat above the drift between the clocks of two
+// machines, and so low that occasional late packets do not shift the picture.
 constexpr double kDrift = 2e-4;
 
-constexpr double kSlack = 10;      // [s] that the time of a sample may be from the newest,
-constexpr double kFastest = 1000;  // and so many for each second since something came
+constexpr double kSlack = 10;      // maximum distance of a sample's time from the newest [s],
+constexpr double kFastest = 1000;  // plus this many simulated seconds per second since the last arrival
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
@@ -64,7 +64,7 @@ void RemotePicture::onRun(const RunInfo& run, std::int64_t received_ns) {
     beginRun(run);
 }
 
-// What was shown stays until there is something newer.
+// The last picture stays visible until the new run delivers a state.
 void RemotePicture::beginRun(const RunInfo& run) noexcept {
   if (state_ == State::kFrozen) ++counted_.resumed;
   run_ = run;
@@ -93,7 +93,7 @@ bool RemotePicture::follows(const Stamp& stamp, std::int64_t received_ns) noexce
   return true;
 }
 
-// Simulated time goes on, at most so fast. A single forged time would otherwise make all true ones look old for good.
+// Limits the rate of simulated time. Otherwise a single forged time would make all genuine ones look old.
 bool RemotePicture::isTimely(const Stamp& stamp, std::int64_t received_ns) const noexcept {
   if (!std::isfinite(stamp.time)) return false;
   if (!clock_known_) return true;
@@ -109,7 +109,7 @@ bool RemotePicture::keep(Track<Sample>& track, const Sample& sample, std::int64_
   }
   const std::uint64_t before = track.watch.lost();
   const SequenceWatch::Arrival arrival = track.watch.see(sample.stamp.sequence);
-  counted_.lost += track.watch.lost() - before;  // modulo 2^64: what comes late takes one away
+  counted_.lost += track.watch.lost() - before;  // modulo 2^64: a late arrival reduces the loss by one
   if (arrival == SequenceWatch::Arrival::kStray) {
     ++counted_.strays;
     return false;
@@ -130,7 +130,7 @@ void RemotePicture::noteArrival(const Stamp& stamp, std::int64_t received_ns) no
   if (state_ != State::kLive && state_ != State::kEnded) {
     if (state_ == State::kFrozen) ++counted_.resumed;
     state_ = State::kLive;
-    clock_known_ = false;  // whatever held it up, time has gone on
+    clock_known_ = false;  // time has gone on during the silence, so the clock offset is estimated anew
   }
   last_arrival_ns_ = received_ns;
   if (stamp.time < newest_) return;

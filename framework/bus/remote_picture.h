@@ -12,22 +12,22 @@
 
 namespace presa::bus {
 
-/// What a viewer knows of a run elsewhere: it takes what arrives, in whatever order and as often as it does, and shows the states
-/// one period behind the newest, where they can be interpolated. It follows one run until that ends or is silent, then the next.
+/// The viewer's copy of a remote run. Accepts samples in any order and any number of times, and shows states one period
+/// behind the newest, where they can be interpolated. Follows one run until it ends or falls silent, then the next.
 /// Thread: one.
 class RemotePicture final : public Listener {
  public:
-  /// Nothing for so long: the picture is frozen [s].
+  /// Time without samples after which the picture is frozen [s].
   static constexpr double kSilence = 0.25;
 
   enum class State : std::uint8_t {
     kWaiting,  ///< no run yet
     kLive,
-    kFrozen,  ///< silent: the last state stands
-    kEnded,   ///< the run said so
+    kFrozen,  ///< no samples: the last state is shown
+    kEnded,   ///< the run announced its end
   };
 
-  /// `world`: what the viewer draws. Samples of a run with another scene hash are not shown (wrongScene).
+  /// `world`: the scene that the viewer draws. Samples of a run with another scene hash are not shown (wrongScene).
   explicit RemotePicture(const World& world);
 
   void onRun(const RunInfo& run, std::int64_t received_ns) override;
@@ -36,60 +36,61 @@ class RemotePicture final : public Listener {
   void onBeat(const Beat& beat, std::int64_t received_ns) override;
   void onEvent(const Event& event, std::int64_t received_ns) override;
 
-  /// To that instant of CLOCK_MONOTONIC; after everything that arrived before it.
+  /// Advances the picture to `now_ns` (CLOCK_MONOTONIC). Call it after delivering everything that arrived before that
+  /// time.
   void advance(std::int64_t now_ns) noexcept;
 
   State state() const noexcept { return state_; }
   bool wrongScene() const noexcept { return wrong_scene_; }
   /// Simulated time of the picture [s].
   double time() const noexcept { return time_; }
-  /// Of the picture: every body, and every finger of which something has arrived.
+  /// The states of the picture: every body, and every finger from which a sample has arrived.
   void fill(ObjectState& objects, DeviceState& device, ContactExchange& contact, ForceCommand& command) const noexcept;
 
   struct Health {
-    std::uint64_t received = 0;  ///< samples of objects, fingers and beats, each once
+    std::uint64_t received = 0;  ///< samples of objects, fingers and beats, without duplicates
     std::uint64_t lost = 0, doubled = 0, late = 0;
-    std::uint64_t refused = 0;      ///< lost on the sender's side already
-    std::uint64_t resumed = 0;      ///< times the bus came back
-    std::uint64_t strays = 0;       ///< numbers or times far from all others, not believed: damaged or forged
+    std::uint64_t refused = 0;      ///< discarded by the sender
+    std::uint64_t resumed = 0;      ///< number of times that the bus came back
+    std::uint64_t strays = 0;       ///< ignored samples with implausible numbers or times: damaged or forged
     std::uint64_t other_scene = 0;  ///< samples of a run with another scene
-    double silent = 0;              ///< since the last sample [s]
-    double behind = 0;              ///< from the newest state that is known to the one shown [s]
+    double silent = 0;              ///< time since the last sample [s]
+    double behind = 0;              ///< age of the shown state relative to the newest [s]
   };
   Health health() const noexcept;
-  /// Of each sample from sender to here [ns]; means something on one machine.
+  /// Transport delay of the samples [ns]; meaningful only on one machine.
   const DurationHistogram& latency() const noexcept { return latency_; }
-  /// For the screen: state, age and loss; in words, one line.
+  /// State, age and loss in one line, for the screen.
   std::string line() const;
-  /// Something is wrong that the line should be red for.
+  /// Whether line() reports a problem and should be shown in red.
   bool alarm() const noexcept { return wrong_scene_ || state_ == State::kFrozen || !last_event_.empty(); }
 
  private:
-  static constexpr std::size_t kKept = 64;  // publications: 0.3 s
+  static constexpr std::size_t kKept = 64;  // publications: about 0.3 s
   template <class Sample>
   struct Track {
     SequenceWatch watch;
     std::array<Sample, kKept> kept;  // by sequence
-    /// Newest not after the time, and the one after it; null: there is none.
+    /// The newest sample not after `time`, and the one after it; null where there is none.
     std::pair<const Sample*, const Sample*> around(double time) const noexcept;
   };
 
   bool follows(const Stamp& stamp, std::int64_t received_ns) noexcept;
   template <class Sample>
-  /// False: not believed.
+  /// False: the sample was ignored as implausible.
   bool keep(Track<Sample>& track, const Sample& sample, std::int64_t received_ns) noexcept;
   void beginRun(const RunInfo& run) noexcept;
   bool isTimely(const Stamp& stamp, std::int64_t received_ns) const noexcept;
   void noteArrival(const Stamp& stamp, std::int64_t received_ns) noexcept;
   Pose poseOf(std::size_t body) const noexcept;
 
-  std::vector<Pose> start_;  // as Scene::bodies
+  std::vector<Pose> start_;  // by body of the scene
   std::uint64_t hash_;
   std::int32_t finger_count_;
   State state_ = State::kWaiting;
   bool wrong_scene_ = false;
-  RunInfo run_;      // followed
-  RunInfo waiting_;  // announced, while another is followed
+  RunInfo run_;      // the run that is followed
+  RunInfo waiting_;  // announced while another run is followed
   std::vector<Track<ObjectSample>> objects_;
   std::array<Track<FingerSample>, kMaxFingers> fingers_;
   Track<Beat> beats_;
@@ -97,7 +98,7 @@ class RemotePicture final : public Listener {
   DurationHistogram latency_;
   std::int64_t last_arrival_ns_ = 0, now_ns_ = 0;
   bool clock_known_ = false;
-  double offset_ = 0;  // local clock less simulated time, for the samples that came fastest [s]
+  double offset_ = 0;  // local clock minus simulated time, for the fastest samples [s]
   double offset_time_ = 0;
   double time_ = 0, newest_ = 0;
   std::string last_event_;

@@ -7,15 +7,16 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 
-/// What travels on the bus: whole states and values, never changes of them, so that any one may be lost, doubled or late. SI units, world frame.
+/// The messages on the bus. They carry whole states and values, never differences, so that any message may be lost,
+/// duplicated or late. SI units, world frame.
 namespace presa::bus {
 
-/// Of every sample. All samples of one publication share it.
+/// Header of every sample. All samples of one publication share it.
 struct Stamp {
   std::uint64_t run = 0;       ///< id of the run, never 0
-  std::uint64_t sequence = 0;  ///< publications since the start of the run, from 1
+  std::uint64_t sequence = 0;  ///< number of the publication in the run, from 1
   double time = 0;             ///< simulated time for which the sample is valid [s]
-  std::int64_t sent_ns = 0;    ///< CLOCK_MONOTONIC of the sender; means something on the same machine only
+  std::int64_t sent_ns = 0;    ///< CLOCK_MONOTONIC of the sender; comparable only on the same machine
 };
 
 /// One free body at Stamp::time. Key: body.
@@ -28,84 +29,85 @@ struct ObjectSample {
   bool asleep = false;
 };
 
-/// One finger: what its device measured, what it touches, what it is made to feel. Key: finger. Of the contact travel mode, body,
-/// points, normal_B, friction and forces; what follows from them is 0.
+/// One finger: device input, contact and rendered force. Key: finger. The contact carries mode, body, points, normal_B,
+/// friction and forces; members that follow from these are 0.
 struct FingerSample {
   Stamp stamp;
   std::int32_t finger = -1;  ///< index into Scene::devices
-  bool valid = false;        ///< the device delivers
+  bool valid = false;        ///< the device delivers usable samples
   Vec3 p_WH = Vec3::Zero();  ///< [m]
   FingerContact contact;
-  Vec3 f_H_W = Vec3::Zero();  ///< that the device holds, after the output stage [N]
+  Vec3 f_H_W = Vec3::Zero();  ///< force on the finger after the output stage [N]
 };
 
-/// Ends each publication: what is neither an object's nor a finger's.
+/// Heartbeat: ends each publication and carries the values that belong to no object or finger.
 struct Beat {
   Stamp stamp;
-  std::int32_t objects = 0, fingers = 0;  ///< samples of this publication
+  std::int32_t objects = 0, fingers = 0;  ///< number of samples in this publication
   std::uint32_t output_status = 0;        ///< OutputStatus bits of any finger
   std::uint32_t object_faults = 0;        ///< ObjectFault bits since the start
-  std::uint64_t refused = 0;              ///< samples that the sender's side had no room for, since the start
-  bool last = false;                      ///< the run ends with it
+  std::uint64_t refused = 0;              ///< samples that the sender had to discard, since the start
+  bool last = false;                      ///< the run has ended
 };
 
-/// Something that happened once. Key: none; none is to be missed.
+/// A single event. No key: every event must be delivered.
 struct Event {
   enum class Kind : std::int32_t { kFingerStatus = 1, kObjectFault = 2 };
   Stamp stamp;
   Kind kind = Kind::kFingerStatus;
-  std::uint32_t bits = 0;  ///< those that came up: OutputStatus of any finger, or ObjectFault
+  std::uint32_t bits = 0;  ///< new bits: OutputStatus of any finger, or ObjectFault
 };
 
-/// Sets one parameter of one run. It carries the value, never a difference, so that it may come twice, late, or not at all.
+/// Sets one parameter of one run. It carries an absolute value, so it may be repeated, late or lost.
 struct Command {
   std::uint64_t run = 0;
-  std::uint64_t sender = 0;  ///< random, one for each process that commands
-  std::uint64_t number = 0;  ///< of the sender's commands, from 1
+  std::uint64_t sender = 0;  ///< random id of the commanding process
+  std::uint64_t number = 0;  ///< number of the sender's command, from 1
   std::string parameter;     ///< OpenParameter::name
   double value = 0;
 };
-inline constexpr std::size_t kLongestParameter = 127;  ///< characters of a name
+inline constexpr std::size_t kLongestParameter = 127;  ///< maximum length of a name [characters]
 
-/// What a run says to one command, as often as the command arrives.
+/// The run's answer to a command, repeated whenever the command arrives again.
 struct Answer {
   enum class Verdict : std::int32_t {
     kAccepted = 1,
-    kUnknown,  ///< no such parameter is open here
+    kUnknown,  ///< no open parameter of this name
     kOutOfRange,
     kNotANumber,
-    kOvertaken,   ///< a later command of this sender for this parameter was there before
-    kOutOfOrder,  ///< its number is far ahead of the sender's others: not from the sender
+    kOvertaken,   ///< a later command of this sender for this parameter has acted already
+    kOutOfOrder,  ///< the number is far ahead of the sender's others: probably forged
   };
   std::uint64_t run = 0, sender = 0, number = 0;
   Verdict verdict = Verdict::kAccepted;
-  double value = 0;            ///< that is in force
-  double least = 0, most = 0;  ///< that is allowed
+  double value = 0;            ///< value in force
+  double least = 0, most = 0;  ///< allowed range
 };
 
-/// A parameter that commands may set, as it is now; kept for who comes late. Key: run and name.
+/// An open parameter with its current value and range; kept for late subscribers. Key: run and name.
 struct OpenParameter {
   std::uint64_t run = 0;
   std::string name;
   double value = 0, least = 0, most = 0;
-  std::int32_t of = 0;  ///< how many this run has
+  std::int32_t of = 0;  ///< number of open parameters of this run
 };
 
-/// The static part, kept for viewers that come late.
+/// Static information on a run; kept for late viewers.
 struct RunInfo {
   std::uint64_t run = 0;
-  std::uint64_t scene_hash = 0;  ///< sceneHash of the world that runs
-  double period = 0;             ///< from one publication to the next [s]
+  std::uint64_t scene_hash = 0;  ///< sceneHash of the running world
+  double period = 0;             ///< time between publications [s]
   bool realtime = false;
   std::string scene_name;
-  std::string scene_xml;  ///< resolved; meshes are named by their files
-  bool commands = false;  ///< it takes commands
-  /// SHA-256 of every file of filesNamedBy(scene), in that order, 64 digits each, with spaces between: a viewer finds the bytes among its
-  /// own files (MeshShelf) and opens no path that comes from outside. Empty where the scene names none.
+  std::string scene_xml;  ///< resolved scene; meshes are given by their file names
+  bool commands = false;  ///< the run takes commands
+  /// SHA-256 of every file of filesNamedBy(scene), in that order, 64 digits each, separated by spaces. A viewer looks
+  /// up the files among its own (takeFromShelf) and opens no path received over the bus. Empty when the scene has no
+  /// meshes.
   std::string mesh_sums{};
 };
 
-/// One publication; the spans are read during the call only.
+/// One publication. The spans are only valid during the call.
 struct Snapshot {
   std::span<const ObjectSample> objects;
   std::span<const FingerSample> fingers;

@@ -3,16 +3,16 @@
 
 namespace presa::bus {
 
-/// Counts what is missing, doubled and late in the numbers of one key. A viewer that joins late misses nothing: counting begins
-/// with the first number that it sees. What arrives late after all is no longer missing.
+/// Counts missing, duplicate and late sequence numbers of one key. Counting begins with the first number that is seen,
+/// so a viewer that joins late has no loss. A number that arrives late is no longer missing.
 ///
-/// A number far from the others is not believed alone, since one forged or damaged number would make all true ones look old for good. Where
-/// the next one follows it, both are: who was suspended goes on, and so does who believed two forged ones
-/// [RFC 3550, appendix A.1].
+/// A single number far from the others is ignored as a stray, since a forged or damaged one would make all genuine
+/// numbers look old. When the next number follows the stray, both are accepted: this resumes counting after a long
+/// suspension, and recovers after two consecutive forged numbers [RFC 3550, appendix A.1].
 class SequenceWatch {
  public:
   enum class Arrival : std::uint8_t { kNewest, kLate, kDouble, kStray };
-  static constexpr std::uint64_t kNear = 1024;  ///< numbers: five seconds of a run
+  static constexpr std::uint64_t kNear = 1024;  ///< maximum jump: five seconds of a run at 200 Hz
 
   Arrival see(std::uint64_t sequence) noexcept {
     if (highest_ == 0) first_ = highest_ = sequence - 1;
@@ -32,7 +32,7 @@ class SequenceWatch {
       return Arrival::kNewest;
     }
     const std::uint64_t behind = highest_ - sequence;
-    // longer ago than anybody remembers, or before the first: as good as double
+    // beyond the window, or before the first number: treated as a duplicate
     if (sequence <= first_ || behind >= kWindow || (seen_ >> behind & 1U) != 0) return Arrival::kDouble;
     seen_ |= std::uint64_t{1} << behind;
     --lost_;
@@ -43,14 +43,14 @@ class SequenceWatch {
   bool any() const noexcept { return highest_ != 0; }
   std::uint64_t highest() const noexcept { return highest_; }
   std::uint64_t received() const noexcept { return received_; }
-  /// Numbers missing between the first and the highest that were seen.
+  /// Numbers missing between the first and the highest seen.
   std::uint64_t lost() const noexcept { return lost_; }
-  /// The same up to a number that is known to have been sent.
+  /// Numbers missing up to `sent`, a number known to have been sent.
   std::uint64_t lostUpTo(std::uint64_t sent) const noexcept { return lost() + (sent > highest_ ? sent - highest_ : 0); }
 
  private:
-  static constexpr std::uint64_t kWindow = 64;                // numbers
-  static constexpr std::uint64_t kLongestSilence = 1U << 24;  // numbers: a day; beyond that none of them was ever sent
+  static constexpr std::uint64_t kWindow = 64;                // remembered numbers
+  static constexpr std::uint64_t kLongestSilence = 1U << 24;  // a day at 200 Hz; a longer jump is not counted as loss
 
   bool isFar(std::uint64_t sequence) const noexcept {
     return sequence > highest_ ? sequence - highest_ > kNear : highest_ - sequence > kNear;
@@ -66,10 +66,10 @@ class SequenceWatch {
     ++received_;
   }
 
-  std::uint64_t first_ = 0;  // one below the first that counts
+  std::uint64_t first_ = 0;  // one below the first counted number
   std::uint64_t highest_ = 0, received_ = 0, lost_ = 0;
   std::uint64_t seen_ = 0;   // bit i: highest_ - i has arrived
-  std::uint64_t stray_ = 0;  // the last number that was far from the others; 0: none
+  std::uint64_t stray_ = 0;  // last implausible number; 0: none
 };
 
 }  // namespace presa::bus

@@ -4,7 +4,7 @@
 
 namespace presa::bus {
 
-// The plug-in returns what it made as a plain pointer, which changes hands here.
+// The plug-in returns owning raw pointers; ownership is taken here.
 std::unique_ptr<Writer> openWriter(const BusSettings& settings) {
   using Open = Writer* (*)(const BusSettings&);
   return std::unique_ptr<Writer>(reinterpret_cast<Open>(pluginSymbol("bus_dds", "presaOpenBusWriter"))(settings));

@@ -49,7 +49,7 @@ void TroubledReader::take(Listener& listener) {
   const auto held = std::exchange(held_, {});
   Filter filter(*this, listener);
   reader_->take(filter);
-  for (const auto& tell : held) tell(listener);  // after what came later
+  for (const auto& tell : held) tell(listener);  // delivered after later samples
 }
 
 }  // namespace presa::bus

@@ -8,11 +8,11 @@
 
 namespace presa::bus {
 
-/// A reader with a bad network before it: loses, doubles and holds back samples of objects, fingers and beats, as a stream of random
-/// numbers says. Loopback loses nothing when asked to, so this does.
+/// A reader that simulates a bad network, for tests: loses, duplicates and delays samples of objects, fingers and beats
+/// at random, because loopback itself is reliable.
 class TroubledReader final : public Reader {
  public:
-  /// Shares of samples in [0, 1]; what is held back comes with the next take().
+  /// Fractions of samples in [0, 1]; delayed samples are delivered by the next take().
   struct Trouble {
     double lose = 0, twice = 0, hold_back = 0;
   };

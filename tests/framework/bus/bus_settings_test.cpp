@@ -36,7 +36,7 @@ TEST(BusSettings, AreReadFromTheScene) {
   ASSERT_TRUE(scene.bus.has_value());
   EXPECT_EQ(scene.bus->network, "loopback");
   EXPECT_EQ(scene.bus->domain, 5);
-  // as a recording, or a viewer, reads it again
+  // a recording or a viewer parses the resolved scene again
   EXPECT_EQ(parseScene(scene.resolved_xml, "again", ".", {}, diagnostics).bus->domain, 5);
 }
 
@@ -61,7 +61,7 @@ Scene sceneWith(const std::string& bus, const std::vector<Override>& overrides, 
   return parseScene(xml, "scene", ".", overrides, diagnostics);
 }
 
-// A scene is a file that somebody sends: it opens no network and gives nobody a say.
+// A scene may come from an untrusted source: it opens no network and grants no access.
 TEST(BusSettings, OfASceneOpenNeitherTheNetworkNorCommands) {
   for (const char* bus : {R"(<bus network="lan"/>)", R"(<bus network="lan:eth0"/>)",
                           R"(<bus network="loopback" commands="true"/>)", R"(<bus network="none" commands="1"/>)"}) {
@@ -83,7 +83,7 @@ TEST(BusSettings, OfASceneOpenNeitherTheNetworkNorCommands) {
   EXPECT_FALSE(good.hasErrors()) << good.text();
 }
 
-// Nor does a rig that nobody but the scene names.
+// The same holds for a rig that only the scene names.
 TEST(BusSettings, OfARigThatTheSceneChoseOpenNothingEither) {
   const std::string folder = testing::TempDir(), scene = folder + "/bus_chosen.xml",
                     rig = folder + "/bus_chosen_rig.xml";
@@ -125,7 +125,7 @@ TEST(BusSettings, NameANetwork) {
     EXPECT_FALSE(isBusNetwork(bad)) << bad;
 }
 
-// What the user says goes before the rig, also when it is "none"; and the plan says who asked.
+// The command line takes precedence over the rig, also with "none"; the plan names the source of the setting.
 TEST(BusSettings, OfTheCommandLineGoBeforeTheRigs) {
   Scene scene;
   scene.name = "cube";

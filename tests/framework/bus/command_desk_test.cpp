@@ -1,4 +1,4 @@
-// Commands to a run, over a bus within this process and in virtual time.
+// Commands to a run over a bus within this process, in virtual time.
 #include "framework/bus/command_desk.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ Scene cubeScene() {
   return loadWorld({kCube, {}, {}}, {}, diagnostics).world->scene;
 }
 
-/// A desk and one who commands, with nothing between them.
+/// A desk and a commander, connected directly.
 struct Desk {
   Desk() {
     desk.start(kRun);
@@ -81,7 +81,7 @@ TEST(CommandDesk, RefusesWithTheReasonAndChangesNothing) {
   for (const char* name :
        {"material/rubber/damping", "device/thumb/limits/force", "rearm", "material/steel/stiffness", ""})
     EXPECT_EQ(refused(name, 1).verdict, Verdict::kUnknown) << name;
-  // what sticks holds at least what slips
+  // static friction is never below dynamic friction
   EXPECT_EQ(refused(kStatic, 0.5).verdict, Verdict::kOutOfRange);
   EXPECT_EQ(refused(kDynamic, 0.9).verdict, Verdict::kOutOfRange);
 }
@@ -96,20 +96,20 @@ TEST(CommandDesk, KeepsStaticFrictionAboveDynamic) {
   EXPECT_EQ(d.say({kRun, 7, 3, kDynamic, 0.5}).most, 0.4);
 }
 
-// Repeated, it is answered again and acts once; of two for one parameter that have changed places, the later stands.
+// A repeated command is answered again and acts once; of two reordered commands for one parameter the later one wins.
 TEST(CommandDesk, ActsOnce) {
   Desk d;
   d.say({kRun, 7, 2, kStiffness, 500});
-  d.say({kRun, 8, 1, kStiffness, 600});  // somebody else, since
+  d.say({kRun, 8, 1, kStiffness, 600});  // another sender, in between
   const Answer again = d.say({kRun, 7, 2, kStiffness, 500});
   EXPECT_EQ(again.verdict, Verdict::kAccepted);
   EXPECT_EQ(d.desk.surfaces().newest, 2u);
   EXPECT_EQ(d.say({kRun, 7, 1, kStiffness, 900}).verdict, Verdict::kOvertaken);
   EXPECT_EQ(d.desk.surfaces().newest, 2u);
-  EXPECT_EQ(d.say({kRun, 7, 1, kStatic, 1.0}).verdict, Verdict::kAccepted);  // another parameter is another matter
+  EXPECT_EQ(d.say({kRun, 7, 1, kStatic, 1.0}).verdict, Verdict::kAccepted);  // another parameter is independent
 }
 
-// The largest number there is, in somebody else's name: refused, and the true sender goes on.
+// Forged commands with extreme numbers in another sender's name are refused, and the genuine sender continues.
 TEST(CommandDesk, OneForgedNumberLocksNoParameter) {
   for (const bool before : {true, false}) {  // the true sender's first command comes before the forged one, or after
     Desk d;
@@ -121,7 +121,7 @@ TEST(CommandDesk, OneForgedNumberLocksNoParameter) {
   }
 }
 
-// Numbers run over all parameters: who set one ten thousand times may set another.
+// Numbers run over all parameters: after ten thousand commands for one parameter a sender may still set another.
 TEST(CommandDesk, NumbersFollowOverAllParameters) {
   Desk d;
   for (std::uint64_t number = 1; number <= 10'000; number += 1000)
@@ -137,7 +137,7 @@ TEST(CommandDesk, DoesNotListenToWhatIsForAnotherRun) {
   EXPECT_EQ(d.desk.surfaces().newest, 0u);
 }
 
-// Who comes late is told what may be set, and everybody when it is another value or range.
+// Late commanders receive all open parameters, and everyone receives changes of value or range.
 TEST(CommandDesk, ShowsWhatMayBeSet) {
   Desk d;
   const auto late = d.bus.commander();
@@ -152,7 +152,7 @@ TEST(CommandDesk, ShowsWhatMayBeSet) {
   EXPECT_EQ(shown[kStatic].least, 0.2);
 }
 
-// An offer of the program: a count that goes up by one, as an undo does.
+// A parameter offered by the program: a counter that increases by one, as undo does.
 TEST(CommandDesk, SetsWhatTheProgramOffers) {
   Desk d;
   CommandDesk desk(cubeScene(), [&] { return d.bus.post(); });
@@ -172,8 +172,8 @@ TEST(CommandDesk, SetsWhatTheProgramOffers) {
   EXPECT_EQ(undone, 1);
 }
 
-// Two people set three parameters over a network that loses, doubles and swaps a fifth of everything. Each sends a command until it
-// is answered. Every command acts once, and what is in force at the end is what was said last.
+// Two commanders set three parameters over a network that loses, duplicates and reorders a fifth of everything. Each
+// repeats a command until it is answered. Every command acts once, and the last value sent is in force at the end.
 TEST(CommandDesk, EveryCommandActsOnceOverABadNetwork) {
   LocalBus bus;
   TroubledPost::Counts counts;
@@ -216,7 +216,7 @@ TEST(CommandDesk, EveryCommandActsOnceOverABadNetwork) {
 
 // ---- a whole run in lockstep ---------------------------------------------------------------------------------------
 
-/// Looks at the forces and at the cube, in every haptic tick.
+/// Samples the forces and the cube in every haptic tick.
 struct Watch final : Module {
   explicit Watch(std::function<void(std::uint64_t)> at) : Module("watch", RateGroup::kHaptic), at_tick(std::move(at)) {}
   void step(const Tick& tick) noexcept override {
@@ -269,8 +269,9 @@ double largestStep(const std::vector<Vec3>& forces, std::size_t from) {
   return largest;
 }
 
-// Open but never commanded, a run is to the bit the one that takes no commands, which has no port for any. Commanded while two
-// fingers hold the cube, its rubber grows softer: no tick changes a force by more than F period / tau more than it did anyhow.
+// A run that is open to commands but receives none equals, to the bit, a run without a command port. When a command
+// softens the rubber while two fingers hold the cube, no force changes by more than F period / tau per tick beyond the
+// usual change.
 TEST(CommandedRun, FeelsNoStepAndIsTheSameWithoutACommand) {
   LocalBus bus;
   const auto commander = bus.commander();
@@ -283,7 +284,7 @@ TEST(CommandedRun, FeelsNoStepAndIsTheSameWithoutACommand) {
 
   constexpr std::size_t kHeld = 3200;  // the cube hangs between the fingers
   std::uint64_t run = 0;
-  for (const OpenParameter& parameter : commander->take().parameters) run = parameter.run;  // of the run before
+  for (const OpenParameter& parameter : commander->take().parameters) run = parameter.run;  // of the previous run
   std::vector<Answer> answers;
   const Ran commanded = runCube(true, bus, [&](std::uint64_t tick) {
     if (tick != kHeld) return;
@@ -296,14 +297,14 @@ TEST(CommandedRun, FeelsNoStepAndIsTheSameWithoutACommand) {
   EXPECT_EQ(answers[0].verdict, Verdict::kAccepted);
   EXPECT_NEAR(commanded.stiffness, 700 + 300 * std::exp(-0.8 / 0.15), 1);
   for (std::size_t i = 0; i < kHeld; ++i) ASSERT_EQ(commanded.forces[i], open.forces[i]) << i;
-  double felt = 0;  // until the hand, which wants its force, has pressed deeper
+  double felt = 0;  // until the hand, which controls its force, has pressed deeper
   for (std::size_t i = kHeld; i < open.forces.size(); ++i)
     felt = std::max(felt, (commanded.forces[i] - open.forces[i]).norm());
   EXPECT_GT(felt, 0.1);
   const double force = open.forces[kHeld].norm();
   EXPECT_GT(force, 1);
   EXPECT_LE(largestStep(commanded.forces, kHeld), largestStep(open.forces, kHeld) + force * 1e-3 / 0.15);
-  EXPECT_LE(largestStep(commanded.forces, kHeld), 0.1);  // the slew limit is 1 N a tick
+  EXPECT_LE(largestStep(commanded.forces, kHeld), 0.1);  // the slew limit is 1 N per tick
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which files a viewer opens for a scene that comes over the bus.
+// Which files a viewer opens for a scene received over the bus.
 #include "framework/bus/mesh_shelf.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ RunInfo runOf(const Scene& scene) {
   return run;
 }
 
-// By its bytes, whatever it is called there, and below the folder too.
+// A mesh is found by its bytes, under any name, also in sub-folders.
 TEST(MeshShelf, FindsTheBytesUnderAnyName) {
   const Folders folders;
   const std::string sent = folders.write(folders.there / "cup.obj", "cup"),
@@ -72,7 +72,7 @@ TEST(MeshShelf, FindsTheBytesUnderAnyName) {
   EXPECT_EQ(fileOf(scene, 1), jug);
 }
 
-// The path that the bus names is there, has the bytes, and is not opened: it lies in no folder that was allowed.
+// The path sent over the bus exists and has the right bytes, but is not opened, because its folder is not allowed.
 TEST(MeshShelf, OpensNothingOutsideItsFolders) {
   const Folders folders;
   const std::string sent = folders.write(folders.there / "cup.obj", "cup");
@@ -81,14 +81,14 @@ TEST(MeshShelf, OpensNothingOutsideItsFolders) {
     const RunInfo run = runOf(scene);
     Diagnostics diagnostics;
     takeFromShelf(scene, run, allowed, diagnostics);
-    EXPECT_EQ(diagnostics.errorCount(), 1u) << diagnostics.text();  // once a file
+    EXPECT_EQ(diagnostics.errorCount(), 1u) << diagnostics.text();  // once per file
     EXPECT_NE(diagnostics.text().find("error[E755]"), std::string::npos);
     EXPECT_NE(diagnostics.text().find("cup.obj"), std::string::npos);
     EXPECT_EQ(fileOf(scene), "");
   }
 }
 
-// What is no regular file, or no mesh, is not even read: a pipe would wait for ever. Sums that are none find nothing.
+// Files that are not regular or not meshes are not read: a pipe would block for ever. Invalid checksums match nothing.
 TEST(MeshShelf, ReadsRegularMeshFilesOnly) {
   const Folders folders;
   ASSERT_EQ(mkfifo((folders.here / "pipe.obj").c_str(), 0600), 0);

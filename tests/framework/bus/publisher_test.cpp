@@ -1,4 +1,4 @@
-// A whole run in lockstep, with and without somebody who looks.
+// A whole run in lockstep, with and without viewers.
 #include "framework/bus/publisher.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ std::uint64_t hashWithoutBus() {
   return run.monitor().hash();
 }
 
-// Viewers come, are slow, go without a word and come again: not one bit of any state is another.
+// Viewers that join, are slow, disappear and come back change no bit of any state.
 TEST(Publisher, LeavesEveryBitOfTheRunAsItWas) {
   const std::uint64_t without = hashWithoutBus();
   LocalBus bus(1000);
@@ -59,7 +59,7 @@ TEST(Publisher, LeavesEveryBitOfTheRunAsItWas) {
   EXPECT_GT(never_takes->overrun(), 0u);
 }
 
-// What arrives is what the run has, to the bit: poses at the tick's time, as a view of the run itself draws them.
+// Viewers receive the states of the run to the bit, with poses at the tick's time, as a local view draws them.
 TEST(Publisher, CarriesTheStatesOfTheRun) {
   LocalBus bus;
   StudyRun run(cube(), {}, publisherOf(bus));
@@ -72,10 +72,10 @@ TEST(Publisher, CarriesTheStatesOfTheRun) {
   ForceCommand command;
   double time = -1;
   run.observe([&](const StudySample& sample) {
-    // published after this tick: what is there now is that of five ticks ago
+    // published after this tick, so the current picture is that of five ticks ago
     if (sample.tick.index % 5 == 4) {
       reader->take(picture);
-      picture.advance(std::numeric_limits<std::int64_t>::max() / 4);  // as far as it goes
+      picture.advance(std::numeric_limits<std::int64_t>::max() / 4);  // as far as possible
     }
     if (time >= 0 && sample.tick.index % 5 == 4) {
       ObjectState objects;
@@ -120,11 +120,11 @@ TEST(Publisher, GivesTheStaticPartToWhoComesLate) {
   late->take(picture);
   EXPECT_EQ(picture.state(), RemotePicture::State::kEnded);
   EXPECT_EQ(picture.health().lost, 0u);
-  // every second half of 600 publications and the last word: one object, two fingers, one beat each
+  // half of 600 publications and the final one: one object, two fingers, one beat each
   EXPECT_EQ(picture.health().received, 4u * (299 + 1 + 1));
 }
 
-// The haptic group hands its states over, and that is all it does for a bus.
+// For the bus the haptic group only hands over its states.
 TEST(Publisher, CostsTheHapticGroupNoAllocationAndNoLock) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   Diagnostics diagnostics;
@@ -151,7 +151,7 @@ TEST(Publisher, CostsTheHapticGroupNoAllocationAndNoLock) {
   }
   for (const RateGroup group : kGroups) session.graph().stop(group);
   EXPECT_EQ(violations, 0);
-  EXPECT_GT(elsewhere, 0);  // the guard sees: the bus itself takes a lock
+  EXPECT_GT(elsewhere, 0);  // proof that the guard works: the bus itself takes a lock
 }
 
 }  // namespace

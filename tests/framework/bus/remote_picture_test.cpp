@@ -31,10 +31,10 @@ World worldOf(const std::string& size = "0.1") {
 
 std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
 
-/// Where the body is at t [m]: it moves along x with 1 m/s, so that positions are times.
+/// Position of the body at time t [m]: it moves along x at 1 m/s, so that positions equal times.
 double where(double t) { return t; }
 
-/// A run that exists on the wire only, and one who looks at it. `delay`: from sender to here [s].
+/// A simulated sender and a picture of its run. `delay`: transport delay [s].
 struct Wire {
   explicit Wire(const World& world) : world_hash(sceneHash(world)), picture(world) {}
   void announce(std::uint64_t id) {
@@ -61,7 +61,7 @@ struct Wire {
     beat.stamp = object.stamp;
     picture.onBeat(beat, ns(clock + delay));
   }
-  /// So many periods, all of them sent and received at once.
+  /// Sends and delivers this many periods.
   void go(int periods) {
     for (int i = 0; i < periods; ++i) {
       send(++sequence);
@@ -78,14 +78,14 @@ struct Wire {
   RemotePicture picture;
   RunInfo run;
   std::uint64_t sequence = 0;
-  double clock = 1000;  // of the viewer, which has nothing to do with the run's
+  double clock = 1000;  // the viewer's clock, unrelated to the run's
   ObjectState objects;
   DeviceState device;
   ContactExchange contact;
   ForceCommand command;
 };
 
-// One period behind, interpolated at any moment between two samples: a straight motion is shown without error.
+// One period behind, and interpolated between samples: uniform motion is shown without error.
 TEST(RemotePicture, ShowsThePastPeriodWithoutError) {
   Wire wire(worldOf());
   wire.announce(7);
@@ -99,7 +99,7 @@ TEST(RemotePicture, ShowsThePastPeriodWithoutError) {
     EXPECT_NEAR(wire.device.fingers[0].p_WH.x(), 2 * where(wire.picture.time()), 1e-12);
     EXPECT_TRUE(wire.device.fingers[0].valid);
   }
-  // never ahead of what is known
+  // never ahead of the newest state
   wire.picture.advance(ns(received + 3 * kPeriod));
   EXPECT_EQ(wire.picture.time(), newest);
 }
@@ -108,12 +108,12 @@ TEST(RemotePicture, BridgesALostSampleAndTakesALateOne) {
   Wire wire(worldOf());
   wire.announce(7);
   wire.go(10);
-  wire.sequence += 2;  // 11 and 12 are lost, or late
+  wire.sequence += 2;  // 11 and 12 are lost or late
   wire.clock += 2 * kPeriod;
   wire.go(1);
   wire.picture.advance(ns(wire.clock - kPeriod));
   EXPECT_NEAR(wire.shown(), where(11 * kPeriod), 1e-12);  // between 10 and 13
-  EXPECT_EQ(wire.picture.health().lost, 6u);              // object, finger and beat of each
+  EXPECT_EQ(wire.picture.health().lost, 6u);              // object, finger and beat of both
   wire.send(12);
   wire.send(12);
   EXPECT_EQ(wire.picture.health().lost, 3u);
@@ -123,7 +123,7 @@ TEST(RemotePicture, BridgesALostSampleAndTakesALateOne) {
   EXPECT_NEAR(wire.shown(), where(11 * kPeriod), 1e-12);
 }
 
-// Packets that come late now and then do not pull the picture to and fro: time goes on evenly.
+// Occasional late packets do not shift the picture: its time advances evenly.
 TEST(RemotePicture, GoesOnEvenlyUnderJitter) {
   Wire wire(worldOf());
   wire.announce(7);
@@ -152,8 +152,8 @@ TEST(RemotePicture, FreezesAndComesBack) {
   EXPECT_TRUE(wire.picture.alarm());
   EXPECT_NE(wire.picture.line().find("FROZEN: nothing on the bus for 1.0 s"), std::string::npos) << wire.picture.line();
   EXPECT_EQ(wire.shown(), where(last));
-  EXPECT_TRUE(wire.device.fingers[0].valid);  // the whole picture stands
-  // meanwhile the run went on: 200 publications are lost, and the next is shown at once
+  EXPECT_TRUE(wire.device.fingers[0].valid);  // the whole picture is kept
+  // the run went on meanwhile: 200 publications are lost, and the next is shown at once
   wire.sequence += 200;
   wire.go(2);
   EXPECT_EQ(wire.picture.state(), RemotePicture::State::kLive);
@@ -173,15 +173,15 @@ TEST(RemotePicture, SaysThatAnotherSceneRuns) {
   EXPECT_TRUE(wire.picture.alarm());
   EXPECT_EQ(wire.picture.health().other_scene, 30u);
   EXPECT_NE(wire.picture.line().find("another scene"), std::string::npos);
-  EXPECT_EQ(wire.shown(), 0);  // where the own scene has it
+  EXPECT_EQ(wire.shown(), 0);  // start pose of the viewer's own scene
 }
 
-// The next run begins where the last was killed: other numbers, other times, no loss between them.
+// The next run starts where the last was killed: other numbers and times, no loss between them.
 TEST(RemotePicture, FollowsTheNextRun) {
   Wire wire(worldOf());
   wire.announce(7);
   wire.go(500);
-  wire.announce(8);  // while the first still sends: a stranger
+  wire.announce(8);  // while the first still sends: it is not followed yet
   EXPECT_EQ(wire.picture.health().received, 1500u);
   wire.go(3);
   EXPECT_EQ(wire.picture.health().received, 1500u);
@@ -216,7 +216,7 @@ TEST(RemotePicture, ShowsAnEvent) {
   EXPECT_TRUE(wire.picture.alarm());
 }
 
-// Through a reader that loses, doubles and holds back: what is counted is what was done to the samples.
+// The counters equal the losses, duplicates and delays that the reader introduced.
 TEST(RemotePicture, CountsWhatABadNetworkDoes) {
   const World world = worldOf();
   LocalBus bus;
@@ -233,7 +233,7 @@ TEST(RemotePicture, CountsWhatABadNetworkDoes) {
     writer->publish({std::span(&object, 1), {}, beat});
     reader.take(picture);
   };
-  publish();  // the first is what counting begins with
+  publish();  // counting starts with the first
   reader.change({.lose = 0.1, .twice = 0.1, .hold_back = 0.2});
   for (int i = 0; i < 3000; ++i) publish();
   reader.change({});
@@ -244,11 +244,11 @@ TEST(RemotePicture, CountsWhatABadNetworkDoes) {
   EXPECT_EQ(health.lost, reader.lost());
   EXPECT_EQ(health.doubled, reader.doubled());
   EXPECT_GT(health.late, 0u);
-  EXPECT_LE(health.late, reader.heldBack());  // held back to the next, or past a loss
+  EXPECT_LE(health.late, reader.heldBack());  // some are delayed past a loss
   EXPECT_EQ(health.received, 2u * 3003 - reader.lost());
 }
 
-// The reader's own side throws away, and says so: not a loss of the network.
+// Samples discarded on the reader's side are counted separately from network loss.
 TEST(LocalBus, CountsWhatAReaderLeavesLying) {
   LocalBus bus(10);
   const auto writer = bus.writer();
@@ -266,7 +266,7 @@ TEST(SceneHash, DiffersByWhatIsDrawn) {
   EXPECT_NE(sceneHash(worldOf()), sceneHash(worldOf("0.2")));
 }
 
-// Samples in the run's name that no run sends: numbers and times at the end of all numbers. The picture goes on.
+// Forged samples with extreme numbers and times do not stop the picture.
 TEST(RemotePicture, ForgedNumbersAndTimesStopNothing) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Stamp ends[] = {{7, ~std::uint64_t{0}, 1, 0},
@@ -280,7 +280,7 @@ TEST(RemotePicture, ForgedNumbersAndTimesStopNothing) {
     Wire wire(worldOf());
     wire.announce(7);
     wire.go(400);
-    const bool number = forged.time == 1;  // else the time is forged, in a sample that is next
+    const bool number = forged.time == 1;  // else the time is forged, with the next number
     if (number)
       forged.time = wire.stampOf(wire.sequence).time;
     else

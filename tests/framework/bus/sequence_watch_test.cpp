@@ -16,7 +16,7 @@ using Arrival = SequenceWatch::Arrival;
 TEST(SequenceWatch, CountsWhatIsMissingBetweenTheFirstAndTheHighest) {
   SequenceWatch watch;
   EXPECT_EQ(watch.lost(), 0u);
-  EXPECT_EQ(watch.see(100), Arrival::kNewest);  // joins late: 1 to 99 are nobody's loss
+  EXPECT_EQ(watch.see(100), Arrival::kNewest);  // joins late: 1 to 99 are not counted as loss
   EXPECT_EQ(watch.lost(), 0u);
   EXPECT_EQ(watch.see(103), Arrival::kNewest);
   EXPECT_EQ(watch.lost(), 2u);
@@ -30,7 +30,7 @@ TEST(SequenceWatch, CountsWhatIsMissingBetweenTheFirstAndTheHighest) {
   EXPECT_EQ(watch.received(), 3u);
 }
 
-// Against a set that remembers everything: numbers lost, doubled and up to 40 places out of order.
+// Oracle: a set of all numbers. Losses, duplicates and reordering by up to 40 places.
 TEST(SequenceWatch, AgreesWithASetThatRemembersAll) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "numbers");
@@ -52,7 +52,7 @@ TEST(SequenceWatch, AgreesWithASetThatRemembersAll) {
   }
 }
 
-// One forged number, however placed, costs one sample: what follows is counted as if it had never been there.
+// One forged number, wherever it lies, costs one sample; later counts are unaffected.
 TEST(SequenceWatch, OneForgedNumberLocksNothing) {
   for (const std::uint64_t forged :
        {~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1} << 63U, std::uint64_t{102 + 1025}}) {
@@ -66,7 +66,8 @@ TEST(SequenceWatch, OneForgedNumberLocksNothing) {
   }
 }
 
-// Two forged ones in a row are believed, as after a long silence; two true ones later so are those, and no loss is made up.
+// Two consecutive forged numbers are accepted, as after a long silence; two genuine ones later restore the count
+// without loss.
 TEST(SequenceWatch, GoesOnAfterTwoForgedNumbers) {
   SequenceWatch watch;
   for (std::uint64_t number = 1; number <= 10; ++number) watch.see(number);
@@ -78,7 +79,7 @@ TEST(SequenceWatch, GoesOnAfterTwoForgedNumbers) {
   EXPECT_EQ(watch.lost(), 0u);
 }
 
-// The first number of all may be the forged one.
+// The very first number may be forged.
 TEST(SequenceWatch, GoesOnWhenTheFirstNumberIsForged) {
   SequenceWatch watch;
   watch.see(~std::uint64_t{0});
@@ -87,13 +88,13 @@ TEST(SequenceWatch, GoesOnWhenTheFirstNumberIsForged) {
   EXPECT_EQ(watch.see(3), Arrival::kNewest);
 }
 
-// Who was suspended for an hour goes on with the second sample, and has lost what it has lost.
+// After an hour's suspension counting resumes with the second sample, and the loss is counted.
 TEST(SequenceWatch, GoesOnAfterALongSilence) {
   SequenceWatch watch;
   watch.see(1);
   EXPECT_EQ(watch.see(720'001), Arrival::kStray);
   EXPECT_EQ(watch.see(720'002), Arrival::kNewest);
-  EXPECT_EQ(watch.lost(), 720'000u);  // the stray one was not shown
+  EXPECT_EQ(watch.lost(), 720'000u);  // the stray sample was not shown
 }
 
 }  // namespace

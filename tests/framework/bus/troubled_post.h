@@ -8,8 +8,8 @@
 
 namespace presa::bus {
 
-/// A post with a bad network before it, as TroubledReader for commands: they are lost, doubled and held back until later ones have
-/// come; answers are lost.
+/// TroubledReader's counterpart for commands: commands are lost, duplicated and delayed past later ones; answers are
+/// lost.
 class TroubledPost final : public CommandPost {
  public:
   struct Counts {
@@ -25,7 +25,7 @@ class TroubledPost final : public CommandPost {
       (hit(counts_.held_back) ? late : out).push_back(command);
       if (hit(counts_.doubled)) out.push_back(command);
     }
-    if (random_.uniform() < 0.2) {  // what was held back, long after
+    if (random_.uniform() < 0.2) {  // deliver the delayed commands, much later
       out.insert(out.end(), held_.begin(), held_.end());
       held_.clear();
     }
