@@ -73,7 +73,7 @@ void AssemblyGuide::noteFingers(const ObjectState& objects, const ContactExchang
   for (std::size_t body = 0; body < taken_at_.size(); ++body) noteFall(body, objects);
 }
 
-// Lifted, in no finger and fast, downwards: dropped.
+// Dropped: a lifted body that no finger touches falls fast.
 void AssemblyGuide::noteFall(std::size_t body, const ObjectState& objects) {
   if (taken_at_[body] == kNotTaken || touching_[body] != 0) return;
   const BodyMotion& motion = objects.bodies[body];
@@ -82,7 +82,7 @@ void AssemblyGuide::noteFall(std::size_t body, const ObjectState& objects) {
   tell(Kind::kDropped, kNoGoal, static_cast<std::int32_t>(body));
 }
 
-// What no finger has touched since the start stood there before: nobody placed it.
+// A body that no finger has touched since the start was in place before and does not count as placed.
 void AssemblyGuide::noteGoals(const AssemblyState& assembly) {
   for (std::size_t g = 0; g < stood_.size(); ++g) {
     const char stands = filled(assembly, g) ? 1 : 0;
@@ -115,7 +115,7 @@ std::int32_t AssemblyGuide::missing(std::size_t goal, const AssemblyState& assem
   return kNoGoal;
 }
 
-/// Of the open goals for a body; `free`: of those only that nothing is missing for.
+/// The nearest unfilled goal for a body; `free`: only goals whose predecessors are filled.
 std::int32_t AssemblyGuide::nearestPlace(std::int32_t body, bool free, const ObjectState& objects,
                                          const AssemblyState& assembly) const {
   std::int32_t nearest = kNoGoal;
@@ -156,7 +156,7 @@ void AssemblyGuide::chooseHint(const ObjectState& objects, const AssemblyState& 
     return;
   }
   const bool first = now_.hint_goal == kNoGoal;
-  // what is in the hand already will do, if it has a place to go
+  // prefer the held body if it has a free goal
   if (now_.held && now_.goal != kNoGoal) {
     now_.hint_goal = now_.goal;
     now_.hint_body = now_.body;

@@ -8,27 +8,28 @@
 
 namespace presa {
 
-/// Where a body is drawn to, or put for good. It is made to move there at `rate` times the way that is left, no faster than `speed`, with
-/// at most mass · `most` along each of three axes, one of them the way; a turn likewise, at the body's rim. In
-/// accelerations, so that light and heavy bodies follow alike. The dynamics solves it together with contact and friction.
+/// Snap constraint: pulls a body to a pose, or fixes it there. The target velocity is `rate` times the remaining
+/// distance, at most `speed`; the force along each of three axes (one of them the direction to the target) is at most
+/// mass * `most`. The rotation is treated likewise, measured at the body's rim. Limits are accelerations, so that light
+/// and heavy bodies move alike. The dynamics solves it together with contact and friction.
 struct Attraction {
   std::int32_t body = kNoBody;
-  bool fixed = false;  ///< it is carried to the pose and stands there, as a fixed body would, until this is gone
-  bool turns = true;   ///< its orientation is drawn, too
-  Pose X_WB;           ///< of the body, where it belongs
+  bool fixed = false;  ///< carries the body to the pose and holds it there until the constraint is removed
+  bool turns = true;   ///< the orientation is pulled, too
+  Pose X_WB;           ///< target pose of the body
   double rate = 0;     ///< [1/s]
-  double speed = 0;    ///< [m/s]; of what is fixed: at least, while it is carried
-  double most = 0;     ///< [m/s^2]
+  double speed = 0;    ///< maximum speed [m/s]; if `fixed`, minimum speed while it is carried
+  double most = 0;     ///< maximum acceleration [m/s^2]
 };
 
-/// What bodies are drawn or fixed now; a body that is not named is free. Written by: collision thread (assembly).
+/// The snap constraints of this moment; bodies not listed are free. Written by: collision thread (modules/assembly).
 struct Attractions {
   double time = 0;                 ///< [s]
-  std::vector<Attraction> bodies;  ///< those it is about: more and fewer of them, in room made at load
+  std::vector<Attraction> bodies;  ///< number varies; capacity reserved at load
 
   Attractions() = default;
   Attractions(const Attractions& other) { *this = other; }
-  /// The room comes along, so that a copy has place for whatever the original comes to hold.
+  /// Also copies the capacity, so that the copy never has to allocate when the original grows.
   Attractions& operator=(const Attractions& other) {
     bodies.reserve(other.bodies.capacity());
     bodies = other.bodies;
@@ -36,7 +37,7 @@ struct Attractions {
     return *this;
   }
 
-  /// Memory beside the struct itself (SizedAtLoad).
+  /// Memory outside the struct itself (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return bodies.capacity() * sizeof(Attraction); }
 };
 

@@ -61,7 +61,7 @@ Captions captionsOf(const Scene& scene, const Guidance& guidance) {
     captions.took = fillIn(words.took, "time", durationText(guidance.spent));
     return captions;
   }
-  // what belongs nowhere, such as the ground, is not spoken of
+  // bodies without a goal, such as the ground, get no title
   const std::int32_t subject = guidance.body == kNoBody && guidance.news ? guidance.news->body : guidance.body;
   const std::int32_t goal = subject == kNoBody ? kNoGoal : goalOf(assembly, subject);
   if (goal != kNoGoal) {

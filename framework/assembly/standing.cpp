@@ -13,7 +13,7 @@ using Status = GoalState::Status;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSlow = 0.02;  // [m/s]
-constexpr double kSlack = 2;    // of the tolerances: a picture is a period old, and between two states
+constexpr double kSlack = 2;    // multiple of the tolerances [-]: a viewer's picture is a period old and interpolated
 
 Way wayTo(const AssemblyGoal& goal, const Pose& X_WB) {
   return wayBetween(nearestTurn(goal.X_WB, goal.fold, X_WB.q), X_WB);

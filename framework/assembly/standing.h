@@ -5,8 +5,8 @@
 
 namespace presa {
 
-/// What stands in its place and what is near one that has to wait, from poses and velocities alone. It has no memory: what is being
-/// drawn, what came last and what is brought back it does not know.
+/// Estimates the assembly state from poses and velocities alone: filled goals, and fitting bodies near unfilled ones.
+/// Has no memory, so the order of filling, actual snap pulls and bodies carried back are unknown.
 AssemblyState standing(const Assembly& assembly, const ObjectState& objects);
 
 }  // namespace presa

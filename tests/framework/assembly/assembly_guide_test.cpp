@@ -13,7 +13,8 @@ using Status = GoalState::Status;
 
 constexpr double kPeriod = 0.01;  // [s]
 
-/// Two drums of one shape and a capital: base, shaft on it, head on that. Every time below is counted in steps of kPeriod.
+/// Two interchangeable drums and a capital: base, shaft on it, head on top. Times below are counted in steps of
+/// kPeriod.
 class GuideTest : public testing::Test {
  protected:
   GuideTest() {
@@ -37,7 +38,7 @@ class GuideTest : public testing::Test {
   static Pose at(double x, double z) { return {{x, 0, z}, Quat::Identity()}; }
   void place(std::size_t body, double x, double z) { objects_.bodies[body].X_WB_end = at(x, z); }
 
-  /// Both fingers on a body; kNoBody: on none.
+  /// Both fingers touch a body; kNoBody: none.
   void hold(std::int32_t body, int fingers = 2) {
     for (int f = 0; f < 2; ++f) {
       FingerContact& finger = contacts_.fingers[static_cast<std::size_t>(f)];
@@ -84,7 +85,7 @@ TEST_F(GuideTest, NamesWhatIsTouchedAndForgetsItAfterAWhile) {
   EXPECT_EQ(captions().title, "Capital");
   run(3 * kPeriod);
   EXPECT_EQ(captions().title, "");
-  hold(3);  // the ground is nothing to speak of
+  hold(3);  // the ground has no caption
   step();
   EXPECT_EQ(captions().title, "");
 }
@@ -95,7 +96,7 @@ TEST_F(GuideTest, SaysWhyABlockHasToWait) {
   EXPECT_EQ(guide_->now().missing, 1);
   EXPECT_EQ(guide_->now().goal, kNoGoal);
   EXPECT_EQ(captions().reason, "The capital needs its drum first.");
-  EXPECT_THAT(kinds_, testing::ElementsAre(Kind::kTaken));  // not tried yet
+  EXPECT_THAT(kinds_, testing::ElementsAre(Kind::kTaken));  // no attempt yet
   state_.goals[2] = {Status::kBlocked, 2, 1};
   run(0.5);
   EXPECT_THAT(kinds_, testing::ElementsAre(Kind::kTaken, Kind::kBlocked));  // one attempt
@@ -113,7 +114,7 @@ TEST_F(GuideTest, HintsAtWhatComesNextAfterHesitation) {
   EXPECT_EQ(guide_->now().hint_goal, 0);
   EXPECT_EQ(guide_->now().hint_body, 0) << "the nearer of both drums";
   EXPECT_EQ(captions().hint, "Next: Drum");
-  // who has the other drum in hand is shown the place for that one
+  // with the other drum in hand, the hint is for that drum
   hold(1);
   step();
   EXPECT_EQ(guide_->now().hint_body, 1);
@@ -189,7 +190,7 @@ TEST_F(GuideTest, WhatStoodAtTheStartWasPlacedByNobody) {
 
 TEST_F(GuideTest, PosesAloneTellWhatStands) {
   place(0, 0, 0.03);
-  place(1, 0.01, 0.14);  // where no drum belongs
+  place(1, 0.01, 0.14);  // not at any drum's goal
   place(2, 0.01, 0.14);
   const AssemblyState seen = standing(*scene_.assembly, objects_);
   EXPECT_EQ(seen.filled, 1);
@@ -197,7 +198,7 @@ TEST_F(GuideTest, PosesAloneTellWhatStands) {
   EXPECT_EQ(seen.goals[1].status, Status::kOpen);
   EXPECT_EQ(seen.goals[2].status, Status::kBlocked);
   EXPECT_EQ(seen.goals[2].missing, 1);
-  objects_.bodies[0].v_WB.x() = 0.1;  // on its way through
+  objects_.bodies[0].v_WB.x() = 0.1;  // passing through
   EXPECT_EQ(standing(*scene_.assembly, objects_).filled, 0);
 }
 
