@@ -11,7 +11,7 @@ Vec3 unitOr(const Vec3& v, const Vec3& fallback) noexcept {
   return norm > 0 ? Vec3(v / norm) : fallback;
 }
 
-// p in the geometry frame; so are the following two
+// p in the geometry frame, also in the two functions below
 Nearest nearestBox(const Vec3& half, const Vec3& p) noexcept {
   const Vec3 over = p.cwiseAbs() - half;
   if (over.maxCoeff() <= 0) {

@@ -18,22 +18,22 @@ struct Primitive {
   double half_length = 0;    ///< cylinder, capsule: half of the axis along z
 };
 
-/// A convex part of a body's haptic geometry: one triangle of a mesh, or a whole primitive. All the
-/// proxy needs of it is its distance, which is a convex function of the point; that makes the sweep
-/// below exact for every kind with one piece of code.
+/// A convex piece of a body's haptic geometry: one triangle of a mesh, or a whole primitive. The proxy uses a piece
+/// only through its distance, which is a convex function of the point; therefore the sweep below is exact for every
+/// kind.
 struct ConvexPiece {
   std::int32_t body = -1;
   std::int32_t id = -1;                             ///< triangle: index in the body's mesh
   std::variant<PreparedTriangle, Primitive> shape;  ///< triangle: corners in the working frame
 };
 
-/// Where a piece is nearest to a point.
+/// Direction and distance from a piece to a point.
 struct Nearest {
   Vec3 nhat;        ///< unit, from the piece towards the point (outward when inside a primitive)
   double distance;  ///< >= 0 outside; negative inside a primitive
 };
 
-/// Distance of p from a triangle: two-sided; for a point on it the normal is its own.
+/// Distance of p from a triangle, two-sided. For a point on the triangle the normal is the triangle's own.
 inline Nearest nearest(const PreparedTriangle& t, const Vec3& p) noexcept {
   const Vec3 away = p - closestOnTriangle(p, t);
   const double distance = away.norm();
@@ -46,21 +46,21 @@ inline Nearest nearest(const PreparedTriangle& t, const Vec3& p) noexcept {
 /// the triangle's own. Thread: any; nonblocking.
 Nearest nearest(const ConvexPiece& piece, const Vec3& p) noexcept;
 
-inline constexpr double kNoTouch = 2.0;
+inline constexpr double kNoTouch = 2.0;  ///< larger than any path parameter in [0, 1]
 
-/// First s in [0, limit] at which a sphere of radius r, moving its centre from x along `move`, touches a convex set whose
-/// distance is `nearest_to(p)`; kNoTouch when it does not. `at` is nearest_to(x). The distance is convex along the line, so
-/// Newton's method from s = 0 comes up to the first root from below and never passes it: thin plates hold at any speed.
-/// `tolerance`: gap taken as touch [m].
+/// First s in [0, limit] at which a sphere of radius r, whose centre moves from x to x + s move, touches a convex set
+/// with distance function `nearest_to(p)`; kNoTouch when it does not. `at` is nearest_to(x). The distance is convex
+/// along the line, so Newton's method from s = 0 approaches the first root from below and never passes it: no
+/// tunnelling through thin plates at any speed. `tolerance`: gap that counts as touch [m].
 template <class NearestTo>
 double firstTouchOf(const NearestTo& nearest_to, Nearest at, const Vec3& x, const Vec3& move, double limit, double r,
                     double tolerance) noexcept {
-  constexpr int kMaxSteps = 64;  // quadratic convergence; a grazing touch halves the gap each time
+  constexpr int kMaxSteps = 64;  // convergence is quadratic; at a grazing touch the gap halves per step
   double s = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
     const double gap = at.distance - r;
     const double slope = at.nhat.dot(move);
-    if (slope >= 0) return kNoTouch;  // convex: from here on it only grows
+    if (slope >= 0) return kNoTouch;  // by convexity the distance does not decrease any more
     if (gap <= tolerance) return s;
     s += gap / -slope;
     if (s > limit) return kNoTouch;
@@ -69,7 +69,7 @@ double firstTouchOf(const NearestTo& nearest_to, Nearest at, const Vec3& x, cons
   return s;
 }
 
-/// The same of a piece.
+/// First touch of one convex piece.
 inline double firstTouch(const ConvexPiece& piece, const Nearest& at, const Vec3& x, const Vec3& move, double limit,
                          double r, double tolerance) noexcept {
   return firstTouchOf([&](const Vec3& p) { return nearest(piece, p); }, at, x, move, limit, r, tolerance);

@@ -1,3 +1,8 @@
+// Distance, sweep and crossing queries of a sphere against a mesh, through a tracked front of its bounding-volume
+// hierarchy. Every item of the front has a tangent plane that bounds its distance from below at every point
+// (MeshTree::bound); only items whose bound allows a touch are examined, and examined nodes are replaced by their
+// children. Sweeps use Newton's method on convex distances (convex_piece.h). Invariant: the front always covers the
+// mesh, or the cut that it was seeded from.
 #include "framework/haptics/mesh_front.h"
 
 #include <algorithm>
@@ -50,7 +55,7 @@ void MeshFront::focus(const Vec3& p, double radius, double step) noexcept {
   focus_ = p;
   focus_radius_ = radius;
   near_count_ = 0;
-  here_at_.setConstant(std::numeric_limits<double>::quiet_NaN());  // those bounds were of other items
+  here_at_.setConstant(std::numeric_limits<double>::quiet_NaN());  // the cached bounds belong to other items
   for (int begin = 0; begin < count_; begin += kBlock) {
     std::array<double, kBlock> at;
     for (int j = 0; j < kBlock; ++j) at[static_cast<std::size_t>(j)] = boundAt(begin + j, p);
@@ -76,7 +81,7 @@ double MeshFront::firstTouch(const Vec3& x, const Vec3& move, double reach, doub
     const double growth = nx_[i] * move.x() + ny_[i] * move.y() + nz_[i] * move.z();
     if (here_[n] + std::min(0.0, reach * growth) <= r) sweep(item, x, move, reach, r, tolerance);
   };
-  // what is nearest goes first: where it is hit, the rest is out of reach
+  // start with the nearest item: if it is hit, the others are usually out of reach
   std::size_t first = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
@@ -94,12 +99,12 @@ double MeshFront::firstTouch(const Vec3& x, const Vec3& move, double reach, doub
 
 namespace {
 
-/// Lower bound on [0, limit] of the higher of two lines, by value and slope at 0 and at `limit`. A convex function lies above
-/// both, whether they touch it there or not.
+/// Lower bound on [0, limit] of the maximum of two lines, given by value and slope at 0 and at `limit`: a lower bound
+/// of every convex function that lies above both lines.
 double leastOfTangents(double at_begin, double falls, double at_end, double rises, double limit) noexcept {
   if (falls >= 0) return std::max(at_begin, at_end - std::max(rises, 0.0) * limit);
   if (rises <= 0) return std::max(at_end, at_begin + falls * limit);
-  const double s = (at_end - at_begin - rises * limit) / (falls - rises);  // where they meet
+  const double s = (at_end - at_begin - rises * limit) / (falls - rises);  // their intersection
   return at_begin + falls * std::clamp(s, 0.0, limit);
 }
 
@@ -110,7 +115,7 @@ bool MeshFront::staysClear(int item, const Vec3& x, const Vec3& move, double rea
   const auto i = static_cast<std::size_t>(item);
   const Vec3 nhat(nx_[i], ny_[i], nz_[i]);
   const double here = nhat.dot(x) + offset_[i], falls = nhat.dot(move);
-  // the tangent at the end of the way beside the one that is known; it is what the next leg will ask for
+  // besides the known tangent, take the one at the end of the path, which the next leg will need anyway
   const Vec3 end = x + reach * move;
   TangentBound bound;
   double distance = 0;
@@ -163,7 +168,7 @@ double MeshFront::clearance(const Vec3& p) const noexcept {
 }
 
 bool MeshFront::crosses(std::span<const Vec3> way, bool focused) noexcept {
-  constexpr double kRounding = 2e-14;  // of the coordinates
+  constexpr double kRounding = 2e-14;  // relative to the coordinates
   double largest = 0;
   for (const Vec3& p : way) largest = std::max(largest, p.lpNorm<Eigen::Infinity>());
   const double rounding = kRounding * largest;
@@ -192,14 +197,14 @@ bool MeshFront::crossesItem(int item, std::span<const Vec3> way, double rounding
   bind(item, tree_->bound(ref, 0.5 * (low + high), distance));
   if (distance > 0.5 * (high - low).norm() * (1 + 1e-9) || !comesNear(item, way, rounding)) return false;
   const int old_count = count_;
-  if (!open(item)) return false;  // it is solid now, and told as lost coverage
+  if (!open(item)) return false;  // the node is solid now, and full() reports it as lost coverage
   const int new_count = count_;
   bool crossed = crossesItem(item, way, rounding);
   for (int child = old_count; child < new_count && !crossed; ++child) crossed = crossesItem(child, way, rounding);
   return crossed;
 }
 
-// Edges belong to both of their triangles: a segment through one does not slip between them.
+// An edge belongs to both of its triangles, so a segment through the edge cannot slip between them.
 bool MeshFront::crossesFacet(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept {
   constexpr double kRounding = 1e-13;
   const Vec3 &u = tree_->corner(facet, 0), &v = tree_->corner(facet, 1), &w = tree_->corner(facet, 2);

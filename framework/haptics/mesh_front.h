@@ -10,66 +10,67 @@
 
 namespace presa {
 
-/// What counts as a touch in a sweep [m].
+/// Tolerances of a sweep [m].
 struct SweepTolerance {
-  double touch = 0;  ///< a gap that small
-  double graze = 0;  ///< on a triangle only a way that dips deeper
+  double touch = 0;  ///< gap that counts as touch
+  double graze = 0;  ///< a triangle counts as touched only if the path dips deeper than this
 };
 
-/// A mesh as one fingertip sees it: a front through its hierarchy, tracked from tick to tick. Each item is a triangle or a
-/// whole node, and carries a tangent bound: a plane above which its distance lies, wherever the fingertip goes. An item is
-/// looked at only where that bound comes down to the fingertip; then its bound is taken anew, and if a node is really that
-/// near, its children take its place. So the front always holds the whole mesh (or the whole cut that it was seeded from),
-/// its size grows with the logarithm of the mesh, and a tick costs a pass over some hundred planes and what is touched.
-/// Frame: mesh coordinates G. Fixed memory. Thread: haptic; nonblocking.
+/// The mesh around one fingertip: a front (cut) through the mesh's hierarchy, tracked from tick to tick. Each item is a
+/// triangle or a whole node with a tangent bound: a plane function below its distance at every point. An item is
+/// examined only where its bound allows a touch; then the bound is renewed, and a node that is really that near is
+/// replaced by its children. The front always covers the whole mesh (or the cut it was seeded from), its size grows
+/// with the logarithm of the mesh, and a tick costs one pass over some hundred planes plus the touched items.
+/// Frame: mesh coordinates G [m]. Fixed memory. Thread: haptic; nonblocking.
 class MeshFront {
  public:
   static constexpr int kCapacity = 2048;
 
   static constexpr std::size_t kMaxSeeds = 16;
 
-  /// Starts again from nodes that hold all that can be reached, at most kMaxSeeds.
+  /// Restarts from at most kMaxSeeds nodes that cover everything within reach.
   void seed(const MeshTree& tree, std::span<const std::int32_t> nodes, const Vec3& p) noexcept;
   bool seeded() const noexcept { return tree_ != nullptr; }
   void forget() noexcept { tree_ = nullptr; }
-  /// Much of it the fingertip has left behind: better seeded again. Asked once a tick.
+  /// True when the front has grown much since its seed, mostly by items left behind: reseed it. Call once per tick.
   bool worn() noexcept {
     if (fresh_ == 0) fresh_ = count_;
     return count_ > 2 * fresh_ + kBlock;
   }
-  /// A node found no room for its children since the last seed(): it stands for them, as a solid box.
+  /// True when a node found no room for its children since the last seed(). That node then acts as a solid box.
   bool full() const noexcept { return full_; }
   int count() const noexcept { return count_; }
 
-  /// Starts again from the same nodes where it is full: on a long way most of it lies behind.
+  /// Reseeds a full front from the same nodes: after a long path most items lie behind.
   void renew(const Vec3& p) noexcept {
     if (full_) seed(*tree_, {seeds_.data(), static_cast<std::size_t>(seed_count_)}, p);
   }
-  /// Picks what may come within `radius` of p: all that the queries below look through, until the next focus(). Where little is
-  /// near, it picks for some steps of length `step` ahead, and the next calls have nothing to do.
+  /// Selects the items that may come within `radius` of p; the queries below examine only these until the next focus().
+  /// When few items are near, the selection covers some further steps of length `step` in advance, which makes the next
+  /// calls free.
   void focus(const Vec3& p, double radius, double step) noexcept;
 
-  /// Calls visit(item, nearest) for everything in focus whose distance from p is at most `limit`. `limit` is read again and
-  /// again: a visit may lower it.
+  /// Calls visit(item, nearest) for every item in focus whose distance from p is at most `limit`. `limit` is re-read
+  /// each time, so a visit may lower it.
   template <class Visit>
   void forEachWithin(const Vec3& p, const double& limit, const Visit& visit) noexcept;
 
-  /// First s in [0, reach] at which a sphere of radius r, its centre moving from x along `move`, touches something in focus that
-  /// is not marked; `reach` when nothing. Swept as convex_piece does it.
+  /// First s in [0, reach] at which a sphere of radius r, whose centre moves from x to x + s move, touches an unmarked
+  /// item in focus; `reach` when none. Same sweep as in convex_piece.h.
   double firstTouch(const Vec3& x, const Vec3& move, double reach, double r, const SweepTolerance& tolerance) noexcept;
 
   /// Marks items until the next clearMarks().
   void mark(int item) noexcept { marks_[static_cast<std::size_t>(item)] = mark_; }
   void clearMarks() noexcept { ++mark_; }
 
-  /// Facet of an item; -1: a node, where the front was full.
+  /// Facet of an item; -1: a node of a full front.
   std::int32_t facetOf(int item) const noexcept {
     const std::int32_t ref = refs_[static_cast<std::size_t>(item)];
     return ref < 0 ? ~ref : -1;
   }
-  /// Lower bound of the distance of p from everything [m].
+  /// Lower bound of the distance of p from the whole mesh [m].
   double clearance(const Vec3& p) const noexcept;
-  /// True when the way from point to point crosses a triangle. `focused`: all of it lies where everything is in focus.
+  /// True when the polyline `way` crosses a triangle. `focused`: the whole polyline lies within the focus.
   bool crosses(std::span<const Vec3> way, bool focused) noexcept;
 
  private:
@@ -99,22 +100,23 @@ class MeshFront {
     nz_[i] = bound.nhat.z();
     offset_[i] = bound.offset;
   }
-  /// Puts the children of a node in its place; the first takes its index, the others follow from the old count() on, in focus.
-  /// False: no room.
+  /// Replaces a node by its children: the first takes its index, the others are appended at the old count() and are in
+  /// focus. False: no room.
   bool open(int item) noexcept;
   PreparedTriangle triangle(std::int32_t facet) const noexcept {
     const MeshTree::Facet& f = tree_->facet(facet);
     return {tree_->corner(f, 0), tree_->corner(f, 1), tree_->corner(f, 2)};
   }
-  /// Nearest of a node's box, for a front that is full.
+  /// Nearest point of a node's box, used when the front is full.
   Nearest nearestOfNode(std::int32_t node, const Vec3& p) const noexcept;
   template <class Visit>
   void lookAt(int item, const Vec3& p, const double& limit, const Visit& visit) noexcept;
-  /// The way from x to x + reach move keeps farther than r from an item, as two tangents of its distance tell.
+  /// Whether the path from x to x + reach move stays farther than r from an item, according to two tangents of its
+  /// distance.
   bool staysClear(int item, const Vec3& x, const Vec3& move, double reach, double r) noexcept;
   void sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
              const SweepTolerance& tolerance) noexcept;
-  /// A triangle that is crossed is at no distance from a point of the way.
+  /// Necessary condition for a crossing: the item's bound is zero or less at some point of the path.
   bool comesNear(int item, std::span<const Vec3> way, double rounding) const noexcept {
     double least = std::numeric_limits<double>::infinity();
     for (const Vec3& p : way) least = std::min(least, boundAt(item, p));
@@ -123,17 +125,17 @@ class MeshFront {
   bool crossesItem(int item, std::span<const Vec3> way, double rounding) noexcept;
   bool crossesFacet(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept;
 
-  // one array for each coordinate: a pass over the bounds goes through them in step
+  // structure of arrays, so that a pass over the bounds vectorises
   std::array<double, kCapacity> nx_{}, ny_{}, nz_{}, offset_{};
   std::array<std::int32_t, kCapacity> refs_{};    // >= 0: node; < 0: ~facet
   std::array<std::uint32_t, kCapacity> marks_{};  // == mark_: marked
   std::array<std::int32_t, kCapacity> near_{};    // items in focus
-  std::array<double, kCapacity> here_{};          // their bounds at here_at_
+  std::array<double, kCapacity> here_{};          // bounds of the items in near_, at here_at_
   Vec3 here_at_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   int near_count_ = 0;
   Vec3 focus_ = Vec3::Zero();
-  double focus_radius_ = -1;  // about focus_ everything in it is in near_
-  int fresh_ = 0;             // size after the first tick since seed()
+  double focus_radius_ = -1;  // near_ holds all items within this distance of focus_
+  int fresh_ = 0;             // number of items after the first tick since seed()
   const MeshTree* tree_ = nullptr;
   std::array<std::int32_t, kMaxSeeds> seeds_{};
   int seed_count_ = 0;
@@ -144,7 +146,7 @@ class MeshFront {
 
 template <class Visit>
 void MeshFront::forEachWithin(const Vec3& p, const double& limit, const Visit& visit) noexcept {
-  const int count = near_count_;  // what is opened on the way is looked at at once
+  const int count = near_count_;  // children opened during the loop are examined at once
   for (int n = 0; n < count; ++n) {
     const auto i = static_cast<std::size_t>(n);
     const int item = near_[i];
@@ -163,7 +165,7 @@ void MeshFront::lookAt(int item, const Vec3& p, const double& limit, const Visit
   const std::int32_t ref = refs_[static_cast<std::size_t>(item)];
   if (ref < 0) {
     const Nearest at = nearest(triangle(~ref), p);
-    // on a triangle the direction is arbitrary and bounds nothing
+    // for a point on the triangle the direction is arbitrary and gives no bound
     bind(item, at.distance != 0 ? TangentBound{at.nhat, at.distance - at.nhat.dot(p)} : TangentBound{});
     if (at.distance <= limit) visit(item, at);
     return;

@@ -1,3 +1,8 @@
+// Quadratic programme of the god-object: minimise |y - g|^2 subject to nhat_i . y >= offset_i [Zilles1995 eq. 7].
+// Method: enumeration of active sets with zero to three constraints; each set gives y and its multipliers from the Gram
+// matrix of the normals. The programme is strictly convex, so the first set with a feasible y and non-negative
+// multipliers is the optimum. Nearly dependent sets are skipped. Without a feasible point the least violated candidate
+// is returned.
 #include "framework/haptics/nearest_feasible.h"
 
 #include <algorithm>
@@ -6,9 +11,9 @@
 namespace presa {
 namespace {
 
-// Two half-spaces count as one when their normals differ by less than 1e-7 rad: coplanar triangles.
+// Half-spaces whose normals differ by less than 1e-7 rad count as equal: coplanar triangles.
 constexpr double kSameNormal = 1 - 0.5e-14;
-// Gram determinants below this mean normals that are nearly dependent: no corner there.
+// Smallest Gram determinant; below it the normals are nearly dependent and define no corner.
 constexpr double kDependent = 1e-12;
 
 class Search {
@@ -16,11 +21,10 @@ class Search {
   Search(const HalfSpaces& all, const Vec3& g) : all_(all), g_(g) {
     double scale = 0;
     for (int i = 0; i < all_.count; ++i) scale = std::max(scale, std::abs(lack(i, g_)));
-    tolerance_ = 1e-9 * scale;  // relative to the depth: the same answer in metres and millimetres
+    tolerance_ = 1e-9 * scale;  // relative to the depth, so that the result does not depend on the unit
   }
 
-  // Active sets of one, two, three; the programme is strictly convex, so the first set whose point is
-  // feasible and whose multipliers are not negative is the answer.
+  // Tries active sets of size zero, one, two, three.
   Feasible solve() {
     if (consider({}, {}, 0, g_)) return best_;
     const int n = all_.count;
@@ -44,7 +48,7 @@ class Search {
 
  private:
   const Vec3& normal(int i) const { return all_.item[static_cast<std::size_t>(i)].nhat; }
-  // how far y is on the wrong side
+  // violation of constraint i at y
   double lack(int i, const Vec3& y) const { return all_.item[static_cast<std::size_t>(i)].offset - normal(i).dot(y); }
 
   bool one(int i) {
@@ -79,7 +83,7 @@ class Search {
                     g_ + lambda[0] * normal(i) + lambda[1] * normal(j) + lambda[2] * normal(k));
   }
 
-  // Keeps the least violated candidate; true when it violates nothing.
+  // Keeps the least violated candidate; true when no constraint is violated.
   bool consider(const std::array<int, 3>& active, const std::array<double, 3>& weight, int count, const Vec3& y) {
     double worst = 0;
     for (int i = 0; i < all_.count; ++i) worst = std::max(worst, lack(i, y));

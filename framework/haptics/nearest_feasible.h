@@ -10,29 +10,30 @@ namespace presa {
 struct HalfSpace {
   Vec3 nhat;
   double offset;
-  std::int32_t tag;  ///< whose it is
+  std::int32_t tag;  ///< caller's identifier
 };
 
-/// Few half-spaces, fixed memory.
+/// A small set of half-spaces in fixed memory.
 struct HalfSpaces {
   static constexpr int kCapacity = 12;
   std::array<HalfSpace, kCapacity> item;
   int count = 0;
 
-  /// Adds one unless an equal one is there; when full, keeps those that bind most at `x`. False: one was left out.
+  /// Adds a half-space, merging equal normals. When full, keeps the most restrictive ones at `x`. False: one was left
+  /// out.
   bool add(const HalfSpace& half_space, const Vec3& x) noexcept;
 };
 
 struct Feasible {
   Vec3 y = Vec3::Zero();
-  std::array<int, 3> active{-1, -1, -1};  ///< half-spaces that hold y back, at most three
+  std::array<int, 3> active{-1, -1, -1};  ///< indices of the active constraints, at most three
   std::array<double, 3> weight{};         ///< their multipliers: y - g is the sum of weight * nhat
   int active_count = 0;
 };
 
-/// The point nearest to g that satisfies all half-spaces: the god-object's quadratic programme
-/// [Zilles1995 eq. 7], solved exactly by its active set (at most three in space). When they have no common
-/// point, the least violated candidate is returned. Thread: any; nonblocking.
+/// The point y nearest to g that satisfies all half-spaces: the god-object's quadratic programme [Zilles1995 eq. 7],
+/// solved exactly by its active set (at most three in space). If the half-spaces have no common point, returns the
+/// least violated candidate. Thread: any; nonblocking.
 Feasible nearestFeasible(const HalfSpaces& half_spaces, const Vec3& g) noexcept;
 
 }  // namespace presa

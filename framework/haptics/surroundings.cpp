@@ -27,7 +27,7 @@ void Surroundings::add(const ConvexPiece& primitive) noexcept {
   tangents_[i] = {Vec3::Zero(), -std::numeric_limits<double>::infinity()};
 }
 
-// The one kept for that body, else the one that was not needed for the longest time.
+// The slot that belongs to the body, else the slot not used for the longest time.
 Surroundings::Mesh* Surroundings::meshOf(std::int32_t body) noexcept {
   Mesh* oldest = nullptr;
   for (const auto& mesh : meshes_) {
@@ -63,7 +63,7 @@ void Surroundings::addMesh(std::int32_t body, const MeshTree& tree, const Pose* 
   near_[near_count_++] = mesh;
 }
 
-// From the cut where it holds all that may be looked at, else from the root: slower once, and as right.
+// Seeds from the collision thread's cut when it covers the reach, else from the root: slower once, but equally correct.
 void Surroundings::seed(Mesh& mesh, std::size_t point, const NearBody* cut, const Pose& X_BG, const Vec3& p_G,
                         double reach) noexcept {
   static constexpr std::array<std::int32_t, 1> kWhole{MeshTree::kRoot};
@@ -154,10 +154,10 @@ bool Surroundings::follow(Mesh& mesh, const Vec3& x, double r) noexcept {
   go(mesh.toG(x));
   mesh.last_x_G = way_[count - 1];
   mesh.clearance -= length;
-  if (mesh.clearance > 0 || length == 0) return false;  // there is no surface on the way
+  if (mesh.clearance > 0 || length == 0) return false;  // the clearance rules out any surface on the path
   MeshFront& front = mesh.fronts[point_];
   const bool crossed = front.crosses({way_.data(), count}, focused);
-  constexpr double kWorthIt = 3;  // ticks that a look at everything should spare
+  constexpr double kWorthIt = 3;  // number of ticks that computing the clearance should save
   if (!focused || r > kWorthIt * length) mesh.clearance = front.clearance(mesh.last_x_G);
   return crossed;
 }

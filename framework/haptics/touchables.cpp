@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-/// None for a mesh, which has no exact form here.
+/// The primitive of a geometry, or none for a mesh.
 std::optional<Primitive> primitiveOf(const Geometry& geometry) {
   Primitive primitive;
   primitive.X_AG = geometry.X_BG;
@@ -117,7 +117,7 @@ double Touchables::surround(Surroundings& near, std::int32_t frame, const Vec3& 
 }
 
 double Touchables::meet(const Touchable& touchable, const Look& look, const NearBody* near) const noexcept {
-  constexpr double kTicksAhead = 3;  // a moving body is seen before it can arrive
+  constexpr double kTicksAhead = 3;  // a moving body is included this many ticks before it can arrive
   const Pose& X_WB = placed(touchable.body);
   double approach = 0;
   if (moves_[static_cast<std::size_t>(touchable.body)] != 0 && objects_ != nullptr &&
