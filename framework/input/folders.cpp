@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kVariable = "PRESA_ALLOW_FOLDERS";
 
-/// Absolute, links followed as far as there is something; "" when that cannot be told (a loop of links).
+/// Absolute path with symbolic links resolved as far as the path exists; "" on failure (a loop of links).
 fs::path real(const fs::path& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path.empty() ? fs::path(".") : path, error);
@@ -24,10 +24,10 @@ fs::path real(const fs::path& path) {
 bool liesIn(const fs::path& file, const fs::path& folder) {
   if (folder.empty() || file.empty()) return false;
   const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-  return end == folder.end() || (end->empty() && std::next(end) == folder.end());  // "a/" ends in ""
+  return end == folder.end() || (end->empty() && std::next(end) == folder.end());  // the last component of "a/" is ""
 }
 
-/// config and experiments beside the program, as in the source tree; found once.
+/// config and experiments beside the program, as in the source tree.
 std::vector<fs::path> ownFolders() {
   std::error_code error;
   fs::path up = fs::read_symlink("/proc/self/exe", error).parent_path();

@@ -4,24 +4,25 @@
 
 #include "framework/core/diagnostics/diagnostics.h"
 
-/// From where a file may name another one. A person names any file; a file names only what lies, symbolic links followed, in
-///   the folder of the file that names it, or below,
-///   the folder of a file that stands on the command line, or below,
+/// Rules on the files that a file may name. The user may name any file; a file may name only files that, after
+/// resolving symbolic links, lie in or below
+///   the folder of the file that names it,
+///   the folder of a file on the command line,
 ///   Presa's own config and experiments, or
-///   a folder given with --allow-folder, or in PRESA_ALLOW_FOLDERS (separated by colons).
-/// Thread: main, while nothing else runs, to allow; any to ask.
+///   a folder given with --allow-folder or in PRESA_ALLOW_FOLDERS (separated by colons).
+/// Thread: allowFolder and allowFoldersOf: main, before other threads start; the queries: any.
 namespace presa::input {
 
-/// Allows `folder` for this process and those that it starts (by PRESA_ALLOW_FOLDERS).
+/// Allows `folder` for this process and its child processes (through PRESA_ALLOW_FOLDERS).
 void allowFolder(const std::string& folder);
-/// Allows the folder of each regular file that stands on the command line, alone or after '='.
+/// Allows the folder of each regular file on the command line, given alone or after '='.
 void allowFoldersOf(int count, char** words);
 
 /// Whether a file in `folder` ("": the working directory) may name `file`.
 bool mayName(const std::string& folder, const std::string& file);
-/// Asked before a file that another one names is opened. E692 when the file of `where` may not name it; true when it may.
+/// Call before opening a file that another one names. Reports E692 and returns false when it is not allowed.
 bool checkNamed(const SourceLocation& where, const std::string& file, Diagnostics& diagnostics);
-/// E692 in words: what and help.
+/// Message of E692.
 std::string outside(const std::string& folder, const std::string& file);
 inline constexpr int kOutside = 692;
 extern const char* const kOutsideHelp;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kNotRegular = 690, kTooLarge = 691, kTooSlow = 693;
 constexpr std::size_t kBlock = std::size_t{1} << 16U;
-constexpr double kSlowest = 1e7;  // [bytes/s], far below any disk
+constexpr double kSlowest = 1e7;  // slowest accepted reading speed [bytes/s], far below any disk
 
 const char* kindOf(mode_t mode) {
   if (S_ISFIFO(mode)) return "a named pipe (FIFO)";
@@ -32,7 +32,7 @@ Refusal unreadable(int error) {
 Refusal notRegular(mode_t mode) {
   if (S_ISDIR(mode)) return {Trouble::kUnreadable, EISDIR, "is a directory, not a file", {}};
   return {Trouble::kNotRegular, 0, std::string("is ") + kindOf(mode) + ", not a regular file",
-          "only regular files are read: what waits or never ends would stop the program"};
+          "only regular files are read, because others may block or never end"};
 }
 
 Refusal tooLarge(const std::string& bytes, std::uint64_t most) {
@@ -65,7 +65,7 @@ File::~File() {
 File::File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
 
 std::optional<File> open(const std::string& file, std::uint64_t most, Refusal& refusal) {
-  // O_NONBLOCK: the open of a FIFO does not wait for a writer; O_NOCTTY: nor does a terminal become ours
+  // O_NONBLOCK: do not wait for a writer of a FIFO; O_NOCTTY: do not acquire a controlling terminal
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0) {
     const int error = errno;
@@ -112,7 +112,7 @@ std::optional<std::string> read(const std::string& file, std::uint64_t most, Ref
       return std::nullopt;
     }
     text.append(block.data(), static_cast<std::size_t>(got));
-    // not by the size alone: a file may grow meanwhile, and those of /proc have none
+    // count the bytes actually read: a file may grow meanwhile, and files of /proc report size 0
     if (text.size() > most) {
       refusal = tooLarge("more than " + std::to_string(most), most);
       return std::nullopt;
@@ -120,8 +120,8 @@ std::optional<std::string> read(const std::string& file, std::uint64_t most, Ref
     if (Clock::now() > end) {
       refusal = {Trouble::kTooSlow,
                  0,
-                 "gave " + std::to_string(text.size()) + " bytes in " + std::to_string(static_cast<int>(seconds)) +
-                     " s, and no end",
+                 "delivered " + std::to_string(text.size()) + " bytes in " + std::to_string(static_cast<int>(seconds)) +
+                     " s without reaching its end",
                  {}};
       return std::nullopt;
     }

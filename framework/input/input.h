@@ -6,25 +6,26 @@
 
 #include "framework/core/diagnostics/diagnostics.h"
 
-/// The one way to open a file that comes from outside. Only regular files get in (no FIFO, device, folder or socket), none that has
-/// more bytes than the caller reads, and no read goes on for ever. Folders: folders.h. Thread: any but the haptic one.
+/// The only way to open a file from outside. Accepts regular files only (no FIFO, device, folder or socket), up to a
+/// size set by the caller, and limits the time of a read. Allowed folders: folders.h. Thread: any but the haptic one.
 namespace presa::input {
 
 enum class Trouble { kUnreadable, kNotRegular, kTooLarge, kTooSlow };
 
-/// Why a file does not get in.
+/// The reason why a file was refused.
 struct Refusal {
   Trouble trouble = Trouble::kUnreadable;
-  int error = 0;     ///< errno when unreadable
-  std::string what;  ///< to follow the name of the file: "is a named pipe (FIFO), not a regular file"
+  int error = 0;     ///< errno, for kUnreadable
+  std::string what;  ///< predicate for the file name: "is a named pipe (FIFO), not a regular file"
   std::string help;  ///< may be empty
-  /// E690 not a regular file, E691 too large, E693 too slow; `unreadable`: the reader's own code for a file that cannot be opened.
+  /// E690 not a regular file, E691 too large, E693 too slow; otherwise `unreadable`, the reader's code for files it
+  /// cannot open.
   int code(int unreadable) const;
-  /// Adds it to `diagnostics`; `before` goes before `what`: "the file " or "mesh a.obj: it ".
+  /// Adds an error with the text `before` + `what`; `before` is for example "the file " or "mesh a.obj: it ".
   void report(int unreadable, const SourceLocation& where, const std::string& before, Diagnostics& diagnostics) const;
 };
 
-/// A regular file open for reading; closed with it.
+/// A regular file open for reading; the destructor closes it.
 class File {
  public:
   explicit File(int descriptor, std::uint64_t size) : descriptor_(descriptor), size_(size) {}
@@ -34,7 +35,7 @@ class File {
   File(const File&) = delete;
   File& operator=(const File&) = delete;
   int descriptor() const { return descriptor_; }
-  /// What the system says, holes included; files of /proc say 0 and hold something all the same.
+  /// Size reported by the system, holes included; files of /proc report 0.
   std::uint64_t size() const { return size_; }
 
  private:
@@ -42,17 +43,17 @@ class File {
   std::uint64_t size_;
 };
 
-/// Opens `file` if it is regular and has at most `most` bytes, holes counted. Never waits for another process.
+/// Opens `file` if it is regular and not larger than `most` bytes, holes included. Never waits for another process.
 std::optional<File> open(const std::string& file, std::uint64_t most, Refusal& refusal);
 
-/// Up to `count` bytes from where the last read ended; 0 at the end, -1 with errno when it cannot be read.
+/// Reads up to `count` bytes; 0 at the end, -1 with errno on failure.
 std::ptrdiff_t readSome(const File& file, void* to, std::size_t count);
 
-/// All bytes of `file`, counted while they come: a file that grows past `most`, or that takes longer than 10 s and 1 s more for
-/// each 10 MB, is refused.
+/// Reads all bytes of `file`. Refuses a file that grows past `most` bytes, or that takes longer than 10 s plus 1 s per
+/// 10 MB.
 std::optional<std::string> read(const std::string& file, std::uint64_t most, Refusal& refusal);
 
-/// The same, for readers whose whole finding is that there is one: throws InputError, `code` when it cannot be opened.
+/// As read, but throws InputError; `code` is used when the file cannot be opened.
 std::string readOrRefuse(const std::string& file, std::uint64_t most, int code);
 
 }  // namespace presa::input

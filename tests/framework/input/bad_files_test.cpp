@@ -4,8 +4,9 @@
 
 #include "tests/framework/input/program.h"
 
-// Each file from outside, given to the program as something that waits for ever, never ends, is too large, or lies elsewhere: exit
-// status 2 with the finding, before the 60 s after which a command counts as hanging (status 124).
+// Each kind of input file, replaced by one that blocks, never ends, is too large, or lies in a forbidden folder. The
+// program must report the finding with exit status 2 before the 60 s after which a command counts as hanging (status
+// 124).
 namespace presa {
 namespace {
 
@@ -52,7 +53,7 @@ TEST_F(BadFile, MotionsThatArePipes) {
   }
 }
 
-// By its link it lies outside; where outside is allowed, it is a device.
+// The link leads out of the allowed folders; where that is allowed, the target is still a device.
 TEST_F(BadFile, MotionWithoutAnEnd) {
   fs::create_symlink("/dev/zero", bench.file("motion.csv"));
   bench.writeRig("scripted", "motion", "motion.csv");
@@ -125,7 +126,7 @@ TEST_F(BadPartOfAMesh, ThatLiesElsewhere) {
   EXPECT_EQ(bench.shell("cat output").text.find("root:"), std::string::npos);
 }
 
-// Many meshes name a file of materials that nobody has any more: that is no reason to refuse them.
+// Many meshes name a missing material file; such a mesh is accepted.
 TEST_F(BadPartOfAMesh, ThatIsNotThereIsDoneWithout) {
   for (const std::string library : {"none.mtl", "../none.mtl", "/nowhere/none.mtl"}) {
     writeObj(library);
@@ -137,7 +138,7 @@ TEST_F(BadPartOfAMesh, ThatIsNotThereIsDoneWithout) {
   EXPECT_EQ(bench.presa("check scene.xml").status, 0);
 }
 
-// All kinds of files that files name, one folder up.
+// All kinds of files that files name, located one folder up.
 TEST_F(BadFile, NamedElsewhere) {
   bench.write("lab/rig.xml", "<rig version=\"1.0\" name=\"r\"/>");
   bench.write("mesh.obj", "v 0 0 0\n");
@@ -162,7 +163,7 @@ TEST_F(BadFile, NamedElsewhere) {
   expectRefused("experiment dry-run lab/experiment.xml", "E692", "lab/experiment.xml:1:");
 }
 
-// What is asked for by a person is not refused: the folder of a file on the command line, and the option.
+// Accepted when the user asks for it: the folder of a file on the command line, and --allow-folder.
 TEST_F(BadFile, NamedElsewhereWhereThatIsAllowed) {
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   bench.write("meshes/mesh.obj", obj);
@@ -179,7 +180,7 @@ TEST_F(BadFile, NamedElsewhereWhereThatIsAllowed) {
   EXPECT_EQ(set.status, 0) << set.text;
 }
 
-// A list of checksums is a list of names in its own folder.
+// A list of checksums names files in its own folder only.
 TEST_F(BadFile, ChecksumOfAFileElsewhere) {
   const std::string lift = test::kSource + "/tests/apps/experiment/fixtures/lift.xml";
   ASSERT_EQ(bench.presa("experiment run " + lift + " --subject S01 --lockstep --no-recording --data data").status, 0);

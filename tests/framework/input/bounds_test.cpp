@@ -5,7 +5,7 @@
 #include "framework/scene/xml/source_scan.h"
 #include "tests/framework/input/program.h"
 
-// Small files that ask for much: counted before anything is built of them.
+// Small files that demand much: refused by their counts, before anything is built from them.
 namespace presa {
 namespace {
 
@@ -57,7 +57,7 @@ TEST(PlanSize, ManyRepeatsAreCountedNotBuilt) {
   expectRefused(bench.presa("experiment dry-run experiment.xml"), "would have 39960 trials, at most 10000");
 }
 
-// ... and what is allowed is planned.
+// Plans within the limits are accepted.
 TEST(PlanSize, WhatIsAllowedIsPlanned) {
   const Bench bench;
   writeExperiment(bench, factor("a", 20), "repeats=\"10\"");
@@ -78,7 +78,7 @@ bool crowded(const std::string& xml) {
   return findings.text().find("E695") != std::string::npos;
 }
 
-// libxml2 compares each attribute of an element with each: 40 000 took 33 s.
+// libxml2 compares every attribute of an element with every other: 40 000 took 33 s.
 TEST(CrowdedXml, AttributesOfAnElementAreBounded) {
   EXPECT_FALSE(crowded(sceneWith(xml::kMaxAttributes)));
   EXPECT_TRUE(crowded(sceneWith(xml::kMaxAttributes + 1)));
@@ -91,7 +91,7 @@ TEST(CrowdedXml, AttributesOfAnElementAreBounded) {
       << outcome.text;
 }
 
-// Five bytes of file for 300 of memory each.
+// Five bytes of file need 300 bytes of memory.
 TEST(CrowdedXml, ElementsOfAFileAreBounded) {
   std::string text = "<scene>";
   for (std::size_t i = 0; i < xml::kMaxElements; ++i) text += "<a/>";

@@ -7,7 +7,7 @@
 #include "framework/record/record_plugin.h"
 #include "tests/framework/input/program.h"
 
-// How the program ends from outside: by signals, with outputs that are closed or full.
+// How the program ends on outside events: signals, closed or full outputs.
 namespace presa {
 namespace {
 
@@ -19,7 +19,8 @@ using test::Outcome;
 const std::string kCube = test::kSource + "/config/scenes/cube.xml";
 const std::string kLift = test::kSource + "/tests/apps/experiment/fixtures/lift.xml";
 
-/// Once the run goes on, as the signals that it catches show; a command that goes on for ten seconds more is killed, with status 137.
+/// Sends a signal once the run has installed its handlers. A command that runs ten seconds longer is killed (status
+/// 137).
 Outcome signalled(const Bench& bench, const std::string& signal, const std::string& arguments) {
   return bench.shell(
       kProgram + " " + arguments +
@@ -28,7 +29,7 @@ Outcome signalled(const Bench& bench, const std::string& signal, const std::stri
       signal + " $run; (sleep 10; kill -KILL $run) & killer=$!; wait $run; status=$?; kill $killer; exit $status");
 }
 
-// Whichever it is, the recording is complete and the summary written; a closed terminal is one of them.
+// With each of these signals (HUP: a closed terminal) the recording is completed and the summary written.
 TEST(Signal, EndsARunWithAllItsFiles) {
   for (const std::string signal : {"INT", "TERM", "HUP"}) {
     const Bench bench;
@@ -49,7 +50,7 @@ TEST(Signal, OfAClosedTerminalIsIgnoredUnderNohup) {
   EXPECT_EQ(outcome.status, 0) << outcome.text;
 }
 
-/// 256 boxes in one place: each step of the dynamics takes a third of a second and more.
+/// 256 boxes in one place: each dynamics step takes a third of a second or more.
 std::string coincidentBoxes() {
   std::string text =
       "<scene version=\"1.0\" name=\"heap\"><world gravity=\"0 0 -9.81\"/><materials><material name=\"a\" "
@@ -60,7 +61,7 @@ std::string coincidentBoxes() {
   return text + "</scene>";
 }
 
-// The signal does not wait for the steps in which forces would fade: a run that cannot look up leaves without its summary.
+// The signal does not wait for the force fade-out: a run stuck in a long step exits without its summary.
 TEST(Signal, EndsARunInTheMiddleOfALongStep) {
   for (const std::string signal : {"INT", "TERM", "HUP"}) {
     const Bench bench;
@@ -70,20 +71,20 @@ TEST(Signal, EndsARunInTheMiddleOfALongStep) {
   }
 }
 
-// Files of the program never take the place of a stream that came closed.
+// Files opened by the program never replace a standard stream that was closed at the start.
 TEST(Streams, ThatComeClosedAreNoFiles) {
   for (const std::string closed : {"2>&-", ">&-", "<&- >&- 2>&-"}) {
     const Bench bench;
     const Outcome run =
         bench.presa("experiment run " + kLift + " --subject S01 --lockstep --no-recording --data data " + closed);
-    // where standard output is closed, its last line is lost, and that is told
+    // with standard output closed, its last line is lost, which is reported
     EXPECT_EQ(run.status, closed == "2>&-" ? 0 : 1) << closed << run.text;
     const Outcome validated = bench.presa("experiment validate data");
     EXPECT_EQ(validated.status, 0) << closed << validated.text;
   }
 }
 
-// A status line of a run whose standard error came closed.
+// The status line of a run whose standard error was closed at the start.
 TEST(Streams, ClosedStandardErrorIsNoRecording) {
   const Bench bench;
   const Outcome run = bench.presa("run " + kCube + " --realtime --view none --for 3 --record run.h5 2>&-");
@@ -102,7 +103,7 @@ TEST(FullDisk, OfStandardOutputIsAnError) {
   }
 }
 
-// A limit on the size of files is a full disk.
+// A file-size limit acts like a full disk.
 TEST(FullDisk, OfReportSummaryAndExportIsAnError) {
   const Bench bench;
   const std::string limited = "ulimit -f 4; exec timeout 60 " + kProgram + " ";
@@ -129,7 +130,7 @@ TEST(FullDisk, OfAScreenshotIsAnError) {
   EXPECT_FALSE(fs::exists(bench.file("shot.png"))) << "half a picture";
 }
 
-// Whether a session is left cannot be told.
+// With an unreadable log it is unknown whether a session remains.
 TEST(Resume, OfAnUnreadableLogIsAnError) {
   const Bench bench;
   bench.write("data/sub-S01/ses-1/journal.jsonl", "{\"damaged\"\n");

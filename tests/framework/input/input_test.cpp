@@ -26,7 +26,7 @@ Trouble troubleOf(const std::string& file, std::uint64_t most = 100) {
   return refusal.trouble;
 }
 
-// What is in a file comes whole, to the last byte that is allowed and not one more.
+// A file is read completely up to the size limit, and refused one byte above it.
 TEST(Door, GivesARegularFileUpToItsBound) {
   const Bench bench;
   const std::string text(100, 'x');
@@ -38,7 +38,7 @@ TEST(Door, GivesARegularFileUpToItsBound) {
   EXPECT_EQ(input::read(bench.file("empty"), 0, refusal), "");
 }
 
-// The size counts, holes and all: what has no blocks on the disk takes memory all the same.
+// The logical size counts: holes take memory although they take no disk space.
 TEST(Door, CountsHoles) {
   const Bench bench;
   bench.write("hole", "");
@@ -46,7 +46,7 @@ TEST(Door, CountsHoles) {
   EXPECT_EQ(troubleOf(bench.file("hole"), 1 << 20), Trouble::kTooLarge);
 }
 
-// A file of /proc says that it has no bytes: they are counted while they come.
+// A file of /proc reports size 0, so bytes are counted while reading.
 TEST(Door, CountsWhatComesNotWhatIsSaid) {
   ASSERT_EQ(fs::file_size("/proc/self/maps"), 0u);
   Refusal refusal;
@@ -56,7 +56,7 @@ TEST(Door, CountsWhatComesNotWhatIsSaid) {
   EXPECT_EQ(troubleOf("/proc/self/maps", 100), Trouble::kTooLarge);
 }
 
-// None of these may be waited for. Each case would hang, or never end, with an ordinary open.
+// None of these may block. With an ordinary open each case would hang or never end.
 TEST(Door, LetsNothingInThatIsNoRegularFile) {
   const Bench bench;
   bench.fifo("fifo");
@@ -76,7 +76,7 @@ TEST(Door, LetsNothingInThatIsNoRegularFile) {
   EXPECT_EQ(troubleOf(bench.file("none")), Trouble::kUnreadable);
 }
 
-// The folder of the naming file and what is below, by the real path: neither .. nor a link leads out.
+// The folder of the naming file and below, by real path: neither .. nor a link leads out.
 TEST(Folders, AFileNamesOnlyWhatLiesBesideIt) {
   const Bench bench;
   bench.write("lab/sub/a.obj", "");
