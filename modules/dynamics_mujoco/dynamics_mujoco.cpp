@@ -33,7 +33,7 @@ mjModel* compile(const std::string& xml) {
   throw InputError(diagnostics);
 }
 
-/// The moving bodies of a scene by MuJoCo. Thread: dynamics.
+/// The free bodies of a scene, stepped by MuJoCo. Thread: dynamics.
 class DynamicsMujoco final : public Module {
  public:
   explicit DynamicsMujoco(std::shared_ptr<const World> world)
@@ -66,13 +66,13 @@ class DynamicsMujoco final : public Module {
   }
 
  private:
-  /// Start velocities and constant forces; positions are the model's.
+  /// Sets start velocities and constant forces; start poses are in the model.
   void place() {
     int address = 0;
     for (std::size_t i = 0; i < world_->scene.bodies.size(); ++i) {
       const Body& body = world_->scene.bodies[i];
       if (body.fixed) continue;
-      const Vec3 w_B = body.X_WB.q.conjugate() * body.w_WB;  // a free joint's turn is in body axes
+      const Vec3 w_B = body.X_WB.q.conjugate() * body.w_WB;  // MuJoCo: angular velocity of a free joint in body axes
       const Vec3 v_WB = body.v_WCm - body.w_WB.cross(body.X_WB.q * world_->inertias[i].p_BCm);
       for (int k = 0; k < 3; ++k) {
         data_->qvel[address + k] = v_WB[k];

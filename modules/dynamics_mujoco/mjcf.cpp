@@ -60,7 +60,7 @@ std::string mjcfOf(const World& world, double step) {
   const std::string iterations =
       scene.dynamics.iterations > 0 ? " iterations=\"" + std::to_string(scene.dynamics.iterations) + "\"" : "";
   const std::string solver = scene.dynamics.solver == DynamicsSettings::Solver::kIterative ? "CG" : "Newton";
-  // room for six neighbours with four contacts each, of three rows; the stack as its own default grows with the square of
+  // capacity for six neighbours with four contacts each, of three rows; MuJoCo's default stack grows with the square of
   // the rows, to 19 GB for 125 bodies
   const std::size_t contacts = 100 + 24 * scene.bodies.size();
   const std::size_t unknowns = 6 * scene.bodies.size();
