@@ -34,7 +34,7 @@ std::unique_ptr<btCollisionShape> shapeOf(const Geometry& geometry, const Body& 
   throw InputError(diagnostics);
 }
 
-/// The moving bodies of a scene by Bullet. Thread: dynamics.
+/// The free bodies of a scene, stepped by Bullet. Thread: dynamics.
 class DynamicsBullet final : public Module {
  public:
   explicit DynamicsBullet(std::shared_ptr<const World> world)
@@ -80,8 +80,8 @@ class DynamicsBullet final : public Module {
     btVector3 force{0, 0, 0};
   };
 
-  /// Bullet wants the centre of mass at the origin and the principal axes of inertia; bodies are primitives about it, so the
-  /// body frame serves when it is there and the inertia is diagonal. Else the scene is refused.
+  /// Bullet requires the centre of mass at the origin and principal axes of inertia. The body frame is used as such; a
+  /// scene in which it does not qualify is refused (E583).
   void add(std::size_t i) {
     const Body& body = scene_world_->scene.bodies[i];
     const BodyInertia& inertia = scene_world_->inertias[i];
@@ -92,7 +92,7 @@ class DynamicsBullet final : public Module {
       Diagnostics diagnostics;
       diagnostics.error(
           583, body.where,
-          "body '" + body.name + "': dynamics_bullet wants its frame in the centre of mass, along the principal axes");
+          "body '" + body.name + "': dynamics_bullet needs its frame at the centre of mass, along the principal axes");
       throw InputError(diagnostics);
     }
     entry.shape = shapeOf(*body.physics, body);
