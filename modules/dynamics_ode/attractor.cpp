@@ -1,3 +1,7 @@
+// Snap constraints as ODE velocity motors: three linear and three angular axes, the first along the remaining way.
+// Target velocity min(rate * way, speed, way / h), so that the way decays exponentially and never overshoots within a
+// step; the motor force is bounded by mass * most (linear) and mass * most * rim (angular). Solved together with
+// contacts and friction.
 #include "modules/dynamics_ode/attractor.h"
 
 #include <algorithm>
@@ -6,10 +10,10 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kSamePlace = 1e-4, kSameTurn = 1e-3;  // [m, rad]
-constexpr double kMayTouch = 0.002;                    // [m] between the bounds of bodies that may lean on each other
+constexpr double kSamePlace = 1e-4, kSameTurn = 1e-3;  // smaller changes of a target wake nothing [m, rad]
+constexpr double kMayTouch = 0.002;  // distance of bounds within which bodies may lean on each other [m]
 
-/// Turn from `from` to `to` as a rotation vector in W [rad].
+/// Rotation from `from` to `to` as a rotation vector in W [rad].
 Vec3 turnBetween(const Quat& from, const Quat& to) {
   Quat turn = to * from.conjugate();
   if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
@@ -18,7 +22,8 @@ Vec3 turnBetween(const Quat& from, const Quat& to) {
   return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
 }
 
-/// The three axes of a motor, the first along `way`; by the function of ODE that sets one of them.
+/// Sets the three axes of a motor, the first along `way`. `set_axis`, `set_param`: ODE's functions for this kind of
+/// motor.
 template <class SetAxis, class SetParam>
 void setMotor(dJointID motor, SetAxis set_axis, SetParam set_param, const Vec3& way, double velocity, double force) {
   const double length = way.norm();
@@ -32,7 +37,7 @@ void setMotor(dJointID motor, SetAxis set_axis, SetParam set_param, const Vec3& 
   for (const int parameter : {dParamFMax1, dParamFMax2, dParamFMax3}) set_param(motor, parameter, force);
 }
 
-/// No faster than what ends at the place in this step.
+/// Target speed: not faster than what reaches the target within this step.
 double towards(double way, const Attraction& to, double speed, double h) {
   return std::min({to.rate * way, speed, way / h});
 }
@@ -70,7 +75,7 @@ void Attractor::read(const Attractions& attractions, BodySet& bodies, Sleep* sle
   }
   for (std::size_t i = 0; i < count; ++i) {
     const bool fix = drawn_[i] != nullptr && drawn_[i]->fixed;
-    // what fell asleep while it was drawn is held by something: it has to find out that it is drawn, or elsewhere
+    // a body that fell asleep while pulled is held by something; wake it when its target changes
     if (sleep != nullptr && isNews(i) && bodies.asleep(i)) sleep->wake(bodies, i);
     if (fix == bodies.isPut(i)) continue;
     fix ? bodies.put(i) : bodies.take(i);
@@ -78,7 +83,7 @@ void Attractor::read(const Attractions& attractions, BodySet& bodies, Sleep* sle
   }
 }
 
-// And remembers it.
+// Whether the target of body i has changed; stores it for the next call.
 bool Attractor::isNews(std::size_t i) {
   const Attraction* now = drawn_[i];
   std::optional<Attraction>& before = before_[i];
@@ -93,7 +98,7 @@ bool Attractor::isNews(std::size_t i) {
   return !same;
 }
 
-// What leaned on it, or stood on it, has to find out.
+// Wakes the sleeping neighbours, which may have leaned on body i.
 void Attractor::wakeAround(std::size_t i, BodySet& bodies, Sleep& sleep) {
   for (std::size_t j = 0; j < bodies.size(); ++j) {
     if (j != i && bodies.asleep(j) && bodies.areNear(i, j, kMayTouch)) sleep.wake(bodies, j);
@@ -110,7 +115,7 @@ void Attractor::carry(BodySet& bodies, Sleep* sleep, double h) const {
     const double speed = std::max(kCarrySpeed, drawn_[i]->speed);
     const double steps = std::max(way / (speed * h), turn / (kCarrySpin * h));
     bodies.place(i, steps > 1 ? interpolate(X_WB, goal, 1 / steps) : goal);
-    // it would go through what sleeps, and let go inside it
+    // it would pass through sleeping bodies and be released inside them
     if (sleep != nullptr && steps > 1) wakeAround(i, bodies, *sleep);
   }
 }

@@ -10,26 +10,27 @@
 
 namespace presa::ode {
 
-/// Draws bodies where an assembly wants them, and puts for good what has arrived there (framework/assembly/attraction.h). Drawing is a
-/// velocity motor of ODE with a bounded force: solved with the contacts, so that friction does not stop it short.
+/// Applies the snap constraints of an assembly (framework/assembly/attraction.h). A pulled body gets a velocity motor
+/// of ODE with bounded force, solved together with contacts and friction; a fixed body is carried to its target as an
+/// obstacle.
 class Attractor {
  public:
-  /// Its motors live in `ode_world` and go before it.
+  /// Owns motors in `ode_world`: destroy it before `ode_world`.
   Attractor(const BodySet& bodies, dWorldID ode_world);
   ~Attractor();
   Attractor(const Attractor&) = delete;
   Attractor& operator=(const Attractor&) = delete;
 
-  /// At the start of a period: takes what is asked for now, fixes and frees bodies, and wakes what that concerns.
+  /// At the start of a period: takes the current constraints, fixes and frees bodies, and wakes the affected ones.
   void read(const Attractions& attractions, BodySet& bodies, Sleep* sleep);
-  /// Carries what is fixed a bit nearer to its pose: a jump would be felt, and kick its neighbours. Wakes what is in
-  /// its way; `sleep` is null where nothing sleeps.
+  /// Moves fixed bodies a limited step towards their targets, because a jump could be felt and would kick neighbours.
+  /// Wakes bodies in the way; `sleep` is null when sleeping is off.
   void carry(BodySet& bodies, Sleep* sleep, double h) const;
-  /// Sets the motors for the next sub-step of `h`.
+  /// Sets the motors for the next sub-step of `h` [s].
   void drive(const BodySet& bodies, double h);
 
-  static constexpr double kCarrySpeed = 0.01;  ///< [m/s]
-  static constexpr double kCarrySpin = 0.2;    ///< [rad/s]
+  static constexpr double kCarrySpeed = 0.01;  ///< minimum speed of a carried body [m/s]
+  static constexpr double kCarrySpin = 0.2;    ///< angular speed of a carried body [rad/s]
 
  private:
   bool isNews(std::size_t i);
@@ -40,7 +41,7 @@ class Attractor {
   };
   Attractions wanted_;
   std::vector<const Attraction*> drawn_;           // by body, into wanted_; null: free
-  std::vector<std::optional<Attraction>> before_;  // by body: what it was last woken for
+  std::vector<std::optional<Attraction>> before_;  // by body: the constraint for which it was last woken
   std::vector<Motors> motors_;                     // by body
 };
 

@@ -9,21 +9,21 @@
 namespace presa::ode {
 namespace {
 
-// contacts nearer to each other than this part of the body, with the same normal, are one: a sphere on the edge
-// between two triangles, a box reported once per triangle
+// contacts closer than this fraction of the body's size, with the same normal, are merged: a sphere on the edge between
+// two triangles, or a box reported once per triangle
 constexpr double kSamePoint = 1e-3;
 constexpr double kSameNormal = 0.999;
-// so many contacts carry a body whichever way it would tip
+// number of contacts that support a body against tipping in any direction
 constexpr std::size_t kSupported = 4;
-// of the smaller body: farther ahead the grown shape would meet the other one on a wrong side
+// maximum growth relative to the smaller body: a larger shape would touch the other body on a wrong side
 constexpr double kMostGrowth = 0.2;
-// the far end of a body that tips falls faster than g (a rod: 1.5)
+// the far end of a tipping body falls faster than g (a rod: 1.5 g)
 constexpr double kRim = 2;
 constexpr double kSameCorner = 0.01;
 constexpr double kRounding = 1e-6;
 
-// Keeps the deepest contact, then again and again the one farthest from all kept: the hull of the touching area, which
-// is what carries the load. Returns how many are kept, at the front.
+// Selects contacts greedily: the deepest first, then always the one farthest from all selected. These span the contact
+// area and carry the load. Returns the number of selected contacts, which are moved to the front.
 int thin(dContactGeom* contacts, int count, int limit, double same_distance) {
   std::array<double, 64> distance{};
   const auto deeper = [](const dContactGeom& a, const dContactGeom& b) { return a.depth < b.depth; };
@@ -65,7 +65,7 @@ std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, con
 
 void BodyContacts::collidePair(const BodySet& bodies, const BroadPhase::Pair& pair, double h,
                                std::vector<BodyContact>& contacts) {
-  // ODE's normal points into the first geometry: that is B, and B must move
+  // ODE's normal points into the first geometry; make that B, which must be a free body
   const std::size_t B = bodies.moves(pair.second) ? pair.second : pair.first;
   const std::size_t A = B == pair.second ? pair.first : pair.second;
   const std::size_t before = contacts.size();
@@ -91,7 +91,7 @@ void BodyContacts::report(const BodySet& bodies, std::size_t A, std::size_t B, d
   }
 }
 
-// At the speed it has, and, of two that are awake, when gravity pulls one towards the other and something else holds that.
+// Approach by the current velocity, plus, if both bodies are awake, the approach caused by gravity within the step.
 double BodyContacts::mayClose(const BodySet& bodies, const BodyContact& c, double h) const {
   const auto A = static_cast<std::size_t>(c.A), B = static_cast<std::size_t>(c.B);
   const double closing = -(bodies.velocityAt(B, c.p_W) - bodies.velocityAt(A, c.p_W)).dot(c.nhat_AB_W);
@@ -100,7 +100,8 @@ double BodyContacts::mayClose(const BodySet& bodies, const BodyContact& c, doubl
   return h * closing + kRim * h * h * std::max(pull, bodies.moves(A) ? -pull : 0);
 }
 
-// Where the two do not touch but may within the step: a contact with a gap, which ends the approach at the surface.
+// Adds contacts with a gap for surfaces that do not touch yet but may within the step, so that the approach ends at the
+// surface.
 void BodyContacts::reportNearing(const BodySet& bodies, std::size_t A, std::size_t B, double h,
                                  std::vector<BodyContact>& contacts, std::size_t first) {
   const std::size_t grown = GrownGeom::possible(bodies.geom(B)) ? B : A;

@@ -10,11 +10,11 @@
 namespace presa::ode {
 namespace {
 
-// beyond these a state is a numerical accident: a free fall of 100 s, 1600 turns per second
+// limits of a plausible state: a free fall of 100 s, 1600 turns per second
 constexpr double kMaxSpeed = 1e3;  // [m/s]
 constexpr double kMaxSpin = 1e4;   // [rad/s]
 constexpr double kMaxReach = 1e6;  // [m]
-// a body this slow turns by less than rounding matters; ODE's own update is kept
+// slower rotations differ from ODE's own update by less than rounding, so the update is kept
 constexpr double kMinAngle = 1e-9;  // [rad] per step
 
 dMass massOf(const BodyInertia& inertia) {
@@ -41,7 +41,7 @@ BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorld
       entry.body = dBodyCreate(ode_world);
       const dMass mass = massOf(inertia);
       dBodySetMass(entry.body, &mass);
-      // ODE's gyroscopic term is wrong; driftRotations does it
+      // ODE's gyroscopic term is inaccurate; driftRotations replaces it
       dBodySetGyroscopicMode(entry.body, rotation_ == DynamicsSettings::Rotation::kEngine ? 1 : 0);
       const Vec3 p_WCm = body.X_WB * entry.p_BCm;
       dBodySetPosition(entry.body, p_WCm.x(), p_WCm.y(), p_WCm.z());
@@ -72,7 +72,7 @@ Pose BodySet::poseOf(const Entry& entry, const State& state) {
 }
 
 bool BodySet::sane(const State& state) {
-  // written so that NaN fails
+  // comparisons are written so that NaN fails
   return state.p_WCm.norm() < kMaxReach && state.v_WCm.norm() < kMaxSpeed && state.w_WB.norm() < kMaxSpin &&
          std::abs(state.q_WB.norm() - 1) < 1e-6;
 }
@@ -222,7 +222,7 @@ void BodySet::driftRotations(double h) {
   }
 }
 
-// An obstacle: ODE's solvers never see the body again until it is taken.
+// Turns the body into an obstacle that ODE's solvers ignore until take().
 void BodySet::detach(Entry& entry) {
   if (entry.geom != nullptr && !entry.still) {
     dQuaternion q;

@@ -23,7 +23,7 @@ void BroadPhase::measure(const BodySet& bodies, double h, double margin) {
   }
 }
 
-// Of those awake, since a fixed floor reaches everywhere.
+// Considers awake bodies only, since a fixed floor extends everywhere.
 int BroadPhase::longestAxis() const {
   int longest = 0;
   dReal length = -1;

@@ -7,16 +7,16 @@
 
 namespace presa::ode {
 
-/// Which bodies may touch: sort and sweep along the axis on which the bodies are spread most. At a few hundred bodies as fast as
-/// ODE's own spaces, and unlike them it takes no memory from one step to the next.
+/// Broad phase: sort and sweep along the axis on which the bodies are spread most. At a few hundred bodies as fast as
+/// ODE's own spaces, but without memory allocation between steps.
 class BroadPhase {
  public:
   using Pair = std::pair<std::size_t, std::size_t>;  ///< the lower index first
 
   explicit BroadPhase(const BodySet& bodies);
 
-  /// Pairs whose bounds will overlap within `h` [s] or come within `margin` [m], at least one of the two awake; in scene order, so
-  /// that the same state gives the same pairs.
+  /// Pairs whose bounds may overlap within `h` [s] or come within `margin` [m], with at least one body awake; in scene
+  /// order, so that equal states give equal pairs.
   const std::vector<Pair>& find(const BodySet& bodies, double h, double margin);
 
  private:

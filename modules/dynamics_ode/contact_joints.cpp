@@ -47,7 +47,8 @@ void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySe
   recall(bodies);
 }
 
-// Both lists are sorted by pair. Within a pair the nearest past contact is the same one, seen from the centre of B.
+// Warm start from the last step. Both lists are sorted by pair; within a pair the nearest past contact, relative to the
+// centre of B, is taken as the same contact.
 void ContactJoints::recall(const BodySet& bodies) {
   auto run = past_.cbegin();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -73,13 +74,13 @@ dContact ContactJoints::make(const BodyContact& c, const Joint& joint, bool fric
   if (!joint.direction.isZero()) surface.mode |= dContactFDir1;
   if (joint.limit < 0) surface.mode |= dContactApprox1_1 | dContactApprox1_2;
   surface.mu = !friction ? 0 : joint.limit < 0 ? joint.mu : joint.limit;
-  if (joint.slides) surface.mode |= dContactMu2;  // of zero
+  if (joint.slides) surface.mode |= dContactMu2;  // second direction: coefficient 0
   surface.soft_erp = options_.contact_erp;
   surface.soft_cfm = joint.cfm;
   assign(contact.geom.pos, c.p_W);
   assign(contact.geom.normal, c.nhat_AB_W);
   contact.geom.depth = std::max(0.0, c.depth);
-  if (c.depth < 0) {  // may close the gap, no more
+  if (c.depth < 0) {  // the bodies may close the gap within the step, but not overlap
     surface.mode |= dContactMotionN;
     surface.motionN = c.depth / h_;
   }

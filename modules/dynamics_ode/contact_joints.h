@@ -10,30 +10,30 @@
 
 namespace presa::ode {
 
-/// The contacts between bodies of one step as ODE's joints. Knows how friction acts at each, what it did in this step and, where
-/// the contact was there already, in the last.
+/// The body-body contacts of one step as ODE joints, with the friction parameters of each, its force in this step and,
+/// for a persisting contact, its force in the last step.
 class ContactJoints {
  public:
   struct Joint {
     double cfm = 0, mu = 0;
-    Vec3 direction = Vec3::Zero();  ///< first of the two that ODE bounds separately; zero: ODE's choice
-    bool slides = false;            ///< along `direction`, and so fast that friction acts along it alone
-    double limit = -1;              ///< of friction [N]; < 0: mu times the normal force of the same solve
-    Vec3 f_B_W = Vec3::Zero();      ///< on B [N]: before the solve that of the last step, after it the new one
+    Vec3 direction = Vec3::Zero();  ///< first of the two friction directions; zero: chosen by ODE
+    bool slides = false;            ///< slides so fast along `direction` that friction acts along it alone
+    double limit = -1;              ///< friction bound [N]; < 0: mu times the normal force of the same solve
+    Vec3 f_B_W = Vec3::Zero();      ///< force on B [N]: before the solve that of the last step, after it the new one
   };
 
-  /// With room for `contacts`; more take memory once.
+  /// Reserves memory for `contacts`; more allocate once.
   ContactJoints(const Scene& scene, const OdeOptions& options, std::size_t contacts);
 
-  /// Starts a step of `h` with these contacts (sorted by pair), which stay the caller's.
+  /// Starts a step of `h` [s]. `contacts` must be sorted by pair and outlive the step.
   void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies, double h);
-  /// Joints for the contacts of `wanted` islands.
+  /// Creates joints for the contacts of the `wanted` islands.
   void addTo(Engine& engine, const BodySet& bodies, Islands& islands, const std::vector<char>& wanted, bool friction);
-  /// Ends the step: what was found is what the next one remembers.
+  /// Ends the step and keeps the forces for the next one.
   void end(const BodySet& bodies);
-  /// Takes the forces from the solve just made, for the contacts of `solved` islands.
+  /// Reads the forces of the last solve for the contacts of the `solved` islands.
   void readForces(Islands& islands, const std::vector<char>& solved);
-  /// Slip at contact `i` with the velocities that the bodies have now.
+  /// Slip velocity at contact `i` for the current velocities of the bodies [m/s].
   Vec3 slip(std::size_t i, const BodySet& bodies) const;
 
   std::size_t size() const noexcept { return joints_.size(); }

@@ -58,7 +58,7 @@ void DynamicsModule::step(const Tick& tick) noexcept {
 }
 
 void DynamicsModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
-  /// Numbers as in stages(); what the scene does without does nothing.
+  /// Translates Stage to the numbers of stages(), which omits stages that the scene does not use.
   class Listed final : public StageWatch {
    public:
     Listed(const std::vector<StageText>& stages, StageWatch& watch) : stages_(stages), watch_(watch) {}

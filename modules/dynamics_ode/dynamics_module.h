@@ -11,7 +11,7 @@
 
 namespace presa::ode {
 
-/// The moving bodies of a scene: fingers in, Object State out. Thread: dynamics.
+/// Module of the free bodies: contact exchange in, object state out. Thread: dynamics.
 class DynamicsModule final : public Module, public WatchedStages {
  public:
   explicit DynamicsModule(std::shared_ptr<const World> world);
@@ -23,18 +23,18 @@ class DynamicsModule final : public Module, public WatchedStages {
   std::vector<std::string> stages() const override;
   std::vector<std::string> stageFunctions() const override;
 
-  const Faults& faults() const noexcept { return bodies_->faults(); }  ///< between start and stop
+  const Faults& faults() const noexcept { return bodies_->faults(); }  ///< valid between start and stop
 
  private:
   void attract() noexcept;
 
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
-  std::optional<In<Attractions>> attractions_;  // absent where nothing is put together
+  std::optional<In<Attractions>> attractions_;  // only in scenes with an assembly
   std::uint64_t attractions_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;
-  std::vector<StageText> stages_;  ///< those of this scene
+  std::vector<StageText> stages_;  ///< stages used by this scene
   std::unique_ptr<OdeWorld> bodies_;
 };
 

@@ -9,10 +9,10 @@
 namespace presa::ode {
 namespace {
 
-// far below any compliance that matters, enough to keep redundant rows solvable
+// far below any relevant compliance, but enough to keep redundant rows solvable
 constexpr double kWorldCfm = 1e-10;
-constexpr std::size_t kJointsPerGroup = 1024;  // to empty a larger one ODE takes memory
-// [bytes] of the direct solver at its limit, and of the iterative one
+constexpr std::size_t kJointsPerGroup = 1024;  // ODE allocates memory when it empties a larger group
+// working memory of the direct solver at its limit, and of the iterative one [bytes]
 constexpr std::size_t kWorkingMemory = 2U << 20U, kWorkingMemoryPerContact = 2048;
 
 dWorldID createWorld(const Vec3& gravity, std::size_t contacts) {
@@ -31,7 +31,8 @@ dWorldID createWorld(const Vec3& gravity, std::size_t contacts) {
   return world;
 }
 
-// Worlds on several threads (tests, studies) take turns. Without a rival it is one exchange: no call, no lock.
+// Serialises worlds on several threads (tests, studies). Uncontended it is one atomic exchange: no system call, no
+// lock.
 class OneAtATime {
  public:
   OneAtATime() {
@@ -58,7 +59,8 @@ Engine::Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts)
   takeMemory(room);
 }
 
-// What ODE has had once it keeps: joints in their groups, working memory and jobs of either solver.
+// Makes ODE allocate in advance the memory that it keeps: joints in their groups, working memory and jobs of both
+// solvers.
 void Engine::takeMemory(std::size_t joints) {
   for (std::size_t i = 0; i < joints; ++i) createContact({});
   clearContacts();
@@ -97,7 +99,7 @@ bool Engine::solveDirectly(double h) {
 
 void Engine::solveIteratively(double h, int iterations) {
   dWorldSetQuickStepNumIterations(world_, iterations);
-  // ODE's random numbers are one global stream: each world takes its own up where it left it
+  // ODE's random numbers are one global stream: each world saves and restores its own state
   const OneAtATime turn;
   dRandSetSeed(random_state_);
   dWorldQuickStep(world_, h);

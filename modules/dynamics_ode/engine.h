@@ -8,11 +8,11 @@
 
 namespace presa::ode {
 
-/// One ODE world with the contact joints of one solve, and its own stream of the random numbers that ODE
-/// keeps globally. One thread creates, uses and destroys it. ODE's failures come as OdeFailure.
+/// One ODE world with the contact joints of one solve and its own state of ODE's global random numbers. Must be
+/// created, used and destroyed on one thread. Failures inside ODE are thrown as OdeFailure.
 class Engine {
  public:
-  /// With room for `contacts` and fingers; more take memory once.
+  /// Reserves memory for `contacts` and the fingers; more contacts allocate once.
   Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts);
   ~Engine();
   Engine(const Engine&) = delete;
@@ -20,13 +20,13 @@ class Engine {
 
   dWorldID world() const noexcept { return world_; }
 
-  /// A contact joint whose normal points into `first`; `second` may be null. `feedback` stays the caller's.
+  /// Adds a contact joint whose normal points into `first`; `second` may be null. `feedback` must outlive the solve.
   void addContact(const dContact& contact, dBodyID first, dBodyID second, dJointFeedback* feedback);
   void clearContacts();
 
-  /// Steps every enabled body over `h` [s] by the direct solver. False when it reported trouble: the state is then useless.
+  /// Steps every enabled body over `h` [s] with the direct solver. False when it failed: the state is then invalid.
   bool solveDirectly(double h);
-  /// The same by the iterative solver.
+  /// Steps every enabled body over `h` [s] with the iterative solver.
   void solveIteratively(double h, int iterations);
 
  private:
@@ -35,7 +35,7 @@ class Engine {
 
   dWorldID world_;
   std::vector<dJointGroupID> groups_;
-  std::size_t joints_ = 0;  // in them
+  std::size_t joints_ = 0;  // joints in use
   unsigned long random_state_;
 };
 

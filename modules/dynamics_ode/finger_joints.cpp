@@ -22,13 +22,14 @@ dContact jointOf(const FingerRow& row) {
   surface.slip1 = row.slip;
   surface.slip2 = row.slip;
   assign(contact.geom.pos, row.p_WP);
-  assign(contact.geom.normal, row.n_in);  // ODE: into the first body attached
+  assign(contact.geom.normal, row.n_in);  // ODE's normal points into the first attached body
   contact.geom.depth = row.depth;
   assign(contact.fdir1, row.t1);
   return contact;
 }
 
-// What two fingertips on one axis share; a slip of 0.01 rad/s at the torque of a firm grip.
+// Compliance of the torsional motor: lets two fingertips on one axis share the load; 0.01 rad/s of slip at a firm
+// grip's torque.
 constexpr double kTorsionCfm = 1;  // [rad/s / (N m)]
 
 }  // namespace
@@ -52,7 +53,7 @@ FingerJoints::~FingerJoints() {
   for (const dJointID motor : motors_) dJointDestroy(motor);
 }
 
-// A fingertip that does not turn itself. Bounded by the normal force at the start of the step, as friction beside it.
+// Torsional friction of a fingertip that does not rotate, bounded by the normal force at the start of the step.
 void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const FingerRow& row, const BodySet& bodies) {
   const double normal = std::max(0.0, row.expected_force_W.dot(row.n_in));
   dJointAttach(motors_[finger], bodies.body(body), nullptr);
@@ -70,7 +71,7 @@ std::size_t FingerJoints::read(const ContactExchange& exchange, double time, dou
     const bool first = active_.empty() || active_.back().finger != f;
     feedback_[active_.size()] = {};
     active_.push_back({f, body, *row});
-    // the motor of a soft fingertip goes with the body that is touched first
+    // a soft fingertip's motor acts on the first body that the finger touches
     if (!motors_.empty() && first) resistTurning(f, body, *row, bodies);
     if (coupling_ == DynamicsSettings::Coupling::kExplicit) bodies.addForce(body, row->expected_force_W, row->p_WP);
   });

@@ -10,24 +10,27 @@
 
 namespace presa::ode {
 
-/// The fingers of one step: as contact joints (soft coupling) or as forces (explicit coupling).
+/// The finger contacts of one step: contact constraints (soft coupling) or external forces (explicit coupling).
 class FingerJoints {
  public:
-  /// The motors of soft fingertips live in `ode_world` and go before it; there are none where no material has torsion.
+  /// Owns the motors of soft fingertips in `ode_world`: destroy it before `ode_world`. No motors if no material has
+  /// torsion.
   FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world);
   ~FingerJoints();
   FingerJoints(const FingerJoints&) = delete;
   FingerJoints& operator=(const FingerJoints&) = delete;
 
-  /// Takes the rows of every finger that touches a moving body, for a step of `h` from `time` on; forces of the explicit
-  /// coupling go to `bodies` at once. Returns how many fingers made no sense and were left out.
+  /// Builds the rows of every finger that touches a moving body, for a step of `h` [s] starting at `time`. Forces of
+  /// the explicit coupling are added to `bodies` at once. Returns the number of invalid finger contacts, which are
+  /// ignored.
   std::size_t read(const ContactExchange& exchange, double time, double h, BodySet& bodies);
-  /// Joints for the fingers on `wanted` islands.
+  /// Creates joints for the fingers on `wanted` islands.
   void addTo(Engine& engine, BodySet& bodies, Islands& islands, const std::vector<char>& wanted);
-  /// After the solve: fingers whose friction came to its static bound within the step slip at its end, as the haptic side will
-  /// render. Gives them their dynamic coefficient and marks their islands in `wanted`; false when there is none.
+  /// Stick-to-slip transition, after the solve: fingers that reached their static friction bound within the step get
+  /// their dynamic coefficient, as on the haptic side, and their islands are marked in `wanted`. False when there are
+  /// none.
   bool letGo(Islands& islands, std::vector<char>& wanted);
-  /// After the solve: the mean force of finger `f` on its bodies, all together [N]; zero without contact.
+  /// After the solve: mean force of finger `f` on all its bodies over the step [N]; zero without contact.
   Vec3 force(std::size_t f) const;
 
  private:
@@ -38,15 +41,15 @@ class FingerJoints {
     FingerRow row;
   };
   const DynamicsSettings::Coupling coupling_;
-  const double old_after_;  ///< of a finger [s]
+  const double old_after_;  ///< maximum age of a finger sample before it fades [s]
   std::vector<Active> active_;
   std::array<dJointFeedback, kMaxFingers * kMaxContactParts> feedback_{};  // as active_
-  std::vector<double> torsion_;   // by body [m]; empty where no fingertip is soft
-  std::vector<dJointID> motors_;  // by finger: hold it from turning about its normal, with a bounded torque
+  std::vector<double> torsion_;   // torsional friction radius by body [m]; empty if no material has torsion
+  std::vector<dJointID> motors_;  // by finger: torsional friction
 };
 
-/// Calls use(finger, contact, body) for each touch of a moving body: one for a finger on one body, and one for each part of a
-/// finger that several bodies hold. Returns how many made no sense.
+/// Calls use(finger, contact, body) for each contact of a finger with a moving body: once, or once per part when
+/// several bodies share the finger. Returns the number of invalid contacts.
 template <class Use>
 std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies, Use use) {
   std::size_t nonsense = 0;

@@ -1,3 +1,7 @@
+// Rows of the implicit finger coupling; equations and sign conventions in finger_row.h. Method: a spring-damper
+// integrated with backward Euler, written as ODE's velocity constraint with erp and cfm. Invariants: at rest the normal
+// force is k * depth and the tangential force k * |t|; tension is never transmitted; every coefficient is finite for a
+// usable contact with k > 0.
 #include "modules/dynamics_ode/finger_row.h"
 
 #include <algorithm>
@@ -6,7 +10,7 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kNoStretch = 1e-12;  // [m] below this the stretch has no direction
+constexpr double kNoStretch = 1e-12;  // smaller displacements have no direction [m]
 
 }  // namespace
 

@@ -12,7 +12,7 @@ double pairFriction(const Material& a, const Material& b, double slip_speed) {
 Vec3 frictionDirection(const Vec3& nhat_AB, const Vec3& slip) {
   constexpr double kNoSlip = 1e-9;  // [m/s]
   if (!(slip.norm() > kNoSlip)) return nhat_AB.unitOrthogonal();
-  // once more, so that it is perpendicular to the normal to the last bit
+  // project again, so that the direction is perpendicular to the normal to the last bit
   const Vec3 direction = slip.normalized();
   return (direction - direction.dot(nhat_AB) * nhat_AB).normalized();
 }

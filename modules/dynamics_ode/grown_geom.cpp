@@ -49,7 +49,7 @@ void GrownGeom::set(double margin) {
   }
 }
 
-// How far a point is outside the grown shape, zero on its surface: as an order of points, not as a distance.
+// Measure of how far a point lies outside the grown shape, zero on its surface; monotonic, but not a distance.
 double GrownGeom::outside(const Vec3& p) const {
   switch (shape_) {
     case dBoxClass:
@@ -71,15 +71,15 @@ Vec3 GrownGeom::onTrueShape(const Vec3& p) const {
       const double r = p.head<2>().norm(), shrink = r > size_[0] ? size_[0] / r : 1;
       return {shrink * p.x(), shrink * p.y(), std::clamp(p.z(), -size_[1] / 2, size_[1] / 2)};
     }
-    default: {  // a sphere swept along a line, which may have no length
+    default: {  // a sphere swept along a line, possibly of length 0
       const Vec3 centre(0, 0, std::clamp(p.z(), -size_[1] / 2, size_[1] / 2));
       return centre + size_[0] * (p - centre).normalized();
     }
   }
 }
 
-// ODE places a contact on either surface or halfway: of these points the outermost that is not outside is on ours. (Its round caps are
-// octagons, 8 % too wide.)
+// ODE places a contact on either surface or halfway between. Of these candidates the outermost that is not outside the
+// grown shape lies on it. (ODE's round caps are octagons, 8 % too wide.)
 void GrownGeom::takeBack(Vec3& p_W, double& depth, const Vec3& outward_W) const {
   const Vec3 p = X_WG_.inverseTimes(p_W), outward = X_WG_.q.conjugate() * outward_W;
   const double allowed = std::max(0.0, outside(p)) + kRounding * margin_;

@@ -5,8 +5,8 @@
 
 namespace presa::ode {
 
-/// A box, sphere, cylinder or capsule that reaches `margin` further on all sides while this lives: what is near it touches it. A
-/// contact of the grown shape, taken back to the true one, has the distance to that as negative depth.
+/// Enlarges a box, sphere, cylinder or capsule by `margin` on all sides while this object exists, so that nearby shapes
+/// touch it. A contact of the grown shape, projected back to the true one, has the gap as negative depth.
 class GrownGeom {
  public:
   static bool possible(dGeomID geom) noexcept { return geom != nullptr && dGeomGetClass(geom) != dTriMeshClass; }
@@ -16,8 +16,8 @@ class GrownGeom {
   GrownGeom(const GrownGeom&) = delete;
   GrownGeom& operator=(const GrownGeom&) = delete;
 
-  /// Makes a contact of the grown shape one of the true shape: p_W on its surface, depth negative where there is a gap.
-  /// `outward_W` is the unit normal of the contact, out of this shape.
+  /// Converts a contact of the grown shape to one of the true shape: p_W on its surface, negative depth for a gap.
+  /// `outward_W` is the unit normal of the contact, pointing out of this shape.
   void takeBack(Vec3& p_W, double& depth, const Vec3& outward_W) const;
 
  private:
@@ -28,7 +28,7 @@ class GrownGeom {
   dGeomID geom_;
   int shape_;
   double margin_;
-  dVector3 size_{};  ///< true; box: edges; others: radius, length
+  dVector3 size_{};  ///< true size; box: edge lengths; others: radius, length
   Pose X_WG_;
 };
 

@@ -1,3 +1,7 @@
+// Chooses a solver per island and recovers from failures of the direct one. ODE solves all enabled bodies at once, so
+// islands are selected by enabling their bodies. A failed direct solve is repeated island by island: from the saved
+// state, unperturbed, then with velocity perturbations of 1e-9 and 1e-7 m/s, finally with the iterative solver. Other
+// islands are unaffected.
 #include "modules/dynamics_ode/island_solver.h"
 
 #include <algorithm>
@@ -5,7 +9,7 @@
 namespace presa::ode {
 namespace {
 
-// of a small island that is in trouble: time is no question
+// for a small island that failed; its computing time is negligible
 constexpr int kFallbackIterations = 1000;
 
 }  // namespace
@@ -31,7 +35,7 @@ int IslandSolver::iterations(std::size_t contacts, int layers, int substeps) con
   return std::max(substeps > 1 ? options_.least_iterations_of_substep : options_.least_iterations, most);
 }
 
-// True when there is such a body.
+// Enables exactly the awake bodies that `choose` selects. True when there is at least one.
 template <class Choose>
 bool IslandSolver::enableWhere(Choose choose) {
   bool any = false;
@@ -66,8 +70,8 @@ void IslandSolver::putBack(Islands& islands, std::size_t island) {
   }
 }
 
-// The direct solver gives up at a tie, two rows that come to their bound in the same instant: a body set down flat does that to
-// the last bit. A push that nobody could measure decides it.
+// The direct solver fails at ties, when two rows reach their bounds at the same instant; a body set down flat causes
+// this to the last bit. An immeasurably small perturbation breaks the tie.
 bool IslandSolver::solveNudged(Islands& islands, std::size_t island, double h) {
   for (const double speed : {0.0, 1e-9, 1e-7}) {
     putBack(islands, island);
@@ -80,7 +84,7 @@ bool IslandSolver::solveNudged(Islands& islands, std::size_t island, double h) {
   return false;
 }
 
-// After trouble in one of them: one by one, to see which.
+// After a failure: solves the islands one by one to find the failing one.
 void IslandSolver::solveEachDirectly(Islands& islands, const std::vector<char>& wanted, double h, int iterations,
                                      std::vector<char>& fell_back) {
   for (std::size_t island = 0; island < bodies_.size(); ++island) {

@@ -8,21 +8,21 @@
 
 namespace presa::ode {
 
-/// Steps islands of bodies, each with the solver that suits it: up to `direct_limit` contacts directly, larger ones iteratively (or
-/// all alike, as the scene says). An island in which the direct solver reports trouble is put back to the start of the
-/// step and nudged by a nanometre a second; if that is no help it is solved iteratively; the others are as if it had not been there.
+/// Steps islands of bodies with the solver that suits each: up to `direct_limit` contacts directly, larger ones
+/// iteratively (or all alike, if the scene says so). An island on which the direct solver fails is restored, perturbed
+/// by some nm/s and, if that fails too, solved iteratively; the other islands are not affected.
 class IslandSolver {
  public:
   IslandSolver(Engine& engine, BodySet& bodies, const OdeOptions& options);
 
   bool isDirect(const Islands::Island& island) const noexcept;
-  /// An island too large for the direct solver is about: all take the sub-steps that it calls for, and what no finger
-  /// touches is solved directly only up to `crowded_limit`.
+  /// Set when some island is too large for the direct solver. All islands then share its sub-steps, and islands that no
+  /// finger touches are solved directly only up to `crowded_limit` contacts.
   void setCrowded(bool crowded) noexcept { crowded_ = crowded; }
-  /// Iterations for a step that `contacts` contacts of bodies in so many layers share, when it is one of `substeps`.
+  /// Iterations for one of `substeps` sub-steps with `contacts` contacts and `layers` layers of bodies.
   int iterations(std::size_t contacts, int layers, int substeps) const noexcept;
-  /// Steps the islands for which `wanted[island]` is set over `h`; the contacts are in the engine. Says of each in
-  /// `fell_back[island]` whether the iterative solver had to take it over.
+  /// Steps the islands with `wanted[island]` set over `h` [s]; their contacts must be in the engine.
+  /// `fell_back[island]` receives whether the iterative solver had to replace the direct one.
   void solve(Islands& islands, const std::vector<char>& wanted, double h, int iterations, std::vector<char>& fell_back);
 
  private:

@@ -4,26 +4,26 @@
 
 namespace presa::ode {
 
-/// Groups of free bodies that touch each other (union-find). A fixed body or a finger joins nothing: what lies on one
-/// table are separate islands, as ODE sees them too.
+/// Groups of free bodies in mutual contact (union-find). Fixed bodies and fingers join nothing: bodies on one table are
+/// separate islands, as in ODE.
 class Islands {
  public:
   struct Island {
-    std::uint32_t contacts = 0;  ///< with fingers
-    bool touched = false;        ///< by a finger
+    std::uint32_t contacts = 0;  ///< contacts, including those with fingers
+    bool touched = false;        ///< a finger touches it
   };
   explicit Islands(std::size_t bodies) : parent_(bodies), islands_(bodies) { reset(); }
-  /// Starts over with separate bodies.
+  /// Resets to one island per body.
   void reset();
   /// The island that a contact between two free bodies would make.
   Island joined(std::size_t a, std::size_t b);
-  /// A contact between two free bodies.
+  /// Adds a contact between two free bodies.
   void join(std::size_t a, std::size_t b);
-  /// A contact of one free body with something fixed.
+  /// Adds a contact between a free body and something fixed.
   void touch(std::size_t a) { ++islands_[root(a)].contacts; }
   void touchByFinger(std::size_t a);
 
-  /// Name of body `a`'s island, below the number of bodies.
+  /// Identifier of body `a`'s island, less than the number of bodies.
   std::size_t of(std::size_t a) { return root(a); }
   const Island& operator[](std::size_t island) const { return islands_[island]; }
 

@@ -6,16 +6,17 @@
 
 namespace presa::ode {
 
-/// In place of a count: as many sweeps as time allows.
+/// Layer count that imposes no limit on the iterations.
 inline constexpr int kAllLayers = 1000;
 
-/// How high bodies stand on each other: 1 for what touches something fixed, 2 for what touches that, and so on.
-/// A sweep of the iterative solver passes a load on by one layer, and like any chain they converge in the order of layers^2 sweeps.
+/// Height of stacks in bodies: layer 1 touches something fixed, layer 2 touches layer 1, and so on. A sweep of the
+/// iterative solver propagates a load by one layer; as for any chain, convergence takes in the order of layers^2
+/// sweeps.
 class Layers {
  public:
   explicit Layers(std::size_t bodies) : layer_(bodies) {}
 
-  /// The highest layer of all, 0 without contacts.
+  /// The highest layer, or 0 without contacts.
   int count(const std::vector<BodyContact>& contacts, const BodySet& bodies);
 
  private:

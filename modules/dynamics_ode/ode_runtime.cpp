@@ -10,13 +10,13 @@
 namespace presa::ode {
 namespace {
 
-// ODE's handlers are global while a world belongs to one thread: counting per thread tells the worlds apart
+// ODE's handlers are global, but a world belongs to one thread: per-thread counters keep the worlds apart
 thread_local std::uint64_t message_count = 0;
 thread_local bool attached = false;
 
 void countMessage(int, const char*, va_list) { ++message_count; }
 
-// ODE ends the process when this returns, so it must not
+// ODE ends the process when this handler returns, so it throws
 [[noreturn]] void raiseFailure(int, const char* format, va_list arguments) {
   std::array<char, 256> text{};
   std::vsnprintf(text.data(), text.size(), format, arguments);

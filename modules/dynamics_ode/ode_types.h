@@ -5,7 +5,7 @@
 
 #include "framework/core/math/spatial.h"
 
-/// Conversions between ODE's arrays and ours. Both sides: SI, vectors in W, quaternions w x y z.
+/// Conversions between ODE's arrays and Presa's types. Both: SI units, vectors in W, quaternions w x y z.
 namespace presa::ode {
 
 inline Vec3 toVec3(const dReal* v) { return {v[0], v[1], v[2]}; }

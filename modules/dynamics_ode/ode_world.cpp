@@ -21,7 +21,7 @@ namespace {
 
 void done(StageWatch& watch, Stage stage) noexcept { watch.done(static_cast<std::size_t>(stage)); }
 
-// A contact with a gap is none yet.
+// Contacts with a gap (negative depth) are not counted.
 BodyPenetration penetrationOf(const std::vector<BodyContact>& contacts) noexcept {
   BodyPenetration in{0, 0, 0};
   for (const BodyContact& contact : contacts) {
@@ -68,20 +68,20 @@ struct OdeWorld::Impl {
   std::shared_ptr<const World> world;
   const OdeOptions options;
   Engine engine;
-  BodySet bodies;  // destroyed before the engine they live in
+  BodySet bodies;  // declared after the engine, so destroyed before it
   FingerJoints fingers;
   BodyContacts collider;
   StepSolver solver;
-  std::optional<Sleep> sleep;          // absent when the scene does without
-  std::optional<Attractor> attractor;  // absent where nothing is put together
+  std::optional<Sleep> sleep;          // empty when the scene turns sleeping off
+  std::optional<Attractor> attractor;  // empty without an assembly
   Islands islands;
   Layers layers;
   std::vector<BodyContact> contacts;
-  std::vector<char> ahead;  // by body: contacts are made before they touch
+  std::vector<char> ahead;  // by body: create contacts one step ahead of the touch
   std::array<Vec3, kMaxFingers> finger_force, finger_impulse;
   Faults faults;
   std::uint64_t fallback_steps = 0;
-  bool failed = false;  // ODE itself: nothing moves any more
+  bool failed = false;  // ODE failed: all bodies are frozen
 };
 
 void OdeWorld::Impl::fault(Faults::Bit bit, std::uint64_t count) {
@@ -98,7 +98,8 @@ void OdeWorld::Impl::giveUp() {
   finger_force.fill(Vec3::Zero());
 }
 
-// As far as can be told from the last step. In a heap, solved iteratively, it would cost more than it helps.
+// Contacts ahead of the touch only for directly solved islands, judged by the last step: in an iteratively solved heap
+// they cost more than they help.
 void OdeWorld::Impl::lookAhead() {
   for (std::size_t i = 0; i < bodies.size(); ++i) ahead[i] = solver.isDirect(islands[islands.of(i)]) ? 1 : 0;
 }
@@ -114,7 +115,7 @@ void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
   for (const BodyContact& contact : contacts) {
     if (contact.depth >= 0) add(contact);
   }
-  // what does not touch yet must not make an island too large for the direct solver
+  // a contact that does not touch yet must not make an island too large for the direct solver
   const auto useless = [&](const BodyContact& contact) {
     if (contact.depth >= 0) return false;
     const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
@@ -153,7 +154,7 @@ int OdeWorld::Impl::substepsNow() {
     if (islands[i].touched) return options.large_substeps;
   }
   if (!anyLarge()) return 1;
-  // a heap that no finger feels gets as many as its time allows, what is solved directly beside it included
+  // a heap without finger contact gets as many sub-steps as fit, including the direct solutions beside it
   const int iterations = std::max(options.least_iterations_of_substep, static_cast<int>(options.method.iterations));
   const double visits = static_cast<double>(contacts.size()) * iterations + options.visits_of_direct * direct;
   return static_cast<int>(std::clamp(options.iteration_budget / visits, 1.0, double(options.large_substeps)));

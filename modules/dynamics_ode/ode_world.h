@@ -13,10 +13,10 @@
 
 namespace presa::ode {
 
-/// What went wrong so far, and what was done about it. Bodies keep their last good pose.
+/// Faults so far. Affected bodies keep their last good pose.
 struct Faults {
   enum Bit : std::uint32_t {
-    kBodyFrozen = 1,    ///< a state was not finite or beyond reason: that body is a fixed obstacle now
+    kBodyFrozen = 1,    ///< a state was not finite or not plausible: the body is now a fixed obstacle
     kEngineFailed = 2,  ///< an assertion inside ODE failed: all bodies are frozen
     kBadFinger = 4,     ///< a finger contact named no body or was not finite: ignored
   };
@@ -24,35 +24,35 @@ struct Faults {
   std::uint64_t count = 0;
 };
 
-/// The rigid bodies of a scene, stepped by ODE. One thread creates, steps and destroys it.
+/// The rigid bodies of a scene, stepped by ODE. Must be created, stepped and destroyed on one thread.
 ///
-/// Body-body contacts are all but rigid (ode_options.h); fingers are implicit spring-dampers (finger_row.h). Semi-implicit
-/// Euler for translation, kick-drift for rotation (rotation.h), each island with the solver that suits it
-/// (island_solver.h), friction as Coulomb's (step_solver.h). The same calls give the same bits.
+/// Body-body contacts are nearly rigid (ode_options.h); fingers are implicit spring-dampers (finger_row.h).
+/// Semi-implicit Euler for translation, Runge-Kutta at constant angular momentum for rotation (rotation.h), a solver
+/// per island (island_solver.h), Coulomb friction (step_solver.h). Deterministic: the same calls give the same bits.
 class OdeWorld {
  public:
   explicit OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options = {});
   ~OdeWorld();
 
-  /// Advances all bodies from `time` to time + period. `fingers` is what the haptic thread found last, with its time;
-  /// it is extrapolated to `time`, and fades when it is older than ages::fingers says. Never throws.
+  /// Advances all bodies from `time` to time + period [s]. `fingers` is the last contact exchange with its time; it is
+  /// extrapolated to `time` and fades when older than ages::fingers. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
-  /// The same, telling `watch` after each part of it, by its number in Stage.
+  /// As above; reports each completed Stage to `watch`.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out, StageWatch& watch) noexcept;
-  /// What is drawn and fixed from the next step on. A world to which this is never said has none of it.
+  /// Sets the snap constraints from the next step on. Never called: none.
   void attract(const Attractions& attractions);
-  /// The poses now, as a state valid from `time` on.
+  /// Writes the current poses as a state valid from `time` on [s].
   void write(double time, ObjectState& out) noexcept;
 
-  /// Gives moving body `i` the velocity of its origin and its angular velocity [m/s, rad/s, in W].
+  /// Sets the velocity of moving body `i` at its origin and its angular velocity [m/s, rad/s, in W].
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) noexcept;
 
-  /// Mean force of finger `i` on its body over the last step, as the solver found it [N]; zero without contact.
+  /// Mean force of finger `i` on its bodies over the last step, as solved [N]; zero without contact.
   Vec3 fingerForce(std::size_t i) const noexcept;
-  /// Contacts between bodies found in the last step.
+  /// Contacts between bodies in the last step.
   const std::vector<BodyContact>& contacts() const noexcept;
   const Faults& faults() const noexcept;
-  /// Steps in which the direct solver reported trouble in an island and the iterative one took it over.
+  /// Steps in which the direct solver failed on an island and the iterative solver replaced it.
   std::uint64_t fallbackSteps() const noexcept;
 
  private:

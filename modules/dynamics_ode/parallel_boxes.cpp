@@ -7,8 +7,8 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kRounding = 1e-13;  // [rad]
-constexpr double kTurn = 1e-11;      // [rad], out of any axis: half of the quaternion's vector part
+constexpr double kRounding = 1e-13;  // edges at a smaller angle, but not 0, confuse ODE [rad]
+constexpr double kTurn = 1e-11;      // rotation of the stand-in about kAxis [rad]
 const Vec3 kAxis(0.62, 0.41, 0.67);
 
 bool nearlyParallel(dGeomID a, dGeomID b) {

@@ -3,9 +3,10 @@
 
 namespace presa::ode {
 
-/// ODE takes the cross product of two edges for a separating axis even where it is nothing but rounding. Of boxes that lie on each
-/// other with axes parallel to 1e-16 but not to the last bit (a cube that rolled on another side), it then misses one contact
-/// in 50, step after step, and lets them fall through each other. Turned by 1e-11 rad they are what they were, and found.
+/// Workaround for ODE's box-box collision, which uses the cross product of two edges as a separating axis even when it
+/// is only rounding. For boxes in contact with axes parallel to 1e-16 but not to the last bit (a cube that rolled onto
+/// another side) it misses one contact in 50, step after step, and the boxes sink into each other. A box rotated by
+/// 1e-11 rad is detected reliably.
 class ParallelBoxes {
  public:
   ParallelBoxes() : twin_(dCreateBox(nullptr, 1, 1, 1)) {}
@@ -13,7 +14,8 @@ class ParallelBoxes {
   ParallelBoxes(const ParallelBoxes&) = delete;
   ParallelBoxes& operator=(const ParallelBoxes&) = delete;
 
-  /// What to collide with `other` in place of `geom`: itself, or such a box. Good until the next call.
+  /// The geometry to collide with `other` in place of `geom`: `geom` itself or a rotated copy, valid until the next
+  /// call.
   dGeomID standIn(dGeomID geom, dGeomID other);
 
  private:

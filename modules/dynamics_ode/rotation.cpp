@@ -1,3 +1,6 @@
+// Torque-free rotation of a rigid body. driftRotation: classical Runge-Kutta on the quaternion ODE q' = 1/2 w(q) q with
+// constant angular momentum L_W, in sub-steps of at most kMaxAngle; w follows from q and L_W. Invariants: L_W to
+// rounding, |q| = 1. eulerRotation and matrixRotation are conventional schemes for comparison.
 #include "modules/dynamics_ode/rotation.h"
 
 #include <algorithm>
@@ -13,7 +16,7 @@ Vec3 spin(const Quat& q, const Mat3& inverse_inertia, const Vec3& momentum_W) {
   return q * (inverse_inertia * (q.conjugate() * momentum_W));
 }
 
-// q' = 1/2 (0, w) q for a quaternion that need not be of unit length between the stages
+// q' = 1/2 (0, w) q; the quaternion need not be normalised between the Runge-Kutta stages
 Eigen::Vector4d rate(const Eigen::Vector4d& xyzw, const Mat3& inverse_inertia, const Vec3& momentum_W) {
   const Quat q(xyzw);
   const Vec3 w = spin(q.normalized(), inverse_inertia, momentum_W);

@@ -3,17 +3,18 @@
 
 namespace presa::ode {
 
-/// Free rotation of a rigid body over `h` [s]: orientation q_WB and angular velocity w_WB [rad/s] (both in and out)
-/// for inertia I about the centre of mass in body axes [kg m^2] and its inverse. The angular momentum is constant, so
-/// only q_WB' = 1/2 w(q_WB) q_WB is integrated (classical Runge-Kutta, sub-steps of 1/40 rad) and w follows from it:
+/// Free rotation of a rigid body over `h` [s]. Updates orientation q_WB and angular velocity w_WB [rad/s], given the
+/// inertia about the centre of mass in body axes [kg m^2] and its inverse. Since angular momentum is constant, only
+/// q_WB' = 1/2 w(q_WB) q_WB is integrated (classical Runge-Kutta, sub-steps of 1/40 rad) and w follows from it:
 /// momentum is exact to rounding, energy to fifth order in h per step.
 void driftRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h);
 
-/// One explicit Euler step of Euler's equations and of the quaternion, then normalised: gains energy, the textbook baseline.
+/// One explicit Euler step of Euler's equations and of the quaternion, then normalised. Textbook baseline; gains
+/// energy.
 void eulerRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h);
 
-/// R <- R (I + S(w_B) h), re-orthonormalised; the angular velocity stays, so a body whose moments differ never tumbles.
-/// (I + S dt multiplies from the right for body rates.)
+/// R <- R (I + S(w_B) h), re-orthonormalised, with constant angular velocity in W; bodies with unequal moments never
+/// tumble. (For body rates I + S h multiplies from the right.)
 void matrixRotation(Quat& q_WB, const Vec3& w_WB, double h);
 
 }  // namespace presa::ode

@@ -7,13 +7,13 @@ namespace {
 
 constexpr double kWindow = 0.5;  // [s]
 
-/// What a body may do in a window, and be still [m].
+/// Motion within a window that still counts as rest [m].
 struct Unrest {
-  double mean_moves = 0;  // from one window to the next
-  double trembles = 0;    // from where the window began
+  double mean_moves = 0;  // change of the mean pose from window to window
+  double trembles = 0;    // distance from the pose at the start of the window
 };
 constexpr Unrest kFew{1e-5, 2e-4}, kInAHeap{4e-4, 8e-4};
-constexpr std::uint32_t kHeap = 16;  // contacts: more are one
+constexpr std::uint32_t kHeap = 16;  // an island with more contacts counts as a heap
 
 Eigen::Matrix<double, 6, 1> displacement(const Pose& from, const Pose& to, double extent) {
   Quat turn = to.q * from.q.conjugate();
@@ -32,7 +32,7 @@ void Sleep::watch(const BodySet& bodies, std::size_t i) {
   body.farthest = std::max(body.farthest, u.norm());
 }
 
-// The next window counts from here.
+// Ends the window of body i and starts the next one.
 void Sleep::closeWindow(const BodySet& bodies, std::size_t i, bool in_a_heap) {
   const Unrest& allowed = in_a_heap ? kInAHeap : kFew;
   Stillness& body = stillness_[i];

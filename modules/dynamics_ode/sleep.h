@@ -7,38 +7,40 @@
 
 namespace presa::ode {
 
-/// Puts islands to sleep that no finger touches and in which every body has stayed where it was: over two windows of half a
-/// second the mean of its pose moved by less than 10 um, and it never left 0.2 mm around it. The mean tells the trembling of an
-/// iterative solution from a body that slides or rolls slowly (20 um/s keep it awake).
+/// Puts islands without finger contact to sleep when all their bodies have rested: the mean pose of each moved by less
+/// than 10 um between two windows of half a second, and the body stayed within 0.2 mm of its pose at the start of the
+/// window. The mean distinguishes the trembling of an iterative solution from slow sliding or rolling (20 um/s keeps a
+/// body awake).
 ///
-/// A heap creeps for ever, at some 0.2 mm/s (0.8 at rims), as contacts come and go: in an island of more than 16 contacts the
-/// mean may move by 0.4 mm and a body tremble by 0.8. What begins to fall, slide or tip is faster than that within a window.
+/// A heap creeps for ever, at about 0.2 mm/s (0.8 at rims), as contacts come and go. In an island of more than 16
+/// contacts the limits are therefore 0.4 mm for the mean and 0.8 mm for trembling. Falling, sliding or tipping exceeds
+/// them within a window.
 ///
-/// A sleeping body does not move, collides only with those awake, and its whole island wakes in the step in which a finger or a body
-/// that is awake touches one of it.
+/// A sleeping body does not move and collides only with awake bodies. Its whole island wakes in the step in which a
+/// finger or an awake body touches one of its bodies.
 class Sleep {
  public:
   explicit Sleep(const BodySet& bodies) : stillness_(bodies.size()), may_sleep_(bodies.size()), group_(bodies.size()) {}
 
-  /// After a step of `h`: watches all that is awake, and lets sleep what may.
+  /// Call after each step of `h` [s]: observes awake bodies and puts resting islands to sleep.
   void afterStep(BodySet& bodies, Islands& islands, double h);
-  /// Wakes the island of sleeping body `i`.
+  /// Wakes the whole island of sleeping body `i`.
   void wake(BodySet& bodies, std::size_t i);
 
  private:
-  using Displacement = Eigen::Matrix<double, 6, 1>;  // of the centre of mass, and turn times extent [m]
+  using Displacement = Eigen::Matrix<double, 6, 1>;  // centre of mass, and rotation times extent [m]
   struct Stillness {
     Pose reference;
     Displacement sum = Displacement::Zero(), last_mean = Displacement::Constant(1);
-    double farthest = 0;  // from the reference, in this window [m]
-    bool still = false;   // in the last window
+    double farthest = 0;  // maximum distance from the reference in this window [m]
+    bool still = false;   // rested in the last window
   };
   void watch(const BodySet& bodies, std::size_t i);
   void closeWindow(const BodySet& bodies, std::size_t i, bool in_a_heap);
 
   std::vector<Stillness> stillness_;
   std::vector<char> may_sleep_;     // by island, while a window closes
-  std::vector<std::size_t> group_;  // of sleeping bodies: the island they fell asleep in
+  std::vector<std::size_t> group_;  // by sleeping body: the island in which it fell asleep
   double window_time_ = 0;
   int window_steps_ = 0;
 };

@@ -7,7 +7,7 @@
 
 namespace presa::ode {
 
-/// The parts of a dynamics step; a scene may do without some.
+/// The stages of a dynamics step. A scene may use only some of them.
 enum class Stage : std::size_t { kWake, kCollide, kExtrapolate, kFingers, kPredict, kSolve, kRotate, kPublish };
 
 struct StageText {
@@ -15,7 +15,7 @@ struct StageText {
   std::string what;       ///< Module::stages
   std::string functions;  ///< Module::stageFunctions
 };
-/// Those of a scene, in their order.
+/// The stages that a scene uses, in order.
 std::vector<StageText> listStages(const OdeOptions& options);
 
 }  // namespace presa::ode

@@ -1,3 +1,8 @@
+// Coulomb friction with a round cone on top of ODE's box friction. Per island: predict the slip direction by a solve
+// without friction (only where something slid), align the friction directions with it, solve, and check every pair's
+// total friction against its cone. An island that violates it is restored and solved once more, bounded by the normal
+// forces just found. Invariants: a repeated solve starts from the saved state; friction of a pair exceeds its cone by
+// at most kTolerance, unless the one repetition was not enough.
 #include "modules/dynamics_ode/step_solver.h"
 
 #include <algorithm>
@@ -7,15 +12,15 @@
 namespace presa::ode {
 namespace {
 
-// enough for a direction
+// enough for a direction only
 constexpr int kPredictionIterations = 20;
 constexpr int kMostRepeats = 1;
-constexpr double kSlides = 1e-5;       // [m/s], where the direct solver says so; the iterative one: kRestSpeed
-constexpr double kSlidesFast = 0.01;   // [m/s], will not stop within a step
-constexpr double kSlidingShare = 0.2;  // of an island's friction limits, of what slides in it
-constexpr double kAtLimit = 0.98;      // friction over its limit, of what may slide
-constexpr double kTolerance = 0.01;    // friction above its cone
-constexpr double kLag = 0.05;          // friction below its cone because of an old normal force
+constexpr double kSlides = 1e-5;       // slip that counts as sliding in the direct solver [m/s]; iterative: kRestSpeed
+constexpr double kSlidesFast = 0.01;   // slip that cannot stop within a step [m/s]
+constexpr double kSlidingShare = 0.2;  // share of the friction limits of an island at which a prediction pays
+constexpr double kAtLimit = 0.98;      // friction relative to its limit above which a pair may slide
+constexpr double kTolerance = 0.01;    // accepted excess of friction over its cone
+constexpr double kLag = 0.05;          // accepted deficit of friction caused by an outdated normal force
 
 std::size_t index(std::int32_t body) { return static_cast<std::size_t>(body); }
 bool any(const std::vector<char>& flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); }
@@ -89,7 +94,8 @@ void StepSolver::soften(Islands& islands, double h) {
   }
 }
 
-// Last step's load: friction is aligned with it, so that a contact about to give way gives way in the right direction.
+// Warm start: aligns friction with the last step's load, so that a contact at its limit gives way in the right
+// direction.
 void StepSolver::startFromLastStep(Islands& islands) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     ContactJoints::Joint& joint = joints_[i];
@@ -100,8 +106,8 @@ void StepSolver::startFromLastStep(Islands& islands) {
   }
 }
 
-// The contacts of one pair share the load as they like as long as they stick, a single one may be at its limit: what counts
-// is whether they slide together.
+// A sticking pair may distribute its load arbitrarily over its contacts, and a single one may be at its limit; sliding
+// is therefore judged for the pair as a whole.
 template <class Use>
 void StepSolver::forEachPatch(Use use) {
   for (std::size_t i = 0; i < joints_.size();) {
@@ -120,8 +126,8 @@ void StepSolver::forEachPatch(Use use) {
   }
 }
 
-// In a heap that the iterative solver keeps trembling some contact always slides: it is worth a look ahead when a good part of
-// the load does.
+// In a heap that trembles under the iterative solver some contact always slides; a prediction pays only when a
+// considerable share of the load does.
 bool StepSolver::findSliding(Islands& islands) {
   sliding_.assign(bodies_.size(), 0);
   load_.assign(bodies_.size(), {});
@@ -164,15 +170,16 @@ void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vec
     joints_[i].slides = slip.norm() > kSlidesFast && solver_.isDirect(islands[islandOf(i, islands)]);
   }
   putBack(islands, wanted);
-  // a second direction would hold a contact on the line that was looked ahead, where what other contacts do turns it aside
+  // friction in a second direction would hold a contact on the predicted line although other contacts may deflect it,
+  // so a contact that slides fast, now and in the prediction, gets none
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     joints_[i].slides = joints_[i].slides && joints_.slip(i, bodies_).norm() > kSlidesFast;
   }
   watch.done(static_cast<std::size_t>(Stage::kPredict));
 }
 
-// Friction above its cone: the normal force fell since the last step (after a blow), or it was not aligned with the slip. Friction
-// at its limit and well inside its cone: the normal force rose.
+// Friction above its cone: the normal force has fallen since the last step (after an impact), or friction was not
+// aligned with the slip. Friction at its bound but well inside its cone: the normal force has risen.
 bool StepSolver::judge(Islands& islands) {
   wrong_.assign(bodies_.size(), 0);
   forEachPatch([&](const Patch& patch) {
@@ -181,7 +188,8 @@ bool StepSolver::judge(Islands& islands) {
     const bool lags = patch.friction > kAtLimit * patch.limit && patch.friction < (1 - kLag) * patch.cone;
     if (solver_.isDirect(islands[island]) && (exceeds || lags)) wrong_[island] = 1;
   });
-  // a bound that the direct solver found itself, at a contact without load, is one it cannot get past
+  // also repeat islands on which the direct solver failed: its own friction bound at an unloaded contact may be the
+  // cause
   for (std::size_t i = 0; i < bodies_.size(); ++i) wrong_[i] = wrong_[i] != 0 || fell_back_[i] != 0 ? 1 : 0;
   counts.repeats += static_cast<std::uint64_t>(std::count(wrong_.begin(), wrong_.end(), 1));
   return any(wrong_);

@@ -8,18 +8,20 @@
 
 namespace presa::ode {
 
-/// Solves one step so that friction between bodies is Coulomb's: a round cone over the normal force of the same step, against the
-/// slip. ODE alone bounds friction by a box, and in its direct solver over the normal force of a step without friction.
+/// Solves one step with Coulomb friction between bodies: a round cone over the normal force of the same step, opposing
+/// the slip. ODE alone bounds friction by a box, and in its direct solver by the normal force of a solve without
+/// friction.
 ///
-/// A contact starts from the direction and normal force of the last step. Where something slid then, the island is first
-/// solved without friction, and friction set against the slip that shows. After the solve each island is judged; one in
-/// which a contact exceeds its cone, or slides well inside it, is put back and solved once more with what was found.
+/// A contact starts from the direction and normal force of the last step. Where something slid, the island is first
+/// solved without friction, and friction is aligned against the predicted slip. After the solve each island is checked;
+/// one with a contact outside its cone, or sliding well inside it, is restored and solved once more with the forces
+/// just found.
 class StepSolver {
  public:
   StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, const OdeOptions& options);
 
-  /// Steps all bodies, which are at the start of the step and stand in so many layers (`Layers`, `kAllLayers`). True
-  /// when an island fell back to the iterative solver.
+  /// Steps all bodies from the start of the step. `layers`: stack height (`Layers`, `kAllLayers`). True when an island
+  /// fell back to the iterative solver.
   bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, int layers, double h,
              int substeps, StageWatch& watch);
 
@@ -27,17 +29,17 @@ class StepSolver {
   void setCrowded(bool crowded) noexcept { solver_.setCrowded(crowded); }
 
   struct Counts {
-    std::uint64_t predictions = 0, repeats = 0;  // of islands
+    std::uint64_t predictions = 0, repeats = 0;  // number of islands
   } counts;
 
  private:
   void pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
             StageWatch& watch);
-  /// The contacts of one pair.
+  /// The contacts of one pair of bodies.
   struct Patch {
     std::size_t body = 0;  // B
     std::size_t first = 0, end = 0;
-    double friction = 0, cone = 0, limit = 0;  // sums over them [N]; limit: what was imposed
+    double friction = 0, cone = 0, limit = 0;  // sums over the contacts [N]; limit: the imposed bound
   };
   struct Load {
     double all = 0, sliding = 0;

@@ -1,13 +1,14 @@
 #include "tests/modules/dynamics_ode/support.h"
 #include "tests/support/alloc_lock_guard.h"
 
-// A step takes no memory and waits for no lock once a scene has been through its motions: what ODE and Presa took by then is kept.
+// A step neither allocates memory nor waits for a lock once a scene has gone through its motions; earlier allocations
+// are kept.
 namespace presa::ode {
 namespace {
 
 const Vec3 kCube = Vec3::Constant(0.05);
 
-// Cubes that touch all around, or columns apart.
+// Cubes in contact on all sides, or separate columns.
 std::shared_ptr<const World> pile(int n, double apart = 0) {
   WorldMaker maker;
   maker.table();
@@ -23,7 +24,7 @@ class Allocation : public testing::Test {
   void SetUp() override {
     if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   }
-  /// Steps for `duration` with these fingers, and counts.
+  /// Steps for `duration` with these fingers and counts violations.
   static void expectNone(Runner& runner, double duration, std::vector<ReferenceFinger> fingers = {}) {
     for (const double end = runner.time + duration - kStep / 2; runner.time < end;) {
       const ContactExchange exchange = exchangeOf(fingers, runner);

@@ -1,4 +1,4 @@
-// Bodies that an assembly draws and puts: the law against its closed solution, and what it must never do.
+// Snap constraints of an assembly: the law against its closed solution, and its limits.
 #include <gtest/gtest.h>
 
 #include "modules/dynamics_ode/attractor.h"
@@ -27,7 +27,7 @@ Pose turned(double angle, const Vec3& axis, const Vec3& p = Vec3::Zero()) {
 
 class Attracted : public testing::Test {
  protected:
-  /// Alone in empty space, unless the test says otherwise.
+  /// Alone in empty space, unless a test adds more.
   WorldMaker maker = [] {
     WorldMaker one;
     one.gravity(Vec3::Zero()).box({0.06, 0.04, 0.02}, 0.1, {});
@@ -39,7 +39,8 @@ class Attracted : public testing::Test {
   }
 };
 
-// Each step takes rate h of the way that is left: x_n = x_0 (1 - rate h)^n, which is exp(-rate t) in small steps.
+// Each step covers a fraction rate h of the remaining way: x_n = x_0 (1 - rate h)^n, which is exp(-rate t) for small
+// steps.
 TEST_F(Attracted, TheWayThatIsLeftDecays) {
   const Vec3 goal(0.02, -0.01, 0.015);
   OdeWorld bodies(maker.world(), awake());
@@ -50,7 +51,7 @@ TEST_F(Attracted, TheWayThatIsLeftDecays) {
   }
 }
 
-// The turn likewise, about any axis; the drift of the rotation is not a chord, hence 1 %.
+// The same for rotation about any axis; the rotation over a step is an arc, not a chord, hence 1 %.
 TEST_F(Attracted, AndTheTurn) {
   const double angle = 0.4;
   const Quat goal = turned(angle, {1, 2, -1}).q;
@@ -62,7 +63,7 @@ TEST_F(Attracted, AndTheTurn) {
   }
 }
 
-// From far away: never harder than `most` and no faster than `speed`.
+// From far away: acceleration at most `most`, speed at most `speed`.
 TEST_F(Attracted, IsNeverDrawnHarderOrFasterThanAsked) {
   OdeWorld bodies(maker.world(), awake());
   bodies.attract(towards({{1, 0, 0}, Quat::Identity()}, 0.1, 3));
@@ -80,7 +81,7 @@ TEST_F(Attracted, IsNeverBrakedHarderThanAsked) {
   EXPECT_NEAR(state.bodies[0].v_WB.y(), 2 - 20 * kStep, 1e-6);
 }
 
-// Stronger than friction it arrives exactly; weaker it does not move at all.
+// A pull stronger than friction arrives exactly; a weaker one does not move the body at all.
 TEST_F(Attracted, FrictionStopsOnlyAPullThatIsWeaker) {
   maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
   for (const double weights : {0.4, 0.6}) {
@@ -104,7 +105,7 @@ TEST_F(Attracted, APutBodyIsCarriedSlowlyAndStandsExactly) {
   EXPECT_LT(state.bodies[0].X_WB_end.q.angularDistance(goal.q), 1e-7);
 }
 
-// Another body leans on it as on a fixed one; when it is taken it falls, from rest, as anything falls.
+// A fixed body supports another like a scene's fixed body; when released it falls from rest.
 TEST_F(Attracted, APutBodyCarriesOthersAndFallsWhenItIsTaken) {
   maker.gravity({0, 0, -kGravity}).box({0.04, 0.04, 0.02}, 0.1, {{0, 0, 0.0201}, Quat::Identity()});
   OdeWorld bodies(maker.world());
@@ -115,13 +116,13 @@ TEST_F(Attracted, APutBodyCarriesOthersAndFallsWhenItIsTaken) {
   EXPECT_TRUE(state.bodies[1].asleep);
   bodies.attract({});
   run(bodies, kStep, 2, 2.2);
-  const int n = 40;  // semi-implicit Euler: sum of the speeds after each step
+  const int n = 40;  // semi-implicit Euler: sum of the speeds at the step ends
   EXPECT_NEAR(state.bodies[0].X_WB_end.p.z(), -kGravity * kStep * kStep * n * (n + 1) / 2, 1e-6)
       << "1e-6: the other lets go of it";
   EXPECT_LT(state.bodies[1].X_WB_end.p.z(), -0.1) << "woken, and without support";
 }
 
-// Drawn against a wall it sleeps like anything that stays where it is, until it is drawn elsewhere.
+// Pulled against a wall, a body sleeps like any other resting body, until its target changes.
 TEST_F(Attracted, WhatIsHeldUpSleepsUntilThereIsNews) {
   maker.fixedBox({0.02, 1, 1}, {{0.0401, 0, 0}, Quat::Identity()});
   OdeWorld bodies(maker.world());
@@ -136,7 +137,8 @@ TEST_F(Attracted, WhatIsHeldUpSleepsUntilThereIsNews) {
   EXPECT_LT(state.bodies[0].X_WB_end.p.x(), -0.005);
 }
 
-// It pushes what sleeps in its way before it; gone through that instead, it would be let go inside it, and thrown away.
+// A carried body pushes sleeping bodies out of its way. Passing through them, it would be released inside and thrown
+// away.
 TEST_F(Attracted, WhatIsCarriedPushesWhatSleepsInItsWay) {
   maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
   maker.box({0.06, 0.04, 0.02}, 0.1, {{0.1, 0, 0}, Quat::Identity()});
@@ -154,7 +156,7 @@ TEST_F(Attracted, WhatIsCarriedPushesWhatSleepsInItsWay) {
   EXPECT_LT(state.bodies[0].v_WB.norm() + state.bodies[2].v_WB.norm(), 0.05);
 }
 
-// A heap elsewhere is none of its business: to wake it costs a second of solving.
+// Fixing and releasing a body must not wake a distant heap: that costs a second of solving.
 TEST_F(Attracted, WhatIsPutAndTakenWakesOnlyItsNeighbours) {
   maker.gravity({0, 0, -kGravity}).fixedBox({1, 1, 0.1}, {{0, 0, -0.06}, Quat::Identity()});
   const double beside = 0.0605, far = 0.065;  // from centre to centre: gaps of 0.5 and 5 mm

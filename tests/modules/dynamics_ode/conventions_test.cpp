@@ -3,7 +3,7 @@
 namespace presa::ode {
 namespace {
 
-// Every shape here reaches 0.05 m from its origin along +-x and +-z (the capsule 0.05 along x, 0.1 along z).
+// Every shape extends 0.05 m from its origin along +-x and +-z (the capsule 0.05 along x, 0.1 along z).
 struct Named {
   const char* name;
   Shape shape;
@@ -29,9 +29,9 @@ const std::vector<Named>& shapes() {
   return all;
 }
 
-// ODE's normal points from its second geometry into its first; ours from A into B, with the force on B. The table runs
-// every pair of shapes in both orders, along two axes, with either or both of them free: a body that lies on the +
-// side of another is pushed to +. Depth: 2 mm put in by construction; 1 % for the engine's support mapping.
+// ODE's normal points from its second geometry into its first; Presa's from A into B, with the force on B. The test
+// runs every pair of shapes in both orders, along two axes, with either or both of them free: a body on the + side of
+// another is pushed to +. Depth: 2 mm by construction; 1 % tolerance for the engine's support mapping.
 class Conventions : public testing::TestWithParam<std::tuple<int, int>> {};
 
 TEST_P(Conventions, NormalPointsFromAIntoBAndDepthIsPositive) {
@@ -40,7 +40,7 @@ TEST_P(Conventions, NormalPointsFromAIntoBAndDepthIsPositive) {
   const double overlap = 0.002;
   const BodyInertia free{0.1, Vec3::Zero(), 1e-4 * Mat3::Identity()};
   for (const bool along_x : {true, false}) {
-    for (const int moving : {1, 2, 3}) {  // bit 0: the first, bit 1: the second
+    for (const int moving : {1, 2, 3}) {  // bit 0: the first is free, bit 1: the second
       const double gap = (along_x ? first.reach_x + second.reach_x : first.reach_z + second.reach_z) - overlap;
       const Vec3 axis = along_x ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ());
       WorldMaker maker;
@@ -59,7 +59,7 @@ TEST_P(Conventions, NormalPointsFromAIntoBAndDepthIsPositive) {
         EXPECT_LE(contact.depth, 1.01 * overlap) << first.name << " " << second.name;
         EXPECT_NEAR(contact.p_W.dot(axis), (along_x ? first.reach_x : first.reach_z) - overlap / 2, 0.51 * overlap);
       }
-      // and the force goes the same way: they move apart
+      // the force agrees with the normal: they move apart
       EXPECT_GT((runner[1].v_WB - runner[0].v_WB).dot(axis), 0) << first.name << " " << second.name;
     }
   }
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(AllPairs, Conventions, testing::Combine(testing::Range(
                                   shapes()[static_cast<std::size_t>(std::get<1>(param.param))].name;
                          });
 
-// Geometry placed off the body frame, and a centre of mass elsewhere again: it must lie where X_WB X_BG says.
+// A geometry offset from the body frame, with yet another centre of mass, must lie at X_WB X_BG.
 TEST(Placement, GeometryLiesWhereTheSceneSays) {
   const Pose X_WB{{0.3, 0.1, 0.2}, turn(radians(90), Vec3::UnitY())};
   const Pose X_BG{{0.05, 0, 0.01}, turn(radians(90), Vec3::UnitX())};
@@ -92,8 +92,8 @@ TEST(Placement, GeometryLiesWhereTheSceneSays) {
   }
 }
 
-// Four corners carry a box on a mesh of many triangles as on a plane: duplicates at triangle edges are merged, the
-// outermost contacts are kept.
+// A box rests on a mesh of many triangles as on a plane, on four corners: duplicates at triangle edges are merged, and
+// the outermost contacts are kept.
 TEST(Placement, BoxRestsOnAMeshTable) {
   WorldMaker maker;
   maker.add(MeshRef{}, {{0, 0, -0.5}, Quat::Identity()}, {}, {}, cubeMesh(0.5));
@@ -105,8 +105,8 @@ TEST(Placement, BoxRestsOnAMeshTable) {
   EXPECT_LE(runner.bodies.contacts().size(), 8U);
 }
 
-// A cube that has rolled on another side lies on the table with edges parallel to rounding, which ODE alone mistakes for a gap in one
-// of 60 headings: then it sinks.
+// A cube that rolled onto another side lies on the table with edges parallel to rounding. ODE alone then misses the
+// contact in one of 60 headings, and the cube sinks.
 TEST(Placement, CubeIsFoundOnEachOfItsSidesAtAnyHeading) {
   const Vec3 edges = Vec3::Constant(0.05);
   for (int n = 0; n < 500; ++n) {

@@ -11,9 +11,9 @@ struct Grip {
 };
 class PinchedCube : public testing::TestWithParam<Grip> {};
 
-// Two fingers fixed in space, 2 mm inside opposite faces, must press with k * depth each and hold the cube still:
-// for every stiffness and down to 1 g, where a penalty force handed over once per step is unstable. Start 0.1 mm
-// off centre. 0.1 % is what a psychophysical grip force needs; rest is speed below 1 um/s.
+// Two fingers fixed in space, 2 mm inside opposite faces, must press with k * depth each and hold the cube still, for
+// every stiffness and down to 1 g, where an explicit penalty force is unstable. Start 0.1 mm off centre. A
+// psychophysical grip force needs 0.1 %; rest means a speed below 1 um/s.
 TEST_P(PinchedCube, IsHeldAtRestWithTheRenderedForce) {
   const auto [k, mass] = GetParam();
   Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, mass, {{1e-4, 0, 0}, turn(0.01, {0, 1, 1})}).world());
@@ -24,7 +24,7 @@ TEST_P(PinchedCube, IsHeldAtRestWithTheRenderedForce) {
   EXPECT_LT(runner[0].v_WB.norm(), 1e-6);
   EXPECT_LT(runner[0].w_WB.norm(), 1e-4);
   for (std::size_t f = 0; f < 2; ++f) {
-    // what the finger feels and what the body gets are opposite
+    // the force on the body is the negative of the force on the finger
     EXPECT_LT((runner.bodies.fingerForce(f) + exchange.fingers[f].f_H_W).norm(), 1e-3 * k * 0.002);
     EXPECT_NEAR(-runner.bodies.fingerForce(f).dot(exchange.fingers[f].nhat_W), k * 0.002, 1e-3 * k * 0.002);
   }
@@ -36,7 +36,8 @@ INSTANTIATE_TEST_SUITE_P(StiffnessAndMass, PinchedCube,
                                          Grip{2000, 0.05}, Grip{2000, 1}, Grip{10000, 0.001}, Grip{10000, 0.05},
                                          Grip{10000, 1}));
 
-// The same grip through penalty forces is the known failure: h^2 K / 2 per axis, K = 2 k. 10 % either side of it.
+// The same grip with explicit penalty forces is unstable below m = h^2 K / 2 per axis, K = 2 k. Tested 10 % on either
+// side.
 TEST(ExplicitCoupling, IsUnstableBelowItsMassLimit) {
   const double k = 2000, limit = kStep * kStep * 2 * k / 4;
   const auto amplitude = [&](double mass) {
@@ -58,7 +59,7 @@ TEST(ExplicitCoupling, IsUnstableBelowItsMassLimit) {
   EXPECT_GT(amplitude(0.9 * limit), 1e-3);
 }
 
-// Hanging between two fingers, a cube sags by the tangential springs alone: m g / (2 k).
+// A cube held between two fingers sags by the tangential springs alone: m g / (2 k).
 TEST(Finger, HeldCubeSagsByItsWeightOverTheTangentialStiffness) {
   const double k = 2000, mass = 0.1;
   Runner runner(WorldMaker().box(kCube, mass, {}).world());
@@ -68,14 +69,14 @@ TEST(Finger, HeldCubeSagsByItsWeightOverTheTangentialStiffness) {
   const double sag = mass * kGravity / (2 * k);
   EXPECT_NEAR(-runner[0].X_WB_end.p.z(), sag, 1e-3 * sag);
   EXPECT_NEAR(runner.bodies.fingerForce(0).z(), mass * kGravity / 2, 1e-3 * mass * kGravity);
-  // ... and does not creep
+  // ... without creep
   const double before = runner[0].X_WB_end.p.z();
   for (int n = 0; n < 800; ++n) runner.step(exchangeOf(fingers, runner));
   EXPECT_NEAR(runner[0].X_WB_end.p.z(), before, 1e-9);
 }
 
-// The friction cone of a grip: two fingers of mu 0.5 that press 4 N each carry a 4 N weight. 2 % below it the cube
-// stays (less than 0.5 mm in 5 s), 2 % above it falls.
+// Friction cone of a grip: two fingers with mu 0.5 pressing 4 N each carry a weight of 4 N. 2 % below, the cube stays
+// (less than 0.5 mm in 5 s); 2 % above, it falls.
 TEST(Finger, GripHoldsBelowTheConeAndSlipsAbove) {
   const double k = 2000, depth = 0.002, mu = 0.5;
   const auto fall = [&](double weight) {
@@ -97,11 +98,11 @@ TEST(Finger, GripHoldsBelowTheConeAndSlipsAbove) {
   EXPECT_GT(fall(1.02 * limit), 5e-3);
 }
 
-// The cone is round: a single finger pressing a cube on an icy table drags it with mu N whatever the direction.
+// The cone is round: a finger sliding over a heavy cube exerts mu N in every direction.
 TEST(Finger, SlippingForceIsMuTimesNormalForceInEveryDirection) {
   const double k = 2000, depth = 0.002, mu = 0.5;
   for (double heading = 0; heading <= 90; heading += 15) {
-    // so heavy and hard to turn that it stays put while the finger slides over it
+    // so heavy that it stays in place while the finger slides over it
     WorldMaker maker;
     maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
     Runner runner(maker.world());
@@ -122,8 +123,8 @@ TEST(Finger, SlippingForceIsMuTimesNormalForceInEveryDirection) {
   }
 }
 
-// Two fingers carry a 1 g cube through a 30 mm, 1 Hz sine, along the grip and across it. The oracle integrates the two
-// springs with steps of 10 us (symplectic Euler); 0.05 mm is half of what a finger can tell.
+// Two fingers carry a 1 g cube through a 30 mm, 1 Hz sine, along and across the grip. Oracle: the two springs
+// integrated in steps of 10 us (symplectic Euler). 0.05 mm is half of the perceptible difference.
 TEST(Finger, MovingPairCarriesALightCubeLikeAFineIntegration) {
   const double k = 10000, mass = 0.001, d = 0.1 * std::sqrt(k * mass);
   for (const Vec3& direction : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
@@ -155,8 +156,8 @@ TEST(Finger, MovingPairCarriesALightCubeLikeAFineIntegration) {
   }
 }
 
-// A fingertip larger than the body it holds: the proxy moves faster than the surface when the body turns, which
-// an implicit step must count or light bodies flutter.
+// A fingertip larger than the body: when the body rotates, the proxy moves faster than the surface. An implicit step
+// must include this, or light bodies flutter.
 TEST(Finger, LightBodyThinnerThanTheFingertipStaysAtRest) {
   const double edge = 0.004, k = 10000;
   Runner runner(
@@ -167,8 +168,8 @@ TEST(Finger, LightBodyThinnerThanTheFingertipStaysAtRest) {
   EXPECT_LT(runner[0].w_WB.norm(), 1e-3);
 }
 
-// The sample is older than the step: the HIP is carried on with its velocity. A finger moving with its body at 0.2 m/s,
-// sampled 4 ms ago, must press with the same force as one sampled now.
+// A sample older than the step is extrapolated with its velocity: a finger moving with its body at 0.2 m/s, sampled 4
+// ms ago, must press with the same force as a current one.
 TEST(Finger, OldSampleIsExtrapolatedWithItsVelocity) {
   const Vec3 v(0, 0, 0.2);
   const auto force = [&](double age) {
@@ -191,8 +192,9 @@ TEST(Finger, OldSampleIsExtrapolatedWithItsVelocity) {
   EXPECT_NEAR(force(0).x(), 0.5, 1e-6);
 }
 
-// A proxy that sticks and comes to its static bound within the step lets go there: what is rendered from then on is sliding
-// friction, and the body gets no more than that. mu 0.8 and 0.6 over 2 N; stretched to 1.5 and to 1.7 mm at the end of the step.
+// A sticking proxy that reaches its static bound within the step slips there: from then on sliding friction is
+// rendered, and the body gets no more than that. mu 0.8 and 0.6 at 2 N; displaced by 1.5 and by 1.7 mm at the end of
+// the step.
 TEST(Finger, LetsGoInTheStepInWhichItsStaticBoundIsReached) {
   const auto friction = [](double end) {
     WorldMaker maker;
@@ -216,7 +218,7 @@ TEST(Finger, LetsGoInTheStepInWhichItsStaticBoundIsReached) {
   EXPECT_NEAR(friction(0.0017), 0.6 * 2, 1e-6);
 }
 
-// Of a finger on a heavy cube, 2 N, last heard of so long before the step [N].
+// Force of a finger with 2 N on a heavy cube, whose last sample has this age [N].
 double forceAtAge(WorldMaker maker, double age) {
   maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
   Runner runner(maker.world());
@@ -227,15 +229,15 @@ double forceAtAge(WorldMaker maker, double age) {
   return runner.bodies.fingerForce(0).norm();
 }
 
-// Reported ten times as seldom, a finger is older before it is missed: two haptic periods and the step that is being solved, 45 ms.
+// With a tenth of the haptic rate the age limit is larger: two haptic periods plus the step being solved, 45 ms.
 TEST(Finger, ThatIsReportedSeldomFadesLater) {
   const auto force = [](double age) { return forceAtAge(WorldMaker().rates(100, 40), age); };
   EXPECT_NEAR(force(0.044), 2, 1e-6);
-  EXPECT_NEAR(force(0.055), 1, 1e-6);  // half of the 20 ms in which it fades
+  EXPECT_NEAR(force(0.055), 1, 1e-6);  // half of the fade time of 20 ms
   EXPECT_EQ(force(0.066), 0);
 }
 
-// Fingers that are no longer reported must let go smoothly, not hold for ever: full up to 20 ms, gone at 40 ms.
+// A finger without new samples fades smoothly: full force up to 20 ms, none at 40 ms.
 TEST(Finger, FadesWhenNoLongerReported) {
   const auto force = [](double age) { return forceAtAge(WorldMaker(), age); };
   EXPECT_NEAR(force(0.020), 2, 1e-9);
@@ -244,9 +246,9 @@ TEST(Finger, FadesWhenNoLongerReported) {
   EXPECT_EQ(force(10), 0);
 }
 
-// Action equals reaction: over any 0.1 s of a grasp the impulse that the object state reports is the integral of what was rendered on
-// the finger. A cube is gripped, lifted with acceleration and held; rendered at 1 kHz against the interpolated pose, as the
-// haptic thread does. 1 % of the window's impulse.
+// Newton's third law: over any 0.1 s of a grasp the impulse in the object state equals the integral of the force
+// rendered on the finger. A cube is gripped, lifted with acceleration and held; the force is rendered at 1 kHz against
+// the interpolated pose, as on the haptic thread. Tolerance: 1 % of the window's impulse.
 TEST(Finger, ImpulseOnTheBodyIsWhatTheFingerFelt) {
   const double k = 2000;
   Runner runner(WorldMaker().box(kCube, 0.2, {}).world());
@@ -282,7 +284,7 @@ TEST(Finger, ImpulseOnTheBodyIsWhatTheFingerFelt) {
   }
 }
 
-// A finger that has left the surface since its sample must not pull, nor push before it is back.
+// A finger that left the surface since its sample must neither pull nor push before it is back.
 TEST(Finger, GivesNoForceAcrossAGap) {
   for (const double speed : {0.0, -0.1, 0.1}) {
     Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, 0.1, {}).world());
@@ -291,7 +293,7 @@ TEST(Finger, GivesNoForceAcrossAGap) {
     ContactExchange exchange;
     exchange.count = 1;
     exchange.fingers[0] = finger.contact({});
-    exchange.fingers[0].p_WH = finger.p_BP + 0.001 * Vec3::UnitZ();  // 1 mm away; at 0.1 m/s it closes 0.5 mm
+    exchange.fingers[0].p_WH = finger.p_BP + 0.001 * Vec3::UnitZ();  // 1 mm away; closes 0.5 mm at 0.1 m/s
     exchange.fingers[0].v_WH = -speed * Vec3::UnitZ();
     runner.step(exchange);
     EXPECT_EQ(runner.bodies.fingerForce(0), Vec3(Vec3::Zero())) << speed;

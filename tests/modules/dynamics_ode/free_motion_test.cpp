@@ -8,8 +8,8 @@ Vec3 angularMomentum(const Mat3& inertia, const BodyMotion& motion) {
   return q * (inertia * (q.conjugate() * motion.w_WB));
 }
 
-// The scheme is semi-implicit Euler, so its closed form is known: v_n = v_0 + n h g, x_n = x_0 + h sum v_i.
-// Tolerance: rounding of 400 additions.
+// Semi-implicit Euler has a closed form: v_n = v_0 + n h g, x_n = x_0 + h sum v_i. Tolerance: rounding of 400
+// additions.
 TEST(FreeMotion, FallIsTheClosedFormOfSemiImplicitEuler) {
   Runner runner(WorldMaker().box({0.05, 0.06, 0.07}, 0.2, {{0.1, 0.2, 1}, turn(0.3, {1, 2, 3})}).world());
   for (int n = 1; n <= 400; ++n) {
@@ -21,7 +21,7 @@ TEST(FreeMotion, FallIsTheClosedFormOfSemiImplicitEuler) {
   EXPECT_NEAR(runner[0].X_WB_end.q.angularDistance(turn(0.3, {1, 2, 3})), 0, 1e-12);
 }
 
-// A reader interpolates between the two poses of a state: each must begin where the one before ended.
+// Readers interpolate between the two poses of a state, so each state must start where the one before ended.
 TEST(FreeMotion, EachStateBeginsWhereTheLastEnded) {
   Runner runner(WorldMaker().box({0.05, 0.06, 0.07}, 0.2, {}).table().world());
   for (int n = 0; n < 10; ++n) {
@@ -36,8 +36,8 @@ TEST(FreeMotion, EachStateBeginsWhereTheLastEnded) {
   }
 }
 
-// Dzhanibekov's spin about the middle axis: 9 flips in 20 s by an integration with steps of 10 us; ODE's own gyroscopic
-// term makes 61. Tolerances: one order above what one Runge-Kutta step of 5 ms was measured to give.
+// Dzhanibekov's spin about the middle axis: 9 flips in 20 s in a reference integration with steps of 10 us; ODE's own
+// gyroscopic term gives 61. Tolerances: one order above the measured error of one Runge-Kutta step of 5 ms.
 TEST(FreeMotion, TumblingKeepsEnergyAndMomentumAndFlipsNineTimes) {
   const Mat3 inertia = Vec3(1e-5, 2e-5, 2.5e-5).asDiagonal();
   WorldMaker maker;
@@ -64,7 +64,7 @@ TEST(FreeMotion, TumblingKeepsEnergyAndMomentumAndFlipsNineTimes) {
   EXPECT_LT(worst_momentum, 1e-11);  // rounding of 4000 steps
 }
 
-// A body whose centre of mass is not its origin turns about the centre of mass: that moves uniformly, the origin
+// A body whose centre of mass is not its origin rotates about the centre of mass, which moves uniformly; the origin
 // circles around it, and the reported velocity is the origin's.
 TEST(FreeMotion, OffCentreBodyTurnsAboutItsCentreOfMass) {
   const Vec3 p_BCm(0.02, -0.01, 0.005);
@@ -83,8 +83,8 @@ TEST(FreeMotion, OffCentreBodyTurnsAboutItsCentreOfMass) {
   }
 }
 
-// Fast spin of a body with equal moments is a turn by exactly w t; ODE's own update turns by 2 atan(w h / 2) per step,
-// 2 % short at 100 rad/s. Tolerance: error of the Runge-Kutta step, (w h)^5/3840 per step.
+// A fast spin of a body with equal moments is a rotation by exactly w t; ODE's own update rotates by 2 atan(w h / 2)
+// per step, 2 % less at 100 rad/s. Tolerance: error of the Runge-Kutta step, (w h)^5/3840 per step.
 TEST(FreeMotion, FastSpinTurnsByItsAngle) {
   WorldMaker maker;
   maker.gravity(Vec3::Zero()).add(Sphere{0.02}, {}, {0.1, Vec3::Zero(), 1e-5 * Mat3::Identity()});
@@ -96,9 +96,9 @@ TEST(FreeMotion, FastSpinTurnsByItsAngle) {
   }
 }
 
-// Action equals reaction: two free boxes that collide off centre keep total linear and angular momentum.
-// Tolerance: rounding for the linear part; the angular part of a pair force is exact at the start-of-step positions,
-// and the first-order drift of the arms during contact is what remains.
+// Two free boxes that collide off centre keep total linear and angular momentum. Tolerance: rounding for the linear
+// part; the angular part is exact at the positions at the start of a step, and the first-order drift of the lever arms
+// remains.
 TEST(FreeMotion, CollisionKeepsMomentum) {
   const Vec3 size(0.05, 0.05, 0.05);
   WorldMaker maker;

@@ -5,12 +5,13 @@ namespace {
 
 const Vec3 kCube(0.08, 0.08, 0.08);
 
-// Down the slope, oblique to every axis that a friction pyramid could happen to lie along.
+// Direction down the slope, oblique to any axis with which a friction pyramid could be aligned.
 const Vec3 kDown = turn(radians(37), Vec3::UnitZ()) * Vec3::UnitX();
 double along(const Vec3& v) { return v.dot(kDown); }
 double headingOf(const Vec3& v) { return degrees(std::atan2(v.dot(Vec3::UnitZ().cross(kDown)), along(v))); }
 
-// A box on an inclined plane, its edges turned by `heading` about the normal. Gravity is tilted instead of the plane.
+// A box on an inclined plane, with its edges rotated by `heading` about the normal. Gravity is tilted instead of the
+// plane.
 Runner onSlope(double slope_deg, double heading_deg, double mu_static, double mu_dynamic, double mass = 1) {
   const double a = radians(slope_deg);
   WorldMaker maker;
@@ -20,8 +21,8 @@ Runner onSlope(double slope_deg, double heading_deg, double mu_static, double mu
   return Runner(maker.world(), awake());
 }
 
-// Friction must not depend on how a box lies: ODE's own pyramid is 41 % too strong at 45 degrees and pulls the
-// box up to 34 degrees off its way. Oracle: a = g (sin - mu cos), straight down.
+// Friction must not depend on the orientation of a box: ODE's own pyramid is 41 % too strong at 45 degrees and deflects
+// the box by up to 34 degrees. Oracle: a = g (sin - mu cos), straight down.
 TEST(Friction, SlidingDownASlopeIsTheSameForEveryHeading) {
   const double a = radians(40), mu = 0.5;
   const double speed = kGravity * (std::sin(a) - mu * std::cos(a));
@@ -34,7 +35,8 @@ TEST(Friction, SlidingDownASlopeIsTheSameForEveryHeading) {
   }
 }
 
-// Started across the slope at 1.5 m/s the slip turns. Oracle: a point mass with Coulomb friction, steps of 10 us.
+// Started across the slope at 1.5 m/s, the slip direction changes. Oracle: a point mass with Coulomb friction, steps of
+// 10 us.
 TEST(Friction, TurningSlipFollowsThePointMassForEveryHeading) {
   const double a = radians(40), mu = 0.5;
   const Vec3 start = 1.5 * Vec3::UnitZ().cross(kDown);
@@ -52,8 +54,9 @@ TEST(Friction, TurningSlipFollowsThePointMassForEveryHeading) {
   }
 }
 
-// Coulomb friction at the four corners of a box that slides and spins on the slope, in steps of 20 us. The normal forces of the
-// corners follow from the balance of moments (friction acts below the centre of mass), of all solutions the even one.
+// Oracle: Coulomb friction at the four corners of a box that slides and spins on the slope, in steps of 20 us. The
+// normal forces at the corners follow from the balance of moments (friction acts below the centre of mass); of all
+// solutions the most even one.
 struct Slider {
   Vec3 v = Vec3::Zero();
   double spin = 0, heading = 0;
@@ -93,12 +96,12 @@ TEST(Friction, SpinningBoxFollowsItsFourCornersForEveryHeading) {
     const Vec3 v = runner[1].v_WB;
     EXPECT_NEAR(v.norm(), oracle.v.norm(), 0.005 * oracle.v.norm()) << heading;
     EXPECT_NEAR(headingOf(v), headingOf(oracle.v), 0.2) << heading;
-    // 2 % of the spin at the start: first order in the step, which turns the corners by up to 4 degrees
+    // 2 % of the initial spin: first order in the step, in which the corners rotate by up to 4 degrees
     EXPECT_NEAR(runner[1].w_WB.z(), oracle.spin, 0.3) << heading;
   }
 }
 
-// A minute just below the friction angle: no creep that anyone could measure.
+// A minute just below the friction angle: no measurable creep.
 TEST(Friction, BoxDoesNotCreepInAMinute) {
   for (const double slope : {25.0, 26.5}) {
     Runner runner = onSlope(slope, 30, 0.5, 0.5);
@@ -109,10 +112,10 @@ TEST(Friction, BoxDoesNotCreepInAMinute) {
   }
 }
 
-// SimBenchmark "rolling": 150 N drag a slab with 25 balls on it over the ground, 9 % above what friction holds. Closed form:
-// slab 0.7385 m/s2, balls 0.211 m/s2; error: mean over 4 s of the squared velocity errors of slab and first ball, 3.1 (m/s)2 for
-// ODE alone in direction xy. It starts in equilibrium: bodies that start 20 um inside each other are pushed apart, and
-// what that adds to the normal force for one step is lost to friction (8e-5).
+// SimBenchmark "rolling": 150 N drag a slab with 25 balls over the ground, 9 % above the static friction. Closed form:
+// slab 0.7385 m/s2, balls 0.211 m/s2; error: mean over 4 s of the squared velocity errors of slab and first ball, 3.1
+// (m/s)2 for ODE alone in direction xy. It starts in equilibrium: bodies that start 20 um inside each other are pushed
+// apart, which adds to the normal force for one step and so to friction (8e-5).
 TEST(Friction, SlabUnderRollingBallsAcceleratesByTheClosedForm) {
   for (const Vec3& direction : {Vec3(Vec3::UnitY()), Vec3(0.5, std::sqrt(0.75), 0)}) {
     const double inside = 1e-9;
@@ -139,7 +142,7 @@ TEST(Friction, SlabUnderRollingBallsAcceleratesByTheClosedForm) {
   }
 }
 
-// Below the friction angle (26.565 degrees for mu 0.5) a box stays where it is; above, it goes.
+// Below the friction angle (26.565 degrees for mu 0.5) a box stays; above it slides.
 TEST(Friction, BoxSticksBelowTheFrictionAngleWithoutCreep) {
   for (const double heading : {0.0, 30.0, 45.0}) {
     Runner runner = onSlope(26.4, heading, 0.5, 0.5);
@@ -153,7 +156,7 @@ TEST(Friction, BoxSticksBelowTheFrictionAngleWithoutCreep) {
   }
 }
 
-// The static coefficient decides whether it goes, the dynamic one how fast.
+// The static coefficient decides whether the box slides, the dynamic one how fast.
 TEST(Friction, StaticCoefficientHoldsAndDynamicBrakes) {
   Runner resting = onSlope(30, 20, 0.7, 0.3);
   resting.run(2);
@@ -165,7 +168,8 @@ TEST(Friction, StaticCoefficientHoldsAndDynamicBrakes) {
   EXPECT_NEAR(along(pushed[1].v_WB), speed, 0.01 * speed);
 }
 
-// Bodies rest on the table with a penetration nobody sees, light or heavy. 10 um: a twentieth of what is seen or felt.
+// Resting bodies penetrate the table imperceptibly, light or heavy. 10 um is a twentieth of a visible or perceptible
+// depth.
 TEST(Resting, PenetrationIsMicrons) {
   for (const double mass : {0.001, 0.2, 10.0}) {
     Runner runner(WorldMaker().table().box(kCube, mass, {{0, 0, 0.0405}, Quat::Identity()}).world(), awake());
@@ -177,7 +181,7 @@ TEST(Resting, PenetrationIsMicrons) {
   }
 }
 
-// A tower of five stays a tower.
+// A tower of five blocks stands.
 TEST(Resting, StackStandsStill) {
   WorldMaker maker;
   maker.table();
@@ -191,8 +195,8 @@ TEST(Resting, StackStandsStill) {
   }
 }
 
-// A finger drags a cube over a table: the cube follows the finger's heading, whatever its own. It moves with the finger
-// because mu N of the finger exceeds mu (N + m g) of the table only when the finger grips better.
+// A finger drags a cube over a table: the cube moves in the finger's direction, whatever its orientation, because the
+// finger's friction exceeds the table's.
 TEST(Friction, DraggedCubeFollowsTheFinger) {
   for (const double heading : {0.0, 30.0, 45.0, 80.0}) {
     WorldMaker maker;

@@ -2,8 +2,8 @@
 
 #include "tests/modules/dynamics_ode/support.h"
 
-// Stacks that break iterative solvers, at 200 Hz. Penetration is read off the heights of face-to-face boxes: exact for them, and
-// not the engine's own judgement. Bound: 0.5 mm, half of what is seen.
+// Stacks that are hard for iterative solvers, at 200 Hz. Penetration is computed from the heights of face-to-face
+// boxes, exactly and independently of the engine. Bound: 0.5 mm, half of a visible depth.
 namespace presa::ode {
 namespace {
 
@@ -12,7 +12,7 @@ constexpr double kMostPenetration = 5e-4;
 
 class MassRatio : public testing::TestWithParam<double> {};
 
-// A heavy box on a light one, 30 s. ODE's iterative solver at 5 ms collapses from 1:100 on.
+// A heavy box on a light one for 30 s. ODE's iterative solver at 5 ms collapses from 1:100 on.
 TEST_P(MassRatio, HeavyStandsOnLight) {
   const double light = 0.1;
   WorldMaker maker;
@@ -30,7 +30,7 @@ TEST_P(MassRatio, HeavyStandsOnLight) {
 INSTANTIATE_TEST_SUITE_P(OneTo, MassRatio, testing::Values(10.0, 100.0, 1000.0),
                          [](const auto& param) { return std::to_string(static_cast<int>(param.param)); });
 
-// Each block starts 1 um inside the one below: touching to the last bit would be a matter of rounding.
+// Each block starts 1 um inside the one below, because exact contact would depend on rounding.
 std::shared_ptr<const World> tower(int blocks, bool turned) {
   WorldMaker maker;
   maker.table();
@@ -41,8 +41,8 @@ std::shared_ptr<const World> tower(int blocks, bool turned) {
   return maker.world();
 }
 
-// A soft fingertip on either side of body 1, each as two points 4 cm apart: a tower ten blocks high on two single points would tip
-// about their line, as it must.
+// A soft fingertip on either side of body 1, modelled as two points 4 cm apart: on two single points a tower of ten
+// blocks would physically tip about their line.
 std::vector<ReferenceFinger> softPinch(const Vec3& centre, double stiffness, double depth) {
   std::vector<ReferenceFinger> fingers;
   for (const double y : {-0.02, 0.02}) {
@@ -86,9 +86,9 @@ TEST(Tower, OfTenStandsThirtySeconds) {
   }
 }
 
-// Two fingertips of 10 N/mm grip the lowest of ten blocks with 20 N, carry the tower up 5 cm in a second, and hold it. In the air
-// nothing but friction carries it: a solver that bounds friction by the normal forces of a step without friction leaves the
-// blocks without any, and they part.
+// Two fingertips of 10 N/mm grip the lowest of ten blocks with 20 N, carry the tower up 5 cm in a second, and hold it.
+// In the air it is carried by friction only: a solver that bounds friction by the normal forces of a solve without
+// friction gives the blocks none, and they separate.
 TEST(Tower, OfTenGrippedAtTheLowestIsCarried) {
   const double k = 5000;
   for (const bool turned : {false, true}) {
@@ -110,13 +110,13 @@ TEST(Tower, OfTenGrippedAtTheLowestIsCarried) {
         ASSERT_LT(p.head<2>().norm(), 1e-3) << n << " block " << i << " shifted";
       }
     }
-    // four springs sag by the weight of ten blocks
+    // four springs sag under the weight of ten blocks
     const double sag = 10 * 0.1 * kGravity / (4 * k);
     EXPECT_NEAR(runner[1].X_WB_end.p.z(), centre.z() + 0.05 - sag, 0.05 * sag) << turned;
   }
 }
 
-// 125 cubes poured into a bin come to rest there. One that topples late may still be quick: the median speed counts.
+// 125 cubes poured into a bin come to rest. One that topples late may still be fast, so the median speed is tested.
 TEST(Heap, Of125CubesSettles) {
   WorldMaker maker;
   maker.table();
@@ -148,8 +148,8 @@ TEST(Heap, Of125CubesSettles) {
   EXPECT_EQ(runner.bodies.faults().count, 0U);
 }
 
-// A finger of 10 N/mm presses a 1 g cube on a pile of 40: too many contacts for the direct solver. Sub-steps are chosen by
-// themselves: the force trembles with the pile, but less than half as much as with one step of 5 ms.
+// A finger of 10 N/mm presses a 1 g cube on a pile of 40: too many contacts for the direct solver. With automatic
+// sub-steps the force trembles less than half as much as with one step of 5 ms.
 TEST(Heap, FingerOnALargeIslandHoldsALightCube) {
   const auto chatter = [](std::size_t substeps) {
     WorldMaker maker;

@@ -1,7 +1,8 @@
 #include "tests/modules/dynamics_ode/support.h"
 
-// A contact is there before it is needed: what arrives stops at the surface, not v h (2.5 mm at half a metre a second) inside it.
-// Tolerance: 20 um, a hundredth of that; what is left is that a body which tips meets the table at a point unforeseen.
+// Contacts are created ahead of the touch: an arriving body stops at the surface instead of v h (2.5 mm at 0.5 m/s)
+// inside it. Tolerance: 20 um, a hundredth of that, for tipping bodies that meet the table at a point that could not be
+// predicted.
 namespace presa::ode {
 namespace {
 
@@ -10,7 +11,7 @@ constexpr double kDeepest = 2e-5;
 struct Falling {
   const char* name;
   Shape shape;
-  Vec3 bounds;  // of a box around it
+  Vec3 bounds;  // of its bounding box
 };
 void PrintTo(const Falling& falling, std::ostream* out) { *out << falling.name; }
 
@@ -29,7 +30,7 @@ double deepestContact(const Runner& runner) {
   return depth;
 }
 
-// Flat, on an edge and on a corner.
+// Landing flat, on an edge and on a corner.
 TEST_P(Landing, StopsAtTheSurface) {
   for (const Vec3& axis : {Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitX()), Vec3(1, 0.6, 0.3)}) {
     WorldMaker maker;
@@ -47,7 +48,7 @@ TEST_P(Landing, StopsAtTheSurface) {
   }
 }
 
-// Ahead of the surface by nothing: it lies on it, as if it had been put there.
+// Finally the body lies on the surface without a gap, as if placed there.
 TEST_P(Landing, LiesOnTheSurfaceInTheEnd) {
   WorldMaker maker;
   maker.table().add(GetParam().shape, {{0, 0, GetParam().bounds.z() / 2 + 0.01}, Quat::Identity()},
@@ -60,7 +61,8 @@ TEST_P(Landing, LiesOnTheSurfaceInTheEnd) {
 INSTANTIATE_TEST_SUITE_P(Of, Landing, testing::ValuesIn(fallings()),
                          [](const auto& param) { return std::string(param.param.name); });
 
-// Ten blocks where they just touch, to rounding some do and some do not: none falls a step into the next.
+// Ten blocks in exact contact, where rounding decides which pairs touch: no block falls a step's distance into the
+// next.
 TEST(Landing, TowerThatJustTouchesDoesNotSettle) {
   WorldMaker maker;
   maker.table();
@@ -74,7 +76,7 @@ TEST(Landing, TowerThatJustTouchesDoesNotSettle) {
   EXPECT_EQ(runner.bodies.fallbackSteps(), 0U);
 }
 
-// Side by side, not on each other: what passes is not held back.
+// Passing side by side is not a contact: the motion is not hindered.
 TEST(Landing, NearIsNotTouching) {
   WorldMaker maker;
   maker.fixedBox({0.1, 0.1, 0.2}, {{0, 0, 0}, Quat::Identity()});

@@ -1,7 +1,7 @@
 #include "modules/dynamics_ode/dynamics_module.h"
 #include "tests/modules/dynamics_ode/support.h"
 
-// Every method the scene can choose in place of Presa's does what its name says: studies compare them.
+// Every alternative method that a scene can choose behaves as named, because studies compare them.
 namespace presa::ode {
 namespace {
 
@@ -13,7 +13,7 @@ OdeOptions with(const DynamicsSettings& method) {
   return options;
 }
 
-// Dzhanibekov's spin, 20 s (9 flips by an integration with steps of 10 us).
+// Dzhanibekov's spin, 20 s (9 flips in a reference integration with steps of 10 us).
 struct Tumble {
   int flips = 0;
   double energy_error = 0;
@@ -38,7 +38,7 @@ Tumble tumble(DynamicsSettings::Rotation rotation) {
   return result;
 }
 
-// Flips and energy as measured for ODE 0.16 elsewhere with an independent program (61, 0.114); without the gyroscopic term the
+// Flips and energy for ODE 0.16 as measured with an independent program (61, 0.114). Without the gyroscopic term the
 // body never tumbles; one explicit Euler step gains energy.
 TEST(Methods, RotationsTumbleAsTheyMust) {
   EXPECT_EQ(tumble(DynamicsSettings::Rotation::kExact).flips, 9);
@@ -47,14 +47,14 @@ TEST(Methods, RotationsTumbleAsTheyMust) {
   EXPECT_EQ(engine.flips, 61);
   EXPECT_NEAR(engine.energy_error, 0.114, 0.001);
   EXPECT_GT(tumble(DynamicsSettings::Rotation::kEuler).energy_error, 0.1);
-  // these keep the angular velocity in W while the body turns under it: no precession, no energy balance
+  // these keep the angular velocity in W constant while the body rotates: no precession, no energy balance
   for (const auto rotation : {DynamicsSettings::Rotation::kNone, DynamicsSettings::Rotation::kMatrix}) {
     EXPECT_EQ(tumble(rotation).flips, 0);
   }
 }
 
-// A turn about a fixed axis is where they can be told apart by hand: angle per step w h (exact), 2 atan(w h / 2) (engine), atan(w h)
-// (matrix), and 2 atan(w h / 2) again for the normalised Euler step.
+// For rotation about a fixed axis the methods differ in a known way: angle per step w h (exact), 2 atan(w h / 2)
+// (engine), atan(w h) (matrix), 2 atan(w h / 2) (normalised Euler step).
 TEST(Methods, RotationsTurnByTheirOwnAnglePerStep) {
   const double angle = 0.3;
   const std::pair<DynamicsSettings::Rotation, double> expected[] = {
@@ -77,7 +77,7 @@ TEST(Methods, RotationsTurnByTheirOwnAnglePerStep) {
   }
 }
 
-// v = v0 + t F / m at every step, and the spin stays: closed form of semi-implicit Euler.
+// v = v0 + t F / m at every step with constant spin: closed form of semi-implicit Euler.
 TEST(Methods, BodyStartsWithItsVelocityAndFeelsItsForce) {
   World world = *WorldMaker().box(kCube, 0.2, {{0.1, 0.2, 1}, Quat::Identity()}).world();
   Body& body = world.scene.bodies[0];
@@ -91,8 +91,8 @@ TEST(Methods, BodyStartsWithItsVelocityAndFeelsItsForce) {
   EXPECT_LT((runner[0].w_WB - Vec3(0, 0, 2)).norm(), 1e-12);
 }
 
-// ODE's own pyramid holds a box in the diagonal of its axes that Coulomb friction lets go (and that Presa's lets go): 31 degrees
-// against atan 0.5 = 26.6 and atan(0.5 sqrt 2) = 35.3.
+// ODE's own pyramid holds a box along its diagonal where Coulomb friction (and Presa's) lets it slide: 31 degrees lies
+// between atan 0.5 = 26.6 and atan(0.5 sqrt 2) = 35.3.
 TEST(Methods, PyramidHoldsWhatTheConeLetsGo) {
   const double a = radians(31);
   for (const auto friction : {DynamicsSettings::Friction::kIsotropic, DynamicsSettings::Friction::kPyramid}) {
@@ -112,8 +112,8 @@ TEST(Methods, PyramidHoldsWhatTheConeLetsGo) {
   }
 }
 
-// A 1 g cube in a stiff grip, the case that tells the solvers apart: exact when solved directly, far off with few iterations,
-// nearer with more or with smaller steps.
+// A 1 g cube in a stiff grip distinguishes the solvers: exact when solved directly, far off with few iterations, closer
+// with more iterations or smaller steps.
 TEST(Methods, SolverIterationsAndSubstepsAreObeyed) {
   const double k = 10000, force = 20;
   const auto error = [&](const DynamicsSettings& method) {
@@ -135,7 +135,7 @@ TEST(Methods, SolverIterationsAndSubstepsAreObeyed) {
   EXPECT_LT(error(finer), 0.1);
 }
 
-// The module takes all of it from the scene.
+// The module takes all methods from the scene.
 TEST(Methods, ModuleObeysTheScene) {
   const auto speed = [](DynamicsSettings::Rotation rotation) {
     World world = *WorldMaker()

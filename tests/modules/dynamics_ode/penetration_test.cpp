@@ -2,7 +2,7 @@
 
 #include "tests/modules/dynamics_ode/support.h"
 
-// What the Object State says of how deep bodies stand in each other, against where the bodies are.
+// Penetration in the object state against the actual poses.
 namespace presa::ode {
 namespace {
 
@@ -21,8 +21,9 @@ TEST(Penetration, AnEngineThatDoesNotSayIsNotZero) {
   EXPECT_TRUE(std::isnan(state.penetration.worst));
 }
 
-// At rest the contact's row of ODE, 0 = (erp / h) depth - cfm f, carries a quarter of the weight at each corner:
-// depth = g h^2 softness / (4 erp), whatever the mass. Soft enough to be seen: 61 um. 1 %: what is left of the settling.
+// At rest the contact row, 0 = (erp / h) depth - cfm f, carries a quarter of the weight at each corner:
+// depth = g h^2 softness / (4 erp), whatever the mass. Softness raised to give 61 um. Tolerance 1 %: remaining
+// settling.
 TEST(Penetration, AtRestIsTheWeightOverTheContactsStiffness) {
   for (const double mass : {0.02, 0.1, 2.0}) {
     OdeOptions options = awake();
@@ -38,7 +39,7 @@ TEST(Penetration, AtRestIsTheWeightOverTheContactsStiffness) {
   }
 }
 
-// Two boxes on one table, 1 and 3 mm inside it with four corners each, as the first step finds them.
+// Two boxes on one table, 1 and 3 mm inside it with four corners each, at the first step.
 TEST(Penetration, IsTheMeanAndTheWorstOfAllPoints) {
   WorldMaker maker;
   maker.table();
@@ -51,7 +52,7 @@ TEST(Penetration, IsTheMeanAndTheWorstOfAllPoints) {
   EXPECT_NEAR(runner.state.penetration.worst, 3e-3, 1e-9);
 }
 
-// Contacts that are made a step ahead of the touch have a gap, not a depth.
+// Contacts created ahead of the touch have a gap and do not count as penetration.
 TEST(Penetration, WhatDoesNotTouchYetHasNone) {
   Runner runner(boxAt(kEdge / 2 + 1e-5), awake());
   runner.step();

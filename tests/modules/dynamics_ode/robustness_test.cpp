@@ -11,7 +11,7 @@ namespace {
 const Vec3 kCube(0.05, 0.05, 0.05);
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// n x n x n cubes dropped on a table a little apart and a little turned.
+// n x n x n cubes dropped on a table with small gaps and rotations.
 std::shared_ptr<const World> heap(int n) {
   WorldMaker maker;
   maker.table();
@@ -32,8 +32,8 @@ bool sameBits(const ObjectState& a, const ObjectState& b) {
   return same;
 }
 
-// Recordings are replayed to the bit: two worlds of the same scene, stepped in turn (so that ODE's global random
-// numbers would mix), with memory taken between them, must agree in every bit. Both solvers.
+// Recordings are replayed to the bit: two worlds of the same scene, stepped in turn (which would mix ODE's global
+// random numbers) and with allocations in between, must agree in every bit. Both solvers.
 TEST(Determinism, SameCallsGiveTheSameBits) {
   for (const std::uint32_t limit : {0U, 150U}) {
     OdeOptions options;
@@ -54,8 +54,8 @@ TEST(Determinism, SameCallsGiveTheSameBits) {
   }
 }
 
-// The iterative solver is used above the limit only for the island that exceeds it: a light cube held apart keeps the
-// direct solver's exact grip while a heap next to it is solved with two iterations.
+// The iterative solver is used only for an island above the limit: a light cube held elsewhere keeps the direct
+// solver's exact grip beside a heap solved with two iterations.
 TEST(Islands, HeldCubeIsSolvedExactlyBesideALargeHeap) {
   WorldMaker maker;
   maker.table();
@@ -76,7 +76,7 @@ TEST(Islands, HeldCubeIsSolvedExactlyBesideALargeHeap) {
   for (std::size_t f = 0; f < 2; ++f) EXPECT_NEAR(runner.bodies.fingerForce(f).norm(), 20, 0.02);
 }
 
-// What comes over from another thread may be wrong. It is ignored and counted, the bodies go on.
+// Invalid data from another thread are ignored and counted, and the bodies go on.
 TEST(Faults, BadFingerContactIsIgnoredAndCounted) {
   Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, 0.1, {}).table().world());
   std::vector<ReferenceFinger> fingers = pinch(0, 0.05, 0.002, 1000, 1);
@@ -93,7 +93,7 @@ TEST(Faults, BadFingerContactIsIgnoredAndCounted) {
     EXPECT_EQ(runner.bodies.fingerForce(0), Vec3(Vec3::Zero()));
     EXPECT_EQ(runner.bodies.faults().bits, Faults::kBadFinger);
   }
-  // a contact with a fixed body is no fault: it moves nothing
+  // a contact with a fixed body is valid and has no effect
   ContactExchange table = good;
   table.fingers[0].body = table.fingers[1].body = 1;
   runner.step(table);
@@ -101,8 +101,8 @@ TEST(Faults, BadFingerContactIsIgnoredAndCounted) {
   EXPECT_TRUE(runner[0].X_WB_end.p.allFinite());
 }
 
-// A finger that has run away (1 m inside at 1e9 N/m) throws a body out of all bounds: it freezes at its last good
-// pose, as an obstacle the others still rest on.
+// A runaway finger (1 m inside at 1e9 N/m) throws a body out of all bounds: it freezes at its last good pose, as an
+// obstacle on which the others still rest.
 TEST(Faults, RunawayBodyFreezesAtItsLastGoodPose) {
   WorldMaker maker;
   maker.table().box(kCube, 0.1, {{0, 0, 0.025}, Quat::Identity()}).box(kCube, 0.1, {{0, 0, 0.075}, Quat::Identity()});
@@ -122,8 +122,8 @@ TEST(Faults, RunawayBodyFreezesAtItsLastGoodPose) {
   EXPECT_NEAR(runner[2].X_WB_end.p.z(), 0.075, 1e-3);
 }
 
-// A failed assertion inside ODE (here: a step of no duration) would end the process. It must freeze the bodies instead,
-// be flagged, and stay so; another world goes on.
+// A failed assertion inside ODE (here: a step of duration 0) would end the process. Instead it freezes the bodies and
+// is reported, permanently; another world is not affected.
 TEST(Faults, FailureInsideTheEngineFreezesThatWorldOnly) {
   const auto world = WorldMaker().box(kCube, 0.1, {{0, 0, 1}, Quat::Identity()}).world();
   Runner broken(world), other(world);
@@ -139,8 +139,8 @@ TEST(Faults, FailureInsideTheEngineFreezesThatWorldOnly) {
   EXPECT_EQ(other.bodies.faults().count, 0U);
 }
 
-// A contact so redundant and so squeezed that the direct solver gives up must be undone and solved iteratively: the
-// state stays finite and bounded, and the step is counted.
+// Contacts so redundant and squeezed that the direct solver fails are restored and solved iteratively: the state stays
+// finite and bounded, and the step is counted.
 TEST(Faults, DirectSolverInTroubleFallsBack) {
   WorldMaker maker;
   maker.table().fixedBox({2, 2, 0.1}, {{0, 0, 0.145}, Quat::Identity()});  // a lid 5 mm into everything below
@@ -158,7 +158,7 @@ TEST(Faults, DirectSolverInTroubleFallsBack) {
   for (std::size_t i = 2; i < 14; ++i) EXPECT_LT(runner[i].X_WB_end.p.norm(), 1);
 }
 
-// The module is the same world behind ports, started and stopped by an executor's thread.
+// The module is the same world behind ports, started and stopped on an executor's thread.
 TEST(Module, PublishesTheStateOfItsWorld) {
   const auto world = WorldMaker().table().box(kCube, 0.1, {{0, 0, 0.3}, Quat::Identity()}).world();
   GraphBuilder builder;

@@ -1,11 +1,11 @@
-// A finger between two free bodies: each gets its own part of the reaction.
+// A finger between two free bodies: each receives its own part of the reaction.
 #include "tests/modules/dynamics_ode/support.h"
 
 namespace presa::ode {
 namespace {
 
-// Two cubes in free space, pushed apart by one fingertip with 0.5 N down and 0.4 N sideways each, for 20 ms: Newton's second law.
-// The spring is implicit: it gives by h^2 k / m as the cubes yield within a step, here 0.05 %.
+// Two cubes in free space, pushed apart by one fingertip with 0.5 N down and 0.4 N sideways each, for 20 ms: Newton's
+// second law. The implicit spring yields by h^2 k / m as the cubes move within a step, here 0.05 %.
 TEST(SharedFinger, EachBodyGetsItsOwnPart) {
   constexpr double kMass = 50, kStiffness = 1000, kTime = 0.02;
   WorldMaker maker;

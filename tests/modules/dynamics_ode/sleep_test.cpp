@@ -36,7 +36,8 @@ TEST(Sleep, PileFallsAsleepAndStaysWhereItIs) {
   EXPECT_TRUE(runner.bodies.contacts().empty());
 }
 
-// Plates and bars poured over each other: where edges rest on edges contacts come and go, and all of it creeps by some 0.1 mm/s.
+// Plates and bars poured onto each other: where edges rest on edges contacts come and go, and everything creeps by some
+// 0.1 mm/s.
 TEST(Sleep, AJumbleFallsAsleepThoughItCreeps) {
   RandomStream random(1, "jumble");
   WorldMaker maker;
@@ -63,8 +64,7 @@ TEST(Sleep, NothingSleepsWhereTheSceneForbidsIt) {
   EXPECT_EQ(asleep(runner), 0);
 }
 
-// Touched by a finger, its whole island is awake and pushed in that very step; what it does not touch
-// sleeps on.
+// A finger wakes the whole island that it touches and pushes it in the same step; other islands stay asleep.
 TEST(Sleep, FingerWakesTheIslandInOneStep) {
   Runner runner(pile(2).box(kCube, 0.1, {{0.5, 0.5, 0.025}, Quat::Identity()}).world());
   runner.run(5);
@@ -72,13 +72,14 @@ TEST(Sleep, FingerWakesTheIslandInOneStep) {
   std::vector<ReferenceFinger> fingers{{8, {0.025, 0, 0}, Vec3::UnitX()}};
   fingers[0].p_WH = runner[8].X_WB_end * fingers[0].p_BP - 0.002 * Vec3::UnitX();
   runner.step(exchangeOf(fingers, runner));
-  EXPECT_EQ(asleep(runner), 7);  // its column of two is awake
+  EXPECT_EQ(asleep(runner), 7);  // the touched column of two is awake
   EXPECT_FALSE(runner[4].asleep);
   EXPECT_FALSE(runner[8].asleep);
   EXPECT_GT(runner.bodies.fingerForce(0).norm(), 1);
 }
 
-// A cube that slides into a sleeping row wakes it in the step in which they meet: momentum goes on as if all had been awake.
+// A cube that slides into a sleeping row wakes it in the step of contact: momentum is transferred as if all had been
+// awake.
 TEST(Sleep, ColliderWakesWhatItMeets) {
   const auto run = [](bool sleeping) {
     OdeOptions options;
@@ -100,7 +101,7 @@ TEST(Sleep, ColliderWakesWhatItMeets) {
   EXPECT_NEAR(with[0] + with[1] + with[2], 0.25, 1e-6);
 }
 
-// Whatever still moves, however slowly, or is held stays awake: a ball that rolls at 0.1 mm/s, a box dragged at 0.1 mm/s, a cube in a
+// Bodies that move slowly or are held stay awake: a ball rolling at 0.1 mm/s, a box dragged at 0.1 mm/s, a cube in a
 // resting grip.
 TEST(Sleep, SlowOrHeldBodiesStayAwake) {
   WorldMaker maker;
@@ -123,7 +124,7 @@ TEST(Sleep, SlowOrHeldBodiesStayAwake) {
     for (std::size_t i = 1; i <= 3; ++i) ASSERT_FALSE(runner[i].asleep) << i << " after " << runner.time;
   }
   EXPECT_NEAR(runner[1].v_WB.x(), slow, 0.01 * slow);
-  // let go, the box comes to rest and sleeps; the ball rolls on
+  // released, the box comes to rest and sleeps; the ball rolls on
   runner.run(3);
   EXPECT_TRUE(runner[2].asleep);
   EXPECT_FALSE(runner[1].asleep);

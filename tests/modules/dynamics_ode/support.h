@@ -9,7 +9,7 @@
 
 #include "modules/dynamics_ode/ode_world.h"
 
-/// Worlds built by hand, and a minimal haptic side, for the tests of the dynamics.
+/// Worlds built in code and a minimal haptic side, for the tests of the dynamics.
 namespace presa::ode {
 
 inline constexpr double kStep = 0.005;  // [s]
@@ -35,7 +35,7 @@ class WorldMaker {
     world_.scene.rates.dynamics = dynamics;
     return *this;
   }
-  /// Bodies added from now on have this friction.
+  /// Friction of all bodies added from now on.
   WorldMaker& friction(double mu_static, double mu_dynamic) {
     Material material;
     material.stiffness = 1000;
@@ -63,7 +63,7 @@ class WorldMaker {
   WorldMaker& box(const Vec3& size, double mass, const Pose& X_WB) {
     return add(Box{size}, X_WB, {mass, Vec3::Zero(), boxInertia(mass, size)});
   }
-  /// A table 2 m square whose surface is the plane z = 0.
+  /// A table of 2 m by 2 m with its surface at z = 0.
   WorldMaker& table() { return fixedBox({2, 2, 0.1}, {{0, 0, -0.05}, Quat::Identity()}); }
   std::shared_ptr<const World> world() const { return std::make_shared<World>(world_); }
 
@@ -71,7 +71,7 @@ class WorldMaker {
   World world_;
 };
 
-/// Presa's methods, but nothing sleeps: for what must be watched while it rests.
+/// Presa's methods without sleeping, for observing bodies at rest.
 inline OdeOptions awake() {
   OdeOptions options;
   options.method.sleeping = false;
@@ -99,8 +99,8 @@ class Runner {
   double time = 0;
 };
 
-/// A finger whose proxy holds one spot of one body: sphere of 8 mm resting on the surface point p_BC. With
-/// `slides` the proxy gives way inside the friction cone as the haptic side's does.
+/// A finger whose proxy holds one point of a body: a sphere of 8 mm resting on the surface point p_BC. With `slides`
+/// the proxy slips within the friction cone, as on the haptic side.
 struct ReferenceFinger {
   static constexpr double kRadius = 0.008;
   std::int32_t body = 0;
@@ -148,7 +148,7 @@ struct ReferenceFinger {
   }
 };
 
-/// What the haptic thread would publish at the runner's time.
+/// The contact exchange that the haptic thread would publish at the runner's time.
 inline ContactExchange exchangeOf(std::vector<ReferenceFinger>& fingers, const Runner& runner) {
   ContactExchange exchange;
   exchange.time = runner.time;
@@ -159,7 +159,7 @@ inline ContactExchange exchangeOf(std::vector<ReferenceFinger>& fingers, const R
   return exchange;
 }
 
-/// Two fingers on the +x and -x faces of a cube of edge `edge` (body `body` at the origin), `depth` inside, at rest.
+/// Two fingers at rest on the +x and -x faces of a cube with edge `edge` (body `body` at the origin), `depth` inside.
 inline std::vector<ReferenceFinger> pinch(std::int32_t body, double edge, double depth, double stiffness, double mu) {
   std::vector<ReferenceFinger> fingers{{body, {edge / 2, 0, 0}, {1, 0, 0}}, {body, {-edge / 2, 0, 0}, {-1, 0, 0}}};
   for (ReferenceFinger& finger : fingers) {

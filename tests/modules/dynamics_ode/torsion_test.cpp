@@ -1,4 +1,4 @@
-// A soft fingertip resists turning about its normal: Coulomb's law at a radius.
+// A soft fingertip resists rotation about its normal: Coulomb friction at a radius.
 #include <gtest/gtest.h>
 
 #include "tests/modules/dynamics_ode/support.h"
@@ -9,7 +9,7 @@ namespace {
 constexpr double kEdge = 0.05, kMass = 0.1, kDepth = 0.003, kStiffness = 1000, kMu = 1;
 constexpr double kGrip = kStiffness * kDepth;         // of each finger [N]
 constexpr double kTorsion = 0.003;                    // [m]
-constexpr double kMost = 2 * kTorsion * kMu * kGrip;  // torque of both [N m]
+constexpr double kMost = 2 * kTorsion * kMu * kGrip;  // maximum torque of both [N m]
 
 std::shared_ptr<const World> cube(double torsion, const Vec3& gravity) {
   WorldMaker maker;
@@ -22,7 +22,7 @@ std::shared_ptr<const World> cube(double torsion, const Vec3& gravity) {
 
 double angleAboutX(const Runner& run) { return 2 * std::atan2(run[0].X_WB_end.q.x(), run[0].X_WB_end.q.w()); }
 
-// Spun about the line between the fingers it slows by M / I, as a flywheel on a brake, and then stands.
+// A spin about the line between the fingers decelerates with M / I, like a flywheel on a brake, and then stops.
 TEST(Torsion, BrakesASpinByAConstantTorque) {
   const double inertia = kMass * kEdge * kEdge / 6, slowing = kMost / inertia, spin = 20;
   Runner run(cube(kTorsion, Vec3::Zero()), awake());
@@ -31,13 +31,14 @@ TEST(Torsion, BrakesASpinByAConstantTorque) {
   for (int n = 1; n <= 60; ++n) {
     run.step(exchangeOf(fingers, run));
     const double expected = std::max(0.0, spin - slowing * n * kStep);
-    // a step either way where it comes to rest; the grip sways by a per mille while it spins
+    // tolerance: one step at the time of stopping; during the spin the grip sways by 0.1 %
     EXPECT_NEAR(run[0].w_WB.x(), expected, expected > 0 ? 0.01 * spin : slowing * kStep) << n;
   }
   EXPECT_NEAR(run[0].w_WB.x(), 0, 1e-4);
 }
 
-// Half the friction brakes half as fast, and half the grip too: the torque is radius times mu times normal force, each finger.
+// Half the friction or half the grip brakes half as fast: the torque is radius times mu times normal force of each
+// finger.
 TEST(Torsion, IsTheFrictionOfTheGripAtItsRadius) {
   const double inertia = kMass * kEdge * kEdge / 6, spin = 20;
   for (const double mu : {1.0, 0.5, 0.3, 1.6}) {
@@ -62,7 +63,7 @@ TEST(Torsion, APointTurnsFreely) {
   EXPECT_NEAR(run[0].w_WB.x(), 20, 0.2);
 }
 
-// Held beside its centre of mass it stays as it is while m g l is less than the torque, and swings down when it is more.
+// Held beside its centre of mass, the cube stays while m g l is below the torque, and swings down when it is above.
 TEST(Torsion, HoldsALeverUpToItsTorque) {
   for (const double share : {0.8, 1.25}) {
     const double lever = share * kMost / (kMass * kGravity);
