@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-constexpr double kThere = 1e-6;  // of the range
+constexpr double kThere = 1e-6;  // difference at which the target counts as reached, relative to the maximum [-]
 
 }  // namespace
 

@@ -6,15 +6,16 @@
 
 namespace presa {
 
-/// The materials in force where commands may set them: each goes to what was asked for with a time constant, so that a finger that
-/// presses feels no step. Per tick a force F from depth k x changes by less than F period / kTimeConstant: at 1 kHz 0.7 % of it.
-/// Thread: haptic; nonblocking but for construction.
+/// The materials in force when commands may change them. Each parameter approaches its commanded value with a time
+/// constant, so that a pressing finger feels no step: a force F changes by less than F period / kTimeConstant per tick,
+/// 0.7 % at 1 kHz.
+/// Thread: haptic; nonblocking except for construction.
 class CommandedSurfaces {
  public:
   static constexpr double kTimeConstant = 0.15;  ///< [s]
 
   explicit CommandedSurfaces(const Scene& scene);
-  /// As Scene::materials; only what is open differs, and only once it was set.
+  /// Same order as Scene::materials. Only open parameters differ from the scene, and only after a command.
   const std::vector<Material>& materials() const noexcept { return materials_; }
   /// One haptic tick.
   void step(const SurfaceSettings& settings, double period) noexcept;
@@ -22,7 +23,7 @@ class CommandedSurfaces {
  private:
   struct Way {
     double* value;
-    double target, near;  // near: this close is there
+    double target, near;  // near: difference at which the target counts as reached
   };
   SettingsTaker taker_;
   std::vector<Material> materials_;

@@ -37,7 +37,7 @@ std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
   if (effects.poses == HapticEffects::Poses::kNone) left_out.push_back({"moving bodies", "nothing touchable moves"});
   if (!effects.friction) {
     left_out.push_back({"friction", god_object ? "no touchable material has friction"
-                                               : "the penalty renderer keeps no point to hold on to"});
+                                               : "the penalty renderer has no proxy that friction holds"});
   }
   if (!effects.surface_change) {
     left_out.push_back({"changing friction", god_object ? "no touchable material has <changed> friction"

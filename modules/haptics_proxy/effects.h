@@ -7,21 +7,21 @@
 
 namespace presa {
 
-/// Which stages the haptic tick has.
+/// The effects that a scene uses; they determine the stages of the haptic tick.
 struct HapticEffects {
-  enum class Poses { kNone, kInterpolate, kHold };  ///< kNone: nothing moves
+  enum class Poses { kNone, kInterpolate, kHold };  ///< kNone: no touchable body moves
   Poses poses = Poses::kNone;
   HapticSettings::Renderer renderer = HapticSettings::Renderer::kGodObject;
   bool friction = false;
-  bool surface_change = false;  ///< friction that can change during a run
-  bool commanded = false;       ///< stiffness and friction that commands can set
+  bool surface_change = false;  ///< friction that changes during the run
+  bool commanded = false;       ///< surface parameters open to commands
   bool shading = false;
   bool damping = false;
 };
 
-/// What the scene calls for: an effect that nothing touchable names is not among it.
+/// The effects that the scene uses: only those that some touchable body needs.
 HapticEffects effectsOf(const World& world);
-/// What is not among it, and why.
+/// The effects that the scene does not use, with the reasons, for `presa explain`.
 std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects);
 
 }  // namespace presa

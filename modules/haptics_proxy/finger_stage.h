@@ -12,22 +12,21 @@
 
 namespace presa {
 
-/// What one finger carries from tick to tick.
+class Touchables;
+
+/// State of one finger, kept from tick to tick.
 struct Finger {
   bool alive = false;
   std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
   FingertipState tip;
-  Vec3 penalty_nhat = Vec3::Zero();  ///< of the tick before, penalty only; zero: no contact
-  double radius = 0;                 ///< of the sphere that is moved [m]
-  double lift = 0;                   ///< by how much that is more than the fingertip's own: a true point needs some [m]
-  Vec3 p_WH = Vec3::Zero();          ///< HIP of the tick before
+  Vec3 penalty_nhat = Vec3::Zero();  ///< normal of the last tick, penalty renderer only; zero: no contact
+  double radius = 0;                 ///< radius of the moved sphere [m]
+  double lift = 0;                   ///< excess of `radius` over the fingertip radius, not 0 for a point [m]
+  Vec3 p_WH = Vec3::Zero();          ///< HIP of the last tick [m]
   std::unique_ptr<Surroundings> near;
 };
 
-/// Carries the finger, and the point that goes with it, into the coordinates of `body`.
-void moveToFrame(Finger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept;
-
-/// The surfaces that fingers touch, as they are in force. Both outlive whoever holds it.
+/// The surface parameters in force. Both references must outlive the stages.
 struct SurfacesInForce {
   const Scene& scene;
   const std::vector<Material>& materials;  ///< as Scene::materials
@@ -36,7 +35,7 @@ struct SurfacesInForce {
   }
 };
 
-/// What the stages of one tick share about one finger. The working frame A is the body next to it when the tick began.
+/// Data of one finger's tick, shared by its stages. Working frame A: the body that was next to the finger at the start.
 struct FingerTick {
   std::size_t index = 0;
   const FingerInput& input;
@@ -45,30 +44,30 @@ struct FingerTick {
   ContactExchange& all;
   const Touchables& touchables;
   double r = 0;
-  double approach = 0;  ///< how much nearer any surface may have come to the finger in a tick [m]
+  double approach = 0;  ///< maximum distance by which a surface may have approached the finger in this tick [m]
   Pose X_WA;
   Vec3 g = Vec3::Zero();  ///< HIP in A
   ProxyContact contact;
 };
 
-/// One part of a finger's tick. The list of stages is made once, from what the scene calls for: an effect that it does not
-/// name is not in the list. Thread: haptic; apply is nonblocking.
+/// One stage of a finger's tick. The list of stages is built once and holds only the effects that the scene uses.
+/// Thread: haptic; apply is nonblocking.
 class FingerStage {
  public:
   virtual ~FingerStage() = default;
   virtual void apply(FingerTick& tick) noexcept = 0;
-  /// In words, for `presa explain`.
+  /// Description for `presa explain`.
   virtual const char* what() const = 0;
 };
 
-// Each in the file of its name, but for the two of rendering.
+// Each stage is in the file of its name; god-object, spring and damping are in render_stages.cpp.
 std::unique_ptr<FingerStage> makeGodObject();
 std::unique_ptr<FingerStage> makePenalty();
 std::unique_ptr<FingerStage> makeFriction(const SurfacesInForce& surfaces);
-/// `change` outlives it.
+/// `change` must outlive the stage.
 std::unique_ptr<FingerStage> makeChangingFriction(const World& world, const In<SurfaceChange>& change);
 std::unique_ptr<FingerStage> makeShading(const World& world);
-/// Writes contact and spring force; counts what should not happen.
+/// Writes contact state and spring force, and counts pop-through, lost coverage and leaps.
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);
 std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces);
 

@@ -1,3 +1,8 @@
+// Two-state Coulomb friction on the god-object (PERCRO paper, section 3.3, figure 10). Cone: base at the frictionless
+// god-object, apex at the HIP, radius mu * depth, with mu static while sticking and dynamic while slipping. A sticking
+// proxy is not moved at all; a slipping one is moved to the border of the cone. The tangential displacement is stored
+// at the HIP (state.hold), not recomputed from the proxy, which would drift on curved surfaces. Invariants: a touching
+// proxy lies on a surface, and every motion of it is swept (moveProxy).
 #include <array>
 #include <cmath>
 #include <vector>
@@ -9,8 +14,8 @@ namespace presa {
 
 namespace {
 
-/// The fingertip is where it is held: that is what is rendered. Where the frictionless point has gone another way, round an edge
-/// or out of a fold that the fingertip still is in, it starts again from the fingertip, which goes on from `x` without friction.
+/// Restarts both points from the fingertip at `x`, without friction. Needed where the frictionless point took another
+/// path, round an edge or out of a fold that the fingertip is still in.
 void startAgainFrom(const Vec3& x, const Vec3& g, double r, ProxyContact& contact,
                     Surroundings& surroundings) noexcept {
   const ProxyMove free = moveProxy(x, g, r, surroundings);
@@ -23,10 +28,10 @@ void startAgainFrom(const Vec3& x, const Vec3& g, double r, ProxyContact& contac
   if (contact.depth > 0) contact.nhat = (free.x - g) / contact.depth;
 }
 
-constexpr double kSameSide = 0.5;  // cosine between the normals of two points that are on one side of a thing
+constexpr double kSameSide = 0.5;  // minimum cosine between normals on the same side of a body
 
 bool meets(const Vec3& a, const Vec3& b, double r) noexcept {
-  constexpr double kSame = 1e-4;  // of r: two motions to one place end no farther apart
+  constexpr double kSame = 1e-4;  // relative to r: accuracy of two motions to the same point
   return (a - b).norm() <= kSame * r;
 }
 
@@ -38,7 +43,7 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   if (!contact.state.touching && !last.touching) return;
   surroundings.use(Point::kHeld);
   if (!contact.state.touching) {
-    // let go: the fingertip follows the frictionless point, if there is a way
+    // no contact: the fingertip follows the frictionless point, if a path leads there
     const ProxyMove back = moveProxy(last.x, contact.state.god, r, surroundings);
     if (!meets(back.x, contact.state.god, r)) startAgainFrom(back.x, g, r, contact, surroundings);
     contact.x = contact.state.x;
@@ -53,18 +58,18 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   contact.state.slipping = length > mu * contact.depth;
   if (contact.state.slipping) stretch *= cone.mu_dynamic * contact.depth / length;
 
-  // what sticks does not move at all: it lives in the body's coordinates, so there is no drift to correct
+  // a sticking proxy stays fixed in the body's coordinates, so there is no drift to correct
   if (!contact.state.slipping && isSupported(held, r, surroundings)) {
     contact.state.x = held;
   } else {
-    // the border of the cone is reached along the surface: move the goal sideways, and go there; also where the body that
-    // friction held on to is gone
+    // move the goal sideways to the border of the cone and move the proxy there; also when the body that friction held
+    // on to is gone
     contact.state.hold = g + stretch;
     const ProxyMove moved = moveProxy(held, contact.state.hold, r, surroundings);
     contact.state.x = moved.x;
     const Vec3 normal = moved.x - contact.state.hold;
     if (!moved.touching) {
-      // no surface on the way: nothing bears the normal force there, so friction has nothing to hold on to
+      // no surface on the path, hence no normal force and no friction
       contact.state.slipping = true;
       contact.state.hold = contact.state.god;
       const ProxyMove back = moveProxy(moved.x, contact.state.god, r, surroundings);
@@ -105,7 +110,7 @@ class Friction final : public FingerStage {
   const SurfacesInForce surfaces_;
 };
 
-/// A finger that sticks is judged by the other cone in the tick after the change: it slips then as it would anyhow.
+/// Uses the changed cone from the tick of the change on; a sticking finger outside the new cone then slips.
 class ChangingFriction final : public FingerStage {
  public:
   ChangingFriction(const Scene& scene, const In<SurfaceChange>& change) : change_(change) {

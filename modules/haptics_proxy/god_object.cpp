@@ -1,3 +1,8 @@
+// God-object with finite radius [Zilles1995], [Ruspini1997]. A motion is a sequence of legs: find the touched pieces,
+// solve the quadratic programme over their half-spaces (nearest_feasible.h), move towards its solution until the first
+// new contact (swept with Newton's method, convex_piece.h), and repeat until a leg is shorter than the tolerance.
+// Invariants: the sphere never passes a piece; a leg keeps the centre at half its distance from every touched piece;
+// tolerances are relative to r and not below the rounding of the coordinates.
 #include "modules/haptics_proxy/god_object.h"
 
 #include <algorithm>
@@ -8,21 +13,21 @@
 namespace presa {
 namespace {
 
-// Relative to the fingertip radius, so that metres and millimetres give the same answer. A gap of e r at an edge tilts the
-// normal by sqrt(2 e): at 1e-10 that is 1.4e-5, no force one could feel.
-constexpr double kTouchGap = 3e-11;     // a sweep stops this far off
-constexpr double kInContact = 1e-10;    // a gap below this makes a constraint
-constexpr double kStill = 1e-6;         // a leg shorter than this part of r ends the motion: at 8 mm 8 nm, some 10 uN
-constexpr double kStillOfDepth = 1e-7;  // or than this part of the depth, where the fingertip is small against it
-constexpr double kRounding = 64 * 2.2e-16;  // of the coordinates: no gap is known better
-constexpr double kMargin = 0.01;            // of r: how far the fingertip may go before it looks around again
-constexpr double kFarther = 1.5;            // near a mesh, of how far the HIP moved
-constexpr double kAhead = 5e-3;             // of the last leg: pieces of a mesh that close constrain the next one
-constexpr double kMaxAhead = 3e-4;          // of r
+// Relative to the fingertip radius r, so that metres and millimetres give the same answer. A gap of e r at an edge
+// tilts the normal by sqrt(2 e): 1.4e-5 rad at 1e-10, an imperceptible force.
+constexpr double kTouchGap = 3e-11;         // gap at which a sweep stops
+constexpr double kInContact = 1e-10;        // a gap below this makes a constraint
+constexpr double kStill = 1e-6;             // a shorter leg ends the motion: 8 nm for 8 mm, some 10 uN
+constexpr double kStillOfDepth = 1e-7;      // likewise relative to the depth, for small fingertips
+constexpr double kRounding = 64 * 2.2e-16;  // accuracy of a gap relative to the coordinates
+constexpr double kMargin = 0.01;            // distance moved before the surroundings are queried again
+constexpr double kFarther = 1.5;            // the same near a mesh, relative to the HIP's step
+constexpr double kAhead = 5e-3;             // mesh pieces this close, relative to the last leg, constrain the next leg
+constexpr double kMaxAhead = 3e-4;          // limit of that distance, relative to r
 constexpr int kMaxRenewals = 8;
-constexpr int kMaxLegs = 256;  // a leg per face or edge; curved edges converge by d / r
+constexpr int kMaxLegs = 256;  // one leg per face or edge; on curved edges the legs converge as d / r
 
-/// What counts as touching at one place. On a small fingertip rounding of the coordinates is more than a part of r.
+/// Tolerances of one motion [m]. For a small fingertip the rounding of the coordinates exceeds the relative tolerances.
 struct Tolerance {
   Tolerance(const Vec3& x, const Vec3& g, double r) noexcept {
     const double rounding = kRounding * std::max(x.lpNorm<Eigen::Infinity>(), g.lpNorm<Eigen::Infinity>());
@@ -33,28 +38,27 @@ struct Tolerance {
   double touch_gap, contact_gap, still;  // [m]
 };
 
-/// Everything that the fingertip touches.
+/// The constraints of the touched pieces.
 struct Holds {
   struct Hold {
     NearPiece piece;
-    double offset;  // nhat . y >= offset keeps the fingertip off
+    double offset;  // half-space nhat . y >= offset keeps the sphere off the piece
   };
   static constexpr int kCapacity = 64;
   std::array<Hold, kCapacity> item;
   int count = 0;
 };
 
-// The constraints of one leg and where they let it go.
+// One leg: its constraints and its target.
 struct Leg {
   Holds holds;
-  bool ahead = false;  // one of them is not touched yet
+  bool ahead = false;  // some constraint belongs to a piece not touched yet
   HalfSpaces half_spaces;
   Feasible target;
 };
 
-// Constraints where the fingertip is now; they also push it out of a body that moved into it. Pieces of a mesh that are no
-// farther than `ahead` are among them: their half-spaces lie on the safe side, and the leg goes down to them and along them
-// at once.
+// Collects the constraints at x; they also push the fingertip out of a body that moved into it. Mesh pieces closer than
+// `ahead` are included: their half-spaces are conservative, and the leg then moves down to them and along them at once.
 void findConstraints(const Vec3& x, double r, double ahead, const Tolerance& tolerance, Surroundings& surroundings,
                      Leg& leg) noexcept {
   leg.holds.count = 0;
@@ -63,18 +67,18 @@ void findConstraints(const Vec3& x, double r, double ahead, const Tolerance& tol
   surroundings.forEachWithin(x, r + std::max(tolerance.contact_gap, ahead), [&](const NearPiece& piece) {
     const bool touched = piece.at.distance <= r + tolerance.contact_gap;
     if (!touched && piece.ref.source < 0) return;
-    if (leg.holds.count == Holds::kCapacity) return;  // not marked, so a sweep stops at it
+    if (leg.holds.count == Holds::kCapacity) return;  // stays unmarked, so the sweep stops at it
     leg.holds.item[static_cast<std::size_t>(leg.holds.count++)] = {piece, piece.at.nhat.dot(x) + r - piece.at.distance};
     leg.ahead = leg.ahead || !touched;
     surroundings.mark(piece.ref);
   });
 }
 
-// How far y is on the wrong side of a hold [m].
+// Violation of a constraint at y [m].
 double lack(const Holds::Hold& hold, const Vec3& y) noexcept { return hold.offset - hold.piece.at.nhat.dot(y); }
 
-// The programme over all holds. Where they are more than it has room for, those that bind are found one by one: each round
-// takes in the one most violated, and leaves out one that did not bind.
+// Solves the programme over all constraints. If they exceed the capacity of HalfSpaces, the binding ones are found
+// iteratively: each round replaces an inactive constraint by the most violated one.
 void solve(const Vec3& x, const Vec3& g, Leg& leg) noexcept {
   constexpr int kMaxRounds = 64;
   HalfSpaces& set = leg.half_spaces;
@@ -99,7 +103,7 @@ void solve(const Vec3& x, const Vec3& g, Leg& leg) noexcept {
     int idle = 0;
     while (std::ranges::find(leg.target.active, idle) != leg.target.active.end()) ++idle;
     const Holds::Hold& hold = leg.holds.item[static_cast<std::size_t>(worst)];
-    // the next one that is idle, in turn, so that no two of them replace each other for ever
+    // replace inactive constraints in turn, so that no two of them alternate for ever
     set.item[static_cast<std::size_t>(idle)] = {hold.piece.at.nhat, hold.offset, worst};
     std::rotate(set.item.begin() + idle, set.item.begin() + idle + 1, set.item.begin() + set.count);
     leg.target = nearestFeasible(set, g);
@@ -118,7 +122,7 @@ ActiveSet activeSet(const Leg& leg) noexcept {
   return active;
 }
 
-// The body whose constraint holds the proxy back most.
+// The body of the constraint that is violated most at g.
 std::int32_t holdingBody(const Leg& leg, const Vec3& g) noexcept {
   std::int32_t body = kNoBody;
   double most = 0;
@@ -133,7 +137,8 @@ std::int32_t holdingBody(const Leg& leg, const Vec3& g) noexcept {
   return body;
 }
 
-// Where a motion looks: while the fingertip's centre is within `margin` of `center`, what is in focus is all that it can touch.
+// The region queried by a motion: while the centre stays within `margin` of `center`, the focus holds everything it can
+// touch.
 struct Look {
   Vec3 center;
   double margin;
@@ -145,13 +150,13 @@ struct Look {
   double room(const Vec3& x) const noexcept { return margin - (x - center).norm(); }
 };
 
-// Fraction of `move` that the fingertip can go, at most `limit`.
+// Fraction of `move` that the fingertip can move, at most `limit`.
 double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, const Tolerance& tolerance,
                     Surroundings& surroundings, const Leg& leg) noexcept {
   double reach = std::min(1.0, limit);
   for (int i = 0; i < leg.holds.count; ++i) {
-    // The half-space of a hold keeps the sphere off it. Where the holds have no common point it may not: then the centre
-    // comes no nearer than half way, since the distance lies above its tangent plane.
+    // The half-space of a constraint keeps the sphere off its piece. If the constraints have no common point this may
+    // fail; then the centre still keeps half its distance, because the distance lies above its tangent plane.
     const Nearest& at = leg.holds.item[static_cast<std::size_t>(i)].piece.at;
     const double slope = at.nhat.dot(move);
     if (slope < 0) reach = std::min(reach, (at.distance - 0.5 * std::min(at.distance, r)) / -slope);
@@ -159,7 +164,7 @@ double freeFraction(const Vec3& x, const Vec3& move, double limit, double r, con
   return std::min(reach, surroundings.firstTouch(x, move, reach, r, {tolerance.touch_gap, tolerance.contact_gap}));
 }
 
-// No farther from a surface than a leg round an edge ends.
+// Whether x is as close to a surface as at the end of a leg round an edge.
 bool isNear(const Vec3& x, double r, Surroundings& surroundings) noexcept {
   constexpr double kOffAnEdge = 1e-2;
   bool near = false;
@@ -200,7 +205,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
       look.at(result.x, r, surroundings);
     }
     if (look.room(result.x) < 0.1 * look.margin) {
-      look.margin *= 2;  // a long way is looked at in ever larger parts
+      look.margin *= 2;  // a long motion is queried in ever larger parts
       look.at(result.x, r, surroundings);
     }
     findConstraints(result.x, r, ahead, tolerance, surroundings, leg);
@@ -217,9 +222,9 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     const Vec3 move = leg.target.y - result.x;
     const double length = move.norm();
     arrived = length <= tolerance.still;
-    if (arrived && surroundings.full() && renewals < kMaxRenewals) continue;  // by what has no room: look again
+    if (arrived && surroundings.full() && renewals < kMaxRenewals) continue;  // held by a solid node: reseed
     if (arrived) {
-      // what is not quite touched yet is now; otherwise there is nothing to be gained
+      // move the last bit to pieces that are not quite touched yet
       if (leg.ahead) result.x = leg.target.y;
       break;
     }
@@ -230,7 +235,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     ahead = std::min(kAhead * fraction * length, kMaxAhead * r);
   }
   if (!met) result.first_touch = result.x;
-  // out of legs between one edge and the next: what held it last still does, and the next tick goes on from here
+  // out of legs between one edge and the next: the last contact still holds, and the next tick continues from here
   if (!arrived && result.body != kNoBody && isNear(result.x, r, surroundings)) result.touching = true;
   if (!result.touching) {
     result.body = kNoBody;
@@ -242,7 +247,8 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
 ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept {
   ProxyContact contact;
   surroundings.use(Point::kGodObject);
-  // the frictionless point goes on from where it was: it has little way to go, whatever friction holds back
+  // the frictionless point continues from its own last position, so its way is short even when friction holds the proxy
+  // back
   const ProxyMove bare = moveProxy(last.god, g, r, surroundings);
   contact.x = contact.state.x = contact.state.god = bare.x;
   contact.depth = (bare.x - g).norm();

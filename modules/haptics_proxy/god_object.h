@@ -6,7 +6,7 @@
 
 namespace presa {
 
-/// What holds a proxy: the half-spaces of the active set, at most three. From the goal to the proxy is the sum of weight * nhat.
+/// The active constraints of a proxy, at most three. The vector from the goal to the proxy is the sum of weight * nhat.
 struct ActiveSet {
   struct Member {
     PieceRef piece;
@@ -20,46 +20,46 @@ struct ActiveSet {
 
 /// Result of moving a proxy towards its goal.
 struct ProxyMove {
-  Vec3 x = Vec3::Zero();            ///< where the fingertip's centre ends
-  Vec3 first_touch = Vec3::Zero();  ///< where it first met a surface (x itself when it never did)
-  bool touching = false;            ///< a surface keeps it from the goal
-  std::int32_t body = kNoBody;      ///< the body that holds it back most
+  Vec3 x = Vec3::Zero();            ///< final position of the fingertip's centre
+  Vec3 first_touch = Vec3::Zero();  ///< position at the first contact (x if there was none)
+  bool touching = false;            ///< a surface keeps the sphere from the goal
+  std::int32_t body = kNoBody;      ///< body of the most violated constraint
   ActiveSet active;
 };
 
-/// Moves a sphere of radius r from x towards g without passing through any piece, and returns the local
-/// minimum of |x - g|: the god-object with finite radius [Zilles1995], [Ruspini1997]. Exact: each leg goes to the
-/// solution of the active-set programme, stopped by the first new contact (swept, so nothing is jumped over).
-/// Whatever the constraints say, a leg keeps the centre at half its distance from each piece: it cannot cross a surface.
-/// Tolerances are relative to r, and never below the rounding of the coordinates. Thread: haptic; nonblocking.
+/// Moves a sphere of radius r from x towards g without passing through any piece, to the local minimum of |x - g|: the
+/// god-object with finite radius [Zilles1995], [Ruspini1997]. Each leg goes to the exact solution of the active-set
+/// programme and is stopped by the first new contact, found by a sweep. Even with contradicting constraints a leg keeps
+/// the centre at half its distance from each piece, so it cannot cross a surface. Tolerances are relative to r, and not
+/// below the rounding of the coordinates. Thread: haptic; nonblocking.
 ProxyMove moveProxy(const Vec3& x, const Vec3& g, double r, Surroundings& surroundings) noexcept;
 
-/// True when a fingertip at x touches a piece and overlaps none.
+/// True when a fingertip at x touches at least one piece and overlaps none.
 bool isSupported(const Vec3& x, double r, Surroundings& surroundings) noexcept;
 
-/// What a fingertip carries from tick to tick, in the working frame A.
+/// State of a fingertip, kept from tick to tick, in the working frame A.
 struct FingertipState {
-  Vec3 x = Vec3::Zero();    ///< proxy: where friction holds the fingertip
-  Vec3 god = Vec3::Zero();  ///< where it would be without friction; x itself in free space
+  Vec3 x = Vec3::Zero();    ///< proxy, held by friction
+  Vec3 god = Vec3::Zero();  ///< frictionless god-object; x itself in free space
   bool touching = false;
   bool slipping = false;
-  Vec3 hold = Vec3::Zero();  ///< what friction pulls the HIP back to: below the surface, x is the proxy of it
+  Vec3 hold = Vec3::Zero();  ///< stick anchor: friction pulls the HIP towards it; its image on the surface is x
 };
 
-/// One fingertip at the surface, in the working frame A.
+/// Contact of one fingertip, in the working frame A.
 struct ProxyContact {
   FingertipState state;
-  Vec3 x = Vec3::Zero();            ///< proxy that is rendered: state.x, unless an effect moves it
-  Vec3 first_touch = Vec3::Zero();  ///< where the motion of this tick first met a surface
+  Vec3 x = Vec3::Zero();            ///< rendered proxy: state.x, unless an effect moves it
+  Vec3 first_touch = Vec3::Zero();  ///< position at the first contact of this tick's motion
   Vec3 nhat = Vec3::UnitZ();        ///< direction of the frictionless force, body into finger
-  double depth = 0;                 ///< (x - g) . nhat
-  Vec3 stretch = Vec3::Zero();      ///< x - g without its normal part
+  double depth = 0;                 ///< (x - g) . nhat [m]
+  Vec3 stretch = Vec3::Zero();      ///< tangential displacement: x - g without its normal part [m]
   std::int32_t body = kNoBody;
-  ActiveSet active;   ///< of the frictionless point
-  bool swept = true;  ///< the proxy moves along paths; false: a renderer without memory, which may jump
+  ActiveSet active;   ///< active set of the frictionless point
+  bool swept = true;  ///< the proxy moves along continuous paths; false: a renderer without memory, which may jump
 };
 
-/// One tick towards the HIP g without friction: the proxy slides freely.
+/// One tick of the frictionless god-object towards the HIP g.
 ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept;
 
 /// Coefficients of the two-state friction cone of the PERCRO paper (section 3.3, figure 10).
@@ -68,9 +68,9 @@ struct FrictionCone {
   double mu_dynamic = 0;
 };
 
-/// Holds the proxy of a sliding `contact` back: what sticks stays where `last` or the first touch was, what slips follows
-/// the border of the cone. The stretch of friction is kept below the surface, where the HIP is, and never read back from
-/// the proxy: on a curved surface the two differ, and the difference would add up tick by tick, more at a higher rate.
+/// Applies friction to a sliding `contact`: a sticking proxy stays at its last position or at the first touch, a
+/// slipping one follows the border of the cone. The tangential displacement is stored at the HIP, below the surface,
+/// not recomputed from the proxy: on a curved surface the two differ, and the difference would accumulate tick by tick.
 void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
                     const FrictionCone& cone, Surroundings& surroundings) noexcept;
 

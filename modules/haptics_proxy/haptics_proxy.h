@@ -12,10 +12,10 @@
 
 namespace presa {
 
-/// Haptic rendering for every finger: HIP in, proxy, contact state and force out. A proxy lives in the coordinates of the
-/// body next to it, so it moves with the body for free. Force on the finger, for the touched body's material:
-///   f = k (p_WP - p_WH), and what the effects that the scene names make of it.
-/// Meshes come as patches from the collision thread; primitives are exact and need none.
+/// Haptic rendering of all fingers: device state in, contact exchange out. A proxy is stored in the coordinates of the
+/// body next to it, so it moves with that body. Force on the finger, with the touched body's material:
+///   f = k (p_WP - p_WH), modified by the effects that the scene uses.
+/// The collision thread's patches limit the bodies to examine; without a patch all bodies are examined.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
 class HapticsProxy final : public Module, public WatchedStages {
  public:
@@ -28,12 +28,12 @@ class HapticsProxy final : public Module, public WatchedStages {
   std::vector<LeftOut> leftOut() const override { return effectsLeftOut(effects_); }
 
  private:
-  /// Where the bodies are now: the first stage of a tick, when anything touchable moves.
+  /// First stage of a tick when a touchable body moves: selects the body poses.
   struct PlaceBodies {
     const char* what;
     void (*apply)(Touchables& touchables, const ObjectState& objects, double time) noexcept;
   };
-  /// Surfaces that commands set, and the port that they come by.
+  /// The commanded surfaces with the port of the commands.
   struct Commanded {
     Commanded(Module& owner, const Scene& scene)
         : settings(owner, "surface_settings", In<SurfaceSettings>::Optional{}), surfaces(scene) {}
@@ -57,7 +57,7 @@ class HapticsProxy final : public Module, public WatchedStages {
   In<DeviceState> device_{*this, "device_state"};
   In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kHold};
-  std::optional<In<SurfaceChange>> surface_change_;    // only where friction can change
+  std::optional<In<SurfaceChange>> surface_change_;    // only if friction can change
   std::vector<std::unique_ptr<Commanded>> commanded_;  // none or one
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };

@@ -7,13 +7,13 @@
 namespace presa {
 namespace {
 
-/// The surface point of one body that is nearest to the HIP.
+/// The point of one body's surface nearest to the HIP.
 struct NearestSurface {
   std::int32_t body = kNoBody;
   double distance = 0;         ///< >= 0 [m]
   double signed_distance = 0;  ///< negative inside the body [m]
-  Vec3 nhat = Vec3::UnitZ();   ///< outwards
-  double facing = 0;  ///< how squarely its triangle faces the HIP: decides between triangles that share the point
+  Vec3 nhat = Vec3::UnitZ();   ///< unit outward normal
+  double facing = 0;           ///< cosine to the HIP: decides between triangles that share the point
 };
 
 constexpr double kTie = 1e-9;  // relative difference below which two triangles share their nearest point
@@ -28,9 +28,9 @@ NearestSurface surfaceOf(const NearPiece& piece, const Surroundings::Triangle& t
   return {piece.body, at.distance, side * at.distance, side * at.nhat, std::abs(facing)};
 }
 
-/// The force rises with how deep the fingertip is below the *nearest* surface, and nothing is remembered: past the middle
-/// of a thin part the nearest surface is the far one, and the finger is pushed out there. The baseline that shows what a
-/// proxy buys.
+/// Penalty method, the baseline without a proxy: the force is proportional to the depth below the *nearest* surface,
+/// and nothing is remembered. Beyond the middle of a thin part the nearest surface is the far one, and the finger is
+/// pushed out there.
 class Penalty final : public FingerStage {
  public:
   void apply(FingerTick& tick) noexcept override {
@@ -57,7 +57,7 @@ class Penalty final : public FingerStage {
     NearestSurface deepest;
     deepest.signed_distance = r;
     for (int source = -1; source < near.meshCount(); ++source) {
-      // of a mesh only what is as near as the nearest so far; each primitive is a body of its own
+      // a mesh contributes its nearest surface only; each primitive is a body of its own
       NearestSurface nearest;
       double limit = std::numeric_limits<double>::infinity();
       near.forEachWithin(source, g, limit, [&](const NearPiece& piece) {
@@ -76,7 +76,8 @@ class Penalty final : public FingerStage {
     return deepest;
   }
 
-  // Pushed back one tick and onwards the next: the finger went through. Counted here, where it is no fault but the method.
+  // A force direction that reverses from one tick to the next means that the finger went through. Expected of this
+  // method.
   static void countFlip(FingerTick& tick) noexcept {
     const Vec3 nhat_W = tick.X_WA.q * tick.contact.nhat;
     if (nhat_W.dot(tick.finger.penalty_nhat) < 0) {

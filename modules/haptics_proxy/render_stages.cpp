@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-constexpr double kNear = 1.06;  // a body nearer to a free fingertip's centre than this times r carries the proxy
+constexpr double kNear = 1.06;  // a body within this times r of a free fingertip's centre carries the proxy
 
 class GodObject final : public FingerStage {
  public:
@@ -18,7 +18,7 @@ class GodObject final : public FingerStage {
   }
 };
 
-/// What was found becomes contact state and spring force, and the finger's state for the next tick.
+/// Converts the result into contact state and spring force, and stores the finger's state for the next tick.
 class Spring final : public FingerStage {
  public:
   explicit Spring(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
@@ -67,8 +67,8 @@ void Spring::apply(FingerTick& tick) noexcept {
   out.tangential_force_W = material.stiffness * (tick.X_WA.q * contact.stretch);
 }
 
-// What each body bears where several hold the finger: the multipliers of its own constraints, and of the friction as much as
-// its share of the normal force.
+// Divides the contact among the bodies that hold the finger: the multipliers of each body's constraints, and a share of
+// the friction proportional to its share of the normal force.
 void Spring::share(const FingerTick& tick, FingerContact& out) noexcept {
   const ProxyContact& contact = tick.contact;
   const ActiveSet& active = contact.active;
@@ -84,7 +84,7 @@ void Spring::share(const FingerTick& tick, FingerContact& out) noexcept {
       out.parts[p].body = member.body;
       ++out.part_count;
     }
-    out.parts[p].stretch_W += member.weight * member.nhat;  // in A until below
+    out.parts[p].stretch_W += member.weight * member.nhat;  // still in A; rotated to W below
   }
   if (out.part_count < 2) {
     out.part_count = 0;
@@ -107,11 +107,11 @@ void Spring::share(const FingerTick& tick, FingerContact& out) noexcept {
   }
 }
 
-// The body next to a free fingertip, or the one that will be: kept in its coordinates, the proxy sees it come.
+// The body next to a free fingertip, or about to be: in its coordinates the proxy sees the surface approach.
 std::int32_t Spring::nearestBody(const FingerTick& tick) noexcept {
   constexpr double kTicksAhead = 2;
   constexpr double kFast =
-      0.25;  // of r in a tick: what comes slower and overlaps is still on the side that it came from
+      0.25;  // relative to r per tick: a slower body that overlaps is still on the side from which it came
   Surroundings& near = *tick.finger.near;
   near.use(Point::kGodObject);
   std::int32_t body = kNoBody;
@@ -125,7 +125,7 @@ std::int32_t Spring::nearestBody(const FingerTick& tick) noexcept {
   return body;
 }
 
-// Judged by the surfaces, apart from the algorithm that should prevent it.
+// Tests the result against the surfaces, independently of the algorithm.
 void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
   Surroundings& near = *tick.finger.near;
   if (near.crowded()) ++tick.all.coverage_lost;
@@ -134,10 +134,11 @@ void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
   ++tick.all.pop_through_by_finger[tick.index];
 }
 
-// The frictionless point follows the HIP, a little ahead of it on a curved surface, until what held it ends.
+// A leap: the frictionless point normally follows the HIP closely; it moves much farther when the surface that held it
+// ends.
 bool Spring::leaps(const FingerTick& tick) noexcept {
-  constexpr double kAhead = 8;      // times what moved
-  constexpr double kOfDepth = 0.1;  // what is less, nobody feels
+  constexpr double kAhead = 8;      // minimum length of a leap relative to the motion of HIP and bodies
+  constexpr double kOfDepth = 0.1;  // minimum length relative to the depth; shorter ones are imperceptible
   const FingertipState &last = tick.finger.tip, &now = tick.contact.state;
   if (!last.touching || !now.touching || !tick.contact.swept) return false;
   const double way = (now.god - last.god).norm();

@@ -1,3 +1,6 @@
+// Force shading [Morgenbesser1996]: the normal is interpolated barycentrically between vertex normals [Thurmer1998], as
+// in Phong shading. Each active constraint keeps its multiplier; only its normal is replaced. Invariants: the magnitude
+// of the force and the depth stay; the force rotates by less than 60 degrees.
 #include <cmath>
 #include <vector>
 
@@ -7,7 +10,7 @@
 namespace presa {
 namespace {
 
-/// Unit normals of a mesh's vertices, each the mean of its triangles' weighted by their angle there [Thurmer1998].
+/// Unit vertex normals: mean of the adjacent triangles' normals, weighted by their angle at the vertex [Thurmer1998].
 std::vector<Vec3> vertexNormals(const TriMesh& mesh) {
   std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
   for (const TriMesh::Triangle& t : mesh.triangles) {
@@ -23,7 +26,7 @@ std::vector<Vec3> vertexNormals(const TriMesh& mesh) {
   return normals;
 }
 
-/// Weights of a triangle's corners at its point q: q = w0 a + w1 b + w2 c.
+/// Barycentric weights of point q of a triangle: q = w0 a + w1 b + w2 c.
 Vec3 cornerWeights(const PreparedTriangle& t, const Vec3& q) noexcept {
   const Vec3 aq = q - t.a;
   const double d1 = t.ab.dot(aq), d2 = t.ac.dot(aq);
@@ -33,8 +36,8 @@ Vec3 cornerWeights(const PreparedTriangle& t, const Vec3& q) noexcept {
   return {1 - w1 - w2, w1, w2};
 }
 
-/// Force shading [Morgenbesser1996]: facets of a mesh feel like the surface they stand for. Where a triangle holds the
-/// fingertip, its part of the normal is interpolated between the corners; the force turns with it, its size stays.
+/// Force shading: facets of a mesh feel like the smooth surface they approximate. The normal of each triangle that
+/// holds the fingertip is interpolated between its corners; the force rotates accordingly and keeps its magnitude.
 class Shading final : public FingerStage {
  public:
   explicit Shading(const World& world) {
@@ -72,7 +75,7 @@ class Shading final : public FingerStage {
     std::vector<Vec3> normals;  ///< mesh frame
   };
 
-  // Normal in A of the piece that holds the fingertip.
+  // Interpolated normal, in A, of a piece that holds the fingertip.
   Vec3 normalOf(const ActiveSet::Member& member, const Surroundings::Triangle& triangle,
                 const FingerTick& tick) const noexcept {
     const Smooth& body = bodies_[static_cast<std::size_t>(member.body)];
@@ -92,7 +95,7 @@ class Shading final : public FingerStage {
     return length > 0 && normal.dot(member.nhat) > 0 ? Vec3(normal / length) : member.nhat;
   }
 
-  static constexpr double kLeastCosine = 0.5;  // a force turns by less than 60 degrees
+  static constexpr double kLeastCosine = 0.5;  // the force rotates by less than 60 degrees, else shading is skipped
   std::vector<Smooth> bodies_;                 // as Scene::bodies
 };
 

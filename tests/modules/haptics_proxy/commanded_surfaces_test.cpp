@@ -1,4 +1,4 @@
-// Surfaces that commands set while a finger feels them.
+// Surface parameters changed by commands while a finger touches the surface.
 #include "modules/haptics_proxy/commanded_surfaces.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr double kR = 0.008, kStiffness = 1000, kHeight = 0.05 + kR, kPeriod = 1e-3;
-constexpr double kSlewLimit = 1000 * kPeriod;  // of a finger, in a tick [N] (DeviceLimits)
+constexpr double kSlewLimit = 1000 * kPeriod;  // slew limit of a finger per tick [N] (DeviceLimits)
 
 /// A box of 1000 N/m with friction; slots: stiffness, static, dynamic.
 World openBox(double mu_static = 0.8, double mu_dynamic = 0.8) {
@@ -41,13 +41,13 @@ TEST(CommandedSurfaces, AreThereOnlyWhereTheRunTakesCommands) {
   world.options.bus_commands = false;
   EXPECT_THAT(OneFinger(world).stages(), Not(Contains(HasSubstr("what commands have set"))));
   OneFinger closed(world);
-  set(closed, 0, 100);  // nobody reads it
+  set(closed, 0, 100);  // without effect
   closed.tick({0, 0, kHeight + 0.001});
   for (int i = 0; i < 1000; ++i) ASSERT_EQ(closed.tick({0, 0, kHeight - 0.002}).stiffness, kStiffness);
 }
 
-// Without a command every bit is that of a run that takes none, over a way through air, stick and slip; a command for what is in
-// force changes nothing either.
+// Without a command the run equals, to the bit, one that takes no commands, through air, stick and slip; commanding the
+// current value changes nothing either.
 TEST(CommandedSurfaces, LeaveEveryBitWhereNothingIsSet) {
   World world = openBox(0.8, 0.6);
   world.scene.materials[0].damping = 1;
@@ -69,8 +69,8 @@ TEST(CommandedSurfaces, LeaveEveryBitWhereNothingIsSet) {
   EXPECT_GT(touched, 1000);
 }
 
-// k(t) = k1 + (k0 - k1) exp(-t / tau) under a finger that holds still: the force is k depth, no tick changes it by more than
-// F period / tau, which is 1/100 of the slew limit here, and the energy in the spring goes as slowly. Down, and up again.
+// Under a still finger k(t) = k1 + (k0 - k1) exp(-t / tau): the force is k depth, changes per tick by at most F period
+// / tau, here 1/100 of the slew limit, and the energy of the spring changes as slowly. Down and up again.
 TEST(CommandedSurfaces, ChangeStiffnessWithoutAStep) {
   OneFinger finger(openBox());
   const double depth = 0.002, tau = CommandedSurfaces::kTimeConstant;
@@ -88,17 +88,17 @@ TEST(CommandedSurfaces, ChangeStiffnessWithoutAStep) {
       const double step = std::abs(contact.normal_force - last), most = std::abs(from - to) * depth * kPeriod / tau;
       ASSERT_LE(step, 1.001 * most) << n;
       ASSERT_LE(step, kSlewLimit / 50) << n;
-      const double energy = std::abs(contact.normal_force - last) * depth / 2;  // of k depth^2 / 2
+      const double energy = std::abs(contact.normal_force - last) * depth / 2;  // change of k depth^2 / 2
       ASSERT_LE(energy, 1.001 * most * depth / 2) << n;
       last = contact.normal_force;
     }
-    EXPECT_EQ(finger.tick({0, 0, kHeight - depth}).stiffness, to);  // it gets there
+    EXPECT_EQ(finger.tick({0, 0, kHeight - depth}).stiffness, to);  // the target is reached
     from = to;
   }
 }
 
-// A finger that slips feels mu(t) N; one that sticks well within both cones feels nothing. Static friction is never below dynamic,
-// whichever was asked for first.
+// A slipping finger feels mu(t) N; a finger sticking well within both cones feels nothing. Static friction is never
+// below dynamic, in whichever order they are commanded.
 TEST(CommandedSurfaces, ChangeFrictionWithoutAStep) {
   OneFinger slipping(openBox(0.8, 0.8)), sticking(openBox(0.8, 0.8));
   const double depth = 0.002, normal = kStiffness * depth, tau = CommandedSurfaces::kTimeConstant;
@@ -143,24 +143,24 @@ TEST(CommandedSurfaces, NeitherAllocateNorWait) {
 
 TEST(OpenSurfaces, AreWhatFingersTouchWithinWhatTheSceneLoadedWith) {
   World world = openBox(0.8, 0.6);
-  world.scene.materials.emplace_back().stiffness = 500;  // nothing is made of it
+  world.scene.materials.emplace_back().stiffness = 500;  // unused material
   const auto open = openSurfaces(world.scene);
   ASSERT_EQ(open.size(), 3u);
   EXPECT_EQ(open[0].name, "material/rubber/stiffness");
   EXPECT_EQ(open[0].least, 1);
-  EXPECT_EQ(open[0].most, kStiffness);  // never above: it has passed the bound of stability, more has not
+  EXPECT_EQ(open[0].most, kStiffness);  // not above: only the loaded value has passed the stability check
   EXPECT_EQ(open[1].name, "material/rubber/friction/static");
   EXPECT_EQ(open[1].most, 1.6);
   EXPECT_EQ(open[2].name, "material/rubber/friction/dynamic");
   EXPECT_EQ(open[2].most, 1.2);
-  world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;  // has no friction
+  world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;  // renderer without friction
   EXPECT_EQ(openSurfaces(world.scene).size(), 1u);
   world.scene.haptics = {};
-  world.scene.materials[0].changed_friction = {.mu_static = 0.4, .mu_dynamic = 0.3};  // the experiment's
+  world.scene.materials[0].changed_friction = {.mu_static = 0.4, .mu_dynamic = 0.3};  // reserved for the experiment
   EXPECT_EQ(openSurfaces(world.scene).size(), 1u);
 }
 
-// Several changes between two ticks are taken one a tick, in order; of one slot the last.
+// Several changes between two ticks are applied one per tick, in order; for one slot only the last.
 TEST(SettingsTaker, TakesOneChangeATick) {
   SurfaceSettings settings;
   SettingsTaker taker;

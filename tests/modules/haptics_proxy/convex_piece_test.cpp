@@ -18,7 +18,7 @@ Vec3 randomVec(std::mt19937_64& random, double scale) {
   return {uniform(random), uniform(random), uniform(random)};
 }
 
-// Oracle: the nearest of a fine grid of the triangle's points, refined around the best. No Voronoi regions.
+// Oracle: the nearest point of a grid over the triangle, refined around the best point; no Voronoi regions.
 double gridDistance(const ConvexPiece& t, const Vec3& p) {
   const auto& corners = std::get<PreparedTriangle>(t.shape);
   double best = 1e300, u0 = 0.5, v0 = 0.5, span = 0.5;
@@ -37,7 +37,7 @@ double gridDistance(const ConvexPiece& t, const Vec3& p) {
   return best;
 }
 
-// Tolerance: the grid ends at a spacing of 0.5 * 0.4^12 / 10 of the triangle, whose distance error is of second order.
+// Tolerance: the grid ends at a spacing of 0.5 * 0.4^12 / 10 of the triangle; the distance error is of second order.
 TEST(ConvexPiece, TriangleDistanceMatchesARefinedGrid) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 300; ++i) {
@@ -47,7 +47,8 @@ TEST(ConvexPiece, TriangleDistanceMatchesARefinedGrid) {
   }
 }
 
-// For every kind: the normal is the gradient of the distance (central differences, second order: 1e-6 at step 1e-5).
+// For every kind of piece the normal is the gradient of the distance (central differences, second order: 1e-6 at step
+// 1e-5).
 TEST(ConvexPiece, NormalIsGradientOfDistance) {
   std::mt19937_64 random(2);
   std::vector<ConvexPiece> pieces{triangle({0, 0, 0}, {0.7, 0, 0.1}, {0.2, 0.6, 0})};
@@ -73,7 +74,7 @@ TEST(ConvexPiece, NormalIsGradientOfDistance) {
   }
 }
 
-// Inside a solid primitive the distance is minus the depth, and the normal leads out the shortest way.
+// Inside a solid primitive the distance is minus the depth, and the normal points to the nearest surface.
 TEST(ConvexPiece, DistanceInsideIsMinusTheDepth) {
   Primitive box{.kind = Primitive::Kind::kBox, .X_AG = {}, .half = {1, 2, 3}};
   const Nearest at = nearest({.body = 0, .id = -1, .shape = box}, {0.9, 0, 0});
@@ -90,7 +91,7 @@ double sweep(const ConvexPiece& piece, const Vec3& x, const Vec3& move, double r
   return firstTouch(piece, nearest(piece, x), x, move, 1, r, tolerance);
 }
 
-// A sphere that flies at a plane face from distance h touches after (h - r) / h of the way.
+// A sphere flying at a plane face from distance h touches after (h - r) / h of the way.
 TEST(ConvexPiece, SweepStopsWhereTheSphereTouches) {
   const ConvexPiece t = triangle({-1, -1, 0}, {1, -1, 0}, {0, 2, 0});
   EXPECT_NEAR(sweep(t, {0, 0, 0.5}, {0, 0, -1}, 0.1, 1e-9), 0.4, 1e-9);
@@ -100,7 +101,7 @@ TEST(ConvexPiece, SweepStopsWhereTheSphereTouches) {
   EXPECT_NEAR(sweep(t, {0, 2.06, 0.5}, {0, 0, -1}, 0.1, 1e-9), 0.5 - 0.08, 1e-8);
 }
 
-// The sweep against its definition: a thousand samples along the way find the same first touch.
+// The sweep finds the same first touch as a thousand samples along the path.
 TEST(ConvexPiece, SweepMatchesDenseSampling) {
   std::mt19937_64 random(3);
   int hits = 0;
@@ -119,7 +120,7 @@ TEST(ConvexPiece, SweepMatchesDenseSampling) {
       EXPECT_LE(found, sampled + 1e-12);
       EXPECT_GE(found, sampled - 1e-3 - 1e-9);
     } else if (found <= 1) {
-      // grazed between two samples: then it must really be a touch
+      // a grazing touch between two samples must be a real touch
       EXPECT_NEAR(nearest(t, x + found * move).distance, r, 1e-6);
     }
   }

@@ -34,7 +34,7 @@ TEST(Stages, AreThoseTheSceneNamesAndNoOther) {
   full.scene.haptics = {HapticSettings::Renderer::kPenalty, HapticSettings::PoseUse::kHold};
   EXPECT_THAT(OneFinger(full).stages(), ElementsAre(HasSubstr("last dynamics step"), HasSubstr("gather"),
                                                     HasSubstr("penalty"), HasSubstr("spring"), HasSubstr("damping")));
-  // a material that nothing touchable is made of calls for nothing
+  // a material used by no touchable body requires no stage
   World unused = bare;
   unused.scene.materials.resize(2);
   unused.scene.materials[1].damping = unused.scene.materials[1].friction_static = 1;
@@ -43,7 +43,7 @@ TEST(Stages, AreThoseTheSceneNamesAndNoOther) {
 
 // ---- damping -------------------------------------------------------------------------------------------------------
 
-// f = k depth - d v, to rounding; and no force that pulls.
+// f = k depth - d v to rounding, and never a pulling force.
 TEST(Damping, ActsAgainstTheVelocityAlongTheNormal) {
   World world = test::worldOf(Box{{0.1, 0.1, 0.1}});
   world.scene.materials[0].damping = 5;
@@ -57,8 +57,8 @@ TEST(Damping, ActsAgainstTheVelocityAlongTheNormal) {
 
 // ---- surfaces that change ------------------------------------------------------------------------------------------
 
-// A finger that sticks with T = k x inside the old cone and outside the new one: in the tick of the change it slips, with the
-// force that slip has, mu_d N of the new surface. In the old cone nothing steps, and in free air nothing happens.
+// A finger that sticks with T = k x inside the old cone and outside the new one slips in the tick of the change, with
+// the force mu_d N of the new surface. Inside the old cone nothing changes, and in free air nothing happens.
 TEST(SurfaceChange, LetsAFingerSlipThatTheNewConeDoesNotHold) {
   World world = test::worldOf(Box{{0.1, 0.1, 0.1}});
   Material& material = world.scene.materials[0];
@@ -67,7 +67,7 @@ TEST(SurfaceChange, LetsAFingerSlipThatTheNewConeDoesNotHold) {
   EXPECT_THAT(OneFinger(world).stages(), testing::Not(testing::Contains(HasSubstr("changed"))));
   material.changed_friction = {.mu_static = 0.4, .mu_dynamic = 0.3};
   const double height = 0.05 + kR, depth = 0.002, normal = kStiffness * depth;
-  for (const double way : {0.7e-3, 1e-3}) {  // 0.35 N and 0.5 N of the normal force
+  for (const double way : {0.7e-3, 1e-3}) {  // 0.35 and 0.5 times the normal force
     OneFinger finger(world);
     EXPECT_THAT(finger.stages(), testing::Contains(HasSubstr("another after the surfaces have changed")));
     finger.tick({0, 0, height + 0.001});
@@ -89,7 +89,7 @@ TEST(SurfaceChange, LetsAFingerSlipThatTheNewConeDoesNotHold) {
 
 // ---- pose ----------------------------------------------------------------------------------------------------------
 
-// A box that rises by 1 mm during a dynamics step, felt in the middle of it: half-way, or already where it will be.
+// A box that rises by 1 mm during a dynamics step, touched in the middle of the step: half-way up, or at its end pose.
 TEST(Pose, IsInterpolatedToNowOrHeldAtTheEndOfTheStep) {
   for (const auto use : {HapticSettings::PoseUse::kInterpolate, HapticSettings::PoseUse::kHold}) {
     World world = test::worldOf(Box{{0.1, 0.1, 0.1}}, false);
@@ -106,7 +106,7 @@ TEST(Pose, IsInterpolatedToNowOrHeldAtTheEndOfTheStep) {
 
 // ---- penalty -------------------------------------------------------------------------------------------------------
 
-// On a thick body both renderers are the same spring.
+// On a thick body both renderers give the same spring force.
 TEST(Penalty, IsTheGodObjectOnAThickFace) {
   World world = test::worldOf(Box{{0.1, 0.1, 0.1}});
   OneFinger god(world);
@@ -119,8 +119,8 @@ TEST(Penalty, IsTheGodObjectOnAThickFace) {
   EXPECT_EQ(penalty.all().pop_through, 0u);
 }
 
-// Through a plate of 2 mm, as primitive and as mesh: past its middle the nearest surface is the far one. The god-object
-// holds it on the near side whatever the depth.
+// A plate of 2 mm, as primitive and as mesh: beyond its middle the nearest surface is the far one. The god-object stays
+// on the near side at any depth.
 TEST(Penalty, PopsThroughAThinPlateWhichTheGodObjectHolds) {
   const TriMesh plate = makeBox({0.1, 0.1, 0.002});
   for (const bool mesh : {false, true}) {
@@ -133,7 +133,7 @@ TEST(Penalty, PopsThroughAThinPlateWhichTheGodObjectHolds) {
     for (OneFinger* finger : {&god, &penalty}) {
       for (double z = 0.02; z > -0.003; z -= 1e-4) (finger == &god ? held : popped) = finger->tick({0, 0, z}).f_H_W;
     }
-    const double z = -0.003 + 1e-4;  // last height above -3 mm, up to rounding
+    const double z = -0.003 + 1e-4;  // last height above -3 mm
     EXPECT_NEAR(held.z(), kStiffness * (0.001 + kR - z), 0.11) << mesh;
     EXPECT_NEAR(popped.z(), -kStiffness * (kR - (-z - 0.001)), 0.11) << mesh;
     EXPECT_EQ(god.all().pop_through, 0u);
@@ -143,8 +143,8 @@ TEST(Penalty, PopsThroughAThinPlateWhichTheGodObjectHolds) {
 
 // ---- force shading -------------------------------------------------------------------------------------------------
 
-// A coarse sphere (80 facets): interpolated over a facet, the vertices' radial directions are the radial direction of the
-// touched point. That point is the mesh's nearest to the HIP, found by looking at every facet.
+// A coarse sphere (80 facets): the vertex normals, which are radial, interpolate over a facet to the radial direction
+// of the touched point. That point is the mesh point nearest to the HIP, found by testing every facet.
 TEST(Shading, TurnsTheForceIntoTheInterpolatedNormal) {
   World world = test::worldOf(MeshRef{});
   const auto mesh = std::make_shared<const TriMesh>(makeSphere(0.03, 1));
@@ -165,14 +165,14 @@ TEST(Shading, TurnsTheForceIntoTheInterpolatedNormal) {
       const Vec3 q = closestOnTriangle(p_WH, at(0), at(1), at(2));
       if ((q - p_WH).norm() < (touched - p_WH).norm()) touched = q;
     }
-    // the proxy ends within 1e-6 r of the optimum, and each step of the motion starts from the last one's end
+    // the proxy ends within 1e-6 r of the optimum, and each step starts from the end of the last one
     ASSERT_NEAR((s.nhat_W - touched.normalized()).norm(), 0, 1e-4) << i;
     ASSERT_NEAR(s.normal_force, f.normal_force, 1e-9);
-    // what acts on the body is the spring between proxy and HIP: it must be the same force
+    // the force on the body is the spring between proxy and HIP: it must be the same force
     ASSERT_NEAR((s.f_H_W - kStiffness * (s.p_WP - p_WH)).norm(), 0, 1e-9);
     worst_faceted = std::max(worst_faceted, (f.nhat_W - u).norm());
   }
-  EXPECT_GT(worst_faceted, 0.1);  // what it is good for: facets alone are felt 6 degrees off
+  EXPECT_GT(worst_faceted, 0.1);  // without shading the facets are 6 degrees off
 }
 
 }  // namespace

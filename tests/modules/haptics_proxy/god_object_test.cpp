@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kR = 0.008;
 
-// One tick as the haptic loop makes it when friction is among its stages.
+// One tick as in the haptic loop with friction.
 ProxyContact stepProxy(const FingertipState& last, const Vec3& g, Surroundings& s, const FrictionCone& cone) {
   ProxyContact contact = slideProxy(last, g, kR, s);
   holdByFriction(contact, last, g, kR, cone, s);
@@ -25,7 +25,7 @@ void addTriangle(Surroundings& s, const Vec3& a, const Vec3& b, const Vec3& c, s
   s.add({.body = body, .id = -1, .shape = PreparedTriangle(a, b, c)});
 }
 
-// A square of two triangles about the origin in the plane z = 0.
+// A square plate of two triangles about the origin, in the plane z = 0.
 std::unique_ptr<Surroundings> plate(double size = 0.2) {
   auto s = std::make_unique<Surroundings>();
   const double h = size / 2;
@@ -42,7 +42,7 @@ std::unique_ptr<Surroundings> box(const Vec3& half, const Vec3& center = Vec3::Z
   return s;
 }
 
-// On a plane the god-object is the projection of the HIP, one fingertip radius up. Rounding only.
+// On a plane the god-object is the projection of the HIP, one fingertip radius above. Tolerance: rounding.
 TEST(GodObject, IsTheProjectionOnAPlane) {
   const auto s = plate();
   const ProxyMove move = moveProxy({0.01, 0.02, 0.05}, {0.03, -0.01, -0.02}, kR, *s);
@@ -50,8 +50,8 @@ TEST(GodObject, IsTheProjectionOnAPlane) {
   EXPECT_NEAR((move.x - Vec3(0.03, -0.01, kR)).norm(), 0, 1e-8 * kR);
 }
 
-// On the ridge of a roof, with the HIP just below it, the fingertip leaves the top ever faster but slowly at first, a short
-// leg round the edge at a time: when they run out, it is still on the roof.
+// On the ridge of a roof, with the HIP just below it, the fingertip leaves the ridge slowly at first, in short legs
+// round the edge. When the legs run out, it is still in contact.
 TEST(GodObject, IsInTouchWhenItsLegsRunOutOnARidge) {
   auto s = std::make_unique<Surroundings>();
   const double run = 0.01, fall = 0.0002;
@@ -65,7 +65,7 @@ TEST(GodObject, IsInTouchWhenItsLegsRunOutOnARidge) {
   }
 }
 
-// Going down a step of any size and any scale gives the same answer: no tolerance is absolute.
+// Moving down a step gives the same answer at every scale: no tolerance is absolute.
 TEST(GodObject, GivesTheSameAnswerAtEveryScale) {
   Vec3 unit = Vec3::Zero();
   for (const double scale : {1e-3, 1.0, 20.0}) {
@@ -76,8 +76,8 @@ TEST(GodObject, GivesTheSameAnswerAtEveryScale) {
   }
 }
 
-// What is touched lies within 1e-10 of the radius, at every size: a larger gap would hold the fingertip by what it does not reach. A
-// micrometre of air is none, and a micrometre inside is an overlap.
+// Contact means a gap within 1e-10 of the radius, at every size; a larger gap would hold the fingertip without contact.
+// A micrometre of gap is no contact, and a micrometre of penetration is an overlap.
 TEST(GodObject, TouchesWhatIsWithinTheRoundingOfItsRadius) {
   for (const double scale : {0.1, 1.0, 10.0}) {
     const double r = scale * kR;
@@ -96,7 +96,7 @@ TEST(GodObject, TouchesWhatIsWithinTheRoundingOfItsRadius) {
   }
 }
 
-// A V-groove of every opening angle: two faces hold the fingertip at (0, r / sin(half angle)).
+// A V-groove of any opening angle: two faces hold the fingertip at (0, r / sin(half angle)).
 TEST(GodObject, RestsInAGrooveOnBothFaces) {
   for (const double degrees : {30.0, 60.0, 90.0, 120.0, 160.0}) {
     const double half = degrees / 2 * std::numbers::pi / 180;
@@ -114,8 +114,8 @@ TEST(GodObject, RestsInAGrooveOnBothFaces) {
   }
 }
 
-// Oracle for a convex solid: the god-object is the point of the offset surface nearest to the HIP, which for a HIP
-// just inside a sphere lies on the ray from the centre. Iterates to 1e-6 of the radius.
+// Oracle for a convex solid: the god-object is the point of the offset surface nearest to the HIP; for a HIP just
+// inside a sphere it lies on the ray from the centre. Iterates to 1e-6 of the radius.
 TEST(GodObject, FindsTheNearestPointOfASphere) {
   Surroundings s;
   const Primitive sphere{.kind = Primitive::Kind::kSphere, .X_AG = {}, .half = Vec3::Zero(), .radius = 0.04};
@@ -126,7 +126,7 @@ TEST(GodObject, FindsTheNearestPointOfASphere) {
   EXPECT_NEAR((x - 0.048 * g.normalized()).norm(), 0, 1e-6 * kR);
 }
 
-// Thrown at a 0.5 mm plate at any speed and angle, the fingertip never gets through.
+// At any speed and angle the fingertip never gets through a 0.5 mm plate.
 TEST(GodObject, NeverPassesAThinPlate) {
   const auto s = box({0.1, 0.1, 0.00025});
   for (const double speed : {0.01, 0.1, 1.0, 10.0, 100.0}) {
@@ -143,7 +143,7 @@ TEST(GodObject, NeverPassesAThinPlate) {
   }
 }
 
-// Over a convex edge the proxy goes round the edge, not through it.
+// At a convex edge the proxy moves round the edge, not through it.
 TEST(GodObject, GoesRoundTheEdgeOfABox) {
   const auto s = box({0.05, 0.05, 0.05});
   Vec3 x(0, 0, 0.05 + kR), g(0, 0, 0.055);
@@ -153,10 +153,10 @@ TEST(GodObject, GoesRoundTheEdgeOfABox) {
     x = moveProxy(x, g, kR, *s).x;
     ASSERT_GE(nearest(s->primitive(0), x).distance, kR * (1 - 1e-6));
   }
-  EXPECT_NEAR((x - g).norm(), 0, 1e-9);  // it came free
+  EXPECT_NEAR((x - g).norm(), 0, 1e-9);  // it is free again
 }
 
-// Without friction no force acts along the surface, at any depth and speed: the floor of every friction study.
+// Without friction there is no tangential force, at any depth and speed: the noise floor of every friction study.
 TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
   const auto s = plate();
   Vec3 x(-0.05, 0, 0.02);
@@ -170,7 +170,7 @@ TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
   }
 }
 
-// The two-state cone of the PERCRO paper: holds up to mu_s, slides at mu_d, in every direction alike.
+// The two-state cone of the PERCRO paper holds up to mu_s and slides at mu_d, equally in every direction.
 TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
   const auto s = plate();
   const FrictionCone cone{0.8, 0.6};
@@ -187,13 +187,14 @@ TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
       if (!tip.slipping) most = std::max(most, ratio);
       if (tip.slipping) sliding = ratio;
     }
-    EXPECT_NEAR(most, 0.8, 1.001e-5 / depth) << heading;  // within one step of the motion, and rounding
+    EXPECT_NEAR(most, 0.8, 1.001e-5 / depth) << heading;  // within one step of the motion, plus rounding
     EXPECT_NEAR(sliding, 0.6, 1e-6) << heading;
   }
 }
 
-// Slipping along a cylinder after a pull around it: the stretch turns into the direction of motion as a rope's end follows
-// (tractrix), tan(phi / 2) = tan(phi_0 / 2) exp(-way / (mu depth)), at every rate alike. Error of Euler's step: step / (2 L).
+// Slipping along a cylinder after a displacement around it: the tangential displacement turns into the direction of
+// motion like the end of a dragged rope (tractrix), tan(phi / 2) = tan(phi_0 / 2) exp(-way / (mu depth)), at every
+// rate. Error of Euler's step: step / (2 L).
 TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
   const double radius = 0.02, depth = 0.004, mu = 0.5, length = mu * depth;
   for (const double step : {1e-4, 1e-5, 1e-6}) {
@@ -220,7 +221,7 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
   }
 }
 
-// A finger that sticks does not creep: after a minute of shaking inside the cone the proxy is where it was, to the bit.
+// A sticking finger does not creep: after a minute of shaking inside the cone the proxy is unchanged to the bit.
 TEST(Friction, StickingProxyDoesNotDrift) {
   const auto s = plate();
   const FrictionCone cone{0.8, 0.6};
@@ -236,11 +237,11 @@ TEST(Friction, StickingProxyDoesNotDrift) {
   EXPECT_EQ(tip.x, first);
 }
 
-// The proxy sticks to a wall, above a floor that its HIP is pressed into as well; then the wall is gone. What friction held on
-// to is in the air now: the proxy comes down to the floor in the same tick. Oracle: the distance from the floor.
+// The proxy sticks to a wall, above a floor into which its HIP is pressed as well; then the wall disappears. The proxy,
+// now in free air, must come down to the floor in the same tick. Oracle: the distance from the floor.
 TEST(Friction, LetsGoOfABodyThatHasGone) {
   const FrictionCone cone{0.8, 0.6};
-  const double high = 0.0005;  // of the sticking proxy above where the floor would hold it
+  const double high = 0.0005;  // height of the sticking proxy above its position on the floor [m]
   const auto surroundings = [](bool wall) {
     auto s = box({0.2, 0.2, 0.05}, {0, 0, -0.05});
     Primitive standing{.kind = Primitive::Kind::kBox, .X_AG = {}, .half = {0.05, 0.2, 0.2}};
@@ -262,8 +263,8 @@ TEST(Friction, LetsGoOfABodyThatHasGone) {
   EXPECT_LE(contact.stretch.norm(), cone.mu_static * contact.depth * (1 + 1e-9));
 }
 
-// Two boxes come and go about a fingertip that gropes in the wedge between them, round its edges too: a proxy that touches is
-// on a surface, whatever friction held on to before. Within 1e-4 r: so near the last of the legs comes round an edge when the HIP
+// Two boxes move about a fingertip in the wedge between them, also round its edges: a touching proxy must lie on a
+// surface, whatever friction held on to before. Tolerance 1e-4 r: accuracy of the last leg round an edge when the HIP
 // is almost a radius deep.
 TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
   std::mt19937_64 random(1);
@@ -294,7 +295,7 @@ TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
   EXPECT_GT(stuck, 1000);
 }
 
-// The programme against brute force: no feasible sample is nearer to the goal than the answer.
+// Brute force: no feasible sample is nearer to the goal than the solution of the programme.
 TEST(NearestFeasible, BeatsEveryFeasibleSample) {
   std::uint64_t seed = 88172645463325252ull;
   const auto uniform = [&seed] {

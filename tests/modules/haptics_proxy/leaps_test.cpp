@@ -1,4 +1,5 @@
-// Where a surface no longer holds a finger, the finger goes on to the next place that does, and the tick is counted.
+// Where a surface no longer holds a finger, the finger moves on to the next place that does, and the tick is counted as
+// a leap.
 #include <gtest/gtest.h>
 
 #include "tests/modules/haptics_proxy/module_fixture.h"
@@ -15,7 +16,7 @@ World touched(const Shape& shape, double mu) {
   return world;
 }
 
-/// Two treads of a stair: the upper one lies at x < 0, kStep above the lower one.
+/// Two treads of a stair: the upper one at x < 0, kStep above the lower one.
 World stair(double mu) {
   World world = touched(Box{{1, 1, 1}}, mu);
   world.scene.bodies.clear();
@@ -37,7 +38,7 @@ World stair(double mu) {
 /// Presses to `depth` below the lower tread and walks from x = -10 mm to 10 mm.
 struct Walk {
   std::uint32_t leaps = 0;
-  double farthest = 0;  ///< of the proxy in a tick [m]
+  double farthest = 0;  ///< largest motion of the proxy in a tick [m]
 };
 Walk walk(double depth, double mu) {
   test::OneFinger finger(stair(mu));
@@ -52,12 +53,12 @@ Walk walk(double depth, double mu) {
   }
   walk.leaps = finger.all().leaps_by_finger[0];
   EXPECT_EQ(finger.all().pop_through, 0u);
-  EXPECT_NEAR(last.z(), kR, 1e-6);  // it stands on the lower tread in the end
+  EXPECT_NEAR(last.z(), kR, 1e-6);  // finally it rests on the lower tread
   return walk;
 }
 
-// 5 mm below the upper tread's edge the fingertip comes round the edge and has nothing under it until the lower tread: it goes
-// down by about the step's height within a tick or two.
+// 5 mm below the edge of the upper tread the fingertip comes round the edge and has no support until the lower tread:
+// it moves down by about the height of the step within a tick or two.
 TEST(Leaps, ComingDownAStairIsCounted) {
   for (const double mu : {0.0, 0.4}) {
     const Walk deep = walk(0.002, mu);
@@ -67,7 +68,7 @@ TEST(Leaps, ComingDownAStairIsCounted) {
   }
 }
 
-// A flat surface and a sphere hold the finger all along, whatever friction does.
+// A flat surface and a sphere hold the finger continuously, with and without friction: no leaps.
 TEST(Leaps, SlidingIsNone) {
   for (const double mu : {0.0, 0.4}) {
     test::OneFinger flat(stair(mu));

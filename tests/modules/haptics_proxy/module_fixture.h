@@ -6,7 +6,7 @@
 
 namespace presa::test {
 
-/// Writes what the test puts into it; at haptic rate, so that the module under test reads it in place.
+/// Publishes a value set by the test, at haptic rate, so that the module under test reads it in the same tick.
 template <class T>
 struct Source final : Module {
   explicit Source(const char* port) : Module(std::string("source_of_") + port, RateGroup::kHaptic), out(*this, port) {}
@@ -20,7 +20,7 @@ struct Sink final : Module {
   In<ContactExchange> contact{*this, "contact_exchange"};
 };
 
-/// One finger over a world, rendered by the module as the graph runs it.
+/// One finger in a world, rendered by the module in a graph.
 class OneFinger {
  public:
   explicit OneFinger(World world) : world_(indexed(std::move(world))) { build(effectsOf(*world_)); }
@@ -72,7 +72,7 @@ class OneFinger {
   std::uint64_t index_ = 0;
 };
 
-/// A body of 1000 N/m under a fingertip of 8 mm, without friction or damping.
+/// A body of 1000 N/m touched by a fingertip of 8 mm, without friction or damping.
 inline World worldOf(const Shape& shape, bool fixed = true) {
   World world;
   world.scene.materials.resize(1);

@@ -1,4 +1,5 @@
-// A finger that several bodies hold: each bears its own part. Oracle: statics of a frictionless sphere, by hand.
+// A finger held by several bodies: each bears its own part. Oracle: statics of a frictionless sphere, worked out by
+// hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,8 +46,8 @@ Vec3 sumOfParts(const FingerContact& contact) {
   return kStiffness * sum;
 }
 
-// Two cubes 10 mm apart, the fingertip between them on their upper edges: each pushes along the line from its edge to the
-// fingertip's centre, at asin(5/8) from the vertical, with F / (2 cos) of the force. 1 um of the 1 mm that the spring gives.
+// Two cubes 10 mm apart hold the fingertip between their upper edges: each pushes along the line from its edge to the
+// fingertip's centre, at asin(5/8) from the vertical, with F / (2 cos). Tolerance: 1 um of the spring's 1 mm.
 TEST(SharedContact, TwoEdgesShareAForceAlike) {
   const Vec3 cube(0.05, 0.05, 0.05);
   for (const bool mesh : {false, true}) {
@@ -64,7 +65,8 @@ TEST(SharedContact, TwoEdgesShareAForceAlike) {
   }
 }
 
-// A floor and a wall that leans over it: the multipliers of a wedge of 60 degrees, solved by hand, whatever the load's direction.
+// A floor and a wall leaning over it: multipliers of a wedge of 60 degrees, worked out by hand, for any direction of
+// the load.
 TEST(SharedContact, AWedgeSharesByItsMultipliers) {
   const double angle = std::numbers::pi / 3;
   const Quat lean(Eigen::AngleAxisd(angle, Vec3::UnitY()));
@@ -76,7 +78,7 @@ TEST(SharedContact, AWedgeSharesByItsMultipliers) {
     for (const double toward : {-0.3, 0.0, 0.4}) {
       test::OneFinger finger(
           boxes({box(floor_nhat, Quat::Identity(), {1, 1, 0.2}, 0.1), box(wall_nhat, lean, {0.2, 1, 1}, 0.1)}, mesh));
-      // where the sphere touches both planes through the origin
+      // centre of the sphere that touches both planes through the origin
       Mat3 planes;
       planes.row(0) = floor_nhat;
       planes.row(1) = wall_nhat;
@@ -96,7 +98,8 @@ TEST(SharedContact, AWedgeSharesByItsMultipliers) {
   }
 }
 
-// Three bodies in a corner: each its own axis. With friction the parts still add up to what is rendered.
+// Three bodies in a corner: each bears the force along its own axis. With friction the parts still add up to the
+// rendered force.
 TEST(SharedContact, ThreeBodiesInACornerEachBearTheirAxis) {
   for (const double mu : {0.0, 0.5}) {
     test::OneFinger finger(boxes({{{0.2, 1, 1}, {Vec3(-0.1, 0, 0), Quat::Identity()}},

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kR = 0.008;
 
-// A bumpy field of triangles.
+// A bumpy surface of triangles.
 std::shared_ptr<const TriMesh> bumpyField(double edge = 1e-3, double reach = 0.02) {
   auto mesh = std::make_shared<TriMesh>();
   const int side = static_cast<int>(2 * reach / edge);
@@ -40,9 +40,9 @@ double distanceFrom(const TriMesh& mesh, const Vec3& p) {
   return least;
 }
 
-// What earlier ticks looked at must not be felt: from the same state a fingertip that keeps its surroundings from tick to tick
-// and one that looks at everything anew go the same way, over bodies that move, frames that switch, and cuts that end. The
-// two take pieces in another order; what that may change is rounding, over the legs of a tick.
+// The history of the fronts must not affect the result: a fingertip that keeps its surroundings from tick to tick and
+// one that rebuilds them move alike, with moving bodies, changing frames and cuts that end. Since the two process
+// pieces in another order, they may differ by rounding.
 TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
   const auto mesh = bumpyField();
   const MeshTree tree(mesh);
@@ -56,12 +56,12 @@ TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
   for (std::uint64_t tick = 0; tick < 3000; ++tick) {
     hand += 4e-5 * Vec3(uniform(random), uniform(random), 0.3 * uniform(random));
     hand = hand.cwiseMax(Vec3(-2e-3, -2e-3, 0.005)).cwiseMin(Vec3(2e-3, 2e-3, 0.0085));
-    if (tick % 10 == 0) {  // some of the cuts are too small
+    if (tick % 10 == 0) {  // some cuts are too small
       near.center_B = tip.x;
       near.radius = 0.0115 + 0.003 * uniform(random);
       near.cut_count = static_cast<std::int32_t>(tree.cut(near.center_B, near.radius, near.cut));
     }
-    // for a while the body moves in the working frame, as a body does that is not the frame's own
+    // for a while the body moves in the working frame, as if the frame belonged to another body
     const double sway = tick / 500 % 2 == 0 ? 0 : 1e-5 * static_cast<double>(tick % 500);
     const Pose X_AG{Vec3(sway, 0, 0), Quat::Identity()};
     const bool own = tick / 1000 == 1;
@@ -85,7 +85,7 @@ TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
   EXPECT_GT(touched, 2000);
 }
 
-// A front finds every triangle within any distance, on a walk that wears it out many times over. Oracle: all triangles.
+// A front finds every triangle within any distance, on a walk that makes it reseed many times. Oracle: all triangles.
 TEST(MeshFront, FindsEveryTriangleWithinADistance) {
   const auto mesh = bumpyField(2e-3);
   const MeshTree tree(mesh);
@@ -125,15 +125,15 @@ TEST(MeshFront, FindsEveryTriangleWithinADistance) {
   EXPECT_FALSE(front->full());
 }
 
-// A segment between two sides of a closed surface crosses it, also where it passes exactly through edges and corners; one
-// that stays away from it does not. Oracle: a box knows what is inside.
+// A segment between inside and outside of a closed surface crosses it, even exactly through edges and corners; a
+// segment on one side does not. Oracle: a box, for which inside is known.
 TEST(MeshFront, KnowsWhenASegmentCrosses) {
   const auto mesh = std::make_shared<const TriMesh>(makeBox({0.02, 0.02, 0.02}));
   const MeshTree tree(mesh);
   const std::array<std::int32_t, 1> root{MeshTree::kRoot};
   auto front = std::make_unique<MeshFront>();
   std::mt19937_64 random(4);
-  std::uniform_int_distribution<int> grid(-3, 3);  // edges, corners and diagonals lie on it
+  std::uniform_int_distribution<int> grid(-3, 3);  // includes edges, corners and diagonals
   const auto inside = [](const Vec3& p) { return p.cwiseAbs().maxCoeff() < 0.01; };
   const auto onSurface = [](const Vec3& p) { return std::abs(p.cwiseAbs().maxCoeff() - 0.01) < 1e-9; };
   int changed = 0, clear = 0;
@@ -151,7 +151,7 @@ TEST(MeshFront, KnowsWhenASegmentCrosses) {
     } else if (inside(a)) {
       ASSERT_FALSE(crosses) << a << "\n" << b;  // the box is convex
     } else if ((a.array() * b.array()).maxCoeff() > 1e-4) {
-      ASSERT_FALSE(crosses) << a << "\n" << b;  // both beyond one face
+      ASSERT_FALSE(crosses) << a << "\n" << b;  // both outside the same face
       ++clear;
     }
   }
@@ -159,8 +159,8 @@ TEST(MeshFront, KnowsWhenASegmentCrosses) {
   EXPECT_GT(clear, 1000);
 }
 
-// A spherical socket of the fingertip's own radius: every triangle is touched at once, more than there is room for. Nodes
-// stand for their triangles then, solid: the fingertip stays inside, and says so.
+// A spherical socket with the fingertip's own radius: every triangle is touched at once, more than the capacity. Nodes
+// then act as solids: the fingertip stays inside, and lost coverage is reported.
 TEST(Surroundings, AreFullWhereEverythingTouches) {
   TriMesh socket = makeSphere(kR, 5);  // 20 480 triangles
   turnInsideOut(socket);

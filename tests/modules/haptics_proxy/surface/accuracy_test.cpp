@@ -1,12 +1,14 @@
-// Where the proxy is and what is felt, against exact answers: the finer the mesh, the better, never worse.
+// Proxy position and force against exact answers, for finer and finer meshes.
 //
-// Which point is exact: let K be the convex solid under the finger, h the HIP, r the fingertip's radius. The
-// fingertip's centre may be anywhere at least r from K, and a god-object is at a local minimum of its distance to h.
-// - h outside of K, d = dist(h, K) < r at the point q: distance to K grows by at most 1 m a metre, and does so along
+// The exact answer: let K be the convex solid under the finger, h the HIP, r the fingertip's radius. The fingertip's
+// centre may be anywhere at distance >= r from K, and a god-object is a local minimum of its distance to h.
+// - h outside K, d = dist(h, K) < r at the point q: the distance to K grows by at most 1 m per metre, and does so along
 //   (h - q) / d. So q + r (h - q) / d, at the distance r - d, is the only minimum.
-// - h inside K: from a point over an edge or a corner the distance to h falls towards one of the facets beside it. What
-//   is left are points over facets: h + (s + r) n for each facet (unit normal n, h at the depth s below its plane) that
-//   has h + s n in it. Near an edge both facets have one, and which it is depends on the way; both are exact.
+// - h inside K: from a point over an edge or a corner the distance to h decreases towards one of the adjacent facets.
+//   The minima are
+//   points over facets: h + (s + r) n for each facet (unit normal n, h at depth s below its plane) that contains h + s
+//   n. Near an edge
+//   both facets have one; the path decides, and both are exact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,14 +23,14 @@ namespace {
 
 constexpr double kStiffness = 2000, kPress = 1e-3, kFar = 0.25, kRadii[] = {0, 0.1e-3, 1e-3, 8e-3, 15e-3};
 
-/// How far rounding moves the exact answer [m]. With the HIP almost at the solid, the fingertip's centre can go round
-/// it at almost the same distance: this is how far it goes while that changes by 1e-14 m, a thousandth of an atom.
+/// Sensitivity of the exact answer to rounding [m]. With the HIP almost at the solid, the fingertip's centre can move
+/// round it at almost the same distance: the result is how far it moves for a change of 1e-14 m.
 double illPosed(const MeshOracle& mesh, bool inside, const Vec3& h, double r) {
   if (inside) return 0;
   return r * std::sqrt(2e-14 / std::max(1e-13, mesh.nearest(h).distance));
 }
 
-/// The exact answer that is nearest to where the proxy is.
+/// The exact answer nearest to the actual proxy.
 Vec3 exactAnswer(const MeshOracle& mesh, bool inside, const Vec3& h, double r, const Vec3& proxy) {
   if (!inside) {
     const MeshOracle::Nearest nearest = mesh.nearest(h);
@@ -43,7 +45,7 @@ Vec3 exactAnswer(const MeshOracle& mesh, bool inside, const Vec3& h, double r, c
   for (const std::int32_t t : found) {
     const std::array<Vec3, 3> corner = mesh.corners(t);
     const Vec3 n = mesh.normal(t), foot = h + (corner[0] - h).dot(n) * n;
-    // 1 nm: a foot on the edge between two facets is on both
+    // 1 nm: a foot on the edge between two facets belongs to both
     if ((nearestOnTriangle(foot, corner[0], corner[1], corner[2]) - foot).norm() > 1e-9) continue;
     if (const Vec3 answer = foot + r * n; (answer - proxy).norm() < (best - proxy).norm()) best = answer;
   }
@@ -51,13 +53,13 @@ Vec3 exactAnswer(const MeshOracle& mesh, bool inside, const Vec3& h, double r, c
 }
 
 struct Place {
-  Vec3 on, normal, along;  ///< a point of the ideal surface, outwards, and a way to slide
+  Vec3 on, normal, along;  ///< a point of the ideal surface, its outward normal, a direction to slide
 };
 
 struct Errors {
-  double proxy = 0;       ///< from the exact answer [m]
-  double force = 0;       ///< normal force from k times the exact depth [N]
-  double tangential = 0;  ///< beyond what the facets explain [N]
+  double proxy = 0;       ///< distance from the exact answer [m]
+  double force = 0;       ///< normal force minus k times the exact depth [N]
+  double tangential = 0;  ///< tangential force beyond that caused by the facets [N]
   double ideal = 0;       ///< force along the ideal surface [N]
   double chatter = 0;     ///< force step while the finger is still [N]
   double step = 0;        ///< force step while it slides at 0.1 m/s, beyond that of the exact answer [N]
@@ -66,7 +68,7 @@ struct Errors {
 
 void keepWorst(double& worst, double value) { worst = std::isnan(value) ? 1e300 : std::max(worst, value); }
 
-/// To a free place straight from the middle, by a way far from everything: no way leads through the body.
+/// Moves the finger to a free place on a path far from the body, approaching radially.
 void comeTo(FingerRig& rig, const Vec3& to) {
   const Vec3 from = rig.at(), out = from.norm() > 0 ? Vec3(from.normalized()) : Vec3(Vec3::UnitZ());
   const Quat turn = Quat::FromTwoVectors(out, to);
@@ -74,7 +76,7 @@ void comeTo(FingerRig& rig, const Vec3& to) {
   rig.place(to);
 }
 
-/// Down at 0.2 m/s, still for 30 ms, sliding for 50 ms; `inside`: whether the HIP is then in the solid.
+/// Down at 0.2 m/s, still for 30 ms, sliding for 50 ms. `inside`: the HIP is then inside the solid.
 void touchAt(FingerRig& rig, const MeshOracle& mesh, const Place& place, Errors& errors) {
   const double r = rig.touch().radius;
   const bool inside = r < kPress;
@@ -119,7 +121,7 @@ void touchAt(FingerRig& rig, const MeshOracle& mesh, const Place& place, Errors&
   comeTo(rig, kFar * place.normal);
 }
 
-/// A mesh with its ideal surface.
+/// A mesh and the ideal surface that it approximates.
 struct Ideal {
   std::string name;
   std::shared_ptr<const TriMesh> mesh;
@@ -136,7 +138,7 @@ Place onSphere(std::mt19937_64& random) {
   const Vec3 n = randomDirection(random);
   return {0.05 * n, n, n.cross(randomDirection(random)).normalized()};
 }
-/// On the upper side, at least 20 mm from its edges.
+/// A place on the upper side, at least 20 mm from its edges.
 Place onTop(std::mt19937_64& random, double height) {
   std::uniform_real_distribution<double> uniform(-0.03, 0.03), angle(0, 6.283);
   const double x = uniform(random), y = uniform(random), a = angle(random);
@@ -145,7 +147,7 @@ Place onTop(std::mt19937_64& random, double height) {
 
 std::shared_ptr<const TriMesh> share(TriMesh mesh) { return std::make_shared<const TriMesh>(std::move(mesh)); }
 
-/// Of 20 n^2 triangles, or as near as a square grid comes.
+/// A sphere of 20 n^2 triangles; planeOf: the same number, as nearly as a square grid allows.
 Ideal sphereOf(int n) { return {"sphere", share(icosphere(n, 0.05)), onSphere}; }
 Ideal planeOf(int n) {
   const int m = static_cast<int>(std::lround(std::sqrt(10.0) * n));
@@ -169,15 +171,15 @@ void expectExact(const Ideal& ideal) {
   const MeshOracle oracle(*ideal.mesh);
   const bool finest = ideal.mesh->triangles.size() > 1'000'000;
   for (const double radius : kRadii) {
-    if (finest && (radius == 1e-3 || radius == 15e-3)) continue;  // for time: they differ by nothing but the radius
+    if (finest && (radius == 1e-3 || radius == 15e-3)) continue;  // saves time: only the radius differs
     SCOPED_TRACE(testing::Message() << ideal.name << " of " << ideal.mesh->triangles.size() << " triangles, radius "
                                     << radius * 1e3 << " mm");
     const Errors errors = measure(ideal, oracle, radius);
     EXPECT_EQ(errors.lost, 0u);
     EXPECT_EQ(errors.popped, 0u);
     EXPECT_LE(errors.proxy, 1e-6);        // a thousandth of the depth
-    EXPECT_LE(errors.force, 0.002);       // the same, times the stiffness
-    EXPECT_LE(errors.tangential, 0.005);  // a quarter of a percent of the force: below what a hand tells apart
+    EXPECT_LE(errors.force, 0.002);       // the same times the stiffness
+    EXPECT_LE(errors.tangential, 0.005);  // a quarter of a percent of the force: imperceptible
     EXPECT_LE(errors.chatter, 1e-12);     // rounding
     EXPECT_LE(errors.step, 0.004);        // two proxies, each 1 um off
   }
@@ -195,7 +197,7 @@ TEST(Accuracy, OfACoarseSphere) { expectExact(sphereOf(kCoarse)); }
 TEST(Accuracy, OfAFineSphere) { expectExact(sphereOf(kFine)); }
 TEST(Accuracy, OfTheFinestSphere) { expectExact(sphereOf(kFinest)); }
 
-// A level surface gives the whole of the spring: 2 N at 1 mm and 2 N/mm, whatever the mesh.
+// A level surface gives the full spring force: 2 N at 1 mm and 2 N/mm, on any mesh.
 TEST(Accuracy, OneMillimetreIsTwoNewtons) {
   for (const double radius : kRadii) {
     FingerRig rig(planeOf(kCoarse).mesh, {.radius = radius, .stiffness = kStiffness});
@@ -206,10 +208,9 @@ TEST(Accuracy, OneMillimetreIsTwoNewtons) {
   }
 }
 
-// With shading the facets are gone: no force along the ideal sphere. 0.1 % of the force: the normals at corners are
-// means over facets, exact but for their unequal shapes. What is left of the facets is where they are touched: a facet
-// that is turned by an angle is touched to the side of where the sphere would be, by the angle times the distance from
-// there to the HIP.
+// With shading the facets disappear: no force along the ideal sphere. Tolerance 0.1 % of the force: vertex normals are
+// means over facets of slightly different shapes. In addition the touched point differs: on a facet tilted by an angle
+// it is displaced sideways by that angle times its distance from the HIP.
 TEST(Accuracy, ASmoothSphereHasNoFacets) {
   for (const int n : {kCoarse, kFine}) {
     const Ideal ideal = sphereOf(n);

@@ -1,4 +1,4 @@
-// A scanned or finely cut body is felt as well as a coarse one: no place where the finger waits for triangles.
+// A scanned or finely tessellated body is rendered as well as a coarse one, without gaps in coverage.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,21 +13,21 @@ namespace {
 constexpr double kSphere = 0.05;
 
 struct Slide {
-  double speed;       ///< of the fingertip's centre [m/s]
+  double speed;       ///< speed of the fingertip's centre [m/s]
   double press;       ///< depth [m]
   double time = 0.6;  ///< [s]
 };
 
 struct Felt {
   std::uint32_t lost = 0, popped = 0;
-  double worst_normal = 0;      ///< share of k depth
-  double worst_tangential = 0;  ///< share of the normal force
-  double worst_step = 0;        ///< of the force from tick to tick [N]
+  double worst_normal = 0;      ///< error relative to k depth
+  double worst_tangential = 0;  ///< relative to the normal force
+  double worst_step = 0;        ///< force change from tick to tick [N]
 };
 
-/// From above down to the surface, then along a great circle that follows no row of triangles, speed ramped up in 0.1
-/// s. The fingertip's centre stays outside of the sphere, so that the exact answer is its projection onto it: depth is
-/// radius + sphere - |p_WH|.
+/// From above down to the surface, then along a great circle oblique to the rows of triangles, with a speed ramp of 0.1
+/// s. The fingertip's centre stays outside the sphere, so the exact answer is its projection onto it: depth = radius +
+/// sphere - |p_WH|.
 Felt slide(FingerRig& rig, const Slide& how) {
   const double radius = rig.touch().radius, orbit = kSphere + radius - how.press;
   const Vec3 start = Vec3(0.31, 0.83, 0.47).normalized(), side = start.cross(Vec3(0.7, -0.2, 0.4)).normalized();
@@ -51,7 +51,7 @@ Felt slide(FingerRig& rig, const Slide& how) {
   felt.popped = rig.all().pop_through - popped;
   const Vec3 away = std::cos(angle) * start + std::sin(angle) * side;
   for (double way = 0; way < 0.02; way += 0.2e-3) rig.tick((orbit + way) * away);
-  for (double back = 1; back > 0; back -= 0.005) {  // round the sphere, far from it
+  for (double back = 1; back > 0; back -= 0.005) {  // return round the sphere, far from it
     const Vec3 free = std::cos(angle * back) * start + std::sin(angle * back) * side;
     rig.tick((orbit + 0.02) * free);
   }
@@ -65,7 +65,7 @@ void expectGood(const Felt& felt, const FingerRig& rig, const Slide& how, int n)
   EXPECT_EQ(felt.popped, 0u);
   EXPECT_LE(felt.worst_normal, 0.01);
   EXPECT_LE(felt.worst_tangential, 0.01 + facetAngle(n));
-  // the spring's end moves with the finger, and the force may turn by two facets' angle
+  // the spring's end moves with the finger, and the force may rotate by the angle of two facets
   const double force = rig.touch().stiffness * how.press;
   EXPECT_LE(felt.worst_step, 2 * rig.touch().stiffness * how.speed * 1e-3 + 2 * facetAngle(n) * force);
 }

@@ -1,4 +1,4 @@
-// Meshes that the importer refuses or warns of: whatever stands there, the hand gets a force that a spring explains.
+// Meshes that the importer refuses or warns of: on any of them the force on the hand is that of a spring.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,22 +19,21 @@ TEST_P(HardInput, GivesAForceThatASpringExplains) {
       WanderRun run(GetParam().mesh, oracle, {.radius = radius, .friction = friction}, 3, false, false);
       run.run(700);
       const WanderFaults& faults = run.faults();
-      // else nothing was tried
+      // otherwise the test would be empty
       EXPECT_GT(faults.touching, GetParam().is_wide || radius > 1e-3 ? 20 : -1);
       EXPECT_EQ(faults.not_finite, 0) << "ticks";
       EXPECT_EQ(faults.too_strong, 0) << "ticks";
       EXPECT_EQ(faults.overlapping, 0) << "ticks; by up to " << faults.deepest * 1e6 << " um";
       EXPECT_EQ(faults.popped, 0u);
       EXPECT_EQ(faults.lost, 0u) << "ticks";
-      EXPECT_LE(friction == 0 ? faults.worst_growth : 0, 1e-6);  // tolerance of a position
+      EXPECT_LE(friction == 0 ? faults.worst_growth : 0, 1e-6);  // accuracy of a position
     }
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, HardInput, testing::ValuesIn(hardMeshes()), [](const auto& of) { return of.param.name; });
 
-// A gap that is narrower than the fingertip holds it: the centre sinks between the two lips to sqrt(r^2 - (gap / 2)^2),
-// and not a hair deeper.
+// A gap narrower than the fingertip holds it: the centre sinks between the edges to exactly sqrt(r^2 - (gap / 2)^2).
 TEST(HardInput, ACrackHoldsAFingertipThatIsWider) {
   for (const double gap : {1e-6, 10e-6, 100e-6, 1e-3}) {
     for (const double radius : {0.6e-3, 2e-3, 8e-3}) {
@@ -49,7 +48,7 @@ TEST(HardInput, ACrackHoldsAFingertipThatIsWider) {
         const Vec3 h(-0.03 + i * 0.1e-3, 0.1e-3 * (i % 50), -0.006);
         least = std::min(least, rig.tick(h).p_WP.z());
       }
-      EXPECT_GE(least, lowest - 1e-6);  // tolerance of a position
+      EXPECT_GE(least, lowest - 1e-6);  // accuracy of a position
       EXPECT_LE(least, radius + 1e-6);
       EXPECT_EQ(rig.all().pop_through, 0u);
       EXPECT_EQ(rig.all().coverage_lost, 0u);

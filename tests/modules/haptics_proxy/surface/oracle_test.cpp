@@ -1,4 +1,4 @@
-// What judges the renderer is judged first, against closed forms.
+// Tests of the oracles themselves, against closed forms.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -50,7 +50,7 @@ TEST(InsideWatch, KnowsWhetherAPointGotIn) {
   const MeshOracle box(cutBox({0.1, 0.1, 0.1}, 3));
   InsideWatch watch(box);
   EXPECT_FALSE(watch.update({0.06, 0, 0}));
-  EXPECT_FALSE(watch.update({0, 0.06, 0}));  // a chord through the corner's edges is no fault
+  EXPECT_FALSE(watch.update({0, 0.06, 0}));  // a chord that cuts a corner is no fault
   EXPECT_TRUE(watch.update({0, 0.049, 0}));
   EXPECT_TRUE(watch.update({0, 0.02, 0}));
   EXPECT_FALSE(watch.update({0, 0.051, 0}));

@@ -1,4 +1,4 @@
-// A fingertip that has once been outside of a closed body never gets inside, however it is pushed and dragged.
+// A fingertip that was outside a closed body never gets inside, however it is pushed and dragged.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -38,7 +38,7 @@ struct Way {
   std::uint32_t popped = 0;
 };
 
-/// The finger's scripted motion over the man of libcgal-demo, 0.15 m tall, as the whole program runs it.
+/// Runs a scripted finger motion over the man of libcgal-demo, 0.15 m tall, in the whole program.
 Way follow(const std::string& motion) {
   const std::filesystem::path folder = std::filesystem::path(PRESA_BINARY_DIR) / "tests/modules/haptics_proxy/surface/man";
   std::filesystem::create_directories(folder);
@@ -64,13 +64,13 @@ Way follow(const std::string& motion) {
   return way;
 }
 
-// The way of a finger that was found inside 50.621 s after it set out, 2 mm deep in one tick, from 0.6 s before that
-// on.
+// Regression test: the path of a finger that was once found inside, 2 mm deep in one tick, 50.621 s after its start;
+// replayed from 0.6 s before that.
 TEST(PopThrough, NeverHappensOnTheWayWhereItOnceDid) {
   const Way way = follow(PRESA_SOURCE_DIR "/tests/modules/haptics_proxy/surface/man_path.csv");
   EXPECT_EQ(way.first_inside, -1) << "[s]";
   EXPECT_EQ(way.popped, 0u);
-  // a tip of 2 mm: what presses holds its centre 2 mm off; 1 % for tolerances that are relative to the radius
+  // tip of 2 mm: contact keeps its centre 2 mm off; 1 % for tolerances relative to the radius
   EXPECT_GE(way.least_distance, 0.99 * 0.002);
 }
 

@@ -1,4 +1,4 @@
-// Fingers wander, press and slide over real bodies. The long version of this is ./dev soak.
+// Fingers wander, press and slide over real bodies. Long version: ./dev soak.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 class RealMesh : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    mesh_ = std::make_shared<const TriMesh>(realMesh(GetParam()));  // says which package is missing
+    mesh_ = std::make_shared<const TriMesh>(realMesh(GetParam()));  // throws with the name of a missing package
     oracle_ = std::make_unique<const MeshOracle>(*mesh_);
     closed_ = checkMesh(*mesh_).open_edges == 0;
   }
@@ -36,13 +36,13 @@ TEST_P(RealMesh, IsNeverEntered) {
     SCOPED_TRACE(testing::Message() << "radius " << radius * 1e3 << " mm");
     WanderRun run(mesh_, *oracle_, {.radius = radius, .friction = 0.5}, 1, false, closed_);
     run.run(1500);
-    EXPECT_GT(run.faults().touching, 100);  // else nothing was tried
+    EXPECT_GT(run.faults().touching, 100);  // otherwise the test would be empty
     expectNone(run.faults());
   }
 }
 
-/// Whether the fingertip's centre could come nearer to the HIP by a step of 1 to 10 um: sampled over the cone of
-/// directions that lead nearer, up to 80 degrees from straight on.
+/// Whether a step of 1 to 10 um could bring the fingertip's centre nearer to the HIP: sampled over the directions up to
+/// 80 degrees from the straight line.
 bool couldComeNearer(const MeshOracle& mesh, const Vec3& p, const Vec3& h, double r) {
   const Vec3 straight = (h - p).normalized(), side = straight.unitOrthogonal(), other = straight.cross(side);
   for (const double angle_deg : {0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 80.0}) {
@@ -65,7 +65,7 @@ TEST_P(RealMesh, HoldsTheProxyAtALocalMinimum) {
   WanderRun run(mesh_, *oracle_, {.radius = kRadius}, 2, false, closed_);
   int asked = 0, nearer = 0, tick = 0;
   run.run(2000, [&](const FingerContact& felt) {
-    // deep enough for a step of 10 um to lead nearer; every tenth tick, for time
+    // only at sufficient depth for a step of 10 um; every tenth tick, to save time
     if (++tick % 10 != 0 || felt.mode == ContactMode::kNone || (felt.p_WP - felt.p_WH).norm() < 1e-4) return;
     ++asked;
     if (couldComeNearer(*oracle_, felt.p_WP, felt.p_WH, kRadius)) ++nearer;
@@ -74,7 +74,7 @@ TEST_P(RealMesh, HoldsTheProxyAtALocalMinimum) {
   RecordProperty("no_minimum", nearer);
   EXPECT_GT(asked, 10);
   EXPECT_EQ(nearer, 0) << "of " << asked << " ticks the proxy was at no local minimum";
-  EXPECT_LE(run.faults().worst_growth, 1e-6);  // the tolerance of a position: a thousandth of a millimetre
+  EXPECT_LE(run.faults().worst_growth, 1e-6);  // accuracy of a position: a micrometre
   expectNone(run.faults());
 }
 

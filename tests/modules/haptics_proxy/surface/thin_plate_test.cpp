@@ -1,12 +1,12 @@
-// A sheet of paper holds like a wall: no fingertip gets through, from whatever side, over edges and corners, fast and
-// deep.
+// A sheet of paper holds like a wall: no fingertip gets through, from any side, over edges and corners, fast and deep.
 //
-// What is judged, in coordinates of the plate, by closed forms of a box:
+// Criteria, in coordinates of the plate, by closed forms of a box:
 // - the fingertip never overlaps the plate;
-// - it never changes sides where it had no way round. A god-object goes downhill towards the HIP. If both it and the
-//   HIP lie over the plate's face (within its outline), downhill leads along the face and never past its edge, so that
-//   a proxy that is on the other side afterwards went through. The same holds when all of an approach stays over the
-//   face.
+// - it never changes sides unless a path round the plate exists. A god-object moves downhill towards the HIP. If both
+//   lie over the
+//   plate's face (within its outline), downhill leads along the face and never past its edge, so a proxy on the other
+//   side afterwards
+//   went through. The same holds when a whole approach stays over the face.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,14 +21,14 @@ namespace {
 constexpr double kSide = 0.12, kDepth = 0.1, kPeriod = 1e-3;
 
 struct Approach {
-  Vec3 aim, direction;  ///< a point of the plate's surface, and the way of the HIP there and 100 mm on
-  double before = 0;    ///< of the way, so that the fingertip is free at its start [m]
+  Vec3 aim, direction;  ///< a point of the plate's surface, and the direction of the HIP's motion, to 100 mm beyond it
+  double before = 0;    ///< length of the path before `aim`, so that the fingertip starts free [m]
 };
 
 struct Count {
   int approaches = 0, through = 0, overlapping = 0, popped = 0;
-  int not_free = 0;    ///< starts to which the free fingertip did not come
-  double deepest = 0;  ///< overlap [m]
+  int not_free = 0;    ///< starts that the free fingertip did not reach
+  double deepest = 0;  ///< largest overlap [m]
 };
 
 class Plate {
@@ -60,7 +60,7 @@ class Plate {
     return Vec3(x, y, z).normalized();
   }
 
-  /// Half of them at a face, a quarter at its edges, the rest at its corners and narrow sides.
+  /// Half of the approaches aim at a face, a quarter at its edges, the rest at its corners and narrow sides.
   Approach random() {
     Approach approach;
     const double which = uniform(0, 1), up = uniform(0, 1) < 0.5 ? -1 : 1;
@@ -68,7 +68,7 @@ class Plate {
     if (which > 0.5) approach.aim.x() = std::copysign(half_.x(), approach.aim.x());
     if (which > 0.75) approach.aim.y() = std::copysign(half_.y(), approach.aim.y());
     if (which > 0.9) approach.aim.z() = uniform(-half_.z(), half_.z());
-    // inwards: against the outward direction of what it aims at
+    // inwards: opposite to the outward direction at the aim
     const Vec3 outwards(which > 0.5 ? std::copysign(1, approach.aim.x()) : 0,
                         which > 0.75 ? std::copysign(1, approach.aim.y()) : 0, which > 0.9 ? 0 : up);
     do {
@@ -81,7 +81,7 @@ class Plate {
     return approach;
   }
 
-  /// Far from the plate, round it, and to the start, with a query of the collision in every tick; the plate at rest.
+  /// Moves far from the plate, round it, and to the start, with a collision query in every tick and the plate at rest.
   void comeTo(const Vec3& start, Count& count) {
     constexpr double kFar = 0.3;
     pose_ = {};
@@ -105,7 +105,7 @@ class Plate {
       while (!rig_.atDynamicsStep()) rig_.place(start);
     }
     for (int i = 1; i <= ticks; ++i) {
-      // the same relative motion: the finger goes in, or the plate comes the other way
+      // the same relative motion: either the finger moves in or the plate moves towards it
       const auto gone = [&](double steps) { return std::min(steps * stride, way); };
       Vec3 h_P = start + gone(i) * one.direction, h_W = h_P;
       if (moving_) {
@@ -129,19 +129,20 @@ class Plate {
     last_P_ = proxy_;
   }
 
-  /// From the plate; negative inside of it.
+  /// Distance from the plate; negative inside.
   double distance(const Vec3& p) const {
     const Vec3 beyond = p.cwiseAbs() - half_;
     const double outside = beyond.cwiseMax(Vec3::Zero()).norm();
     return outside > 0 ? outside : beyond.maxCoeff();
   }
-  /// Over a face, and not at a narrow side, down which a fingertip may go: by more than a point is lifted off it, 0.1 um.
+  /// Whether p is over a face rather than at a narrow side, along which a fingertip may move down; margin 0.1 um, the
+  /// lift of a point.
   bool over(const Vec3& p) const { return std::abs(p.x()) < half_.x() - 1e-7 && std::abs(p.y()) < half_.y() - 1e-7; }
 
   void judge(const Vec3& before, const Vec3& after, const Vec3& h, bool& through, bool& overlapping, double& deepest) {
     const double overlap = rig_.touch().radius - distance(after);
     deepest = std::max(deepest, overlap);
-    // 1 % of the radius: beyond any tolerance that is relative to it; 0.1 um for a point
+    // 1 % of the radius: above any relative tolerance; 0.1 um for a point
     if (!(overlap <= std::max(1e-7, 0.01 * rig_.touch().radius))) overlapping = true;
     if (over(before) && over(h) && before.z() * after.z() < 0) through = true;
   }
@@ -157,7 +158,7 @@ class Plate {
 };
 
 void expectNoneThrough(double radius) {
-  constexpr int kEach = 1250;  // 10 000 for each radius
+  constexpr int kEach = 1250;  // 10 000 per radius
   std::uint64_t seed = 1;
   for (const double thickness : {0.5e-3, 0.05e-3}) {
     for (const double speed : {1.0, 3.0}) {

@@ -1,5 +1,5 @@
-// ./dev soak: fingers wander, press and slide over twenty real meshes, as long as is asked for. Every simulated minute
-// is a run of its own, made from a mesh and a seed, and judged by the oracles of tests/modules/haptics_proxy/surface tick by tick.
+// ./dev soak: fingers wander, press and slide over twenty real meshes for the given time. Every simulated minute is a
+// separate run with its own mesh and seed, checked tick by tick by the oracles of tests/modules/haptics_proxy/surface.
 #include <unistd.h>
 #include <atomic>
 #include <chrono>
@@ -22,18 +22,18 @@ std::atomic<bool> stopped = false;
 
 struct Options {
   int minutes = 1000, jobs = 1;
-  std::uint64_t seed = 1;  ///< of the first minute
-  std::string mesh;        ///< empty: all in turn
+  std::uint64_t seed = 1;  ///< seed of the first minute
+  std::string mesh;        ///< one mesh; empty: all in turn
 };
 
-/// A mesh with what judges it.
+/// A mesh with its oracle.
 struct Ground {
   std::shared_ptr<const TriMesh> mesh;
   std::unique_ptr<const MeshOracle> oracle;
   bool closed = false;
 };
 
-/// Each is read once. Thread: any.
+/// Loads each mesh once. Thread: any.
 const Ground& groundOf(const std::string& name) {
   static std::mutex mutex;
   static std::map<std::string, Ground> grounds;
@@ -47,7 +47,7 @@ const Ground& groundOf(const std::string& name) {
   return ground;
 }
 
-/// Everything about a finger follows from its seed, so that mesh and seed are enough to see it again.
+/// The finger's parameters follow from the seed, so that mesh and seed reproduce a run.
 Touch touchOf(std::uint64_t seed) {
   constexpr double kRadii[] = {0.002, 0.008, 0.0005}, kFriction[] = {0.5, 0.5, 0, 0.9};
   return {.radius = kRadii[seed % 3], .friction = kFriction[seed / 3 % 4]};
@@ -74,7 +74,7 @@ class Soak {
                 static_cast<unsigned long long>(options_.seed),
                 options_.mesh.empty() ? "twenty meshes in turn" : options_.mesh.c_str());
     for (const std::string& name : realMeshes()) {
-      if (options_.mesh.empty() || name == options_.mesh) static_cast<void>(packagedMesh(name));  // all there?
+      if (options_.mesh.empty() || name == options_.mesh) static_cast<void>(packagedMesh(name));  // throws if missing
     }
     std::vector<std::thread> threads;
     threads.reserve(static_cast<std::size_t>(options_.jobs));
@@ -171,7 +171,7 @@ class Soak {
   struct Sum {
     bool closed = false;
     std::int64_t ticks = 0, touching = 0, too_strong = 0;
-    int inside = 0, overlapping = 0;  ///< runs
+    int inside = 0, overlapping = 0;  ///< number of runs
     std::uint64_t popped = 0, lost = 0;
   };
   const Options options_;

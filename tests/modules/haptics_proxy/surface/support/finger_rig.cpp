@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-/// The hierarchy over a mesh: the one of the last world where the mesh is the same.
+/// The hierarchy over a mesh, cached for consecutive worlds with the same mesh.
 std::shared_ptr<const MeshTree> treeOf(const std::shared_ptr<const TriMesh>& mesh) {
   thread_local std::shared_ptr<const MeshTree> last;
   if (!last || &last->mesh() != mesh.get()) {

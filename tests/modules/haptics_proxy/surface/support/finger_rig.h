@@ -11,34 +11,34 @@ namespace presa::test {
 
 /// One body under one finger.
 struct Touch {
-  double radius = 0.008;      ///< of the fingertip [m]; 0: a point
+  double radius = 0.008;      ///< fingertip radius [m]; 0: a point
   double stiffness = 1000;    ///< [N/m]
-  double friction = 0;        ///< static; dynamic is 0.8 of it
-  double collision_hz = 100;  ///< of the collision group; 1000 / it is whole
-  bool fixed = true;          ///< else the test moves it
-  bool smooth = false;        ///< shading
+  double friction = 0;        ///< static coefficient; the dynamic one is 0.8 of it
+  double collision_hz = 100;  ///< collision rate; 1000 / collision_hz must be whole
+  bool fixed = true;          ///< false: the test moves the body
+  bool smooth = false;        ///< force shading
 };
 
-/// The only place in these tests that makes a world: one body, felt as `mesh`, whose adjacency is built.
+/// Makes the world of these tests: one body with the haptic mesh `mesh`, whose adjacency must be built.
 World worldOf(std::shared_ptr<const TriMesh> mesh, const Touch& touch);
 
-/// The haptic renderer and the collision query in a graph, stepped as the lockstep executor steps them, without a
-/// device: the finger is where the test says.
+/// The haptic renderer and the collision query in a graph, stepped like the lockstep executor, without a device: the
+/// test sets the finger's position.
 class FingerRig {
  public:
   FingerRig(std::shared_ptr<const TriMesh> mesh, const Touch& touch);
   ~FingerRig();
 
-  /// One tick of 1 ms with the finger at p_WH; its velocity is the way since the last tick.
+  /// One tick of 1 ms with the finger at p_WH; its velocity follows from the last tick.
   const FingerContact& tick(const Vec3& p_WH);
-  /// The same, the collision query first whatever its rate: for a finger that is put somewhere else.
+  /// Places the finger elsewhere: as tick, with a collision query first.
   const FingerContact& place(const Vec3& p_WH);
-  /// Where the moving body is at a time [s] and how fast; from now on.
+  /// Sets the body's motion from now on: poses at start and end of the dynamics step, and velocity.
   void moveBody(const Pose& X_WB_begin, const Pose& X_WB_end, const Vec3& v_WB);
 
-  const Vec3& at() const { return last_; }                 ///< where the finger was last
-  double time() const;                                     ///< of the next tick [s]
-  bool atDynamicsStep() const { return index_ % 5 == 0; }  ///< the next tick is one of the 200 Hz
+  const Vec3& at() const { return last_; }                 ///< last position of the finger
+  double time() const;                                     ///< time of the next tick [s]
+  bool atDynamicsStep() const { return index_ % 5 == 0; }  ///< whether the next tick coincides with a 200 Hz step
   const ContactExchange& all() const;
   const Touch& touch() const { return touch_; }
 

@@ -23,7 +23,7 @@ Index add(TriMesh& mesh, const Vec3& p) {
   return static_cast<Index>(mesh.vertices.size()) - 1;
 }
 
-/// Tetrahedra 80 mm long and 20 um thick, pointing everywhere.
+/// Tetrahedra 80 mm long and 20 um thick, in all directions.
 TriMesh needles() {
   std::mt19937_64 random(1);
   TriMesh mesh;
@@ -38,8 +38,7 @@ TriMesh needles() {
   return mesh;
 }
 
-/// A sheet of triangles 100 mm long and 25 um wide, and others along its surface whose corners lie in one line but for
-/// 1 nm.
+/// A sheet of triangles 100 mm long and 25 um wide, and others on its surface with corners collinear to within 1 nm.
 TriMesh slivers() {
   std::mt19937_64 random(2);
   TriMesh mesh;
@@ -59,7 +58,7 @@ TriMesh slivers() {
   return mesh;
 }
 
-/// No area at all: a corner named twice, three corners in a line, three at one place.
+/// Triangles without area: a repeated vertex, three collinear vertices, three coincident vertices.
 TriMesh withoutArea() {
   TriMesh mesh = icosphere(8, 0.05);
   const std::size_t count = mesh.triangles.size();
@@ -87,12 +86,12 @@ TriMesh inverted() {
   return mesh;
 }
 
-/// Sides of a box that are cut differently and share no corners: 7 x 7 on 5 x 5.
+/// A box whose halves are tessellated differently and share no vertices: 7 x 7 on 5 x 5.
 TriMesh tJunctions() {
   TriMesh mesh;
   append(mesh, cutBox({0.1, 0.1, 0.05}, 7), {0, 0, 0.025});
   append(mesh, cutBox({0.1, 0.1, 0.05}, 5), {0, 0, -0.025});
-  // the two faces in the middle go: what is left is one box with T-junctions round its waist
+  // removing the two faces in the middle leaves one box with T-junctions round its waist
   std::erase_if(mesh.triangles, [&](const TriMesh::Triangle& t) {
     return std::ranges::all_of(
         t, [&](Index v) { return std::abs(mesh.vertices[static_cast<std::size_t>(v)].z()) < 1e-9; });
@@ -134,7 +133,7 @@ TriMesh soup() {
   return mesh;
 }
 
-/// Two boxes side by side, whose faces in the middle lie on each other.
+/// Two boxes side by side with coincident faces in the middle.
 TriMesh coincident() {
   TriMesh mesh;
   append(mesh, cutBox({0.05, 0.1, 0.05}, 4), {0.025, 0, 0});

@@ -8,7 +8,7 @@
 namespace presa::test {
 namespace {
 
-/// The file's words, comments left out.
+/// The file's words without comments.
 std::istringstream wordsOf(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw std::runtime_error("cannot read " + file.string());
@@ -24,7 +24,7 @@ std::vector<double> numbersOf(const std::string& line) {
   return numbers;
 }
 
-/// The next line that says something.
+/// The numbers of the next line that is not empty.
 std::vector<double> nextNumbers(std::istringstream& text, const std::filesystem::path& file) {
   for (std::string line; std::getline(text, line);) {
     if (line.find_first_not_of(" \t\r\n") != std::string::npos) return numbersOf(line);
@@ -39,7 +39,7 @@ TriMesh readOff(const std::filesystem::path& file) {
   std::string head;
   text >> head;
   if (head.find("OFF") == std::string::npos) throw std::runtime_error(file.string() + " is no OFF file");
-  const std::vector<double> counts = nextNumbers(text, file);  // on the line of the head, or below
+  const std::vector<double> counts = nextNumbers(text, file);  // on the header line or below
   TriMesh mesh;
   for (auto i = static_cast<std::size_t>(counts.at(0)); i > 0; --i) {
     const std::vector<double> p = nextNumbers(text, file);

@@ -13,13 +13,13 @@ TriMesh readOff(const std::filesystem::path& file);
 void scaleTo(TriMesh& mesh, double size);
 void writeObj(const TriMesh& mesh, const std::filesystem::path& file);
 
-/// Where a mesh of Debian's libcgal-demo or assimp-testmodels lies. Throws std::runtime_error, with what to install,
-/// where it is not there.
+/// Path of a mesh of Debian's libcgal-demo or assimp-testmodels. Throws std::runtime_error naming the package to
+/// install if it is missing.
 std::filesystem::path packagedMesh(const std::string& name);
 
 /// The twenty meshes that fingers wander over: closed or nearly, folded, thin, coarse and fine.
 const std::vector<std::string>& realMeshes();
-/// One of them: welded, without degenerate triangles, 0.15 m, with adjacency; turned when it is inside out.
+/// One of them: welded, without degenerate triangles, 0.15 m large, with adjacency; reoriented if it is inside out.
 TriMesh realMesh(const std::string& name);
 
 }  // namespace presa::test

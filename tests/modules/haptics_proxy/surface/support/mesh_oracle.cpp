@@ -14,22 +14,22 @@ double squaredDistance(const Vec3& low, const Vec3& high, const Vec3& p) {
   return (low - p).cwiseMax(p - high).cwiseMax(Vec3::Zero()).squaredNorm();
 }
 
-/// Whether p + s direction with s in [0, end] meets the box; slabs, with 1 / direction.
+/// Whether p + s direction with s in [0, end] meets the box; slab test with inverse = 1 / direction.
 bool meets(const Vec3& low, const Vec3& high, const Vec3& p, const Vec3& inverse, double end) {
   double from = 0, to = end;
   for (int i = 0; i < 3; ++i) {
     const double one = (low[i] - p[i]) * inverse[i], other = (high[i] - p[i]) * inverse[i];
-    if (std::isnan(one) || std::isnan(other)) continue;  // in the slab's face, along it
+    if (std::isnan(one) || std::isnan(other)) continue;  // the ray lies in the slab's face
     from = std::max(from, std::min(one, other));
     to = std::min(to, std::max(one, other));
   }
   return from <= to * (1 + 1e-12);
 }
 
-/// Where p + s direction goes through abc: sign of direction . normal, 0 for a miss.
+/// Whether p + s direction crosses triangle abc: sign of direction . normal, 0 for a miss.
 int through(const Vec3& p, const Vec3& direction, double end, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 pa = a - p, pb = b - p, pc = c - p;
-  // volumes of the tetrahedra that the line makes with the edges: all of one sign where it goes through
+  // volumes of the tetrahedra formed by the line and the edges: equal signs mean a crossing
   const double u = direction.dot(pc.cross(pb)), v = direction.dot(pa.cross(pc)), w = direction.dot(pb.cross(pa));
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return 0;
   const double all = u + v + w;
@@ -201,7 +201,7 @@ int MeshOracle::crossings(const Vec3& p, const Vec3& direction) const {
 }
 
 int MeshOracle::winding(const Vec3& p) const {
-  // no direction of a mesh's own edges
+  // directions that are unlikely to coincide with edges of a mesh
   const int one = crossings(p, Vec3(0.5377, 0.6241, 0.5669)), two = crossings(p, Vec3(-0.7211, 0.1873, 0.6669)),
             three = crossings(p, Vec3(0.1319, -0.8237, -0.5515));
   if (one == two && two == three) return one;

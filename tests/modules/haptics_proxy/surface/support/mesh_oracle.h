@@ -6,8 +6,8 @@
 
 namespace presa::test {
 
-/// What is true of a mesh, found without Presa's own geometry: distances, crossings and winding numbers by a tree of
-/// boxes of its own and formulas of its own. Mesh coordinates.
+/// Distances, crossings and winding numbers of a mesh, computed independently of Presa's geometry with its own tree of
+/// boxes and its own formulas. Mesh coordinates [m].
 class MeshOracle {
  public:
   explicit MeshOracle(const TriMesh& mesh);
@@ -17,20 +17,20 @@ class MeshOracle {
     Vec3 point = Vec3::Zero();
     std::int32_t triangle = -1;
   };
-  /// The nearest point of the surface, if it is nearer than `within`; else triangle -1.
+  /// The nearest point of the surface within `within`; else triangle -1.
   Nearest nearest(const Vec3& p, double within = 1e300) const;
-  /// Whether the segment meets the surface anywhere.
+  /// Whether the segment crosses the surface.
   bool crosses(const Vec3& a, const Vec3& b) const;
   /// Triangles whose boxes come within `radius` of p.
   void near(const Vec3& p, double radius, std::vector<std::int32_t>& found) const;
-  /// How often the surface winds around p: 0 outside of a closed mesh. Signed crossings of three rays; where these
-  /// disagree (an edge was hit, the mesh is open) the solid angle of every triangle, rounded [Jacobson2013].
+  /// Winding number of the surface around p: 0 outside a closed mesh. Signed crossings of three rays; if these disagree
+  /// (an edge was hit, or the mesh is open) the rounded sum of the solid angles of all triangles [Jacobson2013].
   int winding(const Vec3& p) const;
   /// Sum of the signed solid angles of all triangles over 4 pi.
   double solidAngles(const Vec3& p) const;
 
   std::array<Vec3, 3> corners(std::int32_t triangle) const;
-  /// Unit normal by the order of the corners.
+  /// Unit normal by the order of the vertices.
   Vec3 normal(std::int32_t triangle) const;
   std::size_t size() const { return triangles_.size(); }
 
@@ -46,20 +46,20 @@ class MeshOracle {
   int crossings(const Vec3& p, const Vec3& direction) const;
 
   std::vector<Corners> triangles_;      ///< in the order of the tree
-  std::vector<std::int32_t> ids_;       ///< of these in the mesh
-  std::vector<std::int32_t> place_of_;  ///< the other way round
+  std::vector<std::int32_t> ids_;       ///< index in the mesh, for each of these
+  std::vector<std::int32_t> place_of_;  ///< inverse of ids_
   std::vector<Node> nodes_;
 };
 
-/// The point of triangle abc nearest to p, by clamping to its plane, edges and corners.
+/// The point of triangle abc nearest to p: projection to plane, edges and corners.
 Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Watches a moving point: whether it has got inside a mesh. A point cannot get in without its way crossing the
-/// surface, so winding numbers are asked for only where it does (a chord over a corner crosses, too, and is no fault).
+/// Detects when a moving point has got inside a mesh. It cannot get in without its path crossing the surface, so
+/// winding numbers are computed only after a crossing (a chord that cuts a corner crosses, too, and is no fault).
 class InsideWatch {
  public:
   explicit InsideWatch(const MeshOracle& mesh) : mesh_(mesh) {}
-  /// Whether it is inside now.
+  /// Whether the point is inside after moving to p.
   bool update(const Vec3& p);
 
  private:

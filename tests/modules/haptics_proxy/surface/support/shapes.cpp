@@ -11,7 +11,7 @@ using Index = std::int32_t;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Cuts one face after the other; the points of edges that faces share are made once.
+/// Subdivides the faces of an icosahedron; points on shared edges are created once.
 class Icosphere {
  public:
   Icosphere(int n, double radius) : n_(n), radius_(radius) {
@@ -35,7 +35,7 @@ class Icosphere {
     mesh.vertices.push_back(radius_ * direction.normalized());
     return static_cast<Index>(mesh.vertices.size()) - 1;
   }
-  /// Point i of n on the edge from a to b.
+  /// Point i of n on the edge from a to b; shared by adjacent faces.
   Index onEdge(Index a, Index b, int i) {
     if (i == 0) return a;
     if (i == n_) return b;
@@ -46,7 +46,7 @@ class Icosphere {
     return entry->second[at(i - 1)];
   }
   void cut(Index a, Index b, Index c) {
-    // row i lies i steps from a's side towards b, its points j steps towards c
+    // row i lies i steps from a towards b, its points j steps towards c
     std::vector<std::vector<Index>> rows;
     for (int i = 0; i <= n_; ++i) {
       rows.emplace_back();
@@ -89,7 +89,7 @@ TriMesh icosphere(int n, double radius) {
 }
 
 double facetAngle(int n) {
-  constexpr double kLongest = 1.2 * 1.107149;  // an icosahedron's edge is seen from its centre at atan 2
+  constexpr double kLongest = 1.2 * 1.107149;  // an icosahedron's edge subtends atan 2 at its centre
   return kLongest / n / std::sqrt(3.0);        // from the middle of an equilateral facet to its corner
 }
 
@@ -117,7 +117,7 @@ TriMesh cutBox(const Vec3& size, int m) {
       const auto first = static_cast<Index>(mesh.vertices.size());
       for (const Vec3& p : square.vertices) {
         Vec3 vertex;
-        // cyclic: a right-handed frame whose third axis is the face's; the other face is mirrored
+        // cyclic permutation: a right-handed frame whose third axis is the face's; the opposite face is mirrored
         vertex[axis] = side;
         vertex[(axis + 1) % 3] = side > 0 ? p.x() : -p.x();
         vertex[(axis + 2) % 3] = p.y();

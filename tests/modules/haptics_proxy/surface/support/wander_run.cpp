@@ -25,7 +25,7 @@ void WanderRun::run(int ticks, const std::function<void(const FingerContact&)>& 
     }
     if (felt.mode != ContactMode::kNone) ++faults_.touching;
     const double depth = (felt.p_WP - p_WH).norm(), force = felt.f_H_W.norm();
-    // rounding of coordinates of 0.1 m
+    // tolerance: rounding of coordinates of 0.1 m
     if (force > touch.stiffness * (depth * (1 + 1e-9) + 1e-12)) ++faults_.too_strong;
     faults_.worst_growth = std::max(faults_.worst_growth, depth - depth_ - (p_WH - before_H).norm());
     depth_ = depth;

@@ -8,14 +8,14 @@ constexpr double kPeriod = 1e-3, kMass = 0.05, kHand = 3000, kDamping = 20;  // 
 
 Wanderer::Wanderer(const TriMesh& mesh, std::uint64_t seed, bool stiff)
     : mesh_(mesh), random_(seed), stiff_(stiff), room_(boundsOf(mesh)) {
-  // beyond the sphere around everything: certainly outside
+  // start beyond the bounding sphere: certainly outside
   const Vec3 middle = (room_.low + room_.high) / 2;
   std::normal_distribution<double> normal;
   const double x = normal(random_), y = normal(random_), z = normal(random_);
   goal_ = middle + ((room_.high - room_.low).norm() / 2 + 0.02) * Vec3(x, y, z).normalized();
   x_ = goal_;
   choose();
-  speed_ = 0.5;  // soon there
+  speed_ = 0.5;  // fast approach
 }
 
 double Wanderer::uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
@@ -27,7 +27,7 @@ void Wanderer::choose() {
     for (int i = 0; i < 3; ++i) target_[i] = uniform(room_.low[i] - 0.01, room_.high[i] + 0.01);
     return;
   }
-  // the nearest of a few random triangles, so that it mostly slides on from where it is
+  // the nearest of a few random triangles, so that it mostly slides on from its position
   double least = 1e300;
   for (int i = 0; i < 8; ++i) {
     const auto t = static_cast<std::size_t>(uniform(0, 1) * static_cast<double>(mesh_.triangles.size() - 1));
