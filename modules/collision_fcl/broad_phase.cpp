@@ -23,7 +23,7 @@ std::int32_t indexOf(const Object& object) {
   return static_cast<std::int32_t>(reinterpret_cast<std::intptr_t>(object.getUserData()));
 }
 
-// FCL compares boxes; whether the spheres come that near is decided here.
+// FCL compares bounding boxes; this compares the spheres.
 bool keepNear(Object* a, Object* b, void* data) {
   Query& query = *static_cast<Query*>(data);
   const Object& object = a == query.asking ? *b : *a;

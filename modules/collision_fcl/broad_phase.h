@@ -6,21 +6,22 @@
 
 namespace presa {
 
-/// Bounding spheres of bodies in FCL's dynamic tree of boxes: which of them come near a point, at a cost that grows with the
-/// logarithm of their number. Frame: W. Thread: one; allocates at construction only.
+/// Bounding spheres of bodies in FCL's dynamic AABB tree. Finds the spheres near a point in logarithmic time. Frame: W.
+/// Thread: one; allocates at construction only.
 class BroadPhase {
  public:
-  /// Room for `count` spheres.
+  /// Reserves memory for `count` spheres.
   explicit BroadPhase(std::size_t count);
   ~BroadPhase();
   BroadPhase(const BroadPhase&) = delete;
   BroadPhase& operator=(const BroadPhase&) = delete;
 
-  /// Places sphere `i` [m]; seen after the next refresh().
+  /// Places sphere `i` [m]; takes effect at the next refresh().
   void place(std::size_t i, const Vec3& center, double radius);
-  /// After a round of place().
+  /// Updates the tree after a round of place().
   void refresh();
-  /// Fills `out` with the spheres that come within `radius` of `center`, in rising order. `out` needs room for all of them.
+  /// Fills `out` with the indices of the spheres within `radius` of `center`, in increasing order. `out` must have the
+  /// capacity.
   void near(const Vec3& center, double radius, std::vector<std::int32_t>& out) const;
 
  private:

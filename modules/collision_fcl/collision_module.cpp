@@ -9,7 +9,7 @@
 namespace presa {
 namespace {
 
-/// A patch is made this much larger than what is needed now, so that it serves for a while.
+/// A patch is made larger than needed by this factor, so that it serves for several queries.
 constexpr double kFarther = 1.5;
 
 enum Stage : std::size_t { kPlace, kLook, kDeliver };
@@ -77,7 +77,8 @@ void CollisionModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept 
   }
 }
 
-// A patch is made from poses at the start of a collision period, is published at latest at its end, and serves until the next.
+// A patch is made from poses at the start of a collision period, published at the latest at its end, and used until the
+// next one.
 double CollisionModule::horizon(const Tick& tick) const noexcept {
   return reach::kCollisionPeriods * tick.period + reach::kDynamicsPeriods * dynamics_period_ +
          std::max(device_state.age(tick), 0.0);
@@ -118,7 +119,7 @@ CollisionModule::Ball CollisionModule::ballOf(std::size_t finger, const Tick& ti
 
 bool CollisionModule::lastPatchServes(std::size_t finger, const Ball& needed) noexcept {
   const FingerPatch& patch = contact_patches.value.fingers[finger];
-  // written so that a position that is not a number is served by nothing
+  // written so that a position with NaN is never served
   if (patch.serial == 0 || !((needed.center_W - patch.center_W).norm() + needed.radius <= patch.radius)) return false;
   if (!any_moves_) return true;
   for (std::size_t i = 0; i < static_cast<std::size_t>(patch.body_count); ++i) {
@@ -148,7 +149,7 @@ void CollisionModule::makePatch(const Ball& needed, FingerPatch& patch) noexcept
     return;
   }
   broad_phase_.near(patch.center_W, patch.radius, found_);
-  if (found_.size() > patch.bodies.size()) {  // the tick looks at all of them itself
+  if (found_.size() > patch.bodies.size()) {  // too many: the haptic tick examines all bodies itself
     patch.radius = -1;
     return;
   }

@@ -13,12 +13,11 @@
 
 namespace presa {
 
-/// Collision query: which bodies every finger can reach before the next query, and for each mesh among them a cut of its
-/// hierarchy, from which the haptic tick goes on. A patch serves as long as all that a finger needs lies within it: then
-/// nothing is looked for and nothing is copied. Nothing is lost where a patch is late or too small: the tick then looks at
-/// every body, and starts from the root.
-/// In: contact_exchange, device_state, object_state (optional; absent: bodies stay at their start pose).
-/// Out: contact_patches. Thread: collision; allocates at construction only.
+/// Collision query: the bodies that every finger can reach before the next query, and for each mesh among them a cut of
+/// its hierarchy, from which the haptic tick continues. A patch is kept as long as it covers the finger's reach;
+/// nothing is then searched or copied. A late or too small patch costs time but no accuracy: the tick then examines all
+/// bodies and starts from the roots. In: contact_exchange, device_state, object_state (optional; absent: bodies stay at
+/// their start pose). Out: contact_patches. Thread: collision; allocates at construction only.
 class CollisionModule final : public Module, public WatchedStages {
  public:
   explicit CollisionModule(std::shared_ptr<const World> world);
@@ -34,7 +33,7 @@ class CollisionModule final : public Module, public WatchedStages {
   Out<ContactPatches> contact_patches{*this, "contact_patches"};
 
  private:
-  /// A body that a finger can touch, with its bounding sphere.
+  /// A touchable body with its bounding sphere.
   struct Touchable {
     std::int32_t body = kNoBody;
     const MeshTree* tree = nullptr;  ///< null: a primitive
@@ -42,26 +41,26 @@ class CollisionModule final : public Module, public WatchedStages {
     Vec3 center_B = Vec3::Zero();
     double radius = 0;  ///< [m]
     bool moves = false;
-    Pose X_WB;           ///< as last placed
-    double travel = -1;  ///< how far it may go until the next patch [m]; as last placed
+    Pose X_WB;           ///< pose last placed
+    double travel = -1;  ///< distance that it may move until the next patch, as last placed [m]
   };
-  /// Sphere around a finger's HIP that holds all that it can look at until the next patch.
+  /// Sphere around a finger's HIP that covers all queries of the haptic tick until the next patch.
   struct Ball {
     Vec3 center_W = Vec3::Zero();
     double radius = 0;  ///< [m]
   };
 
   double horizon(const Tick& tick) const noexcept;
-  /// Places the bodies that have moved in the broad phase.
+  /// Updates the broad phase for bodies that have moved.
   void placeBodies(const Tick& tick) noexcept;
   Ball ballOf(std::size_t finger, const Tick& tick) const noexcept;
-  /// The finger's last patch still has all that it needs.
+  /// Whether the finger's last patch still covers everything it needs.
   bool lastPatchServes(std::size_t finger, const Ball& needed) noexcept;
   void makePatch(const Ball& needed, FingerPatch& patch) noexcept;
 
   std::shared_ptr<const World> world_;
   std::vector<Touchable> touchables_;
-  std::vector<std::int32_t> touchable_of_;  ///< by body; -1: no finger can touch it
+  std::vector<std::int32_t> touchable_of_;  ///< by body; -1: not touchable
   bool any_moves_ = false;
   double dynamics_period_;
   std::uint64_t serial_ = 0;

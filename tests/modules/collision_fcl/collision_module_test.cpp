@@ -22,7 +22,7 @@ struct Source final : Module {
   Out<T> out;
 };
 
-/// A world of bodies under one finger, and the module as the haptic loop and the dynamics would feed it.
+/// A world of bodies under one finger, and the module with inputs as from haptic loop and dynamics.
 class CollisionModuleTest : public testing::Test {
  protected:
   Body& addBody(const Shape& shape, const Pose& X_WB, const Pose& X_BG = {}) {
@@ -71,7 +71,7 @@ class CollisionModuleTest : public testing::Test {
   }
   BodyMotion& motionOf(std::size_t body) { return objects_.out.value.bodies[body]; }
 
-  /// Every triangle of a listed mesh within the radius of its cut is in the cut, in body coordinates.
+  /// Every triangle of a listed mesh within the radius of its cut must be in the cut, in body coordinates.
   void expectComplete(const NearBody& near) const {
     const auto b = static_cast<std::size_t>(near.body);
     const MeshTree& tree = *world_.meshes[b].haptic_tree;
@@ -84,7 +84,7 @@ class CollisionModuleTest : public testing::Test {
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(tree.mesh().triangles.size()); ++f) {
       const auto at = [&](std::size_t k) -> Vec3 { return X_BG * tree.corner(tree.facet(f), k); };
       const double distance = (near.center_B - closestOnTriangle(near.center_B, at(0), at(1), at(2))).norm();
-      // rounding of the two orders of transforming: a few ulp of a decimetre
+      // tolerance: rounding of two orders of transformation, a few ulp of a decimetre
       if (distance < near.radius - 1e-15) EXPECT_TRUE(held.contains(f)) << "facet " << f << " at " << distance;
     }
   }
@@ -101,7 +101,7 @@ class CollisionModuleTest : public testing::Test {
 const Pose kPlaced{Vec3(0.4, -0.2, 0.1), Quat(Eigen::AngleAxisd(0.9, Vec3(1, 2, -1).normalized()))};
 const Pose kInBody{Vec3(0.01, 0.03, -0.02), Quat(Eigen::AngleAxisd(-0.5, Vec3(0, 1, 3).normalized()))};
 
-// The law of the patch: what can be touched before the next one is in it, wherever body and mesh are placed.
+// The invariant of a patch: it covers everything that can be touched before the next one, at any pose of body and mesh.
 TEST_F(CollisionModuleTest, TheCutHoldsEveryTriangleWithinItsRadius) {
   addMesh(makeSphere(0.05, 4), kPlaced, kInBody);
   const Vec3 finger = kPlaced * (kInBody * Vec3(0.0, 0.0, 0.056));
@@ -112,19 +112,19 @@ TEST_F(CollisionModuleTest, TheCutHoldsEveryTriangleWithinItsRadius) {
   expectComplete(patch.bodies[0]);
 }
 
-// Constant velocity, constant acceleration: the way of a finger over the horizon is inside the bound, by mechanics.
+// The path of a finger over the horizon, at constant velocity or acceleration, lies within the bound.
 TEST_F(CollisionModuleTest, RadiusGrowsByTheWayTheFingerCanGo) {
   addMesh(makeBox({0.1, 0.1, 0.1}), {});
   const double still = query({0, 0, 0.06}).radius;
   const double moving = query({0, 0, 1.06}, {0.3, 0, 0.4}).radius;
   const double horizon = 2 * 0.01 + 1 / world_.scene.rates.dynamics;
-  constexpr double kFarther = 1.5;  // a patch is made half as large again as needed, so that it serves for a while
+  constexpr double kFarther = 1.5;  // a patch is 1.5 times as large as needed, so that it serves for several queries
   EXPECT_NEAR(still, kFarther * (1.1 * kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * horizon * horizon),
               1e-15);
   EXPECT_NEAR(moving - still, kFarther * 0.5 * horizon, 1e-15);
 }
 
-// A patch serves until what the finger needs is no longer in it; whatever the way, what is needed is always there.
+// A patch serves until it no longer covers the finger's need; the need is always covered, on any path.
 TEST_F(CollisionModuleTest, APatchServesUntilTheFingerNeedsMore) {
   addMesh(makeSphere(0.05, 4), kPlaced, kInBody);
   const double needed = 1.1 * kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * 0.025 * 0.025;
@@ -133,7 +133,7 @@ TEST_F(CollisionModuleTest, APatchServesUntilTheFingerNeedsMore) {
   double way = 0;
   std::uint64_t serial = 0;
   Vec3 last = Vec3::Zero();
-  for (double angle = 0; angle < 1; angle += 0.01) {  // 0.56 mm a query
+  for (double angle = 0; angle < 1; angle += 0.01) {  // 0.56 mm per query
     const Vec3 finger = kPlaced * (kInBody * Vec3(0.056 * std::sin(angle), 0, 0.056 * std::cos(angle)));
     const FingerPatch& patch = query(finger);
     if (patch.serial != serial) ++made;
@@ -144,10 +144,10 @@ TEST_F(CollisionModuleTest, APatchServesUntilTheFingerNeedsMore) {
     way += last.isZero() ? 0 : (finger - last).norm();
     last = finger;
   }
-  EXPECT_LE(made, 2 + way / (0.5 * needed));  // half the radius lasts for half of what is needed
+  EXPECT_LE(made, 2 + way / (0.5 * needed));  // the extra half of the radius lasts for half of the need
 }
 
-// The scene may fix the radius instead.
+// The scene may set a fixed margin instead.
 TEST_F(CollisionModuleTest, ObeysTheScenesMargin) {
   addMesh(makeSphere(0.02, 3), {});
   world_.scene.collision.margin = 0.002;
@@ -161,7 +161,8 @@ TEST_F(CollisionModuleTest, WhatIsOutOfReachIsNotListed) {
   EXPECT_LT(query({0, 0, std::numeric_limits<double>::quiet_NaN()}).radius, 0);
 }
 
-// A body that comes near is listed before the finger can reach it, primitives like meshes. Oracle: every listed body's sphere.
+// An approaching body is listed before the finger can reach it, primitives and meshes. Oracle: the bounding spheres of
+// all bodies.
 TEST_F(CollisionModuleTest, EveryBodyInReachIsListedWhereverItGoes) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -195,13 +196,13 @@ TEST_F(CollisionModuleTest, EveryBodyInReachIsListedWhereverItGoes) {
   EXPECT_LT(listed, 200u * 40);
 }
 
-// More bodies than there is room for: the patch says that it is of no use, and the tick looks at all of them itself.
+// Too many bodies: the patch marks itself as unusable, and the tick examines all of them itself.
 TEST_F(CollisionModuleTest, ACrowdIsLeftToTheTick) {
   for (int i = 0; i < kMaxNearBodies + 1; ++i) addBody(Sphere{0.001}, {Vec3(0, 1e-4 * i, 0.01), Quat::Identity()});
   EXPECT_LT(query(Vec3::Zero()).radius, 0);
 }
 
-// Three slots of a triple buffer, each copied to in turn while patches change one by one: every slot ends as its source was.
+// Three slots of a triple buffer, copied to in turn while patches change one by one: every copy equals its source.
 TEST(ContactPatches, ACopyIsWhatItsSourceWasWhateverItHeldBefore) {
   auto source = std::make_unique<ContactPatches>();
   std::array<std::unique_ptr<ContactPatches>, 3> slots;
