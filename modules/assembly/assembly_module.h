@@ -9,7 +9,7 @@
 
 namespace presa::assembly {
 
-/// The places of a scene's assembly: Object State in, what is drawn and fixed out. Thread: collision.
+/// Module of the assembly task: object state in, snap constraints and assembly state out. Thread: collision.
 class AssemblyModule final : public Module, public AssemblyControl {
  public:
   explicit AssemblyModule(std::shared_ptr<const World> world);

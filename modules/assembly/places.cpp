@@ -9,13 +9,13 @@ namespace {
 
 using Status = GoalState::Status;
 
-constexpr double kGravity = 9.81;  // what a weight is [m/s^2]
+constexpr double kGravity = 9.81;  // converts weights to accelerations [m/s^2]
 constexpr double kWellInside = 0.9,
-                 kFarInside = 0.8;          // of the field's size: where a body is let go, where to it is drawn
-constexpr double kCaught = 2, kInVain = 8;  // [s] on its way back, no nearer than before
-constexpr double kProgress = 0.005;         // [m]
-constexpr double kClear = 0.01;             // [m]
-constexpr double kFar = 0.05;  // [m] from where it is let go: fetched in seconds, at as many m/s as it is metres away
+                 kFarInside = 0.8;          // of the workspace: where a body is released, where it is pulled to
+constexpr double kCaught = 2, kInVain = 8;  // without progress: when a body is lifted, when carried [s]
+constexpr double kProgress = 0.005;         // smallest approach that counts as progress [m]
+constexpr double kClear = 0.01;             // height below the target at which it is lifted first [m]
+constexpr double kFar = 0.05;  // farther away, a carried body moves at its distance per second instead of 10 mm/s [m]
 constexpr double kDegree = std::numbers::pi / 180;
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -56,7 +56,8 @@ std::int32_t Places::missing(std::size_t goal) const {
   return kNoGoal;
 }
 
-// Every body within reach of a place that is for it; who is drawn there already is let go a little farther away.
+// Lists every body within reach of a goal that it fits. A body that is already pulled is released a little farther away
+// (hysteresis).
 void Places::findCandidates(const ObjectState& objects) {
   candidates_.clear();
   for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
@@ -80,7 +81,7 @@ void Places::findCandidates(const ObjectState& objects) {
   }
 }
 
-// The nearest pair first; a place draws one body, and a body is drawn to one place.
+// Nearest pair first; a goal pulls one body, and a body is pulled to one goal.
 void Places::assign() {
   std::ranges::stable_sort(candidates_, {}, [](const Candidate& c) { return c.way.distance; });
   for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
@@ -134,7 +135,8 @@ void Places::attract(std::size_t body, const Pose& X_WB, bool fixed, bool turns,
                                  .most = weights * kGravity});
 }
 
-// By a pull; what does not come in time, because it hangs at the ground's edge or lies under it, is carried: no pull brings it through.
+// Bodies outside the workspace are pulled back. Without progress, for example at the ground's edge or under it, they
+// are carried.
 void Places::bringBack(const ObjectState& objects, double period) {
   state_.brought_back = 0;
   if (!assembly_.field) return;
@@ -155,7 +157,7 @@ void Places::bringBack(const ObjectState& objects, double period) {
     if (!returns) continue;
     ++state_.brought_back;
     Vec3 to = inside;
-    // what leans against an edge is held there by friction as long as it is drawn against it: up first
+    // a body that leans against an edge would be held there by friction: lift it first
     if (returning_[body] > kCaught && p.z() < to.z() - kClear) to.head<2>() = p.head<2>();
     const bool carried = carried_[body] != 0;
     attract(body, {to, X_WB.q}, carried, carried, kBringBackWeights, !carried ? kSpeed : away > kFar ? away : 0);
@@ -165,7 +167,7 @@ void Places::bringBack(const ObjectState& objects, double period) {
 void Places::slowDown(const ObjectState& objects) {
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
     if (belongs_[body] == 0 || goal_of_[body] != kNoGoal || returning_[body] > 0) continue;
-    // what sleeps stays asleep; what is awake is held even at rest: let go, it would roll on at what one step gives it
+    // sleeping bodies stay asleep; awake ones are held even at rest, otherwise they would roll on from one step's push
     if (objects.bodies[body].asleep || objects.bodies[body].v_WB.norm() > kRollsTo) continue;
     attractions_.bodies.push_back({.body = static_cast<std::int32_t>(body),
                                    .turns = false,

@@ -10,35 +10,37 @@
 
 namespace presa::assembly {
 
-/// Which body is drawn where, what has arrived, what has to wait. The same states give the same decisions.
-/// Thread: one; step() takes no memory.
+/// Decides which body is pulled to which goal, what has arrived, and what must wait. Deterministic: equal states give
+/// equal decisions.
+/// Thread: one; step() allocates no memory.
 class Places {
  public:
   Places(const Assembly& assembly, std::size_t bodies);
 
-  /// `period`: since the step before [s].
+  /// `period`: time since the last step [s].
   void step(const ObjectState& objects, double period);
-  /// Takes out what was put last; it is not drawn there again before it has been out of reach.
+  /// Releases the last placed body; it is not pulled to that goal again before it has been out of reach.
   void undo();
 
   const AssemblyState& state() const noexcept { return state_; }
   const Attractions& attractions() const noexcept { return attractions_; }
 
-  static constexpr double kSettle = 0.1;             ///< in its place and slow for so long: it has arrived [s]
-  static constexpr double kSlow = 0.01;              ///< [m/s]
-  static constexpr double kSlowTurn = 0.2;           ///< [rad/s]
-  static constexpr double kLeave = 1.25;             ///< a body that is drawn is let go this much farther away
-  static constexpr double kRate = 20, kSpeed = 0.1;  ///< of Attraction [1/s, m/s]
-  static constexpr double kRise = 0.3;               ///< in which a place comes to its full pull [s]
-  /// What rolls is slowed, as by grass: a drum on even ground would never stop [m/s^2, m/s].
+  static constexpr double kSettle = 0.1;    ///< time within tolerance and slow before a body counts as placed [s]
+  static constexpr double kSlow = 0.01;     ///< maximum speed of a placed body [m/s]
+  static constexpr double kSlowTurn = 0.2;  ///< maximum angular speed of a placed body [rad/s]
+  static constexpr double kLeave = 1.25;    ///< a pulled body is released at this multiple of the reach [-]
+  static constexpr double kRate = 20, kSpeed = 0.1;  ///< Attraction::rate [1/s] and ::speed [m/s]
+  static constexpr double kRise = 0.3;               ///< time in which the pull rises to its maximum [s]
+  /// Slow rolling bodies are braked as by grass, because a drum on even ground would never stop: deceleration [m/s^2],
+  /// applied below a speed [m/s].
   static constexpr double kGrass = 0.3, kRollsTo = 0.5;
-  static constexpr double kBringBackWeights = 1.5;  ///< what friction on the ground does not hold
+  static constexpr double kBringBackWeights = 1.5;  ///< pull in weights, more than friction on the ground can hold [-]
 
  private:
   struct Candidate {
     std::size_t goal = 0, body = 0;
     Way way;
-    Pose X_WB;  ///< of the goal, turned to suit
+    Pose X_WB;  ///< goal pose in the nearest symmetric orientation
   };
   void findCandidates(const ObjectState& objects);
   void assign();
@@ -49,16 +51,16 @@ class Places {
   std::int32_t missing(std::size_t goal) const;
 
   const Assembly& assembly_;
-  std::vector<char> belongs_;          // by body: some goal is for it
-  std::vector<std::int32_t> goal_of_;  // by body: drawn or standing there; kNoGoal
-  std::vector<std::int32_t> refused_;  // by body: goal it was taken out of, until it has been away
-  std::vector<Pose> placed_;           // by goal: pose in which it is filled
-  std::vector<double> drawing_;        // by goal: draws its body for so long [s]
-  std::vector<double> settled_;        // by goal: in its place for so long [s]
-  std::vector<std::size_t> order_;     // goals as they were filled
-  std::vector<double> returning_;      // by body: brought back, for so long without coming nearer [s]
-  std::vector<double> nearest_;        // by body: to where it is drawn, so far [m]
-  std::vector<char> carried_;          // by body: brought back as a fixed one, through whatever is in the way
+  std::vector<char> belongs_;          // by body: some goal accepts it
+  std::vector<std::int32_t> goal_of_;  // by body: the goal it is pulled to or stands at; kNoGoal
+  std::vector<std::int32_t> refused_;  // by body: goal that undo took it from, until it has been out of reach
+  std::vector<Pose> placed_;           // by goal: target pose of its body
+  std::vector<double> drawing_;        // by goal: time for which it has pulled its body [s]
+  std::vector<double> settled_;        // by goal: time for which its body has been in place [s]
+  std::vector<std::size_t> order_;     // filled goals, in order of filling
+  std::vector<double> returning_;      // by body: time outside the workspace without progress [s]
+  std::vector<double> nearest_;        // by body: smallest distance to its return target so far [m]
+  std::vector<char> carried_;          // by body: carried back as a fixed body, through obstacles
   std::vector<Candidate> candidates_;
   AssemblyState state_;
   Attractions attractions_;

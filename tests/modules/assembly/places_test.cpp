@@ -14,7 +14,7 @@ constexpr double kPi = std::numbers::pi;
 
 Quat aboutZ(double angle) { return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())); }
 
-// The nearest of all turns, looked for one by one.
+// Oracle: all symmetric orientations, tested one by one.
 TEST(GoalPose, TakesTheNearestOfItsTurns) {
   for (const std::size_t fold : {1U, 2U, 4U, 20U}) {
     for (double angle = -3; angle < 3; angle += 0.0717) {
@@ -34,7 +34,8 @@ TEST(GoalPose, RoundThingsLeaveOnlyTheTilt) {
   EXPECT_NEAR(nearestTurn({}, 0, tilt * aboutZ(1.234)).q.angularDistance(tilt * aboutZ(1.234)), 0.2, 1e-9);
 }
 
-/// Two places, one above the other, for the same two bodies; a third body belongs nowhere. All asleep, so that nothing is slowed.
+/// Two goals, one above the other, for the same two bodies; a third body has no goal. All are asleep, so that none is
+/// slowed.
 class PlacesTest : public testing::Test {
  protected:
   PlacesTest() {
@@ -176,7 +177,7 @@ TEST_F(PlacesTest, WhatLeavesTheFieldIsBroughtBackWellInside) {
   EXPECT_EQ(places->state().brought_back, 0);
 }
 
-// Drawn against the side of the ground over whose edge it fell, friction would hold it there for good.
+// Pulled against the side of the ground over whose edge it fell, a body would be held there by friction.
 TEST_F(PlacesTest, WhatDoesNotComeBackIsLiftedFirst) {
   assembly.field = Assembly::Field{{0, 0, 0}, {1, 1, 1}};
   const auto drawn_to = [&](const Vec3& p_W) {

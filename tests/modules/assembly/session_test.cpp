@@ -1,4 +1,4 @@
-// Whole runs in lockstep: what a scene's <assembly> does to real bodies.
+// Whole runs in lockstep: the effect of a scene's <assembly> on real bodies.
 #include <gtest/gtest.h>
 
 #include "framework/session/load_world.h"
@@ -9,7 +9,7 @@
 namespace presa {
 namespace {
 
-/// Takes what passes by.
+/// Records the states that it receives.
 class Probe final : public Module {
  public:
   Probe() : Module("probe", RateGroup::kHaptic), objects_(*this, "object_state"), assembly_(*this, "assembly_state") {}
@@ -89,7 +89,8 @@ TEST(AssemblySession, ABodyThatWasThrownOutComesBack) {
   EXPECT_LT(run.objects.bodies[2].v_WB.norm(), 1e-3);
 }
 
-// The table ends at 1 m and is 0.1 m thick: over its edge, against its side, and under it, where no way leads straight back.
+// The table ends at 1 m and is 0.1 m thick: bodies over its edge, against its side, and under it, without a straight
+// way back.
 TEST(AssemblySession, WhatIsBelowTheGroundIsBroughtBack) {
   const std::string field = R"(<field pos="0 0 0.5" size="1.9 1.9 1"/>)";
   for (const char* lid : {R"(pos="1.03 0 -0.01" euler_deg="0 70 0")", R"(pos="1.01 0 -0.03" euler_deg="0 90 0")",
