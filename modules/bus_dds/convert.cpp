@@ -106,7 +106,7 @@ bus::Event fromTopic(const presa_dds_Event& event) noexcept {
 }
 
 presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept {
-  // the generated type has no const, and writing changes nothing
+  // the generated type has no const; writing does not modify the texts
   return {run.run,
           run.scene_hash,
           run.period,

@@ -3,18 +3,18 @@
 
 #include "framework/bus/samples.h"
 
-/// Between the samples of framework/bus and the types of the topics. Numbers pass unchanged, to the bit.
+/// Conversions between the samples of framework/bus and the topic types. Numbers pass unchanged, to the bit.
 namespace presa::bus_dds {
 
 presa_dds_ObjectState toTopic(const bus::ObjectSample& sample) noexcept;
 presa_dds_DeviceState toTopic(const bus::FingerSample& sample) noexcept;
 presa_dds_Beat toTopic(const bus::Beat& beat) noexcept;
 presa_dds_Event toTopic(const bus::Event& event) noexcept;
-/// A name longer than bus::kLongestParameter is cut.
+/// Parameter names longer than bus::kLongestParameter are truncated.
 presa_dds_Command toTopic(const bus::Command& command) noexcept;
 presa_dds_Answer toTopic(const bus::Answer& answer) noexcept;
 presa_dds_Parameter toTopic(const bus::OpenParameter& parameter) noexcept;
-/// Its texts are those of `run`, which has to outlive it.
+/// The result points to the texts of `run`, which must outlive it.
 presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept;
 
 bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept;

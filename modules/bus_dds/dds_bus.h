@@ -5,7 +5,8 @@
 
 namespace presa::bus_dds {
 
-/// Throw InputError: E720 the network cannot be used, E721 this process is in that domain on another network already.
+/// Throw InputError: E720 the network cannot be used, E721 this process uses the domain on another network or with
+/// other keys.
 std::unique_ptr<bus::Writer> makeWriter(const BusSettings& settings);
 std::unique_ptr<bus::Reader> makeReader(const BusSettings& settings);
 std::unique_ptr<bus::CommandPost> makePost(const BusSettings& settings);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kAtOnce = 64;
 
-/// The three topics of commands: there only while somebody takes or gives any.
+/// The three topics of commands; created only by a CommandPost or a Commander.
 struct Topics {
   explicit Topics(const Participant& joined)
       : commands(makeTopic(joined, presa_dds_Command_desc, "presa_command")),
@@ -35,7 +35,7 @@ void takeAll(const Entity& reader, std::vector<Sample>& into) {
   std::array<void*, kAtOnce> samples{};
   std::array<dds_sample_info_t, kAtOnce> infos;
   for (;;) {
-    samples[0] = nullptr;  // Cyclone lends its own memory
+    samples[0] = nullptr;  // ask Cyclone to lend its own memory
     const dds_return_t count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
     if (count <= 0) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {

@@ -9,17 +9,17 @@
 namespace presa::bus_dds {
 namespace {
 
-constexpr std::size_t kRoom = 65536;  // samples that a viewer may leave lying: 2.7 s of 120 objects at 200 Hz
+constexpr std::size_t kRoom = 65536;  // capacity in unread samples: 2.7 s of 120 objects at 200 Hz
 constexpr std::uint32_t kAtOnce = 256;
 
-/// Takes what the data reader has into the inbox; on the threads of Cyclone DDS, as soon as it arrives: its own cache, which would
-/// overwrite unread samples of a key without counting them, stays empty.
+/// Moves arrived samples from the data reader to the inbox, on Cyclone's threads as soon as they arrive. This keeps
+/// Cyclone's own cache empty, which would overwrite unread samples of a key without counting them.
 template <class Topic>
 void collect(dds_entity_t reader, void* inbox) {
   std::array<void*, kAtOnce> samples{};
   std::array<dds_sample_info_t, kAtOnce> infos;
   for (;;) {
-    samples[0] = nullptr;  // Cyclone lends its own memory
+    samples[0] = nullptr;  // ask Cyclone to lend its own memory
     const dds_return_t count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
     if (count <= 0) return;
     const std::int64_t now = monotonicNs();
@@ -54,7 +54,7 @@ class DdsReader final : public bus::Reader {
 
  private:
   std::shared_ptr<Participant> joined_;
-  bus::Inbox inbox_{kRoom};  // outlives the data readers, whose listeners fill it
+  bus::Inbox inbox_{kRoom};  // declared before the readers, so it outlives their listeners
   Entity scenes_, objects_, fingers_, beats_, events_;
 };
 

@@ -8,9 +8,9 @@
 namespace presa::bus_dds {
 namespace {
 
-constexpr dds_duration_t kPatience = DDS_MSECS(500);  // with viewers that have not confirmed the end
+constexpr dds_duration_t kPatience = DDS_MSECS(500);  // maximum wait for confirmations at the end
 
-/// A publication goes out in as few packets as it fits: written sample by sample into a batch, then flushed.
+/// Writes each publication as a batch, so that it takes as few packets as possible.
 class DdsWriter final : public bus::Writer {
  public:
   explicit DdsWriter(const BusSettings& settings) : joined_(join(settings)) {

@@ -18,11 +18,12 @@ namespace {
 constexpr int kKept = 32;  // publications
 constexpr int kCommandsKept = 256;
 
-// Everything said here, so that no file and no environment variable of the machine changes where the state goes.
+// Complete configuration, so that no file or environment variable of the machine changes where the state is sent.
 // - Peers, ParticipantIndex: without multicast the viewers' ports are tried one by one.
-// - LeaseDuration: packets to a viewer that was killed end so soon.
-// - SocketReceiveBufferSize: a viewer may be off the processor for half a second and lose nothing.
-// - WhcHigh: far above what kKept publications of the largest scene need, so that a reader that stands still slows nobody.
+// - LeaseDuration: time after which packets to a killed viewer end.
+// - SocketReceiveBufferSize: a viewer may be suspended for half a second without loss.
+// - WhcHigh: far above the need of kKept publications of the largest scene, so that a stopped reader never blocks the
+//   writer.
 std::string configuration(const std::string& network) {
   std::string interface = "<NetworkInterface autodetermine=\"true\"/>", multicast = "spdp", peers;
   if (network == "loopback") {
@@ -43,8 +44,8 @@ std::string configuration(const std::string& network) {
          "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>";
 }
 
-/// What Cyclone last complained about, in its words: told with an error, and not on the terminal, where a cable that is out would fill
-/// hundreds of lines a second; the viewers say that the bus is silent.
+/// Cyclone's last log message, which is appended to error messages. It is not printed directly, because an unplugged
+/// cable would cause hundreds of lines per second; viewers report the silence.
 class Complaint {
  public:
   static void listen() { dds_set_log_sink(&Complaint::note, nullptr); }
@@ -70,14 +71,14 @@ class Complaint {
   }
 };
 
-/// Here Cyclone makes its sockets, on this thread.
+/// Creates the domain. Cyclone creates its sockets here, on this thread.
 Entity openDomain(dds_domainid_t id, const std::string& network, const std::string& what) {
   const std::string settings = configuration(network);
   if (network != "loopback") return checked(dds_create_domain(id, settings.c_str()), what.c_str());
   const bus::LoopbackOnly inside;
   Entity domain = checked(dds_create_domain(id, settings.c_str()), what.c_str());
   if (inside.bound() == 0)
-    refuse(750, "bus", "Cyclone DDS made its sockets past Presa, and may listen on every interface",
+    refuse(750, "bus", "Cyclone DDS bypassed Presa's bind() and may listen on every interface",
            "this happens when a library that is loaded before Presa's brings a bind() of its own (LD_PRELOAD)");
   return domain;
 }

@@ -7,7 +7,7 @@
 
 namespace presa::bus_dds {
 
-/// An entity of Cyclone DDS, deleted with its owner.
+/// Owning handle of a Cyclone DDS entity.
 class Entity {
  public:
   Entity() = default;
@@ -29,27 +29,29 @@ class Entity {
 /// Throws InputError E720 when `handle` is an error code.
 Entity checked(dds_entity_t handle, const char* what);
 
-/// This process on one network and domain; writers and readers share it.
+/// This process on one network and domain, shared by its writers and readers.
 struct Participant {
   Entity domain, participant;
   Entity objects, fingers, beats, events, scenes;  // topics
 };
 
-/// Throws InputError E720 when the network cannot be used, E721 when this process is in that domain on another network already.
+/// Throws InputError E720 when the network cannot be used, E721 when this process already uses the domain on another
+/// network or with other keys.
 std::shared_ptr<Participant> join(const BusSettings& settings);
 
-/// Quality of service of state and events: reliable, the last kKept publications of each key. A lost packet is asked for again as long as
-/// the writer still has it (0.16 s); a writer never waits for a reader that stands still.
+/// Quality of service of state and events: reliable, with the last kKept publications of each key. A lost packet is
+/// requested again while the writer still has it (0.16 s); a writer never waits for a stopped reader.
 struct QosDelete {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDelete>;
 Qos stateQos();
-/// The static part, and what commands may set: the last of each key is kept for who comes late.
+/// Run information and open parameters: the last sample of each key is kept for late readers.
 Qos sceneQos();
-/// Commands and answers: reliable, the last kCommandsKept; beyond that the oldest go, and are sent again by who waits for an answer.
+/// Commands and answers: reliable, the last kCommandsKept. Older ones are discarded; the sender repeats a command until
+/// it is answered.
 Qos commandQos();
-/// A topic in this participant, deleted with the entity. Throws InputError E720.
+/// A topic of this participant, deleted with the returned entity. Throws InputError E720.
 Entity makeTopic(const Participant& joined, const dds_topic_descriptor_t& type, const char* name);
 
 }  // namespace presa::bus_dds

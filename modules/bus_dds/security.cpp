@@ -11,7 +11,7 @@
 namespace presa::bus_dds {
 namespace {
 
-/// Debian keeps the plug-ins in a folder beside the library, where the loader does not look by itself.
+/// Path of a security plug-in. Debian installs them in a folder beside the library that the loader does not search.
 std::string pluginFile(const std::string& name) {
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&dds_create_domain), &library) == 0 || library.dli_fname == nullptr)

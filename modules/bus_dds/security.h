@@ -4,9 +4,9 @@
 
 namespace presa::bus_dds {
 
-/// What a participant is created with, so that it shows its certificate, takes nothing from who has none of the same authority, and
-/// everything it sends is encrypted: DDS Security 1.1, by the plug-ins that come with Cyclone DDS. Throws InputError E756 where those are
-/// not installed.
+/// Settings of a participant with DDS Security 1.1, using the plug-ins of Cyclone DDS: it presents its certificate,
+/// accepts only participants with a certificate of the same authority, and encrypts all traffic. Throws InputError E756
+/// when the plug-ins are not installed.
 Qos securityQos(const bus::KeyFiles& keys);
 
 }  // namespace presa::bus_dds

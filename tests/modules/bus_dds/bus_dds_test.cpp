@@ -15,7 +15,7 @@ namespace presa::bus {
 namespace {
 
 const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
-constexpr double kPatience = 30;  // for what has to come, on a busy machine [s]
+constexpr double kPatience = 30;  // maximum wait for expected samples on a busy machine [s]
 
 StudySpec cube(double duration) {
   StudySpec spec;
@@ -30,7 +30,7 @@ StudyRun::MakeModule publisherOn(const BusSettings& bus) {
   };
 }
 
-/// Keeps whatever comes.
+/// Stores all samples.
 struct Kept final : Listener {
   void onRun(const RunInfo& run, std::int64_t) override { runs.push_back(run); }
   void onObject(const ObjectSample& sample, std::int64_t) override { objects.push_back(sample); }
@@ -53,14 +53,14 @@ void takeUntil(Reader& reader, Kept& kept, const Done& done) {
   }
 }
 
-// Every field of every sample arrives as it was sent, numbers to the bit, and whoever joins late gets the static part.
+// Every field of every sample arrives unchanged, numbers to the bit, and a late reader receives the run information.
 TEST(BusDds, CarriesEverySampleToTheBit) {
   const BusSettings bus = ownDomain();
   const auto writer = openWriter(bus);
   const double odd = std::nextafter(0.1, 1.0), tiny = std::numeric_limits<double>::denorm_min();
   const RunInfo run{0xfedcba9876543210, 0x0123456789abcdef, 0.005, true, "scène", std::string(300'000, 'x')};
   writer->announce(run);
-  const auto reader = openReader(bus);  // late
+  const auto reader = openReader(bus);  // joins late
   Kept kept;
   takeUntil(*reader, kept, [&] { return !kept.runs.empty(); });
   ASSERT_EQ(kept.runs.size(), 1u);
@@ -141,8 +141,8 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   EXPECT_EQ(kept.events[0].bits, 3u);
 }
 
-// A viewer in a process of its own is killed and restarted 20 times, another is stopped for the whole run: the run, in virtual
-// time, does not know it. Each viewer has really joined before it goes.
+// A viewer process is killed and restarted 20 times, another is stopped for the whole run: the run, in virtual time, is
+// not affected. Each viewer has joined before it is killed.
 TEST(BusDds, ViewersMayBeKilledAndRestarted) {
   StudyRun alone(cube(2.1));
   alone.run();
@@ -166,7 +166,7 @@ TEST(BusDds, ViewersMayBeKilledAndRestarted) {
   EXPECT_EQ(run.monitor().hash(), alone.monitor().hash());
 }
 
-// What a viewer in another process counted is what a run sent: all of it, and the end.
+// A viewer in another process receives everything that the run sent, including its end.
 TEST(BusDds, ReachesAnotherProcess) {
   const BusSettings bus = ownDomain();
   StudyRun run(cube(2), {}, publisherOn(bus));
@@ -176,7 +176,7 @@ TEST(BusDds, ReachesAnotherProcess) {
       viewer = std::make_unique<ViewerProcess>(std::vector<std::string>{"bus", "listen", "--json", "--for", "60"}, bus);
       EXPECT_TRUE(viewer->says("joined"));
     }
-    // lockstep goes a hundred times as fast as the clock: nobody could look on
+    // slow down: lockstep runs a hundred times faster than real time, too fast for a viewer
     if (sample.tick.index > 100) sleepUntilNs(monotonicNs() + 200'000);
   });
   run.run();
@@ -189,7 +189,7 @@ TEST(BusDds, ReachesAnotherProcess) {
   EXPECT_EQ(viewer->end(), heard.at("lost") == 0 ? 0 : 1);
 }
 
-// A viewer draws the run of another process; told to draw another scene it says so, and without a run it gives up.
+// A viewer draws a run of another process. With another scene it reports so, and without a run it gives up.
 TEST(BusDds, DrawsARunElsewhere) {
   const BusSettings bus = ownDomain();
   const std::string picture = testing::TempDir() + "/bus_remote.png", other = testing::TempDir() + "/bus_other.xml";
@@ -222,7 +222,7 @@ TEST(BusDds, DrawsARunElsewhere) {
   EXPECT_EQ(wrong->end(), 2);
 }
 
-// The bus leaves no trace in a recording: one of a published run replays to the bit, without a bus.
+// The bus leaves no trace in a recording: the recording of a published run replays to the bit without a bus.
 TEST(BusDds, LeavesNoTraceInARecording) {
   const BusSettings bus = ownDomain();
   const std::string program = std::string(PRESA_BINARY_DIR) + "/bin/presa ", file = testing::TempDir() + "/bus_run.h5";
@@ -233,7 +233,7 @@ TEST(BusDds, LeavesNoTraceInARecording) {
   EXPECT_EQ(std::system((program + "replay " + file + " --verify").c_str()), 0);
 }
 
-// A network that is not there is refused by name, with what Cyclone DDS has to say about it, and nothing runs.
+// A network that does not exist is refused by name, with Cyclone's message, and nothing runs.
 TEST(BusDds, RefusesANetworkThatIsNotThere) {
   ViewerProcess viewer({"run", kCube, "--lockstep", "--for", "0.1"}, {.network = "lan:nowhere0", .domain = 3});
   const std::string said = viewer.rest();
@@ -242,7 +242,7 @@ TEST(BusDds, RefusesANetworkThatIsNotThere) {
   EXPECT_NE(said.find("nowhere0"), std::string::npos) << said;
 }
 
-// Nobody asked: neither Cyclone DDS nor the plug-in is in the process, and no thread runs for it.
+// Without a request for a bus, neither Cyclone DDS nor the plug-in is loaded, and no thread runs for it.
 TEST(BusDds, IsThereForWhoAsksOnly) {
   const std::string folder = testing::TempDir();
   const auto explained = [&](const std::string& options) {

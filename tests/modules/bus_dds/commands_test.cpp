@@ -1,4 +1,4 @@
-// A run in one process, commands from another, over the loopback of this machine.
+// Commands from one process to a run in another, over loopback.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace presa::bus {
 namespace {
 
 const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
-constexpr double kPatience = 30;  // for what has to come, on a busy machine [s]
+constexpr double kPatience = 30;  // maximum wait for expected samples on a busy machine [s]
 const std::string kWait = "30";
 
 Said set(const BusSettings& bus, const std::string& what) { return say(bus, {"bus", "set", what, "--wait", kWait}); }
@@ -33,12 +33,12 @@ bool within(const Done& done) {
   return true;
 }
 
-// Every field arrives as it was sent, numbers to the bit, NaN too.
+// Every field arrives unchanged, numbers to the bit, NaN included.
 TEST(BusCommands, ArriveToTheBit) {
   const BusSettings bus = ownDomain();
   const auto post = openPost(bus);
   post->show({9, "material/rubber/stiffness", 500.5, 1, 1000, 3});
-  const auto commander = openCommander(bus);  // late: is told all the same
+  const auto commander = openCommander(bus);  // joins late, and still receives the parameters
   std::vector<OpenParameter> parameters;
   ASSERT_TRUE(within([&] {
     for (auto& parameter : commander->take().parameters) parameters.push_back(parameter);
@@ -77,7 +77,7 @@ TEST(BusCommands, ArriveToTheBit) {
   EXPECT_EQ(answers[0].most, 1e300);
 }
 
-// A run that comes later does not obey what was said to nobody.
+// A later run does not obey commands sent before it started.
 TEST(BusCommands, AreNotKeptForWhoComesLater) {
   const BusSettings bus = ownDomain();
   const auto commander = openCommander(bus);
@@ -92,7 +92,8 @@ TEST(BusCommands, AreNotKeptForWhoComesLater) {
   for (const Command& command : commands) EXPECT_EQ(command.parameter, "late");
 }
 
-// A lockstep run at a pace, which is held, and made softer, from another process; its recording, run again, is the same to the bit.
+// A paced lockstep run is held and its material softened from another process; replaying its recording gives the same
+// run to the bit.
 TEST(BusCommands, ChangeARunInAnotherProcess) {
   const BusSettings bus = ownDomain();
   const std::string file = testing::TempDir() + "/bus_commanded.h5",
@@ -100,7 +101,7 @@ TEST(BusCommands, ChangeARunInAnotherProcess) {
   ViewerProcess run({"run", kCube, "--lockstep", "--speed", "0.01", "--for", "4", "--overwrite", "--record", file,
                      "--summary", summary, "--bus-commands"},
                     bus);
-  // held: however slow this machine, the run is still there for what follows
+  // held, so that the run still exists for the following commands even on a slow machine
   const Said held = set(bus, "time/held=1");
   ASSERT_EQ(held.status, 0) << held.text;
   const Said softer = set(bus, "material/rubber/stiffness=700");
@@ -125,7 +126,7 @@ TEST(BusCommands, ChangeARunInAnotherProcess) {
   for (const auto& parameter : runs[0].at("parameters"))
     if (parameter.at("name") == "material/rubber/stiffness") stiffness = parameter.at("value");
   EXPECT_EQ(stiffness, 700);
-  EXPECT_EQ(say(bus, {"bus", "set", "time/held=0", "--run", "1", "--wait", "0.5"}).status, 3);  // no such run
+  EXPECT_EQ(say(bus, {"bus", "set", "time/held=0", "--run", "1", "--wait", "0.5"}).status, 3);  // unknown run
   const Said on = say(bus, {"bus", "set", "time/speed=64", "time/held=0", "--run", runs[0].at("run"), "--wait", kWait});
   EXPECT_EQ(on.status, 0) << on.text;
   const std::string said = run.rest();
@@ -136,7 +137,7 @@ TEST(BusCommands, ChangeARunInAnotherProcess) {
   EXPECT_NE(told.find("a command set material/rubber/stiffness to 700"), std::string::npos) << told;
   const RecordedSamples samples = recordPlugin().samples(file);
   EXPECT_EQ(recordPlugin().read(file).commands.size(), 1u);
-  // the spring that held the cube in the end: normal force over depth, less damping, which is nothing in the hold
+  // final spring that held the cube: normal force over depth; damping vanishes while it is held
   const auto& force = samples.fingers.at(0).values("normal_force");
   const auto& depth = samples.fingers.at(0).values("depth");
   ASSERT_GT(depth.back(), 1e-4);
@@ -144,7 +145,7 @@ TEST(BusCommands, ChangeARunInAnotherProcess) {
   EXPECT_EQ(std::system((std::string(PRESA_BINARY_DIR) + "/bin/presa replay " + file + " --verify").c_str()), 0);
 }
 
-/// The simulated time of whichever run is on the bus.
+/// Simulated time of the run on the bus.
 struct Clock final : Listener {
   void onRun(const RunInfo& info, std::int64_t) override { run = info; }
   void onObject(const ObjectSample&, std::int64_t) override {}
@@ -155,7 +156,8 @@ struct Clock final : Listener {
   double time = 0;
 };
 
-// A box lies near its place and is drawn there; an undo from another process takes it out, once, however often it is asked for.
+// A box near its goal is pulled there; an undo from another process releases it once, however often the command is
+// repeated.
 TEST(BusCommands, UndoAnAssembly) {
   const BusSettings bus = ownDomain();
   const std::string scene = testing::TempDir() + "/bus_box.xml", summary = testing::TempDir() + "/bus_box.json";
@@ -179,7 +181,7 @@ TEST(BusCommands, UndoAnAssembly) {
   EXPECT_EQ(undone.status, 0) << undone.text;
   EXPECT_EQ(set(bus, "assembly/undone=1").status, 0);
   EXPECT_EQ(set(bus, "assembly/undone=3").status, 1);
-  EXPECT_EQ(set(bus, "material/wood/stiffness=500").status, 1);  // no finger feels it
+  EXPECT_EQ(set(bus, "material/wood/stiffness=500").status, 1);  // not touchable
   ASSERT_TRUE(reaches(clock.time + 1));
   run.signal(SIGINT);
   EXPECT_EQ(run.end(), 130) << run.rest();
@@ -190,14 +192,14 @@ TEST(BusCommands, UndoAnAssembly) {
   EXPECT_NE(told.dump().find("a command set assembly/undone to 1"), std::string::npos);
 }
 
-// A run that was not told to listen does not: it says so on the bus, and nothing of it is there for commands.
+// A run without commands enabled announces this on the bus and has no topics for them.
 TEST(BusCommands, AreRefusedByARunThatTakesNone) {
   const BusSettings bus = ownDomain();
   ViewerProcess run({"run", kCube, "--lockstep", "--speed", "0.001", "--for", "4", "--quiet"}, bus);
   const Said refused = set(bus, "material/rubber/stiffness=700");
   EXPECT_EQ(refused.status, 3) << refused.text;
   EXPECT_NE(refused.text.find("error[E723]"), std::string::npos) << refused.text;
-  // also who does not ask first is not heard
+  // a command sent without asking first is not received either
   const auto commander = openCommander(bus);
   const auto reader = openReader(bus);
   Clock runs;
@@ -217,7 +219,7 @@ TEST(BusCommands, AreRefusedByARunThatTakesNone) {
   EXPECT_EQ(run.end(), 130);
 }
 
-// Runs that are announced here, so that they do what no run does on purpose.
+// Runs announced by the test, for behaviour that no real run shows.
 struct Announced {
   Announced(const BusSettings& bus, std::uint64_t run) : writer(openWriter(bus)), post(openPost(bus)) {
     RunInfo info;
@@ -231,7 +233,8 @@ struct Announced {
   std::unique_ptr<CommandPost> post;
 };
 
-// A run that says nothing is told of with a message of its own, two with the question which; Ctrl-C ends the wait for an answer.
+// A run that does not answer gives its own message, two runs a question which is meant; Ctrl-C ends the wait for an
+// answer.
 TEST(BusCommands, NeedOneRunThatAnswers) {
   const BusSettings bus = ownDomain();
   const Announced first(bus, 0xabc);
@@ -258,7 +261,7 @@ TEST(BusCommands, NeedOneRunThatAnswers) {
   EXPECT_EQ(waits.end(), 130) << waits.rest();
 }
 
-// What a run says of itself is bytes from outside: no command hands any of them to the terminal as they are.
+// A run's announcement contains untrusted bytes: no command prints them to the terminal unescaped.
 TEST(BusCommands, ShowNamesThatATerminalWouldObey) {
   const BusSettings bus = ownDomain();
   const auto writer = openWriter(bus);
@@ -285,7 +288,8 @@ TEST(BusCommands, ShowNamesThatATerminalWouldObey) {
   EXPECT_NE(say(bus, {"bus", "list", "--wait", kWait}).text.find("a\\x1B]0;x\\x07"), std::string::npos);
 }
 
-// A run names a mesh that this machine has: it is not opened by that name, and the viewer says what it looked for.
+// A run names a mesh file that exists on this machine: it is not opened by that name, and the viewer reports what it
+// looked for.
 TEST(BusCommands, OpenNoPathThatTheBusNames) {
   const BusSettings bus = ownDomain();
   const auto writer = openWriter(bus);
@@ -304,12 +308,12 @@ TEST(BusCommands, OpenNoPathThatTheBusNames) {
   const Said refused = say(bus, {"bus", "listen", "--wait", kWait, "--for", "1"});
   EXPECT_EQ(refused.status, 2) << refused.text;
   EXPECT_NE(refused.text.find("error[E755]"), std::string::npos) << refused.text;
-  // with the sum of a mesh that ships, that one is taken, whatever the path says
+  // with the checksum of a shipped mesh that mesh is used, whatever the path says
   info.mesh_sums = sha256OfFile(cup);
   writer->announce(info);
   const Said shipped = say(bus, {"bus", "listen", "--wait", kWait, "--for", "1", "--json"});
   EXPECT_NE(shipped.text.find("\"joined\": true"), std::string::npos) << shipped.text;
-  // and one of a folder that the user names
+  // as is one in a folder named by the user
   std::ofstream(copy) << std::ifstream(cup).rdbuf() << "# another\n";
   info.mesh_sums = sha256OfFile(copy);
   writer->announce(info);
@@ -327,7 +331,7 @@ TEST(BusCommands, NeedABusAndARun) {
   EXPECT_NE(busless.text.find("error[E122]"), std::string::npos) << busless.text;
 }
 
-// Nobody asked: no port, no stage; a rig may ask.
+// Without a request there is no port and no stage; a rig may request commands.
 TEST(BusCommands, ArePartOfTheGraphOnlyWhereTheRunTakesThem) {
   const auto explained = [&](const std::string& commands) {
     const std::string rig = testing::TempDir() + "/commands_rig.xml",

@@ -1,4 +1,4 @@
-// A network that belongs to who has the keys: DDS Security, here over loopback, since it is the same code on every network.
+// Access control with keys: DDS Security, tested over loopback, because the code is the same on every network.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -21,7 +21,7 @@ using testing::Not;
 
 const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
 
-/// Two laboratories, each with an authority of its own.
+/// Two laboratories, each with its own authority.
 class BusKeys : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -42,7 +42,7 @@ class BusKeys : public testing::Test {
   const BusSettings bus_ = ownDomain();
 };
 
-// One run, and everybody who might look at it or command it.
+// One run, and all kinds of viewers and commanders.
 TEST_F(BusKeys, LetInWhoHasThemAndNobodyElse) {
   ViewerProcess run({"run", kCube, "--lockstep", "--speed", "0.02", "--for", "4", "--quiet", "--bus-commands"},
                     as("ours/run"));
@@ -61,7 +61,7 @@ TEST_F(BusKeys, LetInWhoHasThemAndNobodyElse) {
   const Said commander = say(as("ours/commander"), soften);
   EXPECT_EQ(commander.status, 0) << commander.text;
   EXPECT_THAT(commander.text, HasSubstr("stiffness = 700"));
-  EXPECT_NE(say(as("ours/viewer"), try_it).status, 0);  // may look, may not command
+  EXPECT_NE(say(as("ours/viewer"), try_it).status, 0);  // may view but not command
   EXPECT_NE(say(as("theirs/commander"), try_it).status, 0);
   EXPECT_NE(say(bus_, try_it).status, 0);
   EXPECT_THAT(say(as("ours/commander"), {"bus", "list", "--wait", "30"}).text, HasSubstr(" 700 "));
@@ -69,7 +69,7 @@ TEST_F(BusKeys, LetInWhoHasThemAndNobodyElse) {
   EXPECT_EQ(run.end(), 130);
 }
 
-// A viewer's certificate does not let its owner pass for a run.
+// A viewer's certificate does not allow publishing state.
 TEST_F(BusKeys, LetNoViewerPublish) {
   try {
     openWriter(as("ours/viewer"));
@@ -97,7 +97,7 @@ TEST_F(BusKeys, AreCheckedBeforeTheyAreUsed) {
   EXPECT_EQ(readable.status, 2) << readable.text;
   EXPECT_THAT(readable.text, HasSubstr("others on this machine may read the private key"));
   chmod((open / "key.pem").c_str(), 0600);
-  // rules that somebody changed: the signature does not fit any more
+  // modified permissions: the signature does not match any more
   std::string rules;
   {
     std::ifstream in(open / "permissions.p7s");

@@ -1,4 +1,4 @@
-// What `--bus loopback` listens on: seen by the kernel's own list, and from another machine.
+// Sockets of `--bus loopback`: the kernel's own list, and reachability from another machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -20,7 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Local addresses of this process's UDP sockets as /proc/net/udp has them, hexadecimal: 0100007F is 127.0.0.1.
+/// Local addresses of this process's UDP sockets from /proc/net/udp, hexadecimal: 0100007F is 127.0.0.1.
 std::multiset<std::string> udpAddresses() {
   std::set<std::string> own;
   for (int descriptor = 0; descriptor < 256; ++descriptor) {
@@ -55,7 +55,7 @@ TEST(BusLoopback, BindsEverySocketToTheLoopback) {
   EXPECT_EQ(addresses.count("0100007F"), addresses.size());
 }
 
-// Only while it is asked for: other sockets of the process go where they are told to.
+// Only sockets bound while a LoopbackOnly exists are affected.
 TEST(BusLoopback, ChangesNobodyElsesSockets) {
   { const LoopbackOnly inside; }
   const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -84,8 +84,8 @@ Seen fromTheOtherHost(const std::string& network) {
   return seen;
 }
 
-// A run on loopback, and a neighbour on a cable who knows the ports: the kernel refuses each packet. The same neighbour finds a run on
-// lan, so that it is not the cable.
+// A neighbouring host that knows the ports sends packets to a run on loopback: the kernel refuses each. The same host
+// reaches a run on lan, which proves that the connection works.
 TEST(BusLoopback, IsOutOfReachOfAnotherHost) {
   const Seen loopback = fromTheOtherHost("loopback");
   if (loopback.status == 77)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Two machines and a cable, made of network namespaces: a run here, somebody at the other end. Prints one word a line for what the other
-# end finds; tests/bus_dds/loopback_test.cpp reads them. Exit status 77: this system lets nobody make namespaces, or set their routes.
+# Two machines and a cable, simulated by network namespaces: a run here, a neighbour at the other end. Prints one
+# line per finding of the neighbour; tests/modules/bus_dds/loopback_test.cpp reads them. Exit status 77: no permission
+# to make namespaces or set their routes.
 # usage: two_hosts.sh PRESA SCENE NETWORK
 set -euo pipefail
 presa=$1 scene=$2 network=$3
@@ -16,7 +17,7 @@ ip link set lo up
 ip link add here type veth peer name there 2>/dev/null || exit 77
 unshare --net sleep 120 &
 other=$!
-# at once: Cyclone DDS ends by packets to itself, and the cable goes with the other end
+# no pause: Cyclone DDS ends with packets to itself, and the cable vanishes with the other end
 trap 'kill -KILL $run $other 2>/dev/null || true' EXIT
 run=$other
 until [[ $(readlink /proc/$other/ns/net) != "$(readlink /proc/self/ns/net)" ]]; do sleep 0.01; done
@@ -26,9 +27,9 @@ ip link set here up
 at_other() { nsenter --target $other --net "$@"; }
 at_other ip address add 10.9.8.2/24 dev there
 at_other ip link set there up
-# the meanest neighbour: this machine lets 127.0.0.1 in from outside, and the neighbour sends there
+# worst case: this machine accepts 127.0.0.1 from outside, and the neighbour sends there
 echo 1 2>/dev/null >/proc/sys/net/ipv4/conf/here/route_localnet || exit 77
-# and takes what comes back from there, so that a refusal is heard
+# the neighbour accepts replies from there, so that a refusal is received
 at_other bash -c 'set -e; for name in all there; do echo 1 >/proc/sys/net/ipv4/conf/$name/route_localnet; echo 0 >/proc/sys/net/ipv4/conf/$name/rp_filter; done' 2>/dev/null || exit 77
 at_other ip route add 127.0.0.1/32 via 10.9.8.1 dev there
 
@@ -41,7 +42,7 @@ for ((i = 0; i < 600; ++i)); do
 done
 ss -Hlun | awk '{print "listens " $4}'
 
-# connected sockets are told when nobody listens: by the second packet at the latest, once the answer to the first is back
+# connected sockets learn that nobody listens at the second packet at the latest, after the reply to the first
 probe() {
   at_other bash -c 'exec 3<>"/dev/udp/$1/$2"; for i in 1 2 3 4; do printf x >&3 || { echo "$1:$2 refused"; exit; }; sleep 0.1; done
     echo "$1:$2 open"' probe "$1" "$2" 2>/dev/null

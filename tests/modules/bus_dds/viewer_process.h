@@ -16,12 +16,12 @@
 
 namespace presa {
 
-/// Loopback, and a domain that nobody else is likely to be in.
+/// Loopback and a random domain.
 inline BusSettings ownDomain() {
   return {.network = "loopback", .domain = 1 + static_cast<int>(std::random_device{}() % kMostBusDomain)};
 }
 
-/// The program in a process of its own, killed with this object if it has not ended. Its stderr is read here, its stdout too.
+/// The program in a separate process, killed with this object if it is still running. Captures its stderr and stdout.
 class ViewerProcess {
  public:
   ViewerProcess(std::vector<std::string> words, const BusSettings& bus) {
@@ -51,7 +51,7 @@ class ViewerProcess {
   ViewerProcess(const ViewerProcess&) = delete;
   ViewerProcess& operator=(const ViewerProcess&) = delete;
 
-  /// Waits until it says a line with that word; false: it ended without.
+  /// Waits for an output line that contains `word`; false: it ended without one.
   bool says(const std::string& word) {
     std::array<char, 4096> line;
     while (std::fgets(line.data(), line.size(), said_) != nullptr) {
@@ -62,14 +62,14 @@ class ViewerProcess {
   void signal(int which) const {
     if (process_ > 0) kill(process_, which);
   }
-  /// Everything it still says.
+  /// The remaining output.
   std::string rest() {
     std::string all;
     std::array<char, 4096> part;
     while (const std::size_t count = std::fread(part.data(), 1, part.size(), said_)) all.append(part.data(), count);
     return all;
   }
-  /// Waits for its end; exit status, -1 when a signal ended it.
+  /// Waits for the end; returns the exit status, -1 if a signal ended it.
   int end() {
     if (process_ <= 0) return status_;
     int status = 0;
@@ -90,7 +90,7 @@ struct Said {
   int status;
 };
 
-/// The program runs to its end.
+/// Runs the program to its end.
 inline Said say(const BusSettings& bus, std::vector<std::string> words) {
   ViewerProcess process(std::move(words), bus);
   std::string text = process.rest();
