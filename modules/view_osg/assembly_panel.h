@@ -8,14 +8,14 @@
 
 namespace presa::view {
 
-/// What people who put an assembly together are told: how far it is, what they hold and one sentence about it, why it must wait,
-/// what comes next, and the finish. Coordinates: origin in the middle of a 720 lines high picture.
+/// Texts for the user of an assembly: progress, the held body with one sentence about it, the reason why it must wait,
+/// the next step, and the end. Coordinates: origin in the middle of a picture 720 lines high.
 class AssemblyPanel {
  public:
   explicit AssemblyPanel(osg::Group& center);
   void update(const Scene& scene, const Guidance& guidance);
 
-  static constexpr float kTop = -246;  ///< of what it covers at the lower edge
+  static constexpr float kTop = -246;  ///< upper edge of the area covered at the bottom
 
  private:
   void showLines(const Captions& captions);

@@ -8,14 +8,14 @@
 
 namespace presa::view {
 
-/// What the head-up display says of the body that was clicked: name, mass, material, pose. Lower right.
+/// Card of the selected body in the head-up display: name, mass, material, pose. Lower right.
 class BodyCard {
  public:
-  /// `right`: x = 0 is the right edge.
+  /// `right`: group whose x = 0 is the right edge.
   BodyCard(osg::Group& right, const World& world);
-  /// None: the card goes.
+  /// Selects a body; none hides the card.
   void choose(std::optional<std::size_t> body);
-  /// Poses as Scene::bodies.
+  /// Poses in the order of Scene::bodies.
   void update(const std::vector<Pose>& X_WB);
 
  private:

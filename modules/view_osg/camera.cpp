@@ -9,12 +9,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kElevation = 26 * kDegree;
-constexpr double kUsedHeight = 0.80;  ///< share of the picture's height for the subject
+constexpr double kUsedHeight = 0.80;  ///< fraction of the picture's height for the subject
 
-/// What two planes through the eye, `slope` to either side of the axis, ask of an eye that sees all between them.
+/// Constraint on the eye from two planes through it, with slope `slope` to either side of the axis, that enclose all
+/// balls.
 struct Wedge {
-  double back;   ///< farthest forward that the eye may be [m]
-  double aside;  ///< where it is then, along the axis across [m]
+  double back;   ///< foremost position of the eye along the axis [m]
+  double aside;  ///< its position across the axis then [m]
 };
 // A ball at c of radius r lies on the inner side of the plane when (c - e).across + r / cos <= (c - e).forward * slope.
 Wedge fit(const std::vector<Ball>& balls, const Vec3& across, const Vec3& forward, double slope) {

@@ -7,8 +7,8 @@
 namespace presa::view {
 namespace {
 
-constexpr double kTurn = 1.6;                              // [rad] for half of the picture's height
-constexpr double kSteepest = 89 * std::numbers::pi / 180;  // straight down has no right and left
+constexpr double kTurn = 1.6;  // rotation for a drag over half of the picture's height [rad]
+constexpr double kSteepest = 89 * std::numbers::pi / 180;  // looking straight down leaves right and left undefined
 constexpr double kNearest = 0.01, kFarthest = 500;         // [m]
 const double kSlope = std::tan(kFieldOfView / 2 * std::numbers::pi / 180);
 
@@ -24,7 +24,7 @@ void CameraControl::set(const CameraPose& pose) {
 
 void CameraControl::approach(const CameraPose& goal, double share) {
   const CameraPose now = pose();
-  // there already: rounding must not make a still picture tremble
+  // arrived: rounding must not make a still picture tremble
   if ((goal.eye - now.eye).norm() + (goal.target - now.target).norm() < 1e-9) return;
   set({now.eye + share * (goal.eye - now.eye), now.target + share * (goal.target - now.target)});
 }

@@ -3,33 +3,33 @@
 
 namespace presa::view {
 
-/// The camera in the user's hand: it turns about a target and never rolls. Lengths of drags are in halves of the picture's height, so
-/// that the same drag does the same in any window.
+/// Manual camera: orbits a target and never rolls. Drags are measured in halves of the picture's height, so that they
+/// have the same effect in any window.
 class CameraControl {
  public:
   explicit CameraControl(double aspect) : aspect_(aspect) {}
   void setAspect(double aspect) { aspect_ = aspect; }
 
   void set(const CameraPose& pose);
-  /// A part (0 to 1) of the way to `goal`.
+  /// Moves by a fraction (0 to 1) of the way to `goal`.
   void approach(const CameraPose& goal, double share);
-  /// The scene turns with the mouse.
+  /// Orbits the target; the scene turns with the mouse.
   void orbit(double right, double up);
-  /// What lies at the target stays under the mouse.
+  /// Pans; the target plane stays under the mouse.
   void pan(double right, double up);
-  /// Below 1: nearer.
+  /// Scales the distance to the target; below 1: nearer.
   void zoom(double factor);
-  /// Camera and target together, in shares of their distance: to the right, level ahead, up.
+  /// Moves camera and target together, in fractions of their distance: right, level ahead, up.
   void fly(double right, double ahead, double up);
-  /// Looks at a point from where it looks from.
+  /// Sets the target without changing the direction of view.
   void center(const Vec3& p_W) { target_ = p_W; }
 
   CameraPose pose() const;
   CameraAxes axes() const { return {heading_, elevation_}; }
   double elevation() const { return elevation_; }
-  /// Metres at `p_W` that half of the picture's height shows.
+  /// Length at `p_W` that corresponds to half of the picture's height [m].
   double scaleAt(const Vec3& p_W) const;
-  /// From the eye through a point of the picture (-1 to 1, to the right and up), unit.
+  /// Unit vector from the eye through a point of the picture (-1 to 1, right and up).
   Vec3 rayThrough(double right, double up) const;
 
  private:

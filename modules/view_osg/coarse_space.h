@@ -8,15 +8,15 @@
 
 namespace presa::view {
 
-/// A picture whose three-dimensional part is drawn into fewer pixels than the window has and spread over it; the head-up display
-/// lies over it at full size. For a processor that draws: its time goes into pixels.
+/// For software rendering, whose time depends on the number of pixels: draws the three-dimensional part into fewer
+/// pixels and scales it up to the window; the head-up display is drawn over it at full resolution.
 class CoarseSpace {
  public:
   /// `picture` must outlive this.
   explicit CoarseSpace(Picture& picture);
-  /// What to draw instead of the picture's own root.
+  /// The node to draw in place of the picture's own root.
   osg::Group* root() { return root_; }
-  /// Size of the window [pixel], and the share of its width and height that is drawn; 1: straight into the window.
+  /// Size of the window [pixel] and drawn fraction of its width and height; 1: draw directly into the window.
   void setSize(int width, int height, double share);
 
  private:

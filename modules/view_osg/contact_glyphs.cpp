@@ -12,7 +12,7 @@
 namespace presa::view {
 namespace {
 
-constexpr double kGlowsWith = 4;  ///< normal force at which a fingertip is as red as it gets [N]
+constexpr double kGlowsWith = 4;  ///< normal force at which a fingertip is fully red [N]
 constexpr double kHipRadius = 0.0022;
 constexpr double kLinkRadius = 0.0007;
 constexpr double kShaftRadius = 0.0013;
@@ -31,7 +31,7 @@ osg::ref_ptr<osg::MatrixTransform> placed(osg::Node* child, osg::Group& parent) 
   return transform;
 }
 
-/// Blended, not written to depth, drawn in bin `order` (after what is opaque).
+/// Blended, without depth writes, in render bin `order` (after opaque objects).
 void makeTranslucent(osg::StateSet& state, int order) {
   state.setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
   state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
@@ -68,7 +68,7 @@ ContactGlyphs::ContactGlyphs(std::size_t fingers) {
   makeTranslucent(*tips, 11);
   tips->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
 
-  // a HIP inside a body is what the picture is about: where something hides it, it shines through
+  // a HIP inside a body must be visible: where something hides it, draw it translucently on top
   osg::ref_ptr<osg::Group> through = new osg::Group;
   osg::StateSet* ghost = through->getOrCreateStateSet();
   ghost->addUniform(new osg::Uniform("opacity", 0.45F), osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
@@ -150,7 +150,7 @@ void ContactGlyphs::updateForce(const FingerView& view, Finger& finger) {
     finger.head->setMatrix(
         alongZ(view.p_WC + (length - head) * direction, direction, {kHeadRadius * thick, kHeadRadius * thick, head}));
   }
-  // as high as the normal force is long: the arrow's tip lies in the rim's disc, and leaves it where slip begins
+  // as high as the normal force: the arrow's tip lies within the rim until the contact slips
   const double height = std::clamp(kArrowLengthPerNewton * view.normal_force, kConeShortest, kConeLongest);
   const double rim = height * std::max(view.friction_static, 1e-3);
   finger.cone->setMatrix(alongZ(view.p_WC, view.nhat_W, {rim, rim, height}));

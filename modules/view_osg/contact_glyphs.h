@@ -9,18 +9,18 @@
 
 namespace presa::view {
 
-/// Linear RGB; the head-up display shows the same.
+/// Colour of a contact state, linear RGB; also used in the head-up display.
 Vec3 stateColor(ContactMode mode);
 inline const Vec3 kHipColor{0.10, 0.85, 1.0};
 inline const Vec3 kArrowColor{1.0, 0.72, 0.02};
 inline const Vec3 kSkinColor{0.80, 0.46, 0.34};
 
-/// Everything drawn about the fingers: HIP, fingertip at the proxy, the link between, force arrow, friction cone.
+/// Glyphs of the fingers: HIP, fingertip at the proxy, the link between them, force arrow, friction cone.
 class ContactGlyphs {
  public:
   explicit ContactGlyphs(std::size_t fingers);
   osg::Group* root() { return root_; }
-  /// The fingertips alone, for the shadow.
+  /// The fingertips, which cast shadows.
   osg::Node* casters() { return tips_; }
   void update(const std::vector<FingerView>& fingers);
   void show(const ShownParts& parts);

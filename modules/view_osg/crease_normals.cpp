@@ -6,8 +6,8 @@ namespace presa::view {
 namespace {
 
 struct Face {
-  Vec3 normal = Vec3::Zero();            ///< unit; zero: no area
-  std::array<double, 3> angle{0, 0, 0};  ///< at each corner [rad]
+  Vec3 normal = Vec3::Zero();            ///< unit; zero for a face without area
+  std::array<double, 3> angle{0, 0, 0};  ///< interior angle at each corner [rad]
 };
 
 Face faceOf(const TriMesh& mesh, const TriMesh::Triangle& triangle) {
@@ -29,7 +29,7 @@ struct Corner {
   std::size_t side;
 };
 
-/// Corners by vertex, packed: those of vertex v are [first[v], first[v + 1]).
+/// Corners grouped by vertex: those of vertex v are [first[v], first[v + 1]).
 struct CornerTable {
   std::vector<std::size_t> first;
   std::vector<Corner> corners;

@@ -6,15 +6,15 @@
 
 namespace presa::view {
 
-/// A mesh ready for shading: a vertex is repeated where the surface has an edge.
+/// A mesh prepared for shading: vertices are duplicated along sharp edges.
 struct ShadedMesh {
   std::vector<Eigen::Vector3f> positions;  ///< [m]
   std::vector<Eigen::Vector3f> normals;    ///< unit, outward
   std::vector<std::uint32_t> indices;      ///< three per triangle
 };
 
-/// Vertex normals, weighted by corner angle [Thuermer1998], over the neighbours whose faces turn by less than
-/// `crease_angle` [rad]: round parts look round, edges stay sharp. Triangles without area are left out.
+/// Vertex normals weighted by corner angle [Thuermer1998], averaged over neighbours whose faces differ by less than
+/// `crease_angle` [rad]: curved parts appear smooth, edges stay sharp. Triangles without area are omitted.
 ShadedMesh shadeWithCreases(const TriMesh& mesh, double crease_angle);
 
 }  // namespace presa::view

@@ -7,8 +7,8 @@
 namespace presa::view {
 namespace {
 
-constexpr double kUnit = 1000;         // of the simplifier's lengths, per metre: its errors are single precision
-constexpr double kFewestShare = 0.05;  // of the triangles
+constexpr double kUnit = 1000;         // length unit of the simplifier per metre: its errors are single precision
+constexpr double kFewestShare = 0.05;  // minimum fraction of triangles to keep
 
 struct Collector {
   std::vector<TriMesh::Triangle> triangles;

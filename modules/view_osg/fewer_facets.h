@@ -3,8 +3,8 @@
 
 namespace presa::view {
 
-/// The mesh with fewer triangles where flat parts, edges and bends leave them without a say: its surface moves by about `tolerance` [m] at
-/// most. For a processor that draws: small triangles are dear to it. Without adjacency.
+/// The mesh with fewer triangles in flat and smooth parts; its surface moves by at most about `tolerance` [m]. For
+/// software rendering, where small triangles are expensive. Without adjacency.
 TriMesh fewerFacets(const TriMesh& mesh, double tolerance);
 
 }  // namespace presa::view

@@ -5,38 +5,39 @@
 #include "framework/scene/world.h"
 #include "modules/view_osg/view_frame.h"
 
-/// What the picture says about each finger, worked out once from the states. No drawing here.
+/// Displayed values of each finger, computed from the states. No drawing here.
 namespace presa::view {
 
 inline constexpr double kArrowLengthPerNewton = 0.010;  ///< [m/N]
 
 struct FingerView {
   std::string role;
-  bool valid = false;  ///< its device delivers samples
+  bool valid = false;  ///< the device delivers usable samples
   ContactMode mode = ContactMode::kNone;
   std::int32_t body = kNoBody;
-  double radius = 0;            ///< fingertip [m]
-  Vec3 p_WH = Vec3::Zero();     ///< HIP
-  Vec3 p_WP = Vec3::Zero();     ///< proxy, on the body as drawn
-  Vec3 p_WC = Vec3::Zero();     ///< touched point, on the body as drawn
-  Vec3 nhat_W = Vec3::UnitZ();  ///< body into finger
+  double radius = 0;            ///< fingertip radius [m]
+  Vec3 p_WH = Vec3::Zero();     ///< HIP [m]
+  Vec3 p_WP = Vec3::Zero();     ///< proxy, relative to the body as drawn [m]
+  Vec3 p_WC = Vec3::Zero();     ///< touched point, relative to the body as drawn [m]
+  Vec3 nhat_W = Vec3::UnitZ();  ///< unit normal, body into finger
   Vec3 f_H_W = Vec3::Zero();    ///< rendered force on the finger [N]
   double normal_force = 0;      ///< [N]
   double tangential_force = 0;  ///< [N], >= 0
-  double friction = 0;          ///< coefficient that bounds it now: static in stick, dynamic in slip
+  double friction = 0;          ///< current coefficient: static while sticking, dynamic while slipping
   double friction_static = 0;
-  double force_limit = 0;  ///< of the device role [N]
+  double force_limit = 0;  ///< force limit of the device role [N]
 
   bool touches() const noexcept { return mode != ContactMode::kNone && body != kNoBody; }
-  /// Share of the friction cone in use: tangential / (friction * normal); 0 without contact. 1: it slips.
+  /// Used fraction of the friction cone: tangential / (friction * normal); 0 without contact, 1 while slipping.
   double frictionUse() const noexcept;
 };
 
-/// Contact points ride on the bodies as `frame` poses them, so that a fingertip never floats off a moving surface.
+/// Contact points are placed relative to the body poses in `frame`, so that a fingertip never floats off a moving
+/// surface.
 std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame);
 
-/// The squeeze on the body gripped hardest [N]: half of what the normal forces cancel, (sum |n| - |sum n|) / 2. Two
-/// opposed fingers of n newton give n, one finger gives 0 however hard it pushes.
+/// Grip force on the body gripped hardest [N]: half of the normal forces that cancel, (sum |n| - |sum n|) / 2.
+/// Two opposed fingers of n newton give n; one finger gives 0.
 double gripForce(const std::vector<FingerView>& fingers);
 
 }  // namespace presa::view

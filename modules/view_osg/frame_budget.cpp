@@ -6,7 +6,7 @@ namespace presa::view {
 namespace {
 
 constexpr double kSpare =
-    0.8;  // of the longest time: what a sharper picture must leave, so that the share does not swing
+    0.8;  // limit for a higher share, relative to kLongest: hysteresis that keeps the share from oscillating
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool FrameBudget::add(double seconds) {
   std::nth_element(times_.begin(), middle, times_.end());
   if (*middle > kLongest) return changeTo(std::min(at_ + 1, kShares.size() - 1));
   if (at_ == 0) return false;
-  // what takes time is the pixels
+  // frame time is proportional to the number of pixels
   const double grows = kShares[at_ - 1] / kShares[at_];
   return *middle * grows * grows < kSpare * kLongest && changeTo(at_ - 1);
 }

@@ -63,7 +63,7 @@ std::string writePng(const osg::Image& image, const std::string& file) {
   osgDB::Registry* const registry = osgDB::Registry::instance();
   osgDB::ReaderWriter* const writer = registry->getReaderWriterForExtension(osgDB::getLowerCaseFileExtension(file));
   if (writer == nullptr) return "OpenSceneGraph has no writer for this file name (it should end in .png)";
-  std::ostringstream bytes;  // OpenSceneGraph does not look whether the disk took what it wrote
+  std::ostringstream bytes;  // OpenSceneGraph does not check for write errors of the disk
   const osgDB::ReaderWriter::WriteResult result = writer->writeImage(image, bytes, registry->getOptions());
   if (!result.success()) return result.message().empty() ? "the picture cannot be made" : result.message();
   errno = 0;
@@ -73,7 +73,7 @@ std::string writePng(const osg::Image& image, const std::string& file) {
   out.close();
   if (out) return {};
   const std::string reason = errno != 0 ? std::strerror(errno) : "the file cannot be written";
-  if (opened) std::remove(file.c_str());  // half a picture
+  if (opened) std::remove(file.c_str());  // incomplete file
   return reason;
 }
 

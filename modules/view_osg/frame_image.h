@@ -5,10 +5,10 @@
 
 namespace presa::view {
 
-/// Copies the finished frame out of the frame buffer when asked to.
+/// Copies the finished frame out of the frame buffer on request.
 class FrameGrabber : public osg::Camera::DrawCallback {
  public:
-  /// The next frame drawn will be kept.
+  /// Captures the next frame.
   void arm() { armed_ = true; }
   osg::ref_ptr<osg::Image> take() { return std::exchange(image_, nullptr); }
   void operator()(osg::RenderInfo& info) const override;
@@ -18,10 +18,11 @@ class FrameGrabber : public osg::Camera::DrawCallback {
   mutable osg::ref_ptr<osg::Image> image_;
 };
 
-/// RGB image with each pixel the mean of factor x factor pixels (averaged as light, not as sRGB codes).
+/// RGB image in which each pixel is the mean of factor x factor pixels, averaged in linear light rather than in sRGB
+/// codes.
 osg::ref_ptr<osg::Image> shrink(const osg::Image& image, int factor);
 
-/// Empty on success, else why not.
+/// Returns "" on success, else the reason for the failure.
 std::string writePng(const osg::Image& image, const std::string& file);
 
 }  // namespace presa::view

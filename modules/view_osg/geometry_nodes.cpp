@@ -8,8 +8,8 @@
 namespace presa::view {
 namespace {
 
-constexpr int kAround = 96;  ///< segments of a full turn
-constexpr int kArc = 32;     ///< segments of a quarter circle of the profile
+constexpr int kAround = 96;  ///< segments per full turn
+constexpr int kArc = 32;     ///< segments per quarter circle of a profile
 
 osg::ref_ptr<osg::Geometry> assemble(osg::Vec3Array* positions, osg::Vec3Array* normals,
                                      osg::DrawElementsUInt* triangles, const Vec3& color) {

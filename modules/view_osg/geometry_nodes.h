@@ -9,12 +9,13 @@
 /// normals of the true surface.
 namespace presa::view {
 
-/// A point of the outline that is turned about z: radius and height, and its outward normal.
+/// A point of a profile that is revolved about z: radius and height, and its outward normal.
 struct ProfilePoint {
   double r, z;    ///< [m]
   double nr, nz;  ///< unit
 };
-/// Consecutive points are joined; repeat a point with another normal for an edge. Listed from low to high z.
+/// Surface of revolution. Consecutive points are joined; repeat a point with another normal for an edge. From low to
+/// high z.
 osg::ref_ptr<osg::Geometry> revolve(const std::vector<ProfilePoint>& profile, const Vec3& color);
 
 osg::ref_ptr<osg::Geometry> boxGeometry(const Vec3& size, const Vec3& color);
@@ -23,10 +24,10 @@ osg::ref_ptr<osg::Geometry> cylinderGeometry(double radius, double length, const
 osg::ref_ptr<osg::Geometry> capsuleGeometry(double radius, double length, const Vec3& color);
 osg::ref_ptr<osg::Geometry> meshGeometry(const ShadedMesh& mesh, const Vec3& color);
 
-/// Radius 1, from z = 0 to z = 1: shaft (closed) and cone (base at 0, tip at 1), to be scaled into place.
+/// Radius 1, from z = 0 to z = 1: closed shaft, and cone with its base at 0 and tip at 1; scale into place.
 osg::ref_ptr<osg::Geometry> unitShaft(const Vec3& color);
 osg::ref_ptr<osg::Geometry> unitConeUp(const Vec3& color);
-/// Tip at z = 0, rim of radius 1 at z = 1, open: a friction cone.
+/// Friction cone: tip at z = 0, rim of radius 1 at z = 1, open.
 osg::ref_ptr<osg::Geometry> unitFrictionCone(const Vec3& color);
 /// Thin band along the rim of that cone.
 osg::ref_ptr<osg::Geometry> unitRim(const Vec3& color);

@@ -79,7 +79,7 @@ void EglContext::release() noexcept {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   if (context_) eglDestroyContext(display_, context_);
   if (surface_) eglDestroySurface(display_, surface_);
-  // not eglTerminate: the display is one per process and may serve another view
+  // not eglTerminate: there is one display per process, which another view may use
   eglReleaseThread();
 }
 

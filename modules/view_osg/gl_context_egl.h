@@ -2,11 +2,11 @@
 
 namespace presa::view {
 
-/// An OpenGL context without a display: EGL, surfaceless platform, pixel buffer. Works on a machine with neither X
-/// nor a graphics card (Mesa renders in software).
+/// An OpenGL context without a display: EGL, surfaceless platform, pixel buffer. Works without X and without a graphics
+/// card (Mesa's software renderer).
 class EglContext {
  public:
-  /// Makes it current on the calling thread. Throws std::runtime_error saying which step failed.
+  /// Makes the context current on the calling thread. Throws std::runtime_error naming the failed step.
   EglContext(int width, int height);
   ~EglContext();
   EglContext(const EglContext&) = delete;

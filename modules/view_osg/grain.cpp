@@ -13,13 +13,13 @@
 namespace presa::view {
 namespace {
 
-constexpr int kSide = 64;                  // of the tile [texel]
-constexpr int kUnit = 2, kGroundUnit = 3;  // texture units; lighting has 0 and 1
-constexpr int kGroundSide = 512;           // of the ground's tile [texel]
-constexpr int kCoarsest = 4;               // cells of the first octave in the tile
+constexpr int kSide = 64;                  // size of the tile [texel]
+constexpr int kUnit = 2, kGroundUnit = 3;  // texture units; 0 and 1 belong to lighting
+constexpr int kGroundSide = 512;           // size of the ground's tile [texel]
+constexpr int kCoarsest = 4;               // cells of the first octave per tile
 constexpr int kOctaves = 4;
 
-/// Noise on a lattice of `cells` per side, and `depth` along z, that repeats; between 0 and 1.
+/// Periodic noise in [0, 1] on a lattice of `cells` per side and `depth` along z.
 class Lattice {
  public:
   Lattice(int cells, int depth, std::mt19937& random) : cells_(cells), depth_(depth) {
@@ -57,7 +57,7 @@ class Lattice {
 
 using Octaves = std::vector<Lattice>;
 
-/// Each half as strong and twice as fine as the one before.
+/// Octaves of noise, each half as strong and twice as fine as the one before.
 Octaves makeOctaves(int coarsest, int count, bool flat, std::mt19937& random) {
   Octaves octaves;
   for (int i = 0; i < count; ++i) octaves.emplace_back(coarsest << i, flat ? 1 : coarsest << i, random);
@@ -73,7 +73,7 @@ float sum(const Octaves& octaves, float x, float y, float z) {
   return total / (1 - weight * 2);
 }
 
-/// Luminance: clouds, of four octaves. Alpha: veins, where another such noise crosses its middle.
+/// Luminance: clouds of four octaves. Alpha: veins, at the zero crossings of a second such noise.
 osg::ref_ptr<osg::Image> makeTile() {
   std::mt19937 random(20);
   const Octaves clouds = makeOctaves(kCoarsest, kOctaves, false, random);
@@ -94,7 +94,8 @@ osg::ref_ptr<osg::Image> makeTile() {
   return tile;
 }
 
-/// Dry earth and grass, as factors of the earth's colour in red, green and blue: the root of a quarter of their value.
+/// Dry earth and grass as factors of the earth's colour in red, green and blue, stored as the square root of a quarter
+/// of the value.
 osg::ref_ptr<osg::Image> makeGround() {
   std::mt19937 random(21);
   const Octaves patches = makeOctaves(3, 4, true, random), tufts = makeOctaves(12, 3, true, random),

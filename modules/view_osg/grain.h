@@ -5,14 +5,13 @@
 
 namespace presa::view {
 
-/// Stone and earth: grain, clouds and veins out of one tile of noise in three dimensions, so that no surface has seams.
-/// The tile is made here, the same in every run.
-/// `state`: of the whole picture.
+/// Stone and earth: grain, clouds and veins from one three-dimensional tile of noise, so that no surface has seams. The
+/// tile is generated here and is the same in every run. `state`: state set of the whole picture.
 void addGrain(osg::StateSet& state, const Scene& scene);
-/// Something is of stone or earth: there is a sky, and the ground goes on to the horizon.
+/// Whether something is of stone or earth; the picture then has a sky, and the ground extends to the horizon.
 bool isOutdoors(const Scene& scene);
 
-/// Where in the tile one body was cut.
+/// Sets the place in the tile from which a body is cut.
 void setGrain(osg::StateSet& body, std::size_t index);
 
 }  // namespace presa::view

@@ -16,11 +16,11 @@ namespace {
 
 const Vec3 kPlaceColor(0.30, 0.85, 0.45), kMissingColor(1.0, 0.52, 0.08), kArrow(1.0, 0.62, 0.05);
 constexpr float kFaint = 0.16F, kStrong = 0.30F;
-constexpr double kBeat = 1.4;                                     // [s]
-constexpr double kHead = 0.016, kShaft = 0.006, kLength = 0.036;  // of the arrow [m]
-constexpr double kAbove = 0.008, kBob = 0.005;                    // over the block [m]
+constexpr double kBeat = 1.4;                                     // period of pulsation [s]
+constexpr double kHead = 0.016, kShaft = 0.006, kLength = 0.036;  // sizes of the arrow [m]
+constexpr double kAbove = 0.008, kBob = 0.005;                    // mean height over the block, and its variation [m]
 
-/// Between 0 and 1, and back, in a beat.
+/// Pulsation between 0 and 1.
 float beat(double time) { return static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kBeat)); }
 
 }  // namespace
@@ -91,7 +91,7 @@ void Guides::update(const Guidance& guidance, const std::vector<Pose>& X_WB, dou
   const std::int32_t goal = hint ? guidance.hint_goal : guidance.held ? guidance.goal : kNoGoal;
   const std::int32_t body = hint ? guidance.hint_body : guidance.body;
   show(place_, goal, body, X_WB, hint ? kFaint + (kStrong - kFaint) * beat(time) : kFaint);
-  // of all that would fit there, any one has the shape
+  // any of the bodies that fit has the right shape
   const std::int32_t missing = guidance.missing;
   const std::int32_t like =
       missing == kNoGoal

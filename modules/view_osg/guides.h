@@ -8,8 +8,8 @@
 
 namespace presa::view {
 
-/// Marks in the scene for whoever puts an assembly together: the outline of a block where it belongs, or of the one that is missing
-/// under it, and an arrow over the block that a hint is about.
+/// Marks in the scene for the user of an assembly: the outline of a block at its goal, or of the missing block below
+/// it, and an arrow over the block of a hint.
 class Guides {
  public:
   Guides(const Scene& scene, BodyNodes& bodies);

@@ -32,7 +32,7 @@ Lines cameraLines(bool pair) {
                    {"arrows, PageUp, PageDown", "fly"}});
   }
   append(lines,
-         {{"h", "follow bodies and fingers again"}, {"click", "what is this body"}, {"double click", "look there"}});
+         {{"h", "follow bodies and fingers again"}, {"click", "show the body card"}, {"double click", "look there"}});
   return lines;
 }
 
@@ -51,7 +51,7 @@ Lines partLines() {
           {"4", "triangles near the fingers"},
           {"5  6", "HIPs, fingertips"},
           {"7  8", "friction cones, forces"},
-          {"9  0", "what sleeps, frames"},
+          {"9  0", "sleeping bodies, coordinate frames"},
           {"g", "plots of the last seconds"}};
 }
 
@@ -63,7 +63,7 @@ std::vector<HelpLine> helpLines(const Controls& controls, bool recording) {
   append(lines, cameraLines(controls.pointer != nullptr));
   if (controls.time != nullptr) append(lines, timeLines(recording));
   append(lines, partLines());
-  if (controls.undo) append(lines, {{"", "building"}, {"u", "take out what was put last"}});
+  if (controls.undo) append(lines, {{"", "building"}, {"u", "undo the last placement"}});
   append(lines, {{"", "window"}, {"s", "save a picture"}, {"?", "this help"}, {"Esc", "stop the run"}});
   return lines;
 }

@@ -7,10 +7,10 @@
 namespace presa::view {
 
 struct HelpLine {
-  std::string keys, what;  ///< empty keys: a heading
+  std::string keys, what;  ///< empty `keys`: `what` is a heading
 };
 
-/// All that mouse and keys do in this window, of a run or of a recording: what the key `?` shows.
+/// The help table of this window, for a run or a recording, shown by the key `?`.
 std::vector<HelpLine> helpLines(const Controls& controls, bool recording);
 
 }  // namespace presa::view

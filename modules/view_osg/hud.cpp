@@ -44,7 +44,7 @@ const char* stateWord(const FingerView& finger) {
   return "no contact";
 }
 
-/// What the output stage did, worst first; empty when the forces went out as rendered.
+/// The most severe action of the output stage in words; empty when the forces went out as rendered.
 std::string outputWords(std::uint32_t status) {
   if (status & kOutputNotFinite) return "output: not a number, forces off";
   if (status & kOutputLost) return "output: device lost, forces off";
@@ -72,7 +72,8 @@ Hud::Hud(const World& world) : world_(world) {
   state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
   state->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   state->setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
-  // in the order of the graph: panels first, their text after (on the camera itself this would sort its parent)
+  // draw in the order of the graph: panels first, then their text (set on the camera itself, this would sort its
+  // parent)
   state->setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
   camera_->addChild(content_);
   content_->addChild(left_);
@@ -219,7 +220,7 @@ void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines)
   constexpr float kLine = 22, kHalf = 290;
   const float top = kLine * static_cast<float>(lines.size()) / 2 + 10;
   center_->removeChild(help_);
-  center_->addChild(help_);  // over all that others put there meanwhile
+  center_->addChild(help_);  // above everything added there meanwhile
   help_->removeChildren(0, help_->getNumChildren());
   help_->addChild(roundedPanel({-kHalf, -top, 2 * kHalf, 2 * top}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
   float y = top - 25;
@@ -248,7 +249,7 @@ void Hud::updateRates(const GroupTimings& timings) {
   const bool known = std::any_of(timings.begin(), timings.end(), [](const GroupTiming* timing) { return timing; });
   for (RateLine& line : rates_) {
     const GroupTiming* timing = timings[static_cast<std::size_t>(line.group)];
-    // no wall-clock period: a run in virtual time, whose rates are exact
+    // no wall-clock period: a run in virtual time, whose rates are nominal
     const double mean_ns = timing ? timing->period.mean() : 0.0;
     if (mean_ns > 0) {
       line.rate.set(print("%.0f / %.0f Hz", 1e9 / mean_ns, line.nominal));
@@ -272,7 +273,7 @@ void Hud::update(const ViewFrame& frame, const std::vector<FingerView>& fingers,
   updateRates(timings);
   if (assembly_ && frame.guidance) assembly_->update(world_.scene, *frame.guidance);
   output_->set(outputWords(frame.forces.status));
-  // at its start and end every run fades
+  // fading at the start and end of every run is normal
   output_->setColor((frame.forces.status & ~kOutputFading) == 0 ? kSoftInk : kAlarm);
 }
 

@@ -16,26 +16,26 @@ namespace presa::view {
 
 using GroupTimings = std::array<const GroupTiming*, kRateGroupCount>;
 
-/// Head-up display: scene and time, one card per finger, grip force, rates, legend, and help on demand.
+/// Head-up display: scene and time, one card per finger, grip force, rates, legend, help on demand.
 class Hud {
  public:
-  static constexpr float kHeight = 720;  ///< lines of its coordinate system
+  static constexpr float kHeight = 720;  ///< height of its coordinate system [lines]
 
   explicit Hud(const World& world);
   osg::Camera* camera() { return camera_; }
-  /// For cards of others: x = 0 is the left edge, the right edge; the origin is the middle.
+  /// Groups for additional cards: x = 0 at the left edge, at the right edge, and origin in the middle.
   osg::Group& left() { return *left_; }
   osg::Group& right() { return *right_; }
   osg::Group& center() { return *center_; }
   void update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings);
-  /// Width over height of the picture: what hangs on the right edge moves with it.
+  /// Sets width over height of the picture; items at the right edge move with it.
   void setAspect(double aspect);
-  /// What `toggleHelp` shows: keys (none: a heading) and what they do.
+  /// The lines shown by `toggleHelp`: keys (empty: a heading) and their function.
   void setHelp(const std::vector<std::pair<std::string, std::string>>& lines);
   void toggleHelp();
-  /// A line at the top, until the next one.
+  /// Shows a line at the top, until the next call.
   void setBanner(const std::string& text, bool alarm);
-  /// A line above the legend, until the next one.
+  /// Shows a line above the legend, until the next call.
   void tell(const std::string& message);
 
  private:
@@ -63,7 +63,8 @@ class Hud {
   osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;   ///< x = 0 is the right edge
   osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;  ///< origin in the middle
   osg::ref_ptr<osg::Group> help_ = new osg::Group;
-  /// Where people put something together rates and fingers come with the help only, and the legend leaves its place to what they are told.
+  /// In an assembly task, rates and fingers are shown only with the help, and the legend gives way to the assembly
+  /// panel.
   osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group, legend_ = new osg::Group;
   const World& world_;
   std::optional<AssemblyPanel> assembly_;

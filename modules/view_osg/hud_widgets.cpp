@@ -32,7 +32,7 @@ Label::Label(osg::Group& parent, float x, float y, float size, const osg::Vec4& 
 }
 
 void Label::set(const std::string& utf8) {
-  if (utf8 == shown_) return;  // laying out glyphs is the dear part
+  if (utf8 == shown_) return;  // text layout is expensive
   shown_ = utf8;
   text_->setText(utf8, osgText::String::ENCODING_UTF8);
 }

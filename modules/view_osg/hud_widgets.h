@@ -4,18 +4,18 @@
 #include <osgText/Text>
 #include <string>
 
-/// Flat parts of the head-up display, in pixels of a 720 lines high picture, y up. Colours are sRGB.
+/// Two-dimensional parts of the head-up display, in pixels of a picture 720 lines high, y up. Colours are sRGB.
 namespace presa::view {
 
 struct Rect {
   float x, y, width, height;
 };
 
-/// DejaVu from Debian's font folder; OSG's built-in font when it is not there.
+/// DejaVu from Debian's font folder, or OSG's built-in font if it is missing.
 enum class Typeface { kRegular, kBold, kMono };
 osg::ref_ptr<osgText::Font> loadFont(Typeface typeface);
 
-/// A line of text. `align` says which end stays at (x, y); y is the base line.
+/// A line of text. `align`: the end that is fixed at (x, y); y is the base line.
 class Label {
  public:
   enum class Align { kLeft, kRight, kCenter };
@@ -35,7 +35,7 @@ osg::ref_ptr<osg::Geometry> roundedPanel(const Rect& rect, float corner, const o
 osg::ref_ptr<osg::Geometry> dot(float x, float y, float radius, const osg::Vec4& color);
 void recolor(osg::Geometry& geometry, const osg::Vec4& color);
 
-/// A value between 0 and 1, filled from the left.
+/// A bar for a value between 0 and 1, filled from the left.
 class Bar {
  public:
   Bar(osg::Group& parent, const Rect& rect);

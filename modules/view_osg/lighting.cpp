@@ -10,7 +10,7 @@ namespace {
 
 const Vec3 kKeyDirection = Vec3(0.38, -0.42, 0.95).normalized();  ///< towards the key light: over the right shoulder
 
-constexpr double kKeeps = 1.2;  // of the maps' radius
+constexpr double kKeeps = 1.2;  // coverage margin of the maps, relative to their radius
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
   camera->setClearMask(GL_DEPTH_BUFFER_BIT);
   camera->attach(osg::Camera::DEPTH_BUFFER, depth);
   camera->addChild(casters);
-  // depth only: the bodies' own programs would be work for nothing
+  // depth only: the bodies' own shaders are not needed
   osg::StateSet* state = camera->getOrCreateStateSet();
   state->setAttributeAndModes(new osg::Program, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
   state->setAttributeAndModes(new osg::PolygonOffset(1.5F, 4.0F), osg::StateAttribute::ON);
@@ -71,7 +71,7 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
 }
 
 void Lighting::setFocus(const Vec3& center, double radius) {
-  // a quick light keeps its maps as long as they cover what there is
+  // a quick light keeps its maps as long as they cover the focus
   const bool covered = (center - center_).norm() + radius < kKeeps * radius_ && radius > radius_ / 2;
   if (quality_.sky_every > 1 && frame_ > 0 && covered) return;
   center_ = center;

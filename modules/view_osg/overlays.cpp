@@ -12,8 +12,8 @@ namespace presa::view {
 namespace {
 
 const Vec3 kHapticColor(0.05, 0.75, 1.0), kPhysicsColor(1.0, 0.15, 0.75), kSleepColor(0.35, 0.45, 1.0);
-constexpr double kAxisThickness = 0.012;  ///< of its length
-constexpr double kAxisLength = 1.25;      ///< of what is drawn of the body
+constexpr double kAxisThickness = 0.012;  ///< relative to the axis length
+constexpr double kAxisLength = 1.25;      ///< relative to the drawn size of the body
 constexpr double kWorldAxis = 0.1;        ///< [m]
 
 osg::ref_ptr<osg::Group> axes(double length) {
@@ -33,7 +33,7 @@ osg::ref_ptr<osg::Group> axes(double length) {
   return group;
 }
 
-/// Of a body, what the layer shows of its shape, in its frame; null: nothing.
+/// The shape of a body in one layer, in the body's frame; null: nothing.
 osg::ref_ptr<osg::Node> linesOf(ShownPart part, const Body& body, const BodyMeshes& meshes) {
   const bool haptic = part == ShownPart::kHaptic, physics = part == ShownPart::kPhysics;
   const auto& geometry = haptic ? body.haptic : physics ? body.physics : body.visual;

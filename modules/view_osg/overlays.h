@@ -9,17 +9,18 @@
 
 namespace presa::view {
 
-/// Lines and axes over the bodies: haptic and physics geometry, what sleeps, frames. Each is made when it is first shown.
+/// Lines and axes over the bodies: haptic and physics geometry, sleeping bodies, frames. Each is created when first
+/// shown.
 class Overlays {
  public:
   explicit Overlays(const World& world) : world_(world) {}
   osg::Group* root() { return root_; }
-  /// As Scene::bodies.
+  /// `X_WB` and `asleep` in the order of Scene::bodies.
   void update(const ShownParts& parts, const std::vector<Pose>& X_WB, const std::vector<bool>& asleep);
 
  private:
   struct Layer {
-    osg::ref_ptr<osg::Group> group;  ///< null until it is shown
+    osg::ref_ptr<osg::Group> group;  ///< null until first shown
     std::vector<osg::ref_ptr<osg::MatrixTransform>> bodies;
   };
   Layer make(ShownPart part) const;

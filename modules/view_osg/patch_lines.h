@@ -7,12 +7,12 @@
 
 namespace presa::view {
 
-/// The triangles nearest to the fingers on the bodies that the collision query lists, as lines.
+/// Draws, as lines, the triangles near the fingers on the bodies listed in the collision thread's patches.
 class PatchLines {
  public:
   explicit PatchLines(const World& world);
   osg::Node* root() { return lines_; }
-  /// Poses as Scene::bodies.
+  /// Poses in the order of Scene::bodies.
   void update(bool shown, const ContactPatches* patches, const std::vector<Pose>& X_WB);
 
  private:

@@ -7,14 +7,14 @@
 namespace presa::view {
 namespace {
 
-constexpr double kFloorRadius = 1.2;  ///< [m], at least
-constexpr double kSunset = 2;         ///< in which all that stands comes into the evening sun [s]
-constexpr double kMoves = 0.0005;     ///< below it a shadow stays [m]
-constexpr double kArm = 0.05;         ///< at which turns are seen as moves [m]
-constexpr double kFloorReach = 10;    ///< radii of the subject
-constexpr double kGround = 0.36;      ///< of the height of what is put together, under it
-constexpr double kShadows = 1.0;      ///< where a processor draws they fall within so many radii
-constexpr double kLitAround = 2.2;    ///< shadows reach this many radii of the subject
+constexpr double kFloorRadius = 1.2;  ///< minimum radius of the floor [m]
+constexpr double kSunset = 2;         ///< time of the change to evening sun after completion [s]
+constexpr double kMoves = 0.0005;     ///< smaller motions do not update the shadow [m]
+constexpr double kArm = 0.05;         ///< lever arm at which rotations count as motions [m]
+constexpr double kFloorReach = 10;    ///< radius of the floor, in radii of the subject
+constexpr double kGround = 0.36;      ///< ground shown below an assembly, relative to its height
+constexpr double kShadows = 1.0;      ///< extent of shadows with software rendering, in radii of the subject
+constexpr double kLitAround = 2.2;    ///< extent of shadows, in radii of the subject
 
 std::vector<Pose> startPoses(const World& world) {
   std::vector<Pose> poses;
@@ -77,7 +77,7 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
   if (world_->scene.assembly) {
     for (const AssemblyGoal& goal : world_->scene.assembly->goals)
       subject_.push_back({goal.X_WB.p, bodies_.radius(goal.bodies.front())});
-    // what people are told covers the lower edge: the picture has some ground to give
+    // the assembly panel covers the lower edge, so show some ground there
     double low = 1e300, high = -1e300;
     for (const Ball& ball : subject_) {
       low = std::min(low, ball.center.z() - ball.radius);
@@ -92,7 +92,7 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
   }
 }
 
-/// Something that casts a shadow, since the last time it had.
+/// Whether something that casts a shadow has moved since this last returned true.
 bool Picture::moved(const ViewFrame& frame, const std::vector<FingerView>& fingers) {
   std::vector<Vec3> now;
   for (const Pose& X_WB : frame.X_WB) {

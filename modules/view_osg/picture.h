@@ -21,28 +21,28 @@ class Picture {
  public:
   explicit Picture(std::shared_ptr<const World> world);
   osg::Group* root() { return root_; }
-  /// The three-dimensional part of it; the rest is the head-up display's camera.
+  /// The three-dimensional part; the rest is the head-up display's camera.
   osg::Group* space() { return space_; }
   Hud& hud() { return hud_; }
   TimeBar& timeBar() { return time_bar_; }
-  /// What is shown from the next frame on.
+  /// The visible parts, from the next frame on.
   ShownParts& parts() { return parts_; }
 
-  /// What plots need of a moment; every step, drawn or not.
+  /// Collects data for the plots. Call in every step, drawn or not.
   void follow(const ViewFrame& frame, const GroupTimings& timings) {
     if (parts_[ShownPart::kPlots]) plots_.add(frame, timings);
   }
   void show(const ViewFrame& frame, const GroupTimings& timings);
   const BodyNodes& bodies() const { return bodies_; }
-  /// The head-up display tells of this body from now on; none: of no body.
+  /// Selects the body shown in the card; none hides it.
   void choose(std::optional<std::size_t> body) { card_.choose(body); }
-  /// What must be in the picture now: free bodies (all bodies when none is free) and fingers.
+  /// The balls that must be in the picture: free bodies (all bodies when none is free) and fingers.
   const std::vector<Ball>& subject() const { return subject_; }
-  /// As frameSubject takes it: where an assembly is put together no cards stand at the sides.
+  /// Argument of frameSubject: in an assembly task there are no cards at the sides.
   double usedWidth() const { return world_->scene.assembly ? kWholeWidth : kBetweenCards; }
-  /// Drawn by the processor: fewer samples, so that frames come in time.
+  /// Simplifies the picture for software rendering.
   void setQuick(bool quick);
-  /// Pixels of the three-dimensional part.
+  /// Size of the three-dimensional part [pixel].
   void setSize(int width, int height);
 
  private:
@@ -56,7 +56,7 @@ class Picture {
   ShownParts parts_;
   Overlays overlays_;
   PatchLines patches_;
-  std::unique_ptr<Guides> guides_;  // of scenes with an assembly
+  std::unique_ptr<Guides> guides_;  // only in scenes with an assembly
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;
   Hud hud_;

@@ -10,7 +10,7 @@ constexpr float kWidth = 262, kHeight = 84, kPitch = 90, kMargin = 18, kBottom =
 const osg::Vec4 kPanel(0.05F, 0.07F, 0.10F, 0.74F), kInk(0.95F, 0.96F, 0.98F, 1);
 const std::array<osg::Vec4, 4> kCurves{osg::Vec4(0.35F, 0.85F, 1.0F, 1), osg::Vec4(1.0F, 0.66F, 0.2F, 1),
                                        osg::Vec4(0.6F, 0.95F, 0.5F, 1), osg::Vec4(0.95F, 0.5F, 0.85F, 1)};
-constexpr double kCountTime = 0.25;  ///< over which ticks are counted [s]
+constexpr double kCountTime = 0.25;  ///< interval over which ticks are counted [s]
 
 osg::ref_ptr<osg::Geometry> curve(const osg::Vec4& color) {
   osg::ref_ptr<osg::Geometry> line = new osg::Geometry;
@@ -42,7 +42,7 @@ Plots::Plots(osg::Group& left, const World& world)
   }
 }
 
-// In virtual time every tick comes at its moment: the rate is the nominal one.
+// In virtual time every tick is on time: the rate is the nominal one.
 double Plots::haptic(const GroupTimings& timings) {
   const GroupTiming* timing = timings[static_cast<std::size_t>(RateGroup::kHaptic)];
   if (timing == nullptr || !(timing->period.mean() > 0)) return nominal_rate_;

@@ -9,14 +9,15 @@
 
 namespace presa::view {
 
-/// The last seconds of normal force and penetration, finger by finger, and of the haptic rate that was reached, at the lower left.
+/// Plots of the last seconds at the lower left: normal force and penetration of each finger, and the actual haptic
+/// rate.
 class Plots {
  public:
   static constexpr double kSeconds = 5;
 
-  /// `left`: x = 0 is the left edge.
+  /// `left`: group whose x = 0 is the left edge.
   Plots(osg::Group& left, const World& world);
-  /// Keeps this moment; every step, drawn or not. A moment before the last one, as in a recording, begins anew.
+  /// Adds a sample; call in every step, drawn or not. A time before the last one, as in playback, restarts the plots.
   void add(const ViewFrame& frame, const GroupTimings& timings);
   void update(bool shown);
 
@@ -24,7 +25,7 @@ class Plots {
   enum Quantity : std::size_t { kForce, kDepth, kRate, kQuantities };
   struct Moment {
     double time;
-    std::array<std::array<double, kMaxFingers>, kQuantities> values;  ///< N, mm, Hz (the first alone)
+    std::array<std::array<double, kMaxFingers>, kQuantities> values;  ///< [N], [mm], [Hz] (first entry only)
   };
   struct Panel {
     Label title;

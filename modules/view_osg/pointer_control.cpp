@@ -6,7 +6,7 @@
 namespace presa::view {
 namespace {
 
-/// A plane that is seen almost from its edge would run away under the mouse.
+/// Minimum slope of the drag plane: in a plane seen almost edge-on the pair would run away from the mouse.
 constexpr double kFlattest = 0.3;
 
 }  // namespace

@@ -8,24 +8,24 @@
 
 namespace presa::view {
 
-/// Where the user wants the pair of fingers. It starts where the fingers are, and moves by what mouse and keys ask for.
+/// Target pose of a pair of fingers, moved by mouse and keys. It starts at the fingers' own position.
 class PointerControl {
  public:
-  static constexpr double kStep = 0.005;                   ///< of an arrow key [m]
-  static constexpr double kTurnStep = 0.0872664625997165;  ///< of a key, five degrees [rad]
-  static constexpr double kCloseStep = 0.04;               ///< of a notch of the wheel or a key
+  static constexpr double kStep = 0.005;                   ///< per arrow key [m]
+  static constexpr double kTurnStep = 0.0872664625997165;  ///< per key, five degrees [rad]
+  static constexpr double kCloseStep = 0.04;               ///< per wheel notch or key
 
   /// Indices into DeviceState::fingers.
   explicit PointerControl(std::vector<std::size_t> fingers) : fingers_(std::move(fingers)) {}
 
-  /// Takes the start from the fingers, as soon as all of them give samples; does nothing from then on.
+  /// Takes the start position as soon as all fingers deliver samples; no effect afterwards.
   void begin(const DeviceState& device);
 
-  /// The mouse went so far, in halves of the picture's height: over the ground the pair stays under the mouse.
+  /// Mouse drag in halves of the picture's height: moves the pair in a level plane, under the mouse.
   void dragLevel(double right, double up, const CameraControl& camera);
-  /// The same in the upright plane that faces the camera.
+  /// As above, in the upright plane that faces the camera.
   void dragUpright(double right, double up, const CameraControl& camera);
-  /// To the camera's right, level away from it, up [m].
+  /// Moves to the camera's right, level away from it, and up [m].
   void move(double right, double away, double up, const CameraControl& camera);
   void turn(double angle);
   void close(double amount);

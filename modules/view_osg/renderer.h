@@ -7,26 +7,27 @@
 
 namespace presa::view {
 
-/// Where a picture is shown. All calls on the thread that made it.
+/// Output of a picture. All calls on the thread that created it.
 class Renderer {
  public:
   virtual ~Renderer() = default;
-  /// Draws the picture as it is now; handles the user's input first.
+  /// Handles the user's input, then draws the picture.
   virtual void render() = 0;
   /// Draws and returns the frame, RGB.
   virtual osg::ref_ptr<osg::Image> capture() = 0;
-  /// The user is done with it: window closed or Esc. Drawing does nothing from then on.
+  /// True when the user has closed the window or pressed Esc; drawing then has no effect.
   virtual bool closed() const = 0;
-  /// The user asked for a picture since the last call.
+  /// Whether the user has requested a picture since the last call.
   virtual bool takePictureRequest() = 0;
   virtual Inputs inputs() const { return {}; }
-  /// As View::sharpness.
+  /// See View::sharpness.
   virtual double sharpness() const { return 1; }
 };
 
-/// Without a display: 1280 x 720, drawn at twice the size and averaged down.
+/// Without a display: 1280 x 720, rendered at twice the size and averaged.
 std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture);
-/// On the display that DISPLAY names. What `controls` name must outlive it. Throws std::runtime_error when there is no display.
+/// In a window on DISPLAY. The objects in `controls` must outlive it. Throws std::runtime_error when there is no
+/// display.
 std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls);
 
 }  // namespace presa::view

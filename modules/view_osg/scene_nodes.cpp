@@ -21,7 +21,7 @@ namespace presa::view {
 namespace {
 
 constexpr double kCreaseAngle = 40 * std::numbers::pi / 180;
-constexpr double kQuickTolerance = 0.0002;  ///< of a surface that a processor draws [m]
+constexpr double kQuickTolerance = 0.0002;  ///< accuracy of surfaces for software rendering [m]
 const Vec3 kFloorColor(0.20, 0.225, 0.26);
 
 template <class... Ts>
@@ -29,7 +29,7 @@ struct Overload : Ts... {
   using Ts::operator()...;
 };
 
-/// What is drawn of a body, in its frame; null when there is nothing. `quick`: as it is felt, where that has fewer facets.
+/// The drawn shape of a body in its frame; null if none. `quick`: the haptic geometry if it has fewer facets.
 osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick) {
   const Body& body = world.scene.bodies[i];
   const BodyMeshes meshes = i < world.meshes.size() ? world.meshes[i] : BodyMeshes{};
@@ -52,7 +52,7 @@ osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick)
   return X_BG;
 }
 
-/// Lowest point of what is drawn at the start [m]; 0 for an empty scene.
+/// Lowest point of the drawn bodies at the start [m]; 0 for an empty scene.
 double lowestPoint(const World& world) {
   BodyNodes bodies(world);
   osg::ComputeBoundsVisitor bounds;
@@ -60,7 +60,7 @@ double lowestPoint(const World& world) {
   return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
 }
 
-/// What is of earth and stays where it is: the floor goes on around it. Null where there is none.
+/// The fixed body with the texture earth, around which the floor continues; null if none.
 const Body* earthOf(const Scene& scene) {
   const auto found = std::ranges::find_if(scene.bodies, [&](const Body& body) {
     return body.fixed && scene.materialOf(body).texture == Material::Texture::kEarth;
@@ -110,12 +110,12 @@ BodyNodes::BodyNodes(const World& world) : world_(world) {
     const Body& body = bodies[i];
     osg::ref_ptr<osg::MatrixTransform> X_WB = new osg::MatrixTransform(toOsg(body.X_WB));
     X_WB->setName(body.name);
-    // fixed bodies are what things stand on: the grid gives them a scale
+    // fixed bodies are usually supports: a grid shows their scale
     const Material::Texture texture = world.scene.materialOf(body).texture;
     const bool grid = body.fixed && texture == Material::Texture::kNone;
     X_WB->getOrCreateStateSet()->addUniform(new osg::Uniform("grid_strength", grid ? 1.0F : 0.0F));
     setGrain(*X_WB->getOrCreateStateSet(), i);
-    if (&body == earthOf(world.scene)) X_WB->setNodeMask(0);  // the floor is drawn in its place
+    if (&body == earthOf(world.scene)) X_WB->setNodeMask(0);  // replaced by the floor
     textures_.push_back(texture);
     const osg::ref_ptr<osg::Node> shape = makeShape(world, i, false);
     if (shape) X_WB->addChild(shape);
@@ -134,7 +134,7 @@ void BodyNodes::setQuick(bool quick) {
     if (!program) program = shaders::body(textures_[i], quick);
     osg::StateSet* state = transforms_[i]->getOrCreateStateSet();
     state->setAttributeAndModes(program);
-    // stones are closed: nobody sees their backs
+    // stones are closed, so their back faces are never visible
     if (quick && textures_[i] != Material::Texture::kNone)
       state->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
     if (const osg::ref_ptr<osg::Node> shape = makeShape(world_, i, quick)) transforms_[i]->setChild(0, shape);
@@ -178,7 +178,7 @@ osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows) {
   sheet->setVertexArray(positions);
   sheet->setTexCoordArray(0, places);
   sheet->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<int>(positions->size())));
-  // it lies in clip space: without a bound it neither is culled nor moves the near and far planes
+  // positions are in clip space: without a bound it is not culled and does not move the near and far planes
   struct NoBound : osg::Drawable::ComputeBoundingBoxCallback {
     osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
   };
@@ -188,11 +188,11 @@ osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows) {
 }
 
 osg::ref_ptr<osg::Node> makeBackground() {
-  constexpr int kRows = 64;  // between which the sky's colour is as good as straight
+  constexpr int kRows = 64;  // rows between which the sky's colour is nearly linear
   osg::ref_ptr<osg::Geometry> sky = clipSpaceSheet(kRows);
   osg::StateSet* state = sky->getOrCreateStateSet();
   state->setAttributeAndModes(shaders::background());
-  // after all that hides it: a pixel that nobody sees costs nothing
+  // drawn after everything that hides it, so that hidden pixels cost nothing
   state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
   state->setRenderBinDetails(6, "RenderBin");
   return sky;
@@ -200,14 +200,14 @@ osg::ref_ptr<osg::Node> makeBackground() {
 
 osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius, double shadows, bool quick) {
   const Body* earth = earthOf(world.scene);
-  const double drop = earth != nullptr ? 0 : 1e-4;  // a body that ends on the floor must not flicker with it
+  const double drop = earth != nullptr ? 0 : 1e-4;  // below bodies that end on the floor, against flicker
   const Vec3 middle(center.x(), center.y(), (earth != nullptr ? topOf(world, *earth) : lowestPoint(world)) - drop);
   const Vec3 color = earth != nullptr ? world.scene.materialOf(*earth).color : kFloorColor;
   const Material::Texture texture = earth != nullptr ? Material::Texture::kEarth : Material::Texture::kNone;
   osg::ref_ptr<osg::MatrixTransform> floor =
       new osg::MatrixTransform(osg::Matrixd::translate(middle.x(), middle.y(), 0));
   floor->setName("floor");
-  // a processor that draws is spared shadows where nothing throws any
+  // with software rendering only the inner disc gets shadows
   const double shaded = quick ? std::min(shadows, radius) : radius;
   osg::ref_ptr<osg::Geometry> disc = revolve({{shaded, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, color);
   disc->getOrCreateStateSet()->setAttributeAndModes(shaders::floor(texture, quick, false));

@@ -8,28 +8,28 @@
 
 namespace presa::view {
 
-/// The bodies of the scene, each under one transform, and the still things around them.
+/// The bodies of the scene, each under one transform.
 class BodyNodes {
  public:
   /// `world` must outlive this.
   explicit BodyNodes(const World& world);
   osg::Group* root() { return root_; }
-  /// For a processor that draws.
+  /// Simplified shapes for software rendering.
   void setQuick(bool quick);
-  /// Poses as Scene::bodies.
+  /// Poses in the order of Scene::bodies.
   void setPoses(const std::vector<Pose>& X_WB);
-  /// What is drawn of it, in the body's frame; null when there is nothing. It may hang in other places, too.
+  /// The drawn shape of a body in its frame; null if none. It may be used in other places, too.
   osg::Node* shape(std::size_t body) {
     return transforms_[body]->getNumChildren() > 0 ? transforms_[body]->getChild(0) : nullptr;
   }
-  /// The body that is first along a ray, and where it meets its surface.
+  /// The first body along a ray, and the point where the ray meets its surface.
   struct Hit {
     std::size_t body;
     Vec3 p_W;
   };
   std::optional<Hit> along(const Vec3& eye, const Vec3& ray) const;
   void show(bool shown) { root_->setNodeMask(shown ? ~0U : 0U); }
-  /// Smallest sphere about the body's origin that holds what is drawn of it [m].
+  /// Radius of the drawn shape about the body's origin [m].
   double radius(std::size_t body) const { return radius_[body]; }
 
  private:
@@ -40,23 +40,24 @@ class BodyNodes {
   std::vector<double> radius_;
 };
 
-/// The geometry that shows a body: visual, else haptic, else physics; null when it has none.
+/// The geometry that represents a body: visual, else haptic, else physics; null if it has none.
 const Geometry* shownGeometry(const Body& body);
 
-/// Its mesh, where that geometry has one.
+/// The mesh of that geometry, or null.
 const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes);
 
-/// A shape in its own frame; null for a mesh that is not there.
+/// A shape in its own frame; null for a missing mesh.
 osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color);
 
-/// The whole picture, from (-1, -1) to (1, 1), for shaders that take positions in clip space; texture coordinates from 0 to 1. `rows`: one
-/// above the other.
+/// A rectangle over the whole picture, from (-1, -1) to (1, 1), for shaders with positions in clip space; texture
+/// coordinates from 0 to 1. `rows`: number of subdivisions in height.
 osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows);
 
 /// Gradient behind everything.
 osg::ref_ptr<osg::Node> makeBackground();
 
-/// Ground with a grid, under the lowest body at its start pose, fading into the background. Shadows fall within `shadows` of its middle [m].
+/// Floor with a grid under the lowest body at its start pose, fading into the background. Shadows fall within `shadows`
+/// of its middle [m].
 osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius, double shadows, bool quick);
 
 }  // namespace presa::view

@@ -23,7 +23,7 @@ void main() {
 }
 )";
 
-// colour by vertex: a processor that draws has no time for roots and powers at each pixel of the sky
+// colour per vertex: software rendering has no time for powers at each pixel of the sky
 constexpr const char* kBackgroundVertex = R"(#version 130
 out vec3 color;
 vec3 skyColor(float height);
@@ -214,8 +214,8 @@ void main() {
 }
 )";
 
-// Earth for a processor that draws: light and colours meet as they are shown, where a product of lights is nearly one of what is shown, so
-// that no root is drawn at a pixel.
+// Earth for software rendering: light and colour are combined in display space, where the product is nearly the same,
+// so that no square root is needed per pixel.
 constexpr const char* kQuickEarthVertex = R"(#version 130
 uniform mat4 osg_ViewMatrixInverse;
 uniform vec3 key_direction;
@@ -313,7 +313,7 @@ in vec2 at;
 void main() { gl_FragColor = texture(picture, at); }
 )";
 
-/// `text` with definitions after its first line, which says the version.
+/// `text` with definitions inserted after its first line, the version.
 osg::ref_ptr<osg::Shader> fragments(std::string text, const std::string& definitions) {
   text.insert(text.find('\n') + 1, definitions);
   return new osg::Shader(osg::Shader::FRAGMENT, text);

@@ -7,11 +7,11 @@
 
 namespace presa::view {
 
-/// What the picture shows now. At first: bodies, HIPs, fingertips, cones and forces.
+/// Visible parts of the picture. Default: bodies, HIPs, fingertips, cones and forces.
 class ShownParts {
  public:
   ShownParts() = default;
-  /// Besides, each of `names`; with "no-" before it, left out. Throws InputError E704 for what is no part.
+  /// The default plus `names`; a name with the prefix "no-" hides the part. Throws InputError E704 for an unknown part.
   explicit ShownParts(const std::vector<std::string>& names);
 
   bool operator[](ShownPart part) const { return shown_[static_cast<std::size_t>(part)]; }

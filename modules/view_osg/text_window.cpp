@@ -20,9 +20,9 @@ namespace {
 
 constexpr int kWidth = 1100, kHeight = 560;
 constexpr float kSize = 18, kLine = 26, kMargin = 18;  // [pixels]
-constexpr float kAdvance = 0.602F;                     // of DejaVu Sans Mono, in character sizes
+constexpr float kAdvance = 0.602F;                     // character width of DejaVu Sans Mono, relative to its size
 
-/// Keys as a terminal would send them.
+/// Collects keys as a terminal would send them.
 class Typed : public osgGA::GUIEventHandler {
  public:
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&) override {
@@ -52,7 +52,7 @@ class OsgTextWindow final : public TextWindow {
   explicit OsgTextWindow(const std::string& title) : window_(openWindow(title, kWidth, kHeight).context) {
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
-    viewer_.setKeyEventSetsDone(0);  // Esc is a key as any other
+    viewer_.setKeyEventSetsDone(0);  // Esc is an ordinary key
     osg::Camera* camera = viewer_.getCamera();
     camera->setGraphicsContext(window_);
     camera->setViewport(0, 0, kWidth, kHeight);
@@ -112,7 +112,7 @@ class OsgTextWindow final : public TextWindow {
   }
   void frame() {
     if (closed()) return;
-    // one unit is one pixel, the origin is the top left corner
+    // one unit per pixel, origin at the top left corner
     viewer_.getCamera()->setViewport(0, 0, typed_->width, typed_->height);
     viewer_.getCamera()->setProjectionMatrixAsOrtho2D(0, typed_->width, -typed_->height, 0);
     viewer_.frame();
@@ -129,7 +129,7 @@ class OsgTextWindow final : public TextWindow {
 }  // namespace presa::view
 
 extern "C" __attribute__((visibility("default"))) presa::TextWindow* presaOpenTextWindow(const char* title) {
-  // Mesa's software renderer would take every core
+  // Mesa's software renderer would use all cores
   setenv("LP_NUM_THREADS", "1", 0);
   osg::setNotifyLevel(osg::FATAL);
   try {

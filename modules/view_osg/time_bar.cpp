@@ -8,7 +8,7 @@ namespace presa::view {
 namespace {
 
 constexpr float kHalfHeight = 360, kHalfWidth = 330, kThick = 9;
-constexpr double kReach = 10;  ///< above and below the bar that still is the bar [lines]
+constexpr double kReach = 10;  ///< clickable margin above and below the bar [lines]
 const osg::Vec4 kInk(0.95F, 0.96F, 0.98F, 1), kFilled(0.38F, 0.70F, 1.0F, 1);
 
 }  // namespace

@@ -7,15 +7,15 @@
 
 namespace presa::view {
 
-/// How time goes, where the user has a say in it: held or at which speed, and in a recording a bar to move about in.
+/// Time control: held or speed of a run, and in a recording a bar to move about in.
 class TimeBar {
  public:
   /// `center`: origin in the middle of a picture of 720 lines, `bottom` in its coordinates.
   TimeBar(osg::Group& center, float bottom) : center_(center), bottom_(bottom) {}
-  /// `length` of the recording [s]; 0: no bar. `wish` outlives this.
+  /// `length`: duration of the recording [s]; 0: no bar. `wish` must outlive this.
   void offer(const TimeWish& wish, double length);
   void update(double time);
-  /// The moment under a point of the picture, in halves of its height from the middle; none: beside the bar.
+  /// The moment at a point of the picture, in halves of its height from the middle; none: the point is off the bar.
   std::optional<double> momentAt(double right, double up, bool wherever_up = false) const;
   double time() const { return time_; }
   double length() const { return length_; }

@@ -30,7 +30,7 @@ bool isOnPath(const char* program) {
   return false;
 }
 
-/// Without SIGPIPE, which an ffmpeg that ends early would send to the whole run.
+/// Writes without raising SIGPIPE, which an ffmpeg that ends early would send to the whole process.
 bool writeAll(int pipe, const unsigned char* bytes, std::size_t count) {
   sigset_t broken, before;
   sigemptyset(&broken);
@@ -44,7 +44,7 @@ bool writeAll(int pipe, const unsigned char* bytes, std::size_t count) {
     count -= static_cast<std::size_t>(done);
   }
   const timespec now{};
-  if (count > 0) sigtimedwait(&broken, nullptr, &now);  // it is pending: taken away before it may be delivered
+  if (count > 0) sigtimedwait(&broken, nullptr, &now);  // removes a pending SIGPIPE before it is delivered
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return count == 0;
 }
@@ -67,7 +67,7 @@ void Video::start(int width, int height) {
   }
   const std::string size = std::to_string(width) + "x" + std::to_string(height),
                     rate = std::to_string(std::lround(kRate));
-  // OSG's rows come from below; H.264 with colours at half the resolution asks for even sizes
+  // OSG's rows start at the bottom; H.264 with chroma subsampling requires even sizes
   std::array<const char*, 25> words{"ffmpeg",      "-y",         "-loglevel", "error",
                                     "-f",          "rawvideo",   "-pix_fmt",  "rgb24",
                                     "-s",          size.c_str(), "-r",        rate.c_str(),
@@ -88,7 +88,7 @@ void Video::start(int width, int height) {
 
 void Video::add(const osg::Image& picture, double time) {
   if (process_ < 0 && trouble_.empty()) start(picture.s(), picture.t());
-  if (picture.s() != width_ || picture.t() != height_) return;  // the window has another size now
+  if (picture.s() != width_ || picture.t() != height_) return;  // the window was resized
   while (due(time)) write(picture);
 }
 

@@ -7,8 +7,9 @@
 
 namespace presa::view {
 
-/// A film of a run, written by ffmpeg, whose input is a pipe. 30 pictures for each simulated second, whatever the machine's pace: one that
-/// is not there is the one before again. Thread: the view's; waits for ffmpeg.
+/// A video of a run, encoded by ffmpeg through a pipe. 30 frames per simulated second at any speed of the machine; a
+/// missing frame repeats the previous one.
+/// Thread: the view's; waits for ffmpeg.
 class Video {
  public:
   static constexpr double kRate = 30;  ///< [Hz]
@@ -19,11 +20,11 @@ class Video {
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
 
-  /// A picture is wanted at this simulated time [s].
+  /// Whether a frame is due at this simulated time [s].
   bool due(double time) const { return trouble_.empty() && wanted(time) > written_; }
-  /// The picture at that time, RGB. All pictures are as large as the first.
+  /// Adds the frame of that time, RGB. All frames have the size of the first.
   void add(const osg::Image& picture, double time);
-  /// Ends the film; empty, or why there is none.
+  /// Ends the video; returns "" or the reason for a failure.
   std::string finish();
 
  private:

@@ -9,16 +9,16 @@
 
 namespace presa::view {
 
-/// One moment of the run, copied from the ports: all that a picture is made of.
+/// One moment of the run, copied from the ports: the input of a picture.
 struct ViewFrame {
   double time = 0;                          ///< [s]
-  std::vector<Pose> X_WB;                   ///< as Scene::bodies
-  std::vector<bool> asleep;                 ///< as Scene::bodies
-  const ContactPatches* patches = nullptr;  ///< of the port; null: there are none
+  std::vector<Pose> X_WB;                   ///< in the order of Scene::bodies
+  std::vector<bool> asleep;                 ///< in the order of Scene::bodies
+  const ContactPatches* patches = nullptr;  ///< value of the port; null: not connected
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;
-  std::optional<Guidance> guidance;  ///< of scenes with an assembly
+  std::optional<Guidance> guidance;  ///< only in scenes with an assembly
 };
 
 }  // namespace presa::view

@@ -23,7 +23,7 @@ std::string timeStamp(double time) {
 
 ViewModule::ViewModule(std::shared_ptr<const World> world)
     : View("view_osg", RateGroup::kView), world_(std::move(world)) {
-  // Mesa's software renderer would take every core, the haptic thread's too. Set here, before any thread runs.
+  // Mesa's software renderer would use all cores, including the haptic thread's. Set before any thread starts.
   setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   frame_.asleep.resize(frame_.X_WB.size());
@@ -124,7 +124,8 @@ void ViewModule::copyPorts(const Tick& tick) {
   if (guide_) followAssembly(objects, tick.time);
 }
 
-// Every step, drawn or not: the guide counts hesitation in them. A viewer elsewhere gets no assembly's state and judges by poses.
+// Called in every step, because the guide measures hesitation. A remote viewer has no assembly state and estimates it
+// from poses.
 void ViewModule::followAssembly(const ObjectState& objects, double time) {
   guide_->step(time, objects,
                assembly_state_.hasValue() ? assembly_state_.value() : standing(*world_->scene.assembly, objects),

@@ -15,14 +15,15 @@
 
 namespace presa::view {
 
-/// The view: reads its ports, draws. Off-screen it only copies the states until the one picture is due; in a window
-/// every step is a frame. Thread: view; free to allocate; nobody waits for it.
+/// The view module. Off-screen it only copies the states until the picture is due; in a window every step draws a
+/// frame.
+/// Thread: view; may allocate; nothing waits for it.
 class ViewModule final : public View, public WatchedStages {
  public:
   explicit ViewModule(std::shared_ptr<const World> world);
   ~ViewModule() override;
 
-  /// Opens the window or the off-screen context. Throws InputError when it cannot.
+  /// Opens the window or the off-screen context. Throws InputError when that fails.
   void start() override;
   void step(const Tick& tick) noexcept override;
   void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
@@ -59,16 +60,16 @@ class ViewModule final : public View, public WatchedStages {
   In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
-  std::optional<In<ContactPatches>> patches_;     ///< only where they may be shown
-  std::optional<Out<PointerState>> pointer_out_;  ///< only when a finger points
+  std::optional<In<ContactPatches>> patches_;     ///< only if patches may be shown
+  std::optional<Out<PointerState>> pointer_out_;  ///< only with a pointer device
   std::optional<PointerControl> pointer_;
   TimeWish* time_ = nullptr;
-  double length_ = 0;  ///< of a recording [s]; 0: none
+  double length_ = 0;  ///< length of the recording [s]; 0: a run
   In<AssemblyState> assembly_state_{*this, "assembly_state", In<AssemblyState>::Optional{}};
 
   ViewFrame frame_;
-  std::optional<AssemblyGuide> guide_;  // of scenes with an assembly
-  double next_picture_ = 0;             // of RunOptions::screenshots [s]
+  std::optional<AssemblyGuide> guide_;  // only in scenes with an assembly
+  double next_picture_ = 0;             // next time for RunOptions::screenshots [s]
   GroupTimings timings_{};
   std::unique_ptr<Picture> picture_;
   std::unique_ptr<Renderer> renderer_;
@@ -78,7 +79,7 @@ class ViewModule final : public View, public WatchedStages {
   std::atomic<bool> wants_stop_{false};
   std::atomic<std::uint32_t> undos_{0}, inputs_{0};
   std::atomic<double> sharpness_{1};
-  bool broken_ = false;  ///< drawing failed once: the run goes on without a picture
+  bool broken_ = false;  ///< drawing failed: the run continues without pictures
 };
 
 }  // namespace presa::view

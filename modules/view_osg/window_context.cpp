@@ -22,7 +22,7 @@ osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, int wi
   return window && window->valid() ? window : nullptr;
 }
 
-/// Mesa draws on the processor.
+/// Whether Mesa renders in software.
 bool isSoftware(osg::GraphicsContext& window) {
   if (!window.realize() || !window.makeCurrent()) return false;
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -44,8 +44,8 @@ std::string whyNoWindow() {
 
 }  // namespace
 
-// The plain window stays open until the smooth one is: an X server resets when its last client leaves and drops
-// whoever connects meanwhile.
+// The plain window stays open until the multisampled one is: an X server resets when its last client leaves, and drops
+// clients that connect meanwhile.
 WindowContext openWindow(const std::string& title, int width, int height) {
   WindowContext plain{createWindow(title, width, height, 0)};
   if (!plain.context) throw std::runtime_error(whyNoWindow());

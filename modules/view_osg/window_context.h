@@ -6,11 +6,11 @@ namespace presa::view {
 
 struct WindowContext {
   osg::ref_ptr<osg::GraphicsContext> context;
-  bool software = false;  ///< drawn by the processor
+  bool software = false;  ///< software rendering
 };
 
-/// A decorated window on the display of the environment, with smooth edges where a graphics card pays for them and the X server
-/// has such a visual. Throws std::runtime_error that says why there is none.
+/// A decorated window on the display of the environment, multisampled if there is a graphics card and the X server has
+/// such a visual. Throws std::runtime_error with the reason.
 WindowContext openWindow(const std::string& title, int width, int height);
 
 }  // namespace presa::view

@@ -8,12 +8,12 @@ namespace {
 
 using Event = osgGA::GUIEventAdapter;
 
-constexpr double kNotch = 1.12;          // a notch of the wheel changes the distance by this factor
-constexpr double kZoomDrag = 1.5;        // exponent of a drag over half of the picture's height
-constexpr double kFlyStep = 0.06;        // of an arrow key, in distances to the target
-constexpr double kShortJump = 1.0 / 60;  // [s] back: what a single step goes ahead
-constexpr double kStill = 0.01;          // a click is a drag by less than this
-constexpr double kFineShare = 0.2;       // of a key's step, with Shift
+constexpr double kNotch = 1.12;          // distance factor per wheel notch
+constexpr double kZoomDrag = 1.5;        // exponent of the zoom for a drag over half of the picture's height
+constexpr double kFlyStep = 0.06;        // per arrow key, in distances to the target
+constexpr double kShortJump = 1.0 / 60;  // length of a step back, as a single step ahead [s]
+constexpr double kStill = 0.01;          // a shorter drag counts as a click
+constexpr double kFineShare = 0.2;       // fraction of a key's step with Shift
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;
 
 bool has(const Event& event, int mask) { return (event.getModKeyMask() & mask) != 0; }

@@ -9,19 +9,19 @@
 
 namespace presa::view {
 
-/// What the user of a window moves besides the camera; null: not here.
+/// Objects controlled from a window besides the camera; null: not available.
 struct Controls {
   PointerControl* pointer = nullptr;
   TimeWish* time = nullptr;
-  bool undo = false;  ///< there is something to take out again
+  bool undo = false;  ///< undo is available
 };
 
-/// How often the user asked to take out what was put last, and did anything at all, since the start.
+/// Counters since the start: undo requests, and inputs of any kind.
 struct Inputs {
   std::uint32_t undos = 0, all = 0;
 };
 
-/// Mouse and keys of the window, each given to what it moves. The table of all of them is `helpLines`.
+/// Dispatches mouse and keys of the window. `helpLines` lists them.
 class WindowInput : public osgGA::GUIEventHandler {
  public:
   WindowInput(Picture& picture, CameraControl& camera, const Controls& controls);
@@ -29,8 +29,8 @@ class WindowInput : public osgGA::GUIEventHandler {
 
   Inputs inputs;
   bool picture_requested = false;
-  bool frame_requested = true;  ///< the first frame frames
-  bool following = true;        ///< until the user takes the camera in hand
+  bool frame_requested = true;  ///< frame the subject at once; set for the first frame
+  bool following = true;        ///< false once the user has moved the camera
 
  private:
   enum class Drag { kNone, kOrbit, kPan, kZoom, kPairLevel, kPairUpright, kTime };
@@ -49,8 +49,8 @@ class WindowInput : public osgGA::GUIEventHandler {
   CameraControl& camera_;
   Controls controls_;
   Drag drag_ = Drag::kNone;
-  double dragged_ = 0;  // since the button went down, as at_
-  osg::Vec2 at_;        // of the mouse, in halves of the picture's height
+  double dragged_ = 0;  // length of the current drag, in the units of at_
+  osg::Vec2 at_;        // mouse position, in halves of the picture's height
   double aspect_ = 16.0 / 9;
 };
 

@@ -28,7 +28,7 @@ class WindowRenderer final : public Renderer {
       picture.setQuick(true);
       coarse_.emplace(picture);
     }
-    // what is hidden is not drawn first
+    // front to back, so that hidden surfaces are not shaded
     osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
@@ -63,7 +63,7 @@ class WindowRenderer final : public Renderer {
   }
   osg::ref_ptr<osg::Image> capture() override {
     if (closed()) return nullptr;
-    setSize(width_, height_, 1);  // what is kept is sharp
+    setSize(width_, height_, 1);  // saved pictures have full resolution
     grabber_->arm();
     draw();
     setSize(width_, height_, budget_.share());
@@ -87,7 +87,7 @@ class WindowRenderer final : public Renderer {
     viewer_.updateTraversal();
     viewer_.renderingTraversals();
   }
-  /// Of the window, and the share of it in which bodies are drawn.
+  /// Size of the window, and fraction of the resolution at which bodies are drawn.
   void setSize(int width, int height, double share) {
     width_ = width, height_ = height, share_ = share;
     picture_.hud().setAspect(static_cast<double>(width) / height);
@@ -96,7 +96,7 @@ class WindowRenderer final : public Renderer {
     else
       picture_.setSize(width, height);
   }
-  /// Keeps bodies and fingers in the picture, gently; at once when asked for.
+  /// Keeps bodies and fingers in the picture, smoothly; at once on request.
   void follow() {
     const double now = viewer_.elapsedTime();
     double share = 1 - std::exp(-(now - followed_at_) / kFollowTime);
@@ -116,7 +116,7 @@ class WindowRenderer final : public Renderer {
   osg::ref_ptr<WindowInput> input_;
   double heading_ = 0;
   double followed_at_ = 0;
-  std::optional<CoarseSpace> coarse_;  // where the processor draws
+  std::optional<CoarseSpace> coarse_;  // only with software rendering
   FrameBudget budget_;
   int width_ = 0, height_ = 0;
   double share_ = 1;

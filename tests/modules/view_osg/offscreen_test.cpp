@@ -42,7 +42,8 @@ class PngPicture {
   osg::ref_ptr<osg::Image> image_;
 };
 
-/// The rubber: red is over 1.5 times green and blue in light or shadow (linear 0.75 : 0.25 : 0.2, sRGB 0.88 : 0.54 : 0.48).
+/// The rubber: red is over 1.5 times green and blue in light or shadow (linear 0.75 : 0.25 : 0.2, sRGB 0.88 : 0.54 :
+/// 0.48).
 bool isCubeRed(const Color& c) { return c.r > 60 && 2 * c.r > 3 * c.g && 2 * c.r > 3 * c.b; }
 
 struct Blob {
@@ -59,7 +60,7 @@ Blob redBlob(const PngPicture& picture) {
   return blob;
 }
 
-/// Runs an off-screen view over one tick and returns what became of the picture.
+/// Runs an off-screen view for one tick and returns the outcome of the picture.
 View::Screenshot drawOnce(const std::shared_ptr<World>& world, const PinchStates& states) {
   view::ViewModule module(world);
   Feed feed(module);
@@ -72,12 +73,12 @@ View::Screenshot drawOnce(const std::shared_ptr<World>& world, const PinchStates
 
 class Offscreen : public testing::Test {
  protected:
-  // a display would hide that the view needs none
+  // with a display the test would not prove that none is needed
   void SetUp() override { unsetenv("DISPLAY"); }
 };
 
-// The picture in the README and in reports must come out on a server: a PNG of the promised size whose header any
-// reader understands, with the cube in its middle and the figures on it.
+// Off-screen pictures for README and reports must work on a server: a PNG of the stated size with a valid header, with
+// the cube in its middle and the head-up display.
 TEST_F(Offscreen, PictureHasTheSizeTheCubeAndTheDisplay) {
   const std::string file = tempFile("pinch.png");
   const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
@@ -99,7 +100,7 @@ TEST_F(Offscreen, PictureHasTheSizeTheCubeAndTheDisplay) {
   EXPECT_TRUE(isCubeRed(middle)) << middle.r << ' ' << middle.g << ' ' << middle.b;
   EXPECT_FALSE(isCubeRed(picture.at(640, 20)));
 
-  // text is nearly white; nothing else at the upper left is
+  // text is nearly white, and nothing else at the upper left is
   int ink = 0;
   for (int y = 20; y < 60; ++y)
     for (int x = 18; x < 120; ++x) {
@@ -109,14 +110,14 @@ TEST_F(Offscreen, PictureHasTheSizeTheCubeAndTheDisplay) {
   EXPECT_GT(ink, 100);
 }
 
-// Poses come from Object State, not from the scene: a cube moved to the right, with no finger near, is drawn further right
-// than the one that stays while the camera keeps both in view.
+// Poses come from the object state, not from the scene: a cube moved to the right, without fingers, is drawn farther
+// right, with the camera fixed.
 TEST_F(Offscreen, MovingTheObjectMovesItsPixels) {
   std::array<Blob, 2> blobs;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string file = tempFile("moved_" + std::to_string(i) + ".png");
     const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
-    // a free anchor of another colour on either side holds the framing still
+    // a free anchor of another colour on either side keeps the framing constant
     for (const double x : {-0.15, 0.15}) {
       Body anchor = world->scene.bodies[1];
       anchor.material = 0;
@@ -133,7 +134,7 @@ TEST_F(Offscreen, MovingTheObjectMovesItsPixels) {
   EXPECT_GT(blobs[1].x, blobs[0].x + 40);
 }
 
-// Without dynamics (a fixed world, or before the first step) nobody publishes Object State: bodies stay where the scene put them.
+// Without dynamics (a fixed world, or before the first step) there is no object state: bodies have their start poses.
 TEST_F(Offscreen, WithoutObjectStateBodiesStandAtTheirStart) {
   const std::string file = tempFile("start.png");
   const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
@@ -145,7 +146,8 @@ TEST_F(Offscreen, WithoutObjectStateBodiesStandAtTheirStart) {
   EXPECT_TRUE(isCubeRed(PngPicture(file).at(640, 360)));
 }
 
-// The picture shows the moment asked for: taken at the first tick not before it, and later ticks leave it alone.
+// The picture shows the requested moment: it is taken at the first tick not before that time, and later ticks do not
+// change it.
 TEST_F(Offscreen, PictureIsTakenAtItsTime) {
   const std::string file = tempFile("timed.png");
   const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
@@ -164,7 +166,7 @@ TEST_F(Offscreen, PictureIsTakenAtItsTime) {
   EXPECT_NE(module.screenshot().message.find("t = 0.100 s"), std::string::npos) << module.screenshot().message;
 }
 
-// A path that cannot be written is the user's mistake, found late: the run must end with the reason, not with a crash.
+// An unwritable path is a user error that is found late: the run must report the reason and not crash.
 TEST_F(Offscreen, UnwritablePathIsReported) {
   const auto world = makePinchWorld(RunOptions::View::kOffscreen, "/nowhere/at/all/picture.png");
   const View::Screenshot made = drawOnce(world, makePinchStates(*world, {0, 0, 0.08}));
@@ -172,7 +174,7 @@ TEST_F(Offscreen, UnwritablePathIsReported) {
   EXPECT_NE(made.message.find("/nowhere/at/all/picture.png"), std::string::npos);
 }
 
-// A window without a display is refused before the run begins, with a way out.
+// A window without a display is refused before the run starts, with a suggestion.
 TEST_F(Offscreen, WindowWithoutDisplayIsAnInputError) {
   view::ViewModule module(makePinchWorld(RunOptions::View::kWindow, ""));
   try {
@@ -183,7 +185,7 @@ TEST_F(Offscreen, WindowWithoutDisplayIsAnInputError) {
   }
 }
 
-/// Pixels of a wire: much more of `strong` than of `weak`.
+/// Number of wire pixels: much more `strong` than `weak`.
 template <class Strong, class Weak>
 int wires(const PngPicture& picture, Strong strong, Weak weak) {
   int pixels = 0;
@@ -193,7 +195,8 @@ int wires(const PngPicture& picture, Strong strong, Weak weak) {
   return pixels;
 }
 
-// --show brings up lines of the haptic (blue) and the physics (magenta) geometry, and leaves the bodies out; without it there are none.
+// --show adds lines of the haptic (blue) and the physics (magenta) geometry and can hide the bodies; by default there
+// are no lines.
 TEST_F(Offscreen, ShowsWhatIsAskedFor) {
   const auto draw = [](std::vector<std::string> show) {
     const std::string file = tempFile("show.png");
@@ -216,8 +219,9 @@ TEST_F(Offscreen, ShowsWhatIsAskedFor) {
   EXPECT_THROW(view::ViewModule module(world), InputError);
 }
 
-// Over the last of five seconds thumb and index press with a constant force each; the larger one is the scale's end, so that its line
-// runs along the top of the plot (364 lines above the lower edge) for the last fifth of its width, and the rest is empty.
+// During the last of five seconds thumb and index press with a constant force each. The larger force is the end of the
+// scale, so its line runs along the top of the plot (364 lines above the lower edge) for the last fifth of its width;
+// the rest is empty.
 TEST_F(Offscreen, PlotsTheLastSeconds) {
   const std::string file = tempFile("plots.png");
   const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
@@ -233,7 +237,7 @@ TEST_F(Offscreen, PlotsTheLastSeconds) {
     module.stop();
   }
   const PngPicture picture(file);
-  const auto line = [&](int x) {  // within two lines of where it should be: it is one line thick, and averaged
+  const auto line = [&](int x) {  // within two lines of the expected height: it is one line thick, and averaged
     int most = 0;
     for (int y = 354; y <= 358; ++y) most = std::max(most, picture.at(x, y).b - picture.at(x, y).r);
     return most;

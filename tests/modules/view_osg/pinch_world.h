@@ -8,24 +8,24 @@
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
 
-/// A cube held by two fingers above a table, made by hand: the view needs no scene file and no other module.
+/// A cube held by two fingers above a table, built in code, without a scene file or other modules.
 namespace presa::view_test {
 
 inline constexpr double kCubeEdge = 0.07;  ///< [m]
 
 std::shared_ptr<World> makePinchWorld(RunOptions::View view, const std::string& screenshot);
 
-/// What the other modules would publish.
+/// The states that other modules would publish.
 struct PinchStates {
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;
   ObjectState objects;
 };
-/// Thumb sticks, index slips; the cube's centre at `p_WO`, turned by `yaw` about z.
+/// The thumb sticks, the index slips; the cube's centre is at `p_WO`, rotated by `yaw` about z.
 PinchStates makePinchStates(const World& world, const Vec3& p_WO, double yaw = 0);
 
-/// Feeds a view's ports as the graph would.
+/// Feeds a view's ports like the graph.
 class Feed {
  public:
   explicit Feed(Module& view);

@@ -10,7 +10,7 @@
 namespace presa::view {
 namespace {
 
-/// Draws `frames`, each of which takes `whole` [s] at full size and half a millisecond besides.
+/// Adds `frames` frames that take `whole` [s] at full resolution, plus half a millisecond each.
 void draw(FrameBudget& budget, double whole, int frames) {
   for (int i = 0; i < frames; ++i) budget.add(0.0005 + whole * budget.share() * budget.share());
 }
@@ -22,7 +22,7 @@ TEST(FrameBudget, DrawsLessOfTheWindowUntilFramesComeInTime) {
   draw(budget, 0.045, 100);
   EXPECT_EQ(budget.share(), 0.75);
   draw(budget, 0.200, 100);
-  EXPECT_EQ(budget.share(), FrameBudget::kLeast);  // not less, however long it takes
+  EXPECT_EQ(budget.share(), FrameBudget::kLeast);  // the minimum, however long a frame takes
   draw(budget, 0.010, 100);
   EXPECT_EQ(budget.share(), 1);
 }
@@ -43,7 +43,7 @@ TEST(FrameBudget, NeitherSwingsNorMindsAFrameThatWasHeldUp) {
   EXPECT_EQ(changes, 0);
 }
 
-/// A round block: `around` facets, in `rows` rows one above the other, and its two ends.
+/// A cylinder with `around` facets in `rows` rows, and its two ends.
 TriMesh drum(double radius, double height, int around, int rows) {
   TriMesh mesh;
   for (int row = 0; row <= rows; ++row) {
@@ -80,7 +80,7 @@ TEST(FewerFacets, LeavesOutWhatTheShapeDoesNotNeed) {
   const TriMesh fine = drum(kRadius, kHeight, 80, 12);
   const TriMesh fewer = fewerFacets(fine, kTolerance);
   EXPECT_LT(fewer.triangles.size(), fine.triangles.size() / 3);
-  // a surface that moves by no more than the tolerance: so much of the volume at most
+  // a surface that moves by the tolerance at most changes the volume by at most this
   const double skin =
       kTolerance * (2 * std::numbers::pi * kRadius * kHeight + 2 * std::numbers::pi * kRadius * kRadius);
   EXPECT_NEAR(volumeOf(fewer), volumeOf(fine), skin);

@@ -20,7 +20,7 @@ FingerView pressing(const Vec3& nhat_W, double newton, std::int32_t body = 0) {
   return finger;
 }
 
-// A grip squeezes; a push moves. Only what the normal forces cancel on one body counts.
+// Grip force counts only the normal forces that cancel on one body; a push moves the body instead.
 TEST(Readings, GripForceIsWhatTheNormalsCancel) {
   const Vec3 x = Vec3::UnitX();
   EXPECT_DOUBLE_EQ(gripForce({pressing(x, 3), pressing(-x, 3)}), 3);
@@ -31,8 +31,8 @@ TEST(Readings, GripForceIsWhatTheNormalsCancel) {
   EXPECT_DOUBLE_EQ(gripForce({}), 0);
 }
 
-// Fingertips ride on the body as drawn: with the cube moved and turned after the contact was found, the proxy stays one
-// fingertip radius off the touched point, along the turned normal.
+// Fingertips are placed relative to the body as drawn: when the cube has moved and rotated since the contact was
+// computed, the proxy stays one fingertip radius off the touched point, along the rotated normal.
 TEST(Readings, ProxyRidesOnTheBodyAsDrawn) {
   const auto world = view_test::makePinchWorld(RunOptions::View::kOffscreen, "");
   const auto states = view_test::makePinchStates(*world, {0, 0, 0.08});
@@ -43,7 +43,7 @@ TEST(Readings, ProxyRidesOnTheBodyAsDrawn) {
   frame.X_WB = {Pose{}, Pose{{0.1, 0.2, 0.3}, Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()))}};
   const std::vector<FingerView> fingers = fingerViews(*world, frame);
   ASSERT_EQ(fingers.size(), 2U);
-  // thumb: at -x of the cube, which a quarter turn brings to -y
+  // the thumb is at -x of the cube, which a quarter turn moves to -y
   const Vec3 touched(0.1, 0.2 - view_test::kCubeEdge / 2, 0.304);
   EXPECT_LT((fingers[0].p_WC - touched).norm(), 1e-15);  // rounding
   EXPECT_LT((fingers[0].p_WP - (touched - 0.008 * Vec3::UnitY())).norm(), 1e-15);
@@ -59,8 +59,8 @@ TEST(Creases, BoxKeepsItsEdges) {
   for (const auto& normal : mesh.normals) EXPECT_NEAR(normal.cwiseAbs().maxCoeff(), 1, 1e-6);  // float
 }
 
-// A sphere is round: one normal per vertex, along its radius. Angle-weighted normals of this subdivision lean by far less
-// than its faces do (edge / radius is about 1/13, so a face leans by up to 2.5 degrees).
+// A sphere is smooth: one normal per vertex, along its radius. Angle-weighted normals deviate far less than the faces
+// do (edge / radius is about 1/13, so a face deviates by up to 2.5 degrees).
 TEST(Creases, SphereIsSmooth) {
   const TriMesh sphere = makeSphere(0.05);
   const ShadedMesh mesh = shadeWithCreases(sphere, 40 * std::numbers::pi / 180);
@@ -69,7 +69,7 @@ TEST(Creases, SphereIsSmooth) {
     EXPECT_GT(mesh.normals[i].dot(mesh.positions[i].normalized()), std::cos(0.5 * std::numbers::pi / 180));
 }
 
-/// Shares of the picture's half width and half height that a ball reaches to, seen through the planes that touch it.
+/// Fractions of the picture's half width and half height to which a ball extends, measured by its tangent planes.
 struct Share {
   double left, right, down, up;
 };
@@ -84,7 +84,7 @@ Share shareOf(const Ball& ball, const CameraPose& pose, double aspect) {
   return {reach(-right) / aspect, reach(right) / aspect, reach(-up), reach(up)};
 }
 
-// Whatever the scene's size, everything lies inside the picture, and the camera looks from the front, right and above.
+// At any scale everything lies inside the picture, and the camera looks from the front, right and above.
 TEST(Framing, HoldsEveryBallAtAnyScale) {
   for (const double scale : {0.3, 1.0, 20.0}) {
     const std::vector<Ball> balls{{{0, 0, 0.1 * scale}, 0.06 * scale}, {{0.3 * scale, -0.1 * scale, 0}, 0.01 * scale}};
@@ -99,8 +99,8 @@ TEST(Framing, HoldsEveryBallAtAnyScale) {
   }
 }
 
-// A wide flat field, a tower and one ball each fill what they may of the picture's width (52 %) or height (80 %) to the last digit, and
-// leave as much room on the left as on the right, above as below. Slopes, so exact but for rounding.
+// A wide flat field, a tower and one ball each use the allowed fraction of the picture's width (52 %) or height (80 %)
+// exactly, with equal margins left and right, above and below. Exact up to rounding.
 TEST(Framing, FillsThePictureWithFieldsAndTowers) {
   const auto grid = [](const Vec3& half) {
     std::vector<Ball> balls;
@@ -118,7 +118,7 @@ TEST(Framing, FillsThePictureWithFieldsAndTowers) {
         most = {std::max(most.left, share.left), std::max(most.right, share.right), std::max(most.down, share.down),
                 std::max(most.up, share.up)};
       }
-      EXPECT_NEAR(most.left, most.right, 0.02);  // of the half width; exact where the width decides
+      EXPECT_NEAR(most.left, most.right, 0.02);  // relative to the half width; exact where the width is limiting
       EXPECT_NEAR(std::max(most.right / 0.52, most.up / 0.80), 1, 1e-9);
       EXPECT_LE(std::max(most.left / 0.52, most.down / 0.80), 1 + 1e-9);
     }

@@ -15,7 +15,7 @@
 namespace presa::view_test {
 namespace {
 
-// Opens a real window on the display it finds: run by the test below under its own X server.
+// Opens a real window on the current display; run by the test below under its own X server.
 TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
   const std::string file = testing::TempDir() + "presa_window_" + std::to_string(getpid()) + ".png";
   const auto world = makePinchWorld(RunOptions::View::kWindow, file);
@@ -30,16 +30,16 @@ TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
   }
   module.stop();
   EXPECT_EQ(module.screenshot().outcome, View::Screenshot::Outcome::kWritten) << module.screenshot().message;
-  EXPECT_GT(std::filesystem::file_size(file), 20000U);  // a uniform 1280 x 720 picture packs to a few kilobytes
+  EXPECT_GT(std::filesystem::file_size(file), 20000U);  // a uniform 1280 x 720 picture compresses to a few kilobytes
   std::filesystem::remove(file);
 }
 
-/// A window that is driven through OSG's event queue, as its X events are. The scene stands still.
+/// A window driven through OSG's event queue, like X events. The scene does not move.
 class Driven {
  public:
   explicit Driven(bool pointer = false) : module_(world_), feed_(module_) {
     if (pointer) module_.offerPointer({0, 1});
-    // pictures that a key asks for go there, and into nobody else's
+    // a private folder for pictures saved by key
     const std::string folder = testing::TempDir() + "presa_view_" + std::to_string(getpid());
     std::filesystem::create_directories(folder);
     std::filesystem::current_path(folder);
@@ -93,14 +93,14 @@ class Driven {
     frame();
     events().getCurrentEventState()->setModKeyMask(0);
   }
-  /// What the view says of the pair; as the graph would read it.
+  /// The view's pointer state, as the graph would read it.
   const PointerState& pair() const {
     for (const OutPortBase* port : module_.outputs()) {
       if (port->name() == kPointerPort) return static_cast<const Out<PointerState>*>(port)->value;
     }
     throw std::logic_error("the view has no pointer");
   }
-  /// Pixels from the left and from the top at which the window shows a point.
+  /// Pixel position of a point in the window, from the left and from the top.
   osg::Vec2 pixelOf(const Vec3& p_W) const {
     const osg::Camera& camera = **window_->getCameras().begin();
     const osg::Vec3d at = osg::Vec3d(p_W.x(), p_W.y(), p_W.z()) * camera.getViewMatrix() *
@@ -108,13 +108,13 @@ class Driven {
     return {static_cast<float>(at.x()), static_cast<float>(camera.getViewport()->height() - at.y())};
   }
 
-  /// Where the camera is and what it looks at, some way off [m].
+  /// Position of the camera, and a point that it looks at [m].
   std::pair<osg::Vec3d, osg::Vec3d> look() const {
     osg::Vec3d eye, center, up;
     (*window_->getCameras().begin())->getViewMatrixAsLookAt(eye, center, up);
     return {eye, center - eye};
   }
-  /// Bytes of the picture that the key 's' saves; the file is gone afterwards.
+  /// Contents of the picture that the key 's' saves; the file is removed.
   std::string pictureByKey() {
     press('s');
     std::ostringstream bytes;
@@ -136,17 +136,17 @@ class Driven {
   osgViewer::GraphicsWindow* window_ = nullptr;
 };
 
-// What the help of the window promises, key by key and with the mouse.
+// Every key and mouse action listed in the help.
 TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
   Driven view;
   ASSERT_TRUE(view.found());
   const auto framed = view.look();
-  view.press(' ');  // reserved: must not jump to the manipulator's home
+  view.press(' ');  // reserved: must not trigger the manipulator's home position
   EXPECT_LT((view.look().first - framed.first).length(), 1e-9);
 
   const std::string plain = view.pictureByKey();
   EXPECT_GT(plain.size(), 20000U);
-  const std::string told = view.pictureByKey();  // now with the line that says what was saved
+  const std::string told = view.pictureByKey();  // now with the message about the saved picture
   view.press('?');
   EXPECT_FALSE(view.pictureByKey() == told);
   view.press('?');
@@ -158,14 +158,14 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
   view.scroll();
   EXPECT_GT((view.look().first - turned.first).length(), 1e-3);
   const auto before = view.look();
-  view.press(osgGA::GUIEventAdapter::KEY_Right);  // flies: eye and target together, to the camera's right
+  view.press(osgGA::GUIEventAdapter::KEY_Right);  // moves eye and target together, to the camera's right
   EXPECT_GT((view.look().first - before.first).length(), 1e-3);
   EXPECT_LT((view.look().second - before.second).length(), 1e-9);
-  view.press('h');  // back to where everything is in the picture
+  view.press('h');  // back to automatic framing
   view.frame();
   EXPECT_LT((view.look().first - framed.first).length(), 1e-6);
 
-  // a part comes with its key; pictures are compared without being printed
+  // a key shows a part; pictures are compared without printing them
   const std::string all = view.pictureByKey();
   for (const char key : {'3', '0', 'g'}) {
     view.press(key);
@@ -173,7 +173,7 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
     view.press(key);
   }
 
-  // a click on the cube tells of it, a click on nothing no more; two in a row bring it to the middle of the picture
+  // a click on the cube shows its card, a click on nothing hides it; a double click centres the cube
   const osg::Vec2 cube = view.pixelOf({0.02, -0.034, 0.09});
   view.drag(cube, cube);
   EXPECT_FALSE(view.pictureByKey() == all);
@@ -181,7 +181,7 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
   EXPECT_TRUE(view.pictureByKey() == all);
   view.doubleClick(cube);
   EXPECT_LT((view.pixelOf({0.02, -0.034, 0.09}) - osg::Vec2(640, 360)).length(),
-            8);  // the ray meets the cube's face close by
+            8);  // the ray meets the nearby face of the cube
 
   EXPECT_FALSE(view.wantsStop());
   view.press(osgGA::GUIEventAdapter::KEY_Escape);
@@ -189,7 +189,8 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
   EXPECT_TRUE(view.wantsStop());
 }
 
-// The pair follows the mouse, pixel for pixel, in the plane that is asked for; the camera stays. Keys and wheel move it by their steps.
+// The pair follows the mouse, pixel for pixel, in the selected plane; the camera stays. Keys and wheel move the pair by
+// their steps.
 TEST(OnDisplay, DISABLED_MovesThePair) {
   Driven view(true);
   ASSERT_TRUE(view.found());
@@ -202,7 +203,7 @@ TEST(OnDisplay, DISABLED_MovesThePair) {
   const osg::Vec2 from = view.pixelOf(start);
   view.drag({600, 400}, {680, 370});
   EXPECT_LT((view.pixelOf(view.pair().p_WT) - from - osg::Vec2(80, -30)).length(),
-            6);  // nearer and farther changes the scale
+            6);  // motion in depth changes the scale
   EXPECT_DOUBLE_EQ(view.pair().p_WT.z(), start.z());
   const Vec3 level = view.pair().p_WT;
   view.drag({600, 400}, {600, 340}, 1, osgGA::GUIEventAdapter::MODKEY_LEFT_SHIFT);
@@ -234,7 +235,7 @@ TEST(OnDisplay, DISABLED_MovesThePair) {
   EXPECT_EQ(view.pair().sequence, held.sequence);
 }
 
-/// Status of one of the tests above under an X server of its own; what it said is in `log`.
+/// Exit status of one of the tests above under its own X server; its output is in `log`.
 int onDisplay(const std::string& test, const std::string& log) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   return std::system(("xvfb-run -a -s '-screen 0 1400x900x24' '" + program + "' --gtest_filter=OnDisplay.DISABLED_" +
@@ -242,7 +243,7 @@ int onDisplay(const std::string& test, const std::string& log) {
                          .c_str());
 }
 
-// The window must work on any X server, also one with a software renderer: opens, draws five frames, saves, closes.
+// The window must work on any X server, also with a software renderer: open, draw five frames, save, close.
 TEST(Window, OpensDrawsAndClosesUnderXvfb) {
   const std::string log = testing::TempDir() + "presa_window_" + std::to_string(getpid()) + ".log";
   EXPECT_EQ(onDisplay("DrawsFiveFrames", log), 0) << "see " << log;
