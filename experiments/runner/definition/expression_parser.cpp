@@ -18,7 +18,7 @@ struct Unknown {
 
 }  // namespace
 
-/// Recursive descent; every level of the grammar is one function.
+/// Recursive-descent parser; one function per level of the grammar.
 class ExpressionParser {
  public:
   using Code = Expression::Code;
@@ -55,7 +55,7 @@ class ExpressionParser {
     token_ = text_.substr(start_, at_ - start_);
   }
 
-  // the minus of 1e-3
+  // the minus sign in 1e-3
   bool isExponentSign() const {
     const char before = text_[at_ - 1];
     return (text_[at_] == '-' || text_[at_] == '+') && (before == 'e' || before == 'E') &&
@@ -81,7 +81,7 @@ class ExpressionParser {
     out_.program_.push_back({code});
   }
   void push(Expression::Instruction instruction) {
-    if (++depth_ > Expression::kMaxDepth) throw Syntax{start_, "too deep", "split it into several"};
+    if (++depth_ > Expression::kMaxDepth) throw Syntax{start_, "the expression is too deep", "split it into several"};
     out_.program_.push_back(instruction);
   }
 
@@ -89,7 +89,7 @@ class ExpressionParser {
 
   struct Nesting {
     explicit Nesting(ExpressionParser& parser) : parser_(parser) {
-      if (++parser_.nesting_ > 64) throw Syntax{parser_.start_, "too deep", "split it into several"};
+      if (++parser_.nesting_ > 64) throw Syntax{parser_.start_, "the expression is too deep", "split it into several"};
     }
     ~Nesting() { --parser_.nesting_; }
     ExpressionParser& parser_;
@@ -157,7 +157,7 @@ class ExpressionParser {
     advance();
     if (token_ == "(") return call(name, start);
     const auto slot = names_->find(name);
-    if (!slot) throw Unknown{"there is no number " + quote(name) + didYouMean(name, names_->all())};
+    if (!slot) throw Unknown{"unknown name " + quote(name) + didYouMean(name, names_->all())};
     push({Code::kSlot, 0, *slot});
   }
   void number() {
@@ -221,7 +221,7 @@ class ExpressionParser {
     return static_cast<std::size_t>(found - phases_->begin());
   }
 
-  // an expression over samples inside one over measures
+  // compiles an expression over samples inside an expression over measures
   Expression inner() {
     Expression outer = std::exchange(out_, {});
     const std::size_t depth = std::exchange(depth_, 0);

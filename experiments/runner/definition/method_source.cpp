@@ -23,7 +23,7 @@ void MethodSource::advance() {
   next_->number = block.practice ? block.number : number_;
   next_->attempt = attempt_;
   next_->stimulus = method_->next();
-  // by number and attempt: an interrupted trial comes again with the same one
+  // seeded by number and attempt, so that an interrupted trial is repeated with the same seed
   next_->seed = RandomStream(block.seed, "trial", std::uint64_t(next_->number) * 1000 + std::uint64_t(attempt_)).bits();
 }
 

@@ -5,11 +5,11 @@
 
 namespace presa::experiment {
 
-/// Trials that a method chooses, block by block: each planned condition is a block with a method of its own. Practice
-/// presents the method's first stimulus and forgets the answer.
+/// Trials chosen by a psychophysical method. Each planned condition is a block with its own instance of the method. A
+/// practice trial presents the first stimulus of a fresh method and discards the answer.
 class MethodSource final : public TrialSource {
  public:
-  /// `planned`: see planTrials; outlived by `experiment`.
+  /// `planned`: the blocks, as planTrials() returns them. `experiment` must outlive this object.
   MethodSource(const Experiment& experiment, std::vector<PlannedTrial> planned);
 
   const PlannedTrial* next() const override { return next_ ? &*next_ : nullptr; }
@@ -20,11 +20,11 @@ class MethodSource final : public TrialSource {
   const psychophysics::Method* method() const override { return method_.get(); }
 
  private:
-  /// The next trial of the method; the next block when it has finished.
+  /// Offers the next trial of the current method, or starts the next block when the method has finished.
   void advance();
 
   const Experiment& experiment_;
-  std::deque<PlannedTrial> blocks_;  // the first one goes on
+  std::deque<PlannedTrial> blocks_;  // front: the current block
   std::unique_ptr<psychophysics::Method> method_;
   std::optional<PlannedTrial> next_;
   std::size_t done_ = 0;

@@ -14,14 +14,14 @@ std::uint64_t itemOf(int subject_number, int session) {
   return (static_cast<std::uint64_t>(subject_number) << 32) + static_cast<std::uint64_t>(session);
 }
 
-/// The row of a square: subjects of one cell take one after the other, and each goes on by one in the next session, so
-/// that neither group nor session goes with a row.
+/// Row of a Latin square. Subjects of one cell take successive rows, and each advances by one row per session, so that
+/// neither group nor session is confounded with a row.
 std::size_t rowOf(const Experiment& experiment, int subject_number, int session) {
   return static_cast<std::size_t>(subject_number - 1) / cellsOf(experiment) + static_cast<std::size_t>(session - 1);
 }
 
-/// Swaps a trial that repeats its forerunner with a later or earlier one where neither then repeats; within `from` … end, so that
-/// blocks and repeats keep what they hold. False: there is no such order nearby.
+/// Removes immediate repeats in [from, to) by swapping a repeated trial with another one of that range, so that other
+/// blocks and repeats keep their contents. False: no single swap helps.
 bool partNeighbours(std::vector<Condition>& all, std::size_t from, std::size_t to) {
   const auto repeats = [&](std::size_t i) { return i > 0 && i < all.size() && all[i] == all[i - 1]; };
   const auto bad = [&](std::size_t i) { return repeats(i) || repeats(i + 1); };
@@ -70,14 +70,14 @@ class Orderer {
     return order;
   }
 
-  /// No condition follows itself in what `from` … `to` holds, nor at its start.
+  /// Orders `from` … `to` so that no condition follows itself, the one before `from` included.
   void part(std::vector<Condition>& all, std::size_t from, std::size_t to) {
     for (int tries = 0; tries < kMostTries && !partNeighbours(all, from, to); ++tries)
       random_.shuffle(std::span<Condition>(all).subspan(from, to - from));
   }
 
  private:
-  static constexpr int kMostTries = 1000;  // three conditions need a second one now and then
+  static constexpr int kMostTries = 1000;  // with three conditions one shuffle is not always enough
 
   std::vector<std::size_t> fromRow(const Square& square) const { return square[row_ % square.size()]; }
 
@@ -93,7 +93,7 @@ std::size_t indexOf(const Experiment& experiment, const std::string& factor) {
   return experiment.factors.size();
 }
 
-/// The conditions of each block, blocks in their order.
+/// The conditions of each block, in block order.
 std::vector<std::vector<Condition>> blocksOf(const Experiment& experiment, const std::vector<Condition>& conditions,
                                              Orderer& orderer) {
   if (experiment.design.block_by.empty()) return {conditions};
@@ -120,7 +120,7 @@ std::vector<Placed> placeAll(const Experiment& experiment, const std::vector<Con
   std::vector<Placed> placed;
   int number = 0;
   for (const std::vector<Condition>& block : blocksOf(experiment, conditions, orderer)) {
-    // a repeat is a block of its own where the design keeps repeats apart and nothing else makes the blocks
+    // each repeat is a piece of its own when the order keeps repeats apart and there are no blocks
     const bool by_repeat = design.block_by.empty() && design.order != Design::Order::kRandom;
     const std::size_t piece =
         design.order == Design::Order::kRandom ? block.size() * std::size_t(design.repeats) : block.size();
@@ -170,7 +170,7 @@ Square balancedSquare(std::size_t n) {
 
 std::vector<Condition> conditionsOf(const Experiment& experiment, int subject_number) {
   std::vector<Condition> all{{}};
-  std::size_t cells = 1;  // of the between-subject factors so far: subjects fill them in turn
+  std::size_t cells = 1;  // combinations of the between-subject factors so far
   for (const Factor& factor : experiment.factors) {
     std::vector<Condition> longer;
     for (const Condition& condition : all) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kTooLarge = 694;
 
-/// Whole as far as a double is.
+/// Without a fraction up to 1e15, where a double still holds whole numbers exactly.
 std::string numberText(double count) {
   char text[64];
   std::snprintf(text, sizeof text, count < 1e15 ? "%.0f" : "%.3g", count);

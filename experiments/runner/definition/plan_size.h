@@ -1,21 +1,21 @@
 #pragma once
-#include "framework/core/diagnostics/diagnostics.h"
 #include "experiments/runner/definition/definition.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 namespace presa::experiment {
 
-/// What a design comes to, counted before anything of it is built. Doubles: a product of levels may pass every integer.
+/// Size of a design, computed before any trial is planned. Doubles, because the product of the levels may overflow an
+/// integer.
 struct PlanSize {
-  double conditions =
-      1;              ///< all combinations of levels, of all subjects: each is loaded once to see that it can be run
-  double trials = 0;  ///< of one session, at most
+  double conditions = 1;  ///< combinations of all levels over all subjects; each is loaded once to check it
+  double trials = 0;      ///< of one session, at most
 };
 PlanSize planSize(const Experiment& experiment);
 
 inline constexpr double kMostConditions = 1000;
 inline constexpr double kMostTrialsOfSession = 10000;
 
-/// E694 at `where` when the design comes to more than these.
+/// Reports E694 at `where` and returns false when the design exceeds these limits.
 bool checkPlanSize(const Experiment& experiment, const SourceLocation& where, Diagnostics& diagnostics);
 
 }  // namespace presa::experiment

@@ -26,7 +26,7 @@ void setAll(const std::vector<std::string>& paths, double value, std::vector<std
   for (const std::string& path : paths) sets.push_back(path + "=" + textOf(value));
 }
 
-/// The stimulus of `value` at the first or second place.
+/// Adds the scene values of a stimulus at the first or second place.
 void putStimulus(const StimulusAxis& stimulus, double value, bool second, std::vector<std::string>& sets) {
   setAll(second ? stimulus.second_paths : stimulus.column.paths, value, sets);
   for (const StimulusAxis::Coupled& coupled : stimulus.coupled)

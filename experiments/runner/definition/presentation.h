@@ -6,18 +6,18 @@
 
 namespace presa::experiment {
 
-/// One run of the scene within a trial: the whole of it, or one interval.
+/// One run of the scene within a trial: the whole trial or one interval of it.
 struct Presentation {
-  std::vector<std::string> sets;  ///< PATH=VALUE for scene and rig
-  std::vector<double> columns;    ///< numbers of the trial's columns, in the order of Experiment::names
+  std::vector<std::string> sets;  ///< PATH=VALUE overrides for scene and rig
+  std::vector<double> columns;    ///< numeric columns of the trial, in the order of Experiment::names
 };
 
-/// What a trial presents, in its order; one, but for intervals and adjustment.
+/// The presentations of a trial in order: one, or two for tasks with intervals and for adjustment.
 std::vector<Presentation> presentationsOf(const Experiment& experiment, const PlannedTrial& trial);
-/// The comparison at another level than planned: a round of adjustment.
+/// The comparison at another level than planned: the next round of an adjustment.
 Presentation comparisonAt(const Experiment& experiment, const PlannedTrial& trial, double level);
 
-/// The numbers drawn for a trial, in the order of Experiment::varied.
+/// The random numbers drawn for a trial, in the order of Experiment::varied.
 std::vector<double> variedOf(const Experiment& experiment, const PlannedTrial& trial);
 
 }  // namespace presa::experiment

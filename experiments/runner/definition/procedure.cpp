@@ -28,10 +28,10 @@ std::vector<std::string> mistakes(const Procedure& procedure) {
       std::visit([](const auto& plan) { return psychophysics::mistakes(plan); }, procedure.plan);
   const bool adjusts = std::holds_alternative<AdjustmentPlan>(procedure.plan);
   if (adjusts != (procedure.task == Task::kAdjust))
-    found.emplace_back("the method of adjustment and the task \"adjust\" belong together");
+    found.emplace_back("the method of adjustment needs the task \"adjust\", and the other way round");
   if (procedure.balance_over == 0) found.emplace_back("balance_over must be at least 1");
   if (!(procedure.stimulus.axis.standard > 0) && procedure.stimulus.axis.unit != Unit::kLinear)
-    found.emplace_back("the standard of an axis of ratios must be above 0");
+    found.emplace_back("the standard of a logarithmic axis must be above 0");
   return found;
 }
 

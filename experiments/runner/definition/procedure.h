@@ -14,28 +14,28 @@
 #include "experiments/runner/psychophysics/interleaved.h"
 #include "experiments/runner/psychophysics/quest_plus.h"
 
-/// What a psychophysical method varies from trial to trial, what the participant is asked, and who answers in simulation.
+/// The psychophysical procedure of an experiment: method, stimulus, task, and the simulated observer for dry runs.
 /// Plain data, immutable after reading. Thread: any.
 namespace presa::experiment {
 
-/// One number or word of a factor's level, or of a stimulus, and the values of the scene that it sets.
+/// One number or word of a factor's level or of a stimulus, with the scene values that it sets.
 struct Column {
   std::string name, unit;
-  std::vector<std::string> paths;  ///< as after --set; may be empty
+  std::vector<std::string> paths;  ///< scene paths as for --set; may be empty
 };
 
-/// A number drawn anew for every trial, each between its bounds equally likely.
+/// A number drawn anew for every trial, uniformly between its bounds.
 struct Vary {
   Column column;
   double least = 0, most = 0;
 };
 
-/// The value that the method chooses, and what goes with it. With two alternatives side by side the values of the second place
-/// lie at `second_paths`.
+/// The value chosen by the method, with further scene values coupled to it. With two alternatives side by side,
+/// `second_paths` set the second place.
 struct StimulusAxis {
   struct Coupled {
     std::vector<std::string> paths, second_paths;
-    Expression value;  ///< over the stimulus alone
+    Expression value;  ///< over the stimulus value alone
   };
   Column column;
   std::vector<std::string> second_paths;
@@ -47,17 +47,17 @@ enum class Task {
   kYesNo,            ///< one stimulus, one question
   kTwoIntervals,     ///< 2IFC: standard and comparison one after the other, in either order
   kTwoAlternatives,  ///< 2AFC: side by side
-  kAdjust            ///< standard, then what is to be set, again and again until it is confirmed
+  kAdjust            ///< the standard, then the adjustable comparison, repeated until confirmed
 };
 
-/// Who answers when no person is there: compares what a measure says of either stimulus, with the noise that gives the Weber
-/// fraction; says so, since it is a model and not a person.
+/// A model that answers in place of a participant. It compares the measured percepts of the two stimuli, with noise set
+/// by the Weber fraction.
 struct SimulatedObserver {
   std::vector<std::string> percept;  ///< measure; with two alternatives one for each place
-  double weber = 0.1;                ///< at 75 % correct in two intervals or alternatives
-  double spread = 0;                 ///< sd of the logarithm of the fraction between subjects
-  double lapse = 0;                  ///< share of answers that are a guess
-  double criterion = 0;              ///< yes/no: the percept at which yes and no are equally likely
+  double weber = 0.1;                ///< Weber fraction at 75 % correct in two intervals or alternatives
+  double spread = 0;                 ///< between subjects: sd of ln(Weber fraction)
+  double lapse = 0;                  ///< proportion of answers that are guesses
+  double criterion = 0;              ///< yes/no: the percept at which both answers are equally likely
 };
 
 using MethodPlan = std::variant<psychophysics::InterleavedPlan, psychophysics::ConstantStimuliPlan,
@@ -69,7 +69,7 @@ struct Procedure {
   bool asks_for_less = false;
   std::size_t balance_over = 8;
   double gap = 0;          ///< between intervals [s]
-  std::size_t rounds = 1;  ///< adjustment: most presentations of what is to be set
+  std::size_t rounds = 1;  ///< adjustment: max number of adjustable presentations
   StimulusAxis stimulus;
   MethodPlan plan;
   std::optional<SimulatedObserver> observer;
@@ -78,9 +78,9 @@ struct Procedure {
   std::size_t presentations() const { return task == Task::kTwoIntervals ? 2 : task == Task::kAdjust ? 2 * rounds : 1; }
 };
 
-/// The method with its task around it, from its first trial. Throws std::invalid_argument naming every mistake.
+/// The method wrapped in its task, at its first trial. Throws std::invalid_argument that lists every mistake.
 std::unique_ptr<psychophysics::Method> makeMethod(const Procedure& procedure, std::uint64_t seed);
-/// Trials until the method has finished, at most.
+/// Upper bound on the trials until the method has finished.
 std::size_t mostTrials(const Procedure& procedure);
 std::vector<std::string> mistakes(const Procedure& procedure);
 

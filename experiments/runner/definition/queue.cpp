@@ -11,7 +11,7 @@ TrialQueue::TrialQueue(std::vector<PlannedTrial> planned, const Retry& retry)
     : waiting_(planned.begin(), planned.end()), retry_(retry) {}
 
 void TrialQueue::finish(Outcome outcome, const std::optional<psychophysics::Response>&) {
-  if (outcome == Outcome::kInterrupted) return;  // it stays where it is
+  if (outcome == Outcome::kInterrupted) return;  // the trial stays at the front
   PlannedTrial trial = waiting_.front();
   waiting_.pop_front();
   if (outcome == Outcome::kDone) {

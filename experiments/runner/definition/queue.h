@@ -6,7 +6,7 @@
 
 namespace presa::experiment {
 
-/// Planned trials that are still to come.
+/// The planned trials that are still to be run, for an experiment without a method.
 class TrialQueue final : public TrialSource {
  public:
   TrialQueue(std::vector<PlannedTrial> planned, const Retry& retry);

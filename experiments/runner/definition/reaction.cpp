@@ -8,7 +8,7 @@ namespace presa::experiment {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeftBaseline = 2;  // standard deviations
+constexpr double kLeftBaseline = 2;  // onset line, in standard deviations above the baseline
 
 }  // namespace
 
@@ -21,7 +21,7 @@ ReactionClock::ReactionClock(const Reaction& what, double period)
 void ReactionClock::add(std::size_t phase, std::span<const double> samples, double phase_time) noexcept {
   if (phase != what_->baseline && phase != what_->phase) return;
   const double value = what_->value.evaluate(samples);
-  if (!std::isfinite(value)) return;  // no number: no sample
+  if (!std::isfinite(value)) return;  // ignore samples without a finite value
   if (phase == what_->baseline) return remember(value);
   if (!measured_) endBaseline();
   if (!std::isnan(onset_)) return;

@@ -5,13 +5,13 @@
 
 namespace presa::experiment {
 
-/// When a number of the samples rises after an event: the beginning of `phase`.
-///   baseline   mean m and standard deviation s (of n - 1) of the last `window` seconds of phase `baseline`
+/// Reaction time: when a sampled number rises after an event, the start of `phase`.
+///   baseline   mean m and standard deviation s (n - 1) over the last `window` seconds of phase `baseline`
 ///   response   the first sample of `phase` above m + max(threshold, sds * s)
-///   onset      searched backwards from there: the first sample of the unbroken row above m + min(2 s, the above) that holds
-///              the response, within `phase`
-/// The result is the onset in seconds since `phase` began. A row that was there when the phase began gives 0: the rise is
-/// older than the event.
+///   onset      start of the unbroken run of samples that contains the response and lies above
+///              min(m + 2 s, response line), within `phase`
+/// The result is the onset in seconds since the start of `phase`. A run that already exists at that start gives 0: the
+/// rise began before the event.
 struct Reaction {
   Expression value;  ///< over Experiment::samples
   std::size_t baseline = 0, phase = 0;
@@ -20,16 +20,16 @@ struct Reaction {
   double window = 0.2;  ///< [s]
 };
 
-/// Finds the onset while samples come in. Searching backwards takes no memory of them: it is known at each sample when the row
-/// above the lower line began. Only the window of the baseline is kept, in memory taken by the constructor.
+/// Finds the onset online. It tracks when the current run above the lower line began, so no backward search is needed.
+/// Only the baseline window is stored, in memory allocated by the constructor.
 /// Thread: haptic; nonblocking.
 class ReactionClock {
  public:
-  /// `what` outlives it. `period` of the samples [s].
+  /// `what` must outlive this object. `period` is the sample period [s].
   ReactionClock(const Reaction& what, double period);
 
   void add(std::size_t phase, std::span<const double> samples, double phase_time) noexcept;
-  /// [s] since the phase began; NaN: there was none, or no baseline to tell it from.
+  /// [s] since the start of the phase; NaN: no response, or no baseline.
   double onset() const noexcept { return onset_; }
 
  private:
@@ -37,10 +37,10 @@ class ReactionClock {
   void endBaseline() noexcept;
 
   const Reaction* what_;
-  std::vector<double> window_;  // a ring
-  std::size_t remembered_ = 0;  // values in all
+  std::vector<double> window_;  // ring buffer
+  std::size_t remembered_ = 0;  // number of baseline samples, including overwritten ones
   bool measured_ = false;
-  double left_ = 0, response_ = 0;  // the lower and the upper line
+  double left_ = 0, response_ = 0;  // lower (onset) and upper (response) line
   double above_since_, onset_;
 };
 

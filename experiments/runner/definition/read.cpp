@@ -10,6 +10,7 @@
 #include "experiments/runner/definition/presentation.h"
 #include "experiments/runner/definition/read_parts.h"
 #include "framework/input/folders.h"
+#include "framework/scene/schemas.h"
 #include "framework/scene/xml/schema.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
@@ -19,7 +20,7 @@ namespace {
 
 using xml::Element;
 
-/// The file that an attribute names, if it may.
+/// The file named by an attribute, relative to the experiment file; reports a path that may not be used.
 std::string beside(const Element& root, const std::string& attribute, Diagnostics& diagnostics) {
   const std::filesystem::path folder = std::filesystem::path(root.where().file).parent_path();
   const std::string path = root.attribute(attribute);
@@ -29,7 +30,7 @@ std::string beside(const Element& root, const std::string& attribute, Diagnostic
   return file;
 }
 
-/// The rig asked for: by name, for a simulated subject, or none in particular.
+/// The rig to use: the one given by name, the one for a simulated subject, or the file's own.
 std::string rigOf(const Element& root, const std::string& rig, const std::string& simulated, Diagnostics& diagnostics) {
   if (!rig.empty()) return rig;
   if (simulated.empty()) return beside(root, "rig", diagnostics);
@@ -50,7 +51,7 @@ void readHead(const Element& root, const std::string& file, Experiment& experime
     experiment.sets.push_back(set.attribute("path") + "=" + set.attribute("value"));
 }
 
-/// What holds the devices if no person does; several kinds are all told.
+/// The models that move the devices in place of a person, joined when there are several.
 std::string modelOf(const Loaded& loaded) {
   Diagnostics told_already;
   std::string all;
@@ -61,7 +62,7 @@ std::string modelOf(const Loaded& loaded) {
   return all;
 }
 
-/// Scene and rig with the file's own sets: what names there are to ask for.
+/// Loads scene and rig with the file's own overrides to find the available sample names.
 void readSampleNames(Experiment& experiment, Diagnostics& diagnostics) {
   RunOptions options;
   options.person = SimulatedPerson{.level = experiment.level};
@@ -74,7 +75,7 @@ void readSampleNames(Experiment& experiment, Diagnostics& diagnostics) {
   experiment.rig_xml = loaded.world->rig.resolved_xml;
 }
 
-/// Every condition of the first subjects that differ, once; the same finding is told once.
+/// Loads every condition of the first subjects that differ; reports each finding once.
 void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
   const std::size_t cells = cellsOf(experiment);
   std::set<std::string> told;
@@ -113,9 +114,9 @@ std::optional<Experiment> readExperiment(const std::string& file, const std::str
   readHead(root, file, experiment, diagnostics);
   experiment.rig = rigOf(root, rig, simulated, diagnostics);
   experiment.level = simulated;
-  if (diagnostics.hasErrors()) return std::nullopt;  // a file that it may not name is not opened
+  if (diagnostics.hasErrors()) return std::nullopt;  // a path that may not be used is not opened
   readSampleNames(experiment, diagnostics);
-  if (diagnostics.hasErrors()) return std::nullopt;  // nothing below could be told apart from what follows from it
+  if (diagnostics.hasErrors()) return std::nullopt;  // later findings could be consequences of these
   readFactors(root, experiment, diagnostics);
   readVaried(root, experiment, diagnostics);
   readProcedure(root, experiment, diagnostics);

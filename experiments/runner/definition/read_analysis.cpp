@@ -21,14 +21,14 @@ bool isNumber(const std::string& text) {
   return xml::readNumber(text, value) == xml::NumberKind::kFinite;
 }
 
-/// One element of the analysis: its attributes, checked against what every trial has.
+/// Reads one element of the analysis and checks its attributes against the variables of a trial.
 class Reader {
  public:
   Reader(const Element& element, const Experiment& experiment, const std::vector<Variable>& variables,
          Diagnostics& diagnostics)
       : element_(element), experiment_(experiment), variables_(variables), diagnostics_(diagnostics) {}
 
-  /// A variable that is a number.
+  /// A variable with numeric values.
   std::string number(const char* attribute) { return numbers(attribute).empty() ? "" : text(attribute); }
   NameList numbers(const char* attribute) {
     return each(attribute, [&](const Variable& variable) {
@@ -36,14 +36,13 @@ class Reader {
         error(kNoNumber, attribute, "column " + quote(variable.name) + " holds words, " + attribute + " needs numbers");
     });
   }
-  /// A variable by whose values trials are put together.
+  /// A variable that groups trials.
   std::string group(const char* attribute) { return groups(attribute).empty() ? "" : text(attribute); }
   NameList groups(const char* attribute) {
     return each(attribute, [&](const Variable& variable) {
       if (variable.kind == Variable::Kind::kMeasure || variable.kind == Variable::Kind::kQuality)
-        error(kNotGrouping, attribute,
-              quote(variable.name) + " is measured and differs from trial to trial: it makes no groups",
-              "trials are grouped by the column of a factor, or by session, block, repeat, trial");
+        error(kNotGrouping, attribute, quote(variable.name) + " is measured per trial and cannot group trials",
+              "group by the column of a factor, or by session, block, repeat or trial");
     });
   }
   NameList strata(const char* attribute) {
@@ -51,7 +50,7 @@ class Reader {
     NameList all = xml::splitWords(text(attribute));
     for (const std::string& name : all) {
       if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
-        error(kNoSuchVariable, attribute, "trials are not kept apart by " + quote(name) + didYouMean(name, allowed),
+        error(kNoSuchVariable, attribute, "not a grouping variable: " + quote(name) + didYouMean(name, allowed),
               "subject, session, block");
     }
     return all;
@@ -60,7 +59,7 @@ class Reader {
   std::string numberOrColumn(const char* attribute) {
     return text(attribute).empty() || isNumber(text(attribute)) ? text(attribute) : number(attribute);
   }
-  /// Roles and bodies are known by what can be asked of them; nothing is known where the scene was not read.
+  /// A device role or a free body, checked through its sample names; unchecked when the scene was not read.
   std::string part(const char* attribute, const std::string& asked, const char* what) {
     const std::string name = text(attribute);
     if (experiment_.samples.size() == 0 || experiment_.samples.find(name + "." + asked)) return name;
@@ -89,7 +88,7 @@ class Reader {
       const auto found =
           std::find_if(variables_.begin(), variables_.end(), [&](const Variable& v) { return v.name == name; });
       if (found == variables_.end()) {
-        error(kNoSuchVariable, attribute, "no trial has a " + quote(name) + didYouMean(name, names()),
+        error(kNoSuchVariable, attribute, "unknown variable " + quote(name) + didYouMean(name, names()),
               "columns, measures and quality figures of the experiment");
         continue;
       }

@@ -16,7 +16,7 @@ using xml::Element;
 
 enum Code { kDuplicateName = 903, kWrongCount = 904, kNoSuchFactor = 905, kNoSuchMoment = 906, kImpossibleOrder = 907 };
 
-/// Tells a name that is there already.
+/// Reports a name that is used twice.
 class OneEach {
  public:
   OneEach(std::string kind, Diagnostics& diagnostics) : kind_(std::move(kind)), diagnostics_(diagnostics) {}
@@ -66,7 +66,7 @@ Design::Order orderOf(const std::string& name) {
                                            : Order::kRandomRepeats;
 }
 
-// With one condition, or all of one block alike, each trial repeats its forerunner.
+// With one condition only, or with equal conditions throughout a block, each trial repeats the one before.
 void checkRepeats(const Element& element, const Experiment& experiment, Diagnostics& diagnostics) {
   if (!experiment.design.no_immediate_repeat) return;
   std::size_t within = 1;
@@ -89,7 +89,7 @@ void claimName(const Element& element, Experiment& experiment, Diagnostics& diag
                      std::find(kAnswerNames.begin(), kAnswerNames.end(), name) != kAnswerNames.end();
   if (taken)
     diagnostics.error(kDuplicateName, element.where("name"),
-                      quote(name) + " is a number of every sample or trial already, or a column's name");
+                      quote(name) + " is already the name of a sample, of a trial variable or of a column");
   experiment.names.add(name);
 }
 
@@ -133,7 +133,7 @@ void readDesign(const Element& root, Experiment& experiment, Diagnostics& diagno
 
 void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   OneEach names("phase", diagnostics);
-  Names seen = experiment.samples;  // guards may ask for the condition too
+  Names seen = experiment.samples;  // guards may use the condition too
   for (const Column& column : experiment.columns()) seen.add(column.name);
   for (const Element& element : root.children("phase")) {
     names.add(element);

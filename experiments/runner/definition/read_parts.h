@@ -4,12 +4,12 @@
 #include "framework/scene/xml/schema.h"
 #include "framework/scene/xml/xml.h"
 
-/// The steps of reading an experiment, in their order; each adds its findings and goes on with what is left.
+/// The steps of reading an experiment, in calling order. Each reports its findings and continues with the valid parts.
 namespace presa::experiment {
 
 void readFactors(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readVaried(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
-/// The method with its stimulus and task; who answers in simulation asks for measures and comes after them.
+/// Reads method, stimulus and task. readObserver() follows after the measures, which a simulated observer refers to.
 void readProcedure(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readObserver(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readQualityNames(Experiment& experiment);
@@ -17,19 +17,20 @@ void readDesign(const xml::Element& root, Experiment& experiment, Diagnostics& d
 void readPhases(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readWatch(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
-/// What happens when a phase begins, over the names that its guards see; E916 when nothing in the scene can change.
+/// Reads the event at the start of a phase, over the names its guards may use; E916 when no material can change
+/// friction.
 void readEvent(const xml::Element& element, const Names& seen, const Experiment& experiment, Phase& phase,
                Diagnostics& diagnostics);
-/// Become measures, before all others.
+/// Reads reactions as measures, before all others.
 void readReactions(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
-/// Measures and rules of exclusion.
+/// Reads measures and exclusion rules.
 void readMeasures(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
-/// After everything that gives a trial its numbers.
+/// Call after every step that defines a variable of a trial.
 void readAnalysis(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 
 const xml::Schema& experimentSchema();
 
-/// The attribute `name` of a column becomes a name of a trial; E903 when it is one already.
+/// Registers the attribute `name` of a column as a variable of a trial; E903 when the name is taken.
 void claimName(const xml::Element& element, Experiment& experiment, Diagnostics& diagnostics);
 
 }  // namespace presa::experiment

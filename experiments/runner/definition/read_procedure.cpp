@@ -79,7 +79,7 @@ AdjustmentPlan adjustmentOf(const Element& element) {
 
 constexpr std::array kMethods{"staircase", "constant_stimuli", "quest_plus", "adjustment"};
 
-/// The one method; a finding when there is none or more.
+/// Reads the method; reports when there is none or more than one.
 void readMethod(const Element& element, Procedure& procedure, Diagnostics& diagnostics) {
   std::vector<Element> found;
   for (const char* name : kMethods) {

@@ -9,7 +9,7 @@ using xml::Element;
 
 enum Code { kNothingChanges = 916, kNoSuchPhase = 917 };
 
-/// The phase that an attribute names; E917 when there is none.
+/// The phase named by an attribute; E917 when there is none.
 std::optional<std::size_t> phaseOf(const Element& element, const std::string& attribute, const Experiment& experiment,
                                    Diagnostics& diagnostics) {
   const std::vector<std::string> names = experiment.phaseNames();
@@ -37,7 +37,7 @@ void readEvent(const Element& element, const Names& seen, const Experiment& expe
                       "give one <friction static=\"1.2\"><changed static=\"0.4\"/></friction>");
   if (phase.event_when && !phase.changes_friction)
     diagnostics.error(kNothingChanges, element.where("event_when"),
-                      "phase " + quote(phase.name) + " says when its event happens, but names no event",
+                      "phase " + quote(phase.name) + " has a condition for an event, but no event",
                       "add event=\"change_friction\"");
 }
 

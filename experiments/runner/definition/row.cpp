@@ -56,7 +56,7 @@ double answerOf(const std::string& name, const psychophysics::Stimulus& stimulus
   return response->value;
 }
 
-/// The worst of all presentations.
+/// The largest value over all presentations.
 double worst(const std::vector<std::vector<double>>& presented, std::size_t slot) {
   double most = -std::numeric_limits<double>::infinity();
   for (const std::vector<double>& values : presented) most = std::max(most, values[slot]);

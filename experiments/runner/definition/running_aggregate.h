@@ -6,8 +6,8 @@
 
 namespace presa::experiment {
 
-/// An aggregate while its samples come in: no sample is kept. Mean and spread after Welford (1962), which loses no digits to a
-/// large mean. Thread: haptic; nonblocking.
+/// Computes an aggregate online, without storing samples. Mean and standard deviation after Welford (1962), which is
+/// accurate for a large mean. Thread: haptic; nonblocking.
 class RunningAggregate {
  public:
   explicit RunningAggregate(const Aggregate& what) : what_(&what) {}
@@ -21,7 +21,7 @@ class RunningAggregate {
       return;
     }
     const double x = what_->value->evaluate(samples);
-    if (!(std::abs(x) <= std::numeric_limits<double>::max())) return;  // no number: no sample
+    if (!(std::abs(x) <= std::numeric_limits<double>::max())) return;  // ignore values that are not finite
     ++count_;
     if (count_ == 1) first_ = least_ = most_ = x;
     last_ = x;
@@ -32,7 +32,7 @@ class RunningAggregate {
     squares_ += change * (x - mean_);
   }
 
-  /// NaN where there is nothing to say; `period` of the samples [s].
+  /// NaN without samples. `period`: the sample period [s].
   double result(double period) const noexcept {
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     using Kind = Aggregate::Kind;

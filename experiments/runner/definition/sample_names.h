@@ -4,24 +4,24 @@
 #include <vector>
 
 #include "experiments/runner/definition/expression.h"
-#include "framework/scene/scene.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/scene.h"
 
 namespace presa::experiment {
 
-/// What phases and measures can ask of every haptic tick, in SI units, world frame:
-///   t (since the trial began), t_phase, signal (1 while the participant's button is pressed on any device);
-///   ROLE.x .y .z .vx .vy .vz (fingertip) .fx .fy .fz (force sent to the device) .fn .ft (contact force along and across the
-///   surface) .depth .state (0 none, 1 stick, 2 slip);
-///   BODY.x .y .z .vx .vy .vz .speed of every free body, and .lift, how far it is above its place at the start.
+/// Variables of every haptic tick that phases and measures may use, in SI units, world frame:
+///   t (since the start of the trial), t_phase, signal (1 while the participant presses a button on any device);
+///   ROLE.x .y .z .vx .vy .vz (fingertip) .fx .fy .fz (force sent to the device) .fn .ft (normal and tangential
+///   contact force) .depth .state (0 none, 1 stick, 2 slip);
+///   BODY.x .y .z .vx .vy .vz .speed of every free body, and .lift, its height above its start position.
 Names sampleNames(const Scene& scene);
 
-/// Fills one sample; `values` has the size of sampleNames(scene). Thread: haptic; nonblocking.
+/// Fills one sample. `values` has the size of sampleNames(scene). Thread: haptic; nonblocking.
 class SampleReader {
  public:
-  /// `asked`, by slot: a free body of which nothing is asked is not read (and its slots stay as they were).
+  /// `asked`, by slot: a free body without a used slot is skipped, and its slots keep their values.
   SampleReader(const Scene& scene, const std::vector<bool>& asked);
   void read(double time, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
             const ObjectState* objects, std::span<double> values) const noexcept;

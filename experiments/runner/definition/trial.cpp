@@ -42,7 +42,7 @@ Trial::State Trial::step(double time) noexcept {
   const Phase& phase = experiment_.phases[phase_];
   const double begin = stretches_[phase_].begin;
   values_[SampleReader::kTime] = time;
-  // a phase begins with its first tick: what rounding puts before it is not
+  // a phase begins with its first tick; clip a rounding error before it
   const double phase_time = std::max(0.0, time - begin);
   values_[SampleReader::kPhaseTime] = phase_time;
   for (auto& measure : aggregates_) {
@@ -58,7 +58,7 @@ Trial::State Trial::step(double time) noexcept {
   } else {
     held_since_ = -1;
   }
-  // half a period: times are multiples of it, up to rounding
+  // half a period of tolerance: times are multiples of the period up to rounding
   const bool met = held_since_ >= 0 && time - held_since_ > phase.hold - 0.5 * period_;
   const bool late = time - begin > phase.seconds - 1.5 * period_;
   if (!met && late && phase.on_timeout == Phase::OnTimeout::kAbort) {
@@ -110,7 +110,7 @@ std::vector<double> Trial::results(std::span<const double> quality) const {
 std::string Trial::exclusion(std::span<const double> results) const {
   for (const Exclusion& rule : experiment_.exclusions) {
     if (rule.when->holds(results)) return rule.reason;
-    // what cannot be judged does not count
+    // a trial with a missing value is excluded
     std::vector<bool> asked(results.size(), false);
     rule.when->markSlots(asked);
     for (std::size_t slot = columns_.size(); slot < results.size(); ++slot) {

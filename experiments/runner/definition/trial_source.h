@@ -9,33 +9,35 @@ namespace presa::experiment {
 /// How one run of a trial ended.
 enum class Outcome {
   kDone,
-  kAborted,      ///< by a rule of the file: tried again as often as that allows
-  kInterrupted,  ///< by a crash, a lost device or the operator's stop: run again at once, with the same seed
-  kSkipped       ///< the operator leaves it out
+  kAborted,      ///< by a rule of the file: repeated up to its number of attempts
+  kInterrupted,  ///< by a crash, a lost device or the operator's stop: repeated at once with the same seed
+  kSkipped       ///< omitted by the operator
 };
 
-/// Which trial is next. A pure function of the experiment and of what has become of the trials so far: replaying the runs of a log
-/// rebuilds it exactly. Thread: main.
+/// Selects the next trial. A pure function of the experiment and the outcomes so far: replaying the outcomes of a log
+/// restores its state exactly. Thread: main.
 class TrialSource {
  public:
   virtual ~TrialSource() = default;
 
-  /// Null at the end.
+  /// The trial to run now; null at the end of the session.
   virtual const PlannedTrial* next() const = 0;
-  /// What became of next(); there is one. An answer goes with kDone where a method asks for one, and only there.
+  /// Reports the outcome of next(). Precondition: next() is not null. Pass an answer with kDone if and only if a method
+  /// asks for one.
   virtual void finish(Outcome outcome, const std::optional<psychophysics::Response>& response = std::nullopt) = 0;
 
   virtual std::size_t done() const = 0;
   /// Trials given up after their last attempt, or skipped.
   virtual std::size_t missing() const = 0;
-  /// Trials still to come, next() included; at most, where a method ends when it knows enough.
+  /// Trials still to come, next() included; an upper bound where a method may stop early.
   virtual std::size_t left() const = 0;
-  /// Of the method that is going on; null when there is none.
+  /// The method of the current block; null when there is none.
   virtual const psychophysics::Method* method() const { return nullptr; }
 };
 
-/// All of a subject's session. Without a method: the planned trials. With one: the method, run to its end in every condition, in the
-/// order and as often as the design says; a trial that was aborted is offered again by the method's own rules.
+/// All trials of a subject's session. Without a method: the planned trials. With one: the method runs to its end in
+/// every planned condition, in the order and as often as the design says, and offers an aborted trial again by its own
+/// rules.
 std::unique_ptr<TrialSource> makeTrialSource(const Experiment& experiment, int subject_number, int session);
 
 }  // namespace presa::experiment

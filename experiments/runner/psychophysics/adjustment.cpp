@@ -16,7 +16,7 @@ std::vector<std::string> mistakes(const AdjustmentPlan& plan) {
   require(plan.nearest >= 0 && plan.farthest > 0 && plan.nearest <= plan.farthest && std::isfinite(plan.farthest),
           "starts must lie at 0 <= nearest <= farthest from the centre, farthest > 0");
   require(plan.centre - plan.farthest >= plan.min && plan.centre + plan.farthest <= plan.max,
-          "every start must lie between the least and the greatest level");
+          "every start must lie between the min and the max level");
   require(plan.fine > 0 && plan.coarse >= plan.fine, "steps must be coarse >= fine > 0");
   require(plan.confirmations > 0, "the number of confirmations must be > 0");
   return found;
@@ -49,7 +49,7 @@ Settings Adjustment::settings() const {
     if (trial.response) squares += std::pow(trial.response->value - settings.mean, 2);
   }
   if (settings.n > 1) settings.sd = std::sqrt(squares / static_cast<double>(settings.n - 1));
-  settings.mean_from_below = sum_from[0] / n_from[0];  // 0 / 0 is the NaN promised
+  settings.mean_from_below = sum_from[0] / n_from[0];  // 0 / 0 gives the documented NaN
   settings.mean_from_above = sum_from[1] / n_from[1];
   return settings;
 }
@@ -57,7 +57,7 @@ Settings Adjustment::settings() const {
 void Adjustment::update(Trial& trial) {
   const double value = trial.response->value;
   if (!std::isfinite(value) || value < plan_.min || value > plan_.max) {
-    throw std::invalid_argument("a setting must lie between the least and the greatest level");
+    throw std::invalid_argument("a setting must lie between the min and the max level");
   }
   ++answered_;
 }

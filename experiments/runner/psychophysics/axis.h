@@ -5,8 +5,8 @@ namespace presa::psychophysics {
 
 enum class Unit { kLinear, kLnRatio, kDecibel };
 
-/// What a level means in the scene: methods step on the level, the scene takes the value. Equal steps are equal ratios
-/// on the last two (PsychoPy's stepType log and db with standard 1; there log has base 10, here e).
+/// Converts between the level, on which a method steps, and the value that the scene takes. On the last two units equal
+/// steps are equal ratios (PsychoPy's stepType log and db with standard 1; its log has base 10, ours base e).
 struct Axis {
   Unit unit = Unit::kLinear;
   double standard = 0;  ///< value at level 0; > 0 unless linear
@@ -18,7 +18,7 @@ struct Axis {
       case Unit::kLnRatio:
         return standard * std::exp(level);
       case Unit::kDecibel:
-        return standard * std::pow(10, level / 20);  // of an amplitude
+        return standard * std::pow(10, level / 20);  // dB of an amplitude
     }
     return standard;
   }

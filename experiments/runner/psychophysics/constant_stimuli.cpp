@@ -19,7 +19,7 @@ std::vector<std::string> mistakes(const ConstantStimuliPlan& plan) {
           "a level must not come twice");
   require(plan.per_level > 0, "the number of trials per level must be > 0");
   require(plan.per_block > 0 && plan.per_level % plan.per_block == 0,
-          "the trials per level must be a multiple of those per level and block");
+          "the trials per level must be a multiple of the trials per level and block");
   return found;
 }
 

@@ -2,22 +2,22 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/psychophysics/method.h"
+#include "framework/core/math/random.h"
 
 namespace presa::psychophysics {
 
 struct ConstantStimuliPlan {
   std::vector<double> levels{};  ///< all different
   std::size_t per_level = 0;     ///< trials of each level, > 0
-  std::size_t per_block = 1;     ///< of these in each block; divides `per_level`
+  std::size_t per_block = 1;     ///< trials of each level in a block; divides `per_level`
 };
 
 std::vector<std::string> mistakes(const ConstantStimuliPlan& plan);
 
-/// Method of constant stimuli: blocks that hold every level equally often, each block in random order. `track` is the
-/// index of the level, so that `ForcedChoice` balances the place of the standard within each level. A discarded trial
-/// goes to a random place among those left of its block.
+/// Method of constant stimuli: blocks with every level equally often, each block shuffled. `track` is the index of the
+/// level, so that `ForcedChoice` balances the place of the standard within each level. A discarded trial moves to a
+/// random place among the remaining ones of its block.
 class ConstantStimuli final : public Method {
  public:
   /// Throws std::invalid_argument naming every mistake of the plan.

@@ -11,7 +11,7 @@ ForcedChoice::ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan
   if (method_->next() && method_->next()->kind == TrialKind::kAdjustment) {
     throw std::invalid_argument("forced choice cannot go with the method of adjustment");
   }
-  if (plan_.balance_over == 0) throw std::invalid_argument("the trials to balance the standard over must be > 0");
+  if (plan_.balance_over == 0) throw std::invalid_argument("balance_over (trials) must be > 0");
   start();
 }
 
@@ -44,7 +44,7 @@ std::optional<Stimulus> ForcedChoice::choose() {
 
 Stimulus ForcedChoice::again(const Stimulus& discarded) {
   method_->discard();
-  if (plan_.task != Task::kYesNo) {  // back among those left, so that the balance holds
+  if (plan_.task != Task::kYesNo) {  // reinsert the place at random, so that the balance holds
     std::vector<int>& left = places_left_[discarded.track];
     left.push_back(discarded.standard_place);
     stream_.shuffle(std::span<int>(left));

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/psychophysics/method.h"
+#include "framework/core/math/random.h"
 
 namespace presa::psychophysics {
 
@@ -16,20 +16,20 @@ enum class Task {
 
 struct ForcedChoicePlan {
   Task task = Task::kTwoIntervals;
-  /// Correct means: the comparison above the standard was called the greater one, the one below it the smaller (at level
-  /// 0, where none is: the greater); in yes/no "yes" at any level but 0.
+  /// Meaning of a correct answer: a comparison above the standard was called the greater one, one below it the smaller
+  /// one (at level 0, where both are equal: the greater one). For yes/no: "yes" at any level but 0.
   Coding coding = Coding::kCorrect;
-  bool asks_for_less = false;  ///< the question asks for the smaller value: "which was more slippery?" on friction
-  /// Each place holds the standard equally often in so many trials of one track (rounded up to even, > 0). For constant
-  /// stimuli take the trials per level: balanced exactly. Small numbers can be guessed by who counts.
+  bool asks_for_less = false;  ///< the question asks for the smaller value: "which was more slippery?" for friction
+  /// Number of trials of one track over which the standard is equally often in each place; rounded up to even, > 0. For
+  /// constant stimuli use the trials per level for an exact balance. Small numbers let a participant predict the place.
   std::size_t balance_over = 8;
 };
 
-/// Puts a task around a method: says which place holds the standard and works out from the place chosen whether the
-/// answer was positive. It owns the method; trials and replay go through this object alone.
+/// Wraps a method in a task: chooses the place of the standard and derives from the chosen place whether the answer was
+/// positive. It owns the method; run and replay the trials through this object only.
 class ForcedChoice final : public Method {
  public:
-  /// Throws std::invalid_argument without a method, around a method of adjustment, or when `balance_over` is 0.
+  /// Throws std::invalid_argument without a method, with a method of adjustment, or when `balance_over` is 0.
   ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan, const RandomStream& stream);
 
   const Method& method() const noexcept { return *method_; }
@@ -45,7 +45,7 @@ class ForcedChoice final : public Method {
   std::unique_ptr<Method> method_;
   ForcedChoicePlan plan_;
   RandomStream stream_;
-  std::map<std::size_t, std::vector<int>> places_left_;  ///< by track, the next one last
+  std::map<std::size_t, std::vector<int>> places_left_;  ///< by track, the next one at the back
 };
 
 }  // namespace presa::psychophysics

@@ -2,31 +2,31 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/psychophysics/staircase.h"
+#include "framework/core/math/random.h"
 
 namespace presa::psychophysics {
 
 struct InterleavedPlan {
   std::vector<StaircaseRule> tracks{};
   double catch_rate = 0;   ///< probability that a trial is a catch trial, in [0, 1)
-  double catch_level = 0;  ///< what a catch trial presents
+  double catch_level = 0;  ///< level of a catch trial
 };
 
-/// The rule above and below the standard, each `copies` times.
+/// Staircases with the rule above and below the standard, `copies` of each.
 std::vector<StaircaseRule> onBothSides(StaircaseRule rule, std::size_t copies);
 
 std::vector<std::string> mistakes(const InterleavedPlan& plan);
 
-/// Several staircases side by side, each trial from a random one that still runs, so that no participant can follow
-/// the rule; catch trials between them. Finished when every staircase is.
+/// Interleaved staircases: each trial is taken from a random unfinished one, so that participants cannot follow the
+/// rule; catch trials in between. Finished when every staircase is.
 class Interleaved final : public Method {
  public:
   /// Throws std::invalid_argument naming every mistake of the plan.
   Interleaved(const InterleavedPlan& plan, const RandomStream& stream);
 
   const std::vector<Staircase>& tracks() const noexcept { return tracks_; }
-  /// Mean of the staircases' thresholds; none while one of them has fewer than `last` reversals.
+  /// Mean of the staircases' thresholds; nullopt while one of them has fewer than `last` reversals.
   std::optional<double> threshold(std::size_t last) const;
 
  private:

@@ -6,10 +6,10 @@
 
 namespace presa::psychophysics {
 
-/// A simulated observer for tests and dry runs: a psychometric function of the level (of its logarithm where the method
-/// steps on an axis of ratios) and nothing else, no memory, no learning. A
-/// model, not a person. Each trial has a stream of its own, so that an answer depends on the seed, the trial's number
-/// and its level alone: a resumed session gets the answers of an unbroken one.
+/// A simulated observer for tests and dry runs; a model, not a person. It answers by a psychometric function of the
+/// level (of its logarithm where the method's axis is logarithmic), without memory or learning. Each trial has its own
+/// random stream, so an answer depends only on the seed, the trial number and the level, and a resumed session gets the
+/// same answers as an uninterrupted one.
 class Observer {
  public:
   /// `kCorrect` looks at |level|, `kGreater` at the level.
@@ -17,8 +17,8 @@ class Observer {
       : function_(function), coding_(coding), seed_(seed) {}
 
   const statistics::PsychometricFunction& function() const noexcept { return function_; }
-  /// Answers the trial that the method offers now. Adjustment: stops at a level drawn from the
-  /// distribution that the function without guess and lapse is. Precondition: the method has not finished.
+  /// Answers the trial that the method offers now. Adjustment: stops at a level drawn from the distribution F of the
+  /// function (without guess and lapse). Precondition: the method has not finished.
   Response answer(const Method& method) const;
 
  private:

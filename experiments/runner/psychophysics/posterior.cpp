@@ -1,3 +1,6 @@
+// Bayesian posterior on a grid of threshold x spread x lapse. Each answer multiplies the weights by its likelihood, and
+// the weights are normalised to sum 1. Several answers at one level are added as logarithms, so that the product cannot
+// underflow. Credible intervals take the density as uniform within a cell.
 #include "experiments/runner/psychophysics/posterior.h"
 
 #include <algorithm>
@@ -25,7 +28,8 @@ void findMistakes(const Candidates& candidates, const std::string& name, std::ve
   }
 }
 
-/// Where the cell of the i-th candidate begins; i = size: where the last ends. More than one candidate.
+/// Lower edge of the cell of the i-th candidate; i = size: upper edge of the last. Precondition: more than one
+/// candidate.
 double cellEdge(const std::vector<double>& values, std::size_t i) {
   if (i == 0) return values[0] - (values[1] - values[0]) / 2;
   const std::size_t n = values.size();

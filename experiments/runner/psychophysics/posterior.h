@@ -9,15 +9,15 @@
 
 namespace presa::psychophysics {
 
-/// The values a parameter may have. Each stands for the cell around it, which ends half-way to its neighbours.
+/// Grid values of one parameter. Each represents a cell that ends half-way to its neighbours.
 struct Candidates {
-  std::vector<double> values;   ///< rising; one value: the parameter is known
-  std::vector<double> prior{};  ///< weight of each, any sum; empty: all alike
+  std::vector<double> values;   ///< ascending; a single value: the parameter is known
+  std::vector<double> prior{};  ///< prior weight of each, any sum; empty: uniform
 };
 
 struct PosteriorGrid {
   Candidates threshold{}, spread{}, lapse{};  ///< location, spread and lapse of a statistics::PsychometricFunction
-  std::optional<double> guess = 0.5;          ///< none: as the lapse rate, for "which was greater?"
+  std::optional<double> guess = 0.5;          ///< none: equal to the lapse rate, for "which was greater?"
   statistics::PsychometricShape shape = statistics::PsychometricShape::kNormal;
 };
 
@@ -25,35 +25,35 @@ std::vector<std::string> mistakes(const PosteriorGrid& grid);
 
 enum class Parameter { kThreshold, kSpread, kLapse };
 
-/// What binary trials say about the psychometric function, whichever method chose their levels: the likelihood does not
-/// depend on the choice. Probabilities are kept 1e-12 off 0 and 1: a slip that a candidate calls impossible leaves it a
-/// trace, and the posterior is never empty.
+/// Posterior over a psychometric function from binary trials on a grid. It holds for any method of choosing the levels,
+/// because the likelihood does not depend on the choice. Probabilities are clamped to [1e-12, 1 - 1e-12], so an answer
+/// that every candidate excludes does not make the posterior vanish.
 class Posterior {
  public:
   /// Throws std::invalid_argument naming every mistake of the grid.
   explicit Posterior(PosteriorGrid grid);
 
-  /// All combinations of candidates; the lapse runs fastest, then the spread.
+  /// Number of cells: all combinations of candidates. The lapse index runs fastest, then the spread.
   std::size_t size() const noexcept { return weights_.size(); }
-  /// Sum 1.
+  /// Posterior weight of each cell; the sum is 1.
   std::span<const double> weights() const noexcept { return weights_; }
-  /// P(positive) at the level under one combination; a Weibull function has not risen at level 0 and below.
+  /// P(positive) at `level` for one cell; a Weibull function equals its guess rate at level <= 0.
   double probability(std::size_t cell, double level) const;
 
   void update(double level, bool positive);
-  /// The same with `probability` of every cell at hand.
+  /// Same, with `probability(cell, level)` of every cell precomputed.
   void update(std::span<const double> probabilities, bool positive);
-  /// All answers at one level.
+  /// Same, for all answers at one level.
   void update(const statistics::StimulusLevel& count);
 
   double mean(Parameter parameter) const;
   double sd(Parameter parameter) const;
-  /// Holds the parameter with probability `mass` in (0, 1), as much of the rest on either side. It covers at that rate
-  /// when truths follow the prior; at a given truth only about so.
+  /// Equal-tailed credible interval of probability `mass` in (0, 1). Its coverage is nominal for truths drawn from the
+  /// prior, only approximate for a single fixed truth.
   statistics::Interval credible(Parameter parameter, double mass) const;
-  /// Of all parameters together [nat].
+  /// Entropy of the joint posterior [nat].
   double entropy() const;
-  /// Weight of each candidate of one parameter.
+  /// Marginal weight of each candidate of one parameter.
   std::vector<double> marginal(Parameter parameter) const;
 
  private:

@@ -22,7 +22,7 @@ std::vector<std::string> mistakes(const QuestPlusPlan& plan) {
   if (plan.levels.empty() || !std::ranges::all_of(plan.levels, [](double level) { return std::isfinite(level); })) {
     found.emplace_back("the levels to choose from must be given and be finite");
   }
-  if (plan.stop_trials == 0) found.emplace_back("the greatest number of trials must be > 0");
+  if (plan.stop_trials == 0) found.emplace_back("the max number of trials must be > 0");
   if (!(plan.stop_sd >= 0)) found.emplace_back("the posterior sd to stop at must be >= 0");
   return found;
 }
@@ -39,8 +39,8 @@ QuestPlus::QuestPlus(QuestPlusPlan plan) : plan_(checked(std::move(plan))), post
   start();
 }
 
-/// Expected fall of the posterior's entropy = mutual information of parameters and answer = H(answer) - E H(answer |
-/// parameters): no logarithm per cell and trial.
+/// Expected decrease of the posterior entropy, computed as the mutual information of parameters and answer, H(answer) -
+/// E H(answer | parameters), which needs no logarithm per cell and trial.
 std::vector<double> QuestPlus::expectedInformation() const {
   std::vector<double> information;
   const std::span<const double> weights = posterior_.weights();

@@ -19,12 +19,12 @@ std::vector<std::string> mistakes(const StaircaseRule& rule) {
   };
   const auto is_step = [](double step) { return step > 0 && std::isfinite(step); };
   require(!rule.steps_up.empty() && std::ranges::all_of(rule.steps_up, is_step), "steps up must be given and be > 0");
-  require(is_step(rule.down_up_ratio), "the ratio of the steps down to those up must be > 0");
+  require(is_step(rule.down_up_ratio), "the ratio of steps down to steps up must be > 0");
   require(rule.down > 0, "the number of positive answers before a step down must be > 0");
   require(rule.change_after > 0, "the number of reversals before the step changes must be > 0");
   require(std::isfinite(rule.start) && rule.min <= rule.start && rule.start <= rule.max,
-          "the start must lie between the least and the greatest level");
-  require(rule.stop_trials > 0, "the greatest number of trials must be > 0");
+          "the start must lie between the min and the max level");
+  require(rule.stop_trials > 0, "the max number of trials must be > 0");
   require(rule.side == 1 || rule.side == -1, "the side must be 1 or -1");
   return found;
 }

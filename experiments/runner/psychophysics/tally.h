@@ -7,11 +7,11 @@
 
 namespace presa::psychophysics {
 
-/// Answered test trials by rising level, x, as a psychometric fit takes them; catch and discarded trials do not count.
-/// `kCorrect` pools both sides of the standard, |level|.
+/// Counts of answered test trials per level x in ascending order, the input of a psychometric fit; catch and discarded
+/// trials are left out. `kCorrect` pools both sides of the standard: x is |level|.
 std::vector<statistics::StimulusLevel> tally(std::span<const Trial> trials, Coding coding);
 
-/// Catch trials (x is 0): how many were answered, how many positively.
+/// Counts of catch trials (x is 0): answered, and answered positively.
 statistics::StimulusLevel tallyCatch(std::span<const Trial> trials);
 
 }  // namespace presa::psychophysics

@@ -20,7 +20,7 @@ bool isConstant(std::span<const double> x) {
   return std::all_of(x.begin(), x.end(), [&](double value) { return value == x.front(); });
 }
 
-/// From the mean, in units of the largest: their squares neither over- nor underflow.
+/// Deviations from the mean, divided by the largest, so that their squares neither overflow nor underflow.
 std::vector<double> deviations(std::span<const double> x) {
   std::vector<double> result(x.begin(), x.end());
   const double centre = *mean(x);
@@ -39,7 +39,7 @@ std::optional<double> pearson(std::span<const double> x, std::span<const double>
   const std::vector<double> dx = deviations(x), dy = deviations(y);
   double xx = 0, yy = 0, xy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) xx += dx[i] * dx[i], yy += dy[i] * dy[i], xy += dx[i] * dy[i];
-  return std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0);  // the root of a square is exact: +-1 of perfect samples
+  return std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0);  // exactly +-1 for a perfect sample: sqrt of a square is exact
 }
 
 std::optional<double> spearman(std::span<const double> x, std::span<const double> y) {

@@ -13,7 +13,7 @@ namespace {
 namespace bm = boost::math;
 using bm::policies::ignore_error;
 
-// errors are values, and no long double: the same bits on every machine
+// report errors as values and avoid long double, so that every machine computes the same bits
 using Policy =
     bm::policies::policy<bm::policies::domain_error<ignore_error>, bm::policies::pole_error<ignore_error>,
                          bm::policies::overflow_error<ignore_error>, bm::policies::evaluation_error<ignore_error>,

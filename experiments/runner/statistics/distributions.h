@@ -1,7 +1,7 @@
 #pragma once
 
-/// The few distributions the analyses need. Boost.Math is included by distributions.cpp alone. Outside the stated domain
-/// the result is NaN; nothing throws. Thread: any.
+/// The distributions used by the analyses. Only distributions.cpp includes Boost.Math. Outside the stated domain the
+/// result is NaN; nothing throws. Thread: any.
 namespace presa::statistics {
 
 /// P(Z <= z), exact in both tails.

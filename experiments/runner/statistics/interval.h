@@ -2,7 +2,7 @@
 
 namespace presa::statistics {
 
-/// Both ends belong to it; in the unit of what it bounds.
+/// A closed interval, in the unit of the bounded quantity.
 struct Interval {
   double low = 0, high = 0;
   bool contains(double value) const { return low <= value && value <= high; }

@@ -17,7 +17,7 @@ std::optional<double> mean(std::span<const double> values) {
   const double n = static_cast<double>(values.size());
   double rough = 0;
   for (const double value : values) rough += value / n;
-  double rest = 0;  // what rounding left over
+  double rest = 0;  // rounding error of the first pass
   for (const double value : values) rest += value - rough;
   return rough + rest / n;
 }
@@ -55,7 +55,7 @@ std::optional<WithinSubjectIntervals> withinSubjectIntervals(std::span<const Lab
   for (const LabelledValue& v : values) trials[v.subject][v.condition].push_back(v.value);
   if (trials.size() < 2) return std::nullopt;
 
-  std::map<int, std::vector<double>> centred;  // by condition, one value per subject
+  std::map<int, std::vector<double>> centred;  // one value per subject, by condition
   double grand_mean = 0;
   for (const auto& [subject, of_subject] : trials) {
     std::vector<double> cells;

@@ -14,14 +14,14 @@ struct Minimum {
 
 struct NelderMeadOptions {
   double first_step = 0.3;         ///< along each axis: choose units in which it is small but not tiny
-  double value_tolerance = 1e-10;  ///< ends when the corners agree to this …
-  double size_tolerance = 1e-7;    ///< … and lie as close together
+  double value_tolerance = 1e-10;  ///< converged when the values at the corners agree to this …
+  double size_tolerance = 1e-7;    ///< … and the corners are this close
   int max_evaluations = 4000;
 };
 
-/// A local minimum of `f` over N numbers without derivatives [Nelder & Mead 1965, coefficients 1, 2, 1/2, 1/2]. `f` may be
-/// infinite, not NaN, and finite at `start`. Deterministic; allocates nothing; where it did not converge within the
-/// evaluations, the best point so far.
+/// A local minimum of `f` over N variables without derivatives [Nelder & Mead 1965, coefficients 1, 2, 1/2, 1/2]. `f`
+/// may be infinite but not NaN, and must be finite at `start`. Deterministic; allocates nothing. Returns the best point
+/// so far when it does not converge within max_evaluations.
 template <std::size_t N, class Function>
 Minimum<N> nelderMead(const Function& f, const std::array<double, N>& start, const NelderMeadOptions& options = {}) {
   std::array<Minimum<N>, N + 1> simplex;

@@ -1,3 +1,6 @@
+// Maximum-likelihood fit [Wichmann & Hill 2001]: Nelder-Mead from 12 starts (4 locations x 3 spreads), of which the
+// best end point is kept. Data that do not determine a function give a FitVerdict instead of a fit: no rise, or fewer
+// than two levels on the slope. The bootstrap is parametric; it starts the fit of every draw at the fitted function.
 #include "experiments/runner/statistics/psychometric.h"
 
 #include <algorithm>
@@ -15,7 +18,7 @@ namespace {
 using detail::Likelihood;
 
 PsychometricFunction bestOfAllStarts(const Likelihood& likelihood) {
-  constexpr double kQuarterOfLargestLapse = std::numbers::pi / 6;  // its squared sine
+  constexpr double kQuarterOfLargestLapse = std::numbers::pi / 6;  // the lapse is lapse_max sin^2 of it
   PsychometricFunction best;
   double least = std::numeric_limits<double>::infinity();
   for (const double location : {-0.3, -0.1, 0.1, 0.3}) {
@@ -28,7 +31,7 @@ PsychometricFunction bestOfAllStarts(const Likelihood& likelihood) {
 }
 
 FitVerdict verdictOn(const Likelihood& likelihood, const PsychometricFunction& function) {
-  constexpr double kTooFar = 10;  // times the range of the levels
+  constexpr double kTooFar = 10;  // in units of the range of the levels
   const detail::Coordinates at = likelihood.coordinatesOf(function);
   if (std::abs(at[0]) > kTooFar || std::exp(at[1]) > kTooFar) return FitVerdict::kFlat;
   return likelihood.levelsOnSlope(function) < 2 ? FitVerdict::kStep : FitVerdict::kFitted;
@@ -38,7 +41,7 @@ double devianceOf(const Likelihood& likelihood, const PsychometricFunction& func
   return std::max(0.0, 2 * (likelihood.negativeLog(function) - likelihood.saturatedNegativeLog()));
 }
 
-/// The function is one of the model's, and has these thresholds whatever the lapse.
+/// True when the function belongs to the model and has these thresholds for every allowed lapse.
 bool hasThresholds(const PsychometricModel& model, const PsychometricFunction& function,
                    std::span<const double> proportions) {
   const double lapse = model.lapse.value_or(model.lapse_max), guess = model.guess.value_or(lapse);
@@ -107,7 +110,7 @@ std::optional<PsychometricBootstrap> bootstrapPsychometric(std::span<const Stimu
     simulated.answer(fit.function, random);
     if (detail::hitsAllow(simulated.levels()) != FitVerdict::kFitted) continue;
     const PsychometricFunction again = simulated.minimise(start);
-    if (!std::isfinite(again.location) || !std::isfinite(again.jnd())) continue;  // Weibull, too flat for its axis
+    if (!std::isfinite(again.location) || !std::isfinite(again.jnd())) continue;  // a Weibull too flat
     as_deviant += devianceOf(simulated, again) >= fit.deviance;
     locations.push_back(again.location), spreads.push_back(again.spread), jnds.push_back(again.jnd());
     for (std::size_t i = 0; i < proportions.size(); ++i) thresholds[i].push_back(*again.threshold(proportions[i]));

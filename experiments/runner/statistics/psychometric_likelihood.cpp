@@ -1,3 +1,7 @@
+// Binomial log-likelihood of P(x) = guess + (1 - guess - lapse) F(x), minimised by Nelder-Mead in the scaled
+// coordinates of Coordinates, which make the fit independent of the unit of x. F and 1 - F are computed separately, so
+// that neither tail loses precision. The lapse coordinate is an angle, which keeps the lapse within [0, lapse_max]
+// without a constraint.
 #include "experiments/runner/statistics/psychometric_likelihood.h"
 
 #include <algorithm>
@@ -8,7 +12,7 @@
 namespace presa::statistics::detail {
 namespace {
 
-// beyond these the function is a step or flat: without a bound the search would run away
+// bounds on the search: beyond them the function is a step or flat, and the search would diverge
 constexpr double kFarthest = 100, kSteepest = 1e-5, kFlattest = 100;
 
 double logTerm(int count, double probability) { return count == 0 ? 0 : count * std::log(probability); }

@@ -7,30 +7,30 @@
 #include "experiments/runner/statistics/nelder_mead.h"
 #include "experiments/runner/statistics/psychometric.h"
 
-/// Behind psychometric.h: the likelihood in the coordinates in which it is searched.
+/// Implementation of psychometric.h: the likelihood in the coordinates of the search.
 namespace presa::statistics::detail {
 
-/// Location on the shape's axis in units of the range of the levels, from their middle; ln of the spread in these units; an
-/// angle whose squared sine is the share of the largest lapse, so that both its bounds can be reached.
+/// Location on the shape's axis, from the middle of the levels in units of their range; ln(spread) in the same unit; an
+/// angle whose squared sine is lapse / largest lapse, so that the search can reach both bounds of the lapse.
 using Coordinates = std::array<double, 3>;
 
 class Likelihood {
  public:
-  /// Levels sorted, with distinct x and trials, at least two; the model valid.
+  /// Levels sorted by distinct x, each with trials, at least two; the model is valid.
   Likelihood(std::vector<StimulusLevel> levels, const PsychometricModel& model);
 
   PsychometricFunction functionAt(const Coordinates& at) const;
   Coordinates coordinatesOf(const PsychometricFunction& function) const;
   double negativeLog(const PsychometricFunction& function) const;
-  /// The least that any probabilities of the levels give.
+  /// Negative log-likelihood of the saturated model, the lower bound of all models.
   double saturatedNegativeLog() const;
   /// The minimum near `start`.
   PsychometricFunction minimise(const Coordinates& start) const;
   bool fitsLapse() const { return !model_.lapse.has_value(); }
   std::span<const StimulusLevel> levels() const { return levels_; }
-  /// How many levels lie neither on the lower nor on the upper asymptote.
+  /// Number of levels that lie on neither asymptote.
   int levelsOnSlope(const PsychometricFunction& function) const;
-  /// Draws the hits of all levels anew.
+  /// Replaces the hits of all levels by random answers of `function`.
   void answer(const PsychometricFunction& function, RandomStream& random);
 
  private:
@@ -40,7 +40,7 @@ class Likelihood {
   double middle_ = 0, range_ = 1;
 };
 
-/// The levels as Likelihood wants them, or why there is nothing to fit.
+/// Converts the levels to the input of Likelihood; otherwise the verdict says why there is nothing to fit.
 FitVerdict prepared(std::span<const StimulusLevel> levels, const PsychometricModel& model,
                     std::vector<StimulusLevel>& distinct);
 /// kAllHits, kNoHits or kFitted.

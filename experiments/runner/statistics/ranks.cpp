@@ -8,7 +8,7 @@
 namespace presa::statistics {
 namespace {
 
-/// Indices of the numbers among the values, smallest first.
+/// Indices of the values that are not NaN, in ascending order of value.
 std::vector<std::size_t> ascending(std::span<const double> values) {
   std::vector<std::size_t> order;
   order.reserve(values.size());

@@ -4,13 +4,13 @@
 
 namespace presa::statistics {
 
-/// Ranks 1 … n in the order of the values; equal values (==) share the mean of the ranks they take up, so that the sum is
-/// always n (n + 1) / 2. Infinities rank as numbers do; a NaN gets rank NaN and takes up none.
+/// Ranks 1 … n in ascending order; equal values (==) share the mean of their ranks, so the sum is always n (n + 1) / 2.
+/// Infinities rank like numbers; a NaN gets rank NaN and is not counted in n.
 std::vector<double> midRanks(std::span<const double> values);
 
-/// Values that belong to one factor level but were computed in different ways (m g / 2 / mu, m / (2 mu) g) differ in their
-/// last bits, and a rank would tell them apart. Gives all that lie within `tolerance` (relative) above
-/// the smallest of their group that smallest value; rank the result. NaN stays NaN.
+/// Removes rounding differences between values of one factor level that were computed in different ways (m g / 2 / mu,
+/// m / (2 mu) g) and would otherwise get different ranks. Values within the relative `tolerance` above the smallest of
+/// their group become that smallest value; rank the result. NaN stays NaN.
 std::vector<double> toLevels(std::span<const double> values, double tolerance = 1e-9);
 
 }  // namespace presa::statistics

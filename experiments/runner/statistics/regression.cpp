@@ -1,3 +1,6 @@
+// Least squares by a column-pivoted Householder QR of columns scaled to unit length; a pivot below 1e-10 of the largest
+// counts as linear dependence. Standard errors come from (X'X)^-1 = P R^-1 R^-T P', without forming X'X. Subject
+// intercepts are removed by centring [Frisch & Waugh 1933], with fewer degrees of freedom accordingly.
 #include "experiments/runner/statistics/regression.h"
 
 #include <Eigen/QR>
@@ -11,17 +14,17 @@
 namespace presa::statistics {
 namespace {
 
-/// Of a value with this error; 0 when both vanish.
+/// t statistic; 0 when value and error are both 0.
 double tOf(double value, double standard_error) { return value == 0 ? 0 : value / standard_error; }
 
-/// `taken_out`: parameters already fitted to columns and y.
+/// `taken_out`: number of parameters already removed from columns and y by centring.
 std::optional<LinearFit> fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& y, Eigen::Index taken_out,
                              double level) {
   const Eigen::Index n = columns.rows(), count = columns.cols(), df = n - count - taken_out;
   if (y.size() != n || count == 0 || df <= 0 || !(level > 0 && level < 1)) return std::nullopt;
   if (!columns.allFinite() || !y.allFinite()) return std::nullopt;
   const double total = (y.array() - y.mean()).square().sum();
-  const Eigen::VectorXd lengths = columns.colwise().norm();  // as units, so that none decides about the rank
+  const Eigen::VectorXd lengths = columns.colwise().norm();  // scale the columns to length 1 for the rank decision
   if (!(total > 0) || !(lengths.minCoeff() > 0)) return std::nullopt;
 
   const Eigen::MatrixXd scaled = columns * lengths.cwiseInverse().asDiagonal();
@@ -52,7 +55,7 @@ std::optional<LinearFit> fit(const Eigen::MatrixXd& columns, const Eigen::Vector
   return result;
 }
 
-/// Less the mean of each subject; the number of subjects.
+/// Subtracts each subject's mean; returns the number of subjects.
 Eigen::Index centre(std::span<const int> subjects, Eigen::Ref<Eigen::VectorXd> values) {
   struct Sum {
     double value = 0;
@@ -70,7 +73,7 @@ Eigen::Index centre(std::span<const int> subjects, Eigen::Ref<Eigen::VectorXd> v
   return static_cast<Eigen::Index>(sums.size());
 }
 
-/// Rounding leaves of a predictor that is constant within each subject something that is not 0: it counts as 0.
+/// False for a predictor that is constant within each subject, up to rounding.
 bool variesWithin(const Eigen::VectorXd& centred, const std::vector<double>& values) {
   const double largest = std::abs(
       *std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));

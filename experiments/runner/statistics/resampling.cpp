@@ -1,3 +1,6 @@
+// Permutation test: Spearman's rho is a monotone function of the product sum of the ranks, so only that sum is
+// recomputed per shuffle. p = (1 + hits) / (1 + shuffles) [Phipson & Smyth 2010]. Bootstrap: subjects are drawn with
+// replacement, each with all of its trials, and the interval lies between percentiles of the draws.
 #include "experiments/runner/statistics/resampling.h"
 
 #include <cmath>
@@ -19,8 +22,8 @@ Groups groupsOf(std::span<const int> labels) {
   return groups;
 }
 
-/// Ranks of one sample, stratum after stratum, less the mean of their stratum: what shuffling within strata gives on
-/// average is then a product sum of 0.
+/// Ranks of one sample, stratum by stratum, minus the mean rank of the stratum. The product sum of two such samples has
+/// expectation 0 under shuffling within strata.
 struct StratifiedRanks {
   std::vector<double> ranks;
 
@@ -57,7 +60,7 @@ std::optional<PermutationTest> spearmanPermutation(std::span<const double> x, st
   const StratifiedRanks of_x(x, groups);
   StratifiedRanks of_y(y, groups);
   const double n = static_cast<double>(x.size());
-  const double rounding = 1e-12 * n * n * n;  // product sums are of order n^3: equal ones stay hits
+  const double rounding = 1e-12 * n * n * n;  // product sums are of order n^3; equal ones count as hits
   const double observed = std::abs(productSum(of_x.ranks, of_y.ranks)) - rounding;
 
   PermutationTest test{*rho, 1, 0, shuffles};

@@ -28,7 +28,7 @@ class ReadAnalysis : public testing::Test {
 TEST_F(ReadAnalysis, UnknownName) {
   EXPECT_THAT(findings(R"(<spearman y="F_gripp" x="mass"/>)"),
               AllOf(HasSubstr("experiment.xml:9:"),
-                    HasSubstr("error[E940]: no trial has a 'F_gripp' (did you mean 'F_grip'?)")));
+                    HasSubstr("error[E940]: unknown variable 'F_gripp' (did you mean 'F_grip'?)")));
 }
 
 TEST_F(ReadAnalysis, AMeasureMakesNoGroups) {
@@ -42,7 +42,7 @@ TEST_F(ReadAnalysis, NamedTwice) {
 
 TEST_F(ReadAnalysis, StrataThatThereAreNot) {
   EXPECT_THAT(findings(R"(<spearman y="F_grip" x="mass" within="subjects"/>)"),
-              HasSubstr("trials are not kept apart by 'subjects' (did you mean 'subject'?)"));
+              HasSubstr("not a grouping variable: 'subjects' (did you mean 'subject'?)"));
 }
 
 TEST_F(ReadAnalysis, EverythingAtOnce) {

@@ -66,7 +66,7 @@ TEST_F(Changed, LevelThatTheSceneRefuses) { EXPECT_THAT(findings("0.8 0.6", "0.8
 
 TEST_F(Changed, UnknownNumberInAGuard) {
   EXPECT_THAT(findings("until=\"signal\"", "until=\"signl\""),
-              HasSubstr("error[E902]: there is no number 'signl' (did you mean 'signal'?)"));
+              HasSubstr("error[E902]: unknown name 'signl' (did you mean 'signal'?)"));
 }
 
 TEST_F(Changed, UnknownPhaseInAMeasure) {
@@ -74,12 +74,12 @@ TEST_F(Changed, UnknownPhaseInAMeasure) {
 }
 
 TEST_F(Changed, MeasureThatUsesALaterOne) {
-  EXPECT_THAT(findings("mass * 9.81 / (2 * mu_s)", "RSM * 2"), HasSubstr("there is no number 'RSM'"));
+  EXPECT_THAT(findings("mass * 9.81 / (2 * mu_s)", "RSM * 2"), HasSubstr("unknown name 'RSM'"));
 }
 
 TEST_F(Changed, ColumnThatHidesASample) {
   EXPECT_THAT(findings("<column name=\"stiffness\"", "<column name=\"signal\""),
-              HasSubstr("error[E903]: 'signal' is a number of every sample or trial already"));
+              HasSubstr("error[E903]: 'signal' is already the name of a sample, of a trial variable or of a column"));
 }
 
 TEST_F(Changed, UnknownFactorInBlocks) {
@@ -99,7 +99,7 @@ TEST_F(Changed, EventThatTheSceneDoesNotHave) {
   EXPECT_THAT(findings("<phase name=\"hold\"", "<phase name=\"hold\" event=\"change_friction\""),
               HasSubstr("error[E916]: phase 'hold' changes the friction of surfaces, but no touchable material of"));
   EXPECT_THAT(findings("<phase name=\"hold\"", "<phase name=\"hold\" event_when=\"mass == 0.1\""),
-              HasSubstr("says when its event happens, but names no event"));
+              HasSubstr("has a condition for an event, but no event"));
 }
 
 TEST_F(Changed, ReactionOfNoPhase) {

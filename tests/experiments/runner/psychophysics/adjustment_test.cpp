@@ -40,7 +40,8 @@ TEST(Adjustment, HalfOfTheTrialsStartAboveAndHalfBelow) {
   EXPECT_LT(more_above, 40);
 }
 
-// Five standard errors of the mean and of the SD, 4000 settings; the observer knows no start, so both means agree.
+// Bounds: five standard errors of the mean and of the SD over 4000 settings. The observer ignores the start, so the
+// means from above and from below agree.
 TEST(Adjustment, SettingsRecoverTheObserver) {
   AdjustmentPlan plan = kPlan;
   plan.trials = 4000;

@@ -7,7 +7,7 @@
 namespace presa::psychophysics {
 namespace {
 
-// 0.8 in steps of 0.2 in ln, of 6.0206 dB (a factor of two), of 0.1.
+// Standard 0.8; steps of -0.1, of ln 1.5, and of -6.0206 dB (a factor of two).
 TEST(Axis, LevelsBecomeValuesAndBack) {
   EXPECT_DOUBLE_EQ((Axis{Unit::kLinear, 0.8}.valueAt(-0.1)), 0.7);
   EXPECT_DOUBLE_EQ((Axis{Unit::kLnRatio, 0.8}.valueAt(std::log(1.5))), 1.2);

@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-/// Central range of a binomial count: below `low` and above `high` lie at most (1 - mass) / 2 each.
+/// Central range of a binomial count: the probability below `low` and above `high` is at most (1 - mass) / 2 each.
 struct BinomialRange {
   int low = 0, high = 0;
 };

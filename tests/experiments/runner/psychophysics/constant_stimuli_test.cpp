@@ -24,7 +24,7 @@ TEST(ConstantStimuli, EveryBlockHoldsEveryLevelEquallyOften) {
   }
 }
 
-// A spoilt trial is made up for in its own block.
+// A discarded trial is repeated within its own block.
 TEST(ConstantStimuli, DiscardedTrialsComeAgainWithinTheirBlock) {
   ConstantStimuli method(kSevenLevels, RandomStream(1, "order"));
   bool moved = false;

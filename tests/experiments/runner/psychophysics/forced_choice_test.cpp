@@ -26,7 +26,7 @@ TEST(ForcedChoice, TheStandardIsInEachPlaceEquallyOftenAtEachLevel) {
   std::map<double, std::array<int, 3>> count;
   while (!task.finished()) {
     if (++presented % 5 == 0) {
-      task.discard();  // the balance holds for the trials that are answered
+      task.discard();  // the balance refers to answered trials
       continue;
     }
     const Stimulus stimulus = *task.next();
@@ -37,12 +37,12 @@ TEST(ForcedChoice, TheStandardIsInEachPlaceEquallyOftenAtEachLevel) {
   }
   ASSERT_EQ(count.size(), 7U);
   for (const auto& [level, places] : count) EXPECT_EQ(places, (std::array<int, 3>{0, 10, 10})) << "level " << level;
-  const BinomialRange range = binomialRange(139, 0.5, 0.9999);  // neither in turn nor in one run
+  const BinomialRange range = binomialRange(139, 0.5, 0.9999);  // neither strict alternation nor one long run
   EXPECT_GE(alternations, range.low);
   EXPECT_LE(alternations, range.high);
 }
 
-/// The coding of each answer to one trial at the level, as "place chosen -> positive".
+/// Coding of each answer to one trial: whether choosing the standard or the comparison counts as positive.
 struct Coded {
   bool standard = false, comparison = false;
 };
@@ -52,7 +52,8 @@ Coded codedAt(double level, const ForcedChoicePlan& plan) {
     ForcedChoice task(std::make_unique<ConstantStimuli>(ConstantStimuliPlan{.levels = {level}, .per_level = 1},
                                                         RandomStream(1, "order")),
                       plan, RandomStream(1, "places"));
-    const int standard = plan.task == Task::kYesNo ? 2 : task.next()->standard_place;  // "no": as if it were standard
+    const int standard =
+        plan.task == Task::kYesNo ? 2 : task.next()->standard_place;  // "no" takes the role of the standard
     task.respond({.chosen = chooses_comparison ? 3 - standard : standard});
     (chooses_comparison ? coded.comparison : coded.standard) = task.trials().back().response->positive;
   }

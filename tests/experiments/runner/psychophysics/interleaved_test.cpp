@@ -13,7 +13,7 @@ namespace {
 const StaircaseRule kRule{.start = 1, .steps_up = {0.1}, .down = 2, .stop_trials = 500};
 const Observer kObserver({.location = 0.3, .spread = 0.2, .guess = 0.5}, Coding::kCorrect, 3);
 
-// Bounds: 99.99 % of the binomial counts, one for each staircase and one for the catch trials.
+// Bounds: the 99.99 % range of the binomial counts, for each staircase and for the catch trials.
 TEST(Interleaved, StaircasesTakeTurnsAtRandomWithCatchTrialsAtTheirRate) {
   Interleaved method({.tracks = onBothSides(kRule, 2), .catch_rate = 0.1, .catch_level = 7},
                      RandomStream(5, "interleave"));
@@ -59,7 +59,7 @@ TEST(Interleaved, EachStaircaseRunsToItsOwnEndOnItsOwnSide) {
 
 TEST(Interleaved, EveryMistakeIsNamed) {
   const InterleavedPlan wrong{.tracks = {kRule, {.start = 1}}, .catch_rate = 1};
-  EXPECT_EQ(mistakes(wrong).size(), 3U) << "the rate; no steps, no trials of the second staircase";
+  EXPECT_EQ(mistakes(wrong).size(), 3U) << "catch rate, missing steps, missing trials of the second staircase";
   EXPECT_EQ(mistakes(InterleavedPlan{}).size(), 1U);
 }
 

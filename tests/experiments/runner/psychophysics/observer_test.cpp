@@ -14,7 +14,7 @@ namespace {
 using statistics::PsychometricFunction;
 using statistics::StimulusLevel;
 
-// 99.99 % of the binomial counts at each of nine levels; `kCorrect` is blind to the side, `kGreater` is not.
+// Bounds: the 99.99 % range of the binomial counts at each of nine levels. `kCorrect` ignores the sign of the level.
 TEST(Observer, AnswersAsOftenAsItsFunctionSays) {
   const PsychometricFunction function{.location = 0.2, .spread = 0.3, .guess = 0.1, .lapse = 0.05};
   for (const Coding coding : {Coding::kCorrect, Coding::kGreater}) {
@@ -31,7 +31,7 @@ TEST(Observer, AnswersAsOftenAsItsFunctionSays) {
   }
 }
 
-// So that a resumed simulated session gets the answers of an unbroken one.
+// A resumed simulated session must get the same answers as an uninterrupted one.
 TEST(Observer, AnAnswerDependsOnSeedAndTrialOnly) {
   ConstantStimuli method({.levels = {0.2}, .per_level = 60}, RandomStream(1, "order"));
   const Observer one({.location = 0.2}, Coding::kGreater, 1), same({.location = 0.2}, Coding::kGreater, 1),

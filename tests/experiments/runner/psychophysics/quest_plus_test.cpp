@@ -10,8 +10,8 @@
 namespace presa::psychophysics {
 namespace {
 
-/// The posterior and its expected entropy written out from their definitions, in other terms than QuestPlus: log
-/// likelihoods of the whole log, both posteriors built for each level, the distribution function integrated by Simpson.
+/// Reference implementation straight from the definitions, by other means than QuestPlus: log likelihoods over the
+/// whole log, both posteriors built for each level, the distribution function integrated by Simpson's rule.
 class BruteForce {
  public:
   static double cdf(double z) {
@@ -130,8 +130,8 @@ TEST(QuestPlus, StopsOnceTheThresholdIsKnownWellEnough) {
   EXPECT_LT(quest.trials().size(), 1000U);
 }
 
-// One free parameter is QUEST: with a flat prior, a steep function and no guessing the best question halves what is
-// left, so that it finds one of 64 thresholds in 6 answers.
+// With one free parameter QUEST+ is QUEST. With a flat prior, a steep function and no guessing, the best question
+// halves the remaining interval, so 6 answers identify one of 64 thresholds.
 TEST(QuestPlus, WithOneFreeParameterItBisects) {
   QuestPlusPlan plan{.grid = {.spread = {{1e-3}}, .lapse = {{0.0}}, .guess = 0}, .stop_trials = 6};
   for (int i = 0; i < 64; ++i) plan.grid.threshold.values.push_back(i);
@@ -159,8 +159,8 @@ TEST(Posterior, CountsAndSingleTrialsSayTheSame) {
   }
 }
 
-// Three candidates of weight 1 : 2 : 1 at 0, 1, 2: cells of width 1 from -0.5 to 2.5, so the middle half ends at 0.5 and
-// 1.5, and the middle 90 % leaves 0.05 = a fifth of a cell on either side.
+// Three candidates 0, 1, 2 with weights 1 : 2 : 1 have cells of width 1 from -0.5 to 2.5, so the middle half ends at
+// 0.5 and 1.5, and the middle 90 % leaves 0.05, a fifth of a cell, on either side.
 TEST(Posterior, CredibleIntervalByHand) {
   const Posterior posterior({.threshold = {{0, 1, 2}, {1, 2, 1}}, .spread = {{1.0}}, .lapse = {{0.0}}});
   EXPECT_DOUBLE_EQ(posterior.mean(Parameter::kThreshold), 1);
@@ -172,14 +172,14 @@ TEST(Posterior, CredibleIntervalByHand) {
   EXPECT_EQ(posterior.credible(Parameter::kSpread, 0.9).low, 1);
 }
 
-// A slip of the finger at a level where every candidate excludes it must not empty the posterior.
+// A wrong key press at a level where every candidate excludes that answer must not make the posterior vanish.
 TEST(Posterior, SurvivesAnImpossibleAnswer) {
   Posterior posterior({.threshold = {{0, 1}}, .spread = {{0.01}}, .lapse = {{0.0}}, .guess = 0});
   posterior.update(50, false);
   EXPECT_DOUBLE_EQ(posterior.mean(Parameter::kThreshold), 0.5);
 }
 
-// "Which was heavier?": an observer who lapses answers either way, so P runs from lapse to 1 - lapse.
+// "Which was heavier?": a lapse gives either answer, so P runs from lapse to 1 - lapse.
 TEST(Posterior, WithoutAGuessRateItIsTheLapseRate) {
   const Posterior posterior({.threshold = {{0.0}}, .spread = {{1.0}}, .lapse = {{0.1}}, .guess = std::nullopt});
   EXPECT_NEAR(posterior.probability(0, -50), 0.1, 1e-12);
@@ -187,8 +187,9 @@ TEST(Posterior, WithoutAGuessRateItIsTheLapseRate) {
   EXPECT_NEAR(posterior.probability(0, 50), 0.9, 1e-12);
 }
 
-// Weight discrimination in two intervals, 7 levels x 20 answers. An independent simplex fit has the likelihood's maximum
-// at 0.199219 kg and spread 0.023810; a flat posterior peaks at one of the candidates beside it.
+// Weight discrimination in two intervals, 7 levels x 20 answers. An independent simplex fit finds the maximum of the
+// likelihood at 0.199219 kg and spread 0.023810; with a flat prior the posterior peaks at one of the two adjacent
+// candidates.
 TEST(Posterior, PeaksAtTheMaximumOfTheLikelihood) {
   PosteriorGrid grid{.lapse = {{0.0, 0.004, 0.02}}, .guess = std::nullopt};
   for (int i = 0; i < 41; ++i) grid.threshold.values.push_back(0.19 + 0.0005 * i);

@@ -1,6 +1,6 @@
-// The question that matters: does a method find the truth, and is it as sure as it may be? 500 observers whose
-// psychometric functions are drawn from the prior answer each method. Then, exactly: the posterior mean is unbiased, the
-// squared error over the posterior variance has mean 1, and a credible interval of mass c covers the truth in a share c.
+// Recovery: does a method find the truth, with the right uncertainty? 500 observers with psychometric functions drawn
+// from the prior answer each method. In that case theory says exactly: the posterior mean is unbiased, the squared
+// error over the posterior variance has mean 1, and a credible interval of mass c covers the truth with probability c.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,13 +29,13 @@ std::vector<double> evenly(double low, double high, std::size_t count) {
   return values;
 }
 
-/// Two intervals, ln-ratio to the standard; the prior every truth is drawn from.
+/// Two intervals, ln-ratio to the standard; truths are drawn from this prior.
 PosteriorGrid grid() {
   return {.threshold = {evenly(0.10, 0.50, 41)}, .spread = {{0.05, 0.1, 0.2, 0.3}}, .lapse = {{0.0, 0.02, 0.04}}};
 }
 
 PsychometricFunction drawTruth(RandomStream& stream) {
-  return {.location = stream.uniform(0.095, 0.505),  // the candidates' cells: half a step beyond the outer ones
+  return {.location = stream.uniform(0.095, 0.505),  // the outer cells extend half a step beyond the candidates
           .spread = grid().spread.values[stream.below(4)],
           .guess = 0.5,
           .lapse = grid().lapse.values[stream.below(3)]};
@@ -107,8 +107,8 @@ TEST_P(Recovery, PosteriorIsUnbiasedAndAsWideAsItsError) {
   }
 }
 
-// A laboratory has one truth, not a prior: there the interval need not cover exactly at its rate, but must not do so more
-// rarely. The spread lies between two candidates. 99.9 % range of the binomial count.
+// Under one fixed truth, as in a laboratory, the coverage need not be exactly nominal, but must not be lower. The
+// spread lies between two candidates. Bound: the 99.9 % range of the binomial count.
 TEST_P(Recovery, IntervalCoversAGivenTruth) {
   const PsychometricFunction truth{.location = 0.3, .spread = 0.15, .guess = 0.5, .lapse = 0.01};
   int covered = 0;

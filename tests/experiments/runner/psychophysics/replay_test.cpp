@@ -1,5 +1,5 @@
-// A session that is killed goes on from its log. So each method, killed after any trial and rebuilt by replaying the
-// log so far, must present the rest of the session to the bit as if nothing had happened.
+// An interrupted session continues from its log: each method, stopped after any trial and rebuilt by replaying the log
+// so far, must present the rest of the session bit-identically.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -56,7 +56,7 @@ Factory asForcedChoice(const Factory& inner) {
 constexpr std::uint64_t kSeed = 41;
 const Observer kObserver({.location = 0.3, .spread = 0.15, .guess = 0.5, .lapse = 0.02}, Coding::kCorrect, kSeed);
 
-/// One trial; every seventh presentation is spoilt.
+/// One trial; every seventh presentation is discarded.
 void step(Method& method) {
   if (method.next()->trial % 7 == 3) return method.discard();
   method.respond(kObserver.answer(method));
@@ -77,7 +77,7 @@ TEST_P(Replay, KilledAfterAnyTrialTheSessionGoesOnToTheBit) {
   }
 }
 
-// The log must not be taken for that of another definition: an answer would move a staircase that never asked.
+// A log of another definition must be rejected: its answers belong to other stimuli.
 TEST_P(Replay, ALogOfSomethingElseIsRefused) {
   const std::unique_ptr<Method> method = GetParam().make(kSeed);
   for (int i = 0; i < 10; ++i) step(*method);

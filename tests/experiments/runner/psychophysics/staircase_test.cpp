@@ -12,7 +12,7 @@ namespace {
 
 using statistics::PsychometricFunction;
 
-/// The levels presented while the observer answers as the text says: '+' positive, '-' negative.
+/// The levels presented for a sequence of answers: '+' positive, '-' negative.
 std::vector<double> levels(Staircase& staircase, const std::string& answers) {
   std::vector<double> presented;
   for (const char answer : answers) {
@@ -27,8 +27,8 @@ void expectLevels(const std::vector<double>& got, const std::vector<double>& exp
   for (std::size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], expected[i], 1e-12) << "trial " << i + 1;
 }
 
-// Worked by hand: two positive answers in a row for a step down, one negative for a step up, each run starts anew; the
-// step out of the second reversal still has the old size.
+// Worked by hand: two positive answers in a row give a step down, one negative gives a step up, and each step restarts
+// the count. The step out of the second reversal still has the old size.
 TEST(Staircase, TwoDownOneUpByHand) {
   Staircase staircase({.start = 10, .steps_up = {2, 1}, .change_after = 2, .down = 2, .stop_trials = 100});
   expectLevels(levels(staircase, "++++-+-++++"), {10, 10, 8, 8, 6, 8, 8, 10, 10, 8, 8});
@@ -117,8 +117,9 @@ struct Expected {
 };
 class StaircaseLevels : public testing::TestWithParam<Expected> {};
 
-// An independent simulation (numpy, 2000 runs each, d >= 0) gave these means with SD about 0.08. Both are sample means:
-// the bound is five standard errors of their difference, and half of the last digit printed; the same for the SD.
+// An independent simulation (numpy, 2000 runs each, d >= 0) gave these means with an SD of about 0.08. Both values are
+// sample means: the bound is five standard errors of their difference plus half of the last digit printed; likewise for
+// the SD.
 TEST_P(StaircaseLevels, AgreeWithAnIndependentSimulation) {
   const auto [down, ratio, mean] = GetParam();
   const Simulated got = simulate({.start = 0.8,

@@ -5,7 +5,7 @@
 namespace presa::psychophysics {
 namespace {
 
-// The tally is what a fit takes: as many answers as were given, by rising level.
+// The tally counts every answered trial once, by ascending level.
 TEST(Tally, CountsAnswersByLevelAndLeavesOutTheRest) {
   const auto trial = [](double level, TrialKind kind, std::optional<bool> positive) {
     Trial made{.stimulus = {.level = level, .kind = kind}, .response = std::nullopt};

@@ -17,7 +17,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-// 27, 54 and 162 trials: repeats leave the correlation of a balanced design as it is.
+// 27, 54 and 162 trials: repeats do not change the correlation of a balanced design.
 TEST(Correlation, OfTheSlipForceIsExact) {
   for (const int repeats : {1, 2, 6}) {
     const GripDesign design(repeats);
@@ -36,8 +36,8 @@ TEST(Correlation, OfTheSlipForceIsExact) {
   }
 }
 
-// A response without ties against a balanced factor of three levels: sqrt(8/9 n^2 / (n^2 - 1)) at most, and the three
-// orthogonal factors together explain no more than everything.
+// Bound for a response without ties against a balanced factor of three levels: sqrt(8/9 n^2 / (n^2 - 1)). The squared
+// correlations with the three orthogonal factors add up to at most 1.
 TEST(Correlation, TiesOfABalancedFactorBoundIt) {
   const auto largest = [](const GripDesign& of) {
     Values tie_free = of.mass;
@@ -117,12 +117,12 @@ TEST(SpearmanTest, CriticalValuesOfTheTable) {
     for (const double alpha : {0.05, 0.01, 0.001}) {
       const double critical = *criticalCorrelation(n, alpha);
       EXPECT_NEAR(critical, expected[column++], 5e-5);
-      EXPECT_NEAR(spearmanTest(critical, n)->p, alpha, 1e-12);  // the two ways round
+      EXPECT_NEAR(spearmanTest(critical, n)->p, alpha, 1e-12);  // and the inverse
     }
   }
 }
 
-// The three correlations of the grip study, n = 162; the digits are those of the note.
+// The three correlations of the grip study, n = 162, with the digits of the note.
 TEST(SpearmanTest, OfTheGripStudy) {
   const auto expect = [](double rho, double t, double p, double p_unit, Interval interval) {
     const SpearmanTest test = *spearmanTest(rho, 162);
@@ -147,8 +147,9 @@ TEST(SpearmanTest, AgreesWithStatpsych) {
   EXPECT_NEAR(test.interval.high, 0.9638297, 5e-8);
 }
 
-// Bivariate normal samples of Pearson correlation r have Spearman correlation 6/pi asin(r/2). Of 2000 intervals at 95 %
-// between 93.5 and 96.5 % cover: three binomial standard deviations (0.49 %); the formula itself is good to 0.5 % here.
+// Bivariate normal samples with Pearson correlation r have Spearman correlation 6/pi asin(r/2). Of 2000 intervals at 95
+// % between 93.5 and 96.5 % cover it: three binomial standard deviations (0.49 % each); the formula is accurate to 0.5
+// % here.
 TEST(SpearmanTest, BonettWrightCoversAsOftenAsItSays) {
   constexpr int kRuns = 2000, kCases = 54;
   for (const double r : {0.0, 0.4, 0.7}) {

@@ -7,7 +7,7 @@
 
 namespace presa::statistics {
 
-/// The 27 cubes of the grip study, `repeats` times: one entry per trial.
+/// The 27 cubes of the grip study, each `repeats` times; one entry per trial.
 struct GripDesign {
   explicit GripDesign(int repeats = 1) {
     for (int repeat = 0; repeat < repeats; ++repeat) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/statistics/margin.h"
+#include "framework/core/math/random.h"
 
 namespace presa::statistics {
 namespace {
@@ -23,7 +23,7 @@ TEST(Means, MeanAndDeviationKeepTheirDigitsFarFromZero) {
   EXPECT_EQ(*standardDeviation(Values{0.1, 0.1, 0.1}), 0);
 }
 
-// Type 7 by its definition h = (n - 1) p; the quartiles are those R prints for these values.
+// Type 7 by its definition h = (n - 1) p; R prints the same quartiles for these values.
 TEST(Means, QuantilesAreOfTypeSeven) {
   const Values values{10, 1, 4, 2};
   EXPECT_EQ(*quantile(values, 0), 1);
@@ -52,7 +52,7 @@ TEST(Means, IntervalsOfTheGripStudy) {
   EXPECT_NEAR(half_width(54), 0.2729, 5e-5);
 }
 
-// 5000 samples of six: three binomial standard deviations of 95 % are 0.92 %.
+// 5000 samples of size six: three binomial standard deviations of 95 % are 0.92 %.
 TEST(Means, IntervalCoversAsOftenAsItSays) {
   int covered = 0;
   for (int run = 0; run < 5000; ++run) {
@@ -76,8 +76,8 @@ TEST(Means, NoResultWhereThereIsNone) {
   EXPECT_FALSE(meanInterval(Values{1, 2}, 0));
 }
 
-// Two subjects, two conditions: their means are 3 and 10, the grand mean 6.5, so the cells less the own plus the grand mean
-// are 5.5, 7.5 and 4.5, 8.5; sd sqrt(1/2) per condition, times sqrt 2 of Morey, and t(.975, 1) = 12.7062 over sqrt 2.
+// Two subjects, two conditions: the subjects' means are 3 and 10, the grand mean 6.5, so the centred cells are 5.5, 7.5
+// and 4.5, 8.5; sd sqrt(1/2) per condition, times Morey's sqrt 2, and t(.975, 1) = 12.7062 over sqrt 2.
 TEST(WithinSubject, ByHand) {
   const std::vector<LabelledValue> values{{1, 0, 1}, {1, 0, 3}, {1, 1, 4}, {2, 0, 8}, {2, 1, 12}};
   const WithinSubjectIntervals result = *withinSubjectIntervals(values);

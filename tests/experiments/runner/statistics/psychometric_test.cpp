@@ -28,8 +28,8 @@ PsychometricModel withLapse(PsychometricModel model, double lapse) {
   return model;
 }
 
-// The reference is another implementation (scipy): -lnL to 1e-4, PSE and spread to 1 %, never the lapse, in which the
-// likelihood is flat. Where the lapse is fixed the minimum is sharp and all digits given agree.
+// The reference is another implementation (scipy): -lnL to 1e-4, PSE and spread to 1 %. The lapse is not compared,
+// because the likelihood is flat in it. With a fixed lapse the minimum is sharp and all given digits agree.
 TEST(Psychometric, WeightOfTheNote) {
   const PsychometricFit fit = *fitPsychometric(kWeight, kGreater).fit;
   EXPECT_NEAR(fit.negative_log_likelihood, 59.339273, 1e-4);
@@ -74,7 +74,7 @@ TEST_P(EveryShape, ThresholdInvertsProbability) {
   EXPECT_NEAR(whole.jnd(), 0.5 * (*whole.threshold(0.75) - *whole.threshold(0.25)), 1e-12);
 }
 
-// Counts that are the probabilities themselves: the likelihood has its maximum at the truth, whatever the unit of x.
+// The counts equal their expectation, so the likelihood has its maximum at the truth, in any unit of x.
 TEST_P(EveryShape, FindsTheTruthBehindExactCounts) {
   for (const double unit : {1e-3, 1.0, 1e6}) {
     const double spread = GetParam() == PsychometricShape::kWeibull ? 0.4 : 3 * unit;
@@ -144,7 +144,7 @@ TEST(PsychometricBootstrap, IsReproducibleAndRefusesWhatItCannotDo) {
   EXPECT_TRUE(once.thresholds[0].contains(*fit.function.threshold(0.75)));
   EXPECT_TRUE(once.location.contains(fit.function.location));
   EXPECT_TRUE(once.jnd.contains(fit.function.jnd()));
-  EXPECT_GT(once.deviance_p, 0.5);  // these counts lie closer to the curve than most would
+  EXPECT_GT(once.deviance_p, 0.5);  // these counts are closer to the curve than most would be
   EXPECT_EQ(once.draws, 200U);
   EXPECT_EQ(once.undetermined, 0U);
   EXPECT_FALSE(run(1, 19));
@@ -155,12 +155,12 @@ TEST(PsychometricBootstrap, IsReproducibleAndRefusesWhatItCannotDo) {
   EXPECT_FALSE(bootstrapPsychometric(kStiffness, {PsychometricShape::kLogistic, 0.5}, fit, {}, 200, 0.95, random));
 }
 
-// Standard error of the 2IFC point of subjective equality by the Fisher information at the fit: the bootstrap's interval
-// must be as wide, within 15 % (500 draws know a percentile to about 7 %).
+// Standard error of the 2IFC point of subjective equality from the Fisher information at the fit: the bootstrap
+// interval must have the same width within 15 % (the percentiles of 500 draws are accurate to about 7 %).
 TEST(PsychometricBootstrap, WidthAgreesWithFisherInformation) {
   const PsychometricModel model = withLapse(kGreater, 0);
   const PsychometricFit fit = *fitPsychometric(kWeight, model).fit;
-  double information = 0;  // location and spread are orthogonal here: the levels lie about evenly around the middle
+  double information = 0;  // location and spread are orthogonal here: the levels are nearly symmetric
   for (const StimulusLevel& level : kWeight) {
     const double z = (level.x - fit.function.location) / fit.function.spread, p = fit.function.probability(level.x);
     const double density = std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi) / fit.function.spread;
@@ -171,9 +171,9 @@ TEST(PsychometricBootstrap, WidthAgreesWithFisherInformation) {
   EXPECT_NEAR(bootstrap.location.halfWidth() * std::sqrt(information) / 1.959964, 1, 0.15);
 }
 
-// 500 observers of known threshold: intervals at 90 % cover 90 % within three binomial standard deviations (4 %), and the p
-// of the deviance falls below 0.1 as seldom as it says. The spread of a fit comes out small with few trials, in the draws
-// once more: its percentiles are known to fall two or three in a hundred short.
+// 500 observers of known threshold: 90 % intervals cover 90 % within three binomial standard deviations (4 %), and the
+// p of the deviance is below 0.1 no more often than 10 %. A fit underestimates the spread with few trials, and its
+// bootstrap draws do so again, so the percentile interval is known to cover two or three percent less.
 TEST(PsychometricBootstrap, CoversAsOftenAsItSays) {
   constexpr int kObservers = 500;
   const PsychometricFunction truth{PsychometricShape::kNormal, 0.2, 0.024};

@@ -32,7 +32,7 @@ TEST(MidRanks, NanTakesUpNoPlace) {
   EXPECT_EQ(ranks[2], 1);
 }
 
-// The sum is exact in binary: halves below 2^53.
+// The sum is exact: halves below 2^53 are exact in binary.
 TEST(MidRanks, SumIsThatOfAllPlacesWhateverTheTies) {
   for (std::size_t n = 1; n < 60; ++n) {
     RandomStream stream(5, "ties", n);
@@ -46,7 +46,7 @@ TEST(MidRanks, SumIsThatOfAllPlacesWhateverTheTies) {
 TEST(ToLevels, FindsTheSevenSlipForces) {
   const GripDesign design;
   Values forces = design.slip;
-  for (const double force : design.slip) forces.push_back(std::nextafter(force, kInfinity));  // another order of sums
+  for (const double force : design.slip) forces.push_back(std::nextafter(force, kInfinity));  // last-bit differences
   const Values levels = toLevels(forces);
   const Values expected{0.40875, 0.613125, 0.8175, 1.22625, 1.635, 2.4525, 4.905};
   const std::set<double> found(levels.begin(), levels.end());

@@ -27,7 +27,7 @@ Eigen::VectorXd vectorOf(const Values& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// NIST StRD, Longley: ill-conditioned (4859 even with columns of one length and mean); the certified values to 9 digits.
+// NIST StRD, Longley: ill-conditioned (4859 even after centring and scaling the columns); certified values to 9 digits.
 TEST(LeastSquares, LongleyAsCertified) {
   const Values y{60323, 61122, 60171, 61187, 63221, 63639, 64989, 63761,
                  66019, 67857, 68169, 66513, 68655, 69564, 69331, 70551};
@@ -64,8 +64,8 @@ TEST(LeastSquares, NoResultWhereThereIsNone) {
   EXPECT_TRUE(fits({{1, 2, 3, 4}}, y));
   EXPECT_FALSE(fits({{1, 2, 3, 4}}, nan));
   EXPECT_FALSE(fits({nan}, y));
-  EXPECT_FALSE(fits({{5, 5, 5, 5}}, y));                              // depends on the intercept
-  EXPECT_FALSE(fits({{1, 2, 3, 4}, {2, 4, 6, 8.0000000001}}, y));     // depends on its neighbour
+  EXPECT_FALSE(fits({{5, 5, 5, 5}}, y));                              // dependent on the intercept
+  EXPECT_FALSE(fits({{1, 2, 3, 4}, {2, 4, 6, 8.0000000001}}, y));     // dependent on its neighbour
   EXPECT_FALSE(fits({{1, 2, 3, 4}, {1, 0, 0, 1}, {0, 1, 0, 0}}, y));  // no degree of freedom
   EXPECT_FALSE(fits({{0, 0, 0, 0}}, y));
   EXPECT_FALSE(fits({{1, 2, 3, 4}}, {2, 2, 2, 2}));
@@ -101,7 +101,7 @@ TEST(LogLinear, ExponentsOfTheSlipForceAreExact) {
   EXPECT_NEAR(fit.r_squared, 1, 1e-12);
 }
 
-// [Frisch & Waugh 1933]: centring and one dummy per subject are the same fit, to the standard errors.
+// [Frisch & Waugh 1933]: centring and a dummy per subject give the same fit, including the standard errors.
 TEST(LogLinear, EqualsDummiesPerSubject) {
   const Trials trials(0.8, -0.9, 0.2, 0.16);
   const LinearFit centred = *logLinear(trials.force, trials.predictors(), trials.subjects);
@@ -121,7 +121,7 @@ TEST(LogLinear, EqualsDummiesPerSubject) {
     EXPECT_NEAR(centred.coefficients[i].value, dummies.coefficients[i].value, 1e-12);
     EXPECT_NEAR(centred.coefficients[i].standard_error, dummies.coefficients[i].standard_error, 1e-12);
   }
-  // what was put in, within its own 99.9 % interval
+  // each true exponent lies in its own 99.9 % interval
   const LinearFit wide = *logLinear(trials.force, trials.predictors(), trials.subjects, 0.999);
   EXPECT_TRUE(wide.coefficients[0].interval.contains(0.8));
   EXPECT_TRUE(wide.coefficients[1].interval.contains(-0.9));
@@ -131,7 +131,7 @@ TEST(LogLinear, EqualsDummiesPerSubject) {
 
 TEST(LogLinear, NoResultWhereThereIsNone) {
   Trials trials(1, -1, 0, 0.1);
-  Values of_subject;  // does not vary within any subject
+  Values of_subject;  // constant within each subject
   for (const int subject : trials.subjects) of_subject.push_back(0.1 * (1 + subject));
   EXPECT_FALSE(logLinear(trials.force, std::vector<Values>{of_subject}, trials.subjects));
   EXPECT_FALSE(logLinear(of_subject, trials.predictors(), trials.subjects));
@@ -160,7 +160,8 @@ TEST(ControlSlope, TellsForceFromDepth) {
   EXPECT_LT(between.slope().p, 1e-6);
 }
 
-// In a balanced design the other factors change the error of the slope, not the slope; and it is the exponent of k less 1.
+// In a balanced design the other factors change the error of the slope, not the slope. The slope is the exponent of k
+// minus 1.
 TEST(ControlSlope, IsTheExponentOfStiffnessLessOne) {
   const Trials trials(0.8, -0.9, 0.2, 0.16);
   const std::vector<Values> others{trials.design.mass, trials.design.mu_s};

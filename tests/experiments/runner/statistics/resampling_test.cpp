@@ -17,7 +17,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-// Two of the 24 orders of four values are as extreme as the perfect one: 1/12, within four binomial standard deviations.
+// Two of the 24 orders of four values are as extreme as the perfect one: p = 1/12 within four binomial standard
+// deviations.
 TEST(SpearmanPermutation, CountsOrders) {
   const Values x{1, 2, 3, 4};
   RandomStream random(1, "orders");
@@ -50,9 +51,9 @@ TEST(SpearmanPermutation, SameSeedSameResultAndRefusals) {
   EXPECT_FALSE(spearmanPermutation(force, design.mass, std::vector<int>(54), 0, random));
 }
 
-// Distribution of rho itself over shuffles of 162 trials against a factor of three levels: variance 1/161 (a sample
-// variance of N draws is good to sqrt(2/N), four of these), 95 % point 0.1542 (the density there makes one standard error
-// of the percentile 0.001; four of these).
+// Distribution of rho over shuffles of 162 trials against a factor of three levels: variance 1/161 (tolerance: four
+// times sqrt(2/N), the relative standard error of a variance of N draws), 95 % point 0.1542 (tolerance: four standard
+// errors of 0.001 each, from the density there).
 TEST(SpearmanPermutation, NullDistributionOfTheGripStudy) {
   constexpr int kShuffles = 20000;
   const GripDesign design(6);
@@ -69,8 +70,8 @@ TEST(SpearmanPermutation, NullDistributionOfTheGripStudy) {
   EXPECT_NEAR(*quantile(sizes, 0.95), 0.1542, 0.004);
 }
 
-// Nothing links x and y but that both differ between three subjects. Chi-square over ten classes of p, 9 degrees of
-// freedom: 27.9 is its 99.9 % point. The test that takes the 60 trials for independent calls most of these significant.
+// x and y are related only through differences between three subjects. Chi-square over ten classes of p, 9 degrees of
+// freedom: 27.9 is its 99.9 % point. The test that treats the 60 trials as independent calls most of these significant.
 TEST(SpearmanPermutation, IsUniformWhenOnlySubjectsDiffer) {
   constexpr int kRuns = 1000;
   std::array<int, 10> classes{};
@@ -139,9 +140,9 @@ TEST(BootstrapSubjects, DrawsWholeSubjects) {
   EXPECT_EQ(draws, 200);
 }
 
-// The percentile interval of a mean of N normal values is mean +- 1.96 sd sqrt((N - 1) / N) / sqrt N, so it covers as
-// often as |T(N - 1)| stays below 1.96 sqrt((N - 1) / N): 92.9 % with 20 subjects, 89.0 % with 8. Three binomial standard
-// deviations of 600 runs, and 1 % for percentiles of 199 draws.
+// The percentile interval of a mean of N normal values is mean +- 1.96 sd sqrt((N - 1) / N) / sqrt N, so its coverage
+// is P(|T(N - 1)| < 1.96 sqrt((N - 1) / N)): 92.9 % with 20 subjects, 89.0 % with 8. Tolerance: three binomial standard
+// deviations of 600 runs plus 1 % for percentiles of 199 draws.
 TEST(BootstrapSubjects, CoversAsOftenAsTheorySays) {
   constexpr int kRuns = 600;
   for (const std::size_t n : {8U, 20U}) {

@@ -9,15 +9,16 @@
 
 namespace presa::statistics {
 
-/// What the rule of the simulated subject makes of the slip force, without any time stepping:
+/// The grip force that the rule of the simulated subject gives for a slip force, without time stepping:
 ///   G = (G^ / (1 - SM) + z sqrt((cv G^ / (1 - SM))^2 + s0^2 + (k dX)^2 / 12 + (k d_h)^2)) exp(scatter xi),
-/// G^ = m g / (2 mu_s) (1 + w_F xi) the slip force remembered. A model, not a person: it drives the statistics, no more.
+/// where G^ = m g / (2 mu_s) (1 + w_F xi) is the remembered slip force. A model, not a person: it only supplies data to
+/// test the statistics.
 struct SurrogateRule {
   double own_resolution = 0;  ///< d_h [m]
   double scatter = 0;         ///< SD of ln G from trial to trial
 };
 
-/// Three subjects, each the 27 cubes twice; traits drawn per subject from the populations of the model.
+/// Three subjects, each with the 27 cubes twice; traits are drawn per subject from the model's populations.
 struct SurrogateStudy {
   SurrogateStudy(std::uint64_t seed, const SurrogateRule& rule) {
     for (std::uint64_t subject = 0; subject < 3; ++subject) {

@@ -29,8 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Statistics, Surrogate,
                                          Quoted{"scatter 0.3", {0, 0.3}, {-0.553, 0.712, 0.017}},
                                          Quoted{"scatter 0.6", {0, 0.6}, {-0.468, 0.588, 0.016}}));
 
-// Another generator drew the quoted 200 seeds: two means of 200 differ by sd sqrt(2/200); four of these and the rounding
-// of the last digit. The standard deviations over seeds are quoted as 0.01 to 0.06.
+// The quoted means are over 200 seeds of another generator: two such means differ by sd sqrt(2/200); the bound is four
+// of these plus the rounding of the last digit. The standard deviations over seeds are quoted as 0.01 to 0.06.
 TEST_P(Surrogate, HasTheCorrelationsOfTheModel) {
   constexpr std::uint64_t kSeeds = 200;
   std::array<Values, 3> rho;
@@ -49,7 +49,7 @@ TEST_P(Surrogate, HasTheCorrelationsOfTheModel) {
   }
 }
 
-// One study of the subject with a human's resolution, through every figure of a report.
+// One study of the subject with human resolution, through every statistic of a report.
 TEST(SurrogateChain, OneStudyThroughAllStatistics) {
   const SurrogateStudy study(20061, {0.2e-3, 0});
   const GripDesign& design = study.design;
@@ -64,7 +64,7 @@ TEST(SurrogateChain, OneStudyThroughAllStatistics) {
                    study.subjects, [](auto) { return 0.0; }, 10, 0.95, random)
                    .interval);
 
-  // beside the slip force (exponents 1, -1, 0) the rule adds what grows with stiffness and not with the slip force
+  // to the slip force (exponents 1, -1, 0) the rule adds terms that grow with stiffness but not with the slip force
   const std::vector<Values> factors{design.mass, design.mu_s, design.stiffness};
   const LinearFit exponents = *logLinear(study.grip, factors, study.subjects);
   EXPECT_LT(exponents.coefficients[0].interval.high, 1);
@@ -75,7 +75,7 @@ TEST(SurrogateChain, OneStudyThroughAllStatistics) {
   EXPECT_NEAR(slope.slope().value, exponents.coefficients[2].value - 1, 1e-12);
   EXPECT_LT(slope.p_force, 1e-3);
 
-  // relative margin by mass falls, by stiffness grows
+  // the relative margin falls with mass and grows with stiffness
   const auto median_margin = [&](const Values& factor, double level) {
     Values margins;
     for (std::size_t i = 0; i < factor.size(); ++i) {
