@@ -8,7 +8,7 @@
 namespace presa {
 namespace {
 
-constexpr double kParallel = 1e-9;  // the cross product of two edges says nothing below this length
+constexpr double kParallel = 1e-9;  // cross products shorter than this give no separating axis
 
 double extentAlong(const Vec3& half, const Mat3& R, const Vec3& axis) {
   return (R.transpose() * axis).cwiseAbs().dot(half);

@@ -17,7 +17,7 @@ EnergyLedger::EnergyLedger(std::shared_ptr<const World> world)
   }
 }
 
-// poses at the begin of the step, with the velocities that the step before ended with: one and the same instant
+// poses at the start of this step with the velocities at the end of the previous step: the same instant
 double EnergyLedger::bodies(const ObjectState& objects) const noexcept {
   double energy = 0;
   for (std::size_t i = 0; i < last_.size(); ++i) {
@@ -49,7 +49,7 @@ void EnergyLedger::observe(const StudySample& sample) noexcept {
   double springs = 0;
   for (std::size_t f = 0; f < static_cast<std::size_t>(sample.device.count); ++f) {
     const Vec3& p_WH = sample.device.fingers[f].p_WH;
-    // the force of the last tick was held all the way to here
+    // the force of the previous tick was held until now
     if (ticked_) work_ -= f_H_W_[f].dot(p_WH - p_WH_[f]);
     p_WH_[f] = p_WH;
     f_H_W_[f] = sample.command.f_H_W[f];
@@ -60,7 +60,7 @@ void EnergyLedger::observe(const StudySample& sample) noexcept {
   ticked_ = true;
   if (sample.objects == nullptr || (stepped_ && sample.objects_version == version_)) return;
   const ObjectState& objects = *sample.objects;
-  // watched from the middle of a run on: the first state only says how fast the bodies are
+  // when observation starts in mid-run, the first state only supplies the velocities
   const bool known = stepped_ || !(objects.time_begin > 0);
   if (known && std::abs(objects.time_begin - sample.tick.time) < 0.5 * sample.tick.period)
     close(bodies(objects) + springs);

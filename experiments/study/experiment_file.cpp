@@ -30,8 +30,8 @@ std::string experimentFile(const std::string& name) {
     if (fs::exists(file)) return file.lexically_normal().string();
     tried += (tried.empty() ? "" : ", ") + folder.string();
   }
-  refuse(610, name, "this file of the experiments is not to be found",
-         "looked in: " + tried + "; PRESA_EXPERIMENTS may name the folder experiments");
+  refuse(610, name, "file not found in the folder experiments",
+         "looked in: " + tried + "; set PRESA_EXPERIMENTS to the folder experiments");
 }
 
 }  // namespace presa

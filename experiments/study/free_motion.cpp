@@ -6,11 +6,11 @@
 namespace presa {
 namespace {
 
-constexpr double kAnglePerStep = 1e-3;  // [rad]: the local error of RK4 is then that of rounding
+constexpr double kAnglePerStep = 1e-3;  // [rad]: keeps the local error of RK4 at rounding level
 
 using Coefficients = Eigen::Vector4d;
 
-/// q' = 1/2 (0, w) q with w from the constant angular momentum.
+/// q' = 1/2 (0, w) q, with w from the constant angular momentum.
 Coefficients rate(const Coefficients& xyzw, const Mat3& inverse_inertia, const Vec3& momentum_W) {
   const Quat q(xyzw);
   const Quat unit = q.normalized();

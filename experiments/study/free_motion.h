@@ -6,12 +6,12 @@
 
 namespace presa {
 
-/// Where free bodies that touch nothing are: parabolas, and torque-free rotation integrated to rounding (constant angular
-/// momentum, Runge–Kutta 4 at 1 mrad a step). The reference of scenes whose answer is known.
+/// Analytic motion of bodies that touch nothing: parabolas, and torque-free rotation with constant angular momentum,
+/// integrated to rounding by Runge-Kutta 4 at 1 mrad per step. Reference for scenes with a known solution.
 class FreeMotion {
  public:
   explicit FreeMotion(std::shared_ptr<const World> world);
-  /// Pose of body i (index into Scene::bodies); times must not fall from call to call.
+  /// Pose of body i (index into Scene::bodies) at `time` [s]; times must not decrease between calls.
   Pose at(std::size_t i, double time);
 
  private:

@@ -32,7 +32,7 @@ struct Running {
 };
 
 [[noreturn]] void runInChild(std::size_t index, const std::function<std::string(std::size_t)>& job, int pipe) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);  // the parent decides
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);  // the parent handles signals
   std::string text;
   int status = 0;
   try {
@@ -47,7 +47,7 @@ struct Running {
     sent += static_cast<std::size_t>(n);
   }
   std::fflush(nullptr);
-  ::_exit(status);  // no destructors of the parent's objects
+  ::_exit(status);  // skip the destructors of the parent's objects
 }
 
 Running start(std::size_t index, const std::function<std::string(std::size_t)>& job) {
@@ -93,7 +93,7 @@ JobResult finish(Running& job, bool stopped) {
   return result;
 }
 
-/// True when the job's pipe has closed: it is over.
+/// True when the job has closed its pipe, that is, has ended.
 bool readSome(Running& job) {
   char buffer[1 << 16];
   const ssize_t n = ::read(job.pipe, buffer, sizeof buffer);

@@ -6,26 +6,27 @@
 
 namespace presa {
 
-/// What became of one job.
+/// Result of one job.
 struct JobResult {
   enum class Outcome { kDone, kThrew, kCrashed, kTimedOut, kNotRun };
   Outcome outcome = Outcome::kNotRun;
-  std::string text;    ///< what the job returned; of kThrew its message, of kCrashed the signal in words
+  std::string text;    ///< the return value; the message for kThrew, the signal name for kCrashed
   double seconds = 0;  ///< wall time
   double cpu_seconds = 0;
 };
 
 struct JobOptions {
-  int workers = 0;               ///< processes at a time; 0: as many as there are processors
-  double time_limit = 600;       ///< of one job [s]
-  std::function<bool()> stop{};  ///< asked now and then: true starts no more jobs and ends those that run
-  /// Called on the main thread as each job ends, in the order of their ends.
+  int workers = 0;               ///< processes at a time; 0: one per processor
+  double time_limit = 600;       ///< per job [s]
+  std::function<bool()> stop{};  ///< polled; true starts no more jobs and ends the running ones
+  /// Called on the main thread for each job, in order of completion.
   std::function<void(std::size_t index, const JobResult& result)> on_done{};
-  std::function<void()> on_wait{};  ///< called a few times a second while jobs run: progress
+  std::function<void()> on_wait{};  ///< called a few times per second while jobs run, for progress output
 };
 
-/// Runs jobs 0 … count-1, each in a process of its own, and returns their results by index. A job that throws, crashes or
-/// takes too long is a result, never the end of the others. Call it while the process has no other thread: jobs are forks.
+/// Runs jobs 0 … count-1, each in its own process, and returns their results by index. A job that throws, crashes or
+/// times out gives a result and does not affect the others. Jobs are forks: call this while the process has a single
+/// thread.
 std::vector<JobResult> runJobs(std::size_t count, const std::function<std::string(std::size_t)>& job,
                                const JobOptions& options = {});
 

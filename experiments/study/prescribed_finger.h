@@ -7,8 +7,8 @@
 
 namespace presa {
 
-/// A fingertip that goes exactly where a function of time says, whatever pushes it: the finger of a test with an analytic
-/// answer. `path` gives position and velocity in W at a simulated time [m, m/s].
+/// A fingertip that follows a function of time exactly, regardless of forces; for tests with an analytic solution.
+/// `path` gives position [m] and velocity [m/s] in W at a simulated time [s].
 class PrescribedFinger final : public Device {
  public:
   struct State {

@@ -20,7 +20,7 @@ double scriptEnd(const DeviceList& devices) {
 
 }  // namespace
 
-/// Last of the haptic group: shows its inputs to the observer.
+/// Last module of the haptic group: passes its inputs to the observer.
 class StudyRun::Probe final : public Module {
  public:
   Probe() : Module("study_probe", RateGroup::kHaptic) {}
@@ -44,10 +44,10 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices, const MakeModule& 
   options.seed = spec.seed;
   options.duration = spec.duration;
   options.force_share = spec.force_share;
-  options.bus = BusSettings{.network = "none"};  // one of many runs, for nobody to look at
+  options.bus = BusSettings{.network = "none"};  // one of many runs; no viewer
   Loaded loaded = loadWorld({spec.scene, spec.rig, spec.sets}, options, diagnostics);
   if (!diagnostics.hasErrors() && devices.empty() && spec.duration <= 0) {
-    // the monitor sizes its trace by the duration, which only the devices know
+    // the monitor needs the duration to size its trace, and only the devices know it
     options.duration = scriptEnd(createDevices(*loaded.world, loaded.plan, diagnostics));
     loaded = loadWorld({spec.scene, spec.rig, spec.sets}, options, diagnostics);
   }

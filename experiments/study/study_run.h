@@ -4,54 +4,55 @@
 #include <string>
 #include <vector>
 
-#include "framework/session/session.h"
 #include "framework/core/schedule/executor.h"
+#include "framework/session/session.h"
 
 namespace presa {
 
-/// What one study run is made from.
+/// Settings of one study run.
 struct StudySpec {
   std::string scene{};              ///< file
-  std::string rig{};                ///< file; empty: the scene's own
+  std::string rig{};                ///< file; empty: the rig named in the scene
   std::vector<std::string> sets{};  ///< PATH=VALUE
-  double duration = 0;              ///< simulated seconds; 0: to the end of the script (10 s without one)
+  double duration = 0;              ///< simulated seconds; 0: until the end of the script (10 s without one)
   std::uint64_t seed = 1;
   double trace_rate = 0;   ///< samples per second in monitor().trace(); 0: none
-  double force_share = 1;  ///< of the force limits
+  double force_share = 1;  ///< scale of the force limits
 };
 
-/// The states at one haptic tick, after the output stage. References hold during the call only.
+/// The states at one haptic tick, after the output stage. The references are valid during the call only.
 struct StudySample {
   const Tick& tick;
   const DeviceState& device;
   const ContactExchange& contact;
   const ForceCommand& command;
-  const ObjectState* objects;     ///< newest, null without dynamics; poseAt(body, tick.time) is where a body is now
-  std::uint64_t objects_version;  ///< grows by one with every dynamics step
+  const ObjectState* objects;     ///< newest state, null without dynamics; poseAt(body, tick.time) is the current pose
+  std::uint64_t objects_version;  ///< increases by one per dynamics step
 };
 
-/// One lockstep run of a scene in virtual time, without terminal, view or recording. The same spec gives the same bits.
-/// Thread: main; one at a time. Throws InputError with every finding; no other exception for bad input.
+/// One lockstep run of a scene in virtual time, without terminal, view or recording. Bit-identical for the same spec.
+/// Thread: main; one run at a time. Throws InputError with every finding, and nothing else for bad input.
 class StudyRun {
  public:
   using Observer = std::function<void(const StudySample&)>;
   using MakeModule = std::function<std::unique_ptr<Module>(const std::shared_ptr<const World>&)>;
-  /// `devices`: used instead of the rig's drivers, in the order of the scene's roles; empty: the rig's.
-  /// `more` makes a module that runs with it, such as one that publishes its state.
+  /// `devices` replaces the drivers of the rig, in the order of the scene's roles; empty: the rig's drivers. `more`
+  /// creates an additional module, for example one that publishes the state.
   explicit StudyRun(const StudySpec& spec, DeviceList devices = {}, const MakeModule& more = {});
   ~StudyRun();
 
   const World& world() const noexcept { return *world_; }
   double duration() const noexcept { return duration_; }
-  /// As engineVersions().
+  /// See engineVersions().
   const std::vector<std::string>& engines() const noexcept { return engines_; }
-  /// Called in every haptic tick, last in the group. Before run().
+  /// `observer` is called in every haptic tick, last in the group. Call before run().
   void observe(Observer observer);
-  /// Asked before every tick of a group whether it is held up (see LockstepExecutor::delay). Before run().
+  /// `held_up` is asked before every tick of a group whether to skip it (see LockstepExecutor::delay). Call before
+  /// run().
   void delay(std::function<bool(RateGroup, double)> held_up);
-  /// Execution times in timing() become processor time of this thread. Before run().
+  /// Makes timing() report processor time of this thread instead of wall time. Call before run().
   void timeProcessor() { executor_->timeBy(threadCpuNs); }
-  /// Latched faults are forgiven; from an observer.
+  /// Clears latched faults; may be called from an observer.
   void rearm() noexcept { ++control_.rearms; }
   void run();
 

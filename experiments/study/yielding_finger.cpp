@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-constexpr double kStep = 1e-5;  // [s]
+constexpr double kStep = 1e-5;  // integration step [s]
 
 }  // namespace
 

@@ -7,24 +7,24 @@ namespace presa {
 
 struct HandImpedance {
   double mass = 0.1;       ///< fingertip with thimble [kg]
-  double stiffness = 500;  ///< of the hand behind it [N/m]
+  double stiffness = 500;  ///< of the hand that holds the fingertip [N/m]
   double damping = 10;     ///< [N s/m]
 };
 
-/// What passed between device and hand so far, as seen at the device.
+/// Force and energy at the device so far.
 struct Transport {
-  Vec3 force = Vec3::Zero();  ///< held now [N]
-  double largest_step = 0;    ///< of the force, from one instant to the next [N]
-  /// Given to the hand: sum of f(k-1) . (x(k) - x(k-1)), exact for a force that is held [Stramigioli2005] [J].
+  Vec3 force = Vec3::Zero();  ///< current force on the hand [N]
+  double largest_step = 0;    ///< max change of the force between two instants [N]
+  /// Energy delivered to the hand: sum of f(k-1) . (x(k) - x(k-1)), exact for a held force [Stramigioli2005] [J].
   double energy = 0;
 };
 
-/// A fingertip behind a hand whose far end goes a prescribed way: m x'' = k (x_T - x) + b (v_T - x') + f, f held between
-/// writes; a passive hand, it pushes but does not correct. Integrated at 10 us on the clock of the world, so that it goes
-/// on while the haptic loop is held up: ticks made up for afterwards all see it where it is by then.
+/// A fingertip on a passive, compliant hand with a prescribed target x_T: m x'' = k (x_T - x) + b (v_T - x') + f, where
+/// f is held between writes; the target does not react to forces. Integrated at 10 us on the world clock, so the hand
+/// keeps moving while the haptic loop is stalled, and all catch-up ticks see its current position.
 class YieldingFinger final : public Device {
  public:
-  /// `clock`: time in the world [s]; `transport`: filled as it goes. Both outlive the finger.
+  /// `clock`: world time [s]; `transport`: output of this finger. Both must outlive the finger.
   YieldingFinger(const HandImpedance& hand, PrescribedFinger::Path target, const double& clock, Transport& transport);
 
   FingerInput read(const Tick& tick) noexcept override;
@@ -40,7 +40,7 @@ class YieldingFinger final : public Device {
   Transport& transport_;
   double time_ = 0, written_at_ = -1;
   Vec3 x_, v_ = Vec3::Zero();
-  Vec3 force_before_ = Vec3::Zero();  // held before this instant
+  Vec3 force_before_ = Vec3::Zero();  // force held before the current instant
 };
 
 }  // namespace presa

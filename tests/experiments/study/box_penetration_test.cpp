@@ -19,7 +19,7 @@ TEST(BoxPenetration, OfAlignedBoxesIsTheLeastOverlap) {
   EXPECT_NEAR(boxPenetration({4, 4, 0.1}, at(0, 0, 0), cube, at(0.3, 0.7, 0.54)), 0.01, 1e-12);
 }
 
-// A cube on its edge reaches half its face's diagonal down; on its corner half its own diagonal.
+// A cube on its edge extends half a face diagonal below its centre; on its corner, half a space diagonal.
 TEST(BoxPenetration, OfACubeOnEdgeOrCornerAboveAPlate) {
   const Vec3 plate(10, 10, 1), cube(1, 1, 1);
   const Quat on_edge = turned(std::numbers::pi / 4, Vec3::UnitX());
@@ -28,7 +28,7 @@ TEST(BoxPenetration, OfACubeOnEdgeOrCornerAboveAPlate) {
   EXPECT_NEAR(boxPenetration(plate, at(0, 0, -0.5), cube, at(0, 0, 0.85, on_corner)), std::sqrt(0.75) - 0.85, 1e-12);
 }
 
-// Edges crossed at right angles: only the cross product of the two edges sees how little they overlap.
+// Edges crossed at right angles: the min overlap is along the cross product of the two edges.
 TEST(BoxPenetration, OfCrossedEdgesIsFoundByTheirCrossProduct) {
   const Vec3 rod(4, 1, 1);
   const Quat upper = turned(std::numbers::pi / 2, Vec3::UnitZ()) * turned(std::numbers::pi / 4, Vec3::UnitX());
@@ -37,7 +37,7 @@ TEST(BoxPenetration, OfCrossedEdgesIsFoundByTheirCrossProduct) {
   EXPECT_EQ(boxPenetration(rod, at(0, 0, 0, lower), rod, at(0, 0, 1.4143, upper)), 0);
 }
 
-// Independent of who is first and of where the world's origin is; moving apart by the depth parts them.
+// Symmetric in the two boxes and invariant under rigid motion; a translation by the depth separates them.
 TEST(BoxPenetration, IsSymmetricAndPartsThemWhenUndone) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(-0.6, 0.6);
@@ -51,7 +51,7 @@ TEST(BoxPenetration, IsSymmetricAndPartsThemWhenUndone) {
     EXPECT_NEAR(boxPenetration(a, X * X_A, b, X * X_B), depth, 1e-12);
     if (depth == 0) continue;
     ++overlaps;
-    // no shorter translation parts them: none along 26 directions does
+    // no shorter translation separates them: sampled in 26 directions
     for (int x = -1; x <= 1; ++x) {
       for (int y = -1; y <= 1; ++y) {
         for (int z = -1; z <= 1; ++z) {

@@ -1,10 +1,10 @@
-// A whole run of 5 000 bodies: loaded, planned and stepped as any other.
+// A full run of a scene with 5 000 bodies.
 #include <gtest/gtest.h>
 
+#include "experiments/study/prescribed_finger.h"
+#include "framework/core/state/object_state.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/state/object_state.h"
-#include "experiments/study/prescribed_finger.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {
@@ -15,7 +15,7 @@ constexpr double kEdge = 0.04, kApart = 0.1, kFingertip = 0.008, kDepth = 0.002,
 
 Vec3 placeOf(int body) { return {kApart * (body % kColumns), kApart * (body / kColumns), kEdge / 2}; }
 
-/// A floor and cubes on it, each for itself: one in 25 is free, and so is the last.
+/// A floor with separate cubes on it: one in 25 is free, and so is the last.
 std::string crowdXml() {
   std::string xml = R"(<scene version="1.0" name="crowd"><world gravity="0 0 -9.81"/>
     <materials><material name="wood" stiffness=")" +
@@ -44,8 +44,8 @@ class Eye final : public Module {
   In<ContactExchange> contact{*this, "contact_exchange"};
 };
 
-// The finger comes down on the last of the free cubes and feels the spring of its material, k times the depth; the other cubes
-// stay where they are. No tick of the haptic group takes memory or waits for a lock, the first one included.
+// The finger presses on the last free cube and feels its material's spring, k times the depth; the other cubes stay in
+// place. No tick of the haptic group allocates or takes a lock, the first one included.
 TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
   Diagnostics diagnostics;
   RunOptions options;
@@ -90,7 +90,7 @@ TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
   EXPECT_EQ(objects.faults, 0U);
   const FingerContact& finger = eye.contact->fingers[0];
   EXPECT_EQ(finger.body, kBodies - 1);
-  // the floor gives by the depth at which the cube rests: less than a tenth of a millimetre
+  // the floor deflects by the depth at which the cube rests, less than 0.1 mm
   EXPECT_NEAR(finger.normal_force, kStiffness * kDepth, kStiffness * 1e-4);
   for (int b = 1; b < kBodies; ++b)
     ASSERT_LT((objects.bodies[static_cast<std::size_t>(b)].X_WB_end.p - placeOf(b)).norm(), 1e-4) << b;

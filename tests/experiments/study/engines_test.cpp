@@ -19,8 +19,8 @@ const char* const kScene = R"(<scene version="1.0" name="fall"><world gravity="0
 
 class Engines : public testing::TestWithParam<const char*> {};
 
-// The same scene under every engine, against what a textbook says: free fall (symplectic Euler at h: v = g t exactly), rest
-// on the floor, and a box that slides v^2 / (2 mu g) = 102 mm.
+// The same scene under every engine against closed forms: free fall (symplectic Euler at h: v = g t exactly), rest on
+// the floor, and a sliding distance of v^2 / (2 mu g) = 102 mm.
 TEST_P(Engines, FallRestAndSlideAsTheTextbookSays) {
   const auto file = std::filesystem::temp_directory_path() / ("presa_engines_" + std::to_string(::getpid()) + ".xml");
   std::ofstream(file) << kScene;
@@ -36,7 +36,7 @@ TEST_P(Engines, FallRestAndSlideAsTheTextbookSays) {
   std::filesystem::remove(file);
   EXPECT_NEAR(fall_speed, 9.81 * 0.4, 1e-9);
   EXPECT_NEAR(height, 0.1, 0.0005) << "soft contacts sink by less than half a millimetre";
-  // half a step of travel at the start speed, and MuJoCo's soft friction (2 % off, performance figures of its cones)
+  // half a step of travel at the start speed, plus 2 % for MuJoCo's soft friction
   EXPECT_NEAR(slide, 1 / (2 * 0.5 * 9.81), 0.0025 + 0.02 * 0.102);
 }
 

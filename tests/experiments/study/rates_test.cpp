@@ -1,13 +1,13 @@
-// Rates that a scene may name: what counts as old follows them, so that a grasp stays a grasp. In virtual time.
+// Rates that a scene may set: the age limits of data follow them, so that a grasp holds at any rate. Virtual time.
 #include <gtest/gtest.h>
 
-#include "framework/session/load_world.h"
 #include "experiments/study/study_run.h"
+#include "framework/session/load_world.h"
 
 namespace presa {
 namespace {
 
-/// What of a grasp must not hang on the rates.
+/// Properties of a grasp that must not depend on the rates.
 struct Grasp {
   double highest = 0, lost_at = 0, stick = 0, force = 0, speed = 0;
   bool dropped = true;
@@ -34,15 +34,15 @@ Grasp graspOf(const std::string& scene, const std::vector<std::string>& sets) {
 
 void expectTheSame(const Grasp& grasp, const Grasp& usual, const std::string& what) {
   EXPECT_FALSE(grasp.dropped) << what;
-  EXPECT_NEAR(grasp.highest, usual.highest, 0.5e-3) << what;  // as the issue of the rates asks of the haptic one
+  EXPECT_NEAR(grasp.highest, usual.highest, 0.5e-3) << what;  // the tolerance required for haptic rates
   EXPECT_NEAR(grasp.force, usual.force, 0.01 * usual.force) << what;
-  EXPECT_NEAR(grasp.stick, usual.stick, 0.1) << what;  // let go within some periods of the slowest
+  EXPECT_NEAR(grasp.stick, usual.stick, 0.1) << what;  // released within a few periods of the slowest group
   EXPECT_NEAR(grasp.lost_at, usual.lost_at, 0.1) << what;
-  EXPECT_LT(grasp.speed, 1.2 * usual.speed) << what;  // fallen, not thrown
+  EXPECT_LT(grasp.speed, 1.2 * usual.speed) << what;  // fell, was not thrown
   EXPECT_EQ(grasp.held_status, 0u) << what << ": the force of a held object is nowhere faded or cut";
 }
 
-// The collision thread from 10 Hz to the haptic rate: its patches are never taken for old while it runs.
+// Collision rates from 10 Hz to the haptic rate: patches of a running collision group never count as stale.
 TEST(Rates, AnyCollisionRateHoldsTheAmphora) {
   const Grasp usual = graspOf("pinch_and_lift", {});
   for (const char* rate : {"10", "20", "40", "50", "200", "500", "1000"}) {
@@ -51,7 +51,7 @@ TEST(Rates, AnyCollisionRateHoldsTheAmphora) {
   }
 }
 
-// The dynamics from 40 Hz on, with the watchdog that goes with it.
+// Dynamics rates from 40 Hz up, with a watchdog of 50 ms.
 TEST(Rates, ADynamicsFromFortyHertzOnHoldsWhatItIsGiven) {
   for (const char* scene : {"cube", "pinch_and_lift"}) {
     const Grasp usual = graspOf(scene, {});
@@ -64,7 +64,8 @@ TEST(Rates, ADynamicsFromFortyHertzOnHoldsWhatItIsGiven) {
   }
 }
 
-// With watchdogs of 20 ms it is refused, instead of being thrown about: each of them is told. Without any it follows the rate.
+// An explicit watchdog of 20 ms is too short for these rates and rejected, with one finding per device. Without one,
+// the watchdog follows the rate.
 TEST(Rates, AWatchdogTooShortForTheDynamicsIsRefused) {
   for (const char* rate : {"40", "50"}) {
     Diagnostics findings;

@@ -30,7 +30,7 @@ TEST(StudyRun, EndsWithTheScriptAndGivesTheSameBitsTwice) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// A finger that is held 2 mm inside the fixed table feels k times that, from the moment the soft start is over.
+// A finger held 2 mm inside the fixed table feels k times the depth once the soft start is over.
 TEST(StudyRun, APrescribedFingerFeelsTheSpringOfTheSurface) {
   DeviceList devices;
   for (const double x : {-0.2, 0.2}) {
@@ -46,7 +46,8 @@ TEST(StudyRun, APrescribedFingerFeelsTheSpringOfTheSurface) {
   EXPECT_NEAR(force, 2000 * 0.002, 1e-9);
 }
 
-// 50 ms of stalled dynamics: no Object State comes, then the missed ticks come at once; nothing is lost.
+// While dynamics is stalled no ObjectState arrives. After 50 ms the missed ticks are caught up; after 500 ms they are
+// skipped.
 TEST(StudyRun, AStalledGroupCatchesUpAndALongStallIsGivenUp) {
   for (const double stall : {0.05, 0.5}) {
     StudyRun run({.scene = kCube, .duration = 2});
