@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kLimit = 8;       // of the scene [N]
-constexpr double kReason = 1000;   // speed beyond which the dynamics freeze a body [m/s]
+constexpr double kReason = 1000;   // above this speed the dynamics freeze a body [m/s]
 constexpr double kGravity = 9.81;  // [m/s^2]
 
 std::string set(const std::string& path, double x, double y, double z) {
@@ -17,7 +17,7 @@ std::string set(const std::string& path, double x, double y, double z) {
 
 }  // namespace
 
-/// A body far from the grasp is driven by a constant force until its speed is beyond reason.
+/// A constant force accelerates a body far from the grasp beyond the speed limit of the dynamics.
 Outcome bodyRunsAway(RandomStream& random) {
   const double begin = random.uniform(0.95, 2.6), mass = 1;
   Hold hold;
@@ -40,7 +40,7 @@ Outcome bodyRunsAway(RandomStream& random) {
   return outcome;
 }
 
-/// Fifty kilograms fly through the grasp.
+/// A body of 50 kg flies through the grasp.
 Outcome bodyStruck(RandomStream& random) {
   const double arrives = random.uniform(0.95, 2.6), speed = random.uniform(3, 25), mass = 50;
   Hold hold;
@@ -58,7 +58,7 @@ Outcome bodyStruck(RandomStream& random) {
   return outcome;
 }
 
-/// A tall stack with a heavy lid costs the dynamics more than its period, now and then: every third tick on average comes late.
+/// A tall stack with a heavy lid sometimes needs more than the dynamics period: every third tick on average is late.
 Outcome overloadedDynamics(RandomStream& random) {
   RandomStream lateness(random.bits(), "lateness");
   Hold hold;
@@ -77,7 +77,8 @@ Outcome overloadedDynamics(RandomStream& random) {
     const auto wanted = RateTable(run.world().scene.rates).ticksWithin(RateGroup::kHaptic, hold.end);
     if (ticks != wanted || haptic.ticks != wanted || haptic.missed != 0 || haptic.skipped != 0)
       outcome.broken.emplace_back("haptic ticks were lost");
-    if (held == 0 || run.timing(RateGroup::kDynamics).missed == 0) outcome.broken.emplace_back("nothing was late");
+    if (held == 0 || run.timing(RateGroup::kDynamics).missed == 0)
+      outcome.broken.emplace_back("no dynamics tick was late");
   };
   runHold(
       hold,

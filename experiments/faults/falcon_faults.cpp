@@ -15,13 +15,13 @@ using falcon_model::ReplyFate;
 using falcon_model::UploadFault;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kAfter = 0.7;  // [s] watched after the fault
+constexpr double kAfter = 0.7;  // [s] observed after the fault
 constexpr unsigned kButtons = 2 | 8;
 
-/// While fingers press; a fault comes right after a tick.
+/// A moment while the fingers press, right after a tick.
 double anyMoment(RandomStream& random) { return 1e-3 * static_cast<double>(950 + random.below(1650)); }
 
-/// Two Falcons in the hold; the thumb's is the one that fails.
+/// The hold scenario with two Falcons; the thumb's Falcon fails.
 struct FalconHold {
   explicit FalconHold(RandomStream& random) {
     for (const std::size_t f : {0UL, 1UL}) {
@@ -32,8 +32,8 @@ struct FalconHold {
   }
   FalconFinger& thumb() { return *fingers[0]; }
 
-  /// Runs, doing `at(time)` after every tick; what the models have seen against the laws goes to the outcome. The force of these
-  /// `fingers` has to answer the fault in time, all of them have to be zero in time.
+  /// Runs the scenario and calls `at(time)` after every tick. Violations seen by the models go to the outcome. The
+  /// forces of `fingers_that_answer` must react to the fault in time; all forces must be zero in time.
   Outcome run(double end, double begin, double until, unsigned fingers_that_answer,
               const std::function<void(double)>& at) {
     Judge judge(begin, until, fingers_that_answer), all(begin, until);
@@ -60,14 +60,15 @@ struct FalconHold {
   double clock = 0;
 };
 
-/// Until the moment has come, once.
+/// True once, when the moment has come.
 struct Once {
   double moment;
   bool done = false;
   bool comes(double time) { return !done && time >= moment - 1e-9 && (done = true); }
 };
 
-/// Row 1: pulled out, and plugged in again: nothing comes back without a re-arm, and that one has neither firmware nor references.
+/// Row 1: unplugged and plugged in again. Nothing returns without a re-arm, and a re-arm finds neither firmware nor
+/// references.
 Outcome unplugged(RandomStream& random) {
   FalconHold bench(random);
   const double begin = anyMoment(random), replugged = begin + random.uniform(0.02, 0.4);
@@ -78,8 +79,8 @@ Outcome unplugged(RandomStream& random) {
   });
 }
 
-/// Damages replies: cut short, grown, with bits flipped, until neither the bytes alone nor together with those before them happen to have
-/// the format of a reply: it has no checksum, so what has its format is one.
+/// Damages replies (truncated, extended, flipped bits) until no part of the byte stream passes as a reply. Replies have
+/// no checksum, so bytes of the right format are indistinguishable from a reply.
 class Damage {
  public:
   explicit Damage(RandomStream& random) : random_(random) {}
@@ -91,7 +92,7 @@ class Damage {
       change(reply);
     } while (looksRight(reply.bytes));
   }
-  /// Of every reply, damaged or not.
+  /// To be called for every reply, damaged or not.
   void sent(const ReplyFate& reply) {
     before_.insert(before_.end(), reply.bytes.begin(), reply.bytes.end());
     constexpr std::size_t kMost = falcon_model::kFrame - 1;
@@ -127,7 +128,8 @@ class Damage {
   std::vector<std::uint8_t> before_;
 };
 
-/// Row 3. Never another flag or button than the device's; good again within two good replies.
+/// Row 3. The driver must never report a flag or button that the device did not have, and recovers within two good
+/// replies.
 Outcome mutatedReplies(RandomStream& random) {
   FalconHold bench(random);
   const double begin = anyMoment(random), end = begin + 0.3;
@@ -159,13 +161,13 @@ Outcome mutatedReplies(RandomStream& random) {
       good_after = link.status().replies;
     }
   });
-  if (lied) outcome.broken.emplace_back("a flag or a button that the device never had");
-  if (slow) outcome.broken.emplace_back("not good again after two good replies");
-  outcome.detection = outcome.zero = 0;  // force need not go, and may
+  if (lied) outcome.broken.emplace_back("reported a flag or button that the device never had");
+  if (slow) outcome.broken.emplace_back("no recovery after two good replies");
+  outcome.detection = outcome.zero = 0;  // a reaction is allowed, not required
   return outcome;
 }
 
-/// Row 18. The next reply says so; the request after it is lower already.
+/// Row 18. The next reply reports the loss; the request after it is already lower.
 Outcome referenceLost(RandomStream& random) {
   FalconHold bench(random);
   const double begin = anyMoment(random);
@@ -176,7 +178,8 @@ Outcome referenceLost(RandomStream& random) {
   });
 }
 
-/// Row 17: the link alone, no scene: a device without firmware, and a file that is missing, another, cut off, or echoed wrongly.
+/// Row 17: the link alone, without a scene: no firmware on the device, and a firmware file that is missing, wrong,
+/// truncated, or echoed wrongly.
 Outcome firmwareFails(RandomStream& random) {
   enum { kMissing, kOther, kCut, kEcho };
   const auto kind = random.below(4);
@@ -185,7 +188,7 @@ Outcome firmwareFails(RandomStream& random) {
   std::vector<std::uint8_t> file = settings.loader.firmware = madeUpFirmware();
   settings.loader.deaf_greetings = static_cast<int>(random.below(4));
   settings.loader.zero_before = random.below(2) == 0;
-  const auto errors = static_cast<int>(random.below(13));  // ten are too many
+  const auto errors = static_cast<int>(random.below(13));  // more than ten are too many
   if (kind == kMissing) file.clear();
   if (kind == kOther) file[4 + random.below(file.size() - 4)] ^= static_cast<std::uint8_t>(1 + random.below(255));
   if (kind == kCut) file.resize(4 + random.below(file.size() - 4));
@@ -207,7 +210,7 @@ Outcome firmwareFails(RandomStream& random) {
     link.step(now, {{0, 0, 3}, now});
   }
   for (int i = 0; i < 2000; ++i)
-    link.step(now += 0.25e-3, {{0, 0, 3}, now});  // it wants to push, and nobody has homed it
+    link.step(now += 0.25e-3, {{0, 0, 3}, now});  // asks for a force, but the device is not homed
   Outcome outcome;
   const auto require = [&](bool holds, const char* what) {
     if (!holds) outcome.broken.emplace_back(what);
@@ -217,18 +220,19 @@ Outcome firmwareFails(RandomStream& random) {
   const LinkFault fault = status.fault;
   require(status.state == (loads ? LinkState::kHoming : LinkState::kDead),
           "brought up, or given up, against the facts");
-  require(kind != kMissing || fault == LinkFault::kNoFirmware, "the missing file was not named");
-  require((kind != kOther && kind != kCut) || fault == LinkFault::kFirmwareSilent, "the wrong file was not named");
+  require(kind != kMissing || fault == LinkFault::kNoFirmware, "the missing firmware file was not reported");
+  require((kind != kOther && kind != kCut) || fault == LinkFault::kFirmwareSilent,
+          "the wrong firmware file was not reported");
   require(kind != kEcho || loads || fault == LinkFault::kEchoMismatch || fault == LinkFault::kEchoMissing,
-          "the wrong echo was not named");
-  require(loads || *remedy(fault) != '\0', "nothing was said of what to do");
+          "the wrong echo was not reported");
+  require(loads || *remedy(fault) != '\0', "no remedy was reported");
   require(model.processor().uploads() <= 10, "more than ten attempts");
   require(!pushed, "force before the device was homed");
   outcome.broken.insert(outcome.broken.end(), model.violations().begin(), model.violations().end());
   return outcome;
 }
 
-/// Row 19: another program asks for the device in the grasp.
+/// Row 19: during the grasp another program tries to open the device.
 Outcome secondProgram(RandomStream& random) {
   FalconHold bench(random);
   const double begin = anyMoment(random);
@@ -237,8 +241,8 @@ Outcome secondProgram(RandomStream& random) {
   Outcome outcome = bench.run(begin + 0.2, begin, begin + 0.01, 3, [&](double time) {
     if (asks.comes(time)) refused = falcon_model::ModelTransport::open(bench.thumb().model()) == nullptr;
   });
-  if (!refused) outcome.broken.emplace_back("two programs had the device");
-  if (outcome.detection >= 0) outcome.broken.emplace_back("the first felt something of it");
+  if (!refused) outcome.broken.emplace_back("two programs opened the device");
+  if (outcome.detection >= 0) outcome.broken.emplace_back("the first program's force was disturbed");
   outcome.detection = outcome.zero = 0;
   return outcome;
 }

@@ -8,15 +8,15 @@
 namespace presa::faults {
 namespace {
 
-const Vec3 kMiddle_D(0, 0, 0.120);               // where the device is strongest [m]
-const Vec3 kMiddle_W(0.046, 0, 0.075);           // what the grasp uses, for the index [m]
-constexpr double kWire = 0.2e-3;                 // more than a request takes, less than a step of the link [s]
+const Vec3 kMiddle_D(0, 0, 0.120);               // centre of the workspace, where the device is strongest [m]
+const Vec3 kMiddle_W(0.046, 0, 0.075);           // the same point in the grasp, for the index [m]
+constexpr double kWire = 0.2e-3;                 // longer than a request takes, shorter than a step of the link [s]
 constexpr double kForce = 8, kForceRate = 1000;  // of the scene [N], [N/s]
 
 Pose standing(double side) {
   const double half = std::numbers::pi / 4;
   Pose X_WD;
-  X_WD.q = Quat(std::cos(half), 0, -side * std::sin(half), 0);  // z towards the object
+  X_WD.q = Quat(std::cos(half), 0, -side * std::sin(half), 0);  // device z axis towards the object
   X_WD.p = Vec3(side * kMiddle_W.x(), 0, kMiddle_W.z()) - X_WD.q * kMiddle_D;
   return X_WD;
 }
@@ -66,7 +66,7 @@ void FalconFinger::stepUntil(double time) noexcept {
 
 FingerInput FalconFinger::read(const Tick& tick) noexcept {
   stepUntil(timeOf(tick.time));
-  model_.advance(now() + kWire);  // what was sent just now has arrived when it is looked at
+  model_.advance(now() + kWire);  // let the latest request arrive first
   transport_.force = model_.plugged() ? Vec3(X_WD_.q * model_.received().meant_D) : Vec3(Vec3::Zero());
   transport_.largest_step = model_.watch().largestStep();
   transport_.energy = model_.grip().energy();

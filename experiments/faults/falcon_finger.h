@@ -10,16 +10,16 @@
 
 namespace presa::faults {
 
-/// Made up, as long as the real ones; begins as they do.
+/// Synthetic firmware with the length and the first bytes of the real one.
 std::vector<std::uint8_t> madeUpFirmware();
 
-/// A Falcon in the hand of the hold scenario: the driver's link over the model of the device, in one virtual time which begins kPrelude
-/// before the run: then the device has been brought up and the hand is at its start. The link is stepped as by its thread,
-/// every quarter of a millisecond. Thread: one.
+/// A Falcon in the hold scenario: the driver's link on the model of the device, in one virtual time. That time starts
+/// kPrelude before the run, so that the device is up and the hand is at its start when the run begins. The link is
+/// stepped every 0.25 ms, as by its own thread. Thread: one.
 class FalconFinger final : public Device {
  public:
-  /// `side`: -1 thumb, 1 index; the device stands so that its z is the axis of the grasp, towards the object. `transport`: filled
-  /// with what the model received; outlives the finger, as `hold` does.
+  /// `side`: -1 thumb, 1 index; the device's z axis lies along the axis of the grasp, towards the object. `transport`:
+  /// receives the forces at the model. `transport` and `hold` must outlive the finger.
   FalconFinger(const Hold& hold, double side, std::uint64_t seed, Transport& transport);
 
   FingerInput read(const Tick& tick) noexcept override;
@@ -29,7 +29,7 @@ class FalconFinger final : public Device {
 
   falcon_model::FalconModel& model() { return model_; }
   const falcon::FalconLink& link() const { return *link_; }
-  /// The model's time at a time of the run [s].
+  /// Converts a time of the run to the model's time [s].
   static double timeOf(double time) { return time + kPrelude; }
   /// Called after every step of the link.
   std::function<void()> at_step;
@@ -40,7 +40,7 @@ class FalconFinger final : public Device {
   void stepUntil(double time) noexcept;
   double now() const { return static_cast<double>(steps_) * kStep; }
 
-  static constexpr double kStep = 0.25e-3;  // of the link's thread [s]
+  static constexpr double kStep = 0.25e-3;  // period of the link thread [s]
 
   Transport& transport_;
   Pose X_WD_;

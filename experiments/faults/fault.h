@@ -6,57 +6,59 @@
 
 #include "framework/core/math/random.h"
 
-/// What may go wrong under a hand, and what must happen then. Every run is a whole pipeline in lockstep, two yielding fingers on an
-/// object, one fault at a random moment; forces are judged as they were written to the devices.
+/// The fault table: faults during a grasp and the required reaction. Most runs are a whole pipeline in lockstep, with
+/// two fingers on compliant hands holding an object and one fault at a random moment. Forces are judged as written to
+/// the devices.
 namespace presa::faults {
 
-/// What one run showed. A value that does not apply is 0.
+/// Result of one run. A value that does not apply is 0.
 struct Outcome {
-  double detection = 0;             ///< from the fault to the first force that answers it [s]
-  double zero = 0;                  ///< from the fault to zero force at every device concerned [s]
-  double step = 0;                  ///< largest change of a force from one write to the next [N]
-  double energy = 0;                ///< most given to the hand from the fault until zero, or until the fault's end [J]
-  double energy_allowed = 0;        ///< what the sampling of a spring may add to that [J]
-  std::vector<std::string> broken;  ///< what else was required and did not happen
-  /// Runs before it of which nobody could have told when the fault came: why, each with its figure.
+  double detection = 0;             ///< from the fault to the first reduced force [s]
+  double zero = 0;                  ///< from the fault to zero force at every affected device [s]
+  double step = 0;                  ///< max change of a force between two writes [N]
+  double energy = 0;                ///< max energy delivered to the hand from the fault until its end [J]
+  double energy_allowed = 0;        ///< energy that sampling a spring may add [J]
+  std::vector<std::string> broken;  ///< other violated requirements, in words
+  /// Preceding runs that were discarded because the moment of the fault is unknown, each with its reason.
   std::vector<std::string> discarded;
 };
 
-/// Bounds that hold for every run; 0: none.
+/// Bounds for every run; 0: none.
 struct Bounds {
   double detection = 0, zero = 0;  ///< [s]
-  bool energy = false;             ///< none to the hand
+  bool energy = false;             ///< true: no energy may be delivered to the hand
 };
 
 struct Fault {
-  int row = 0;  ///< of the fault table
+  int row = 0;  ///< row of the fault table
   std::string name, required;
   Bounds bounds;
   std::function<Outcome(RandomStream&)> run;
-  int most_runs = std::numeric_limits<int>::max();  ///< where a run takes wall time or says no more than the one before
-  /// Real processes against the clock: means nothing where the system refuses SCHED_FIFO (realtimeRights).
+  int most_runs = std::numeric_limits<int>::max();  ///< limit for runs that take wall time or do not vary
+  /// Runs real processes in real time; meaningless when the system refuses SCHED_FIFO (see realtimeRights).
   bool real_time = false;
 };
 
-/// What a run broke; empty: nothing.
+/// The first violated requirement of a run; empty: none.
 std::string brokenBy(const Fault& fault, const Outcome& outcome);
 
-/// Faults under two fingers that hold a cube (hold.h).
+/// Faults while two fingers hold a cube (hold.h).
 std::vector<Fault> holdFaults();
 
-/// Faults of the whole program, with a supervisor that outlives it: real processes in real time (press.h).
+/// Faults of the whole program: real processes in real time, with a supervisor that survives the program (press.h).
 std::vector<Fault> processFaults();
 
-/// Faults of a Novint Falcon, its driver on a model of the device (devices/falcon_model); forces are those that the model received.
+/// Faults of a Novint Falcon: its driver on a model of the device (devices/falcon_model), judged by the forces at the
+/// model.
 std::vector<Fault> falconFaults();
 
-/// Faults of what a scene is made from, of the machine and of the rig (scene_faults.h).
+/// Faults of scene files, machine and rig (scene_faults.h).
 std::vector<Fault> sceneFaults();
 
-/// Faults of those who look at a run (framework/bus).
+/// Viewers of a run on the bus (framework/bus).
 std::vector<Fault> viewerFaults();
 
-/// Of every family, in the order of the table.
+/// All faults in the order of the table.
 std::vector<Fault> allFaults();
 
 }  // namespace presa::faults

@@ -6,7 +6,7 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kSlew = 1000 * 1e-3;  // of the scene [N] a tick
+constexpr double kSlew = 1000 * 1e-3;  // slew limit of the scene [N] per tick
 constexpr double kRounding = 1e-9;
 
 }  // namespace

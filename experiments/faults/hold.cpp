@@ -8,13 +8,13 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kWidth = 0.08, kRadius = 0.008;  // of the cube, of a fingertip [m]
-constexpr double kStiffness = 1000;               // of its material [N/m]
-constexpr double kGrip = 3;                       // [N]: with the load 4 N at most, down in 4 ms
+constexpr double kWidth = 0.08, kRadius = 0.008;  // of the cube; of a fingertip [m]
+constexpr double kStiffness = 1000;               // of the cube's material [N/m]
+constexpr double kGrip = 3;                       // [N]: max 4 N with the load, zero within 4 ms
 constexpr double kOpen = 0.004;                   // gap before the grasp [m]
 constexpr double kLift = 0.05, kLiftBegin = 1.0, kLiftEnd = 1.8;
 
-/// Smooth from 0 to 1: position and velocity continuous.
+/// Smooth step from 0 to 1 (cubic) and its rate.
 std::pair<double, double> ease(double time, double begin, double end) {
   const double s = std::clamp((time - begin) / (end - begin), 0.0, 1.0);
   return {s * s * (3 - 2 * s), 6 * s * (1 - s) / (end - begin)};
@@ -86,7 +86,7 @@ void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick, const
 void requireBounded(const Traffic& traffic, double limit, Outcome& outcome) {
   if (!outcome.broken.empty()) return;
   for (const Vec3& force : traffic.force) {
-    if (!force.allFinite()) outcome.broken.emplace_back("a force that is no number");
+    if (!force.allFinite()) outcome.broken.emplace_back("a force that is not finite");
     if (force.norm() > limit * (1 + 1e-9)) outcome.broken.emplace_back("a force above the limit");
   }
 }
@@ -117,7 +117,7 @@ void Judge::see(double time, const Traffic& traffic) {
 Outcome Judge::outcome() const {
   Outcome result = outcome_;
   result.detection = answered_;
-  result.zero = last_force_ + 1e-3;  // the write after the last that was not zero
+  result.zero = last_force_ + 1e-3;  // the write after the last nonzero one
   if (before_ < 0.5) result.broken.emplace_back("nothing was held when the fault came");
   return result;
 }

@@ -5,16 +5,16 @@
 #include <memory>
 
 #include "experiments/faults/fault.h"
-#include "framework/device/wrapped_device.h"
 #include "experiments/study/study_run.h"
 #include "experiments/study/yielding_finger.h"
+#include "framework/device/wrapped_device.h"
 
 namespace presa::faults {
 
-/// A finger whose device may be made to fail.
+/// A wrapper that makes a device fail.
 class FailingDevice final : public WrappedDevice {
  public:
-  /// Changes the sample that is due at that time [s] before anybody sees it.
+  /// Modifies the sample that is due at `time` [s].
   using Failure = std::function<void(double time, FingerInput& sample)>;
   FailingDevice(std::unique_ptr<Device> device, Failure failure)
       : WrappedDevice(std::move(device)), failure_(std::move(failure)) {}
@@ -28,38 +28,38 @@ class FailingDevice final : public WrappedDevice {
   Failure failure_;
 };
 
-/// What a run holds while the fault comes: thumb and index close on a cube, lift it and hold it.
+/// The hold scenario: thumb and index close on a cube, lift it and hold it while the fault occurs.
 struct Hold {
-  std::string scene = "faults/hold.xml";                   ///< below experiments, or a path of its own
+  std::string scene = "faults/hold.xml";                   ///< file below experiments, or an absolute path
   std::vector<std::string> sets{};                         ///< PATH=VALUE
-  double force_share = 1;                                  ///< of the limits
+  double force_share = 1;                                  ///< scale of the force limits
   double end = 3;                                          ///< [s]
-  double closed = 0.9;                                     ///< fingers press from then on [s]
-  double deep = 0;                                         ///< fingers start this deep in the object [m]
-  FailingDevice::Failure thumb;                            ///< on the thumb's device
-  std::function<bool(RateGroup, double)> held_up;          ///< groups that do not run
-  double rearm = std::numeric_limits<double>::infinity();  ///< [s]
-  StudyRun::MakeModule more;                               ///< a module that runs with it
+  double closed = 0.9;                                     ///< the fingers press from this time on [s]
+  double deep = 0;                                         ///< initial penetration of the fingers [m]
+  FailingDevice::Failure thumb;                            ///< failure of the thumb's device
+  std::function<bool(RateGroup, double)> held_up;          ///< stalled groups, asked before each tick
+  double rearm = std::numeric_limits<double>::infinity();  ///< time of the re-arm [s]
+  StudyRun::MakeModule more;                               ///< an additional module
 };
 
-/// What passed at the devices, tick by tick.
+/// Forces and energies at the devices in one tick, index 0 thumb, 1 index.
 struct Traffic {
   std::array<Vec3, 2> force{Vec3::Zero(), Vec3::Zero()};
   std::array<double, 2> energy{};
   double step = 0;
-  double slew_energy = 0;  ///< K/2 dx^2 of this tick: what sampling a spring may add [J]
+  double slew_energy = 0;  ///< K/2 dx^2 of this tick: the energy that sampling a spring may add [J]
 };
 
 using AtTick = std::function<void(double time, const Traffic& traffic)>;
 
 using AfterRun = std::function<void(StudyRun& run)>;
 
-/// Runs it; `at_tick` sees the traffic after every haptic tick, `after` the run when it is over. Throws InputError for a scene that
-/// cannot be used.
+/// Runs the scenario; `at_tick` is called after every haptic tick, `after` at the end of the run. Throws InputError for
+/// an unusable scene.
 void runHold(const Hold& hold, const AtTick& at_tick, const AfterRun& after = {});
 
-/// What carries the fingers in its place: `fingers` fill in their `transports`; `clock` is the time in the world. Both outlive
-/// the fingers.
+/// Replacement devices for the fingers: `fingers` write to `transports`; `clock` is the world time [s]. Both must
+/// outlive the fingers.
 struct HoldDevices {
   DeviceList fingers;
   std::array<Transport, 2>& transports;
@@ -67,16 +67,17 @@ struct HoldDevices {
 };
 void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick, const AfterRun& after = {});
 
-/// Where the hand of a finger goes; `side`: -1 thumb, 1 index.
+/// Target of the hand behind a finger; `side`: -1 thumb, 1 index.
 PrescribedFinger::State handAt(const Hold& hold, const HandImpedance& hand, double side, double time);
 
-/// What must hold of every force that is written, whatever fails: finite, at most the limit.
+/// Requirement on every written force: finite and within the limit [N].
 void requireBounded(const Traffic& traffic, double limit, Outcome& outcome);
 
-/// Judges the usual: when the forces answered, when they were zero and stayed so until `until`, the steps, the energy.
+/// Standard judge: time to the first reduced force, time to zero force, force steps, energy.
 class Judge {
  public:
-  /// `begin`: of the fault; `until`: of its end, infinity when it stays [s]. `fingers`: bits of those that have to go to zero.
+  /// `begin`: time of the fault; `until`: its end, infinity when it persists [s]. `fingers`: bit set of the fingers
+  /// that must go to zero.
   Judge(double begin, double until, unsigned fingers = 3) : begin_(begin), until_(until), fingers_(fingers) {}
   void see(double time, const Traffic& traffic);
   Outcome outcome() const;

@@ -8,9 +8,9 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kAfter = 0.7;  // [s] watched after the fault
+constexpr double kAfter = 0.7;  // [s] observed after the fault
 
-/// While fingers press: closing, lifting, holding.
+/// A moment while the fingers press: closing, lifting or holding.
 double anyMoment(RandomStream& random) { return random.uniform(0.95, 2.6); }
 
 Outcome judged(Hold hold, Judge judge) {
@@ -18,7 +18,7 @@ Outcome judged(Hold hold, Judge judge) {
   return judge.outcome();
 }
 
-/// The thumb's samples are changed from a moment on, for a while.
+/// Modifies the thumb's samples from a random moment on, for `length` seconds.
 Outcome sampleFails(RandomStream& random, double length, unsigned fingers,
                     const std::function<void(RandomStream&, FingerInput&)>& change) {
   const double begin = anyMoment(random);
@@ -38,7 +38,7 @@ Outcome unplugged(RandomStream& random) {
   });
 }
 
-/// Not a number, infinite, 1e308, or 0.1 to 1.1 m from where the finger is: for good, so that the second in a row comes.
+/// NaN, infinity, 1e308, or a jump of 0.1 to 1.1 m; permanent, so that a second bad sample follows.
 Outcome impossibleSample(RandomStream& random) {
   const std::uint64_t kind = random.below(4);
   return sampleFails(random, kForever, 1, [kind](RandomStream& bits, FingerInput& sample) {
@@ -48,12 +48,12 @@ Outcome impossibleSample(RandomStream& random) {
   });
 }
 
-/// One impossible sample alone is bridged: nothing is to be felt of it.
+/// A single bad sample is bridged and must not change the force.
 Outcome oneImpossibleSample(RandomStream& random) {
   Outcome outcome = sampleFails(random, 1e-3, 1, [](RandomStream& bits, FingerInput& sample) {
     sample.p_WH.x() = bits.below(2) == 0 ? kNan : 1e9;
   });
-  if (outcome.detection >= 0) outcome.broken.emplace_back("one bad sample took force away");
+  if (outcome.detection >= 0) outcome.broken.emplace_back("one bad sample reduced the force");
   outcome.detection = outcome.zero = 0;
   return outcome;
 }
@@ -63,7 +63,7 @@ Outcome silent(RandomStream& random) {
   return sampleFails(random, length, 1, [](RandomStream&, FingerInput& sample) { sample = {}; });
 }
 
-/// Some replies missing here and there, fewer than take the force to zero.
+/// Isolated missing replies, too few to take the force to zero.
 Outcome stutters(RandomStream& random) {
   const double begin = anyMoment(random);
   RandomStream bits(random.bits(), "replies");
@@ -73,7 +73,7 @@ Outcome stutters(RandomStream& random) {
     if (time >= begin && bits.below(4) == 0) sample = {};
   };
   Outcome outcome = judged(hold, Judge(begin, kForever, 1));
-  outcome.detection = outcome.zero = 0;  // it need not, and may
+  outcome.detection = outcome.zero = 0;  // a reaction is allowed, not required
   return outcome;
 }
 
@@ -93,7 +93,7 @@ Outcome dynamicsStalls(RandomStream& random) {
 Outcome dynamicsDies(RandomStream& random) { return held(random, RateGroup::kDynamics, kForever); }
 Outcome collisionDies(RandomStream& random) { return held(random, RateGroup::kCollision, kForever); }
 
-/// The haptic thread is late by 1.5, 5 or 50 ms. Nothing can be sent meanwhile: what counts is what comes after.
+/// The haptic thread is late by 1.5, 5 or 50 ms. Nothing can be sent meanwhile; the following forces are judged.
 Outcome overrun(RandomStream& random) {
   const double lengths[] = {0.0015, 0.005, 0.05};
   Outcome outcome = held(random, RateGroup::kHaptic, lengths[random.below(3)]);
@@ -101,7 +101,7 @@ Outcome overrun(RandomStream& random) {
   return outcome;
 }
 
-/// Fingers that are in the object when the run begins.
+/// Fingers start inside the object.
 Outcome startsInside(RandomStream& random) {
   Hold hold;
   hold.deep = random.uniform(0.001, 0.06);

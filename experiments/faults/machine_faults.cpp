@@ -9,9 +9,9 @@ namespace presa::faults {
 namespace {
 
 constexpr double kHoldLimit = 8;  // of the scene [N]
-constexpr double kLimit = 3;      // of the scene here, below what the grasp wants [N]
+constexpr double kLimit = 3;      // reduced limit of the scene, below the force of the grasp [N]
 
-/// Forces of a whole hold, all of them.
+/// All forces of a complete hold.
 std::vector<Vec3> forcesOf(double end) {
   Hold hold;
   hold.end = end;
@@ -24,15 +24,15 @@ std::vector<Vec3> forcesOf(double end) {
 
 }  // namespace
 
-/// Whoever does not call a clock cannot be moved by it: no object that runs imports one that shows the wall's time. The
-/// recording's, that notes when it began, and the program's own, that dates results, are outside every tick. tests/experiments/faults lets
-/// the clock really jump.
+/// Code that does not read the wall clock cannot be affected by it: no loaded object imports a wall-clock function.
+/// Exceptions, outside every tick: the recording notes its start time, and the program dates its results.
+/// tests/experiments/faults makes the clock actually jump.
 Outcome wallClockJumps(RandomStream& random) {
   Outcome outcome;
   const double end = random.uniform(1, 1.5);
-  if (forcesOf(end) != forcesOf(end)) outcome.broken.emplace_back("not the same bits");
+  if (forcesOf(end) != forcesOf(end)) outcome.broken.emplace_back("two equal runs differ");
   const std::vector<ObjectImports> objects = loadedObjects();
-  if (objects.size() < 4) outcome.broken.emplace_back("no objects were seen");
+  if (objects.size() < 4) outcome.broken.emplace_back("no loaded objects were found");
   for (const ObjectImports& object : objects) {
     if (object.name == "presa_record.so") continue;
     for (const std::string& clock : wallClocksAmong(object.imports))
@@ -41,9 +41,10 @@ Outcome wallClockJumps(RandomStream& random) {
   return outcome;
 }
 
-/// The process is stopped, or the machine sleeps, in the grasp; after it nothing is felt until somebody re-arms, then softly.
+/// The process is stopped, or the machine sleeps, during the grasp. Afterwards the force stays zero until a re-arm,
+/// then rises softly.
 Outcome standsStill(RandomStream& random) {
-  // not while the hand lifts: it would leave the object behind, and there were nothing to come back
+  // not during the lift: the hand would leave the object behind, and no force could return
   const double begin = random.uniform(1.85, 2.6), end = begin + random.uniform(2, 20), rearm = end + 0.2;
   Hold hold;
   hold.end = rearm + 0.8;
@@ -56,7 +57,7 @@ Outcome standsStill(RandomStream& random) {
     const double now = std::max(traffic.force[0].norm(), traffic.force[1].norm());
     if (time < begin - 1e-9) {
       held = now;
-      outcome.step = traffic.step;  // over the gap it is what was held, in many seconds
+      outcome.step = traffic.step;  // measured before the gap, which lasts many seconds
     } else if (first < 0) {
       first = now;
     } else if (time < rearm) {
@@ -67,15 +68,15 @@ Outcome standsStill(RandomStream& random) {
     }
     last = now;
   });
-  if (held < 0.5) outcome.broken.emplace_back("nothing was held when it stood still");
-  if (first != 0) outcome.broken.emplace_back("the first force after it was not zero");
+  if (held < 0.5) outcome.broken.emplace_back("nothing was held before the standstill");
+  if (first != 0) outcome.broken.emplace_back("the first force after the standstill was not zero");
   if (latched != 0) outcome.broken.emplace_back("a force came back without a re-arm");
   if (!(come_back > 0.5)) outcome.broken.emplace_back("no force came back after the re-arm");
-  if (rise > 1 + 1e-9) outcome.broken.emplace_back("a step after the re-arm");
+  if (rise > 1 + 1e-9) outcome.broken.emplace_back("a force step after the re-arm");
   return outcome;
 }
 
-/// The system refuses one thing, or both, or nothing; hardware or a model; the user allows it or not.
+/// All combinations of: SCHED_FIFO and locked memory granted or refused, hardware or model, --allow-no-rt or not.
 Outcome realTimeRefused(RandomStream& random) {
   const bool fifo = random.below(2) == 0, memory = random.below(2) == 0;
   const bool hardware = random.below(3) > 0, realtime = random.below(4) > 0;
@@ -93,16 +94,16 @@ Outcome realTimeRefused(RandomStream& random) {
   std::vector<std::string> notes;
   try {
     hold.force_share = forceShare(hardware, options, probe, notes);
-    if (concerned && !options.allow_no_rt) outcome.broken.emplace_back("hardware was let run");
+    if (concerned && !options.allow_no_rt) outcome.broken.emplace_back("hardware was allowed to run");
   } catch (const InputError& refused) {
     if (!concerned || options.allow_no_rt) outcome.broken.emplace_back("refused what may run");
     const std::string words = refused.what();
     for (const char* help : {"E463", "limits.conf", "ulimit -r", "--allow-no-rt"}) {
-      if (words.find(help) == std::string::npos) outcome.broken.push_back(std::string("does not name ") + help);
+      if (words.find(help) == std::string::npos) outcome.broken.push_back(std::string("does not mention ") + help);
     }
     return outcome;  // before any device: no force
   }
-  if (notes.empty() == concerned) outcome.broken.emplace_back("does not say that forces are halved");
+  if (notes.empty() == concerned) outcome.broken.emplace_back("the halved forces were not reported");
   double most = 0;
   const double limit = concerned ? kLimit / 2 : kLimit;
   runHold(hold, [&](double, const Traffic& traffic) {
@@ -110,7 +111,7 @@ Outcome realTimeRefused(RandomStream& random) {
     most = std::max(most, traffic.force[0].norm());
     outcome.step = traffic.step;
   });
-  if (most < 0.99 * limit) outcome.broken.emplace_back("the limit was not put to the test");
+  if (most < 0.99 * limit) outcome.broken.emplace_back("the force limit was not reached");
   return outcome;
 }
 

@@ -21,7 +21,7 @@ std::string bytes(T value) {
   return out;
 }
 
-/// As claimed in its head, if that is not as many as there are.
+/// `claimed`: number of faces stated in the header, which may differ from the actual number.
 std::string asPly(const TriMesh& mesh, std::size_t claimed) {
   std::ostringstream out;
   out << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
@@ -39,7 +39,7 @@ std::string asObj(const TriMesh& mesh) {
   return out.str();
 }
 
-/// Without an index: a corner that names no vertex is at nan.
+/// STL has no indices: a corner with an invalid index gets NaN coordinates.
 std::string asStl(const TriMesh& mesh, std::size_t claimed) {
   std::string out(80, 'x');
   out += bytes(static_cast<std::uint32_t>(claimed));
@@ -58,7 +58,7 @@ std::string asStl(const TriMesh& mesh, std::size_t claimed) {
   return out;
 }
 
-/// What is done to a good mesh.
+/// Kinds of damage to a valid mesh.
 enum class Damage : std::uint8_t {
   kNotFinite,
   kBadIndex,
@@ -66,8 +66,8 @@ enum class Damage : std::uint8_t {
   kOpen,
   kDoubled,
   kFlipped,
-  kClaimed,  // ten million faces
-  kBytes,    // from here on it may still be a mesh
+  kClaimed,  // header claims ten million faces
+  kBytes,    // from here on the result may still be a valid mesh
   kTruncated,
   kNoise,
   kCount,
@@ -95,7 +95,7 @@ void damage(TriMesh& mesh, Damage kind, RandomStream& random) {
     } else if (kind == Damage::kFlipped) {
       auto& triangle = mesh.triangles[any(mesh.triangles.size())];
       std::swap(triangle[0], triangle[1]);
-      return;  // twice the same one would be none
+      return;  // a second swap could undo the first
     }
   }
 }
@@ -111,14 +111,14 @@ void damage(std::string& file, Damage kind, RandomStream& random) {
   }
 }
 
-/// It must not be taken for a good one.
+/// A damaged mesh must be reported.
 void requireFinding(const TemporaryFile& file, Damage kind, Outcome& outcome) {
   Diagnostics findings;
   const TriMesh mesh = importMesh(file.path(), {}, {"scene.xml", 1, 1}, findings);
-  if (mesh.triangles.empty() != findings.hasErrors()) outcome.broken.emplace_back("half loaded");
-  if (kind < Damage::kBytes && findings.all().empty()) outcome.broken.emplace_back("nothing was found");
+  if (mesh.triangles.empty() != findings.hasErrors()) outcome.broken.emplace_back("partly loaded");
+  if (kind < Damage::kBytes && findings.all().empty()) outcome.broken.emplace_back("the damage was not reported");
   for (const Diagnostic& finding : findings.all()) {
-    if (finding.message.empty()) outcome.broken.emplace_back("a finding without a word");
+    if (finding.message.empty()) outcome.broken.emplace_back("a finding without a message");
   }
 }
 
@@ -146,7 +146,7 @@ Outcome corruptMesh(RandomStream& random) {
       outcome.step = traffic.step;
     });
   } catch (const InputError& refused) {
-    if (refused.diagnostics().errorCount() == 0) outcome.broken.emplace_back("refused without a word");
+    if (refused.diagnostics().errorCount() == 0) outcome.broken.emplace_back("refused without a message");
   }
   return outcome;
 }

@@ -7,14 +7,14 @@
 
 namespace presa::faults {
 
-/// What was written to a device.
+/// Forces written to a device.
 struct Meter {
-  Vec3 force = Vec3::Zero();  ///< held now [N]
-  double largest = 0;         ///< [N]; NaN stays
-  double largest_step = 0;    ///< from one write to the next [N]
+  Vec3 force = Vec3::Zero();  ///< current force [N]
+  double largest = 0;         ///< max force [N]; NaN once any force was NaN
+  double largest_step = 0;    ///< max change between two writes [N]
 };
 
-/// A driver with a meter on its wire.
+/// A wrapper that records the forces written to a device.
 class MeteredDevice final : public WrappedDevice {
  public:
   MeteredDevice(std::unique_ptr<Device> device, Meter& meter) : WrappedDevice(std::move(device)), meter_(meter) {}

@@ -14,7 +14,7 @@
 namespace presa::faults {
 namespace {
 
-/// One thing out of a file's bytes; zeros beyond the end.
+/// Reads a T from a file's bytes; zeros beyond the end.
 template <class T>
 T at(const std::string& file, std::size_t offset) {
   T value{};
@@ -22,7 +22,7 @@ T at(const std::string& file, std::size_t offset) {
   return value;
 }
 
-/// Undefined symbols of an ELF file's dynamic table.
+/// Undefined symbols in the dynamic symbol table of an ELF file.
 std::vector<std::string> undefinedIn(const std::string& file) {
   std::vector<std::string> names;
   const auto head = at<ElfW(Ehdr)>(file, 0);

@@ -4,17 +4,17 @@
 
 namespace presa::faults {
 
-/// A shared object of Presa that this process has loaded, and what it wants from others.
+/// A shared object of Presa loaded by this process, with its imported symbols.
 struct ObjectImports {
   std::string name;                  ///< file name
-  std::vector<std::string> imports;  ///< symbols that it does not define
+  std::vector<std::string> imports;  ///< undefined symbols
 };
 
-/// Framework and plug-ins that are loaded now, read from their files.
+/// The loaded framework library and plug-ins, read from their files.
 std::vector<ObjectImports> loadedObjects();
 
-/// Those by which a program learns what a clock on the wall shows. (clock_gettime is not among them: which clock it is asked for no
-/// symbol tells; tests/layering looks for the word CLOCK_REALTIME.)
+/// The symbols that read the wall clock. clock_gettime is not among them, because the symbol does not show which clock
+/// is read; tests/layering searches for CLOCK_REALTIME instead.
 std::vector<std::string> wallClocksAmong(const std::vector<std::string>& symbols);
 
 }  // namespace presa::faults

@@ -13,17 +13,17 @@
 #include <new>
 #include <stdexcept>
 
+#include "experiments/study/experiment_file.h"
+#include "framework/core/schedule/clock.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/schedule/clock.h"
-#include "experiments/study/experiment_file.h"
 
 namespace presa::faults {
 namespace {
 
 constexpr double kPatience = 5;  // [s]
 
-/// /proc/self/fd of our own log: whoever is a child of ours, or has its number, can open it.
+/// Creates the shared log and returns its path /proc/PID/fd/N, which the program under test opens.
 std::string makeLog(ProbeLog*& log) {
   const int fd = memfd_create("presa-probe", 0);
   if (fd < 0 || ftruncate(fd, sizeof(ProbeLog)) != 0) throw std::runtime_error("no memory for the probe's log");
@@ -40,14 +40,14 @@ std::string textOf(const std::string& file) {
 
 std::string limitsElement(const std::string& limits) { return limits.empty() ? "" : "<limits " + limits + "/>"; }
 
-/// The file's text with limits for its finger.
+/// The text of a scene file with limits added to its finger.
 std::string sceneText(const std::string& file, const std::string& limits) {
   std::string text = textOf(file);
   const std::string plain = "<device role=\"finger\"/>";
   return text.replace(text.find(plain), plain.size(), "<device role=\"finger\">" + limitsElement(limits) + "</device>");
 }
 
-/// Runs until it is killed.
+/// Runs the program under test until it is killed.
 [[noreturn]] void runProgram(const std::string& log, const PressingProgram::Limits& limits) {
   try {
     const std::string scene = experimentFile("faults/press.xml");
@@ -70,7 +70,7 @@ std::string sceneText(const std::string& file, const std::string& limits) {
   _exit(1);
 }
 
-/// Nothing but a zombie, at most, has that number.
+/// True when the process has ended or is a zombie.
 bool isOver(pid_t process) {
   const std::string stat = textOf("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name_end = stat.rfind(')');
@@ -85,7 +85,7 @@ PressingProgram::PressingProgram(const Limits& limits) : file_(makeLog(log_)) {
   program_ = fork();
   if (program_ < 0) throw std::runtime_error("no process for the pressing program");
   if (program_ == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody presses on when the one who watches has died
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // end with the parent, so that nobody is left pressing
     runProgram(file_, limits);
   }
   problem_ = waitUntilPressed();

@@ -7,16 +7,17 @@
 
 namespace presa::faults {
 
-/// A program of its own, as a user would start it, in real time: one finger on a probe leans on a block with 4 N, through the whole
-/// chain, supervisor and all. What reaches the probe is seen from here, whatever becomes of the program.
-/// Thread: main, with no other thread in the process: the program is a fork.
+/// A separate program in real time, as a user would start it: one finger on a probe presses a block with 4 N, through
+/// the whole chain including the supervisor. The forces at the probe are logged in shared memory, which survives the
+/// program.
+/// Thread: main, with no other thread in the process, because the program is a fork.
 class PressingProgram {
  public:
-  /// What its files say of limits, each between `<limits ` and `/>`; empty: nothing.
+  /// Attributes of `<limits …/>` in the scene and in the rig; empty: no element.
   struct Limits {
     std::string scene, rig;
   };
-  /// Starts it and waits until the finger is pressed, or five seconds.
+  /// Starts the program and waits until the finger presses, at most five seconds.
   explicit PressingProgram(const Limits& limits = {});
   ~PressingProgram();
   PressingProgram(const PressingProgram&) = delete;
@@ -24,9 +25,9 @@ class PressingProgram {
 
   pid_t pid() const noexcept { return program_; }
   const ProbeLog& log() const noexcept { return *log_; }
-  /// Empty when the finger is pressed, otherwise what is seen instead.
+  /// Empty when the finger presses, otherwise the reason.
   const std::string& problem() const noexcept { return problem_; }
-  /// The supervisor has let go of the device and ended, within two seconds.
+  /// Waits at most two seconds for the supervisor to release the device and end; false: it did not.
   bool isReleased() const;
 
   static constexpr double kForce = 4;  // [N]
@@ -35,7 +36,7 @@ class PressingProgram {
   std::string waitUntilPressed();
 
   ProbeLog* log_ = nullptr;
-  std::string file_;  // of the log, for whoever opens it
+  std::string file_;  // path of the log, for the program under test
   pid_t program_ = -1;
   std::string problem_;
 };

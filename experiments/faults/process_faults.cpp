@@ -15,19 +15,19 @@
 namespace presa::faults {
 namespace {
 
-constexpr int kRuns = 100;            // each takes its time
-constexpr int kTries = 20;            // for one run whose moment is known
-constexpr double kSent = 0.5e-3;      // a signal that took longer to send: nobody knows when it came [s]
-constexpr double kLoss = 20e-3;       // a supervisor that was not let run for so long is a lost device [s]
+constexpr int kRuns = 100;            // runs take wall time
+constexpr int kTries = 20;            // attempts to get one run with a known moment
+constexpr double kSent = 0.5e-3;      // [s]: if sending a signal took longer, its moment is unknown
+constexpr double kLoss = 20e-3;       // [s]: a supervisor that was not scheduled for this long counts as a lost device
 constexpr double kSoftStart = 0.5;    // [s]
-constexpr double kReturn = 2;         // patience for the force after the program's return [s]
-constexpr double kDetected = 6.5e-3;  // a last command within a tick of the signal, held for 5 ms, and a late cycle [s]
-constexpr double kTick = 1e-3;        // in which a force may change by 1 N [s]
+constexpr double kReturn = 2;         // [s]: max wait for the force after the program resumes
+constexpr double kDetected = 6.5e-3;  // [s]: last command within a tick of the signal, held for 5 ms, then a late cycle
+constexpr double kTick = 1e-3;        // [s]: a force may change by 1 N in this time
 
 void sleepFor(double seconds) { sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(seconds * 1e9)); }
 double secondsBetween(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
 
-/// A run that counts, or why there was none.
+/// A valid run, or the reason why it was discarded.
 struct Try {
   std::optional<Outcome> outcome;
   std::string reason;
@@ -40,8 +40,8 @@ Try discarded(const char* pattern, Numbers... numbers) {
   return {std::nullopt, text.data()};
 }
 
-/// While it lives, nothing but the supervisor comes between: below its priority, above the program's haptic thread. So the moment of a
-/// signal is known, and hardly a run is lost.
+/// Raises this thread's priority above the program's haptic thread and below the supervisor, so that sending a signal
+/// is not preempted by the program and its moment is known.
 class RealTimeMoment {
  public:
   RealTimeMoment() { schedule(SCHED_FIFO, kPriority); }
@@ -78,7 +78,8 @@ double longestPause(const ProbeLog& log, std::int64_t begin) {
   return longest;
 }
 
-/// A program that does not press: its own fault, unless the machine held up its supervisor so long that it had to be taken for lost.
+/// Result for a program that does not press: broken, unless the machine delayed the supervisor so long that it had to
+/// count as lost.
 Try notPressing(const PressingProgram& program) {
   if (const double pause = longestPause(program.log(), 0); pause > kLoss)
     return discarded("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause);
@@ -87,7 +88,7 @@ Try notPressing(const PressingProgram& program) {
   return {outcome, {}};
 }
 
-/// The fastest change per tick of what reached the probe [N].
+/// Max change of the force per tick at the probe [N].
 double steepest(const ProbeLog& log, std::uint64_t end) {
   double most = 0;
   for (std::uint64_t i = 1; i < end; ++i) {
@@ -97,7 +98,7 @@ double steepest(const ProbeLog& log, std::uint64_t end) {
   return most;
 }
 
-/// What reached the probe since `begin`, up to the entry `end`.
+/// Judges the forces at the probe from `begin` up to the entry `end`.
 Outcome judged(const ProbeLog& log, std::int64_t begin, std::uint64_t end) {
   Outcome outcome;
   outcome.detection = -1;
@@ -111,11 +112,11 @@ Outcome judged(const ProbeLog& log, std::int64_t begin, std::uint64_t end) {
     if (forced || entry.force > 0) outcome.zero = since;  // ends at the first zero after the last force
     forced = entry.force > 0;
   }
-  if (forced) outcome.broken.emplace_back("the force never went");
+  if (forced) outcome.broken.emplace_back("the force never became zero");
   return outcome;
 }
 
-/// Every run counts, but one of which nobody can tell when its fault came; those are told with their figures.
+/// Repeats a run until its moment is known; the discarded runs are reported with their reasons.
 template <class Run>
 Outcome tried(const Run& run) {
   std::vector<std::string> discarded;
@@ -128,7 +129,7 @@ Outcome tried(const Run& run) {
     discarded.push_back(std::move(one.reason));
   }
   Outcome outcome;
-  outcome.broken.push_back("none of 20 tries counts; the last: " + discarded.back());
+  outcome.broken.push_back("all 20 tries were discarded; the last: " + discarded.back());
   outcome.discarded = std::move(discarded);
   return outcome;
 }
@@ -142,26 +143,26 @@ Outcome killed(RandomStream& random) {
     const bool released = program.isReleased();
     if (sent.took > kSent) return discarded("SIGKILL took %.2f ms to send", 1e3 * sent.took);
     Outcome outcome = judged(program.log(), sent.at_ns, program.log().written);
-    if (!released) outcome.broken.emplace_back("the supervisor stayed");
+    if (!released) outcome.broken.emplace_back("the supervisor did not end");
     return {outcome, {}};
   });
 }
 
 bool pushes(const ProbeLog& log) { return log.entries[log.written - 1].force > 0; }
 
-/// First zero; from the program's return on never more than a soft start from there allows.
+/// Zero at first; after the program resumes, never above the ramp of a soft start.
 void judgeReturn(const ProbeLog& log, std::int64_t resumed, Outcome& outcome) {
   bool first = true;
   for (std::uint64_t i = 0; i < log.written; ++i) {
     const ProbeLog::Entry& entry = log.entries[i];
     if (entry.time_ns < resumed) continue;
-    if (first && entry.force > 0) outcome.broken.emplace_back("the first force after the return was not zero");
+    if (first && entry.force > 0) outcome.broken.emplace_back("the first force after resuming was not zero");
     first = false;
     const double soft = PressingProgram::kForce * (secondsBetween(resumed, entry.time_ns) + 2e-3) / kSoftStart;
-    if (entry.force > soft) outcome.broken.emplace_back("the force did not come back softly");
+    if (entry.force > soft) outcome.broken.emplace_back("the force did not return softly");
   }
   outcome.step = steepest(log, log.written);
-  if (!pushes(log)) outcome.broken.emplace_back("the force never came back");
+  if (!pushes(log)) outcome.broken.emplace_back("the force never returned");
 }
 
 Outcome stopped(RandomStream& random) {
@@ -176,7 +177,7 @@ Outcome stopped(RandomStream& random) {
     kill(program.pid(), SIGCONT);
     sleepFor(0.1);
     if (sent.took > kSent) return discarded("SIGSTOP took %.2f ms to send", 1e3 * sent.took);
-    // a program that the machine holds up once more starts anew
+    // if the machine delayed the supervisor once more, wait for its restart
     while (!pushes(program.log()) && secondsBetween(resumed, monotonicNs()) < kReturn) sleepFor(0.01);
     Outcome outcome = judged(program.log(), sent.at_ns, end);
     if (const double pause = longestPause(program.log(), resumed); !pushes(program.log()) && pause > kLoss)
@@ -193,7 +194,7 @@ std::vector<Fault> processFaults() {
       {7,
        "program stopped (SIGSTOP) for 30 to 300 ms",
        "its supervisor takes the force to zero; back from zero, softly",
-       {kDetected, kDetected + 0.004 + 2 * 0.25e-3, false},  // 4 N at 1 N/ms, a cycle to begin and one to be seen
+       {kDetected, kDetected + 0.004 + 2 * 0.25e-3, false},  // 4 N at 1 N/ms, one cycle to begin and one to be seen
        stopped,
        kRuns,
        true},

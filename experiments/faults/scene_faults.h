@@ -1,7 +1,7 @@
 #pragma once
 #include "experiments/faults/fault.h"
 
-/// Faults of what a scene is made from, in parts that sceneFaults() puts together.
+/// The families of sceneFaults(): faults of scene files, meshes and bodies.
 namespace presa::faults {
 
 Outcome malformedScene(RandomStream& random);
@@ -17,8 +17,8 @@ Outcome standsStill(RandomStream& random);
 Outcome realTimeRefused(RandomStream& random);
 Outcome tooStiff(RandomStream& random);
 
-/// A scene's fingers press what is between them for a moment; any number of roles, any rates. What was written must be finite and within
-/// the scene's limits; the step is given as the share of the slew limit. Throws InputError.
+/// Two or more fingers briefly press the middle of a scene; works for any roles and rates. Requires finite forces
+/// within the scene's limits; the step of the outcome is relative to the slew limit. Throws InputError.
 void touchBriefly(const std::string& scene_file, double seconds, Outcome& outcome);
 
 }  // namespace presa::faults

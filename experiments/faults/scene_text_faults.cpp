@@ -4,15 +4,15 @@
 
 #include "experiments/faults/scene_faults.h"
 #include "experiments/faults/temporary_file.h"
-#include "framework/scene/load.h"
-#include "framework/core/schedule/clock.h"
 #include "experiments/study/experiment_file.h"
+#include "framework/core/schedule/clock.h"
+#include "framework/scene/load.h"
 
 namespace presa::faults {
 namespace {
 
-constexpr double kMostSeconds = 1;  // of processor time
-constexpr double kTouch = 0.02;     // [s] under fingers, when it is accepted
+constexpr double kMostSeconds = 1;  // limit of processor time for reading
+constexpr double kTouch = 0.02;     // [s] of touching, for an accepted scene
 
 std::string contentsOf(const std::string& file) {
   std::ostringstream text;
@@ -29,7 +29,7 @@ const char* oneOf(const std::array<const char*, N>& choices, RandomStream& rando
   return choices[random.below(N)];
 }
 
-/// Another value in some attribute.
+/// Replaces the value of a random attribute.
 void spoilValue(std::string& text, RandomStream& random) {
   static constexpr std::array kValues{"",
                                       "nan",
@@ -106,13 +106,13 @@ void mutate(std::string& text, RandomStream& random) {
   }
 }
 
-/// Each finding must say where and what.
+/// Every error must state its place and have a message.
 void requirePlaces(const Diagnostics& findings, const std::string& name, Outcome& outcome) {
   for (const Diagnostic& finding : findings.all()) {
     if (finding.severity != Diagnostic::Severity::kError) continue;
     if (finding.where.file != name || finding.where.line < 1)
-      outcome.broken.push_back("an error without its place: " + format(finding));
-    if (finding.message.empty() || finding.code == 0) outcome.broken.emplace_back("an error without a word");
+      outcome.broken.push_back("an error without a place: " + format(finding));
+    if (finding.message.empty() || finding.code == 0) outcome.broken.emplace_back("an error without a message");
   }
 }
 
@@ -123,15 +123,15 @@ Outcome judge(const std::string& text, const std::string& directory, bool must_r
   const std::int64_t begin = threadCpuNs();
   const Scene scene = parseScene(text, name, directory, {}, findings);
   if (static_cast<double>(threadCpuNs() - begin) * 1e-9 > kMostSeconds) outcome.broken.emplace_back("took too long");
-  if (findings.hasErrors() != scene.resolved_xml.empty()) outcome.broken.emplace_back("half loaded");
+  if (findings.hasErrors() != scene.resolved_xml.empty()) outcome.broken.emplace_back("partly loaded");
   requirePlaces(findings, name, outcome);
   if (must_refuse && !findings.hasErrors()) outcome.broken.emplace_back("accepted");
   if (findings.hasErrors() || !outcome.broken.empty()) return outcome;
   const TemporaryFile accepted(scene.resolved_xml, ".xml");
   try {
     touchBriefly(accepted.path(), kTouch, outcome);
-  } catch (const InputError& refused) {  // a mesh that is not there, a role that nobody plays
-    if (refused.diagnostics().errorCount() == 0) outcome.broken.emplace_back("refused without a word");
+  } catch (const InputError& refused) {  // a missing mesh file, a role without a device
+    if (refused.diagnostics().errorCount() == 0) outcome.broken.emplace_back("refused without a message");
   }
   return outcome;
 }
@@ -147,7 +147,8 @@ Outcome malformedScene(RandomStream& random) {
   return judge(text, file.substr(0, file.rfind('/')), false);
 }
 
-/// Entities that stand for ten of the ones before; one that is a large text; one that is a file of the machine.
+/// Entity bombs: nested entities with ten references each, an entity with a large text, an entity that names a local
+/// file.
 Outcome entityBomb(RandomStream& random) {
   std::string text = contentsOf(experimentFile("faults/hold.xml"));
   std::string types = "<!DOCTYPE scene [<!ENTITY e0 \"0.1\">";

@@ -5,23 +5,23 @@
 #include "experiments/faults/metered_devices.h"
 #include "experiments/faults/scene_faults.h"
 #include "experiments/faults/temporary_file.h"
+#include "experiments/study/experiment_file.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "experiments/study/experiment_file.h"
 
 namespace presa::faults {
 namespace {
 
-constexpr double kMass = 0.1, kHand = 300;  // of a fingertip [kg], of the hand behind it [N/m]
+constexpr double kMass = 0.1, kHand = 300;  // fingertip [kg]; the hand that holds it [N/m]
 
-/// A finger of mass m and damping b against a wall sampled at T, its force held: grows when the larger of the two eigenvalues of one
-/// exact step is beyond 1. m x'' + b x' = -K x[k].
+/// Instability of a sampled wall: a finger m x'' + b x' = -K x[k] with period T and held force. True when an eigenvalue
+/// of the exact discrete step lies outside the unit circle.
 bool grows(double stiffness, double damping, double period) {
   const double decay = std::exp(-damping * period / kMass), travel = (1 - decay) * kMass / damping;
   const double push = (period - travel) / damping, kick = (1 - decay) / damping;  // of 1 N on x, on v
   const double trace = 1 - stiffness * push + decay;
   const double determinant = (1 - stiffness * push) * decay + stiffness * kick * travel;
-  // both eigenvalues inside the unit circle [Jury]
+  // both eigenvalues lie inside the unit circle [Jury]
   return !(std::abs(determinant) < 1 && std::abs(trace) < 1 + determinant);
 }
 
@@ -59,7 +59,7 @@ void requireClamped(const Loaded& loaded, const Diagnostics& findings, double as
   }
 }
 
-/// The rig's own drivers, metered.
+/// Grasps with the rig's own drivers and a force meter on each.
 void grasp(const Loaded& loaded, Outcome& outcome) {
   Diagnostics findings;
   DeviceList devices = createDevices(*loaded.world, loaded.plan, findings);
@@ -77,7 +77,7 @@ void grasp(const Loaded& loaded, Outcome& outcome) {
     if (!(meter.largest <= loaded.world->scene.devices[0].limits.force * (1 + 1e-9)))
       outcome.broken.emplace_back("a force above the limit");
     if (!(meter.largest > 0)) outcome.broken.emplace_back("nothing was touched");
-    outcome.step = std::max(outcome.step, meter.largest_step / slew);  // 1: all that the slew limit allows
+    outcome.step = std::max(outcome.step, meter.largest_step / slew);  // 1: the full slew limit
   }
 }
 
@@ -94,7 +94,7 @@ Outcome tooStiff(RandomStream& random) {
   std::array<char, 64> stiffness, haptic;
   std::snprintf(stiffness.data(), stiffness.size(), "material/rubber/stiffness=%.17g", asked);
   std::snprintf(haptic.data(), haptic.size(), "rates/haptic=%.0f", rate);
-  // the table is not touched: its own warning would hide the one that is looked for
+  // make the table soft: its own stiffness warning would hide the expected one
   const Loaded loaded = loadWorld({experimentFile("../config/scenes/cube.xml"),
                                    rig.path(),
                                    {stiffness.data(), haptic.data(), "material/wood/stiffness=1"}},

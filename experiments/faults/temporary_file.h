@@ -8,10 +8,10 @@
 
 namespace presa::faults {
 
-/// A file of our own under the system's temporary folder, gone with this object.
+/// A temporary file that is deleted with this object.
 class TemporaryFile {
  public:
-  /// `ending`: of its name, with the dot.
+  /// `ending`: file name extension with the dot.
   TemporaryFile(const std::string& contents, const std::string& ending) {
     path_ = (std::filesystem::temp_directory_path() / ("presa_fault_XXXXXX" + ending)).string();
     const int file = ::mkstemps(path_.data(), static_cast<int>(ending.size()));

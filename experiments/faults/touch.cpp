@@ -2,14 +2,14 @@
 #include <cmath>
 
 #include "experiments/faults/scene_faults.h"
-#include "framework/scene/load.h"
 #include "experiments/study/study_run.h"
 #include "experiments/study/yielding_finger.h"
+#include "framework/scene/load.h"
 
 namespace presa::faults {
 namespace {
 
-/// One behind the other along y, from alternate sides, to the middle of the scene and on.
+/// The fingers are spaced 10 mm apart along y in pairs and move from x = +-60 mm to +-20 mm.
 PrescribedFinger::State handAt(std::size_t finger, double time, double seconds) {
   const double side = finger % 2 == 0 ? -1 : 1, from = 0.06, speed = 0.04 / seconds;
   PrescribedFinger::State state;
@@ -43,7 +43,7 @@ void touchBriefly(const std::string& scene_file, double seconds, Outcome& outcom
     for (std::size_t f = 0; f < transports.size(); ++f) {
       const DeviceLimits& limits = scene.devices[f].limits;
       const double force = transports[f].force.norm();
-      if (!std::isfinite(force)) outcome.broken.emplace_back("a force that is no number");
+      if (!std::isfinite(force)) outcome.broken.emplace_back("a force that is not finite");
       if (force > limits.force * (1 + 1e-9)) outcome.broken.emplace_back("a force above the limit");
       outcome.step = std::max(outcome.step, transports[f].largest_step / (limits.force_rate * sample.tick.period));
     }

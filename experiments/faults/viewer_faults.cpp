@@ -11,10 +11,10 @@
 namespace presa::faults {
 namespace {
 
-constexpr int kRuns = 100;        // a network is opened for each
+constexpr int kRuns = 100;        // each opens a network
 constexpr double kHoldLimit = 8;  // of the scene [N]
 
-/// Forces and energies of a whole hold, tick by tick.
+/// Forces and energies of a complete hold, tick by tick.
 struct Trace {
   std::vector<std::array<Vec3, 2>> force;
   std::vector<std::array<double, 2>> energy;
@@ -34,8 +34,8 @@ Trace traceOf(const Hold& hold, Outcome& outcome, const std::function<void(doubl
   return trace;
 }
 
-/// Viewers of every kind at random moments: one that never takes what arrives, one that takes now and then, one behind a network that
-/// loses and doubles, all of them there for a while, gone without a word, and there again.
+/// Viewers that join and leave without notice at random moments. Some never take what arrives; all are behind a network
+/// that loses, duplicates and delays messages.
 class Viewers {
  public:
   Viewers(RandomStream& random, std::function<std::unique_ptr<bus::Reader>()> join)
@@ -81,13 +81,13 @@ class Viewers {
   int came_ = 0;
 };
 
-/// The same hold without a bus and with one: not a bit of any force may differ. `network`: real packets over loopback.
+/// The same hold with and without a bus must give bit-identical forces. `network`: real packets over loopback.
 Outcome watched(RandomStream& random, bool network) {
   Outcome outcome;
   Hold hold;
   hold.end = random.uniform(1.2, 1.6);
   const Trace alone = traceOf(hold, outcome);
-  // little room, so that who does not take is flooded at once
+  // a small buffer, so that a viewer that does not read is flooded at once
   bus::LocalBus local(64);
   const BusSettings settings{.network = "loopback", .domain = 1 + static_cast<int>(random.below(kMostBusDomain))};
   Viewers viewers(random, [&] { return network ? bus::openReader(settings) : local.reader(); });
@@ -98,15 +98,15 @@ Outcome watched(RandomStream& random, bool network) {
   };
   const Trace with = traceOf(hold, outcome, [&](double time) { viewers.at(time); });
   outcome.step = with.step;
-  if (alone.force.empty() || viewers.came() < 3) outcome.broken.emplace_back("nobody looked");
-  if (!(alone == with)) outcome.broken.emplace_back("the forces are not the same to the bit");
+  if (alone.force.empty() || viewers.came() < 3) outcome.broken.emplace_back("fewer than three viewers joined");
+  if (!(alone == with)) outcome.broken.emplace_back("the forces are not bit-identical");
   return outcome;
 }
 
 }  // namespace
 
 std::vector<Fault> viewerFaults() {
-  const std::string required = "every force the same to the bit as without a bus";
+  const std::string required = "every force bit-identical to a run without a bus";
   return {
       {20,
        "viewers slow, flooded, gone and back",

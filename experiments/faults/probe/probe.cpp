@@ -7,12 +7,12 @@
 #include "experiments/faults/probe/probe_log.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/schedule/clock.h"
-#include "framework/device/device_plugin.h"
+#include "framework/session/plugin.h"
 
 namespace presa::faults {
 namespace {
 
-/// Stands in for a device of real hardware: a finger that stays where it is, and a log of every force that reaches it.
+/// Replacement for hardware: a finger at a fixed position that logs every force it receives.
 class Probe final : public Device {
  public:
   Probe(std::string file, const Vec3& p_WH) : file_(std::move(file)), p_WH_(p_WH) {}
@@ -57,7 +57,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World&, Diagn
   Vec3 p = Vec3::Zero();
   if (log == binding.settings.end() || pos == binding.settings.end() ||
       std::sscanf(pos->second.value.c_str(), "%lf %lf %lf", &p[0], &p[1], &p[2]) != 3) {
-    diagnostics.error(479, binding.where, "a probe needs log, the file to write to, and pos, three numbers");
+    diagnostics.error(479, binding.where, "a probe needs the settings log (a file) and pos (three numbers)");
     return nullptr;
   }
   return std::make_unique<Probe>(log->second.value, p);

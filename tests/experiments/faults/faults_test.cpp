@@ -21,7 +21,7 @@ TEST_P(Faults, KeepTheirBounds) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, Faults, testing::Range<std::size_t>(0, allFaults().size()));
 
-// Each kind of offence is seen.
+// The judge reports each kind of violation.
 TEST(FaultJudge, FindsWhatIsBroken) {
   const Fault fault{0, "", "", {.detection = 0.003, .zero = 0.005, .energy = true}, {}};
   Outcome good;

@@ -1,5 +1,5 @@
-// The wall clock of this very process jumps by an hour, to and fro, whenever it is read: the functions here stand before those of
-// libc for the framework and every plug-in too.
+// The wall clock of this process jumps by an hour, back and forth, at every read: the functions below replace those of
+// libc, also for the framework and every plug-in.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -20,7 +20,7 @@ namespace {
 
 std::atomic<bool> jumping{false};
 std::atomic<int> reads{0};
-std::atomic<long> slept{0};  // the machine has, by CLOCK_BOOTTIME [s]
+std::atomic<long> slept{0};  // simulated sleep of the machine, added to CLOCK_BOOTTIME [s]
 
 void jump(timespec& now) {
   if (!jumping) return;
@@ -71,11 +71,12 @@ TEST(WallClock, MayJumpAnHourAtEveryRead) {
   jumping = false;
   EXPECT_EQ(steady, jumped);
   EXPECT_EQ(read_by_run, 0);
-  // it did jump, for whoever reads it
+  // the clock did jump
   EXPECT_GT(std::abs(std::chrono::duration<double>(after - before).count()), 3600);
 }
 
-/// Puts the machine to sleep at its hundredth tick, for two seconds that CLOCK_MONOTONIC does not count; how often it was told.
+/// Simulates a sleep of the machine for two seconds at its hundredth tick, which CLOCK_MONOTONIC does not count, and
+/// counts the ticks that report a resume.
 class Sleeper final : public Module {
  public:
   Sleeper() : Module("sleeper", RateGroup::kHaptic) {}
@@ -88,8 +89,8 @@ class Sleeper final : public Module {
   Out<DeviceState> state{*this, "device_state"};
 };
 
-// A machine that slept with a force at the devices: no tick was late by the clock that the ticks go by, and the first one after it says
-// so all the same. The output stage latches on it (OutputStage, DeviceOutput).
+// The machine sleeps while forces are applied. By the clock of the executor no tick is late, but the first tick after
+// the sleep must still report it: the output stage latches on it (OutputStage, DeviceOutput).
 TEST(Suspend, TheFirstTickAfterItSaysSo) {
   GraphBuilder builder;
   Sleeper& sleeper = builder.add(std::make_unique<Sleeper>());
@@ -103,7 +104,7 @@ TEST(Suspend, TheFirstTickAfterItSaysSo) {
   EXPECT_EQ(sleeper.told_at, Sleeper::kAsleepAt + 1);
 }
 
-// The look at the imports sees what is there: this program calls time(), the framework the clock that does not jump.
+// The import check works: this program calls time(), and the framework imports clock_gettime.
 TEST(WallClock, ImportsAreSeen) {
   EXPECT_EQ(wallClocksAmong({"clock_gettime", "time", "timegm", "gettimeofday"}),
             (std::vector<std::string>{"time", "gettimeofday"}));
