@@ -96,7 +96,7 @@ Outcome realTimeRefused(RandomStream& random) {
     hold.force_share = forceShare(hardware, options, probe, notes);
     if (concerned && !options.allow_no_rt) outcome.broken.emplace_back("hardware was allowed to run");
   } catch (const InputError& refused) {
-    if (!concerned || options.allow_no_rt) outcome.broken.emplace_back("refused what may run");
+    if (!concerned || options.allow_no_rt) outcome.broken.emplace_back("an allowed run was refused");
     const std::string words = refused.what();
     for (const char* help : {"E463", "limits.conf", "ulimit -r", "--allow-no-rt"}) {
       if (words.find(help) == std::string::npos) outcome.broken.push_back(std::string("does not mention ") + help);

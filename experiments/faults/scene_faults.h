@@ -17,8 +17,8 @@ Outcome standsStill(RandomStream& random);
 Outcome realTimeRefused(RandomStream& random);
 Outcome tooStiff(RandomStream& random);
 
-/// Two or more fingers briefly press the middle of a scene; works for any roles and rates. Requires finite forces
-/// within the scene's limits; the step of the outcome is relative to the slew limit. Throws InputError.
+/// The fingers of a scene, one per role, briefly move into its middle; works for any roles and rates. Requires finite
+/// forces within the scene's limits; the step of the outcome is relative to the slew limit. Throws InputError.
 void touchBriefly(const std::string& scene_file, double seconds, Outcome& outcome);
 
 }  // namespace presa::faults

@@ -5,36 +5,36 @@
 
 #include "experiments/stability/case.h"
 
-/// Bodies as a case sees them from outside.
+/// Measurements on the bodies of a run, independent of the physics engine.
 namespace presa::stability {
 
-/// Calls `use` with every new state of the bodies: once a dynamics step.
+/// An observer that calls `use` once per dynamics step, with the new state.
 StudyRun::Observer atEachStep(std::function<void(const ObjectState&)> use);
 
-/// Index of a body of the scene by its name; throws std::logic_error when there is none.
+/// Index of the body with this name; throws std::logic_error when there is none.
 std::size_t bodyNamed(const World& world, const std::string& name);
 
-/// Boxes standing on each other along z, measured apart from the solver's own idea of contact.
+/// Boxes stacked along z; overlap is measured independently of the solver's contacts.
 class BoxStack {
  public:
-  /// From the lowest to the highest; each a box in its own frame.
+  /// `bodies` from the lowest to the highest; each must be a box centred in its body frame.
   BoxStack(const World& world, const std::vector<std::string>& bodies);
-  /// How deep any box is in the next one, by the separating axis test [m]; 0 when none is.
+  /// Max penetration between two successive boxes, by the separating axis test [m]; 0 without overlap.
   double penetration(const ObjectState& state) const;
-  /// How far the centre of any box has gone from where it was at the start, seen from the lowest one [m].
+  /// Max displacement of a box centre since the start, in the frame of the lowest box [m].
   double shift(const ObjectState& state) const;
 
  private:
   struct Member {
     std::size_t body = 0;
     Vec3 size = Vec3::Zero();
-    Vec3 p_Lowest = Vec3::Zero();  ///< at the start, in the lowest box's frame
+    Vec3 p_Lowest = Vec3::Zero();  ///< position at the start, in the frame of the lowest box
   };
   std::vector<Member> members_;
 };
 
-/// Does the run and judges the stack: no overlap beyond 0.5 mm, no displacement (named `metric`, held against `oracle`)
-/// beyond 1 mm; with the height of the body `top` as curve.
+/// Runs and judges a stack: no overlap above 0.5 mm, no displacement (metric `metric`, reference text `oracle`) above 1
+/// mm; the height of the body `top` is the curve.
 std::vector<Finding> runAndJudge(StudyRun& run, const BoxStack& stack, const std::string& top,
                                  const std::string& metric, const std::string& oracle);
 

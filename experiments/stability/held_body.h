@@ -4,13 +4,15 @@
 
 #include "framework/core/math/spatial.h"
 
-/// A reference that shares nothing with what it is held against: no solver, no constraints, no contact detection, no engine.
+/// A reference that shares no code with the method under test: no solver, no constraints, no contact detection, no
+/// engine.
 namespace presa::stability {
 
-/// A rigid body on springs from points a_i fixed in it to fingertips H_i whose way is known, all of stiffness k:
-///   f_i = k (H_i(t) - (p + R a_i)),   m p'' = m g + sum f_i,   L' = sum (R a_i) x f_i,   w = R J^-1 R^T L,   R' = [w] R
-/// stepped by symplectic Euler at a step far below the shortest period (10 us against 1.4 ms for 1 g on 2 x 10 N/mm): the
-/// grasp itself, as long as no finger slips or lets go. a_i are the fingertips' centres at the surface.
+/// A rigid body on springs of equal stiffness k, from body-fixed points a_i to fingertips H_i on known paths:
+///   f_i = k (H_i(t) - (p + R a_i)),   m p'' = m g + sum f_i,   L' = sum (R a_i) x f_i,   w = R J^-1 R^T L,   R' = [w]
+///   R
+/// Stepped by symplectic Euler at 10 us, far below the shortest period (1.4 ms for 1 g on 2 x 10 N/mm). This models the
+/// grasp exactly as long as no finger slips or releases. a_i are the fingertips' centres at the surface.
 class HeldBody {
  public:
   struct Parameters {
@@ -19,11 +21,12 @@ class HeldBody {
     double stiffness = 0;           ///< of each finger [N/m]
     Vec3 gravity = Vec3::Zero();    ///< [m/s^2]
     std::vector<Vec3> attachments;  ///< a_i, body frame [m]
+    /// Position of a fingertip in W [m] at a time [s].
     std::function<Vec3(std::size_t finger, double time)> fingertip;
   };
   HeldBody(Parameters parameters, double time, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB);
 
-  /// Steps of `kStep` up to `time`.
+  /// Advances to `time` [s] in steps of `kStep`.
   void advance(double time);
   const Pose& pose() const noexcept { return X_WB_; }
 

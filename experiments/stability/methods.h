@@ -4,7 +4,7 @@
 
 #include "experiments/stability/case.h"
 
-/// Methods by the scene values that choose them.
+/// Physics methods, selected by scene values.
 namespace presa::stability {
 
 struct Method {
@@ -14,7 +14,7 @@ struct Method {
 };
 
 inline Method ours() { return {kPresa, {}}; }
-/// The rendered force of each finger acts for one step.
+/// Explicit coupling: the rendered force of each finger acts on the body for one step.
 inline Method explicitCoupling() { return {"explicit coupling", {"dynamics/coupling=explicit"}}; }
 /// Gauss-Seidel sweeps in place of the direct solver.
 inline Method twentyIterations() { return {"20 iterations", {"dynamics/solver=iterative", "dynamics/iterations=20"}}; }

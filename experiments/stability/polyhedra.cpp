@@ -20,7 +20,7 @@ bool inAll(const std::vector<Plane>& half_spaces, const Vec3& p) {
                      [&](const Plane& plane) { return plane.nhat.dot(p) >= plane.offset - kRounding; });
 }
 
-/// p moved onto all of the given planes the shortest way; not finite when they have no common point.
+/// Projection of p onto the intersection of the given planes; not finite when they have no common point.
 Vec3 ontoAll(const std::vector<const Plane*>& planes, const Vec3& p) {
   const auto n = static_cast<Eigen::Index>(planes.size());
   Eigen::MatrixXd normals(n, 3);
@@ -39,14 +39,14 @@ void addQuad(Solid& solid, int a, int b, int c, int d) {
   solid.triangles.push_back({a, c, d});
 }
 
-/// Normals of the triangle's side that points towards `inside`.
+/// Plane of a triangle with its normal towards `inside`.
 Plane planeThrough(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& inside) {
   Vec3 nhat = (b - a).cross(c - a).normalized();
   if (nhat.dot(inside - a) < 0) nhat = -nhat;
   return {nhat, nhat.dot(a)};
 }
 
-/// A point of a ring of `count` about the z axis, touching a circle of `inradius` with its sides.
+/// Corner i of a regular polygon with `count` sides about the z axis and the given inradius, at height z.
 Vec3 onRing(int i, int count, double inradius, double z) {
   const double angle = 2 * std::numbers::pi * i / count, reach = inradius / std::cos(std::numbers::pi / count);
   return {reach * std::cos(angle), reach * std::sin(angle), z};
@@ -70,7 +70,7 @@ Vec3 nearestInAll(const std::vector<Plane>& half_spaces, const Vec3& p) {
       for (std::size_t k = 0; k < j; ++k) consider({&half_spaces[i], &half_spaces[j], &half_spaces[k]});
     }
   }
-  if (!std::isfinite(least)) throw std::logic_error("half-spaces without a common point");
+  if (!std::isfinite(least)) throw std::logic_error("the half-spaces have no common point");
   return best;
 }
 
@@ -89,7 +89,7 @@ Solid grooved(double angle_deg, double depth) {
     for (const auto& [x, z] : section) solid.vertices.emplace_back(x, y, z);
   }
   for (int i = 0; i < n; ++i) addQuad(solid, i, n + i, n + (i + 1) % n, (i + 1) % n);
-  for (int i = 1; i + 1 < n; ++i) {  // the ends, seen from the bottom of the groove
+  for (int i = 1; i + 1 < n; ++i) {  // end faces, as seen from the bottom of the groove
     solid.triangles.push_back({0, i, i + 1});
     solid.triangles.push_back({n, n + i + 1, n + i});
   }

@@ -9,7 +9,7 @@
 namespace presa::stability {
 namespace {
 
-constexpr double kSettle = 1.5;  // [s] for a body let go anywhere to fall and come to rest
+constexpr double kSettle = 1.5;  // [s] for a released body to fall and come to rest
 constexpr double kQuiet = 0.3;   // [s]
 
 }  // namespace
@@ -26,7 +26,7 @@ Vec3 RandomHand::anywhere(const Vec3& around, double reach) {
   return p;
 }
 
-/// Both fingertips on a line through the body, `gap` from its faces (negative: inside).
+/// Positions of both fingertips on a line through the body, `gap` from its faces (negative: penetration).
 std::array<Vec3, 2> RandomHand::around(const Pose& X_WB, const Vec3& axis, double gap, const Vec3& shift) const {
   const Vec3 reach = (place_.half + place_.radius + gap) * axis;
   return {X_WB.p + shift - reach, X_WB.p + shift + reach};
@@ -38,7 +38,7 @@ void RandomHand::go(double seconds, const std::array<Vec3, 2>& to) {
   last_ = to;
 }
 
-/// Pinches the body by two faces, lifts it, and shakes it, puts it down or throws it.
+/// Pinches the body by two faces, lifts it, then shakes it, puts it down or throws it.
 void RandomHand::grab(const Pose& X_WB) {
   Vec3 axis = X_WB.q * Vec3::Unit(static_cast<int>(uniform(0, 3)));
   if (std::abs(axis.z()) > 0.5) axis = X_WB.q * Vec3::Unit(static_cast<int>(uniform(0, 3)));
@@ -65,7 +65,7 @@ void RandomHand::grab(const Pose& X_WB) {
   }
 }
 
-/// One finger from above, near the middle, the other out of the way.
+/// One finger presses from above, near the middle; the other stays away.
 void RandomHand::press(const Pose& X_WB) {
   const Vec3 off(uniform(-0.015, 0.015), uniform(-0.015, 0.015), 0);
   const double depth = uniform(2, 10) / place_.stiffness, above = place_.half + place_.radius;
@@ -79,7 +79,7 @@ void RandomHand::press(const Pose& X_WB) {
   }
 }
 
-/// Anywhere near the body and into it, fast, each finger for itself.
+/// Fast random motions of each finger near the body and into it.
 void RandomHand::grope(const Pose& X_WB) {
   for (int i = 0; i < 8; ++i) go(uniform(0.15, 0.5), {anywhere(X_WB.p, 0.1), anywhere(X_WB.p, 0.1)});
 }

@@ -4,30 +4,30 @@
 #include <random>
 #include <vector>
 
-#include "framework/core/math/spatial.h"
 #include "experiments/study/prescribed_finger.h"
+#include "framework/core/math/spatial.h"
 
-/// A hand that plays with a body, different with every seed.
+/// A hand that plays with a body at random, by seed.
 namespace presa::stability {
 
-/// Ways of two fingertips, made up while it goes on: grab and shake, grab and throw, press from above, grope about clumsily,
-/// and between them retreat and wait. Each way is a chain of quintic pieces, so that position, velocity and acceleration are
-/// continuous. The same seed and the same body give the same ways.
+/// Random paths of two fingertips, generated online: grab and shake, grab and throw, press from above, grope, and
+/// retreat and wait in between. Each path is a chain of quintic pieces, so position, velocity and acceleration are
+/// continuous. The same seed and the same motion of the body give the same paths.
 class RandomHand {
  public:
   struct Place {
     double half = 0;           ///< half edge of the cube [m]
     double radius = 0;         ///< of the fingertips [m]
-    Vec3 low, high;            ///< what the fingertips may reach for [m]
-    std::array<Vec3, 2> home;  ///< where they wait, away from everything [m]
-    double stiffness = 0;      ///< of hand and surface in series: depth of a wanted force [N/m]
+    Vec3 low, high;            ///< bounds of random targets [m]
+    std::array<Vec3, 2> home;  ///< waiting positions, away from everything [m]
+    double stiffness = 0;      ///< of hand and surface in series; converts a wanted force to a depth [N/m]
   };
   RandomHand(const Place& place, std::uint64_t seed);
 
-  /// Looks where the body is; plans the next game when one is over. Before state(), once a haptic tick.
+  /// Reads the pose of the body and plans the next game when one is over. Call once per haptic tick, before state().
   void look(double time, const Pose& X_WB);
   PrescribedFinger::State state(std::size_t finger, double time) const;
-  /// It has waited long enough for the body to have come to rest.
+  /// True once the hand has waited long enough for the body to come to rest.
   bool quiet(double time) const { return time >= quiet_from_ && time < game_end_; }
   int games() const noexcept { return games_; }
 

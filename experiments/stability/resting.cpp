@@ -45,7 +45,7 @@ std::vector<Finding> settle(const Resting& resting, DeviceList fingers) {
   run.run();
 
   Finding rest = finding("speed at rest", 1000 * speed, "mm/s", 1000 * kRestSpeed,
-                         "nothing moves in the last second: v + |w| r of the body");
+                         "no motion in the last second: v + |w| r of the body");
   rest.plot_x = "time [s]";
   rest.plot_y = "speed of the fastest point [mm/s]";
   rest.curves.push_back(decimated(std::move(shown)));

@@ -12,7 +12,7 @@ SlidingTile::State moved(const SlidingTile::State& from, double h, const Sliding
   return {from.v + h * rate.v, from.angle + h * rate.angle, from.spin + h * rate.spin};
 }
 
-/// Of a unit mass.
+/// Friction force and torque per unit mass.
 struct Push {
   Vec2 force = Vec2::Zero();
   double torque = 0;
@@ -24,13 +24,13 @@ SlidingTile::State SlidingTile::rate(const State& state) const {
   const Vec2 pull = model_.gravity.head<2>();
   const double load = -model_.gravity.z(), edge = model_.edge;
   const Vec2 x_axis(std::cos(state.angle), std::sin(state.angle)), y_axis(-x_axis.y(), x_axis.x());
-  const auto frictionWith = [&](const Vec2& slope) {  // of the corner loads
+  const auto frictionWith = [&](const Vec2& slope) {  // slope: gradient of the corner loads
     Push push;
     for (const double a : {-0.5, 0.5}) {
       for (const double b : {-0.5, 0.5}) {
         const Vec2 r = edge * (a * x_axis + b * y_axis);
         const Vec2 slip = state.v + state.spin * Vec2(-r.y(), r.x());
-        const Vec2 way = slip.norm() > 1e-9 ? slip : pull;  // at rest it starts downhill
+        const Vec2 way = slip.norm() > 1e-9 ? slip : pull;  // at rest it starts to slide downhill
         const Vec2 f = -model_.friction * load / 4 * (1 + slope.dot(r)) * way.normalized();
         push.force += f;
         push.torque += r.x() * f.y() - r.y() * f.x();

@@ -5,9 +5,9 @@
 
 namespace presa::stability {
 
-/// The reference for a square tile that slides and spins on a plane under Coulomb friction: a rigid plate on four corners,
-/// their loads linear over the plate and in balance with the tilting moment of friction; classical Runge-Kutta in
-/// steps of 0.1 ms. Plane: z = 0, pressing load along -z.
+/// Reference for a square tile that slides and spins on a plane under Coulomb friction: a rigid plate on four corners.
+/// The corner loads are linear over the plate and balance the tilting moment of friction; integrated by classical
+/// Runge-Kutta in steps of 0.1 ms. Plane: z = 0, normal load along -z.
 class SlidingTile {
  public:
   struct State {
@@ -16,10 +16,10 @@ class SlidingTile {
   };
   struct Model {
     double edge = 0.1, thickness = 0.002, friction = 0.5;  ///< [m, m, -]
-    Vec3 gravity = Vec3::Zero();                           ///< leaning [m/s^2]
+    Vec3 gravity = Vec3::Zero();                           ///< in the frame of the plane [m/s^2]
   };
   SlidingTile(const Model& model, const State& start) : model_(model), state_(start) {}
-  /// Goes on to `time` [s] and returns the state there.
+  /// Advances to `time` [s] and returns the state there.
   const State& at(double time);
 
  private:

@@ -6,7 +6,7 @@
 namespace presa::stability {
 namespace {
 
-/// x and v after one period: from v now, and from a unit of force held over it.
+/// Exact discretisation over one period: x and v from the initial v, and from a unit force held over the period.
 struct ZeroOrderHold {
   double x_of_v, v_of_v, x_of_force, v_of_force;
 };

@@ -3,23 +3,23 @@
 
 #include "framework/device/device.h"
 
-/// The sampled-data loop of a device and a virtual wall: exact plant and exact bound.
+/// The sampled-data loop of a device and a virtual wall, with the exact plant and the exact stability bound.
 namespace presa::stability {
 
-/// Device of mass m and viscous damping b under force that is held between samples: m x'' + b x' = bias - F.
+/// A device of mass m and viscous damping b with zero-order hold of the force: m x'' + b x' = bias - F.
 struct WallPlant {
   double mass = 0, damping = 0;  ///< [kg, N s/m]
   double period = 0.001;         ///< of the loop [s]
-  int delay = 0;                 ///< whole samples from reading the position to the force that follows from it
+  int delay = 0;                 ///< whole samples between reading a position and applying its force
 };
 
-/// Largest modulus of an eigenvalue of the loop closed by a spring of `stiffness`: below 1 it settles.
+/// Spectral radius of the loop closed by a spring of `stiffness`; below 1 it is stable.
 double spectralRadius(const WallPlant& plant, double stiffness);
-/// The smallest stiffness at which the loop has an eigenvalue on the unit circle [N/m].
+/// The stiffness at which the spectral radius reaches 1 [N/m].
 double largestStableStiffness(const WallPlant& plant);
 
-/// The plant as a device that moves along x and leans on a wall, stepped exactly (zero-order hold). Until `release` it is
-/// held at start_x.
+/// The plant as a device along x that leans on a wall, stepped exactly (zero-order hold). It is held at start_x until
+/// `release`.
 class WallDevice final : public Device {
  public:
   struct Setup {
@@ -37,7 +37,7 @@ class WallDevice final : public Device {
   Setup setup_;
   double x_, v_ = 0;
   double held_ = 0;             ///< force on the finger until the next sample [N]
-  std::deque<double> pending_;  ///< delayed forces, oldest first; always plant.delay of them
+  std::deque<double> pending_;  ///< delayed forces, oldest first; always plant.delay entries
 };
 
 }  // namespace presa::stability

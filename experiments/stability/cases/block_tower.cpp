@@ -11,8 +11,8 @@ namespace {
 constexpr int kBlocks = 10;
 constexpr double kHandDistance = 0.06;  // between the two pairs of fingers [m]
 
-/// Two pairs on the lowest block: one pair alone would leave the tower free to swing about the line between its tips.
-/// `lift` 0: they stay away.
+/// Two pairs of fingers on the lowest block: with one pair the tower could swing about the line between the tips.
+/// `lift` 0: the fingers stay away.
 DeviceList handsOn(double lift) {
   Pinch pinch;
   pinch.width = 0.06;
@@ -34,7 +34,7 @@ std::vector<std::string> blocksFrom(std::vector<std::string> below) {
   return below;
 }
 
-/// Blocks at the places where they just touch: to rounding, some do and some do not.
+/// Block positions at which neighbours just touch; by rounding some overlap and some do not.
 std::vector<std::string> justTouching() {
   std::vector<std::string> sets;
   for (int i = 0; i < kBlocks; ++i) {
@@ -54,7 +54,7 @@ std::vector<Finding> hold(Tower tower, bool iterative) {
   StudyRun run(specOf("block_tower.xml", sets, lifted ? 10 : 30), handsOn(lift));
   const BoxStack stack(run.world(), lifted ? blocksFrom({}) : blocksFrom({"table"}));
   return runAndJudge(run, stack, "block" + std::to_string(kBlocks - 1), "displacement within the tower",
-                     "nothing falls");
+                     "no block falls");
 }
 
 }  // namespace
@@ -62,9 +62,9 @@ std::vector<Finding> hold(Tower tower, bool iterative) {
 Case blockTower() {
   Case result;
   result.name = "block_tower";
-  result.title = "Ten blocks stand, and are lifted by the lowest";
-  result.source = "The tall stack that rigid-body engines are tried with, here also carried by fingers at its foot.";
-  result.oracle = "A tower of equal blocks that is moved gently stays a tower.";
+  result.title = "Ten blocks stand, and are lifted by the lowest block";
+  result.source = "A tall stack is a standard test of rigid-body engines; here fingers also lift it.";
+  result.oracle = "A tower of equal blocks stays a tower when it is moved gently.";
   result.scene = "block_tower.xml";
   const std::vector<std::pair<Tower, std::string>> towers{{Tower::kStanding, "standing 30 s"},
                                                           {Tower::kJustTouching, "just touching, 30 s"},

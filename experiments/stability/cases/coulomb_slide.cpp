@@ -84,12 +84,12 @@ Case coulombSlide() {
   result.name = "coulomb_slide";
   result.title = "A tile slides down a slope, in every direction";
   result.source =
-      "Coulomb's law on an incline of 40 degrees with friction 0.5; a pyramid in place of the cone is up to 41 % "
+      "Coulomb's law on an incline of 40 degrees with friction 0.5; a pyramid for the cone is up to 41 % "
       "too strong between its axes.";
   result.oracle =
-      "A fine integration of the same tile, on every heading from 0 to 90 degrees in steps of 7.5, after one second.";
+      "A fine integration of the same tile, for every heading from 0 to 90 degrees in steps of 7.5, after one second.";
   result.scene = "coulomb_slope.xml";
-  // a fall ends in a blow whose friction makes up for that of the flight: afterwards the speed is what it would have been
+  // a drop ends in an impact whose friction makes up for that missing in flight, so the final speed is the same
   const std::vector<Start> starts{{"at rest", 0, 0, 0, 0},
                                   {"1.5 m/s across", 0, 1.5, 0, 0},
                                   {"spinning 20 rad/s", 0, 0, 20, 0},

@@ -40,7 +40,7 @@ std::vector<Finding> stick(double heading_deg, const Method& method) {
   }));
   run.run();
   const double farthest = *std::max_element(creep.y.begin(), creep.y.end());
-  Finding result = finding("creep in 60 s", farthest, "mm", 0.1, "tan of the slope below the friction: it stays");
+  Finding result = finding("creep in 60 s", farthest, "mm", 0.1, "slope below the angle of friction: the tile stays");
   result.plot_x = "time [s]";
   result.plot_y = "distance from the start [mm]";
   result.curves.push_back(decimated(std::move(creep)));
@@ -67,8 +67,8 @@ Case coulombStick() {
   Case result;
   result.name = "coulomb_stick";
   result.title = "A tile rests on a slope just below the angle of friction";
-  result.source = "The incline of Coulomb's law: engines with soft or iterated friction creep by 0.1 to 7 mm/s.";
-  result.oracle = "With friction 0.5 it stays at 26.5 degrees and slides at 27, whatever the direction.";
+  result.source = "Coulomb's law on an incline; engines with soft or iterated friction creep at 0.1 to 7 mm/s.";
+  result.oracle = "With friction 0.5 the tile stays at 26.5 degrees and slides at 27, in every direction.";
   result.scene = "coulomb_slope.xml";
   const std::vector<Method> methods{{kPresa, {}},
                                     {"20 iterations", {"dynamics/solver=iterative", "dynamics/iterations=20"}},

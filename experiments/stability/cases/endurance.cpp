@@ -17,7 +17,7 @@ namespace {
 constexpr double kDuration = 60;                                    // [s]
 constexpr double kEdge = 0.05, kRadius = 0.008, kStiffness = 2000;  // as in the scene [m, m, N/m]
 constexpr double kHalfBin = 0.2;                                    // inside of the bin [m]
-constexpr double kWarm = 10;                                        // [s] until every buffer has had its size
+constexpr double kWarm = 10;                                        // [s] until every buffer has reached its size
 
 /// Resident memory of this process [bytes].
 double residentMemory() {
@@ -42,7 +42,7 @@ double lowestCorner(const Pose& X_WB) {
   return low;
 }
 
-/// How far a fingertip is from touching the nearest of all boxes [m].
+/// Distance of a touching fingertip centre from its ideal place, one radius off the nearest box [m].
 double offSurface(const StudySample& sample, const World& world, const Vec3& p_WP) {
   double off = HUGE_VAL;
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
@@ -53,13 +53,13 @@ double offSurface(const StudySample& sample, const World& world, const Vec3& p_W
   return off;
 }
 
-/// What a minute of play must not do.
+/// Measurements of one minute of play.
 struct Watch {
-  double faults = 0;        ///< ticks with a fault, a force that is no number or past a limit, or a surface passed
+  double faults = 0;        ///< ticks with a fault bit, or a force that is not finite or above the limit
   double passed = 0;        ///< surfaces passed and proxies left waiting
-  double proxy_off = 0;     ///< most that a touching proxy was off its surface [m]
-  double quiet_speed = 0;   ///< fastest in the quiet moments [m/s]
-  double quiet_height = 0;  ///< most that the lowest corner was off the floor then [m]
+  double proxy_off = 0;     ///< max distance of a touching proxy from the surface [m]
+  double quiet_speed = 0;   ///< max speed in the quiet moments [m/s]
+  double quiet_height = 0;  ///< max distance of the lowest corner from the floor in the quiet moments [m]
   double memory_warm = 0, memory_end = 0;
   Curve energy{"energy of the cube", {}, {}};
 
@@ -136,19 +136,18 @@ std::vector<Finding> play(const Play& game) {
 
   Finding rest =
       finding("speed in the quiet moments", 1000 * watch.quiet_speed, "mm/s", 2,
-              "let go, the cube comes to rest: no energy stays or grows over " + number(player.games()) + " games");
+              "the released cube comes to rest: no energy stays or grows over " + number(player.games()) + " games");
   rest.plot_x = "time [s]";
   rest.plot_y = "energy of the cube [mJ]";
   rest.curves.push_back(decimated(std::move(watch.energy)));
-  return {
-      finding("ticks with a fault", watch.faults + watch.passed, "", 0,
-              "no fault bit, no force past a limit, no surface passed, no watchdog"),
-      rest,
-      finding("proxy off every surface", 1e6 * watch.proxy_off, "um", 1,
-              "a touching fingertip's centre is one radius from a box, by the box's distance function"),
-      finding("lowest corner off the floor then", 1000 * watch.quiet_height, "mm", 0.1,
-              "it lies on the floor of its bin, neither in it nor above"),
-      finding("memory grown", (watch.memory_end - watch.memory_warm) / 1e6, "MB", 1, "nothing is kept from the play")};
+  return {finding("ticks with a fault", watch.faults + watch.passed, "", 0,
+                  "no fault bit, no force past a limit, no surface passed, no watchdog"),
+          rest,
+          finding("proxy off every surface", 1e6 * watch.proxy_off, "um", 1,
+                  "a touching fingertip's centre is one radius from a box, by the box's distance function"),
+          finding("lowest corner off the floor then", 1000 * watch.quiet_height, "mm", 0.1,
+                  "the cube lies on the floor of its bin, neither in the floor nor above it"),
+          finding("memory grown", (watch.memory_end - watch.memory_warm) / 1e6, "MB", 1, "no memory leaks")};
 }
 
 }  // namespace
@@ -156,13 +155,13 @@ std::vector<Finding> play(const Play& game) {
 Case endurance() {
   Case result;
   result.name = "endurance";
-  result.title = "Ten minutes of grabbing, throwing, pressing, shaking and groping, a minute for each seed";
+  result.title = "Ten minutes of grabbing, throwing, pressing, shaking and groping, one minute per seed";
   result.source =
-      "Seeded random ways of two yielding fingers around a cube in a bin; each game ends with a pause in which the "
-      "state is  known without simulation.";
+      "Seeded random motions of two compliant fingers around a cube in a bin; each game ends with a pause in which the "
+      "state is known without simulation.";
   result.oracle =
-      "After each game the cube lies still on the floor of its bin; nothing has failed, leaked or let through, no "
-      "proxy was in the air.";
+      "After each game the cube lies still on the floor of its bin; no fault, no leak, no surface passed, and no "
+      "proxy off a surface.";
   result.scene = "endurance.xml";
   const auto add = [&result](const Play& game, Verdict expected) {
     Trial trial;

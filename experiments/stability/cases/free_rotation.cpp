@@ -10,7 +10,7 @@ namespace {
 constexpr double kDuration = 20;
 const Vec3 kInertia(1e-5, 2e-5, 2.5e-5);  // [kg m^2], of the scene's box
 
-/// Counts how often the spin about the middle axis changes sign, in body axes.
+/// Counts sign changes of the spin about the middle axis, in body axes.
 struct Flips {
   int count = 0;
   double last = 0;
@@ -22,7 +22,7 @@ struct Flips {
 
 Vec3 eulerRate(const Vec3& w) { return kInertia.cwiseInverse().cwiseProduct(-w.cross(kInertia.cwiseProduct(w))); }
 
-/// The reference: Euler's equations by classical Runge-Kutta in steps of 10 us, sampled every 5 ms.
+/// Reference: Euler's equations, integrated by classical Runge-Kutta in steps of 10 us, sampled every 5 ms.
 struct Reference {
   Flips flips;
   Curve spin{"reference", {}, {}};
@@ -85,7 +85,7 @@ Case freeRotation() {
       "Dzhanibekov's tumbling nut: moments of inertia 1, 2 and 2.5e-5 kg m2, spin (0.01, 20, 0.01) rad/s, 20 s.";
   result.oracle =
       "Nine flips, as a Runge-Kutta integration of Euler's equations in steps of 10 us finds; energy and "
-      "angular momentum constant.";
+      "angular momentum stay constant.";
   result.scene = "free_rotation.xml";
   const std::vector<std::pair<std::string, std::string>> methods{{"exact", kPresa},
                                                                  {"engine", "engine's rotation"},

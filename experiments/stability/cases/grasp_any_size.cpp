@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDuration = 5;
 
-/// A grasp scaled in length about where it stands.
+/// A grasp at a given place and scale.
 struct Grasp {
   std::string name;
   double edge = 0, mass = 0, stiffness = 0;
@@ -85,7 +85,8 @@ Case graspAnySize() {
   result.name = "grasp_any_size";
   result.title = "The same grasp far away, tiny and huge";
   result.source =
-      "Mechanics knows no preferred place or length: what is right for 70 mm at the origin is right a kilometre away, "
+      "Mechanics has no preferred place or length: a result that holds for 70 mm at the origin also holds a kilometre "
+      "away, "
       "for a "
       "millimetre and for ten metres.";
   result.oracle = "Each finger presses with k times its depth, at any place and size.";
@@ -101,7 +102,7 @@ Case graspAnySize() {
       Trial trial;
       trial.parameters = {{"edge", number(1000 * grasp.edge) + " mm"}, {"place", grasp.name}};
       trial.method = method.name;
-      // the light ones explode; the heavy one has nothing that would damp its ringing
+      // light bodies explode; the ringing of the heavy one is undamped
       if (!method.own()) trial.expected = Verdict::kUnstable;
       trial.run = [grasp] { return hold(grasp); };
       trial.quick = grasp.edge < 0.01 || grasp.place.x() > 0;

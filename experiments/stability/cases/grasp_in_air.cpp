@@ -14,7 +14,7 @@ constexpr double kGravity = 9.81;
 struct Grasp {
   double mass = 0, stiffness = 0;
   Method method;
-  /// At least 2 mm, and as much as friction 1 needs to carry the weight with half as much to spare.
+  /// At least 2 mm, and enough to carry 1.5 times the weight at friction 1.
   double depth() const { return std::max(0.002, 1.5 * mass * kGravity / (2 * stiffness)); }
 };
 
@@ -22,7 +22,7 @@ std::vector<Finding> hold(const Grasp& grasp) {
   const std::vector<std::string> sets{"body/cube/physics/mass=" + number(grasp.mass),
                                       "material/skin/stiffness=" + number(grasp.stiffness)};
   Pinch pinch;
-  pinch.center = {0.0001, 0, 0.040};  // off centre and above it
+  pinch.center = {0.0001, 0, 0.040};  // off the centre of the cube, and above it
   pinch.width = 0.07;
   pinch.depth = grasp.depth();
   pinch.lift = 0.03;
@@ -55,7 +55,8 @@ std::vector<Finding> hold(const Grasp& grasp) {
                          "ringing decays to nothing")};
 }
 
-/// The squeeze of two opposed rows converges by m / (m + h^2 K) a sweep: 0.85 h^2 K / 20, and four times that to be quiet.
+/// Gauss-Seidel on two opposed contact rows converges by a factor m / (m + h^2 K) per sweep: stable from a mass of 0.85
+/// h^2 K / 20 on, quiet from four times that mass on.
 double leastMassOfIterations(double stiffness) { return 4 * 0.85 * 0.005 * 0.005 * stiffness / 20; }
 
 }  // namespace
@@ -65,7 +66,7 @@ Case graspInAir() {
   result.name = "grasp_in_air";
   result.title = "Two fingers hold a cube in the air";
   result.source =
-      "Force that two springs of stiffness k give a free body between them; the bound h^2 K / 2 of explicit "
+      "Force of two springs of stiffness k on a free body between them; the bound h^2 K / 2 of explicit "
       "coupling is that of symplectic Euler.";
   result.oracle = "At rest each finger presses with k times its depth, whatever the mass.";
   result.scene = "grasp_in_air.xml";
@@ -76,9 +77,9 @@ Case graspInAir() {
         Trial trial;
         trial.parameters = {{"stiffness", number(stiffness / 1000) + " N/mm"}, {"mass", number(mass * 1000) + " g"}};
         trial.method = method.name;
-        // light ones explode below h^2 K / 2 per axis; heavy ones have nothing that would damp their ringing
+        // light bodies explode below h^2 K / 2 per axis; the ringing of heavy ones is undamped
         if (method.name == explicitCoupling().name) trial.expected = Verdict::kUnstable;
-        // where the sweeps converge, those of a heavy body on soft springs leave some ringing
+        // where the sweeps converge, a heavy body on soft springs keeps some ringing
         if (method.name == twentyIterations().name) {
           trial.expected = mass < 4 * leastMassOfIterations(stiffness) ? Verdict::kUnstable : Verdict::kDrift;
         }

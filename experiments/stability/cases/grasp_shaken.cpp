@@ -28,7 +28,7 @@ Pinch pinchOf(const Shake& shake) {
   Pinch pinch;
   pinch.center = {0.0001, 0, 0.040};
   pinch.width = kEdge;
-  // what weight and shaking ask of friction 1, with half as much to spare
+  // 1.5 times the force that weight and shaking need at friction 1
   const double load = shake.mass * (kGravity + kAmplitude * kOmega * kOmega);
   pinch.depth = std::max(0.002, 1.5 * load / (2 * shake.stiffness));
   pinch.lift = 0.05;
@@ -44,7 +44,7 @@ Pinch pinchOf(const Shake& shake) {
   return pinch;
 }
 
-/// From where the body hangs at rest before it is shaken.
+/// The reference, starting from the body at rest before it is shaken.
 HeldBody referenceOf(const Shake& shake, const Pinch& pinch, const StudySample& sample, std::size_t body) {
   HeldBody::Parameters parameters;
   parameters.mass = shake.mass;
@@ -60,7 +60,7 @@ HeldBody referenceOf(const Shake& shake, const Pinch& pinch, const StudySample& 
           sample.objects->poseAt(static_cast<std::int32_t>(body), sample.tick.time), motion.v_WB, motion.w_WB};
 }
 
-/// Mean over the eight corners of the squared distance between the same corner in two poses.
+/// Mean squared distance of the eight corners between two poses [m^2].
 double squaredDistance(const Pose& a, const Pose& b) {
   double sum = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -112,7 +112,7 @@ Case graspShaken() {
       "Equations of motion of a rigid body on two springs whose far ends move as prescribed; nothing of the engine, "
       "its "
       "solver or the haptic rendering takes part.";
-  result.oracle = "The body moves as those equations say, integrated by symplectic Euler at 10 us.";
+  result.oracle = "The body follows these equations, integrated by symplectic Euler at 10 us.";
   result.scene = "grasp_shaken.xml";
   for (const double stiffness : {2000.0, 10'000.0}) {
     for (const double mass : {0.001, 0.01, 0.1, 0.5}) {

@@ -17,12 +17,12 @@ namespace {
 constexpr double kDuration = 4;
 constexpr double kRadius = 0.001;    // of the fingertip, as in the scene [m]
 constexpr double kStiffness = 1000;  // as in the scene [N/m]
-constexpr double kPress = 0.002;     // how far the finger goes beyond the bottom of a hollow [m]
-constexpr double kSway = 0.003;      // how far from side to side there [m]
-constexpr double kNear = 0.75;       // distance to a convex body that the finger keeps, in radii
+constexpr double kPress = 0.002;     // how far the finger's target lies below the bottom of a hollow [m]
+constexpr double kSway = 0.003;      // lateral amplitude there [m]
+constexpr double kNear = 0.75;       // distance of the finger's target from a convex body, in radii
 constexpr double kArrived = 0.5;     // [s]
 
-/// A folder of this process for the meshes, gone with it.
+/// A temporary folder for the meshes, deleted with this object.
 class Folder {
  public:
   Folder() : path_(std::filesystem::temp_directory_path() / ("presa_grooves_" + std::to_string(::getpid()))) {
@@ -41,13 +41,13 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// Free space of the fingertip's centre in a hollow.
+/// The planes that bound the free space of the fingertip's centre in a hollow.
 std::vector<Plane> movedIn(std::vector<Plane> planes) {
   for (Plane& plane : planes) plane.offset += kRadius;
   return planes;
 }
 
-/// The exact force on a fingertip whose centre is at p: k times the way to the nearest place where it fits.
+/// Exact force on a fingertip whose centre is at p: k times the vector to the nearest place where it fits.
 Vec3 exactForce(const Solid& solid, const std::vector<Plane>& free, const Vec3& p) {
   if (solid.hollow) return kStiffness * (nearestInAll(free, p) - p);
   const Vec3 away = p - nearestInAll(solid.planes, p);
@@ -55,8 +55,8 @@ Vec3 exactForce(const Solid& solid, const std::vector<Plane>& free, const Vec3& 
   return distance < kRadius ? Vec3(kStiffness * (kRadius - distance) / distance * away) : Vec3(Vec3::Zero());
 }
 
-/// Into the hollow and from wall to wall below its bottom; or over and around the feature of a convex body, so near that
-/// the fingertip would overlap it by a quarter of its radius.
+/// Target path. In a hollow: down and from wall to wall below the bottom. Around a convex body: over and around its
+/// feature, at a distance at which the fingertip would overlap it by a quarter of its radius.
 Vec3 wayOver(const Solid& solid, const std::vector<Plane>& free, double time) {
   const double in = ramp(time, 0.05, kArrived).value, moved = std::max(0.0, time - kArrived) * 2 * std::numbers::pi;
   const double sway = ramp(time, kArrived, kArrived + 0.3).value;
@@ -73,7 +73,7 @@ Vec3 wayOver(const Solid& solid, const std::vector<Plane>& free, double time) {
   return on + (2 - (2 - kNear) * in) * kRadius * (far - on).normalized();
 }
 
-/// The larger one; what is no number counts as infinite.
+/// The larger value; NaN counts as infinite.
 double larger(double a, double b) {
   return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
 }
@@ -149,16 +149,16 @@ Case grooves() {
   result.name = "grooves";
   result.title = "A finger is dragged through grooves, corners, over needles and slivers";
   result.source =
-      "The geometry where a proxy chatters, sticks or falls through: acute grooves, many walls in one point, "
+      "Geometry on which proxies chatter, stick or fall through: acute grooves, many walls in one point, "
       "triangles without width.";
-  result.oracle = "The point nearest to the finger where the fingertip fits, found by trying every set of planes.";
+  result.oracle = "The nearest point to the finger at which the fingertip fits, found by testing every set of planes.";
   result.scene = "grooves.xml";
   for (const Named& named : solids()) {
     for (const bool penalty : {false, true}) {
       Trial trial;
       trial.parameters = {{"shape", named.name}};
       trial.method = penalty ? "penalty" : kPresa;
-      if (penalty && named.solid.hollow) trial.expected = Verdict::kUnstable;  // right outside a convex body
+      if (penalty && named.solid.hollow) trial.expected = Verdict::kUnstable;  // exact outside a convex body
       trial.run = [=] { return drag(named.solid, penalty); };
       trial.quick = true;
       result.trials.push_back(std::move(trial));

@@ -7,24 +7,24 @@
 namespace presa::stability {
 namespace {
 
-constexpr double kRelease = 0.6;       // [s]: the soft start of the output stage is over
+constexpr double kRelease = 0.6;       // [s]: after the soft start of the output stage
 constexpr double kRadius = 0.008;      // of the fingertip: contact begins this far before the wall [m]
 constexpr double kDepth = 0.002;       // at rest [m]
-constexpr double kDisturbance = 1e-4;  // [m]: contact is kept while it grows by less than kDepth
+constexpr double kDisturbance = 1e-4;  // [m]: contact persists while it grows by less than kDepth
 
 struct Wall {
   WallPlant plant;
-  double share = 1;   ///< of the largest stable stiffness
-  bool late = false;  ///< force one sample later than the loop claims
+  double share = 1;   ///< of the max stable stiffness
+  bool late = false;  ///< the force is one sample later than the analysed loop assumes
 };
 
-/// Long enough to grow or shrink by this factor, at most two minutes.
+/// Time for a disturbance to grow or shrink by this factor, at most two minutes.
 double observedTime(double radius, double period) {
   constexpr double kFactor = 8;
   return std::min(120.0, period * std::log(kFactor) / std::abs(std::log(radius)));
 }
 
-/// Largest |depth - rest| between two times.
+/// Max |depth - rest| in a time interval.
 double amplitude(const Curve& depth, double rest, double from, double to) {
   double largest = 0;
   for (std::size_t i = 0; i < depth.x.size(); ++i) {
@@ -53,7 +53,7 @@ std::vector<Finding> lean(const Wall& wall) {
   });
   run.run();
 
-  // a window of many periods at either end: the resonance is above 8 Hz throughout
+  // a window of many periods at each end: the resonance is above 8 Hz in all trials
   const double window = std::min(0.25, time / 4);
   const double first = amplitude(depth, 1000 * kDepth, 0, window);
   const double last = amplitude(depth, 1000 * kDepth, time - window, time);
@@ -89,7 +89,7 @@ Case hapticWall() {
     for (const int delay : {0, 1, 2}) {
       for (const double share : {0.98, 1.02}) {
         for (const bool late : {false, true}) {
-          if (late && share > 1) continue;  // growing is what it does anyway
+          if (late && share > 1) continue;  // this loop grows without the extra delay
           const Wall wall{{device.mass, device.damping, device.period, delay}, share, late};
           Trial trial;
           trial.parameters = {{"mass", number(1000 * device.mass) + " g"},

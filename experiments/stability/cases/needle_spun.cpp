@@ -16,14 +16,14 @@ constexpr double kDuration = 10, kHeld = 1;          // [s]
 constexpr double kDegree = std::numbers::pi / 180;
 
 struct Spin {
-  bool at_ends = false;  ///< spins about its own length, held at its ends; else about the short way through its middle
+  bool at_ends = false;  ///< held at its ends, spins about its length; else held and spinning across its middle
   double stiffness = 0, rate = 0;
   Method method;
 
   double width() const { return at_ends ? kLength : kThickness; }
-  /// How far the fingers' line passes by the centre [m]: a twentieth of the thickness when the body spins about its length.
+  /// Distance of the fingers' line from the centre [m]; 20 um when the needle spins about its length.
   double offset() const { return at_ends ? 0.00002 : 0.0001; }
-  /// Of the needle against the fingers' line at the start [deg].
+  /// Angle of the needle to the fingers' line at the start [deg].
   double tilt() const { return at_ends ? 0.02 : 0.3; }
   std::string size() const {
     return at_ends ? number(kLength) + " " + number(kThickness) + " " + number(kThickness)
@@ -64,12 +64,12 @@ std::vector<Finding> spin(const Spin& trial) {
 
   const double bound = std::atan(2 * trial.offset() / (trial.width() + 2 * pinch.radius)) / kDegree;
   Finding kept = finding("tilt of the axis", tilt / kDegree, "deg", bound,
-                         "each end of the axis off by no more than the grasp was: atan(2 offset / (width + 2 radius))");
+                         "at most the offset of the grasp at each end: atan(2 offset / (width + 2 radius))");
   kept.plot_x = "time [s]";
   kept.plot_y = "angle between the line of the proxies and that of the fingers [deg]";
   kept.curves.push_back(decimated(std::move(shown)));
   return {kept, finding("spin lost in 9 s", held ? 100 * (last_rate / held_rate - 1) : NAN, "%", 1,
-                        "points of contact on the axis transmit no torque about it")};
+                        "point contacts on the axis transmit no torque about it")};
 }
 
 }  // namespace
@@ -79,9 +79,10 @@ Case needleSpun() {
   result.name = "needle_spun";
   result.title = "A needle of 100 x 2 x 2 mm and 3 g spins between two fingers";
   result.source =
-      "Inertias of 1 : 1250 under stiff fingers: about its length the needle has 2e-9 kg m^2. Conservation of angular "
+      "Inertia ratio 1 : 1250 under stiff fingers: about its length the needle has 2e-9 kg m^2. Conservation of "
+      "angular "
       "momentum; geometry of the grasp.";
-  result.oracle = "The needle goes on spinning about the line between the fingers, neither tilting nor slowing down.";
+  result.oracle = "The needle keeps spinning about the line between the fingers, without tilting or slowing down.";
   result.scene = "needle_spun.xml";
   for (const bool at_ends : {false, true}) {
     for (const double stiffness : {2000.0, 10'000.0}) {
@@ -93,8 +94,8 @@ Case needleSpun() {
                               {"stiffness", number(stiffness / 1000) + " N/mm"},
                               {"spin", number(rate) + " rad/s"}};
           trial.method = method.name;
-          // about the axis of least inertia, 20 um off it: at half a radian a step the springs' own loss shows, and the
-          // engine's rotation does not stand a third of that
+          // spinning about the axis of min inertia, 20 um off it: at half a radian per step the springs dissipate
+          // visibly, and the engine's rotation fails at a third of that rate
           const bool fast = at_ends && rate > (method.own() ? 50 : 20);
           if (fast || method.name == explicitCoupling().name) trial.expected = Verdict::kUnstable;
           trial.run = [spin_trial = Spin{at_ends, stiffness, rate, method}] { return spin(spin_trial); };

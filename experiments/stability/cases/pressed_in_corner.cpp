@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kHalf = 0.035, kRadius = 0.008, kOpen = 0.003, kDepth = 0.002;
 
-/// Two fingers, one along -x and one along -y, above the centre of the cube.
+/// Two fingers above the centre of the cube: one pushes along -x, one along -y.
 DeviceList pushers() {
   DeviceList fingers;
   for (const Vec3& outward : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
@@ -29,7 +29,7 @@ std::vector<Finding> squeeze(double mass, double stiffness, const Method& method
                  .body = "cube",
                  .force = force,
                  .force_bound = yieldBound(force + 9.81 * mass, kDepth),
-                 .oracle = "k depth = " + number(force) + " N; less what the walls yield"},
+                 .oracle = "k depth = " + number(force) + " N, minus the compliance of the walls"},
                 pushers());
 }
 
@@ -40,9 +40,10 @@ Case pressedInCorner() {
   result.name = "pressed_in_corner";
   result.title = "Two fingers squeeze a cube into a corner of two walls and a floor";
   result.source =
-      "A body with three times more contacts than it has freedoms: the constraints are redundant and every method must "
-      "share the load out.";
-  result.oracle = "It stays still, and each finger feels k times its depth.";
+      "A body with three times more contacts than degrees of freedom: the constraints are redundant and every method "
+      "must "
+      "distribute the load.";
+  result.oracle = "The cube stays still, and each finger feels k times its depth.";
   result.scene = "pressed_in_corner.xml";
   result.trials = restingTrials(squeeze);
   return result;

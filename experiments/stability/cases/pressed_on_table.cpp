@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kTop = 0.07, kRadius = 0.008, kOpen = 0.003, kDepth = 0.002;
 
-/// One finger that comes down on the cube, beside the middle.
+/// One finger that presses the cube from above, off its centre.
 DeviceList presser() {
   DeviceList fingers;
   fingers.push_back(std::make_unique<PrescribedFinger>([](double time) {
@@ -27,7 +27,7 @@ std::vector<Finding> press(double mass, double stiffness, const Method& method) 
                  .body = "cube",
                  .force = force,
                  .force_bound = yieldBound(force + 9.81 * mass, kDepth),
-                 .oracle = "k depth = " + number(force) + " N; less what the table yields"},
+                 .oracle = "k depth = " + number(force) + " N, minus the compliance of the table"},
                 presser());
 }
 
@@ -39,11 +39,11 @@ Case pressedOnTable() {
   result.title = "A finger presses a cube onto a table";
   result.source =
       "A light body between a stiff finger and a rigid floor: the load on it is up to two thousand times its weight.";
-  result.oracle = "It stays still, and the finger feels k times its depth.";
+  result.oracle = "The cube stays still, and the finger feels k times its depth.";
   result.scene = "pressed_on_table.xml";
   result.trials = restingTrials(press);
   for (Trial& trial : result.trials) {
-    // one spring against a floor that yields nothing: there is nothing for it to ring with
+    // a single spring against a rigid floor cannot ring
     if (trial.method == explicitCoupling().name) trial.expected = Verdict::kStable;
   }
   return result;

@@ -11,7 +11,7 @@ constexpr double kDuration = 4;
 constexpr double kForce = 150, kPlateMass = 10, kBallMass = 1, kBalls = 25, kGravity = 9.81;
 constexpr double kGroundFriction = 0.4;
 
-/// Accelerations of plate and balls along the force: friction of the ground, then balls that roll.
+/// Closed-form accelerations of plate and balls along the force: sliding friction of the ground, rolling balls.
 struct Answer {
   double ground = kGroundFriction * (kPlateMass + kBalls * kBallMass) * kGravity;
   double per_ball = (kForce - ground) / kPlateMass / (3.5 / kBallMass + kBalls / kPlateMass);

@@ -24,12 +24,12 @@ struct Stall {
 };
 
 struct Outcome {
-  double step = 0;           ///< largest of the force at a device [N]
-  double energy_during = 0;  ///< most given to the hand, from the start of the stall to any moment in it [J]
-  double sampling = 0;       ///< what a spring sampled at the haptic rate may add to that [J]
-  double energy_after = 0;   ///< most given to the hand since the end of the stall [J]
-  double reload = 0;         ///< what loads the hand again after a fade at rest [J]
-  double hand_way = 0;       ///< of the hand in the stall [m]
+  double step = 0;           ///< max change of the force at a device [N]
+  double energy_during = 0;  ///< max energy delivered to the hand during the stall [J]
+  double sampling = 0;       ///< energy that a spring sampled at the haptic rate may add [J]
+  double energy_after = 0;   ///< max energy delivered to the hand after the stall [J]
+  double reload = 0;         ///< energy needed to load the hand again after a fade at rest [J]
+  double hand_way = 0;       ///< distance moved by the hand during the stall [m]
   Vec3 object = Vec3::Zero();
   Curve force{"force on the thumb", {}, {}};
 };
@@ -47,9 +47,9 @@ Pinch pinchOf(const HandImpedance& hand) {
   return pinch;
 }
 
-/// Work that loads one finger again after its force F has faded: the spring of the hand takes F^2 / 2 k, its damper what the
-/// way back costs. While the gain g = t / T grows over the soft start, balance k y = g K (D - y) with D = F / k + F / K gives
-/// y(t), and the integral of b y'^2 is b D^2 K / (3 k T) (1 - (k / (k + K))^3).
+/// Work that loads one finger again after its force F has faded: F^2 / 2k for the spring of the hand, plus the loss in
+/// its damper on the way back. While the gain g = t / T rises over the soft start, the balance k y = g K (D - y) with D
+/// = F / k + F / K gives y(t), and the integral of b y'^2 is b D^2 K / (3 k T) (1 - (k / (k + K))^3).
 double reloadOf(const HandImpedance& hand, double force) {
   const double k = hand.stiffness, K = kStiffness, D = force / k + force / K, q = k / (k + K);
   return force * force / (2 * k) + hand.damping * D * D * K / (3 * k * kSoftStart) * (1 - q * q * q);
@@ -116,11 +116,11 @@ std::vector<Finding> judgeStall(const Stall& stall) {
   step.curves.push_back(decimated(std::move(out.force)));
   return {step,
           finding("energy given to the hand in the stall", 1000 * out.energy_during, "mJ", 1000 * out.sampling,
-                  "none, but for the sampling of a spring: k/2 dx^2 for each tick"),
+                  "at most the energy added by sampling a spring: k/2 dx^2 per tick"),
           finding("energy given to the hand after it", 1000 * out.energy_after, "mJ", 1000 * out.reload,
-                  "what loads a hand at rest again: its spring, and its damper over the soft start"),
+                  "at most the energy to load a hand at rest again: its spring, and its damper over the soft start"),
           finding("object off its way", 1000 * (out.object - undisturbed).norm(), "mm", 1 + 1000 * out.hand_way,
-                  "2 s later no farther off than the hand went in the stall")};
+                  "2 s later at most as far off as the hand moved during the stall")};
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ std::vector<Finding> judgeStall(const Stall& stall) {
 Case stallWhileHolding() {
   Case result;
   result.name = "stall_while_holding";
-  result.title = "A thread stalls while two yielding fingers hold an amphora";
+  result.title = "A thread stalls while two compliant fingers hold an amphora";
   result.source =
       "Passivity of a device that holds its last force: E = sum f(k-1) (x(k) - x(k-1)) (Stramigioli et al. 2005). A "
       "frozen "
@@ -157,7 +157,7 @@ Case stallWhileHolding() {
                               {"for", number(1000 * length) + " ms"},
                               {"while", lifting ? "lifting" : "holding"}};
           trial.method = method.name;
-          // the hand has gone 30 mm up to the shoulder, which no pinch holds: the amphora slips out of the new grip
+          // the hand has risen 30 mm to the shoulder of the amphora, where no pinch holds: the amphora slips out
           const bool left = lifting && kind.group == RateGroup::kDynamics && length > 0.4;
           if (left) trial.expected = Verdict::kDrift;
           if (!method.own()) trial.expected = Verdict::kUnstable;

@@ -11,15 +11,15 @@ namespace {
 
 constexpr int kApproaches = 1000;
 constexpr double kSpeed = 1;         // [m/s]
-constexpr double kDepth = 0.1;       // of the centre of the fingertip below the upper face [m]
-constexpr double kHeight = 0.03;     // where an approach begins [m]
+constexpr double kDepth = 0.1;       // target depth of the fingertip's centre below the upper face [m]
+constexpr double kHeight = 0.03;     // start height of an approach [m]
 constexpr double kRadius = 0.008;    // of the fingertip [m]
 constexpr double kStiffness = 1000;  // of the scene [N/m]
-constexpr double kReach = 0.2;       // approaches begin within this of the middle [m]
+constexpr double kReach = 0.2;       // approaches start within this distance of the middle [m]
 constexpr double kMaxLean_deg = 60;  // from the vertical
 constexpr double kStay = 0.005;      // at the bottom [s]
 
-/// Straight ways at constant speed through given points.
+/// A path of straight segments through given points at constant speed.
 class Polyline {
  public:
   void go(const Vec3& p) {
@@ -49,7 +49,7 @@ class Polyline {
 
 struct Approaches {
   Polyline way;
-  std::vector<double> deepest;  ///< times [s]
+  std::vector<double> deepest;  ///< times of the deepest points [s]
 };
 
 Approaches approaches(std::uint64_t seed) {
@@ -99,7 +99,7 @@ std::vector<Finding> push(const std::string& scene, bool penalty) {
   run.run();
   if (next != all.deepest.size()) throw std::logic_error("an approach was not seen");
 
-  Finding count = finding("approaches that went through, of 1000", through, "", 0, "a plate is never passed");
+  Finding count = finding("approaches that went through, of 1000", through, "", 0, "the finger never passes the plate");
   count.plot_x = "time [s]";
   count.plot_y = "force up on the finger [N]";
   count.curves.push_back(decimated(std::move(force)));
@@ -114,9 +114,8 @@ Case thinPlate() {
   result.name = "thin_plate";
   result.title = "A finger is pushed 100 mm through a plate of 0.5 mm";
   result.source =
-      "The pop-through of Zilles and Salisbury 1995, for which the god-object was made; 1 m/s is two plates a tick.";
-  result.oracle =
-      "From 1000 random places and angles the finger stays on its side, and the force is that of a half-space.";
+      "Pop-through, which the god-object of Zilles and Salisbury 1995 solves; 1 m/s is two plates per tick.";
+  result.oracle = "From 1000 random places and angles the finger stays on its side, with the force of a half-space.";
   result.scene = "thin_plate.xml";
   for (const bool mesh : {false, true}) {
     for (const bool penalty : {false, true}) {

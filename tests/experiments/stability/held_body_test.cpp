@@ -18,12 +18,12 @@ HeldBody::Parameters cube(double mass, double stiffness) {
   return parameters;
 }
 
-// Grasp resonance f = sqrt(2 K / m) / 2 pi: after a whole period it is where it was, after half a one opposite.
+// Grasp resonance f = sqrt(2 K / m) / 2 pi: after a full period the body is back, after half a period it is opposite.
 TEST(HeldBody, SwingsAtTheGraspResonance) {
   const double mass = 0.1, stiffness = 500, period = 2 * std::numbers::pi / std::sqrt(2 * stiffness / mass);
   HeldBody body(cube(mass, stiffness), 0, {Vec3(0.001, 0.0005, 0), Quat::Identity()}, Vec3::Zero(), Vec3::Zero());
   body.advance(10.5 * period);
-  // the time is met to half a step, where the speed is zero; the scheme is off by (w dt)^2 / 24 of the phase
+  // the end time is exact to half a step, where the speed is zero; the phase error of the scheme is (w dt)^2 / 24
   EXPECT_NEAR(body.pose().p.x(), -0.001, 1e-8);
   EXPECT_NEAR(body.pose().p.y(), -0.0005, 1e-8);
 }
@@ -37,8 +37,8 @@ TEST(HeldBody, HangsByItsWeight) {
   EXPECT_NEAR(body.pose().p.z(), -sag, 1e-12);
 }
 
-// About the line between the fingers nothing acts: it turns on at its rate. Across it the springs hold with
-// c = 2 k a (a - depth), so it swings at sqrt(c / J).
+// No torque acts about the line between the fingers: the body keeps spinning about it. Across it the springs have the
+// stiffness c = 2 k a (a - depth), so the body swings at sqrt(c / J).
 TEST(HeldBody, TurnsFreelyAboutTheLineAndSwingsAcrossIt) {
   HeldBody spinning(cube(0.1, 2000), 0, {}, Vec3::Zero(), Vec3(3, 0, 0));
   spinning.advance(0.5);

@@ -93,7 +93,7 @@ TEST_F(Stability, AWorseVerdictFailsTheRunABetterOneDoesNot) {
   EXPECT_TRUE(rows()[0].at("value").is_null());
 }
 
-// A real scene that is spoiled: 1 g at 10 N/mm, the way it was coupled before, said to be stable.
+// A real scene, spoiled: 1 g at 10 N/mm with explicit coupling, declared stable.
 TEST_F(Stability, AMethodThatIsNotStableIsFoundOut) {
   std::vector<Case> all = allCases();
   std::erase_if(all, [](const Case& c) { return c.name != "grasp_in_air"; });
