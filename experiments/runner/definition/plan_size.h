@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/runner/definition/definition.h"
 #include "framework/core/diagnostics/diagnostics.h"
+#include "experiments/runner/definition/definition.h"
 
 namespace presa::experiment {
 

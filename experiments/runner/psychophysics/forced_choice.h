@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "experiments/runner/psychophysics/method.h"
 #include "framework/core/math/random.h"
+#include "experiments/runner/psychophysics/method.h"
 
 namespace presa::psychophysics {
 

@@ -86,9 +86,7 @@ Case graspAnySize() {
   result.title = "The same grasp far away, tiny and huge";
   result.source =
       "Mechanics has no preferred place or length: a result that holds for 70 mm at the origin also holds a kilometre "
-      "away, "
-      "for a "
-      "millimetre and for ten metres.";
+      "away, for a millimetre and for ten metres.";
   result.oracle = "Each finger presses with k times its depth, at any place and size.";
   result.scene = "grasp_any_size.xml";
   const Vec3 origin = Vec3::Zero(), far(600, -800, 0);

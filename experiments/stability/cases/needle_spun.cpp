@@ -80,8 +80,7 @@ Case needleSpun() {
   result.title = "A needle of 100 x 2 x 2 mm and 3 g spins between two fingers";
   result.source =
       "Inertia ratio 1 : 1250 under stiff fingers: about its length the needle has 2e-9 kg m^2. Conservation of "
-      "angular "
-      "momentum; geometry of the grasp.";
+      "angular momentum; geometry of the grasp.";
   result.oracle = "The needle keeps spinning about the line between the fingers, without tilting or slowing down.";
   result.scene = "needle_spun.xml";
   for (const bool at_ends : {false, true}) {

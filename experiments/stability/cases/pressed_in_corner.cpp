@@ -41,8 +41,7 @@ Case pressedInCorner() {
   result.title = "Two fingers squeeze a cube into a corner of two walls and a floor";
   result.source =
       "A body with three times more contacts than degrees of freedom: the constraints are redundant and every method "
-      "must "
-      "distribute the load.";
+      "must distribute the load.";
   result.oracle = "The cube stays still, and each finger feels k times its depth.";
   result.scene = "pressed_in_corner.xml";
   result.trials = restingTrials(squeeze);
