@@ -1,3 +1,6 @@
+// The plant is discretised exactly by a matrix exponential, so its energy is that of the continuous system at any rate.
+// The damping bound of a held object is found by bisection on the spectral radius of the closed loop over one dynamics
+// step.
 #include "devices/hand/finger_plant.h"
 
 #include <Eigen/Eigenvalues>
@@ -7,7 +10,7 @@
 namespace presa {
 namespace {
 
-// exp(A) by scaling and squaring of its Taylor series: |A| / 2^s <= 0.5 and 20 terms leave < 1e-16.
+// exp(A) by scaling and squaring of its Taylor series: |A| / 2^s <= 0.5, and 20 terms leave an error < 1e-16.
 Mat3 exponential(Mat3 a) {
   int squarings = 0;
   while (a.cwiseAbs().rowwise().sum().maxCoeff() > 0.5) {
@@ -27,7 +30,7 @@ Mat3 exponential(Mat3 a) {
 
 FingerPlant::FingerPlant(const FingerImpedance& impedance, double period)
     : stiffness_(impedance.stiffness), damping_(impedance.damping) {
-  // state (x, v, u), u the constant force
+  // state (x, v, u), where u is the constant force
   Mat3 a = Mat3::Zero();
   a(0, 1) = 1;
   a(1, 0) = -stiffness_ / impedance.mass;
@@ -49,10 +52,11 @@ double wallDampingBound(double contact_stiffness, double period) noexcept { retu
 
 namespace {
 
-// Largest eigenvalue of finger and massless object over one dynamics step, in one dimension.
+// Spectral radius of finger and massless object over one dynamics step, in one dimension.
 double spectralRadius(const FingerImpedance& impedance, double contact_stiffness, double period,
                       double dynamics_period) {
-  // state at a dynamics tick: finger x, v; object; finger x, v one haptic tick ago (the newest sample it has)
+  // state at a dynamics tick: finger x, v; object position; finger x, v one haptic tick ago (the newest sample of
+  // dynamics)
   using State = Eigen::Matrix<double, 5, 1>;
   const int ticks = static_cast<int>(std::lround(dynamics_period / period));
   Eigen::Matrix<double, 5, 5> map;
@@ -91,9 +95,9 @@ double heldObjectDampingBound(const FingerImpedance& impedance, double contact_s
 
 double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period,
                         double dynamics_period) {
-  constexpr double kWallMargin = 2;    // the hand is not alone in the loop: friction and output limits act too
-  constexpr double kHeldMargin = 1.5;  // decays visibly, instead of just so
-  constexpr double kRatio = 0.7;       // of critical: no overshoot that would strike the object
+  constexpr double kWallMargin = 2;    // friction and output limits act in the loop too
+  constexpr double kHeldMargin = 1.5;  // visible decay instead of marginal stability
+  constexpr double kRatio = 0.7;       // damping ratio: no overshoot that would strike the object
   return std::max({kWallMargin * wallDampingBound(contact_stiffness, period),
                    kHeldMargin * heldObjectDampingBound(impedance, contact_stiffness, period, dynamics_period),
                    2 * kRatio * std::sqrt(impedance.stiffness * impedance.mass)});

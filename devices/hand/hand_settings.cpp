@@ -32,7 +32,7 @@ std::unique_ptr<Motion> readMotion(const DeviceBinding& binding, const World& wo
                    : readPhasedMotion(file->second.value, context, diagnostics);
 }
 
-/// Chooses a damping where none is given; returns what to tell the user.
+/// Chooses the damping when none is given; returns a note for the user.
 std::string settleDamping(const std::string& role, const World& world, double carried, FingerImpedance& impedance) {
   double stiffest = 0;
   for (const Body& body : world.scene.bodies) {
@@ -48,7 +48,7 @@ std::string settleDamping(const std::string& role, const World& world, double ca
       std::max(wallDampingBound(stiffest, period), heldObjectDampingBound(moved, stiffest, period, dynamics_period));
   std::array<char, 240> text;
   std::snprintf(text.data(), text.size(),
-                "%s: finger damping %.3g N s/m%s; contacts of %.3g N/mm at %.0f and %.0f Hz ask for %.3g", role.c_str(),
+                "%s: finger damping %.3g N s/m%s; contacts of %.3g N/mm at %.0f and %.0f Hz need %.3g", role.c_str(),
                 impedance.damping, automatic ? " (auto)" : "", stiffest * 1e-3, 1 / period, 1 / dynamics_period, bound);
   return text.data() + std::string(impedance.damping < bound ? ": UNSTABLE, raise damping or lower stiffness" : "");
 }
@@ -67,7 +67,7 @@ double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics) {
     if (side->second.value == "-1") return -1;
     if (side->second.value == "1" || side->second.value == "+1") return 1;
     diagnostics.error(404, side->second.where, "side must be -1 or 1, found '" + side->second.value + "'",
-                      "-1 is the end of the grasp axis that it points away from (the thumb's)");
+                      "-1: negative end of the grasp axis (thumb); 1: positive end (index)");
   }
   return binding.role == "thumb" ? -1 : 1;
 }

@@ -8,31 +8,32 @@
 
 namespace presa {
 
-/// The settings by which a rig describes a simulated hand: motion, side, mass, stiffness, damping, lost_at.
+/// The rig settings of a simulated hand: motion, side, mass, stiffness, damping, lost_at.
 const std::vector<std::string>& handKeys();
 
-/// A setting that the driver does not know is an error E401.
+/// Reports settings that the driver does not know (E401).
 void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::string>& known,
                            Diagnostics& diagnostics);
 
-/// A setting that is a positive number (E403), or `fallback` where the rig says nothing.
+/// Reads a setting that must be a positive number (E403); `fallback` when the rig does not give it.
 double positiveSetting(const DeviceBinding& binding, const std::string& key, double fallback, Diagnostics& diagnostics);
 
 struct HandSettings {
   std::unique_ptr<Motion> motion;
-  FingerImpedance impedance;       ///< damping chosen
-  double lost_at = 0;              ///< from then on the device gives no sample [s]; infinity: never
-  std::vector<std::string> notes;  ///< the damping, and what the contacts ask for
+  FingerImpedance impedance;       ///< with the chosen damping
+  double lost_at = 0;              ///< the device delivers no sample from this time on [s]; infinity: never
+  std::vector<std::string> notes;  ///< the damping, and the min damping for the contacts
 };
-/// -1 for the thumb, 1 otherwise, unless the setting 'side' says it (E404).
+/// -1 for the thumb, 1 otherwise; the setting 'side' overrides it (E404).
 double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics);
-/// Radius of the role's fingertip [m]; 0 where the scene has no such role.
+/// Fingertip radius of the role [m]; 0 when the scene has no such role.
 double fingertipOf(const DeviceBinding& binding, const World& world);
-/// The same for a hand that moves by itself: mass, stiffness and damping alone, onto those of `impedance`; motion stays null.
+/// Reads mass, stiffness and damping of a hand without a motion file, with defaults from `impedance`; motion stays
+/// null.
 HandSettings readImpedance(const DeviceBinding& binding, const World& world, double carried, FingerImpedance impedance,
                            Diagnostics& diagnostics);
-/// Reads them; all findings go to `diagnostics` (E402 to E404 and those of the motion's file), motion is null when any is an
-/// error. `carried`: mass of a device that moves with the fingertip, for the damping that contacts ask for [kg].
+/// Reads all settings. Findings go to `diagnostics` (E402 to E404 and those of the motion file); motion is null on
+/// errors. `carried`: mass of the device that moves with the fingertip, used for the min damping of the contacts [kg].
 HandSettings readHand(const DeviceBinding& binding, const World& world, double carried, Diagnostics& diagnostics);
 
 }  // namespace presa

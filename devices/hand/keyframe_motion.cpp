@@ -72,7 +72,7 @@ std::vector<Cell> split(const std::string& line) {
   }
 }
 
-/// Three hours of keyframes at 100 Hz.
+/// Enough for three hours of keyframes at 100 Hz.
 constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20U;
 
 class KeyframeReader {
@@ -148,7 +148,7 @@ class KeyframeReader {
     if (columns_.contains("phase")) frame.phase = cells[columns_.at("phase")].text;
     if (!frames.empty() && !(frame.time > frames.back().time)) {
       diagnostics_.error(425, {file_, line_, cells[columns_.at("time_s")].column},
-                         "time must grow from row to row: found " + cells[columns_.at("time_s")].text + " after " +
+                         "time must increase from row to row: found " + cells[columns_.at("time_s")].text + " after " +
                              std::to_string(frames.back().time));
       return;
     }

@@ -9,20 +9,20 @@
 
 namespace presa {
 
-/// What a scripted hand wants one fingertip to do at one moment.
+/// Target of a scripted fingertip at one moment.
 struct MotionTarget {
   Vec3 p_WT = Vec3::Zero();      ///< wanted position of the fingertip centre [m]
   Vec3 v_WT = Vec3::Zero();      ///< its velocity [m/s]
-  Vec3 force_W = Vec3::Zero();   ///< force pushed besides [N]
-  Vec3 inward_W = Vec3::Zero();  ///< unit direction in which the grip is force-controlled; zero: not gripping
+  Vec3 force_W = Vec3::Zero();   ///< additional force of the hand [N]
+  Vec3 inward_W = Vec3::Zero();  ///< unit direction of force control while gripping; zero: not gripping
   double grip = 0;               ///< wanted grip force along inward_W [N]
   int phase = -1;
 };
 
-/// Impedance of the finger behind the fingertip. damping 0: derived from the rest ("auto").
+/// Impedance of the hand at the fingertip. damping 0: chosen automatically ("auto").
 struct FingerImpedance {
   double mass = 0.1;       ///< fingertip with thimble [kg]
-  double stiffness = 300;  ///< hand [N/m]
+  double stiffness = 300;  ///< of the hand [N/m]
   double damping = 0;      ///< [N s/m]
 };
 
@@ -33,25 +33,25 @@ class Motion {
   virtual MotionTarget at(double time) const noexcept = 0;
   virtual FingerImpedance impedance() const { return {}; }
   std::vector<std::string> phase_names;
-  std::vector<double> phase_times;  ///< start of each phase, one more for the end [s]
+  std::vector<double> phase_times;  ///< start of each phase, then the end of the last one [s]
 
  protected:
-  /// Phase at a time; the last one holds on after the end.
+  /// Phase at a time; after the end, the last phase.
   int phaseAt(double time) const noexcept;
 };
 
-/// Where the motion is used.
+/// The fingertip that a motion is read for.
 struct MotionContext {
   std::string role;
   double side = 1;              ///< -1: on the negative end of the grasp axis (thumb), +1: on the positive (index)
   double fingertip_radius = 0;  ///< [m]
 };
 
-/// Phases with grip, move and opening (XML, config/schema/motion.xsd). Null with findings when wrong.
+/// Reads phases with grip, move and opening (XML, config/schema/motion.xsd). Null with findings on errors.
 std::unique_ptr<Motion> readPhasedMotion(const std::string& file, const MotionContext& context,
                                          Diagnostics& diagnostics);
-/// Keyframes (CSV): header `time_s,role,x_m,y_m,z_m` and optionally `fx_N,fy_N,fz_N`, `phase`; minimum-jerk
-/// between keyframes of one role. Null with findings when wrong.
+/// Reads keyframes (CSV): header `time_s,role,x_m,y_m,z_m` and optionally `fx_N,fy_N,fz_N`, `phase`; minimum-jerk
+/// interpolation between keyframes of one role. Null with findings on errors.
 std::unique_ptr<Motion> readKeyframeMotion(const std::string& file, const MotionContext& context,
                                            Diagnostics& diagnostics);
 

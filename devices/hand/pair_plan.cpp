@@ -10,8 +10,8 @@ namespace presa {
 namespace {
 
 constexpr double kTurn = 1;            // [rad/s]
-constexpr double kPeakOfMean = 1.875;  // of a minimum-jerk movement's speed
-constexpr double kLeast = 0.2;         // [s]
+constexpr double kPeakOfMean = 1.875;  // peak over mean speed of a minimum-jerk movement
+constexpr double kLeast = 0.2;         // min duration of a movement [s]
 
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 

@@ -4,36 +4,36 @@
 
 namespace presa {
 
-/// Where both fingertips of a pair are wanted, and how they press.
+/// Target of a pair of fingertips, in W.
 struct PairTarget {
-  Vec3 centre = Vec3::Zero();  ///< between the fingertips' centres [m]
-  double yaw = 0;              ///< of the line from thumb to index [rad]
-  double gap = 0;              ///< from the centre to each fingertip's centre [m]
-  double grip = 0;             ///< towards each other [N]; 0: they go where they are wanted
+  Vec3 centre = Vec3::Zero();  ///< midpoint between the fingertip centres [m]
+  double yaw = 0;              ///< direction of the line from thumb to index [rad]
+  double gap = 0;              ///< from the midpoint to each fingertip centre [m]
+  double grip = 0;             ///< force towards each other [N]; 0: position control
 };
 
-/// What a pair of fingers does, movement by movement. The same states give the same plan, so each finger of the pair may have one of its
-/// own. Thread: haptic; no memory after construction.
+/// The plan of a pair of fingers, movement by movement. It is a function of the observed states only, so each finger
+/// may run its own copy. Thread: haptic; no allocation after construction.
 class PairPlan {
  public:
   virtual ~PairPlan() = default;
 
-  /// At every tick, before at().
+  /// Observes the bodies; call at every tick, before at().
   void see(const ObjectState& objects, double time) noexcept;
-  /// Within the tick that was seen last.
+  /// The target at a time within the tick that was observed last.
   PairTarget at(double time) const noexcept;
-  /// Change of at() [1/s].
+  /// Time derivative of at() [1/s].
   PairTarget rate(double time) const noexcept;
   int phase() const noexcept { return phase_; }
 
  protected:
   explicit PairPlan(const PairTarget& start) : from_(start), to_(start) {}
-  /// The last movement has ended: chooses the one that begins now.
+  /// Called when a movement has ended: chooses the next one.
   virtual void next(const ObjectState& objects) noexcept = 0;
 
-  /// A minimum-jerk movement from where the last one ends; a grip that begins rises from zero.
+  /// Starts a minimum-jerk movement from the end of the last one; a new grip ramps up from zero.
   void go(int phase, const PairTarget& to, double duration) noexcept;
-  /// At most that fast [m/s], and turning with a radian a second.
+  /// Same, with a max speed of `speed` [m/s] and of 1 rad/s for the rotation.
   void goAt(int phase, const PairTarget& to, double speed) noexcept;
   const PairTarget& target() const noexcept { return to_; }
   double now() const noexcept { return now_; }

@@ -39,7 +39,7 @@ class PhasedMotion final : public Motion {
     for (const xml::Element& phase : root.children("phase")) {
       if (phase.hasAttribute("move")) pose.point += vec3(phase, "move");
       pose.grip = phase.number("grip", pose.grip);
-      // a hand that grips is closed; one told to open lets go
+      // a gripping hand is closed; an opening releases the grip
       pose.open = phase.hasAttribute("open") ? phase.number("open", 0) : pose.grip > 0 ? 0.0 : pose.open;
       if (phase.hasAttribute("open") && pose.open > 0) pose.grip = 0;
       knots_.push_back(pose);
@@ -64,7 +64,7 @@ class PhasedMotion final : public Motion {
     target.p_WT = from.point + part * (to.point - from.point) +
                   (width_ / 2 + context_.fingertip_radius + from.open + part * (to.open - from.open)) * outward;
     target.v_WT = slope * (to.point - from.point) + slope * (to.open - from.open) * outward;
-    // force ramps are straight: a constant rate of loosening is what slip is measured against
+    // linear force ramps: slip is measured against a constant rate of loosening
     target.grip = from.grip + std::clamp(s, 0.0, 1.0) * (to.grip - from.grip);
     if (from.grip > 0 || to.grip > 0) target.inward_W = -outward;
     return target;

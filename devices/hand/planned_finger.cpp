@@ -8,7 +8,7 @@
 namespace presa {
 namespace {
 
-/// One side of the pair's plan, as a motion.
+/// One finger of a pair plan as a motion.
 class SideMotion final : public Motion {
  public:
   SideMotion(const PairPlan& plan, double side) : plan_(plan), side_(side) {}
@@ -72,7 +72,7 @@ class PlannedFingerDevice final : public Device {
   ScriptedHand hand_;
   FingerPlant plant_;
   Tick at_;
-  Vec3 force_ = Vec3::Zero();  // [N] held by the device since the last write
+  Vec3 force_ = Vec3::Zero();  // [N] force of the device since the last write
 };
 
 }  // namespace

@@ -9,16 +9,16 @@
 
 namespace presa {
 
-/// One fingertip of a pair that follows a plan, on the springs of a hand.
+/// One fingertip of a pair that follows a plan, on the spring of a hand.
 struct PlannedFinger {
   std::unique_ptr<PairPlan> plan;
-  double side = 1;  ///< -1: thumb, at the negative end of the line between them; 1: index
+  double side = 1;  ///< -1: thumb, at the negative end of the line between the fingertips; 1: index
   HandSettings settings;
   double period = 0;                ///< of the haptic thread [s]
-  std::vector<std::string> phases;  ///< names, as PairPlan::phase counts them
+  std::vector<std::string> phases;  ///< names indexed by PairPlan::phase
   std::string model;                ///< Device::model
 };
-/// As a device that looks.
+/// Makes it a device that observes the bodies.
 std::unique_ptr<Device> makePlannedFinger(PlannedFinger finger);
 
 }  // namespace presa

@@ -5,9 +5,9 @@
 namespace presa {
 namespace {
 
-constexpr double kGripTime = 0.1;      // [s] to correct a grip force that is not as wanted
-constexpr double kPositionRate = 3;    // [1/s] to carry a load without sagging
-constexpr double kMaxCorrection = 20;  // [N] either may reach
+constexpr double kGripTime = 0.1;      // [s] time constant of the grip force correction
+constexpr double kPositionRate = 3;    // [1/s] integral gain that carries a load without sagging
+constexpr double kMaxCorrection = 20;  // [N] bound of each correction
 
 }  // namespace
 
