@@ -16,7 +16,7 @@ const DeviceBinding::Setting* settingOf(const DeviceBinding& binding, const std:
   return found == binding.settings.end() ? nullptr : &found->second;
 }
 
-/// The setting as a number not below `least`; `fallback` when it is not given.
+/// The setting as a number >= `least`; `fallback` when it is not given.
 template <class Number>
 Number numberOf(const DeviceBinding& binding, const std::string& key, Number fallback, Number least,
                 Diagnostics& diagnostics) {
@@ -26,7 +26,7 @@ Number numberOf(const DeviceBinding& binding, const std::string& key, Number fal
   const char* end = setting->value.data() + setting->value.size();
   const auto [rest, status] = std::from_chars(setting->value.data(), end, value);
   if (status == std::errc{} && rest == end && std::isfinite(static_cast<double>(value)) && value >= least) return value;
-  const std::string kind = std::is_integral_v<Number> ? "a whole number, not negative" : "a number, not negative";
+  const std::string kind = std::is_integral_v<Number> ? "a non-negative whole number" : "a non-negative number";
   diagnostics.error(431, setting->where, key + " must be " + kind + ", found '" + setting->value + "'");
   return fallback;
 }
@@ -47,7 +47,7 @@ std::int32_t bodyOf(const DeviceBinding& binding, const World& world, Diagnostic
   const std::string what =
       named != nullptr
           ? "there is no free body '" + named->value + "' that fingers can touch" + didYouMean(named->value, names)
-          : "role '" + binding.role + "': which body is gripped? " + std::to_string(names.size()) + " could be";
+          : "role '" + binding.role + "': which body should it grip? " + std::to_string(names.size()) + " candidates";
   diagnostics.error(432, named != nullptr ? named->where : binding.where, what,
                     names.empty() ? "give the scene a free body with a haptic geometry"
                                   : "add <set key=\"object\" value=\"NAME\"/>; free bodies: " + list);
@@ -68,7 +68,7 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
     const auto known = subject::levelNamed(level->value);
     if (!known) {
       diagnostics.error(433, level->where, "level must be L0, L1 or L2, found '" + level->value + "'",
-                        "L0: limited by the device's steps; L1: and by human fingers; L2: L1 with position control");
+                        "L0: limited by the device's steps; L1: also by human fingers; L2: L1 with position control");
     }
     settings.level = known.value_or(subject::Level::kL0);
   }
@@ -80,7 +80,7 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
     settings.level = subject::levelNamed(person->level).value_or(settings.level);
   }
   settings.trial = world.options.seed;
-  // grip and load together must stay below what the device gives, or the fingers run through the object
+  // grip and load together must stay below the force limit, or the fingers would pass through the object
   for (const DeviceRole& role : world.scene.devices) {
     if (role.role == binding.role) settings.most_grip = 0.9 * role.limits.force;
   }
@@ -98,7 +98,7 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
     settings.eyes_closed = eyes->value == "closed";
     if (eyes->value != "closed" && eyes->value != "open")
       diagnostics.error(439, eyes->where, "eyes must be open or closed, found '" + eyes->value + "'",
-                        "closed: it does not see the object while it holds it");
+                        "closed: the subject does not see the object while holding it");
   }
   if (settingOf(binding, "loosening") != nullptr)
     population.set("loosening", subject::constant(numberOf(binding, "loosening", 0.4, 1e-3, diagnostics)));
@@ -121,7 +121,7 @@ Grasp readGrasp(const DeviceBinding& binding, const World& world, Diagnostics& d
   if (!(grasp.width > 0)) {
     diagnostics.error(434, binding.where,
                       "role '" + binding.role + "': how wide is '" + body.name + "' between the digits?",
-                      "add <set key=\"width\" value=\"METRES\"/>; only a box says so itself");
+                      "add <set key=\"width\" value=\"METRES\"/>; the width is known for a box only");
   }
   for (const DeviceRole& role : world.scene.devices) {
     for (const DeviceBinding& other : world.rig.devices) {

@@ -4,11 +4,12 @@
 
 namespace presa {
 
-/// Reads and checks a role's settings; the findings go to `diagnostics`. Fingers' radii are left at 0 when a role is missing.
+/// Reads and checks a role's settings; the findings go to `diagnostics`.
 SubjectSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
-/// What is gripped: the body named by `object`, else the only free one that fingers can touch.
+/// The gripped body: the one named by `object`, otherwise the only free body with a haptic geometry. The fingertip
+/// radius of a missing role is 0.
 Grasp readGrasp(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
-/// 0 thumb, 1 index: from `digit`, else from the role's name.
+/// 0 thumb, 1 index: by `digit`, otherwise by the role's name.
 int readDigit(const DeviceBinding& binding, Diagnostics& diagnostics);
 
 }  // namespace presa

@@ -7,7 +7,7 @@ namespace {
 
 using subject::kDigits;
 
-constexpr double kSeenSliding = 0.02;  // [m/s]: the object's give under its weight stays below
+constexpr double kSeenSliding = 0.02;  // [m/s]: above the speed at which the object yields under its weight
 constexpr double kSeeingTime = 0.02;   // [s]
 
 RandomStream streamOf(const SubjectSettings& settings, const char* name) {
@@ -46,7 +46,7 @@ FingerInput SharedSubject::read(int digit, const Tick& tick) noexcept {
   input.v_WH = hand_.vQ(digit) * inward + hand_.vY(digit) * Vec3::UnitZ();
   input.phase = static_cast<std::int32_t>(brain_.phase());
   input.valid = true;
-  input.buttons = brain_.phase() == subject::Phase::kHold ? 1 : 0;  // "ready": it holds as lightly as it dares
+  input.buttons = brain_.phase() == subject::Phase::kHold ? 1 : 0;  // "ready" while holding with the wanted min grip
   return input;
 }
 

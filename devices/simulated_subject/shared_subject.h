@@ -12,43 +12,43 @@
 
 namespace presa {
 
-/// How the subject grips what: all in the world, at the start.
+/// The grasp, in the world frame, at the start.
 struct Grasp {
   std::int32_t body = kNoBody;                    ///< index into Scene::bodies
-  Vec3 p_WB = Vec3::Zero();                       ///< its centre [m]
-  Vec3 inward_W = Vec3::UnitX();                  ///< of the thumb: from thumb to index, horizontal
-  double width = 0;                               ///< of the object along it [m]
+  Vec3 p_WB = Vec3::Zero();                       ///< centre of the body [m]
+  Vec3 inward_W = Vec3::UnitX();                  ///< inward direction of the thumb: from thumb to index, horizontal
+  double width = 0;                               ///< of the object along inward_W [m]
   std::array<double, subject::kDigits> radius{};  ///< of the fingertips [m]
 };
 
 struct SubjectSettings {
   subject::Level level = subject::Level::kL0;
-  std::uint64_t seed = 1, subject = 0;  ///< who it is
+  std::uint64_t seed = 1, subject = 0;  ///< identity
   std::uint64_t trial = 0;              ///< names the noise of this run
   double resolution = 0;                ///< of the device [m]
-  double hold = 11;                     ///< [s]: a trial that asks for 10 s first waits until the object is still
-  bool eyes_closed = false;             ///< while it holds: what it notices then it has felt
-  double most_grip = 9;                 ///< of what the device can push against [N]
-  double reach = 0.02;                  ///< way to the object at the start, and when the hand opens [m]
+  double hold = 11;                     ///< [s]; longer than a trial's 10 s, which start when the object is still
+  bool eyes_closed = false;             ///< no sight while holding
+  double most_grip = 9;                 ///< max grip, below the device's force limit [N]
+  double reach = 0.02;                  ///< distance to the object at the start, and when the hand opens [m]
   subject::Traits traits{};
 
   bool operator==(const SubjectSettings&) const = default;
 };
 
-/// One person's hand and brain behind two devices. Each tick is lived once, by whichever device asks first, under the forces
-/// that both held. Thread: haptic; nonblocking.
+/// One hand and brain behind two devices. Each tick is simulated once, when the first device asks for it, under the
+/// forces of both. Thread: haptic; nonblocking.
 class SharedSubject {
  public:
   SharedSubject(const Grasp& grasp, const SubjectSettings& settings, double period);
 
-  /// The brain's own devices know its forces; the object it sees.
+  /// Receives the pose of the object, for the sense of sight.
   void see(const ObjectState& objects, const Tick& tick) noexcept;
   FingerInput read(int digit, const Tick& tick) noexcept;
   void write(int digit, const Vec3& f_H_W, const Tick& tick) noexcept;
 
   const subject::Brain& brain() const noexcept { return brain_; }
   const SubjectSettings& settings() const noexcept { return settings_; }
-  /// A device takes a digit; false when another has it already.
+  /// Assigns a digit to a device; false when it is already taken.
   bool take(int digit) noexcept { return !std::exchange(taken_[static_cast<std::size_t>(digit)], true); }
 
  private:
@@ -63,7 +63,7 @@ class SharedSubject {
   subject::Senses senses_;
   Tick at_;
   std::array<bool, subject::kDigits> taken_{};
-  double seen_height_ = 0, staying_behind_ = 0;  // object above fingers [m], its rate against them [m/s]
+  double seen_height_ = 0, staying_behind_ = 0;  // height of the object above the fingers [m]; its filtered rate [m/s]
   double seen_before_ = 0;
 };
 

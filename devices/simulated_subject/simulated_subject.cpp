@@ -9,7 +9,7 @@
 namespace presa {
 namespace {
 
-/// Everything that was drawn, for the person and for this run.
+/// All values drawn for the person and for this run.
 std::vector<DeviceFact> factsOf(const SharedSubject& subject) {
   const SubjectSettings& settings = subject.settings();
   std::vector<DeviceFact> facts;
@@ -64,7 +64,7 @@ class SimulatedDigit final : public Device {
   int digit_;
 };
 
-/// The second device of a world joins the first. Held by the devices alone: gone with them, so that runs do not meet.
+/// The subject of a world: created by its first device, joined by its second, owned by the devices alone.
 std::shared_ptr<SharedSubject> join(const World& world, const Grasp& grasp, const SubjectSettings& settings) {
   static std::mutex mutex;
   static std::map<const World*, std::weak_ptr<SharedSubject>> subjects;

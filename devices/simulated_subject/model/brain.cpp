@@ -9,20 +9,20 @@
 namespace presa::subject {
 namespace {
 
-// times of the lift [s]
+// durations [s]
 constexpr double kReachTime = 0.5, kPreloadTime = 0.25, kLiftTime = 0.8, kLoadTime = 1.6;
 constexpr double kSettleTime = 0.8, kSettleLimit = 4, kWaitLimit = 4, kRegraspTime = 1, kAdjustTime = 0.5;
 constexpr double kFallTime = 1, kSqueezeTime = 0.5;
-constexpr double kBlindTime = 0.3;  // after a change of plan, in which no slip is looked for
+constexpr double kBlindTime = 0.3;  // after a change of plan, without slip detection
 
 constexpr double kFirstGrip = 1;                   // [N]
-constexpr double kSafeRatio = 3.25;                // grip over load that is safe for friction 0.4: 1.3 / 0.4
+constexpr double kSafeRatio = 3.25;                // grip per load that is safe at friction 0.4: 1.3 / 0.4
 constexpr double kSlightLoad = 0.05;               // [N]
-constexpr double kFirmly = 1.2, kTouch = 0.5;      // of the grip wanted, to take it up; [N] to close with
-constexpr double kSqueezeRate = 6;                 // [N/s] while it is seen to stay behind
-constexpr double kCouplingTime = 0.02;             // [s] of grip to the lift force
-constexpr double kHarder = 1.25;                   // after a slip
-constexpr double kPostureRate = 3, kLiftRate = 9;  // [1/s] at which a wrong height is corrected
+constexpr double kFirmly = 1.2, kTouch = 0.5;      // share of the wanted grip for picking up; closing force [N]
+constexpr double kSqueezeRate = 6;                 // [N/s] while the object is seen to slide
+constexpr double kCouplingTime = 0.02;             // [s] time constant from lift force to grip
+constexpr double kHarder = 1.25;                   // factor on the grip after a slip
+constexpr double kPostureRate = 3, kLiftRate = 9;  // [1/s] correction rate of a height error
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -109,19 +109,19 @@ void Brain::preload() noexcept {
 
 void Brain::load() noexcept {
   intent_.height = task_.height * minimumJerk(time_ / kLiftTime);
-  // grip goes ahead with the lift force commanded; what followed the load felt would be too late at friction 0.4
+  // the grip leads, following the commanded lift force; the felt load would be too late at friction 0.4
   const double safe = kFirstGrip + kSafeRatio * std::max(effort_, 0.0);
   intent_.grip += period_ * std::max(safe - intent_.grip, 0.0) / kCouplingTime;
   if (squeezeWhenSliding() && waited_ < kWaitLimit) {
     waited_ += period_;
-    time_ -= period_;  // the lift waits, or the fingers would leave the object on the table
+    time_ -= period_;  // pause the lift, or the fingers would leave the object on the table
   }
   if (time_ >= kLoadTime) enter(Phase::kSettle);
 }
 
 void Brain::settle() noexcept {
   squeezeWhenSliding();
-  // a drift of the hand would be taken for a slip
+  // wait for the hand to be still: a drift would be taken for a slip
   if (time_ < kSettleTime || (!perception_.still() && time_ <= kSettleLimit)) return;
   felt_weight_ = perception_.load();
   perception_.keepStiffness();
@@ -144,8 +144,8 @@ void Brain::regrasp() noexcept {
   enter(Phase::kAdjust);
 }
 
-// Opens, waits until the object has come to rest, goes to where it is seen, closes until both digits touch, squeezes, lifts,
-// settles. What is still not held is picked up once more, harder.
+// Opens, waits until the object rests, moves to where it is seen, closes until both digits touch, squeezes, lifts and
+// settles. If the object is still not held, repeats with more force.
 void Brain::regraspFromTable() noexcept {
   const double open = time_ / kReachTime, down = (time_ - kFallTime) / kReachTime, close = down - 1;
   const double squeeze = (time_ - kFallTime - 2 * kReachTime) / kSqueezeTime;
@@ -243,7 +243,7 @@ bool Brain::keepHold() noexcept {
   if (reaction_ > 0) return false;
   ++regrips_;
   wanted_ *= kHarder;
-  intent_.grip = std::max(intent_.grip, wanted_);  // it may still be on its way down
+  intent_.grip = std::max(intent_.grip, wanted_);  // the grip may still be decreasing
   reaction_ = kNever;
   perception_.rest();
   return false;

@@ -8,37 +8,38 @@
 
 namespace presa::subject {
 
-/// What is asked of the subject, and where its hand begins.
+/// Instructions to the subject, and the start of its hand.
 struct Task {
-  double reach = 0;  ///< way of each digit to the object [m]; 0: begins in touch
-  /// Lets an object that slipped go, and takes it up from where it is seen to lie; else it is handed back in the air.
+  double reach = 0;  ///< distance of each digit to the object at the start [m]; 0: in contact
+  /// Releases an object that slipped and picks it up from where it lies; false: the object is handed back in the air.
   bool from_table = false;
-  double height = 0.04;  ///< to lift it [m]
-  double hold = 10;      ///< to hold it still with the least grip it thinks necessary [s]
-  double most_grip = std::numeric_limits<double>::infinity();  ///< beyond it the device yields [N]
-  double device_resolution = 0;  ///< position steps of the device, which the subject has learnt to allow for [m]
+  double height = 0.04;  ///< lift height [m]
+  double hold = 10;      ///< duration of holding still with the min grip that the subject considers necessary [s]
+  double most_grip = std::numeric_limits<double>::infinity();  ///< force limit of the device [N]
+  double device_resolution = 0;  ///< position steps of the device, which the subject has learnt [m]
 };
 
-/// Grips, lifts, loosens until it slips (to learn how hard it must grip), holds, lets go. Knows the world by `Senses` alone
-/// (the stiffness and the weight of the object are felt), but for Task::device_resolution, and sees sliding while it lifts.
-///   grip aimed at = S / (1 - margin) + clearance sqrt((cv S / (1 - margin))^2 + s0^2 + (k dX)^2 / 12 + (k dq)^2) + extra,
-/// S the grip felt when slip was noticed. That uncertainty of force from position is kept clear of slip is the explanation
-/// of [Bergamasco et al., section 3.6.4] written down: the sign of the effect of stiffness is put in here.
+/// Grips, lifts, loosens until the object slips (to learn the necessary grip), holds, releases. Its knowledge of the
+/// world is `Senses` (it feels the stiffness and weight of the object and sees sliding while it lifts) and
+/// Task::device_resolution. The wanted grip is
+///   S / (1 - margin) + clearance sqrt((cv S / (1 - margin))^2 + s0^2 + (k dX)^2 / 12 + (k dq)^2) + extra,
+/// where S is the grip at which slip was noticed. The clearance of the force uncertainty from position implements the
+/// explanation of [Bergamasco et al., section 3.6.4]: the sign of the effect of stiffness is built in, not found.
 /// Thread: any, haptic included (nothing allocates).
 class Brain {
  public:
   Brain(const Traits& traits, const Task& task, RandomStream perception, double period);
-  /// One period later, with what was felt and seen in it.
+  /// Advances one period with the senses of that period.
   const Intent& step(const Senses& senses) noexcept;
 
   const Intent& intent() const noexcept { return intent_; }
   Phase phase() const noexcept { return phase_; }
   double timeInPhase() const noexcept { return time_; }    ///< [s]
-  double slipGrip() const noexcept { return slip_grip_; }  ///< remembered grip at which it slipped [N]; 0: not yet
-  double wanted() const noexcept { return wanted_; }       ///< grip aimed at [N]
-  int drops() const noexcept { return drops_; }            ///< lost although it meant to hold
-  int regrips() const noexcept { return regrips_; }        ///< squeezed harder after a slip noticed
-  /// Drawn for this trial: kick noticed as slip [m], factors on the slip force remembered and on the grip wanted.
+  double slipGrip() const noexcept { return slip_grip_; }  ///< remembered grip at the slip [N]; 0: none yet
+  double wanted() const noexcept { return wanted_; }       ///< wanted grip [N]
+  int drops() const noexcept { return drops_; }            ///< losses of the object while trying to hold it
+  int regrips() const noexcept { return regrips_; }        ///< squeezes after a noticed slip
+  /// Drawn per trial: kick noticed as slip [m]; factors on the remembered slip force and on the wanted grip.
   double slipThreshold() const noexcept { return slip_threshold_; }
   double misjudgement() const noexcept { return misjudgement_; }
   double scatter() const noexcept { return scatter_; }
@@ -60,25 +61,26 @@ class Brain {
 
   bool slipFelt() const noexcept;
   bool slipSeen() const noexcept;
-  /// While the object is seen to stay behind: true.
+  /// Raises the grip while the object is seen to slide; true if so.
   bool squeezeWhenSliding() noexcept;
   double gripFromMemory() const noexcept;
   void takeUpAgain() noexcept;
-  /// Lost: picks it up again to hold it harder. Slips: squeezes after the reaction time. True when lost.
+  /// When the object is lost, picks it up again with more force and returns true. After a slip, squeezes once the
+  /// reaction time is over.
   bool keepHold() noexcept;
 
   const Traits traits_;
   const Task task_;
   const double period_, loosen_per_tick_, adjust_per_tick_;
-  double slip_threshold_, misjudgement_, scatter_;  // of this trial
+  double slip_threshold_, misjudgement_, scatter_;  // drawn for this trial
   Perception perception_;
   Intent intent_;
   double effort_ = 0;
   Phase phase_ = Phase::kPreload;
   double time_ = 0, waited_ = 0;
-  double low_ = 0, aside_ = 0;      // where the object lies [m]
-  double firm_ = 0, firmness_ = 1;  // grip to take it up with [N], and more of it after a failure
-  double reaction_;                 // left until it reacts; infinite: to nothing
+  double low_ = 0, aside_ = 0;      // position of the object when it lies [m]
+  double firm_ = 0, firmness_ = 1;  // grip for picking up [N], and its factor after failures
+  double reaction_;                 // time left until the reaction; infinite: none pending
   double felt_weight_ = 0;
   double slip_grip_ = 0, wanted_ = 0;
   int drops_ = 0, regrips_ = 0;

@@ -8,20 +8,20 @@
 
 namespace presa::subject {
 
-/// What a device with position steps of this size reports; 0: no steps.
+/// Position as reported by a device with this resolution; 0: exact.
 inline double quantised(double x, double step) noexcept { return step > 0 ? step * std::nearbyint(x / step) : x; }
 
-/// Force noise of the two digits: slow (partly common) and 10 Hz tremor, and noise of the muscle springs' length.
+/// Force noise of the two digits: slow noise (partly common) and 10 Hz tremor; and noise of the muscle springs' length.
 class MotorNoise {
  public:
   MotorNoise(const Traits& traits, RandomStream stream, double period);
-  /// To be called each tick; new values come every 5 ms.
+  /// Call once per tick; new values are drawn every 5 ms.
   void step(double grip) noexcept;
   double force(int digit) const noexcept { return force_[digit]; }        ///< [N]
   double position(int digit) const noexcept { return position_[digit]; }  ///< [m]
 
  private:
-  /// 10 Hz resonator, 2 Hz wide, unit variance when driven by white noise.
+  /// Second-order autoregression: a 10 Hz resonance, 2 Hz wide, unit variance.
   struct Tremor {
     double now = 0, before = 0;
   };
@@ -37,17 +37,17 @@ class MotorNoise {
   std::array<Tremor, kDigits> tremor_{};
 };
 
-/// Two digits, each a mass on muscle impedance, on one arm:
+/// Two digits, each a mass with muscle impedance, on one arm:
 ///   M q'' = gain (U + noise) + k_h (q_a + w - q) - b_h q' - N -+ k_arm (q_1 - q_2) / 2,   q_a' = (q - q_a) / tau_a
 ///   M y'' = k_y (y_ref - y) + u_y - b_y y' - T -+ k_level (y_1 - y_2) / 2,   u_y' = rate k_y (y_ref - mean y)
-/// anchors and sway taken about where the hand's middle is wanted. k_level keeps the digits level: an object of width 2 a turns
-/// between them when squeezed harder than a k (k_y + k_level) / (k + k_y + k_level).
+/// Anchors and sway are relative to the wanted middle of the hand. k_level keeps the digits level: an object of width 2
+/// a turns between them when squeezed harder than a k (k_y + k_level) / (k + k_y + k_level). Integrated by
 /// semi-implicit Euler. Thread: any, haptic included (nothing allocates).
 class Hand {
  public:
-  /// Digits start at rest at q, y = 0.
+  /// The digits start at rest at q, with y = 0.
   Hand(const Traits& traits, RandomStream noise, double period, double q = 0);
-  /// One period under the forces in `felt` (normal, load; the rest is not read).
+  /// One period under the forces in `felt` (only normal and load are used).
   void step(const Intent& intent, const std::array<DigitSenses, kDigits>& felt) noexcept;
 
   double q(int digit) const noexcept { return digits_[digit].q; }
@@ -61,7 +61,7 @@ class Hand {
   double effort(const Intent& intent) const noexcept {
     return traits_.posture_stiffness * (intent.height - meanHeight()) + lift_;
   }
-  /// Puts both digits at rest, squeezed by `depth` about the present sway.
+  /// Places both digits at rest with squeeze depth `depth` [m], keeping the current sway.
   void place(double depth) noexcept;
 
  private:

@@ -8,9 +8,9 @@ namespace {
 
 constexpr double kFeelingTime = 0.05, kHabitTime = 0.4, kDriftTime = 0.1;  // [s]
 constexpr double kStill = 1e-3;                                            // [m/s]
-constexpr double kUnknownStiffness = 1000;                                 // [N/m] until the fingers have closed by
-constexpr double kLightGrip = 4;     // [N] far from where the device gives no more
-constexpr double kClosing = 0.3e-3;  // [m] standard deviation
+constexpr double kUnknownStiffness = 1000;                                 // [N/m] assumed until kClosing is reached
+constexpr double kLightGrip = 4;     // [N] well below the force limit of the device
+constexpr double kClosing = 0.3e-3;  // [m] standard deviation of the closing needed to estimate the stiffness
 
 }  // namespace
 

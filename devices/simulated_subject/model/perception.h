@@ -6,7 +6,7 @@
 
 namespace presa::subject {
 
-/// What is made of the senses from tick to tick. Felt except where it says seen.
+/// Percepts computed from the senses at each tick. Felt unless marked as seen.
 class Perception {
  public:
   explicit Perception(double period) : period_(period) {}
@@ -15,31 +15,31 @@ class Perception {
   /// Mean grip and load of the digits over the last 50 ms [N].
   double grip() const noexcept { return grip_; }
   double load() const noexcept { return load_; }
-  /// Stiffness of what is held [N/m]: slope of grip over closing of the fingers while it grips lightly.
+  /// Stiffness of the held object [N/m]: slope of grip over closing of the fingers during a light grip.
   double stiffness() const noexcept;
-  /// No more to be learnt of it.
+  /// Freezes the stiffness estimate.
   void keepStiffness() noexcept { learning_ = false; }
 
-  /// The fingers spring up when load leaves them: their rise above where they were in the last 0.4 s [m].
+  /// Rise of the fingers above their mean height over the last 0.4 s [m]: they spring up when load leaves them.
   double kick() const noexcept { return kick_; }
-  /// Forgets that past: they are where they belong now.
+  /// Resets that mean to the current height.
   void rest() noexcept { usual_height_ = height_; }
-  /// Neither rising nor sinking, and not seen to slide.
+  /// Neither rising nor sinking, and no sliding seen.
   bool still() const noexcept;
   bool seenSliding() const noexcept { return senses_.sight.object && senses_.sight.sliding; }
-  /// How far the object is seen below where it was first touched, less the give of the fingers [m].
+  /// Seen height loss of the object since the first touch, minus the compliance of the fingers [m].
   double fallen() const noexcept;
   /// Height of the object in the hand's coordinates [m].
   std::optional<double> seenHeight() const noexcept;
-  /// What comes next is another grasp: the object will be touched elsewhere.
+  /// Prepares for another grasp: forgets the height at the first touch.
   void letGo() noexcept {
     place_ = std::numeric_limits<double>::quiet_NaN();
     opening_ = true;
   }
   bool touchesBoth() const noexcept { return touching(0) && touching(1); }
-  /// Where the object is seen along the grip, in the thumb's direction [m].
+  /// Seen position of the object along the grip, in the thumb's direction [m].
   std::optional<double> seenAside() const noexcept;
-  /// It has left the fingers, as they feel or as is seen.
+  /// The object has left the fingers, as felt or seen.
   bool lost() const noexcept { return (!touching(0) && !touching(1)) || fallen() > kGone; }
 
  private:
@@ -51,8 +51,8 @@ class Perception {
   Senses senses_;
   double grip_ = 0, load_ = 0, height_ = 0, usual_height_ = 0, kick_ = 0, drift_ = 0;
   double place_ = std::numeric_limits<double>::quiet_NaN();  // seen height of the object at the first touch
-  bool learning_ = true, opening_ = false;                   // opening: what is still touched is the grasp before
-  // running means of closing and grip of both digits, and their sums of products about them
+  bool learning_ = true, opening_ = false;                   // opening: contact still belongs to the previous grasp
+  // running means of closing and grip of both digits, and their centred sums of products
   double count_ = 0, mean_q_ = 0, mean_n_ = 0, qq_ = 0, qn_ = 0;
 };
 

@@ -5,44 +5,44 @@
 
 namespace presa::subject {
 
-/// Digits in order: thumb, index. The hand lives in a plane: q, the way of a digit along the grip, grows inwards (0 where
-/// it met the object); y is up. Coordinates of the hand, not of the object.
+/// Digits in order: thumb, index. The hand moves in a plane: q is the position of a digit along the grip, positive
+/// inwards (0 at the first contact with the object); y is up. Coordinates of the hand, not of the object.
 inline constexpr int kDigits = 2;
 
-/// What one digit feels.
+/// The senses of one digit.
 struct DigitSenses {
   double q = 0;       ///< own position along the grip, inwards [m]
   double y = 0;       ///< own height [m]
   double v_y = 0;     ///< its rate [m/s]
-  double normal = 0;  ///< force that pushes it outwards, >= 0; 0: touches nothing [N]
-  double load = 0;    ///< weight it carries: force that pulls it down [N]
+  double normal = 0;  ///< outward force on the digit, >= 0; 0: no contact [N]
+  double load = 0;    ///< downward force on the digit: the weight it carries [N]
 };
 
-/// What is SEEN of the object: with the eyes, not with the fingers.
+/// Vision of the object.
 struct Sight {
-  bool object = false;   ///< the object is in view; the rest holds only then
+  bool object = false;   ///< the object is in view; the other fields are valid only then
   double height = 0;     ///< of the object above the mean height of the digits [m]
   double aside = 0;      ///< of the object along the grip, in the thumb's direction, in the hand's coordinates [m]
-  bool sliding = false;  ///< it moves against a digit that touches it
+  bool sliding = false;  ///< the object moves relative to a touching digit
 };
 
-/// All that a brain learns about the world, once a tick.
+/// All inputs of the brain, once per tick.
 struct Senses {
   std::array<DigitSenses, kDigits> digits;
   double effort = 0;  ///< lift force commanded per digit, the sense of effort [N]
   Sight sight;
 };
 
-/// What the brain wants of its hand until the next tick.
+/// The brain's command to its hand until the next tick.
 struct Intent {
-  double grip = 0;             ///< force of each digit inwards [N]
-  double gain = 1;             ///< on it: an equilibrium-point hand pushes against its own stiffness too
+  double grip = 0;             ///< inward force of each digit [N]
+  double gain = 1;             ///< factor on the grip: an equilibrium-point hand also pushes against its own stiffness
   double height = 0;           ///< of the fingers [m]
-  double height_rate = 0;      ///< at which a wrong height is corrected by force; 0: as it is [1/s]
-  bool reaching = false;       ///< position instead of force along the grip: q goes to `reach`
+  double height_rate = 0;      ///< correction rate of a height error by force; 0: keep the force [1/s]
+  bool reaching = false;       ///< position instead of force control along the grip: q goes to `reach`
   double reach = 0;            ///< [m]
   double aside = 0;            ///< middle of the hand along the grip, in the thumb's direction [m]
-  bool take_up_again = false;  ///< this tick the object is picked up anew
+  bool take_up_again = false;  ///< true in the tick in which the object is picked up again
 };
 
 enum class Phase : std::uint8_t {

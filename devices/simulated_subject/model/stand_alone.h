@@ -8,58 +8,58 @@
 
 namespace presa::subject {
 
-/// A cube between the digits, touched at the height of its centre: it moves along the grip and vertically.
+/// A cube between the digits, touched at the height of its centre. It moves along the grip and vertically.
 struct Cube {
   double mass = 0;            ///< [kg]
   double mu_s = 0, mu_d = 0;  ///< static, dynamic friction
-  double stiffness = 0;       ///< that is rendered [N/m]
+  double stiffness = 0;       ///< rendered stiffness [N/m]
 
-  /// Least grip of each digit that carries it at rest [N].
+  /// Min grip of each digit that carries the cube at rest [N].
   double slipForce() const noexcept { return mass * kGravity / (2 * mu_s); }
   static constexpr double kGravity = 9.81;  ///< [m/s^2]
 };
 
-/// One trial. Seed, subject and trial name the random numbers; order of trials does not matter.
+/// One trial. Seed, subject and trial name the random streams, so the order of trials does not matter.
 struct Trial {
   Cube cube;
   std::uint64_t seed = 1, subject = 0, trial = 0;
   double resolution = 0;    ///< position steps of the device [m]
   double force_limit = 10;  ///< peak of the device [N]
   double hold = 10;         ///< [s]
-  double reach = 0;         ///< way of each digit to the cube [m]; 0: begins in touch
-  double time_limit = 120;  ///< the trial is given up [s]
+  double reach = 0;         ///< distance of each digit to the cube at the start [m]; 0: in contact
+  double time_limit = 120;  ///< max duration of the trial [s]
 };
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kContinuousForce = 4;  ///< of the device in its worst pose [N] [Bergamasco et al., section 2.1]
 
-/// What is measured of a trial, from outside the subject.
+/// External measures of a trial.
 struct TrialResult {
-  double grip = kNotMeasured, grip_sd = kNotMeasured;  ///< mean over the hold and both digits of the normal force [N]
-  double load = kNotMeasured;                          ///< likewise of the force that carries the cube [N]
+  double grip = kNotMeasured, grip_sd = kNotMeasured;  ///< normal force, mean over the hold and both digits [N]
+  double load = kNotMeasured;                          ///< same for the force that carries the cube [N]
   double slip_force = kNotMeasured;                    ///< grip at the first slip of the release [N]
-  double notice_delay = kNotMeasured;  ///< from the first slip of the loosening until it was noticed [s]
-  double slip_grip = 0, wanted = 0;    ///< what the subject remembered and then wanted [N]
-  double time_over_rating = 0;         ///< with a digit above kContinuousForce [s]
-  double peak = 0;                     ///< largest normal force [N]
-  double duration = 0;                 ///< [s]
+  double notice_delay = kNotMeasured;                  ///< from the first slip of the loosening until it is noticed [s]
+  double slip_grip = 0, wanted = 0;                    ///< the subject's remembered and wanted grip [N]
+  double time_over_rating = 0;                         ///< with a digit above kContinuousForce [s]
+  double peak = 0;                                     ///< largest normal force [N]
+  double duration = 0;                                 ///< [s]
   int drops = 0, regrips = 0;
   bool completed = false;
 };
 
-/// Point contact of one digit with the cube: spring along the normal; along the face a proxy held in object coordinates
-/// that sticks within the static cone and slides on the dynamic one [Melder & Harwin 2004].
+/// Point contact of one digit with the cube: a spring along the normal; tangentially a proxy in object coordinates that
+/// sticks within the static friction cone and slides at the dynamic one [Melder & Harwin 2004].
 class DigitContact {
  public:
   enum class State : std::uint8_t { kFree, kStick, kSlip };
   /// Finger at `depth` inside the face and at `height` above the cube's centre [m].
   void step(const Cube& cube, double force_limit, double depth, double height) noexcept;
-  /// Stuck where the proxy is at `height`.
+  /// Sticks with the proxy at `height`.
   void stick(double height) noexcept { state_ = State::kStick, proxy_ = height; }
   double normal() const noexcept { return normal_; }  ///< [N]
   double load() const noexcept { return load_; }      ///< on the finger, downwards [N]
   State state() const noexcept { return state_; }
-  /// The proxy began to slide in this step.
+  /// True if the proxy began to slide in this step.
   bool slipBegan() const noexcept { return slip_began_; }
 
  private:
@@ -68,18 +68,18 @@ class DigitContact {
   bool slip_began_ = false;
 };
 
-/// The subject in a world of its own at 1 kHz, without the pipeline: quantised finger positions, spring contacts, and a cube
-/// integrated by semi-implicit Euler. Measures what the pipeline changes. Two things here are no mechanics: the cube that
-/// slipped away is handed back between the fingers, and the table carries it only until it is lifted off.
+/// The subject in a small world at 1 kHz without the pipeline: quantised finger positions, spring contacts, and a cube
+/// integrated by semi-implicit Euler. A baseline that shows the effect of the pipeline. Not mechanical: a lost cube is
+/// handed back between the fingers, and the table carries the cube only until it is lifted.
 /// Thread: any; step allocates nothing.
 class StandAlone {
  public:
   static constexpr double kPeriod = 1e-3;
 
   StandAlone(const Traits& traits, const Trial& trial);
-  /// One period; false when the trial is over.
+  /// Advances one period; false when the trial is over.
   bool step() noexcept;
-  /// Runs to the end.
+  /// Runs the trial to its end.
   TrialResult run() noexcept;
   TrialResult result() const noexcept;
 
@@ -91,7 +91,7 @@ class StandAlone {
   double meanNormal() const noexcept { return 0.5 * (contacts_[0].normal() + contacts_[1].normal()); }
 
  private:
-  /// Sums over the hold.
+  /// Sums over the hold phase.
   struct Hold {
     double count = 0, mean = 0, squares = 0, load = 0;
     void add(double normal, double load) noexcept;

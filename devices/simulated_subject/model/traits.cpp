@@ -105,7 +105,7 @@ void Population::silence() noexcept {
 }
 
 Traits Population::draw(std::uint64_t seed, std::uint64_t subject) const {
-  // a stream for each trait: a changed, new or constant one leaves the others as they were
+  // one stream per trait, so changing or adding a trait does not affect the others
   const std::uint64_t person = RandomStream(seed, "traits", subject).bits();
   Traits traits;
   for (const Trait& trait : traits_) {
