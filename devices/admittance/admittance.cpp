@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-/// A modelled admittance device that a scripted hand moves.
+/// A modelled admittance device moved by a scripted hand.
 class AdmittanceDevice final : public Device {
  public:
   AdmittanceDevice(const std::string& role, admittance::Settings settings, double period)
@@ -32,12 +32,12 @@ class AdmittanceDevice final : public Device {
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }
   std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
   std::string model() const override { return "simulated admittance device, scripted fingers: no device, no person"; }
-  /// Of an impedance device that is steady at the same walls.
+  /// The damping of an impedance device with the same max wall stiffness.
   double damping() const override { return damping_; }
   std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  /// Up to a tick under the held force; after a stall that is more than one period.
+  /// Advances to `tick` under the held force; after a stall by more than one period.
   void advance(const Tick& tick) noexcept {
     for (; at_.index < tick.index; ++at_.index, at_.time += tick.period) {
       Vec3 push = Vec3::Zero();
@@ -53,7 +53,7 @@ class AdmittanceDevice final : public Device {
   double lost_at_, damping_;
   admittance::Drive drive_;
   std::vector<std::string> notes_;
-  Tick at_;  // where the drive is
+  Tick at_;  // time of the drive
 };
 
 std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {

@@ -1,3 +1,5 @@
+// Between sensor samples the linear system of virtual mass and servo is advanced by its exact transition matrix.
+// stiffestWall() bisects on the spectral radius of device, hand and sampled wall over one tick.
 #include "devices/admittance/drive.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +15,7 @@ double servoRate(const Parameters& p) { return 2 * std::numbers::pi * p.bandwidt
 
 int samplesIn(double period) { return std::max(1, static_cast<int>(std::ceil(period / Drive::kSample - 1e-9))); }
 
-/// Exact over one sample, the force held.
+/// Exact transition over one sample with constant force.
 Eigen::Matrix<double, 3, 4> sampleMap(const Parameters& p, double sample) {
   const double w = servoRate(p);
   Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
@@ -23,7 +25,7 @@ Eigen::Matrix<double, 3, 4> sampleMap(const Parameters& p, double sample) {
   return Eigen::Matrix4d((a * sample).exp()).topRows<3>();
 }
 
-/// What the hand gives against its own stiffness, damping and mass, the target at rest at 0; state (x, v, r).
+/// Force of the hand on the grip for a target at rest at 0: stiffness, damping and inertia; state (x, v, r).
 double handForce(const FingerImpedance& hand, double servo, const Vec3& s) {
   return -hand.stiffness * s[0] - hand.damping * s[1] - hand.mass * servo * (s[2] - s[1]);
 }
@@ -83,7 +85,7 @@ void Drive::step(const Vec3& force) noexcept {
   stopAtEnds();
 }
 
-// An end stop takes the motion towards it, of the grip and of the virtual mass.
+// An end stop removes the velocity towards it, of the grip and of the virtual mass.
 void Drive::stopAtEnds() noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     const double from = parameters_.centre[axis] - parameters_.half_travel[axis];

@@ -47,7 +47,7 @@ void readPlace(const DeviceBinding& binding, const std::string& key, bool positi
         key + " must be three numbers" + (positive ? " above 0" : "") + " [m], found " + quote(found->second.value));
 }
 
-/// The motion must stay between the end stops.
+/// Reports a motion that leaves the box between the end stops.
 void checkReach(const DeviceBinding& binding, const Motion& motion, const Parameters& p, Diagnostics& diagnostics) {
   constexpr double kStep = 0.01;  // [s]
   const double end = motion.phase_times.empty() ? 0 : motion.phase_times.back();
@@ -58,7 +58,7 @@ void checkReach(const DeviceBinding& binding, const Motion& motion, const Parame
     std::snprintf(text.data(), text.size(),
                   "role '%s': at %.2f s the motion leaves the device's travel: %.3f %.3f %.3f m", binding.role.c_str(),
                   i * kStep, at.x(), at.y(), at.z());
-    diagnostics.error(kOutOfReach, binding.where, text.data(), "move its middle (centre) or widen it (half_travel)");
+    diagnostics.error(kOutOfReach, binding.where, text.data(), "shift the box (centre) or enlarge it (half_travel)");
     return;
   }
 }
@@ -67,7 +67,7 @@ std::string noteOn(const std::string& role, const Parameters& p, double stiffest
   std::array<char, 240> text;
   std::snprintf(
       text.data(), text.size(),
-      "%s: admittance device of %.3g kg and %.3g N s/m behind a servo of %.3g Hz: walls are steady up to %.3g N/mm",
+      "%s: admittance device of %.3g kg and %.3g N s/m behind a servo of %.3g Hz: walls are stable up to %.3g N/mm",
       role.c_str(), p.inertia, p.viscosity, p.bandwidth, stiffest * 1e-3);
   return text.data();
 }
@@ -100,7 +100,7 @@ Settings readSettings(const DeviceBinding& binding, const World& world, Diagnost
         stiffestWall(p, settings.hand.impedance, RateTable(world.scene.rates).period(RateGroup::kHaptic));
     if (!(settings.stiffest_wall > 0))
       diagnostics.error(kShakesByItself, binding.where,
-                        "role '" + binding.role + "': the hand alone makes this device shake",
+                        "role '" + binding.role + "': this device is unstable with the hand alone",
                         "raise inertia, viscosity or bandwidth, or lower the hand's stiffness");
     settings.hand.notes.push_back(noteOn(binding.role, p, settings.stiffest_wall));
   }

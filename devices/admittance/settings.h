@@ -6,12 +6,12 @@ namespace presa::admittance {
 
 struct Settings {
   Parameters parameters;
-  HandSettings hand;         ///< its motion is null when anything is wrong
+  HandSettings hand;         ///< its motion is null on errors
   double stiffest_wall = 0;  ///< [N/m]
   std::uint64_t seed = 1;    ///< of the sensor's noise
 };
 
-/// What the rig says of device and hand; all findings go to `diagnostics` (those of the hand, E401, E450 to E453).
+/// Reads the rig settings of device and hand; findings go to `diagnostics` (those of the hand, E401, E450 to E453).
 Settings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
 
 }  // namespace presa::admittance
