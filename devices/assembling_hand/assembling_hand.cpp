@@ -12,9 +12,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   const double side = sideOf(binding, diagnostics);
   HandSettings settings = readImpedance(binding, world, 0, {}, diagnostics);
   if (!world.scene.assembly) {
-    diagnostics.error(448, binding.where,
-                      "role '" + binding.role + "': the scene has no <assembly>, so there is nothing to put together",
-                      "another driver, or a scene with an <assembly> (modules/assembly/README.md)");
+    diagnostics.error(448, binding.where, "role '" + binding.role + "': the scene has no <assembly> to build",
+                      "use another driver, or a scene with an <assembly> (modules/assembly/README.md)");
   }
   if (diagnostics.errorCount() > before) return nullptr;
   return makePlannedFinger(

@@ -11,17 +11,17 @@
 namespace presa::assembling {
 namespace {
 
-// What each trouble weighs, against a metre of way.
+// Effort of each difficulty, in metres of travel.
 constexpr double kWay = 1, kFingerBlocked = 3, kCovered = 7, kLies = 0.5, kOnItsHead = 2, kPlaceBlocked = 8,
                  kPlaceTaken = 8, kStandsUp = 3, kMoves = 5, kInVain = 1, kTried = 2, kAgain = 6;
-constexpr double kSameLine = 0.98;     // cosine
-constexpr double kOccupied = 0.004;    // about the middle of a place [m]
-constexpr double kPlate = 0.006;       // half a height: too little above the centre for a body to swing upright [m]
-constexpr double kFlat = 0.02;         // half a height of which fingertips on the ground reach too little [m]
-constexpr double kFingerNeeds = 0.85;  // of its radius: a touch is no obstacle
-constexpr int kHigh = 6;               // radii above a grasp through which a finger comes down
+constexpr double kSameLine = 0.98;     // cosine: grasps along the same line
+constexpr double kOccupied = 0.004;    // radius around the centre of a goal [m]
+constexpr double kPlate = 0.006;       // half height below which a body has too little lever to swing upright [m]
+constexpr double kFlat = 0.02;         // half height below which fingertips on the ground touch too little [m]
+constexpr double kFingerNeeds = 0.85;  // share of its radius that must be free: a light touch is no obstacle
+constexpr int kHigh = 6;               // in fingertip radii: height of the free column above a grasp
 
-/// Of the body's axes, either way.
+/// The body axis nearest to a direction, with its sign.
 Vec3 nearestAxis(const Vec3& n_B) {
   int axis = 0;
   n_B.cwiseAbs().maxCoeff(&axis);
@@ -42,7 +42,7 @@ bool prefer(Choice& best, Choice choice, const Trial& before) {
 Chooser::Chooser(const World& world, double fingertip, double opening)
     : world_(world), surroundings_(world), fingertip_(fingertip), opening_(opening) {}
 
-// Something in the way of either finger, closed or open, from above down to the body.
+// Counts obstacles for either finger, closed or open, along its way down to the body.
 Chooser::Obstacles Chooser::obstacles(const ObjectState& objects, const Grasp& grasp, std::size_t body,
                                       const Pose& X_WB) const noexcept {
   Vec3 p_W = X_WB * grasp.p_BC;
@@ -63,14 +63,14 @@ Chooser::Obstacles Chooser::obstacles(const ObjectState& objects, const Grasp& g
   return found;
 }
 
-// As low as fingers get: a capital on its head is widest there.
+// Grasps as low as the fingers can reach: a capital on its head is widest there.
 void Chooser::takeLow(Grasp& grasp, std::size_t body, const Pose& X_WB) const noexcept {
   Vec3 p_W = X_WB * grasp.p_BC;
   p_W.z() = X_WB.p.z() - halfWidth(world_, body, X_WB.q.conjugate() * Vec3::UnitZ()) + kOverGround * fingertip_;
   grasp.p_BC = X_WB.inverseTimes(p_W);
 }
 
-// A plate that ends below the middle of the fingertips is held by its upper edge, which their force also presses down.
+// If a plate ends below the middle of the fingertips, they touch its upper edge and also push it down: grip harder.
 void Chooser::pressHarder(Grasp& grasp, std::size_t body, const Pose& X_WB) const noexcept {
   const double top = X_WB.p.z() + halfWidth(world_, body, X_WB.q.conjugate() * Vec3::UnitZ());
   const double over = (std::max((X_WB * grasp.p_BC).z(), kOverGround * fingertip_) - top) / fingertip_;
@@ -89,11 +89,11 @@ void Chooser::weighCarrying(Choice& best, std::size_t& in_the_way, const ObjectS
   const Vec3 up_B = X_WG.q.conjugate() * Vec3::UnitZ();
   const double up = (X_WB.q * up_B).z();
   if (up < kStands) effort += up < -kStands ? kOnItsHead : kLies;
-  const double half = outTo(world_, body, up_B);  // on a roof its top is not square to it
+  const double half = outTo(world_, body, up_B);  // on a roof the top is not perpendicular to the goal
   const bool tips_over = up < -kStands ? half < kFlat : up < kStands && half < kPlate;
 
   const Lines lines = linesToHang(world_, body, X_WB, up_B, yaw);
-  // a flat body on its head hangs from either of two edges; a plate that stands on one, from the other
+  // a flat body on its head may hang from two edges; a plate on its edge, only from the opposite one
   for (std::size_t k = 0; k < (tips_over ? 2 : 1) * lines.count; ++k) {
     const Vec3& a_W = lines.a_W[k % lines.count];
     const Vec3 edge_B = (k < lines.count ? 1 : -1) * nearestAxis(up_B.cross(X_WB.q.conjugate() * a_W));
@@ -107,7 +107,7 @@ void Chooser::weighCarrying(Choice& best, std::size_t& in_the_way, const ObjectS
     const Obstacles here = obstacles(objects, choice.grasp, body, X_WB);
     choice.effort += kFingerBlocked * here.fingers;
     if (!choice.only_moves && obstacles(objects, choice.grasp, body, X_WG).fingers > 0) {
-      choice.only_moves = up < kStands;  // then it stands, and is taken from another side
+      choice.only_moves = up < kStands;  // set it down upright first, and then take it from another side
       choice.effort += choice.only_moves ? kStandsUp : kPlaceBlocked;
     }
     if (prefer(best, choice, trials[body])) in_the_way = here.first;
@@ -119,7 +119,7 @@ void Chooser::weighMoving(Choice& best, const ObjectState& objects, std::size_t 
   const Pose& X_WB = objects.bodies[body].X_WB_end;
   const Lines lines = linesToMove(world_, body, X_WB);
   for (const Vec3& a_W : std::span(lines.a_W).first(lines.count)) {
-    // by its middle, where it is widest
+    // grasp the middle, where the body is widest
     Choice choice{goal, body, graspAlong(world_, body, X_WB, Vec3::Zero(), a_W, yaw), true, false, effort + kMoves};
     pressHarder(choice.grasp, body, X_WB);
     choice.effort += kFingerBlocked * obstacles(objects, choice.grasp, body, X_WB).fingers;
@@ -132,7 +132,7 @@ Choice Chooser::weigh(const ObjectState& objects, std::size_t goal, std::size_t 
   Choice best{goal, body, {}, true, false, std::numeric_limits<double>::infinity()};
   const std::size_t cover = surroundings_.coverOf(objects, body);
   std::size_t occupant = surroundings_.bodyAt(objects, world_.scene.assembly->goals[goal].X_WB.p, kOccupied, body);
-  if (occupant != Surroundings::kNothing && trials[occupant].placed) occupant = Surroundings::kNothing;  // only near
+  if (occupant != Surroundings::kNothing && trials[occupant].placed) occupant = Surroundings::kNothing;  // a neighbour
   std::size_t in_the_way = Surroundings::kNothing;
   const double effort = kWay * (objects.bodies[body].X_WB_end.p - p_W).head<2>().norm() +
                         (cover == Surroundings::kNothing ? 0 : kCovered);

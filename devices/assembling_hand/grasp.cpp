@@ -8,10 +8,10 @@
 namespace presa::assembling {
 namespace {
 
-constexpr double kTowardsTop = 0.75;  // of half the height: a body that is taken there hangs with its top up
-constexpr double kSafety = 2.5;       // of the grip over the least that carries
+constexpr double kTowardsTop = 0.75;  // share of the half height: a body grasped there hangs with its top up
+constexpr double kSafety = 2.5;       // grip over the min grip that carries the body
 constexpr double kLeastGrip = 0.5;    // [N]
-constexpr double kLevel = 0.6;        // sine
+constexpr double kLevel = 0.6;        // sine: axes closer to horizontal than this count as level
 
 Vec3 level(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }
 

@@ -9,25 +9,23 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFast = 0.4, kSlow = 0.06;        // [m/s]
-constexpr double kAbove = 0.001;                   // a body is let go so far over its place [m]
-constexpr double kNear = 0.015, kHoverTime = 0.6;  // over its place it waits: the place draws it upright [m, s]
-constexpr double kLoose = 0.48;                    // of the grip, while a body finds its own way to hang
-constexpr double kLessLoose = 0.15;                // less loosely each time it slips out, and then anew
-constexpr double kFirm =
-    1.6;  // of the grip, while one on its head is shaken: it falls into the fingers, not out of them
-constexpr double kHangs = 0.3;       // no more askew than this it may be put down [rad]
-constexpr double kHangsWell = 0.25;  // what a place draws upright without being helped [rad]
-constexpr double kUpright =
-    0.12;  // what failed once may have touched its neighbours on the way down: shaken until then [rad]
+constexpr double kAbove = 0.001;                   // height above the goal at which a body is released [m]
+constexpr double kNear = 0.015, kHoverTime = 0.6;  // hover height and time, while the goal aligns the body [m, s]
+constexpr double kLoose = 0.48;                    // share of the grip while a body swings freely
+constexpr double kLessLoose = 0.15;                // added after each time the body slipped out (three steps)
+constexpr double kFirm = 1.6;   // share of the grip while a body on its head is shaken, so that it does not fall out
+constexpr double kHangs = 0.3;  // max tilt for putting a body down [rad]
+constexpr double kHangsWell = 0.25;  // max tilt that a goal corrects without shaking [rad]
+constexpr double kUpright = 0.12;    // max tilt after a failed attempt, in which it may have hit its neighbours [rad]
 constexpr int kMostShakes = 8;
-constexpr int kHardest = 3;                           // times its grip, on top of it, for one that is stuck
-constexpr int kTips = 4;                              // steps of a quarter turn
+constexpr int kHardest = 3;                           // max number of extra grips added for a stuck body
+constexpr int kTips = 4;                              // steps of a quarter turn when tipping over
 constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
-constexpr double kJerkBy = 0.08;                      // one on its head: 7.4 m/s^2
-constexpr double kInHand = 0.012;  // a body is held while its spot stays this near to the fingers [m]
-constexpr double kMoved = 0.004;   // a body that moved by more is aimed at again [m]
-constexpr double kPause = 0.5;     // to look again [s]
-constexpr double kGap = 6;         // what a place left open between two weighs in a choice
+constexpr double kJerkBy = 0.08;                      // for a body on its head: 7.4 m/s^2
+constexpr double kInHand = 0.012;  // max distance of the grasp point from the fingers while a body is held [m]
+constexpr double kMoved = 0.004;   // a body that moved farther is aimed at again [m]
+constexpr double kPause = 0.5;     // before looking again [s]
+constexpr double kGap = 6;         // effort of leaving a free goal between two filled ones
 constexpr double kInLine = 1e-3;   // [m]
 
 double yawOf(const Vec3& a_W) { return std::atan2(a_W.y(), a_W.x()); }
@@ -88,7 +86,7 @@ double Planner::clearHeight(const ObjectState& objects) const noexcept {
   return top + kClearance + fingertip_;
 }
 
-// One place at a tick: what is near at hand, lies free, and was not tried in vain.
+// Evaluates one goal per tick and keeps the action of min effort.
 void Planner::look(const ObjectState& objects) noexcept {
   const std::size_t goals = world_->scene.assembly->goals.size();
   if (phase() != kLook || looked_at_ == goals) {
@@ -123,7 +121,7 @@ void Planner::consider(std::size_t goal, const ObjectState& objects) noexcept {
   }
 }
 
-// Whether it would leave an open place between two that are filled, into which the last would have to be squeezed.
+// True if filling `goal` leaves a free goal between two filled ones, where a body would have to be squeezed in.
 bool Planner::leavesGap(std::size_t goal, const ObjectState& objects) const noexcept {
   const auto& goals = world_->scene.assembly->goals;
   const Vec3& a = goals[goal].X_WB.p;
@@ -161,7 +159,7 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   goAt(kOver, to, kFast);
 }
 
-// To where there is room, as it hangs.
+// Carries the body to free space as it hangs.
 void Planner::moveAside(const ObjectState& objects) noexcept {
   const auto room = chooser_.surroundings().roomFor(objects, body_, X_WB_taken_.p, fingertip_);
   const Pose& X_WB = objects.bodies[body_].X_WB_end;
@@ -176,7 +174,7 @@ bool Planner::holds(const ObjectState& objects) const noexcept {
   return (objects.bodies[body_].X_WB_end * grasp_.p_BC - target().centre).norm() < kInHand;
 }
 
-// It slipped out, or will not be taken: another try.
+// Opens after a failed grasp, for another attempt.
 void Planner::letGo() noexcept {
   PairTarget to = target();
   to.grip = 0;
@@ -184,7 +182,8 @@ void Planner::letGo() noexcept {
   go(kLeave, to, kPause);
 }
 
-// Hanging, the body has its top up: what is left is a turn about the vertical, the least of those in which it looks the same.
+// The hanging body has its top up; turn it about the vertical by the min angle to an equivalent orientation at the
+// goal.
 void Planner::carry(const ObjectState& objects) noexcept {
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
   const Pose& X_WB = objects.bodies[body_].X_WB_end;
@@ -199,7 +198,7 @@ void Planner::carry(const ObjectState& objects) noexcept {
   goAt(kCarry, to, kFast);
 }
 
-// Of the body's top from straight up, whatever it looks the same in [rad].
+// Angle between the vertical and the body axis that is vertical at the goal [rad].
 double Planner::tilt(const ObjectState& objects) const noexcept {
   const Quat& q_WG = world_->scene.assembly->goals[goal_].X_WB.q;
   const Vec3 up_W = objects.bodies[body_].X_WB_end.q * (q_WG.conjugate() * Vec3::UnitZ());
@@ -208,8 +207,8 @@ double Planner::tilt(const ObjectState& objects) const noexcept {
 
 bool Planner::isOnItsHead(const ObjectState& objects) const noexcept { return tilt(objects) > kPi / 2; }
 
-// What friction of the fingertips holds askew, or balances on its head, finds its way when it is moved quickly across; the last bit by less
-// and less, as a magnet is rid of its magnetism.
+// Fast lateral motion frees a body that fingertip friction holds askew or that balances on its head. The amplitude
+// decreases near the upright position, as in degaussing.
 void Planner::shake(const ObjectState& objects) noexcept {
   double by = isOnItsHead(objects) ? kJerkBy : kShakeBy;
   PairTarget to = target();
@@ -218,16 +217,17 @@ void Planner::shake(const ObjectState& objects) noexcept {
   go(kShake, to, kShakeTime);
 }
 
-// One that lay hangs askew by friction alone; one that did not (a tile, whose place is on a slope) hangs as well as it ever will.
+// Max tilt before putting down. After a failed attempt a body that had been lying is shaken until upright; others (a
+// roof tile for a sloped goal) hang at an angle by design.
 double Planner::mayHang() const noexcept { return trials_[body_].count > 1 && lay_ ? kUpright : kHangs; }
 
-// Hanging from loose fingers, or held firmly as long as it is on its head.
+// A loose grip lets the body swing; a body on its head is held firmly.
 double Planner::swingingGrip(const ObjectState& objects) const noexcept {
   if (isOnItsHead(objects) && !only_moves_) return kFirm * grasp_.force;
   return (kLoose + kLessLoose * ((trials_[body_].count - 1) % 3)) * grasp_.force;
 }
 
-// It stands on an edge: laid down so that its top comes up, along the circle about that edge.
+// Tips a body that stands on its edge over, with its top up: the fingers move along the circle about that edge.
 void Planner::tipOver(const ObjectState& objects) noexcept {
   if (tips_ == 0) {
     const Quat& q_WG = world_->scene.assembly->goals[goal_].X_WB.q;
@@ -243,7 +243,7 @@ void Planner::tipOver(const ObjectState& objects) noexcept {
   goAt(kTip, to, kSlow);
 }
 
-// By what the body is away from its place now, not by where the fingers were meant to be.
+// Relative to the measured offset of the body from its goal, not to the planned finger position.
 void Planner::lower(const ObjectState& objects) noexcept {
   PairTarget to = target();
   to.centre += X_WG_.p + kAbove * Vec3::UnitZ() - objects.bodies[body_].X_WB_end.p;
@@ -271,7 +271,7 @@ void Planner::next(const ObjectState& objects) noexcept {
       to.gap = grasp_.half + fingertip_;
       return go(kClose, to, 0.3);
     case kClose:
-      grasp_.p_BC = objects.bodies[body_].X_WB_end.inverseTimes(target().centre);  // as it came to be
+      grasp_.p_BC = objects.bodies[body_].X_WB_end.inverseTimes(target().centre);  // actual grasp point after closing
       to.grip = grasp_.force;
       return go(kGrip, to, 0.3);
     case kGrip:
@@ -279,12 +279,13 @@ void Planner::next(const ObjectState& objects) noexcept {
       return goAt(kLift, to, kFast);
     case kLift:
       if (!holds(objects)) {
-        // where it was: its neighbours hold it; elsewhere: it was squeezed out, and more force would only throw it farther
+        // not moved: neighbours hold it, so grip harder next time; moved: it was squeezed out, and more force would not
+        // help
         const bool stayed = (objects.bodies[body_].X_WB_end.p - X_WB_taken_.p).norm() < kMoved;
         trials_[body_].stuck = stayed ? std::min(trials_[body_].stuck + 1, kHardest) : 0;
         return letGo();
       }
-      grasp_.force /= 1 + trials_[body_].stuck;  // free of what held it
+      grasp_.force /= 1 + trials_[body_].stuck;  // no longer stuck
       trials_[body_].stuck = 0;
       to.grip = grasp_.force;
       shakes_ = 0;

@@ -9,7 +9,7 @@
 
 namespace presa::assembling {
 
-/// What a pair of fingers does to put a scene's bodies together. Thread: haptic; no memory after construction.
+/// The plan of a pair of fingers that builds a scene's assembly. Thread: haptic; no allocation after construction.
 class Planner final : public PairPlan {
  public:
   enum Phase : int {
@@ -59,23 +59,23 @@ class Planner final : public PairPlan {
   double clearHeight(const ObjectState& objects) const noexcept;
   double openGap() const noexcept { return grasp_.half + fingertip_ + kOpening; }
 
-  static constexpr double kOpening = 0.012;   // beside the body [m]
-  static constexpr double kClearance = 0.03;  // over everything [m]
+  static constexpr double kOpening = 0.012;   // gap beside the body before closing [m]
+  static constexpr double kClearance = 0.03;  // above all bodies [m]
 
   std::shared_ptr<const World> world_;
   const double fingertip_;
   const Chooser chooser_;
-  std::vector<double> size_;   // by body: from its centre to its farthest corner [m]
+  std::vector<double> size_;   // by body: distance from its centre to its farthest corner [m]
   std::vector<Trial> trials_;  // by body
-  std::size_t looked_at_ = 0;  // goals, of those there are
+  std::size_t looked_at_ = 0;  // goals evaluated so far
   bool found_ = false;
   Choice best_;
-  std::size_t wanted_ = 0;  // body that the choice is for; it may be another that is moved first
+  std::size_t wanted_ = 0;  // body to be placed; body_ may be an obstacle that is moved first
   std::size_t goal_ = 0, body_ = 0;
   Pose X_WG_, X_WB_taken_;
   Grasp grasp_;
   bool only_moves_ = false, tips_over_ = false;
-  bool lay_ = false;  // when it was taken
+  bool lay_ = false;  // lying when it was grasped
   int shakes_ = 0;
   int tips_ = 0;
   Vec3 tip_along_ = Vec3::Zero(), tip_about_ = Vec3::Zero();

@@ -8,11 +8,11 @@
 namespace presa::assembling {
 namespace {
 
-constexpr double kInset = 0.8;                     // of a box's edges: its neighbours do not count as lying on it
-constexpr double kWellInside = 0.8;                // of the field
-constexpr double kFingersRoom = 2.5;               // fingertips, around a body that is put down
+constexpr double kInset = 0.8;                     // corners tested at this share of a box, clear of its neighbours
+constexpr double kWellInside = 0.8;                // share of the workspace that is searched for room
+constexpr double kFingersRoom = 2.5;               // in fingertip radii, around a body that is put down
 constexpr double kBeside = 0.002, kAside = 0.003;  // [m]
-constexpr double kStep = 0.02, kFarthest = 0.6;    // of a search for room [m]
+constexpr double kStep = 0.02, kFarthest = 0.6;    // search for free space [m]
 constexpr int kAround = 16;
 constexpr double kLiftedBy = 0.012, kLiftedRadius = 0.004;  // [m]
 
@@ -79,7 +79,7 @@ Vec3 Surroundings::awayFromNeighbours(const ObjectState& objects, std::size_t bo
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       const Vec3 n_W = X_WG.q * Vec3(side * Vec3::Unit(axis));
-      if (std::abs(n_W.z()) > 0.5) continue;  // what it stands on, or will carry
+      if (std::abs(n_W.z()) > 0.5) continue;  // skip the faces below and above
       const Vec3 beside = X_WG.p + (bounds.half[axis] + kBeside) * n_W;
       if (bodyAt(objects, beside, kBeside / 2, body) != kNothing) away -= kAside * n_W;
     }
@@ -87,7 +87,7 @@ Vec3 Surroundings::awayFromNeighbours(const ObjectState& objects, std::size_t bo
   return away;
 }
 
-// Seen from above, free bodies count as discs; a ball of that size that lies on the ground touches nothing that is fixed.
+// Seen from above, free bodies count as discs; a ball of this radius on the ground must not touch a fixed body.
 bool Surroundings::isRoom(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept {
   if (field_) {
     const Vec3 inside = (p_W - field_->centre).cwiseAbs() - kWellInside * field_->size / 2;

@@ -7,21 +7,22 @@
 
 namespace presa::assembling {
 
-/// Where bodies are in the way: each counts as the box about its physics geometry. Thread: any one; no memory after construction.
+/// Obstacle queries: each body counts as the box around its physics geometry. Thread: any; no allocation after
+/// construction.
 class Surroundings {
  public:
   explicit Surroundings(const World& world);
 
-  /// A body other than `but` in that ball, or kNothing.
+  /// A body other than `but` that intersects the ball, or kNothing.
   std::size_t bodyAt(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept;
-  /// Whether it is where nobody reaches it: out of the field, from where it is brought back.
+  /// True if the body is outside the workspace field, from where it will be brought back.
   bool isOutOfReach(const ObjectState& objects, std::size_t body) const noexcept;
-  /// What lies on `body`: another body, or kNothing.
+  /// The body that lies on `body`, or kNothing.
   std::size_t coverOf(const ObjectState& objects, std::size_t body) const noexcept;
-  /// From where `body` is best put to X_WB: a little away from those who stand right beside it there, so that it does not catch on
-  /// their edges; zero where nobody does, or on both sides [m].
+  /// Offset from a goal pose X_WB at which `body` is best put down: slightly away from adjacent bodies, so that it does
+  /// not catch on their edges; zero without neighbours or with neighbours on both sides [m].
   Vec3 awayFromNeighbours(const ObjectState& objects, std::size_t body, const Pose& X_WB) const noexcept;
-  /// A place on the ground for `body`, not far from `p_W`, where fingers have room around it; nothing when there is none.
+  /// A place on the ground near `p_W` with room for `body` and the fingers around it; nullopt when there is none.
   std::optional<Vec3> roomFor(const ObjectState& objects, std::size_t body, const Vec3& p_W,
                               double fingertip) const noexcept;
   static constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
@@ -29,9 +30,9 @@ class Surroundings {
  private:
   struct Bounds {
     bool solid = false, fixed = false;
-    Pose X_BG;  ///< middle of the box, along its edges
+    Pose X_BG;  ///< centre of the box, along its edges
     Vec3 half = Vec3::Zero();
-    double radius = 0;  ///< of the ball about it [m]
+    double radius = 0;  ///< of the bounding ball [m]
   };
   bool isRoom(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept;
   static Bounds boundsOf(const Body& body, const TriMesh* mesh);

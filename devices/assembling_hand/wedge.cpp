@@ -7,15 +7,15 @@
 namespace presa::assembling {
 namespace {
 
-constexpr double kMostAskew = 0.25, kAskewStep = 0.05;              // of the line from level across the top [rad]
-constexpr double kLowest = 0.002, kHighest = 0.02, kStep = 0.0015;  // of the line over the centre of mass [m]
+constexpr double kMostAskew = 0.25, kAskewStep = 0.05;              // angle of the line to level across the top [rad]
+constexpr double kLowest = 0.002, kHighest = 0.02, kStep = 0.0015;  // height of the line above the centre of mass [m]
 constexpr double kAskewCosts = 0.02;                                // [m/rad]
-constexpr double kOfCone = 0.7;                                     // of the friction cone that may be used up
+constexpr double kOfCone = 0.7;                                     // usable share of the friction angle
 
-/// Where a line leaves a convex mesh, and how steeply.
+/// Intersection of a line with the surface of a convex mesh.
 struct Exit {
-  double along = std::numeric_limits<double>::infinity();  ///< from the line's point [m]
-  double steep = 0;                                        ///< cosine between the line and the face's normal
+  double along = std::numeric_limits<double>::infinity();  ///< distance from the start of the line [m]
+  double steep = 0;                                        ///< cosine between the line and the face normal
 };
 
 Exit exitOf(const TriMesh& mesh, const Pose& X_BG, const Vec3& p_B, const Vec3& a_B) {

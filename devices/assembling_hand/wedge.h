@@ -5,8 +5,9 @@
 
 namespace presa::assembling {
 
-/// How to take body `i`, a convex mesh that lies on its side, so that it swings its top `up_B` up: level, as far above the centre of mass as
-/// leaves both fingertips a face that they do not slip from; a wedge hangs a little askew then. Nothing when there is no such line.
+/// Grasp of body `i`, a convex mesh lying on its side, such that it swings its top `up_B` up. The line is level and as
+/// far above the centre of mass as both fingertips find faces on which they do not slip; a wedge then hangs slightly
+/// askew. Nullopt when there is no such line or the body is no mesh.
 std::optional<Grasp> graspOfLyingMesh(const World& world, std::size_t i, const Pose& X_WB, const Vec3& up_B,
                                       double yaw);
 
