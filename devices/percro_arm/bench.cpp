@@ -11,7 +11,7 @@ constexpr double kPeriod = 1e-3;
 constexpr double kMean = 3, kAmplitude = 2;  // [N]
 const TipLoad kBolted{.held = true};
 
-/// Amplitude at the sensor for a commanded sine, after it has settled, over whole turns.
+/// Amplitude at the sensor for a commanded sine, in steady state, over full periods.
 double amplitudeAt(const Parameters& parameters, double frequency) {
   SimulatedArm arm(parameters, Vec3::Zero(), kPeriod);
   arm.place({0.75, 0, 0});
@@ -60,7 +60,7 @@ double linearGain(const Parameters& p, double frequency) {
 
 Push push(const Parameters& parameters, double length, const Vec3& direction, double most_force) {
   constexpr int kLevels = 40;
-  constexpr double kSettle = 1.0;  // [s] at each
+  constexpr double kSettle = 1.0;  // [s] per level
   SimulatedArm arm(parameters, Vec3::Zero(), kPeriod);
   arm.place({length, 0, 0});
   const Vec3 start = arm.reportedPosition();

@@ -1,3 +1,6 @@
+// Implicit midpoint rule for the Hamiltonian system of joints, structure and tip; each step is solved by Newton's
+// method. Dry friction enters each Newton step as a convex minimisation, solved by coordinate descent, so a sticking
+// joint has exactly zero velocity.
 #include "devices/percro_arm/dynamics.h"
 
 #include <algorithm>
@@ -11,18 +14,18 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat36 = Eigen::Matrix<double, 3, 6>;
 
 constexpr int kNewtonSteps = 8, kSweeps = 40;
-constexpr double kClose = 1e-13;     // of the largest velocity: as near as Newton can come
-const Vec3 kStop{2000, 2000, 50e3};  // stiffness of the ends of the joints' ranges: GUESS
+constexpr double kClose = 1e-13;     // Newton tolerance, relative to the largest velocity
+const Vec3 kStop{2000, 2000, 50e3};  // stiffness of the joints' end stops: GUESS
 
-/// How far a joint is beyond its range.
+/// Distance of each joint beyond its range.
 Vec3 beyond(const Geometry& g, const Joints& q) {
   const auto outside = [](double value, double low, double high) { return value - std::clamp(value, low, high); };
   return {outside(q[0], -g.tilt_range, g.tilt_range), outside(q[1], -g.yaw_range, g.yaw_range),
           outside(q[2], 0, g.length_max - g.length_min)};
 }
 
-/// Minimises d' A d / 2 - r' d + sum friction_i |w_i + d_i| over d: a Newton step under dry friction. Descends along one
-/// coordinate after the other, which converges at once, as masses outweigh what couples them.
+/// Minimises d' A d / 2 - r' d + sum friction_i |w_i + d_i| over d: a Newton step with dry friction. Coordinate descent
+/// converges fast, because the diagonal (masses) dominates.
 Vec6 stepUnderFriction(const Mat6& a, const Vec6& r, const Vec6& w, const Vec6& friction, int size) {
   Vec6 d = Vec6::Zero();
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -41,11 +44,11 @@ Vec6 stepUnderFriction(const Mat6& a, const Vec6& r, const Vec6& w, const Vec6& 
 
 }  // namespace
 
-/// The structure between joints and tip.
+/// Springs of the structure between joints and tip.
 struct ArmDynamics::Springs {
-  Mat36 g = Mat36::Zero();    ///< how its stretch changes with (q, x)
+  Mat36 g = Mat36::Zero();    ///< Jacobian of the stretch with respect to (q, x)
   Vec3 k = Vec3::Zero();      ///< [N/m], barrel frame
-  Vec6 force = Vec6::Zero();  ///< on (q, x)
+  Vec6 force = Vec6::Zero();  ///< generalised force on (q, x)
   double energy = 0;
 };
 
@@ -64,7 +67,7 @@ ArmDynamics::Springs ArmDynamics::springs(const Joints& q, const Vec3& x, const 
   const Mat3 to_barrel = barrelFrame(q).transpose();
   const Vec3 y = to_barrel * x;
   const Vec3 stretch = y - length * Vec3::UnitX();
-  s.g.col(0) = y.cross(Vec3(-std::sin(q[1]), 0, std::cos(q[1])));  // the tilt axis in the barrel's frame
+  s.g.col(0) = y.cross(Vec3(-std::sin(q[1]), 0, std::cos(q[1])));  // the tilt axis in the barrel frame
   s.g.col(1) = y.cross(Vec3::UnitY());
   s.g.col(2) = -Vec3::UnitX();
   s.g.rightCols<3>() = to_barrel;
@@ -72,7 +75,7 @@ ArmDynamics::Springs ArmDynamics::springs(const Joints& q, const Vec3& x, const 
   const Vec3 rate = s.g.leftCols<3>() * q_dot + to_barrel * v;
   const Vec3 pull = s.k.cwiseProduct(stretch + parameters_.structure.damping_time * rate);
   s.force = -s.g.transpose() * pull;
-  // the springs across grow softer as the barrel comes out
+  // the lateral springs soften as the barrel extends
   const Structure& structure = parameters_.structure;
   const double softening = structure.bend_linear + 3 * structure.bend_cubic * length * length;
   const double across = stretch.tail<2>().squaredNorm();
@@ -149,7 +152,7 @@ void ArmDynamics::step(ArmState& state, const Vec3& joint_torque, const TipLoad&
   before << state.p, load.mass * state.v;
   w << state.p.cwiseQuotient(inertia(state.q)), load.held ? Vec3::Zero() : state.v;
   friction.head<3>() = half * coulomb;
-  Vec3 momentum = state.p;  // in the middle of the step
+  Vec3 momentum = state.p;  // at the midpoint of the step
   for (int i = 0; i < kNewtonSteps; ++i) {
     const Joints q = state.q + half * w.head<3>();
     const Vec3 x = state.x + half * w.tail<3>(), stop = beyond(parameters_.geometry, q);
@@ -172,7 +175,7 @@ void ArmDynamics::step(ArmState& state, const Vec3& joint_torque, const TipLoad&
     if (d.cwiseAbs().maxCoeff() <= kClose * w.cwiseAbs().maxCoeff()) break;
   }
   for (int i = 0; i < 3; ++i)
-    state.p[i] = friction[i] > 0 && w[i] == 0 ? 0 : 2 * momentum[i] - state.p[i];  // what sticks is at rest
+    state.p[i] = friction[i] > 0 && w[i] == 0 ? 0 : 2 * momentum[i] - state.p[i];  // a sticking joint is at rest
   state.q += h * w.head<3>();
   if (load.held) return;
   state.x += h * w.tail<3>();

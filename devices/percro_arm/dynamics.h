@@ -1,13 +1,13 @@
 #pragma once
 #include "devices/percro_arm/kinematics.h"
 
-/// Motion of the arm and of what holds its tip. The encoders see the joints; the tip is tied to them by the springs of the
-/// structure, which are in the barrel's frame: stiff along it, [Bergamasco2006 eq. 4] across it. All in D.
+/// Dynamics of the arm and the load at its tip. The encoders measure the joints; the structure ties the tip to them by
+/// springs in the barrel frame: stiff along the barrel, [Bergamasco2006 eq. 4] across it. All in frame D.
 ///
 ///   H(q, p, x, v) = sum p_i^2 / 2 M_i(q) + m v^2 / 2 + gravity(q) + springs(q, x)
 ///
-/// The mass matrix is diagonal: the axes cross at right angles, the barrel is round, and the two motors of the differential
-/// turn as much for tilt as for yaw.
+/// The mass matrix is diagonal: the axes intersect at right angles, the barrel is axisymmetric, and the two motors of
+/// the differential rotate equally for tilt and yaw.
 namespace presa::percro {
 
 struct ArmState {
@@ -17,37 +17,37 @@ struct ArmState {
   Vec3 v = Vec3::Zero();  ///< [m/s]
 };
 
-/// Who holds the tip: m x'' = stiffness (target - x) + damping (target_velocity - x') + force + what the arm does.
+/// Load at the tip: m x'' = stiffness (target - x) + damping (target_velocity - x') + force + force of the arm.
 struct TipLoad {
   double mass = 0.1;     ///< fingertip with thimble [kg]
   double stiffness = 0;  ///< [N/m]
   double damping = 0;    ///< [N s/m]
   Vec3 target = Vec3::Zero(), target_velocity = Vec3::Zero(), force = Vec3::Zero();
-  bool held = false;  ///< bolted to the ground: x stays where it is
+  bool held = false;  ///< bolted to the ground: x is constant
 };
 
-/// One step: implicit midpoint rule (second order, symplectic, stable at any step for what is linear), solved by Newton with
-/// the springs' own stiffness; dry friction is solved with it exactly, so a joint that sticks does not creep. Thread: any;
-/// nothing allocates.
+/// One step by the implicit midpoint rule (second order, symplectic, unconditionally stable for linear systems), solved
+/// by Newton's method. Dry friction is solved exactly with it, so a sticking joint does not creep. Thread: any; nothing
+/// allocates.
 class ArmDynamics {
  public:
   /// `gravity`: acceleration in D [m/s^2].
   ArmDynamics(const Parameters& parameters, const Vec3& gravity);
 
-  /// h later under joint torques (motor torques through K^T).
+  /// Advances by h [s] under joint torques (motor torques through K^T).
   void step(ArmState& state, const Vec3& joint_torque, const TipLoad& load, double h) const noexcept;
 
   /// Diagonal of the mass matrix [kg m^2, kg m^2, kg].
   Vec3 inertia(const Joints& q) const noexcept;
-  /// Joint torques that carry the arm's weight.
+  /// Joint torques that compensate the arm's weight.
   Vec3 weight(const Joints& q) const noexcept;
-  /// Of the arm on the tip [N].
+  /// Force of the arm on the tip [N].
   Vec3 tipForce(const ArmState& state) const noexcept;
-  /// H and, of the load, its spring and its constant force.
+  /// H, plus the energy of the load's spring and constant force [J].
   double energy(const ArmState& state, const TipLoad& load) const noexcept;
-  /// Stiffness of the structure at a length, along and across the barrel [N/m].
+  /// Stiffness of the structure at a barrel length [m], along and across the barrel [N/m].
   Vec3 stiffness(double length) const noexcept;
-  /// At rest, the tip where the joints say.
+  /// State at rest with the tip at p_DT and an unloaded structure.
   ArmState atRest(const Vec3& p_DT) const noexcept;
 
  private:

@@ -7,9 +7,9 @@
 
 namespace presa::percro {
 
-/// What the arm knows of itself: whole counts of three motor encoders, and their rates. A rate is the slope over the longest
-/// past that a straight line tells to within one count [JanabiSharifi2000: first-order adaptive windowing]: quiet when
-/// slow, quick when fast. Thread: haptic; nothing allocates.
+/// Position sensing of the arm: counts of three motor encoders, and their rates. A rate is the slope over the longest
+/// past that a straight line fits within one count (first-order adaptive windowing [JanabiSharifi2000]): low noise when
+/// slow, low delay when fast. Thread: haptic; nothing allocates.
 class Encoders {
  public:
   explicit Encoders(const Parameters& parameters)
@@ -17,17 +17,17 @@ class Encoders {
         to_motors_(transmission(parameters.geometry)),
         to_joints_(transmissionInverse(parameters.geometry)) {}
 
-  /// Power-up: the counters start anywhere. What they show at q = 0 is not known until setZero.
+  /// Power-up: the counters start at arbitrary values, and their zero is unknown until setZero().
   void powerUp(const Vec3& counts_at_zero) noexcept { true_zero_ = counts_at_zero; }
-  /// The counts, not necessarily whole, that belong to q = 0 (homing.h).
+  /// Sets the counts that correspond to q = 0, not necessarily whole (homing.h).
   void setZero(const Vec3& counts) noexcept { zero_ = counts; }
 
-  /// Starts anew, at rest.
+  /// Restarts at rest at q.
   void reset(const Joints& q) noexcept {
     used_ = 0;
     sample(q);
   }
-  /// Once a period.
+  /// Samples the joints; call once per period.
   void sample(const Joints& q) noexcept {
     newest_ = (newest_ + 1) % kWindow;
     const Vec3 motors = to_motors_ * q / count_;

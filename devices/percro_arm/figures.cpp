@@ -13,15 +13,15 @@ namespace {
 using Basis = Characteristic::Basis;
 using Figures = std::vector<Characteristic>;
 
-constexpr double kApart = 1.5;  // of two arms that face each other, as in the shipped rig [m]
+constexpr double kApart = 1.5;  // distance of two arms that face each other, as in the shipped rig [m]
 
-/// A figure with one printed number.
+/// A figure with one published number.
 Characteristic printedAs(const std::string& name, const std::string& unit, double printed, double here,
                          double tolerance, Basis basis, const std::string& note) {
   return {name, unit, printed, printed, here, tolerance, basis, note};
 }
 
-/// A figure without a unit that must reach something, on assumptions.
+/// A dimensionless figure with a lower bound, based on assumptions.
 Characteristic atLeast(const std::string& name, double least, double here, const std::string& note) {
   return {name, "1", least, std::numeric_limits<double>::infinity(), here, 0, Basis::kAssumed, note};
 }
@@ -115,7 +115,7 @@ void addDynamics(const Parameters& p, Figures& out) {
 }  // namespace
 
 double measuredStep(const Parameters& p, double length) {
-  // motors turned against each other in hundredths of a count: the jump where both are rounded up
+  // turn the motors against each other in hundredths of a count and take the max jump of the reported position
   Encoders encoders(p);
   const Mat3 to_joints = transmissionInverse(p.geometry);
   const Joints middle = {0, 0, length - p.geometry.length_min};

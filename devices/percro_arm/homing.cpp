@@ -8,12 +8,12 @@
 namespace presa::percro {
 namespace {
 
-constexpr double kBand = 2 * std::numbers::pi * 4;  // of the position loop [rad/s]
-const Vec3 kSeekRate{0.15, 0.15, 0.06};             // [rad/s], [m/s]: 10 cm/s at the tip, and less
+constexpr double kBand = 2 * std::numbers::pi * 4;  // bandwidth of the position loop [rad/s]
+const Vec3 kSeekRate{0.15, 0.15, 0.06};             // [rad/s], [m/s]: at most 10 cm/s at the tip
 const Vec3 kEdgeRate{0.02, 0.02, 0.01};
-const Vec3 kMargin{0.008, 0.008, 0.004};  // over the edge before it turns back
-const Vec3 kLag{0.06, 0.06, 0.03};        // behind the setpoint: blocked
-const Vec3 kSpread{4e-4, 4e-4, 2e-4};     // of edges of one direction: three counts
+const Vec3 kMargin{0.008, 0.008, 0.004};  // travel beyond an edge before reversing
+const Vec3 kLag{0.06, 0.06, 0.03};        // lag behind the setpoint that means blocked
+const Vec3 kSpread{4e-4, 4e-4, 2e-4};     // max spread of edges of one direction: three counts
 
 }  // namespace
 
@@ -25,11 +25,11 @@ Homing::Homing(const Parameters& parameters, const Markers& markers, double peri
   integral_gain_ = 0.3 * kBand * stiffness_;
 }
 
-/// Records where the covered state changed; after enough of it goes on to the next joint.
+/// Records an edge; after enough edges computes the offset and goes on to the next joint.
 void Homing::meetEdge(int joint, double told, bool covered) noexcept {
   const std::size_t way = covered ? 1 : 0;
   last_edge_ = told;
-  if (++edges_ == 1) return;  // fast, while seeking
+  if (++edges_ == 1) return;  // ignore the first edge: it is met at seek rate
   const bool first = edges_ <= 3;
   sum_[way] += told / kPasses;
   low_[way] = first ? told : std::min(low_[way], told);
@@ -41,7 +41,7 @@ void Homing::meetEdge(int joint, double told, bool covered) noexcept {
   ++turn_, edges_ = 0, direction_ = 0, travelled_ = 0, sum_ = {};
 }
 
-/// Towards the marker, then to and fro over its edge.
+/// Rate of the setpoint: towards the marker, then back and forth over its edge.
 double Homing::setpointRate(int joint, double told, bool covered) noexcept {
   if (direction_ == 0) direction_ = covered ? -1 : 1, was_covered_ = covered;
   if (covered != was_covered_) {
@@ -66,7 +66,7 @@ Vec3 Homing::step(const Joints& told, const Vec3& rates, const std::array<bool, 
     if (std::abs(setpoint_[joint] - told[joint]) > kLag[joint]) failure_ = Failure::kBlocked;
     if (travelled_ > range[joint]) failure_ = Failure::kNoMarker;
   }
-  if (failure_ != Failure::kNone) return Vec3::Zero();  // limp
+  if (failure_ != Failure::kNone) return Vec3::Zero();  // no torque
   setpoint_ += period_ * wanted;
   const Vec3 lag = setpoint_ - told;
   integral_ += period_ * integral_gain_.cwiseProduct(lag);

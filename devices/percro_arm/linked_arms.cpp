@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3, kSettle = 0.5;  // [s]
 constexpr int kTicksPerSample = 10;
-// the joint between the tips: stiff beside barrels and bearings
+// the joint between the tips: stiff compared with barrels and bearings
 constexpr double kMass = 0.1, kStiffness = 50e3, kDamping = 100;
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace presa::percro {
 namespace {
 
-constexpr double kFold = 0.1;  // of the heat, in which peak torque becomes continuous torque
+constexpr double kFold = 0.1;  // range of heat over which the limit falls from peak to continuous torque
 
 }  // namespace
 

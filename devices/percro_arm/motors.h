@@ -4,21 +4,21 @@
 
 namespace presa::percro {
 
-/// Three motors with their current loops and the heat in their windings. Torques at the motor shafts [N m].
-/// The current follows its command with a lag of first order. Heat is the share of the allowed rise of temperature, first
-/// order in the square of the torque: heat' = ((T / continuous)^2 - heat) / thermal_time. A cool motor gives its peak, one in
-/// its last tenth less and less, a hot one its continuous torque. Thread: haptic; nothing allocates.
+/// Three motors with their current loops and winding temperatures. Torques at the motor shafts [N m]. The torque
+/// follows its command with a first-order lag. Heat is the temperature rise relative to its limit: heat' = ((T /
+/// continuous)^2 - heat) / thermal_time. The torque limit is the peak torque up to a heat of 0.9, then falls to the
+/// continuous torque at a heat of 1. Thread: haptic; nothing allocates.
 class MotorDrive {
  public:
   explicit MotorDrive(const Motors& motors) : motors_(motors) {}
 
-  /// Sets the command to `carried` + s `wanted`, s in [0, 1] the largest that no motor's limit forbids: a force keeps its
-  /// direction. Returns s.
+  /// Sets the command to `carried` + s `wanted`, with the largest s in [0, 1] within the limits of all motors, so that
+  /// a force keeps its direction. Returns s.
   double command(const Vec3& carried, const Vec3& wanted) noexcept;
-  /// Over the next h: the mean torque, exact for a held command. Heats the windings with it.
+  /// Advances by h [s] and returns the mean torque, exact for a held command; heats the windings.
   Vec3 step(double h) noexcept;
 
-  /// What each motor may give now.
+  /// Current torque limit of each motor.
   Vec3 limits() const noexcept;
   const Vec3& heat() const noexcept { return heat_; }
 

@@ -5,47 +5,47 @@ namespace presa::percro {
 
 /// One arm of the PERCRO two-contact-point interface [Bergamasco2006]. Every number is one of
 ///   PAPER     printed there,
-///   INFERRED  the only value, or the best, with which a printed figure comes out (parameters.cpp says which),
-///   GUESS     not to be had from the paper; an engineer's estimate.
+///   INFERRED  the only or the best value that reproduces a published figure (see parameters.cpp),
+///   GUESS     not in the paper; an engineer's estimate.
 /// Constant after construction. SI.
 
 /// Links and transmission [Bergamasco2006 fig. 1, eq. 1, 2].
 struct Geometry {
-  double length_min = 0.441;   ///< L of the barrel drawn in [m] PAPER
-  double length_max = 1.070;   ///< L of the barrel fully out [m] PAPER
-  double tilt_ratio = 0;       ///< tau_1, motor turns per turn of the tilt q1 INFERRED from 55 to 130 um
-  double yaw_ratio = 1;        ///< tau_2: yaw q2 takes tau_1 tau_2 PAPER
+  double length_min = 0.441;   ///< L of the retracted barrel [m] PAPER
+  double length_max = 1.070;   ///< L of the fully extended barrel [m] PAPER
+  double tilt_ratio = 0;       ///< tau_1, motor turns per turn of tilt q1 INFERRED from 55 to 130 um
+  double yaw_ratio = 1;        ///< tau_2: the ratio of yaw q2 is tau_1 tau_2 PAPER
   double drum_radius = 0;      ///< r_b = 1 / tau_3 of the barrel's motor [m] INFERRED from the conditioning
-  double tilt_range = 0.7854;  ///< |q1| at most [rad] GUESS
-  double yaw_range = 0.6981;   ///< |q2| at most [rad] GUESS
+  double tilt_range = 0.7854;  ///< max |q1| [rad] GUESS
+  double yaw_range = 0.6981;   ///< max |q2| [rad] GUESS
 };
 
 struct Motors {
   double continuous_torque = 0;    ///< [N m] INFERRED: 4 N in the worst place and direction
   double peak_torque = 0;          ///< [N m] INFERRED: 10 N there
   double thermal_time = 30;        ///< of the winding [s] GUESS
-  double current_bandwidth = 500;  ///< of the current loop, first order [Hz] GUESS
+  double current_bandwidth = 500;  ///< of the first-order current loop [Hz] GUESS
   double rotor_inertia = 1.4e-5;   ///< [kg m^2] GUESS: iron-less brushed motor of this torque
-  int counts = 4000;               ///< of an encoder per turn of its motor PAPER
+  int counts = 4000;               ///< encoder counts per turn of a motor PAPER
   double count() const { return 2 * std::numbers::pi / counts; }  ///< [rad]
 };
 
 struct Masses {
-  double barrel = 0;              ///< slides with the tip [kg] INFERRED from 70 to 80 Hz
-  double barrel_setback = 0.35;   ///< its centre of mass behind the tip [m] GUESS
-  double barrel_inertia = 0.011;  ///< about that centre, across the barrel [kg m^2] GUESS
-  double roll_inertia = 1e-4;     ///< about the barrel's own line [kg m^2] GUESS
+  double barrel = 0;              ///< moves with the tip [kg] INFERRED from 70 to 80 Hz
+  double barrel_setback = 0.35;   ///< distance of its centre of mass behind the tip [m] GUESS
+  double barrel_inertia = 0.011;  ///< about that centre, transverse [kg m^2] GUESS
+  double roll_inertia = 1e-4;     ///< about the axis of the barrel [kg m^2] GUESS
   double counterweight = 0.6;     ///< the barrel's motor, behind the axes [kg] GUESS
-  double counterweight_arm = 0;   ///< [m] INFERRED: balances the barrel when fully out
-  double tilt_inertia = 0.01;     ///< of what turns with q1 alone [kg m^2] GUESS
-  double yaw_inertia = 0.01;      ///< of what turns with q2 beside barrel and counterweight [kg m^2] GUESS
+  double counterweight_arm = 0;   ///< [m] INFERRED: balances the fully extended barrel
+  double tilt_inertia = 0.01;     ///< of the parts that rotate with q1 only [kg m^2] GUESS
+  double yaw_inertia = 0.01;      ///< of the parts that rotate with q2, without barrel and counterweight [kg m^2] GUESS
 };
 
-/// What lies between the joints that the encoders see and the tip.
+/// Compliance between the joints, which the encoders measure, and the tip.
 struct Structure {
   double axial_stiffness = 23.74e3;  ///< along the barrel [N/m] PAPER
-  double bend_linear = 0;   ///< a1 of c = a1 L + a3 L^3, across the barrel [1/N] INFERRED: 13.5 N/mm, L smallest
-  double bend_cubic = 0;    ///< a3 [1/(N m^2)] INFERRED: 1.5 N/mm, L largest
+  double bend_linear = 0;            ///< a1 of c = a1 L + a3 L^3, across the barrel [1/N] INFERRED: 13.5 N/mm at min L
+  double bend_cubic = 0;             ///< a3 [1/(N m^2)] INFERRED: 1.5 N/mm at max L
   double damping_time = 0;  ///< damping = this x stiffness [s] INFERRED: 0.1 of critical, a GUESS, along the barrel
 
   double compliance(double length) const { return length * (bend_linear + bend_cubic * length * length); }
@@ -64,7 +64,7 @@ struct Parameters {
   Friction friction;
 };
 
-/// Figures of the paper from which the rest is inferred, and with which it is compared.
+/// Published figures from which the parameters are inferred and with which the model is compared.
 namespace printed {
 inline constexpr double kStepShort = 55e-6, kStepLong = 130e-6;    ///< resolution at L = 0.441 and 1.070 m [m]
 inline constexpr double kContinuousForce = 4, kPeakForce = 10;     ///< worst place, all directions [N]

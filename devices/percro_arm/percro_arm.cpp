@@ -17,9 +17,9 @@
 namespace presa {
 namespace {
 
-const Vec3 kGravity_W{0, 0, -9.81};  // of the room the arm stands in, whatever the scene says
+const Vec3 kGravity_W{0, 0, -9.81};  // of the room, independent of the scene
 
-/// A modelled arm that a scripted hand moves. What the rest of Presa sees of it is what its encoders count.
+/// A modelled arm moved by a scripted hand. Presa sees it through its encoders.
 class PercroArm final : public Device {
  public:
   PercroArm(const Pose& X_WD, HandSettings settings, const percro::Parameters& parameters, double period)
@@ -53,7 +53,7 @@ class PercroArm final : public Device {
   std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  /// Up to a tick under the held torques; after a stall that is more than one period.
+  /// Advances to `tick` under the held torques; after a stall by more than one period.
   void advance(const Tick& tick) noexcept {
     for (; at_.index < tick.index; ++at_.index, at_.time += tick.period) live(at_.time, tick.period);
     at_ = tick;
@@ -77,10 +77,10 @@ class PercroArm final : public Device {
   double lost_at_;
   percro::SimulatedArm arm_;
   std::vector<std::string> notes_;
-  Tick at_;  // where the arm is
+  Tick at_;  // time of the arm
 };
 
-/// `count` numbers, or an error and nothing.
+/// Reads `count` numbers; nullopt with an error otherwise.
 std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const std::string& key, std::size_t count,
                                              const std::string& example, Diagnostics& diagnostics) {
   const auto found = binding.settings.find(key);
@@ -110,7 +110,7 @@ std::optional<Pose> readBase(const DeviceBinding& binding, Diagnostics& diagnost
   return Pose{{(*p)[0], (*p)[1], (*p)[2]}, Quat((*q)[0], (*q)[1], (*q)[2], (*q)[3]).normalized()};
 }
 
-/// The arm must be able to go where the hand will.
+/// Reports a motion that leaves the reach of the arm.
 void checkReach(const DeviceBinding& binding, const Pose& X_WD, const Motion& motion, const percro::Geometry& geometry,
                 Diagnostics& diagnostics) {
   constexpr double kStep = 0.01;  // [s]
@@ -150,7 +150,7 @@ const DevicePlugin kPlugin{
     .create = create,
     .rating = {.force = 10, .continuous = 4, .heating_time = 30, .behind = DeviceRating::Behind::kModel}};
 
-/// Both arms are switched on and homed; then, linked, they are led about the middle between them, 8 cm to each side.
+/// Both arms are switched on and homed, then linked and led through a region of 8 cm around the midpoint between them.
 std::vector<LinkedSample> rehearse(const Pose& X_WA, const Pose& X_AB, double link, std::uint64_t seed) {
   constexpr double kSize = 0.08;                      // [m]
   const percro::TipLoad kEmptyThimble{.mass = 0.02};  // [kg]

@@ -11,7 +11,7 @@ namespace {
 constexpr double kMm = 1e3;
 constexpr double kApart = 1.5;  // [m]
 
-/// Edge of what an arm reaches in the plane of x and one angle of this range; its axes at x0, facing `side`. In mm.
+/// Boundary of the reach in the plane of x and one angle of this range, for axes at x0, facing `side`. In mm.
 PlotLine edgeOf(const Geometry& g, double range, double x0, double side, int color, const std::string& label) {
   PlotLine line{.label = label, .color = color};
   const auto add = [&](double length, double angle) {
@@ -32,7 +32,7 @@ PlotLine rectangle(double x_low, double x_high, double half, const std::string& 
           .dashed = dashed};
 }
 
-/// Condition number over x and y (or z) where the arm reaches.
+/// Condition number over x and y (or z) within the reach.
 PlotMap conditionOver(const Geometry& g, const Vec3& second) {
   PlotMap map{
       .x = steps(0.3, 1.1, 160), .y = steps(-0.8, 0.8, 320), .z = {}, .levels = {1.05, 1.1, 1.2, 1.3, 1.4, 1.5}};
@@ -53,7 +53,7 @@ DevicePlot conditioning(const Geometry& g) {
       .title = "Condition number of J K^-1 (figure 2)",
       .caption =
           "Best, 1, where the barrel's drum moves the tip as far as the differential does: at L = 687 mm. In the "
-          "plane of the tilt it depends on L alone; yaw brings the tip nearer to the tilt axis.",
+          "plane of the tilt it depends on L alone; yaw moves the tip closer to the tilt axis.",
       .x_label = "x [mm]",
       .y_label = "y, z [mm]",
       .equal_scales = true};

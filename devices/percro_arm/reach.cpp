@@ -9,10 +9,10 @@
 namespace presa::percro {
 namespace {
 
-constexpr int kGrid = 8;            // steps across a box, even: its middle lines belong to it
+constexpr int kGrid = 8;            // steps across a box; even, so that the centre lines are included
 constexpr double kRounding = 1e-9;  // of lengths [m]
 
-/// Calls `visit` with points of the box: what is farthest, nearest and most oblique lies on this grid.
+/// Calls `visit` with grid points of the box, which include the farthest, nearest and most oblique ones.
 template <class Visit>
 void overBox(const ReachBox& box, const Visit& visit) {
   for (int i = 0; i <= kGrid; ++i) {
@@ -51,7 +51,7 @@ double largestScale(const Geometry& geometry, const Vec3& size) {
 }
 
 double largestCommonScale(const Geometry& geometry, const Vec3& size, double apart) {
-  // in the middle both arms see the same box
+  // centred between the arms, the box looks the same to both
   return largest([&](double scale) { return reaches(geometry, {scale * size, 0.5 * apart - 0.5 * scale * size.x()}); });
 }
 

@@ -1,24 +1,25 @@
 #pragma once
 #include "devices/percro_arm/kinematics.h"
 
-/// What an arm reaches, and with what force. Thread: any.
+/// Reach of an arm, and its force there. Thread: any.
 namespace presa::percro {
 
-/// Box with faces along D's axes: sizes along x, y, z [m], its near face at x = near, centred on the x axis.
+/// A box with faces along D's axes: sizes along x, y, z [m], near face at x = near, centred on the x axis.
 struct ReachBox {
   Vec3 size = Vec3::Zero();
   double near = 0;
 };
-/// Every point of the box is within the arm's ranges.
+/// True when every point of the box is within the arm's ranges.
 bool reaches(const Geometry& geometry, const ReachBox& box);
-/// Largest factor by which a box of these sizes can be scaled and still be reached, with its near face wherever it is best.
+/// Max factor by which a box of these sizes can be scaled and still be reached, with its near face at the best
+/// distance.
 double largestScale(const Geometry& geometry, const Vec3& size);
-/// The same for two arms that face each other, their axes `apart`, and a box in the middle.
+/// Same for two facing arms with their axes `apart` [m], and a box centred between them.
 double largestCommonScale(const Geometry& geometry, const Vec3& size, double apart);
 
-/// Force [N] that motors of this torque give in every direction, beside carrying the arm (y up).
+/// Force [N] that motors of this torque produce in every direction, while they also carry the arm (y up).
 double forceInAllDirections(const Parameters& parameters, const Joints& q, double torque);
-/// The least of it over a box.
+/// Its min over a box [N].
 double leastForce(const Parameters& parameters, const ReachBox& box, double torque);
 
 }  // namespace presa::percro

@@ -7,35 +7,36 @@
 
 namespace presa::percro {
 
-/// The whole arm as its controller meets it: force in, position as the encoders tell it out, one period at a time. All in D.
-/// The controller carries the arm's weight; friction and inertia it leaves to the finger. Thread: haptic; nothing allocates.
+/// The whole arm as seen by its controller: force in, position by the encoders out, one period at a time. All in D. The
+/// controller compensates the arm's weight, but not friction and inertia. Thread: haptic; nothing allocates.
 class SimulatedArm {
  public:
   /// `gravity`: acceleration in D [m/s^2]; `period`: of the controller [s].
   SimulatedArm(const Parameters& parameters, const Vec3& gravity, double period);
 
-  /// At rest with the tip there.
+  /// Puts the arm at rest with the tip at p_DT.
   void place(const Vec3& p_DT) noexcept;
-  /// The force wanted on the finger from now on [N]. Through J^T and K^-T to the motors, which may give less.
+  /// Sets the force on the finger [N], held until the next call. It passes through J^T and K^-T to the motors, which
+  /// may limit it.
   void command(const Vec3& f_D) noexcept;
-  /// Joint torques instead, weight and all: for homing, while the arm does not know how it stands.
+  /// Sets joint torques without weight compensation instead: for homing, while the arm's configuration is unknown.
   void commandJoints(const Vec3& torque) noexcept { drive_.command(to_motor_torque_ * torque, Vec3::Zero()); }
-  /// One period with this at the tip.
+  /// Advances one period with this load at the tip.
   void advance(const TipLoad& load) noexcept;
 
   Vec3 reportedPosition() const noexcept;
   Vec3 reportedVelocity() const noexcept;
   Encoders& encoders() noexcept { return encoders_; }
-  /// The truth, which no encoder knows.
+  /// The true state, unknown to the encoders.
   const ArmState& state() const noexcept { return state_; }
   Vec3 tipForce() const noexcept { return dynamics_.tipForce(state_); }
   const ArmDynamics& dynamics() const noexcept { return dynamics_; }
 
-  /// Hottest winding so far, 1: as hot as it may be; and the least part of a wanted force that the motors gave.
+  /// Max heat of a winding so far (1: at its limit); min share of a wanted force that the motors delivered.
   double mostHeat() const noexcept { return most_heat_; }
   double leastShare() const noexcept { return least_share_; }
 
-  static constexpr double kSubstep = 0.25e-3;  ///< at most [s]: 90 Hz modes with 0.2 % of frequency error
+  static constexpr double kSubstep = 0.25e-3;  ///< max substep [s]: modes at 90 Hz have a frequency error of 0.2 %
 
  private:
   Parameters parameters_;

@@ -7,25 +7,26 @@
 
 namespace presa::percro {
 
-/// A modelled arm just switched on: it stands anywhere, its counters show anything, its markers tell where its joints are.
+/// A modelled arm just after power-up: its position and counter values are random, and its markers show where the
+/// joints are.
 class SwitchedOn {
  public:
   /// `gravity`: in D [m/s^2].
   SwitchedOn(const Parameters& parameters, const Vec3& gravity, const Markers& markers, RandomStream& stream);
 
-  /// Homes it, 90 s at most, with this in the thimble. Then the arm's encoders have the zero that was found.
+  /// Homes the arm, within 90 s at most, with this load in the thimble, and sets the encoders' zero to the result.
   const Homing& home(const TipLoad& load);
-  /// One period of that.
+  /// One period of homing.
   void step(const TipLoad& load);
 
-  /// The transmission loses this many counts.
+  /// Makes the transmission lose this many counts.
   void slip(const Vec3& counts) { arm_.encoders().powerUp(zero_ += counts); }
 
   const Homing& homing() const { return homing_; }
   SimulatedArm& arm() { return arm_; }
-  /// By how much the zero that was found is wrong, in counts of the motors.
+  /// Error of the zero found by homing, in motor counts.
   Vec3 zeroError() const;
-  double fastest() const { return fastest_; }  ///< of the tip so far [m/s]
+  double fastest() const { return fastest_; }  ///< max speed of the tip so far [m/s]
 
  private:
   void look();
@@ -34,7 +35,7 @@ class SwitchedOn {
   Markers markers_;
   SimulatedArm arm_;
   Homing homing_;
-  Vec3 zero_;  // what the counters show at q = 0
+  Vec3 zero_;  // counter values at q = 0
   std::array<bool, 3> covered_{};
   double fastest_ = 0;
 };

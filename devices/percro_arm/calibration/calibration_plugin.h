@@ -6,13 +6,14 @@
 
 namespace presa {
 
-/// What a driver lends to `presa device calibrate`.
+/// The functions that a driver provides for `presa device calibrate`.
 struct CalibrationPlugin {
   int abi = kPluginAbi;
-  /// Centre of the link in the base's frame, from the position that the device reports there; `link`: how far beyond it [m].
+  /// Centre of the link in the frame of the base, from the reported position; `link`: distance from the tip to the
+  /// centre [m].
   Vec3 (*centre)(const Vec3& p_DH, double link) = nullptr;
-  /// Model: two devices homed, linked, and led along a path that `seed` names; base A in the world, B seen from A. Empty when they
-  /// cannot meet along it. Null: the driver has no model.
+  /// Model only: two devices are homed, linked, and led along a path chosen by `seed`; X_WA is base A in the world,
+  /// X_AB base B in A. Empty when the devices cannot reach the path. Null: the driver has no model.
   std::vector<LinkedSample> (*rehearse)(const Pose& X_WA, const Pose& X_AB, double link, std::uint64_t seed) = nullptr;
 };
 inline constexpr const char* kCalibrationSymbol = "presaDeviceCalibration";

@@ -1,3 +1,6 @@
+// Point-set registration: rotation by the SVD of the cross-covariance [Arun1987], with a sign fix against reflections
+// [Umeyama1991], translation from the centroids. The condition number and the standard errors come from the normal
+// equations of the linearised problem, with angles scaled to arcs of 0.1 m.
 #include "devices/percro_arm/calibration/linked_bases.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,7 +14,7 @@
 namespace presa {
 namespace {
 
-constexpr double kArc = 0.1;  // [m]: an angle counts as much as the arc it makes at this distance
+constexpr double kArc = 0.1;  // [m]: angles are weighed by the arc at this distance
 
 template <class... Numbers>
 std::string format(const char* pattern, Numbers... numbers) {
@@ -24,7 +27,7 @@ std::string refusalOf(const LinkedBases& fit) {
   if (!(fit.condition <= kMostCondition)) {
     const double across = std::hypot(fit.spread[1], fit.spread[2]);
     return format(
-        "the motion is too poor to tell how the bases are turned: its points spread by %.1f mm along one line and by "
+        "the motion does not determine how the bases are turned: its points spread by %.1f mm along one line and by "
         "%.1f mm "
         "beside it (condition of the normal equations %.3g, at most %.3g): move at least 30 mm to either side of that "
         "line",

@@ -9,22 +9,22 @@
 
 namespace presa {
 
-/// One figure of a device: as it is printed of it, and as the driver or its model gives it.
+/// One characteristic of a device: the published value and that of the driver or its model.
 struct Characteristic {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  /// What agreement means. A model that was fitted to a figure agrees with it and proves nothing.
+  /// Significance of an agreement. A model fitted to a figure agrees with it, which proves nothing.
   enum class Basis {
-    kFitted,   ///< the model was made from this figure
-    kFollows,  ///< it comes out of the model without having been put in
-    kAssumed   ///< rests on numbers that nobody printed
+    kFitted,   ///< the model was fitted to this figure
+    kFollows,  ///< predicted by the model, not an input of it
+    kAssumed   ///< depends on unpublished numbers
   };
   std::string name, unit;
   double printed_low = kNone,
-         printed_high = kNone;  ///< equal: one number; high infinite: at least; none: nothing is printed
+         printed_high = kNone;  ///< equal: one number; high infinite: a lower bound; kNone: not published
   double here = kNone;
-  double tolerance = 0;  ///< beyond printed_low and printed_high, as a share of each
+  double tolerance = 0;  ///< relative, below printed_low and above printed_high
   Basis basis = Basis::kFollows;
-  std::string note{};  ///< where it is printed, how it was found
+  std::string note{};  ///< where it is published, how it was determined
 
   bool compared() const { return std::isfinite(printed_low); }
   bool agrees() const {
@@ -36,12 +36,12 @@ struct Characteristic {
 struct PlotLine {
   std::string label;
   std::vector<double> x{}, y{};
-  int color = 0;  ///< 0 to 5; below 0: ink
+  int color = 0;  ///< 0 to 5; negative: ink
   bool dashed = false;
-  bool symbols = false;  ///< instead of a line
+  bool symbols = false;  ///< symbols instead of a line
 };
 
-/// Heights over a grid, to be drawn as contours. z of (x[i], y[j]) at [j * x.size() + i]; NaN: nothing there.
+/// Values over a grid, drawn as contours. z of (x[i], y[j]) is at [j * x.size() + i]; NaN: no value.
 struct PlotMap {
   std::vector<double> x, y, z, levels;
 };
@@ -52,16 +52,16 @@ struct PlotPanel {
   std::optional<PlotMap> map{};
 };
 
-/// Panels side by side on the same axes.
+/// Panels side by side with the same axes.
 struct DevicePlot {
-  std::string name;  ///< of a file
+  std::string name;  ///< of its file
   std::string title, caption, x_label, y_label;
   std::vector<PlotPanel> panels{};
-  bool equal_scales = false;  ///< a circle is round
+  bool equal_scales = false;  ///< same scale on both axes
   bool y_from_zero = false;
 };
 
-/// A number of the model that is printed nowhere, or not as such.
+/// A number of the model that is not published as such.
 struct Assumption {
   std::string name, unit;
   double value = 0;
@@ -69,7 +69,7 @@ struct Assumption {
 };
 
 struct Characterisation {
-  std::string title, source;  ///< what was looked at, what it is compared with
+  std::string title, source;  ///< the device, and the publication compared with
   std::vector<Characteristic> figures{};
   std::vector<DevicePlot> plots{};
   std::vector<Assumption> assumptions{};
