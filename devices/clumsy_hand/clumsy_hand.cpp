@@ -14,9 +14,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   const double side = sideOf(binding, diagnostics);
   HandSettings settings = readImpedance(binding, world, 0, {}, diagnostics);
   if (std::ranges::none_of(world.scene.bodies, [](const Body& body) { return body.physics && !body.fixed; }))
-    diagnostics.error(447, binding.where,
-                      "role '" + binding.role + "': no body of the scene moves, so there is nothing to take",
-                      "a scene with a body that is not fixed and has a <physics>");
+    diagnostics.error(447, binding.where, "role '" + binding.role + "': the scene has no free body to grab",
+                      "use a scene with a body that is not fixed and has a <physics>");
   if (diagnostics.errorCount() > before) return nullptr;
   return makePlannedFinger({.plan = std::make_unique<ClumsyPlan>(std::make_shared<const World>(world),
                                                                  fingertipOf(binding, world), world.options.seed),

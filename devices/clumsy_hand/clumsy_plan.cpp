@@ -7,10 +7,10 @@
 namespace presa::clumsy {
 namespace {
 
-constexpr double kHalfField = 0.45, kHighest = 0.5;  // of where it strays [m]
-constexpr double kOver = 0.06;                       // a body, before it goes down [m]
+constexpr double kHalfField = 0.45, kHighest = 0.5;  // bounds of the random positions [m]
+constexpr double kOver = 0.06;                       // height above a body before going down [m]
 
-/// From a body's origin to its farthest point [m].
+/// Distance from a body's origin to its farthest point [m].
 double sizeOf(const Geometry& geometry, const TriMesh* mesh) {
   struct Reach {
     const TriMesh* mesh;
@@ -58,7 +58,7 @@ void ClumsyPlan::next(const ObjectState& objects) noexcept {
   goAt(step.phase, step.to, step.speed);
 }
 
-/// A level vector of that length.
+/// A random horizontal vector of length `least` to `most` [m].
 Vec3 ClumsyPlan::across(double least, double most) noexcept {
   const double angle = uniform(0, 2 * std::numbers::pi), length = uniform(least, most);
   return {length * std::cos(angle), length * std::sin(angle), 0};
@@ -85,7 +85,7 @@ void ClumsyPlan::stray() noexcept {
   add(kStray, to, uniform(0.2, kFastest));
 }
 
-// Somewhere at a body, be it where it belongs already, with any force.
+// Grabs a body somewhere, even at its goal, with a random force.
 void ClumsyPlan::grab(const ObjectState& objects) noexcept {
   const std::size_t body = anyBody();
   const double size = size_[body];
@@ -108,7 +108,7 @@ void ClumsyPlan::grab(const ObjectState& objects) noexcept {
 void ClumsyPlan::withWhatIsHeld(PairTarget to) noexcept {
   const PairTarget taken = to;
   const double what = uniform(0, 1);
-  if (what < 0.25) {  // along the ground, out of the field maybe
+  if (what < 0.25) {  // drag along the ground, possibly out of the workspace
     to.centre += across(0.05, 0.6);
     add(kDrag, to, uniform(0.1, 0.6));
   } else {
@@ -123,13 +123,13 @@ void ClumsyPlan::withWhatIsHeld(PairTarget to) noexcept {
       add(kShake, there, kFastest);
     }
   }
-  if (what > 0.65 && what < 0.9) {  // let go on the way
+  if (what > 0.65 && what < 0.9) {  // throw: release during the movement
     to.centre += across(0.1, 0.5);
     to.grip = 0;
     to.gap = taken.gap + 0.08;
     add(kThrow, to, kFastest);
   }
-  if (what > 0.9) {  // down again with it, on whatever is there
+  if (what > 0.9) {  // down again, onto anything below
     to.centre += across(0, 0.2);
     to.centre.z() = uniform(-0.02, 0.1);
     add(kPress, to, uniform(0.1, 0.6));
@@ -141,7 +141,7 @@ void ClumsyPlan::withWhatIsHeld(PairTarget to) noexcept {
   add(kOpen, to, 0.6);
 }
 
-// From above, with both fingers side by side, as if it were a button.
+// Presses from above with both fingers side by side.
 void ClumsyPlan::press(const ObjectState& objects) noexcept {
   const std::size_t body = anyBody();
   PairTarget to = target();
@@ -159,7 +159,7 @@ void ClumsyPlan::press(const ObjectState& objects) noexcept {
   add(kOpen, to, uniform(0.2, kFastest));
 }
 
-// Through it, from one side to the other.
+// Pushes through a body, from one side to the other.
 void ClumsyPlan::push(const ObjectState& objects) noexcept {
   const std::size_t body = anyBody();
   const Vec3 way = across(0.05, 0.2) + size_[body] * across(1, 1);

@@ -10,16 +10,16 @@
 
 namespace presa::clumsy {
 
-/// What two fingers do that know nothing of what they do it to. The same seed and the same states, the same acts. Thread: haptic; no memory
-/// after construction.
+/// Random actions of two fingers, without regard to their effect. Equal seeds and states give equal actions. Thread:
+/// haptic; no allocation after construction.
 class ClumsyPlan final : public PairPlan {
  public:
   enum Phase : int { kStray, kReach, kGrab, kLift, kShake, kThrow, kDrag, kPress, kPush, kOpen };
   static const std::vector<std::string>& phaseNames();
-  static constexpr double kFastest = 1.2;  ///< of a movement [m/s]
-  static constexpr double kMostGrip = 8;   ///< [N]
+  static constexpr double kFastest = 1.2;  ///< max speed of a movement [m/s]
+  static constexpr double kMostGrip = 8;   ///< max grip force [N]
 
-  /// `fingertip`: radius [m]. The scene has a body that moves and has a physics geometry.
+  /// `fingertip`: radius [m]. Precondition: the scene has a free body with a physics geometry.
   ClumsyPlan(std::shared_ptr<const World> world, double fingertip, std::uint64_t seed);
 
  private:
@@ -43,9 +43,9 @@ class ClumsyPlan final : public PairPlan {
   std::shared_ptr<const World> world_;
   const double fingertip_;
   std::vector<std::size_t> movable_;  // bodies
-  std::vector<double> size_;          // of each body, from its origin to its farthest point [m]
+  std::vector<double> size_;          // distance from each body's origin to its farthest point [m]
   RandomStream random_;
-  std::array<Step, 16> steps_;  // of one act
+  std::array<Step, 16> steps_;  // of the current action
   std::size_t count_ = 0, done_ = 0;
 };
 
