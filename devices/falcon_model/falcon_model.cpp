@@ -24,7 +24,7 @@ void FalconModel::plug(double now) {
   if (power_ups_ > 0) advance(now);
   plugged_ = true;
   line_ = {};
-  processor_.switchOn(settings_.has_firmware && power_ups_ == 0);  // firmware goes with the power
+  processor_.switchOn(settings_.has_firmware && power_ups_ == 0);  // firmware is lost with the power
   ++power_ups_;
   grip_.switchOn();
   received_ = {};
@@ -39,13 +39,13 @@ void FalconModel::plug(double now) {
 void FalconModel::unplug(double now) {
   advance(now);
   plugged_ = claimed_ = false;
-  grip_.switchOn();  // motors off, references gone
+  grip_.switchOn();  // motors off, references lost
 }
 
 bool FalconModel::claim() {
   if (!plugged_ || claimed_) return false;
   claimed_ = true;
-  knowledge_ = {};  // another program
+  knowledge_ = {};  // a new program knows nothing yet
   return true;
 }
 
@@ -91,12 +91,12 @@ void FalconModel::hostHasRead(const WireByte& byte, double now) {
   if (sent.all_homed) {
     ++knowledge_.homed_replies;
   } else {
-    const bool lost = knowledge_.homed_replies >= ForceWatch::kHomedReplies;  // before that, nothing is lost
+    const bool lost = knowledge_.homed_replies >= ForceWatch::kHomedReplies;  // only a complete homing can be lost
     knowledge_.homed_replies = 0;
     if (lost && !knowledge_.lost_homed) knowledge_.lost_at = now;
     knowledge_.lost_homed = knowledge_.lost_homed || lost;
   }
-  sent_.erase(sent_.begin(), std::next(found));  // those before it will not come any more
+  sent_.erase(sent_.begin(), std::next(found));  // earlier replies will not arrive any more
 }
 
 void FalconModel::advance(double now) {
@@ -159,7 +159,7 @@ void FalconModel::answer(double time) {
   send(bytes.subspan(first), tag, time + fate.pause);
 }
 
-/// Where a host that believes these counters has the grip.
+/// The Jacobian at the pose that a host computes from these counters.
 Mat3 FalconModel::ratesTold(const Status& status) const {
   const Vec3 counts(status.counters[0], status.counters[1], status.counters[2]);
   const Vec3 thighs = Vec3::Constant(kThighAtZero) + kThighPerCount * counts;
@@ -167,7 +167,7 @@ Mat3 FalconModel::ratesTold(const Status& status) const {
   return p_D ? thighRates(*p_D, thighs) : grip_.rates();
 }
 
-/// The last byte carries the tag: with it the reply is whole.
+/// Attaches the tag to the last byte, which completes the reply.
 void FalconModel::send(std::span<const std::uint8_t> bytes, std::uint32_t tag, double time) {
   if (bytes.empty()) return;
   line_.processorWrites(bytes.first(bytes.size() - 1), Processor::kOperationBaud, 0, time);

@@ -20,55 +20,55 @@ namespace presa::falcon_model {
 
 struct ModelSettings {
   std::uint64_t seed = 1;
-  bool has_firmware = false;  ///< it was loaded before, and power stayed on
-  bool homed = false;         ///< and the grip was pulled out and pushed in
+  bool has_firmware = false;  ///< firmware was loaded before, and the power stayed on
+  bool homed = false;         ///< and the grip was homed
   LoaderSettings loader;
   GripSettings grip;
 };
 
-/// A Novint Falcon behind its USB socket, as far as is known of it, in virtual time: settings of the converter, boot loader and firmware,
-/// one reply for each request, encoders, references, buttons, lights, motors, and a grip in a hand. Whoever holds it says what the time
-/// is [s], never backwards; same calls, same bytes. It judges the forces that arrive (ForceWatch).
+/// A model of a Novint Falcon at its USB socket, in virtual time: settings of the converter, boot loader and firmware,
+/// one reply per request, encoders, references, buttons, lights, motors, and a grip in a hand. The caller passes the
+/// time [s], never decreasing; equal calls give equal bytes. Received forces are checked (ForceWatch).
 /// Thread: one at a time; it takes no lock.
 class FalconModel {
  public:
   explicit FalconModel(ModelSettings settings = {});
 
-  // ---- the socket: what a host may do
+  // ---- USB socket, used by a host
   /// Vendor request 0x40; false: refused.
   bool vendorRequest(std::uint8_t request, std::uint16_t value, double now);
   bool hostWrites(std::span<const std::uint8_t> bytes, double now);
-  /// The next IN packet for a host that has been asking since `asked`.
+  /// The next IN packet for a host that has been waiting since `asked`.
   std::optional<SerialLine::Packet> toHost(double now, double asked);
-  /// The host's program has taken this byte out of its packet: from now on it can know.
+  /// Reports that the host's program has read this byte; its information counts as known from now on.
   void hostHasRead(const WireByte& byte, double now);
   bool plugged() const { return plugged_; }
-  /// Somebody has looked and armed the host again: after ten more replies it may push.
+  /// Re-arm after a lost reference: after ten more replies the host may apply forces again.
   void forgive();
-  /// Counts each time that power came on: who opened an earlier one has lost it.
+  /// Number of power-ups; a connection opened before the latest one is lost.
   int powerUps() const { return power_ups_; }
-  /// One program at a time.
+  /// Takes the device for one program; false when another has it.
   bool claim();
   void release() { claimed_ = false; }
 
-  // ---- the world around it
+  // ---- environment
   Grip& grip() { return grip_; }
   void advance(double now);
   void buttons(unsigned bits) { buttons_ = bits; }
 
-  // ---- what may go wrong
+  // ---- faults
   void unplug(double now);
   void plug(double now);
   void limits(const WatchLimits& limits) { watch_.limits(limits); }
   void onReply(std::function<void(ReplyFate&)> fault) { reply_fault_ = std::move(fault); }
-  /// Requests are obeyed, nothing is answered.
+  /// Requests are executed but not answered.
   void mute(double from, double until) { mute_from_ = from, mute_until_ = until; }
-  /// Requests do not arrive either: motors hold what they had.
+  /// Requests do not arrive; the motors hold their last force.
   void deafen(double from, double until) { deaf_from_ = from, deaf_until_ = until; }
-  /// The n-th vendor request from now on (1: the next) is refused, and so are those after it up to `count`.
+  /// Refuses `count` vendor requests, starting with the n-th from now on (1: the next).
   void refuseRequests(int nth, int count = 1) { refuse_after_ = nth - 1, refuse_count_ = count; }
 
-  // ---- what there is to see
+  // ---- observation
   Processor::State state() const { return processor_.state(); }
   const Processor& processor() const { return processor_; }
   const SerialLine& line() const { return line_; }
@@ -78,7 +78,7 @@ class FalconModel {
   int replies() const { return replies_; }
   const ForceWatch& watch() const { return watch_; }
   const std::vector<std::string>& violations() const { return watch_.violations(); }
-  /// The device's own view of a process that is gone: no request for this long [s], and whether motors hold a force meanwhile.
+  /// Time since the last request [s]. holdsForce(): the motors hold a force meanwhile.
   double quietFor(double now) const { return now - received_.time; }
   bool holdsForce() const;
 
@@ -97,14 +97,14 @@ class FalconModel {
   bool plugged_ = true, claimed_ = false;
   int power_ups_ = 0;
 
-  Knowledge knowledge_;                        // of the host now
-  std::map<std::uint32_t, Knowledge> writes_;  // and when it wrote what is still on the wire
+  Knowledge knowledge_;                        // current knowledge of the host
+  std::map<std::uint32_t, Knowledge> writes_;  // its knowledge at the time of each write still on the wire
   std::uint32_t write_ = 0;
   struct Sent {
     Mat3 rates;
     bool all_homed;
   };
-  std::map<std::uint32_t, Sent> sent_;  // replies that the host has not read yet, by their tag
+  std::map<std::uint32_t, Sent> sent_;  // replies not yet read by the host, by tag
   std::uint32_t reply_ = 0;
 
   Received received_;

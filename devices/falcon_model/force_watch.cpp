@@ -11,7 +11,7 @@ namespace presa::falcon_model {
 namespace {
 
 constexpr std::size_t kMostViolations = 20;
-constexpr double kSlack = 1e-9;  // of the arithmetic [N]
+constexpr double kSlack = 1e-9;  // rounding error [N]
 
 bool zero(const Received& request) { return request.counts == std::array<int, 3>{}; }
 
@@ -38,7 +38,7 @@ void ForceWatch::see(const Received& request, const Knowledge& knowledge) {
   judge(std::abs(most) > kMostCounts, "more counts than a motor has", request);
   judge(!zero(request) && !knowledge.lost_homed && knowledge.homed_replies < kHomedReplies,
         "force before all references were reported", request);
-  // the host computes from one of the poses it was told; it is judged by the one that speaks for it
+  // the host computes from one of the poses it has read; use the most favourable one
   double least = zero(request) ? 0 : std::numeric_limits<double>::infinity();
   for (const Mat3& rates : posesOf(knowledge)) {
     least = std::min(least, forceOf(request.counts, rates).norm() - roundingOf(rates));
@@ -72,7 +72,7 @@ void ForceWatch::judgeRelease(const Received& request, const Knowledge& knowledg
     return;
   }
   if (released_from_ < 0) {
-    // nothing was sent since the host knew; what it sent last is where the way down begins
+    // no request since the host knows of the loss; the release starts at its last force
     released_from_ = last_.time < 0 || zero(last_) ? 0 : std::numeric_limits<double>::infinity();
     for (const Mat3& rates : posesOf(last_knowledge_)) {
       released_from_ = std::min(released_from_, forceOf(last_.counts, rates).norm() + roundingOf(rates));

@@ -8,9 +8,9 @@
 namespace presa::falcon_model {
 namespace {
 
-const Vec3 kRest(0, 0, 0.125);        // where a hand first takes it [m]
-constexpr double kInnermost = 0.075;  // of z [m]
-constexpr double kStretched = 60;     // legs are straight where angles change that fast with the place [rad/m]
+const Vec3 kRest(0, 0, 0.125);        // initial position [m]
+constexpr double kInnermost = 0.075;  // min z [m]
+constexpr double kStretched = 60;     // legs count as stretched where the Jacobian exceeds this [rad/m]
 
 Vec3 torquesOf(const std::array<int, 3>& counts) { return kTorquePerCount * Vec3(counts[0], counts[1], counts[2]); }
 
@@ -36,7 +36,7 @@ void Grip::switchOn() {
 
 void Grip::seekReferences(bool seek) {
   seeking_ = seek;
-  if (!seek) passed_out_ = {};  // an encoder that was not found yet starts again
+  if (!seek) passed_out_ = {};  // encoders without a reference start again
 }
 
 void Grip::reference() {
@@ -53,7 +53,7 @@ void Grip::step() {
   ++steps_;
   const Vec3 before = target_, start = plant_.position();
   target_ = hand_(static_cast<double>(steps_) * kStep);
-  // the hand's damper moves with its target, the device's stands still
+  // the hand's damper moves with its target, the device's damper is fixed
   const double share = settings_.hand_damping / (settings_.hand_damping + settings_.damping);
   const Vec3 pushed = force();
   plant_.step(target_, share * (target_ - before) / kStep, pushed);
@@ -62,7 +62,7 @@ void Grip::step() {
   findReferences();
 }
 
-/// False beyond the end stops.
+/// Places the grip; false beyond the end stops.
 bool Grip::place(const Vec3& p_D) {
   const std::optional<Vec3> thighs = thighsAt(p_D);
   if (!thighs || p_D.z() < kInnermost) return false;

@@ -8,46 +8,46 @@
 namespace presa::falcon_model {
 
 struct GripSettings {
-  double mass = 0.1;            ///< grip and what moves with it [kg]
+  double mass = 0.1;            ///< grip and parts that move with it [kg]
   double damping = 1;           ///< of the device [N s/m]
   double hand_stiffness = 500;  ///< [N/m]
   double hand_damping = 10;     ///< [N s/m]
 };
 
-/// The mechanics: a grip on three legs with encoders and motors, in a hand that is a spring and a damper to a point which the
-/// test moves. Torques are held between requests. Thread: the owner's.
+/// The mechanics: a grip on three legs with encoders and motors, held by a spring and damper to a point that the test
+/// moves. Torques are held between requests. Thread: the owner's.
 class Grip {
  public:
-  using Path = std::function<Vec3(double time)>;  ///< of that point, in D [m]
+  using Path = std::function<Vec3(double time)>;  ///< of the hand, in D [m]
 
   explicit Grip(const GripSettings& settings);
 
-  /// Power comes on: counters at zero wherever the grip is, no encoder referenced, motors off.
+  /// Power-up: counters at zero for the current pose, no encoder referenced, motors off.
   void switchOn();
   void hand(Path path) { hand_ = std::move(path); }
-  /// Up to that time [s]: never backwards, on a grid of kStep.
+  /// Advances to `time` [s], which must not decrease, on a grid of kStep.
   void advance(double time);
 
-  /// Words of a request.
+  /// Sets the motor words of a request.
   void drive(const std::array<int, 3>& counts) { drive_ = counts; }
   void seekReferences(bool seek);
-  /// As if the grip had been pulled out and pushed in.
+  /// References all encoders, as if the grip had been pulled out and pushed in.
   void reference();
   void loseReference(std::size_t encoder) { homed_[encoder] = passed_out_[encoder] = false; }
   void jump(std::size_t encoder, int counts) { offset_[encoder] += counts; }
 
   std::array<int, 3> counters() const;
-  unsigned homed() const;                                     ///< a bit for each encoder
+  unsigned homed() const;                                     ///< one bit per encoder
   const Vec3& position() const { return plant_.position(); }  ///< in D [m]
   const Vec3& velocity() const { return plant_.velocity(); }  ///< [m/s]
-  /// Of the motors on the grip, in D [N].
+  /// Force of the motors on the grip, in D [N].
   Vec3 force() const;
-  /// What they gave the hand so far: sum of f . dx over the steps, f held over each [J].
+  /// Energy delivered to the hand so far: sum of f . dx over the steps, f held over each [J].
   double energy() const { return energy_; }
   const Mat3& rates() const { return rates_; }  ///< d(thighs)/d(position) [rad/m]
 
   static constexpr double kStep = 1e-4;  ///< [s]
-  /// Counts at which an encoder finds its reference, coming from further out.
+  /// Counts at which an encoder finds its reference, on the way in.
   static constexpr std::array kReference{520, 500, 480};
 
  private:

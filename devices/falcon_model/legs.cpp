@@ -8,12 +8,12 @@ namespace presa::falcon_model {
 namespace {
 
 constexpr double kThigh = 0.060, kShin = 0.1025, kTube = 2 * 0.01125;  // [m]
-constexpr double kMotorRadius = 0.0400, kMotorAcross = -0.02309;       // of the motors' axes, from the centre [m]
-constexpr double kGripAlong = 0.01443, kGripAcross = -0.025;           // of the shin's end, from the grip's centre [m]
+constexpr double kMotorRadius = 0.0400, kMotorAcross = -0.02309;       // of the motor axes, from the centre [m]
+constexpr double kGripAlong = 0.01443, kGripAcross = -0.025;           // end of the shin, from the grip's centre [m]
 constexpr double kDeg = 0.017453292519943295;
 constexpr std::array kAzimuth{105 * kDeg, -15 * kDeg, -135 * kDeg};
 
-/// The end of a leg's shin: u outwards in the motor's plane, y across, w along D's z, from the motor's axis.
+/// End of a leg's shin, relative to the motor axis: u outwards in the motor's plane, y across, w along D's z.
 struct End {
   double u, y, w;
 };
@@ -24,7 +24,7 @@ End endOf(const Vec3& p_D, std::size_t leg) {
           -sin * p_D.x() + cos * p_D.y() - kMotorAcross + kGripAcross, p_D.z()};
 }
 
-/// The torus of one leg as a function that is zero on it, and its derivatives.
+/// Implicit function of a leg's torus, zero on it, with its derivatives.
 struct Torus {
   double value;
   Vec3 by_grip;     // in D
@@ -50,13 +50,13 @@ std::optional<Vec3> thighsAt(const Vec3& p_D) {
     const End end = endOf(p_D, leg);
     const double square = kShin * kShin - end.y * end.y;
     if (!(square >= 0)) return std::nullopt;
-    // the knee: where the circle of the thigh meets that around the shin's end
+    // the knee: intersection of the thigh's circle with the circle around the shin's end
     const double reach = kTube + std::sqrt(square), far = std::hypot(end.u, end.w);
     const double along = (kThigh * kThigh + far * far - reach * reach) / (2 * far);
     const double across2 = kThigh * kThigh - along * along;
     if (!(across2 >= 0)) return std::nullopt;
     const double across = std::sqrt(across2);
-    // of the two, the knee that is bent outwards
+    // of the two solutions, the knee that is bent outwards
     thighs[static_cast<int>(leg)] = std::atan2(along * end.w - across * end.u, along * end.u + across * end.w);
   }
   return thighs;

@@ -7,11 +7,11 @@
 
 namespace presa::falcon_model {
 
-/// A host's side of the model's socket, without a bus: always asking for what comes back. Same time as the model's.
-/// Thread: as the model.
+/// The host's side of the model's socket, without a bus: it always has reads pending. Uses the model's time. Thread:
+/// the model's.
 class ModelTransport final : public falcon::FalconTransport {
  public:
-  /// Null: unplugged, or another one has it. The model outlives it.
+  /// Null when the device is unplugged or taken. The model must outlive the transport.
   static std::unique_ptr<ModelTransport> open(FalconModel& model);
   ~ModelTransport() override;
   ModelTransport(const ModelTransport&) = delete;

@@ -7,9 +7,9 @@ namespace presa::falcon_model {
 namespace {
 
 constexpr std::uint8_t kOpen = '<', kClose = '>', kBase = 0x41;
-constexpr double kThinks = 20e-6;  // before an answer [s]
+constexpr double kThinks = 20e-6;  // delay before an answer [s]
 
-/// Four nibbles, the least significant first; nothing: a byte that no nibble is.
+/// Decodes four nibbles, least significant first; nullopt for a byte that is no nibble.
 std::optional<int> wordOf(const std::uint8_t* bytes) {
   unsigned word = 0;
   for (unsigned i = 0; i < 4; ++i) {
@@ -90,7 +90,7 @@ void Processor::switchOn(bool has_firmware) {
 
 void Processor::linesChanged(const SerialLine& line, bool dtr_before) {
   if (dtr_before || !line.dtr() || line.rts()) return;
-  state_ = State::kBootLoader;  // whatever ran is gone
+  state_ = State::kBootLoader;  // the running firmware is lost
   heard_.clear();
   filled_ = 0;
 }
@@ -161,7 +161,7 @@ void Processor::load(const WireByte& byte, SerialLine& line) {
 std::optional<Request> Processor::assemble(std::uint8_t value) {
   if (filled_ == 0 && value != kOpen) return std::nullopt;
   frame_[filled_++] = value;
-  if (value == kOpen && filled_ != 1) {  // cut short: this is the next one
+  if (value == kOpen && filled_ != 1) {  // the previous frame was truncated; this starts the next one
     ++bad_frames_;
     frame_[0] = value;
     filled_ = 1;

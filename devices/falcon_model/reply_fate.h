@@ -6,24 +6,24 @@
 
 #include "framework/core/math/random.h"
 
-/// What may happen to replies on their way. Thread: any.
+/// Faults of replies in transit. Thread: any.
 namespace presa::falcon_model {
 
-/// One reply, before it is sent.
+/// One reply before it is sent.
 struct ReplyFate {
   std::vector<std::uint8_t> bytes;
-  std::size_t first = std::numeric_limits<std::size_t>::max();  ///< this many go at once,
-  double pause = 0;                                             ///< the rest this much later [s]
-  bool waits = false;                                           ///< goes with the next one
+  std::size_t first = std::numeric_limits<std::size_t>::max();  ///< number of bytes sent at once;
+  double pause = 0;                                             ///< the rest follows after this time [s]
+  bool waits = false;                                           ///< sent together with the next reply
 };
 
-/// Two bytes fewer, as was seen in the field; anywhere but the closing one.
+/// Removes two bytes, as seen on real devices; not the closing one.
 inline void shorten(ReplyFate& reply, RandomStream& random) {
   for (int i = 0; i < 2; ++i) {
     reply.bytes.erase(reply.bytes.begin() + static_cast<std::ptrdiff_t>(random.below(reply.bytes.size() - 1)));
   }
 }
-/// In two packets.
+/// Splits a reply into two packets.
 inline void split(ReplyFate& reply, RandomStream& random) {
   if (reply.bytes.size() < 2) return;
   reply.first = 1 + random.below(reply.bytes.size() - 1);

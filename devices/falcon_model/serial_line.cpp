@@ -6,10 +6,10 @@
 namespace presa::falcon_model {
 namespace {
 
-constexpr double kBits = 10;          // start, eight, stop
-constexpr double kSameMoment = 1e-9;  // clocks that add up steps differ by their rounding [s]
+constexpr double kBits = 10;          // start bit, eight data bits, stop bit
+constexpr double kSameMoment = 1e-9;  // tolerance between accumulated clocks [s]
 
-/// 3 MHz over an integer and eighths [FTDI AN120]; nothing: no such rate.
+/// Baud rate: 3 MHz divided by a whole number and eighths [FTDI AN120]; nullopt for an invalid one.
 std::optional<double> baudOf(std::uint16_t value) {
   constexpr double kEighths[] = {0, 0.5, 0.25, 0.125};
   const int whole = value & 0x3FFF;
@@ -17,7 +17,7 @@ std::optional<double> baudOf(std::uint16_t value) {
   return 3e6 / (whole + kEighths[value >> 14]);
 }
 
-/// What a receiver makes of a byte at another rate: not the byte.
+/// The value that a receiver at another rate reads; never the original one.
 std::uint8_t garbled(std::uint8_t value) { return static_cast<std::uint8_t>((value * 167U + 0x5DU) | 0x80U); }
 
 }  // namespace
@@ -29,7 +29,7 @@ bool SerialLine::request(std::uint8_t request, std::uint16_t value, double now) 
       if (value != 2) to_host_.clear(), return_free_ = now;
       if (value != 1) to_processor_.clear(), wire_free_ = now;
       return true;
-    case 1:  // the high byte says which line, the low one its level
+    case 1:  // the high byte selects the line, the low byte is its level
       if ((value & 0x0100) != 0) dtr_ = (value & 1) != 0;
       if ((value & 0x0200) != 0) rts_ = (value & 2) != 0;
       return (value & ~0x0303) == 0;
@@ -74,7 +74,7 @@ void SerialLine::processorWrites(std::span<const std::uint8_t> bytes, double bau
   return_free_ = std::max(return_free_, time);
   for (const std::uint8_t value : bytes) {
     return_free_ += kBits / baud;
-    if (to_host_.size() >= kReturnFifo) continue;  // overrun: lost
+    if (to_host_.size() >= kReturnFifo) continue;  // overrun: the byte is lost
     to_host_.push_back({return_free_, baud, baud == baud_ ? value : garbled(value), tag});
   }
 }
