@@ -5,7 +5,7 @@
 
 namespace presa::falcon {
 
-/// Bytes in order of arrival, in fixed memory: when it is full, the oldest goes.
+/// A byte FIFO in fixed memory; when it is full, the oldest byte is dropped.
 template <std::size_t kCapacity>
 class ByteRing {
  public:

@@ -4,15 +4,15 @@
 
 namespace presa::falcon {
 
-/// Numbers of the findings about a Falcon (E4xx: rigs and devices).
+/// Error numbers of the Falcon driver (E4xx: rigs and devices).
 enum Code : int {
   kUnevenReplies = 478,
   kBadNumber = 480,
   kFirmwareUnreadable = 481,
   kFirmwareEmpty = 482,
   kFirmwareTooLarge = 483,
-  kFirmwareForeign = 484,  ///< does not begin as firmware does
-  kFirmwareUnknown = 485,  ///< W: begins right, but is none of the known files
+  kFirmwareForeign = 484,  ///< does not begin like firmware
+  kFirmwareUnknown = 485,  ///< warning: begins correctly, but is none of the known files
   kNeedsRealTime = 486,
   kNoFalcon = 487,
   kWhichFalcon = 488,

@@ -12,10 +12,10 @@ namespace {
 
 using Verdict = DeviceFinding::Verdict;
 
-constexpr double kPatience = 1.0;        // [s] for an answer; asking for firmware takes half of it at most
+constexpr double kPatience = 1.0;        // [s] to wait for an answer; asking for firmware takes at most half of it
 constexpr std::int64_t kStep = 500'000;  // [ns]
 
-/// Asks a device how it is, with packets of zero force.
+/// Asks a device for its state, with requests of zero force.
 LinkStatus ask(FalconTransport& transport) {
   FalconLink link(transport, {}, {});
   const std::int64_t start = monotonicNs();
@@ -72,7 +72,7 @@ std::vector<DeviceFinding> diagnose(const DeviceBinding& binding) {
   UsbFailure failure;
   failure.present = listFalcons(failure);
   if (failure.problem == UsbProblem::kNone && failure.present.empty()) failure.problem = UsbProblem::kNoDevice;
-  // where no rig asks for one, none is no problem
+  // without a rig, a missing Falcon is no problem
   if (failure.problem != UsbProblem::kNone)
     findings.push_back({binding.role.empty() ? Verdict::kWarning : Verdict::kProblem, codeOf(failure.problem), "",
                         describe(failure, wanted), remedy(failure)});

@@ -5,8 +5,8 @@
 
 namespace presa::falcon {
 
-/// Every Falcon that is plugged in, what keeps each from being used, and what the binding's settings have wrong. Waits up to
-/// a second a device; sends no force, loads no firmware.
+/// Finds every connected Falcon, the reasons why one cannot be used, and errors in the binding's settings. Waits up to
+/// a second per device; sends no force, loads no firmware.
 std::vector<DeviceFinding> diagnose(const DeviceBinding& binding);
 
 }  // namespace presa::falcon

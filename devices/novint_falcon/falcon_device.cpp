@@ -19,7 +19,7 @@ namespace {
   throw InputError(diagnostics);
 }
 
-/// With what is known of a loading that failed.
+/// Message of a fault, with details of a failed firmware upload.
 std::string wordsOf(const LinkStatus& status, std::size_t firmware_size) {
   std::string words = describe(status.fault);
   std::array<char, 120> detail{};

@@ -11,19 +11,19 @@ namespace presa::falcon {
 /// The grip of a Falcon as a finger of the world (finger.h).
 class FalconDevice final : public Device {
  public:
-  /// Finds and claims the device; throws InputError when it cannot.
+  /// Finds and claims the device; throws InputError on failure.
   using Connect = std::function<std::unique_ptr<FalconTransport>()>;
   FalconDevice(FalconSettings settings, Connect connect)
       : settings_(std::move(settings)), connect_(std::move(connect)) {}
 
-  /// Connects, loads firmware where there is none, waits until the grip is homed. Throws InputError (codes.h).
+  /// Connects, loads firmware if none is running, and waits until the grip is homed. Throws InputError (codes.h).
   void open() override;
   void close() noexcept override { io_.reset(); }
   FingerInput read(const Tick& tick) noexcept override;
   void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
   std::vector<std::string> notes() const override;
 
-  /// Main thread: what the link is in.
+  /// State of the link. Main thread.
   LinkStatus status() { return io_ ? io_->status() : LinkStatus{}; }
   void rearm() noexcept override {
     if (io_) io_->rearm();
@@ -37,7 +37,7 @@ class FalconDevice final : public Device {
   std::unique_ptr<FalconIo> io_;
 };
 
-/// Over USB: throws with E487..E491.
+/// Connects over USB; throws InputError E487..E491.
 std::unique_ptr<FalconTransport> connectOverUsb(const std::string& serial, const SourceLocation& where);
 
 }  // namespace presa::falcon

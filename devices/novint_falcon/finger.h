@@ -4,7 +4,8 @@
 
 namespace presa::falcon {
 
-/// From the grip in frame D to a finger in the world. Buttons: bit 0 the middle one (ready, answer), 1 forward, 2 plus, 3 minus.
+/// Transforms a sample in frame D to a finger in the world. Buttons: bit 0 centre (ready, answer), 1 forward, 2 plus, 3
+/// minus.
 FingerInput fingerOf(const LinkSample& sample, const Pose& X_WD, double scale) noexcept;
 
 }  // namespace presa::falcon

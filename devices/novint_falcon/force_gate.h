@@ -6,25 +6,25 @@
 
 namespace presa::falcon {
 
-/// The last gate before the motors: magnitude, soft start, slew, and down to zero when what the force was made from is not to be trusted. Nothing
-/// makes a step that the rating does not allow, not even a fault: a hand that leans on a force which is gone at once would jump.
-/// Thread: the link's; nonblocking.
+/// The last stage before the motors: limits magnitude and slew rate, starts softly, and ramps to zero when its inputs
+/// cannot be trusted. Even a fault never causes a step above the slew limit, because a hand that leans on a suddenly
+/// vanishing force would jump. Thread: the link's; nonblocking.
 class ForceGate {
  public:
   explicit ForceGate(const DeviceRating& rating) : most_(rating.force), rate_(rating.force_rate) {}
 
-  /// Nothing is in the motors: for the start, and where no force can be worked out any more.
+  /// Sets the force to zero at once: at the start, and where no force can be computed any more.
   void cut() noexcept {
     out_.setZero();
     gain_ = 0;
   }
-  /// What comes next starts softly.
+  /// Makes the next force start softly.
   void soften() noexcept { gain_ = 0; }
   bool quiet() const noexcept { return out_.isZero(0); }
 
-  /// The force to send `elapsed` seconds after the last one. `fresh`: made from a position and by a haptic thread that are
-  /// both alive; otherwise, or when it is not finite, the force goes to zero. After a short gap it comes back at the slew limit, for
-  /// a reply that is late is nothing unusual; after a longer one softly.
+  /// The force to send `elapsed` seconds after the last one [N]. `fresh`: position and command are recent; otherwise,
+  /// or when the force is not finite, it ramps to zero. After a short gap it returns at the slew limit, since late
+  /// replies are common; after a longer one it starts softly.
   Vec3 step(const Vec3& wanted, bool fresh, double elapsed) noexcept {
     if (fresh && wanted.allFinite()) {
       gap_ = 0;
@@ -38,11 +38,11 @@ class ForceGate {
     return out_;
   }
 
-  static constexpr double kSoftStart = 0.5;    ///< from nothing to all of the force [s]
+  static constexpr double kSoftStart = 0.5;    ///< duration of the ramp from zero to full force [s]
   static constexpr double kShortGap = 3.5e-3;  ///< [s]
 
  private:
-  /// By the largest component first: the square of 1e308 would overflow.
+  /// Scales by the largest component first: the square of 1e308 would overflow.
   Vec3 bounded(Vec3 force) const noexcept {
     if (const double largest = force.cwiseAbs().maxCoeff(); largest > most_) force *= most_ / largest;
     if (const double norm = force.norm(); norm > most_) force *= most_ / norm;

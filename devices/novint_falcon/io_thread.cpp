@@ -10,9 +10,9 @@ namespace presa::falcon {
 namespace {
 
 constexpr std::int64_t kWake = 250'000;  // [ns]
-constexpr int kPriority = 82;        // above the haptic thread (80), which waits for nothing but would run beside it
-constexpr double kFarewell = 20e-3;  // [s] at the end, and until the force is zero
-constexpr double kPatience = 1;      // [s] with a device that takes nothing any more
+constexpr int kPriority = 82;            // above the haptic thread (80), so that it does not delay this thread
+constexpr double kFarewell = 20e-3;      // [s] of zero force at the end
+constexpr double kPatience = 1;          // [s] max wait at the end for a device that accepts no requests
 
 }  // namespace
 
@@ -29,7 +29,7 @@ FalconIo::~FalconIo() {
 }
 
 LinkSample FalconIo::latest(const Tick& tick) noexcept {
-  // ticks made up after a late wake-up come all at once: no time has passed between them
+  // catch-up ticks after a late wake-up come all at once: no time has passed between them
   if (sample_.update()) {
     silence_ = 0;
   } else if (!tick.made_up) {
@@ -56,7 +56,7 @@ void FalconIo::run() noexcept {
     wake += kWake;
     sleepUntilNs(wake);
     const std::int64_t now = monotonicNs();
-    if (now - wake > kWake) wake = now;  // too late for the next one too: no hurry to catch up
+    if (now - wake > kWake) wake = now;  // more than a period late: skip the missed wake-ups
     if (end == 0 && stop_.load(std::memory_order_relaxed)) {
       link_.release();
       end = seconds(now) + kFarewell;
@@ -74,7 +74,7 @@ void FalconIo::step(double now) noexcept {
   sample_.publish(link_.sample(), now);
   const LinkStatus status = link_.status();
   status_.publish(status, now);
-  // not before: control requests wait, and may do so by spinning
+  // only now: control requests block and may spin
   if (status.state != LinkState::kStarting && refused_.load(std::memory_order_relaxed) < 0) raisePriority();
 }
 

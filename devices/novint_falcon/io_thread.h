@@ -10,29 +10,29 @@
 
 namespace presa::falcon {
 
-/// The thread that talks to one Falcon. It wakes every quarter of a millisecond at absolute deadlines, steps the link, sleeps
-/// again, and never spins: a thread that spins at SCHED_FIFO is stopped by the kernel for 50 ms in every second. With the
-/// haptic thread it shares nothing but the latest sample and the latest force, both wait-free.
+/// The thread that talks to one Falcon. It wakes every 0.25 ms at absolute deadlines, steps the link and sleeps again.
+/// It never spins, because the kernel throttles a spinning SCHED_FIFO thread for 50 ms per second. It shares only the
+/// latest sample and the latest force with the haptic thread, both wait-free.
 class FalconIo {
  public:
-  /// Starts the thread, which begins to bring the device up.
+  /// Starts the thread, which starts up the device.
   FalconIo(std::unique_ptr<FalconTransport> transport, std::vector<std::uint8_t> firmware,
            const LinkSettings& settings);
-  /// Takes the force to zero, sends that for a while, then ends.
+  /// Takes the force to zero, sends zero for a while, then ends.
   ~FalconIo();
   FalconIo(const FalconIo&) = delete;
   FalconIo& operator=(const FalconIo&) = delete;
 
-  /// Haptic thread; wait-free. Invalid when the device is silent, not homed or in a fault, or when the thread itself gave no
-  /// sign of life for FalconLink::kHold of the haptic thread's own time.
+  /// Latest sample. Haptic thread; wait-free. Invalid when the device is silent, not homed or in a fault, or when the
+  /// I/O thread has published nothing for FalconLink::kHold of haptic time.
   LinkSample latest(const Tick& tick) noexcept;
-  /// Haptic thread; wait-free. Force on the grip [N, frame D].
+  /// Sets the force on the grip [N, frame D]. Haptic thread; wait-free.
   void push(const Vec3& f_H_D) noexcept { force_.publish(f_H_D, 0); }
 
-  /// Main thread.
+  /// State of the link. Main thread.
   LinkStatus status() noexcept;
   void rearm() noexcept { rearm_.store(true, std::memory_order_relaxed); }
-  /// 0 when the thread runs with SCHED_FIFO, else why not (errno), -1 while the device is brought up.
+  /// 0: the thread runs with SCHED_FIFO; -1: still starting up; otherwise the errno of the refusal.
   int priorityRefused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
  private:
@@ -44,7 +44,7 @@ class FalconIo {
   const std::vector<std::uint8_t> firmware_;
   FalconLink link_;      // I/O thread
   LinkCommand command_;  // I/O thread
-  double silence_ = 0;   // haptic thread: since the last sign of life [s]
+  double silence_ = 0;   // haptic thread: since the last published sample [s]
   LatestValue<LinkSample> sample_;
   LatestValue<LinkStatus> status_;
   LatestValue<Vec3> force_;

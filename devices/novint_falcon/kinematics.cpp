@@ -1,3 +1,6 @@
+// Inverse kinematics in closed form after Stamper, for one leg at a time; forward kinematics by Newton's method with
+// step halving on the thigh angles (residual <= 1e-13 rad). Motor torques follow from the force by the transposed
+// Jacobian and are scaled by one factor when a motor saturates, which keeps the direction of the force.
 #include "devices/novint_falcon/kinematics.h"
 
 #include <Eigen/LU>
@@ -13,7 +16,7 @@ namespace {
 constexpr double kThigh = 0.060;           // a
 constexpr double kShin = 0.1025;           // b
 constexpr double kPlatform = 0.01443;      // c
-constexpr double kShinEnds = 2 * 0.01125;  // d + e: beyond the parallelogram at either end
+constexpr double kShinEnds = 2 * 0.01125;  // d + e: end pieces of the parallelogram
 constexpr double kSideOffset = -0.025;     // f
 constexpr double kBaseRadius = 0.0400;     // r
 constexpr double kBaseSide = -0.02309;     // s
@@ -21,7 +24,7 @@ constexpr double kBaseSide = -0.02309;     // s
 constexpr double kRadian = std::numbers::pi / 180;
 constexpr std::array<double, 3> kAzimuths{105 * kRadian, -15 * kRadian, -135 * kRadian};
 
-// 320 slots in quadrature per turn of the motor, whose capstan drives a sector
+// 320 slots in quadrature per motor turn; the motor's capstan drives a sector
 constexpr double kAnglePerCount = 2 * std::numbers::pi / (320 * 4) * (0.01425 / 0.110);
 constexpr double kAngleAtZero = 35 * kRadian;
 
@@ -29,17 +32,17 @@ constexpr double kResidual = 1e-13;  // [rad]
 constexpr int kMaxIterations = 30;
 constexpr int kMaxHalvings = 12;
 
-/// The turn from the device's frame into each leg's.
+/// Rotation from the device frame into each leg's frame.
 const std::array<Mat3, 3> kToLeg = [] {
   std::array<Mat3, 3> turns;
   for (std::size_t i = 0; i < 3; ++i) turns[i] = Eigen::AngleAxisd(-kAzimuths[i], Vec3::UnitZ()).toRotationMatrix();
   return turns;
 }();
 
-/// One leg with its foot at (u, v, w) of its own frame: side swing theta3 and thigh angle theta1.
+/// One leg with its foot at (u, v, w) in its own frame: side swing theta3 and thigh angle theta1.
 struct Leg {
-  double u = 0, w = 0;         // from the hip to the foot in the plane of the thigh
-  double length = 0;           // of the shin seen in that plane
+  double u = 0, w = 0;         // from the hip to the foot, in the plane of the thigh
+  double length = 0;           // of the shin, projected onto that plane
   double swing_cotangent = 0;  // of theta3
   double thigh = 0;            // theta1
 };
@@ -61,11 +64,11 @@ std::optional<Leg> legAt(const Vec3& p_DH, std::size_t index) noexcept {
   return leg;
 }
 
-/// d(theta1)/d(foot): the closure (u - a cos)^2 + (w - a sin)^2 = L(v)^2, differentiated.
+/// d(theta1)/d(foot), from the derivative of the closure (u - a cos)^2 + (w - a sin)^2 = L(v)^2.
 std::optional<Vec3> gradientOf(const Leg& leg) noexcept {
   const double c = std::cos(leg.thigh), s = std::sin(leg.thigh);
   const double lever = kThigh * (leg.u * s - leg.w * c);
-  // zero where thigh and shin lie in one line; a tenth of a millimetre of lever is no mechanism any more
+  // zero where thigh and shin are aligned; a lever below 0.1 mm counts as stretched
   if (!(std::abs(lever) > 1e-4 * kThigh)) return {};
   return Vec3(leg.u - kThigh * c, leg.length * leg.swing_cotangent, leg.w - kThigh * s) / -lever;
 }
@@ -89,7 +92,7 @@ std::optional<Solution> solve(const Vec3& p_DH) noexcept {
   return solution;
 }
 
-/// Newton's method that halves its step while that leads out of reach or no closer.
+/// Newton's method; halves the step while it leaves the reach or does not reduce the residual.
 std::optional<Vec3> search(const ThighAngles& wanted, Vec3 p_DH) noexcept {
   auto here = solve(p_DH);
   if (!here) return {};
@@ -147,7 +150,7 @@ std::optional<Counts> motorCounts(const Vec3& f_H_D, const Vec3& p_DH, int limit
   if (!f_H_D.allFinite() || !jacobian) return {};
   const double size = f_H_D.cwiseAbs().maxCoeff();
   if (size == 0) return Counts{};
-  // of the direction alone, so that the largest double does not overflow on its way to being scaled down
+  // normalise first, so that the largest double does not overflow
   const Vec3 per_newton = -counts_per_torque * (jacobian->transpose().inverse() * (f_H_D / size));
   const double peak = per_newton.cwiseAbs().maxCoeff();
   if (!std::isfinite(peak)) return {};

@@ -5,7 +5,7 @@
 namespace presa::falcon {
 namespace {
 
-constexpr double kTick = 1e-6;  // [s] times closer than this are the same
+constexpr double kTick = 1e-6;  // [s] tolerance for equal times
 
 std::uint8_t lightOf(LinkState state) noexcept {
   switch (state) {
@@ -44,7 +44,7 @@ void FalconLink::rearm() noexcept {
 
 void FalconLink::release() noexcept {
   if (state_ == LinkState::kDead || state_ == LinkState::kClosed) return;
-  state_ = state_ == LinkState::kStarting ? LinkState::kDead : LinkState::kReleased;  // half a firmware takes no packet
+  state_ = state_ == LinkState::kStarting ? LinkState::kDead : LinkState::kReleased;  // no requests to the boot loader
   sample_.valid = false;
 }
 
@@ -100,7 +100,7 @@ void FalconLink::take(const Reply& reply, double asked, double now) noexcept {
     case SampleGate::Verdict::kLatched:
       return latch(LinkFault::kBadSamples);
     case SampleGate::Verdict::kRejected:
-      return;  // the one before holds, for as long as kHold lets it
+      return;  // the previous sample stays valid for up to kHold
     case SampleGate::Verdict::kGood:
       break;
   }
@@ -129,11 +129,11 @@ void FalconLink::die(LinkFault fault) noexcept {
 }
 
 void FalconLink::request(double now, const LinkCommand& command) noexcept {
-  if (replies_ == replies_before_) homed_in_a_row_ = 0;  // a gap is not in a row
+  if (replies_ == replies_before_) homed_in_a_row_ = 0;  // a gap ends the row
   ForceGate forces = forces_;
   const Request wanted{.force = countsFor(now, command, forces), .light = lightOf(state_), .homing = true};
-  if (!transport_.write(encode(wanted), now)) return;  // the one before is still on its way: at the next step then
-  forces_ = forces;                                    // what was not sent was not felt
+  if (!transport_.write(encode(wanted), now)) return;  // the previous request is still in transit: retry later
+  forces_ = forces;                                    // commit the ramp only for a request that was sent
   ++requests_;
   replies_before_ = replies_;
   asked_[waiting_++] = now;
@@ -147,7 +147,7 @@ Counts FalconLink::countsFor(double now, const LinkCommand& command, ForceGate& 
   if (!operating && forces.quiet()) return {};
   const bool fresh =
       operating && sample_.valid && now - arrived_ <= kForceHold + kTick && now - command.time <= kCommandHold + kTick;
-  // never more of a slope than one period allows, however late this request is
+  // limit the slope to one period, however late this request is
   const Vec3 force = forces.step(command.f_H_D, fresh, std::min(now - last_request_, settings_.period));
   if (forces.quiet()) return {};
   const auto counts = motorCounts(force, sample_.p_DH, settings_.max_counts, settings_.counts_per_torque);

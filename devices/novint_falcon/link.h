@@ -15,68 +15,69 @@ namespace presa::falcon {
 struct LinkSettings {
   double period = 1e-3;                         ///< between two requests [s]
   double max_speed = kFastestGrip;              ///< [m/s]
-  DeviceRating rating = kRating;                ///< of the gate; a test may have another
+  DeviceRating rating = kRating;                ///< for the force gate; tests may change it
   double counts_per_torque = kCountsPerTorque;  ///< [1/(N m)]
   int max_counts = kMaxCounts;
 };
 
-/// What is wanted of the grip, and since when.
+/// The commanded force on the grip.
 struct LinkCommand {
   Vec3 f_H_D = Vec3::Zero();                               ///< force on the grip [N]
-  double time = -std::numeric_limits<double>::infinity();  ///< when it was made, on the link's clock [s]
+  double time = -std::numeric_limits<double>::infinity();  ///< time of the command on the link's clock [s]
 };
 
-/// What is known of the grip, in the device's frame D (kinematics.h).
+/// The latest sample of the grip, in the device's frame D (kinematics.h).
 struct LinkSample {
   Vec3 p_DH = Vec3::Zero(), v_DH = Vec3::Zero();  ///< [m], [m/s]
   std::uint8_t buttons = 0;                       ///< Button bits
-  bool valid = false;                             ///< homed, in operation, and young enough
-  bool lost = false;                              ///< a latched fault: nothing comes before a re-arm
+  bool valid = false;                             ///< homed, in operation, and recent
+  bool lost = false;                              ///< latched fault: no samples before a re-arm
 };
 
-/// What is known of the link itself.
+/// The state of the link.
 struct LinkStatus {
   LinkState state = LinkState::kClosed;
   LinkFault fault = LinkFault::kNone;
   LoadReport load;
   std::uint8_t homed = 0;  ///< of the last reply
-  bool quiet = true;       ///< zero force was sent last
-  bool loading = false;    ///< firmware is on its way
+  bool quiet = true;       ///< the last request had zero force
+  bool loading = false;    ///< firmware upload in progress
   std::uint64_t requests = 0, replies = 0;
-  std::uint64_t dropped = 0;   ///< bytes that were part of no reply
-  std::uint64_t rejected = 0;  ///< samples that no hand can have moved to
+  std::uint64_t dropped = 0;   ///< bytes that did not belong to a reply
+  std::uint64_t rejected = 0;  ///< physically impossible samples
 };
 
-/// A Novint Falcon from the first control request to the last zero force, over any transport. It has no clock: whoever steps
-/// it says what time it is [s], never backwards, every millisecond or oftener. Requests go out at `period`, each answered by
-/// one reply; what keeps the hand safe:
-///  - force is exactly zero until all three homed flags came in kHomedInARow replies, and starts softly then;
-///  - a flag that drops later, or a second impossible sample in a row: latched, and from the next request on down to zero;
-///  - no reply for kForceHold at the time of a request: down to zero; for kHold: the sample is invalid too;
-///  - no new command for kCommandHold (its maker is dead): down to zero.
-/// What comes back after a short gap rises as fast, after a longer one softly. Down is as fast as the rating allows and no faster: from 4 N at 1 N/ms zero is sent 5 ms after the last good reply.
+/// The protocol of a Novint Falcon from the first control request to the last zero force, over any transport. It has no
+/// clock: the caller steps it with the time [s], never decreasing, at least every millisecond. Requests go out at
+/// `period`, and each gets one reply. Safety rules:
+///  - the force is exactly zero until kHomedInARow consecutive replies had all three homed flags, then starts softly;
+///  - a flag that drops later, or a second impossible sample in a row: latched, force to zero from the next request on;
+///  - no reply for kForceHold at the time of a request: force to zero; for kHold: the sample becomes invalid too;
+///  - no new command for kCommandHold (its sender is dead): force to zero.
+/// The force returns at the slew limit after a short gap, softly after a longer one. It falls at the slew limit of the
+/// rating: from 4 N at 1 N/ms, zero is sent 5 ms after the last good reply.
 /// Thread: one, its own in operation; nothing is allocated after construction.
 class FalconLink {
  public:
-  /// `transport` and the bytes of `firmware` outlive the link; empty: none to load.
+  /// `transport` and the bytes of `firmware` must outlive the link; empty: no firmware to load.
   FalconLink(FalconTransport& transport, std::span<const std::uint8_t> firmware, const LinkSettings& settings);
 
-  /// Begins to bring the device up.
+  /// Starts up the device.
   void open(double now) noexcept;
   void step(double now, const LinkCommand& command) noexcept;
-  /// Out of a latched fault: asks for homing again. Nothing else leads out of one.
+  /// Leaves a latched fault and asks for homing again; the only way out of a latched fault.
   void rearm() noexcept;
-  /// From the next request on down to zero force, whatever is commanded.
+  /// Takes the force to zero from the next request on, regardless of commands.
   void release() noexcept;
 
   const LinkSample& sample() const noexcept { return sample_; }
   LinkStatus status() const noexcept;
 
   static constexpr int kHomedInARow = 10;
-  static constexpr double kHold = 2e-3;       ///< of a sample [s]
-  static constexpr double kForceHold = 1e-3;  ///< of a force: between requests it grows by a period, so 1 to 2 ms [s]
-  static constexpr double kCommandHold = 10e-3;  ///< of a command [s]
-  static constexpr double kLateReply = 2e-3;     ///< a request older than this is not waited for any more [s]
+  static constexpr double kHold = 2e-3;          ///< max age of a sample [s]
+  static constexpr double kForceHold = 1e-3;     ///< max age of the last reply at a request; in effect 1 to 2 ms [s]
+  static constexpr double kCommandHold = 10e-3;  ///< max age of a command [s]
+  static constexpr double kLateReply = 2e-3;     ///< max wait for the reply to a request [s]
 
  private:
   void bringUp(double now) noexcept;
@@ -101,13 +102,13 @@ class FalconLink {
   LinkSample sample_;
   std::uint8_t homed_ = 0;
   int homed_in_a_row_ = 0;
-  double arrived_ = 0;  // of the last good sample
+  double arrived_ = 0;  // time of the last good sample
   double next_request_ = 0, last_request_ = 0;
-  // when the requests were sent that have no reply yet: at most two, oldest first
+  // send times of requests without a reply: at most two, oldest first
   std::array<double, 2> asked_{};
   std::size_t waiting_ = 0;
   std::uint64_t requests_ = 0, replies_ = 0;
-  std::uint64_t replies_before_ = 0;  // at the last request
+  std::uint64_t replies_before_ = 0;  // value at the last request
 };
 
 }  // namespace presa::falcon

@@ -23,7 +23,7 @@ const char* describe(LinkFault fault) noexcept {
     case LinkFault::kHomingLost:
       return "an encoder lost its reference; the force is zero";
     case LinkFault::kBadSamples:
-      return "two positions in a row that no hand can have moved to; the force is zero";
+      return "two impossible positions in a row (too far for a hand's motion); the force is zero";
   }
   return "unknown fault";
 }
@@ -37,7 +37,7 @@ const char* remedy(LinkFault fault) noexcept {
     case LinkFault::kControlRefused:
       return "unplug the device, wait a few seconds, plug it in again";
     case LinkFault::kNoFirmware:
-      return "add <set key=\"firmware\" value=\"FILE.bin\"/>; Presa may not bring that file along";
+      return "add <set key=\"firmware\" value=\"FILE.bin\"/>; Presa may not include that file";
     case LinkFault::kNoLoader:
       return "is its own power supply connected? Switch it off and on again";
     case LinkFault::kEchoMissing:

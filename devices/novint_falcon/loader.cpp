@@ -9,7 +9,7 @@ constexpr std::array<std::uint8_t, 3> kGreeting{0x0A, 0x43, 0x0D};
 constexpr std::array<std::uint8_t, 4> kGreeted{0x0A, 0x44, 0x2C, 0x0D};
 constexpr std::array<std::uint8_t, 1> kSpeedMark{0x41};
 
-// [s] to wait for an answer: what it takes on the wire, the latency timer, and a busy computer
+// [s] to wait for an answer: transmission, latency timer, and a busy computer
 constexpr double kProbeWait = 0.05;
 constexpr double kGreetingWait = 0.05;
 constexpr double kEchoWait = 0.25;
@@ -93,7 +93,7 @@ void FalconLoader::greet(double now) noexcept {
 
 void FalconLoader::onGreeting(double now) noexcept {
   receive(now);
-  const std::size_t skip = received_size_ > 0 && received_[0] == 0 ? 1 : 0;  // comes before it now and then
+  const std::size_t skip = received_size_ > 0 && received_[0] == 0 ? 1 : 0;  // sometimes a 00 comes first
   if (received_size_ >= skip + kGreeted.size()) {
     if (std::equal(kGreeted.begin(), kGreeted.end(), received_.begin() + static_cast<std::ptrdiff_t>(skip)))
       return changeSpeed(now);
@@ -129,7 +129,7 @@ void FalconLoader::sendChunk(double now) noexcept {
 void FalconLoader::onEcho(double now) noexcept {
   receive(now);
   for (std::size_t i = 0; i < received_size_; ++i) {
-    // more than was sent is as wrong as something else
+    // surplus bytes are an error too
     const bool owed = report_.bytes < sent_;
     if (!owed || received_[i] != firmware_[report_.bytes]) {
       report_.expected = owed ? firmware_[report_.bytes] : 0;

@@ -9,14 +9,14 @@
 
 namespace presa::falcon {
 
-/// Brings a device up: asks whether its firmware runs (it stays until power-off), and loads it where it does not.
-/// The echo of every byte is the only checksum there is; loading fails now and then at first, so it is tried ten times.
-/// No clock of its own: `step` with a time that never runs backwards, about every millisecond.
+/// Starts up a device: asks whether its firmware runs (it persists until power-off), and loads it otherwise. The echo
+/// of every byte is the only checksum. Uploads sometimes fail, so there are up to ten attempts. No clock of its own:
+/// call `step` about every millisecond with a time that never decreases.
 class FalconLoader {
  public:
   enum class Result : std::uint8_t { kBusy, kReady, kFailed };
 
-  /// Both outlive the loader. `firmware` may be empty: then it is only asked for.
+  /// Both must outlive the loader. `firmware` may be empty: then the loader only asks for running firmware.
   FalconLoader(FalconTransport& transport, std::span<const std::uint8_t> firmware)
       : transport_(transport), firmware_(firmware) {}
 
@@ -30,7 +30,7 @@ class FalconLoader {
   static constexpr int kMaxAttempts = 10;
   static constexpr int kMaxProbes = 10;
   static constexpr int kMaxGreetings = 100;
-  static constexpr std::size_t kChunk = 62;  ///< what fits a 64-byte USB packet beside the converter's two bytes
+  static constexpr std::size_t kChunk = 62;  ///< payload of a 64-byte USB packet: the converter uses two bytes
 
  private:
   enum class Phase : std::uint8_t { kIdle, kProbe, kGreeting, kSpeed, kEcho, kDone };
@@ -49,7 +49,7 @@ class FalconLoader {
 
   void await(Phase phase, double until) noexcept;
   void send(std::span<const std::uint8_t> bytes, double now) noexcept;
-  /// Bytes that came since the last send, into received_.
+  /// Reads the bytes that arrived since the last send into received_.
   void receive(double now) noexcept;
   void failAttempt(LinkFault why, double now) noexcept;
   void fail(LinkFault why) noexcept;
@@ -60,11 +60,11 @@ class FalconLoader {
   LinkFault fault_ = LinkFault::kNone;
   LoadReport report_;
   double until_ = 0;
-  int tries_ = 0;  // of the present phase
+  int tries_ = 0;  // of the current phase
   bool loaded_ = false;
   std::size_t sent_ = 0;  // bytes of the firmware
 
-  std::array<std::uint8_t, kMaxWrite> unsent_{};  // waits until the transport takes it
+  std::array<std::uint8_t, kMaxWrite> unsent_{};  // waits until the transport accepts it
   std::size_t unsent_size_ = 0;
   std::array<std::uint8_t, 512> received_{};
   std::size_t received_size_ = 0;

@@ -6,7 +6,7 @@ namespace presa::falcon {
 namespace {
 
 constexpr std::uint8_t kOpen = '<', kClose = '>';
-constexpr std::uint8_t kZero = 0x41;  // a nibble of 0; also an empty status
+constexpr std::uint8_t kZero = 0x41;  // encodes a nibble of 0, and an empty status
 constexpr std::size_t kValues = 1, kStatus = 13, kUnspecified = 14, kEnd = 15;
 
 void putValue(std::int32_t value, std::uint8_t* out) noexcept {
@@ -64,7 +64,7 @@ bool PacketParser::next(Reply& reply) noexcept {
   while (ring_.size() > 0) {
     const std::size_t good = plausible();
     if (good == kPacketSize) break;
-    if (good == ring_.size()) return false;  // so far so good: the rest is on its way
+    if (good == ring_.size()) return false;  // incomplete so far: wait for the rest
     drop(1);
   }
   if (ring_.size() == 0) return false;

@@ -6,13 +6,12 @@
 
 #include "devices/novint_falcon/byte_ring.h"
 
-/// The operating packets of a Novint Falcon, 16 bytes each way. Every 16-bit value is four bytes, least significant nibble
-/// first, each 0x41 + nibble.
-/// Thread: any; nonblocking, nothing is allocated.
+/// Packets of a Novint Falcon in operation, 16 bytes each way. A 16-bit value is sent as four bytes, least significant
+/// nibble first, each 0x41 + nibble. Thread: any; nonblocking, nothing is allocated.
 namespace presa::falcon {
 
 inline constexpr std::size_t kPacketSize = 16;
-inline constexpr int kMaxCounts = 4095;  ///< of a motor command, either sign
+inline constexpr int kMaxCounts = 4095;  ///< max magnitude of a motor command
 
 using Counts = std::array<std::int32_t, 3>;  ///< one per motor or encoder
 
@@ -23,7 +22,7 @@ inline constexpr std::uint8_t kAllHomed = 0x7;
 struct Request {
   Counts force{};                   ///< each within +-kMaxCounts
   std::uint8_t light = kLightsOff;  ///< Light bits
-  bool homing = true;               ///< must stay set in every packet
+  bool homing = true;               ///< must be set in every request
 };
 
 struct Reply {
@@ -34,27 +33,27 @@ struct Reply {
 
 using Packet = std::array<std::uint8_t, kPacketSize>;
 
-/// A count outside its range sends no force at all: what is too large must never come out as its low bits.
+/// Encodes a request. If any count is out of range, all forces are sent as zero, never truncated to their low bits.
 Packet encode(const Request& request) noexcept;
 
-/// Finds replies in a stream of bytes that may begin, break off and restart anywhere. A reply is `<`, twelve bytes in
-/// 0x41..0x50, one in 0x41..0xC0, one that is not checked, `>`; whatever breaks this costs one byte and a new look at the
-/// rest. Memory is fixed: when more arrives than fits, the oldest bytes go.
+/// Finds replies in a byte stream that may start, stop and restart anywhere. A reply is `<`, twelve bytes in
+/// 0x41..0x50, one in 0x41..0xC0, one unchecked byte, `>`. After a mismatch the parser drops one byte and tries again.
+/// Memory is fixed: on overflow the oldest bytes are dropped.
 class PacketParser {
  public:
-  /// Forgets what has not become a reply: after a purge or a change of baud rate.
+  /// Discards incomplete data: after a purge or a change of the baud rate.
   void reset() noexcept;
   void push(std::span<const std::uint8_t> bytes) noexcept;
   /// The oldest complete reply; false when there is none.
   bool next(Reply& reply) noexcept;
 
   std::uint64_t accepted() const noexcept { return accepted_; }
-  std::uint64_t dropped() const noexcept { return dropped_; }  ///< bytes that belonged to no reply
+  std::uint64_t dropped() const noexcept { return dropped_; }  ///< bytes that did not belong to a reply
 
   static constexpr std::size_t kCapacity = 512;
 
  private:
-  /// How many of the bytes at the front, up to a whole packet, could be one.
+  /// Number of leading bytes, up to a whole packet, that could be a reply.
   std::size_t plausible() const noexcept;
   void drop(std::size_t count) noexcept;
 

@@ -2,14 +2,15 @@
 #include "devices/novint_falcon/kinematics.h"
 #include "framework/device/device_rating.h"
 
-/// What a Novint Falcon bears and what a hand may meet from it. No file widens it.
+/// Limits of a Novint Falcon for the device and the hand. No file can raise them.
 namespace presa::falcon {
 
-inline constexpr DeviceRating kRating{.force = 8};  // no continuous rating is known of it
+inline constexpr DeviceRating kRating{.force = 8};  // its continuous rating is unknown
 
-/// The constant of the motors is uncertain by 10 to 20 %; a rig that says more than a quarter more would have forces beyond the rating.
+/// Upper bound for a rig's setting, 1.25 times the nominal value: the motor constant is uncertain by 10 to 20 %, and a
+/// larger value would give forces above the rating.
 inline constexpr double kMostCountsPerTorque = 1.25 * kCountsPerTorque;
-/// Of a grip in a hand [m/s]: faster is no motion but a fault.
+/// Max speed of a grip in a hand [m/s]; a faster one is a fault.
 inline constexpr double kFastestGrip = 3;
 
 }  // namespace presa::falcon

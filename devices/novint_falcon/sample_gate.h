@@ -6,24 +6,25 @@
 
 namespace presa::falcon {
 
-/// From encoder counts to a position and velocity that a hand can have: what cannot be is not passed on.
-/// Thread: the link's; nonblocking.
+/// Converts encoder counts to position and velocity, and rejects physically impossible samples. Thread: the link's;
+/// nonblocking.
 class SampleGate {
  public:
   enum class Verdict : std::uint8_t {
     kGood,
-    kRejected,  ///< the sample before holds on
-    kLatched,   ///< the second in a row
+    kRejected,  ///< the previous sample stays valid
+    kLatched,   ///< the second rejection in a row
   };
 
-  /// `max_speed` [m/s]: a sample further away than that from the last good one is rejected. `period`: least time between
-  /// two samples that counts [s].
+  /// `max_speed` [m/s]: a sample that is farther from the last good one than this speed allows is rejected. `period`:
+  /// min time between two samples used for that check [s].
   SampleGate(double max_speed, double period) : max_speed_(max_speed), period_(period) {}
 
-  /// Forgets where the grip was and how fast: homing moves the origin.
+  /// Forgets position and velocity: homing moves the origin.
   void reset() noexcept;
-  /// A reply to what was asked at `asked` is late at `now`: if it still comes it is taken for that of a later request. For a while it
-  /// cannot be told how old a sample is, so there is no velocity, and the grip may have moved since `asked`.
+  /// Reports that the reply to the request at `asked` has not come by `now`. If it still comes, it is attributed to a
+  /// later request. For a while the age of samples is therefore uncertain: the velocity is zero, and the position may
+  /// have changed since `asked`.
   void unsettle(double asked, double now) noexcept;
   /// `time`: when the encoders were read [s].
   Verdict take(const Counts& encoders, double time) noexcept;
@@ -35,7 +36,7 @@ class SampleGate {
 
   /// Time constant of the velocity [s]: a step of one count (45 um in 1 ms) shows as 13 mm/s.
   static constexpr double kVelocityTime = 3e-3;
-  /// After a pause longer than this, and for so long after a late reply, the velocity starts from zero [s].
+  /// After a pause longer than this, and for this long after a late reply, the velocity restarts from zero [s].
   static constexpr double kVelocityGap = 10e-3;
 
  private:
@@ -44,7 +45,7 @@ class SampleGate {
   double time_ = 0;
   double unsettled_since_ = 0, unsettled_until_ = -1;
   bool empty_ = true;
-  bool doubted_ = false;  // the last one was rejected
+  bool doubted_ = false;  // the last sample was rejected
   std::uint64_t rejected_ = 0;
 };
 

@@ -18,12 +18,12 @@ const std::vector<std::string> kKeys{"serial", "firmware",          "pos",      
 
 struct NumberRule {
   std::size_t count = 1;
-  double least = 0;  ///< each must be more than that
+  double least = 0;  ///< each number must be greater
   const char* words = "";
   double most = std::numeric_limits<double>::max();
 };
 
-/// The setting as numbers that obey the rule; nothing when it is not given or wrong, which is said.
+/// The setting as numbers that satisfy the rule; nullopt when it is missing, or invalid (reported).
 std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const std::string& key,
                                              const NumberRule& rule, Diagnostics& diagnostics) {
   const auto found = binding.settings.find(key);

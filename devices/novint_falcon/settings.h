@@ -8,19 +8,19 @@
 
 namespace presa::falcon {
 
-/// What a rig says of a Falcon.
+/// The rig settings of a Falcon.
 struct FalconSettings {
-  std::string role, serial;            ///< serial number or port; empty: there is only one
+  std::string role, serial;            ///< serial number or port; empty: the only device
   SourceLocation where;                ///< of the device in the rig
-  std::vector<std::uint8_t> firmware;  ///< empty: the device has its firmware already
+  std::vector<std::uint8_t> firmware;  ///< empty: the firmware is already running
   Pose X_WD;                           ///< the device's frame D (kinematics.h) in the world
-  double scale = 1;                    ///< metres in the world for one of the grip
-  double homing_wait = 15;             ///< how long open() waits for the user to home the grip [s]
+  double scale = 1;                    ///< metres in the world per metre of the grip
+  double homing_wait = 15;             ///< max time for the user to home the grip in open() [s]
   bool realtime = false;
   LinkSettings link;
 };
 
-/// All findings to `diagnostics`.
+/// Reads the settings; findings go to `diagnostics`.
 FalconSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
 
 }  // namespace presa::falcon

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-/// What the driver needs from USB, and nothing more: a real bus and a model of a device look the same from here.
+/// The USB functions that the driver needs; implemented for a real bus and for a model of the device.
 namespace presa::falcon {
 
 /// Settings of the serial converter (FTDI FT232) in front of the device's processor.
@@ -23,7 +23,7 @@ enum class Control : std::uint8_t {
   kLatency1ms,
 };
 
-/// The same as an FTDI vendor request: bmRequestType 0x40, wIndex 0, no data.
+/// The corresponding FTDI vendor request: bmRequestType 0x40, wIndex 0, no data.
 struct FtdiRequest {
   std::uint8_t request = 0;
   std::uint16_t value = 0;
@@ -64,26 +64,25 @@ constexpr FtdiRequest ftdiRequestOf(Control control) noexcept {
 
 inline constexpr std::size_t kMaxWrite = 64;  ///< [byte]
 
-/// An open device. `now` is the caller's time [s], the same clock at every call and never backwards; a real bus has its own
-/// and ignores it.
-/// Thread: the one that steps the link.
+/// An open device. `now` is the caller's time [s], from the same clock at every call and never decreasing; a real bus
+/// ignores it. Thread: the one that steps the link.
 class FalconTransport {
  public:
   virtual ~FalconTransport() = default;
 
-  /// Waits for the device, for at most 0.1 s; called while a device is brought up, never in operation. A purge also
-  /// forgets what has arrived and was not read. False: refused, timed out or lost.
+  /// Sends a setting and waits for the device, at most 0.1 s; used during start-up, never in operation. A purge also
+  /// discards received bytes that were not read. False: refused, timed out or lost.
   virtual bool control(Control control, double now) noexcept = 0;
 
-  /// Hands over all of `bytes` (at most kMaxWrite) and does not wait. False, and nothing is sent: the write before is still
-  /// on its way, or the device is lost.
+  /// Sends all of `bytes` (at most kMaxWrite) without waiting. False, and nothing is sent, when the previous write is
+  /// still in transit or the device is lost.
   virtual bool write(std::span<const std::uint8_t> bytes, double now) noexcept = 0;
 
-  /// What has arrived up to now, without the converter's status bytes, oldest first; how many. Does not wait. What does not
-  /// fit stays for the next call.
+  /// Copies received bytes, without the converter's status bytes, oldest first; returns their number. Does not wait.
+  /// Bytes that do not fit stay for the next call.
   virtual std::size_t read(std::span<std::uint8_t> buffer, double now) noexcept = 0;
 
-  /// Unplugged, for good: only a new transport finds it again.
+  /// Unplugged permanently; a new transport is needed to find it again.
   virtual bool lost() const noexcept = 0;
 };
 

@@ -22,7 +22,7 @@ std::shared_ptr<libusb_context> makeContext(UsbFailure& failure) {
   return {context, libusb_exit};
 }
 
-/// The Falcons among all devices; each is held until the list goes.
+/// The Falcons among all USB devices; owns the libusb device list.
 class FalconList {
  public:
   explicit FalconList(libusb_context* context) {
@@ -98,14 +98,14 @@ void claim(libusb_device_handle* handle, UsbFalcon& falcon) {
   int error = libusb_claim_interface(handle, 0);
   if (error == 0) return;
   if (error == LIBUSB_ERROR_BUSY) return setProblem(falcon, UsbProblem::kBusy, error);
-  // where detaching is what failed, there may be nothing to detach
+  // the failed detach may mean that there is nothing to detach
   libusb_set_auto_detach_kernel_driver(handle, 0);
   error = libusb_claim_interface(handle, 0);
   if (error == 0) return;
   setProblem(falcon, error == LIBUSB_ERROR_BUSY ? UsbProblem::kKernelDriver : UsbProblem::kFailed, error);
 }
 
-/// All that are there; the handles of those that could be opened, as many.
+/// Tries to open every Falcon; returns all of them, and the handles of the open ones.
 std::vector<UsbFalcon> openAll(UsbFailure& failure, std::vector<UsbHandle>& handles) {
   const auto context = makeContext(failure);
   if (!context) return {};
@@ -139,7 +139,7 @@ UsbHandle& UsbHandle::operator=(UsbHandle&& other) noexcept {
 
 UsbHandle::~UsbHandle() {
   if (handle_ == nullptr) return;
-  libusb_release_interface(handle_, 0);  // of no effect where it was not claimed
+  libusb_release_interface(handle_, 0);  // no effect if it was not claimed
   libusb_close(handle_);
 }
 
@@ -170,7 +170,7 @@ UsbHandle openFalcon(const std::string& serial, UsbFailure& failure) {
                     : falcons.empty()  ? UsbProblem::kNoDevice
                                        : UsbProblem::kNotThisOne;
   if (failure.problem != UsbProblem::kNotThisOne) return {};
-  // the one that is meant may be one that would not even say its serial number
+  // the requested device may be one whose serial number could not be read
   for (const UsbFalcon& falcon : falcons)
     if (falcon.problem != UsbProblem::kNone) blame(falcon, failure);
   return {};
@@ -196,7 +196,7 @@ std::string describe(const UsbFailure& failure, const std::string& serial) {
     case UsbProblem::kNoPermission:
       return "no permission to open " + failure.node;
     case UsbProblem::kKernelDriver:
-      return "a driver of the kernel holds " + failure.node + " and does not let go";
+      return "a driver of the kernel holds " + failure.node + " and cannot be detached";
     case UsbProblem::kBusy:
       return "another program holds " + failure.node;
     case UsbProblem::kFailed:
@@ -208,7 +208,7 @@ std::string describe(const UsbFailure& failure, const std::string& serial) {
 std::string remedy(const UsbFailure& failure) {
   switch (failure.problem) {
     case UsbProblem::kNoUsb:
-      return "in a container or virtual machine: hand the USB bus on to it";
+      return "in a container or virtual machine: pass the USB bus through to it";
     case UsbProblem::kNoDevice:
       return "connect its USB cable and its power supply; lsusb -d 0403:cb48 must show it";
     case UsbProblem::kNotThisOne:

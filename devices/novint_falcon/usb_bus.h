@@ -14,25 +14,25 @@ inline constexpr std::uint16_t kVendor = 0x0403, kProduct = 0xcb48;
 
 enum class UsbProblem : std::uint8_t {
   kNone,
-  kNoUsb,         ///< this system shows no USB devices at all
+  kNoUsb,         ///< this system shows no USB devices
   kNoDevice,      ///< no Falcon is plugged in
-  kNotThisOne,    ///< none with that serial number
-  kSeveral,       ///< more than one, and no serial number says which
-  kNoNode,        ///< seen on the bus, but without a file to open
-  kNoPermission,  ///< that file may not be opened
-  kKernelDriver,  ///< a driver of the kernel holds it and does not let go
-  kBusy,          ///< another program holds it
+  kNotThisOne,    ///< no Falcon has that serial number
+  kSeveral,       ///< several, and no serial number given
+  kNoNode,        ///< on the bus, but without a device file
+  kNoPermission,  ///< no permission for the device file
+  kKernelDriver,  ///< held by a kernel driver that cannot be detached
+  kBusy,          ///< held by another program
   kFailed,        ///< anything else, in `detail`
 };
 
-/// A Falcon on the bus, and what keeps it from being opened.
+/// A Falcon on the bus, with the reason why it cannot be opened, if any.
 struct UsbFalcon {
   std::string node{};    ///< "/dev/bus/usb/001/002"
-  std::string port{};    ///< where it is plugged in: "1-2.3"
+  std::string port{};    ///< port: "1-2.3"
   std::string serial{};  ///< "" when it cannot be read
   std::string product{};
   UsbProblem problem = UsbProblem::kNone;
-  std::string detail{};  ///< libusb's words
+  std::string detail{};  ///< libusb's message
 };
 
 struct UsbFailure {
@@ -41,7 +41,7 @@ struct UsbFailure {
   std::vector<UsbFalcon> present{};
 };
 
-/// An open and claimed device, with the libusb context it belongs to; closes both.
+/// An open and claimed device with its libusb context; closes both.
 class UsbHandle {
  public:
   UsbHandle() = default;
@@ -60,15 +60,15 @@ class UsbHandle {
   libusb_device_handle* handle_ = nullptr;
 };
 
-/// Every Falcon that is plugged in, each tried: opened, claimed and let go again. `bus`: kNone, kNoUsb or kFailed.
-/// Thread: any but a real-time one; waits for the devices.
+/// All connected Falcons; each is opened, claimed and released as a test. `bus`: kNone, kNoUsb or kFailed. Thread: not
+/// a real-time one; waits for the devices.
 std::vector<UsbFalcon> listFalcons(UsbFailure& bus);
 
-/// Opens and claims interface 0 of the one with that serial number or port ("" when there is only one).
+/// Opens and claims interface 0 of the device with that serial number or port ("": the only one).
 UsbHandle openFalcon(const std::string& serial, UsbFailure& failure);
 
-/// What is wrong, in one line without a full stop, and what to do ("" when there is nothing to say): the whole udev rule,
-/// say, ready to be pasted.
+/// Message in one line without a full stop; remedy(): advice for the user ("" without any), for example the udev rule
+/// to paste.
 std::string describe(const UsbFailure& failure, const std::string& serial);
 std::string remedy(const UsbFailure& failure);
 

@@ -35,7 +35,7 @@ UsbTransport::~UsbTransport() {
   }
   for (auto* slot : slots) {
     if (under_way(slot))
-      static_cast<void>(slot->release());  // the bus may still write to it
+      static_cast<void>(slot->release());  // leak it: the bus may still write to it
     else
       libusb_free_transfer((*slot)->transfer);
   }
@@ -69,7 +69,7 @@ void UsbTransport::submit(Slot& slot) noexcept {
   if (error == LIBUSB_ERROR_NO_DEVICE) lost_ = true;
 }
 
-// Runs inside handleEvents, on the same thread.
+// Called within handleEvents, on the same thread.
 void UsbTransport::onDone(libusb_transfer* transfer) noexcept {
   Slot& slot = *static_cast<Slot*>(transfer->user_data);
   UsbTransport& self = *slot.owner;

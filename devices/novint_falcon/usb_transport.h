@@ -10,7 +10,7 @@ struct libusb_transfer;
 
 namespace presa::falcon {
 
-/// What a converter's bulk packets carry: the first two bytes of every 64 are its own. Appends the rest to `ring`.
+/// Appends the payload of the converter's bulk packets to `ring`; the first two bytes of every 64 are status.
 template <std::size_t kCapacity>
 void takePayload(std::span<const std::uint8_t> received, ByteRing<kCapacity>& ring) noexcept {
   constexpr std::size_t kUsbPacket = 64, kStatusBytes = 2;
@@ -18,8 +18,8 @@ void takePayload(std::span<const std::uint8_t> received, ByteRing<kCapacity>& ri
     if (i % kUsbPacket >= kStatusBytes) ring.push(received[i]);
 }
 
-/// A Falcon over libusb: transfers are made once and sent again and again, two reads always on their way. Nothing waits but
-/// control requests and the end. libusb itself takes some memory at each sending, so this is not for the haptic thread.
+/// A Falcon over libusb. Transfers are allocated once and resubmitted; two reads are always pending. Only control
+/// requests and the destructor wait. libusb allocates at each submission, so this is not for the haptic thread.
 /// Thread: one.
 class UsbTransport final : public FalconTransport {
  public:
@@ -34,7 +34,7 @@ class UsbTransport final : public FalconTransport {
   bool lost() const noexcept override { return lost_; }
 
  private:
-  /// A transfer, its bytes, and whether the bus has it.
+  /// A transfer with its buffer and its state.
   struct Slot {
     UsbTransport* owner = nullptr;
     libusb_transfer* transfer = nullptr;
@@ -53,7 +53,7 @@ class UsbTransport final : public FalconTransport {
   UsbHandle handle_;
   std::array<std::unique_ptr<Slot>, 2> in_;
   std::unique_ptr<Slot> out_;
-  int watch_ = 0;  // number of the hotplug callback, when watching_
+  int watch_ = 0;  // handle of the hotplug callback, when watching_
   bool watching_ = false, closing_ = false, lost_ = false;
   ByteRing<1024> received_;
 };
