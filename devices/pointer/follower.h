@@ -6,13 +6,13 @@
 
 namespace presa::pointer {
 
-/// A value that goes where it is wanted without haste: neither its rate nor the change of that rate passes a bound, however the wanted
-/// value jumps. Thread: haptic.
+/// A value that follows a target smoothly: its rate and its acceleration are bounded, however the target jumps. Thread:
+/// haptic.
 template <class Value>
 class Follower {
  public:
-  /// `rate`: most of it [1/s]; `time`: constant with which it arrives [s]. It speeds up by no more than rate / time, with which it
-  /// never runs past what is wanted.
+  /// `rate`: max rate [1/s]; `time`: time constant of the approach [s]. The acceleration is at most rate / time, which
+  /// avoids overshoot.
   Follower(const Value& start, double rate, double time) : value_(start), most_(rate), time_(time) {}
 
   void step(const Value& wanted, double period) noexcept {

@@ -6,7 +6,7 @@
 namespace presa::pointer {
 namespace {
 
-constexpr double kTouch = 0.05;  // [N] by which both fingers feel that there is something between them
+constexpr double kTouch = 0.05;  // [N]: force on both fingers that counts as an object between them
 
 double signOf(std::size_t side) { return side == Pair::kThumb ? -1 : 1; }
 
@@ -72,7 +72,7 @@ void Pair::live(double period) noexcept {
   centre_.step(wanted_, period);
   yaw_.step(wanted_yaw_, period);
   const Vec3 along(std::cos(yaw_.value()), std::sin(yaw_.value()), 0), across(-along.y(), along.x(), 0);
-  // closed all the way the hand asks for more than touching, by what makes the full grip of its springs
+  // fully closed, the target lies inside the object, as deep as the springs need for the full grip
   const double deepest = settings_.grip / stiffness_;
   double half = openHalf() - closing_ * (openHalf() + deepest);
   if (!holds(along)) half = std::max(half, settings_.fingertip);  // fingertips stop at each other
@@ -80,7 +80,7 @@ void Pair::live(double period) noexcept {
   const double least = halfWidth(along) - deepest;
   const bool bounded = half_.value() < least;
   const double reach = bounded ? least : half_.value(), closing = bounded ? 0 : half_.rate();
-  // pushed on against what does not give way, the springs pull no more than so hard
+  // against a fixed obstacle, bound the pull of the springs
   Vec3 lead = centre_.value() - middle(along), rate = centre_.rate();
   if (const double most = settings_.push / stiffness_, length = lead.norm(); length > most) {
     lead *= most / length;

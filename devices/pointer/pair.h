@@ -10,35 +10,35 @@
 namespace presa::pointer {
 
 struct PairSettings {
-  Vec3 start = Vec3::Zero();  ///< middle between the fingertips at the start [m]
+  Vec3 start = Vec3::Zero();  ///< initial midpoint between the fingertips [m]
   double fingertip = 0;       ///< radius of the larger one [m]
   double span = 0;            ///< free width between the open fingertips [m]
-  double grip = 0;            ///< most that they press towards each other [N]
-  double push = 0;            ///< most that each of them pushes in the hand's way [N]
+  double grip = 0;            ///< max force towards each other [N]
+  double push = 0;            ///< max force of each finger in the hand's direction of motion [N]
 
   bool operator==(const PairSettings&) const = default;
 };
 
-/// Thumb and index on the springs of one hand, which goes where a pointer says. The hand is slow (`Follower`), its springs yield
-/// to what the fingertips meet, and towards each other they press with a bounded force, however far they are told to close. Each tick
-/// is lived once, by whichever finger asks first, under the forces that both held. Thread: haptic; nonblocking.
+/// Thumb and index on the springs of one hand that follows a pointer. The hand moves slowly (`Follower`), its springs
+/// yield to obstacles, and the grip force is bounded for any closing. Each tick is simulated once, when the first
+/// finger asks for it, under the forces on both. Thread: haptic; nonblocking.
 class Pair {
  public:
   enum Side : std::size_t { kThumb, kIndex };  ///< thumb at the negative end of the line between them
-  static constexpr double kSpeed = 0.5;        ///< of the hand, at most [m/s]
+  static constexpr double kSpeed = 0.5;        ///< max speed of the hand [m/s]
   static constexpr double kTurn = 3;           ///< [rad/s]
-  static constexpr double kClose = 0.15;       ///< of each fingertip against the hand [m/s]
-  static constexpr double kArrive = 0.05;      ///< [s]
+  static constexpr double kClose = 0.15;       ///< max speed of each fingertip relative to the hand [m/s]
+  static constexpr double kArrive = 0.05;      ///< time constant of the followers [s]
 
   explicit Pair(const PairSettings& settings);
-  /// False when that side is taken.
+  /// Adds a finger; false when that side is taken.
   bool add(Side side, const FingerImpedance& impedance, double period);
   const PairSettings& settings() const noexcept { return settings_; }
 
   void point(const PointerState& pointer) noexcept;
-  /// Up to this tick.
+  /// Simulates up to this tick.
   void advance(const Tick& tick) noexcept;
-  /// Force that the device holds against the finger from now on [N].
+  /// Force of the device on the finger, held until the next call [N].
   void push(Side side, const Vec3& f_H_W) noexcept { fingers_[side]->felt = f_H_W; }
   const FingerPlant& finger(Side side) const noexcept { return fingers_[side]->plant; }
 

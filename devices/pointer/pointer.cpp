@@ -13,10 +13,10 @@
 namespace presa::pointer {
 namespace {
 
-constexpr double kMostGrip = 6;        // [N], where neither rig nor scene says less
-constexpr double kShareOfLimit = 0.6;  // of the force limit: the rest is for weight and for what the pair runs into
+constexpr double kMostGrip = 6;        // [N], unless the rig or the scene sets less
+constexpr double kShareOfLimit = 0.6;  // of the force limit; the rest is for weight and obstacles
 constexpr double kSpan = 0.12;         // [m]
-constexpr double kAbove = 0.05;        // [m] over everything that is free, at the start
+constexpr double kAbove = 0.05;        // [m] initial height above all free bodies
 
 /// One fingertip of the pair.
 class PointedFinger final : public Device {
@@ -30,8 +30,8 @@ class PointedFinger final : public Device {
 
   void open() override {
     if (window_) return;
-    refuse(449, "command line", "the rig's fingers are moved with the mouse, and there is no window to do it in",
-           "--view window (it needs a display), or a rig whose fingers move by themselves");
+    refuse(449, "command line", "the rig's fingers are moved with the mouse, which needs a window",
+           "add --view window (it needs a display), or use a rig with another driver");
   }
   bool points() const override { return true; }
   void point(const PointerState& pointer, const Tick&) noexcept override { pair_->point(pointer); }
@@ -55,7 +55,7 @@ class PointedFinger final : public Device {
   bool window_;
 };
 
-/// From a body's origin to what is farthest of it [m].
+/// Distance from a body's origin to its farthest point [m].
 double reachOf(const Geometry& geometry, const TriMesh* mesh) {
   struct Reach {
     const TriMesh* mesh;
@@ -73,7 +73,7 @@ double reachOf(const Geometry& geometry, const TriMesh* mesh) {
   return geometry.X_BG.p.norm() + std::visit(Reach{mesh}, geometry.shape);
 }
 
-/// Over the first free body, clear of all free ones; without any, over the world's origin.
+/// Start position: above the first free body, clear of all free ones; without free bodies, above the world's origin.
 Vec3 startOf(const World& world) {
   Vec3 start(0, 0, 0);
   double top = 0.1;
@@ -103,7 +103,7 @@ PairSettings readPair(const DeviceBinding& binding, const World& world, Diagnost
   return pair;
 }
 
-/// The second finger of a world joins the first. Held by the devices alone: gone with them, so that runs do not meet.
+/// The pair of a world: created by its first finger, joined by its second, owned by the devices alone.
 std::shared_ptr<Pair> join(const World& world, const PairSettings& settings) {
   static std::mutex mutex;
   static std::map<const World*, std::weak_ptr<Pair>> pairs;
