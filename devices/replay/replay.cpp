@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-/// A finger that goes where one went in a recording.
+/// A finger that repeats a recorded motion.
 class ReplayedFinger final : public Device {
  public:
   explicit ReplayedFinger(ReplaySettings settings)
@@ -32,7 +32,8 @@ class ReplayedFinger final : public Device {
   std::vector<std::string> notes() const override { return settings_.notes; }
 
  private:
-  /// A phase begins with its first row; one that never comes begins with the next that does. Without phases the whole is one.
+  /// Start time of each phase: its first row, or that of the next phase if it never occurs. Without phases, one phase
+  /// covers the whole.
   void namePhases() {
     const std::vector<RecordedPath::Row>& rows = settings_.path->rows;
     const double end = settings_.path->end() / settings_.speed;

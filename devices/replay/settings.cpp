@@ -25,7 +25,7 @@ enum Code : int {
   kNoRate = 445,
 };
 
-/// What a file holds, by role.
+/// Contents of a recording, by role.
 struct Contents {
   std::string file;
   std::filesystem::file_time_type written;
@@ -49,15 +49,15 @@ std::shared_ptr<const RecordedPath> pathOf(const RecordedTable& finger, const Re
                        .v_WH = {vx[i], vy[i], vz[i]},
                        .phase = static_cast<std::int32_t>(phase[i]),
                        .valid = (bits & 1U) != 0,
-                       .age = (bits & 1U) != 0 ? 0 : 1.0,  // was bridged then, is not to be bridged again
+                       .age = (bits & 1U) != 0 ? 0 : 1.0,  // bridged in the recording; must not be bridged again
                        .lost = (bits & 2U) != 0};
     path->rows.push_back({samples.time[i] - samples.time.front(), sample});
   }
   return path;
 }
 
-/// The fingers of a file. The last one read is kept: a rig names it for each finger, and is checked more than once before a run.
-/// Throws InputError.
+/// The fingers of a file. The last file is cached, since a rig names it for each finger and is checked more than once
+/// before a run. Throws InputError.
 const Contents& contentsOf(const std::string& file) {
   static Contents kept;
   std::error_code unknown;
@@ -85,7 +85,7 @@ const Contents* openFile(const DeviceBinding& binding, Diagnostics& diagnostics)
   try {
     const Contents& contents = contentsOf(file->value);
     if (contents.period > 0) return &contents;
-    diagnostics.error(kNoRate, file->where, quote(file->value) + " does not say at which rate it was recorded");
+    diagnostics.error(kNoRate, file->where, quote(file->value) + " does not state its haptic rate");
   } catch (const InputError& error) {
     diagnostics.error(kNotARecording, file->where, "the recording cannot be used", error.what());
   }
@@ -115,7 +115,7 @@ std::shared_ptr<const RecordedPath> chooseFinger(const DeviceBinding& binding, c
                       "its fingers: " + list);
   else
     diagnostics.error(kWhichRole, binding.where,
-                      "role '" + binding.role + "': which of the recorded fingers? None has that name",
+                      "role '" + binding.role + "': none of the recorded fingers has this name",
                       "add <set key=\"role\" value=\"NAME\"/>; its fingers: " + list);
   return nullptr;
 }
@@ -138,7 +138,7 @@ bool readLostAtEnd(const DeviceBinding& binding, Diagnostics& diagnostics) {
   if (setting == nullptr || setting->value == "hold") return false;
   if (setting->value != "lost")
     diagnostics.error(kBadValue, setting->where, "at_end must be hold or lost, found " + quote(setting->value),
-                      "hold: the finger stays where it was last; lost: as if unplugged");
+                      "hold: the finger keeps its last position; lost: as if unplugged");
   return true;
 }
 
@@ -149,7 +149,7 @@ std::vector<std::string> notesOn(const std::string& role, const std::string& fin
                 role.c_str(), finger.c_str(), contents.file.c_str(), settings.path->end() / settings.speed,
                 1 / contents.period);
   std::vector<std::string> notes{line.data()};
-  const double step = period * settings.speed / contents.period;  // recorded ticks in a tick
+  const double step = period * settings.speed / contents.period;  // recorded ticks per tick
   if (std::abs(step - std::round(step)) > 1e-9 || step < 0.5)
     notes.push_back(role + ": ticks fall between the recorded ones: straight lines join those");
   if (!contents.complete) notes.push_back(role + ": the recorded run was killed: it ends early");

@@ -10,13 +10,13 @@
 namespace presa {
 
 struct ReplaySettings {
-  std::shared_ptr<const RecordedPath> path;  ///< null when something is wrong
-  double speed = 1;                          ///< of the recorded motion, 1: as it was
+  std::shared_ptr<const RecordedPath> path;  ///< null on errors
+  double speed = 1;                          ///< relative to the recorded motion; 1: as recorded
   bool lost_at_end = false;
   std::vector<std::string> notes;
 };
 
-/// What the rig says, and the recording that it names; all findings go to `diagnostics` (E401, E440 to E445).
+/// Reads the rig settings and the recording; findings go to `diagnostics` (E401, E440 to E445).
 ReplaySettings readReplaySettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
 
 }  // namespace presa
