@@ -7,8 +7,8 @@
 namespace presa {
 namespace {
 
-/// A simulated fingertip that follows a motion through its own mass, damping and stiffness: what it touches
-/// pushes it back. Across the grip it keeps its place; along the grip it keeps its force.
+/// A simulated fingertip that follows a motion through its own mass, damping and stiffness, and yields to contact
+/// forces. Position control across the grip, force control along it.
 class ScriptedFinger final : public Device {
  public:
   ScriptedFinger(HandSettings settings, double period)
@@ -37,7 +37,7 @@ class ScriptedFinger final : public Device {
   std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  /// Up to a tick under the held force; after a stall that is more than one period.
+  /// Advances to `tick` under the held force; after a stall by more than one period.
   void advance(const Tick& tick) noexcept {
     for (; at_.index < tick.index; ++at_.index, at_.time += tick.period) {
       Vec3 force = force_;
@@ -52,8 +52,8 @@ class ScriptedFinger final : public Device {
   FingerPlant plant_;
   double lost_at_;
   std::vector<std::string> notes_;
-  Tick at_;                    // where the plant is
-  Vec3 force_ = Vec3::Zero();  // [N] held by the device since the last write
+  Tick at_;                    // time of the plant
+  Vec3 force_ = Vec3::Zero();  // [N] force of the device since the last write
 };
 
 std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
