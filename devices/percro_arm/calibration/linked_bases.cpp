@@ -27,7 +27,7 @@ std::string refusalOf(const LinkedBases& fit) {
   if (!(fit.condition <= kMostCondition)) {
     const double across = std::hypot(fit.spread[1], fit.spread[2]);
     return format(
-        "the motion does not determine how the bases are turned: its points spread by %.1f mm along one line and by "
+        "the motion is too poor to tell how the bases are turned: its points spread by %.1f mm along one line and by "
         "%.1f mm "
         "beside it (condition of the normal equations %.3g, at most %.3g): move at least 30 mm to either side of that "
         "line",
