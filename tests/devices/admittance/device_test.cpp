@@ -1,4 +1,4 @@
-// The device in the rest of Presa: lockstep, shipped scene and rig.
+// The device in the whole program: lockstep, shipped scene and rig.
 #include <gtest/gtest.h>
 
 #include "apps/common/grasp_figures.h"
@@ -13,8 +13,8 @@ const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_admittance.xm
 
 std::unique_ptr<Run> lift() { return test::runToTheEnd(kScene, kRig); }
 
-// Bounds: 6 N of grip wanted, and the force loop follows what the hand feels; weight shared by two equal fingers; the cube slips at
-// m g / (2 mu) = 1.226 N while the grip loosens by 3 N/s. Where one finger has let go the other holds on at less.
+// Expected: a grip of 6 N, since the force loop controls the felt force; the weight shared equally by two fingers; slip
+// at m g / (2 mu) = 1.226 N while the grip loosens by 3 N/s. The second finger to slip does so at a lower grip.
 TEST(AdmittanceDevice, TwoOfThemLiftTheCube) {
   const auto run = lift();
   const auto grasp = graspFigures(run->result());
@@ -53,7 +53,7 @@ TEST(AdmittanceDevice, ItsTickNeitherAllocatesNorLocks) {
   test::expectRealTime(*device);
 }
 
-// The damping it claims is that of the loop's stiffest wall at K = 2 b / T.
+// damping() is that of an impedance device with the same max wall stiffness, K = 2 b / T.
 TEST(AdmittanceDevice, ClaimsTheDampingOfItsStiffestWall) {
   Diagnostics diagnostics;
   const auto device = thumb(diagnostics, [](DeviceBinding& b) { b.settings["damping"] = {"40", {}}; });

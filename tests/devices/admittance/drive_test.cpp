@@ -20,7 +20,8 @@ Parameters quiet() {
 
 Drive driveWith(const Parameters& p, std::uint64_t seed = 1) { return {p, kPeriod, RandomStream(seed, "sensor")}; }
 
-// Oracle: F/B (1 - e^(-t B/M)) behind a lag of first order with w = 2 pi f; the exact solution of both, so only rounding remains.
+// Reference: F/B (1 - e^(-t B/M)) behind a first-order lag with w = 2 pi f. Both are solved exactly, so only rounding
+// remains.
 TEST(AdmittanceDrive, MovesFreelyAsItsVirtualMassBehindItsServo) {
   for (const double bandwidth : {20.0, 50.0, 400.0}) {
     Parameters p = quiet();
@@ -42,9 +43,9 @@ TEST(AdmittanceDrive, MovesFreelyAsItsVirtualMassBehindItsServo) {
   }
 }
 
-// Its bandwidth: a force that swings at f behind a mass without damper. Of the mass's own motion, which leads by nothing, the servo
-// leaves 1/sqrt(2) with 45 degrees of lag at f. Tolerance: the sensor is sampled at 4 kHz and held, sinc(pi f h) and h/2 of lag:
-// 1e-4 in size and 0.25 % of a turn at 20 Hz.
+// Bandwidth of the servo: a force oscillating at f acts on a mass without damper. The servo scales the mass's own
+// motion by 1/sqrt(2) and delays it by 45 degrees at f. Tolerance: the sensor is sampled at 4 kHz and held, sinc(pi f
+// h) and a lag of h/2: 1e-4 in amplitude and 0.25 % of a period at 20 Hz.
 TEST(AdmittanceDrive, FollowsUpToTheBandwidthOfItsServo) {
   Parameters p = quiet();
   p.viscosity = 0;
@@ -53,7 +54,7 @@ TEST(AdmittanceDrive, FollowsUpToTheBandwidthOfItsServo) {
   Drive drive = driveWith(p);
   const double w = 2 * std::numbers::pi * p.bandwidth, amplitude = 10;
   double in_phase = 0, in_quadrature = 0;
-  constexpr int kSettle = 500, kTicks = 2500;  // 40 whole turns counted
+  constexpr int kSettle = 500, kTicks = 2500;  // 40 full periods counted
   // of m r' = A cos(w t) from rest: r = A / (m w) sin(w t)
   for (int i = 0; i < kTicks; ++i) {
     const double t = i * kPeriod;
@@ -61,7 +62,7 @@ TEST(AdmittanceDrive, FollowsUpToTheBandwidthOfItsServo) {
       in_phase += drive.velocity().x() * std::sin(w * t);
       in_quadrature += drive.velocity().x() * std::cos(w * t);
     }
-    // mean of the force over the period: what a held force must be to act as the swinging one
+    // mean of the force over the period: the held force with the same impulse
     const double mean = amplitude * (std::sin(w * (t + kPeriod)) - std::sin(w * t)) / (w * kPeriod);
     drive.advance({kNoHand, Vec3::Zero(), Vec3::Zero(), Vec3(mean, 0, 0)});
   }
@@ -70,7 +71,7 @@ TEST(AdmittanceDrive, FollowsUpToTheBandwidthOfItsServo) {
   EXPECT_NEAR(std::atan2(-in_quadrature, in_phase) * 180 / std::numbers::pi, 45, 1);
 }
 
-// At rest against a wall of 2 N/mm the hand's 4 N leave it 2 mm deep, and the sensor reads what the wall gives.
+// At rest against a wall of 2 N/mm, 4 N of the hand give a depth of 2 mm, and the sensor reads the wall force.
 TEST(AdmittanceDrive, RestsWhereWallAndHandAreInBalance) {
   Drive drive = driveWith(quiet());
   const FingerImpedance hand{.mass = 0.1, .stiffness = 0, .damping = 20};
@@ -85,18 +86,18 @@ TEST(AdmittanceDrive, RestsWhereWallAndHandAreInBalance) {
 
 bool growsAt(double stiffness, const Parameters& p, const FingerImpedance& hand) {
   Drive drive = driveWith(p);
-  drive.place({1e-6, 0, 0});  // on the wall's side only: a spring both ways keeps the loop linear
+  drive.place({1e-6, 0, 0});  // a bilateral spring on the wall keeps the loop linear
   double early = 0, late = 0;
   for (int i = 0; i < 12'000; ++i) {
     drive.command({-stiffness * drive.position().x(), 0, 0});
     drive.advance({hand, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
     if (i >= 2000) (i < 7000 ? early : late) = std::max(i < 7000 ? early : late, std::abs(drive.position().x()));
-    if (drive.position().norm() > 1e-3) return true;  // the end stops are far, the speed limit is not
+    if (drive.position().norm() > 1e-3) return true;  // the end stops are far away, the speed limit is not
   }
   return late > early;
 }
 
-// Below the bound a push dies, above it grows: the bound is of this loop, with no delay left out.
+// Below the bound a disturbance decays, above it grows: the bound includes every delay of the loop.
 TEST(AdmittanceDrive, StiffestWallIsWhereAPushStopsDying) {
   for (const double bandwidth : {20.0, 50.0, 200.0}) {
     for (const double hand_damping : {5.0, 40.0}) {
@@ -110,8 +111,9 @@ TEST(AdmittanceDrive, StiffestWallIsWhereAPushStopsDying) {
   }
 }
 
-// Routh's criterion on M/w s^3 + (M + m + B/w) s^2 + (B + b) s + k + K with a servo so slow that sampling does not count:
-// k + K < w (M + m + B/w) (B + b) / M. Sampling takes 0.6 ms of the servo's 32 ms: 2 %, so 4 % allowed, below only.
+// Routh's criterion on M/w s^3 + (M + m + B/w) s^2 + (B + b) s + k + K with a servo so slow that sampling is
+// negligible: k + K < w (M + m + B/w) (B + b) / M. Sampling takes 0.6 ms of the servo's 32 ms: 2 %, so 4 % is allowed,
+// below only.
 TEST(AdmittanceDrive, StiffestWallOfASlowServoIsRouths) {
   Parameters p = quiet();
   p.bandwidth = 5;
@@ -124,7 +126,7 @@ TEST(AdmittanceDrive, StiffestWallOfASlowServoIsRouths) {
   EXPECT_GT(bound, 0.96 * routh);
 }
 
-// The virtual mass is no faster than it may be, the sensor reads no more than its range, and an end stop is one.
+// The speed of the virtual mass, the range of the sensor and the end stops are respected.
 TEST(AdmittanceDrive, SaturatesAndStopsAtItsEnds) {
   Parameters p = quiet();
   p.most_speed = 0.5;
@@ -146,9 +148,9 @@ TEST(AdmittanceDrive, SaturatesAndStopsAtItsEnds) {
   EXPECT_NEAR(weak.velocity().x(), 5 / p.viscosity, 1e-9);
 }
 
-// Noise of the sensor: velocity of a mass with damper under white held noise of standard deviation s is an AR(1) of
-// a = e^(-h B/M), gain (1 - a) s / B: its variance is ((1 - a) s / B)^2 / (1 - a^2). 400 s hold about 2000 independent values: 5 %
-// of standard error, so 20 % for four of them. The servo (400 Hz) is fast beside it.
+// Sensor noise: the velocity of a mass with damper under held white noise of standard deviation s is an AR(1) process
+// with a = e^(-h B/M) and gain (1 - a) s / B; its variance is ((1 - a) s / B)^2 / (1 - a^2). 400 s contain about 2000
+// independent values: 5 % standard error, and a tolerance of 20 %. The servo (400 Hz) is much faster.
 TEST(AdmittanceDrive, NoiseComesFromTheSeedAndHasItsSize) {
   Parameters p;
   p.noise = 0.5;

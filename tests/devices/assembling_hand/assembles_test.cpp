@@ -1,4 +1,4 @@
-// The whole pipeline in lockstep: what two fingers put together by friction alone.
+// The whole pipeline in lockstep: two fingers assemble bodies by friction only.
 #include <gtest/gtest.h>
 
 #include "framework/session/load_world.h"

@@ -1,4 +1,4 @@
-// Which block next, and how: small scenes in which one answer is right.
+// Choice of the next block and grasp, in small scenes with a single right answer.
 #include "devices/assembling_hand/choice.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ constexpr double kFingertip = 0.008, kOpening = 0.012;
 
 Quat turn(double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis.normalized())); }
 
-/// Boxes of one size, the last of them the ground; body 0 belongs to the only place.
+/// Equal boxes, of which the last is the ground; body 0 belongs to the only goal.
 class Table {
  public:
   explicit Table(const Vec3& size, std::vector<Pose> poses, const Vec3& place) {
@@ -90,7 +90,7 @@ TEST(Choice, AFlatBlockOnItsHeadIsTippedOverAndTakenAsLowAsFingersGet) {
   EXPECT_NEAR(p_W.head<2>().norm(), 0.75 * 0.03, 1e-12) << "near an edge, so that it hangs from it";
 }
 
-// The box about a placed wedge reaches into the place of the tile above it.
+// The bounding box of a placed wedge overlaps the goal of the tile above it.
 TEST(Choice, WhatIsPlacedIsNotMoved) {
   const Table table(kSize, {{{0, 0, 0.02}, Quat::Identity()}, {kFarAway, Quat::Identity()}}, kFarAway);
   EXPECT_EQ(table.weigh({}, {.placed = true}).body, 0U);
@@ -103,7 +103,8 @@ TEST(Choice, WhatWasInVainIsTriedOtherwise) {
   EXPECT_NEAR(first.grasp.a_B.dot(second.grasp.a_B), 0, 1e-12);
 }
 
-// A plate of 9 mm under fingertips of 8 mm: held by its edge, 0.6 of the normal force must also lift it against what presses it down.
+// A plate of 6 mm under fingertips of 8 mm radius is held by its edge: the friction, 0.6 of the normal force, must also
+// balance the component that presses it down.
 TEST(Choice, APlateLowerThanTheFingertipsIsHeldHarder) {
   const Table flat({0.06, 0.03, 0.006}, {{{0, 0, 0.003}, Quat::Identity()}}, kFarAway);
   const Table high({0.06, 0.03, 0.04}, {{{0, 0, 0.02}, Quat::Identity()}}, kFarAway);

@@ -18,7 +18,7 @@ World block() {
   return world;
 }
 
-/// To hang upright, along the best line.
+/// The best grasp with which the body hangs upright.
 Grasp chooseGrasp(const World& world, std::size_t i, const Pose& X_WB, const Pose& X_WG, double yaw) {
   const Vec3 up_B = X_WG.q.conjugate() * Vec3::UnitZ();
   const Lines lines = linesToHang(world, i, X_WB, up_B, yaw);
@@ -42,7 +42,7 @@ TEST(Grasp, OfAStandingBodyIsAcrossItsNarrowSideAndAboveItsCentre) {
   EXPECT_NEAR(grasp.force, 2.5 * 0.1 * 9.81 / (2 * 0.5), 1e-12);
 }
 
-// The line lies so that the body swings its top up: level, and square to where the top points now.
+// For a body to swing its top up, the line is level and perpendicular to the current direction of the top.
 TEST(Grasp, OfALyingBodyIsLevelAndNearItsTop) {
   const Pose lies{{0, 0, 0.04}, turn(EIGEN_PI / 2, Vec3::UnitY())};  // its z points along x
   const Grasp grasp = chooseGrasp(block(), 0, lies, {}, 1);
@@ -58,7 +58,7 @@ TEST(Grasp, OfABodyOnItsHeadIsBelowItsCentre) {
   EXPECT_NEAR((on_its_head * grasp.p_BC).z(), 0.03 - 0.75 * 0.03, 1e-12);
 }
 
-// Above its middle a wedge is lower than at its high end: fingers that aim by its height would close over it.
+// A wedge is lower above its middle than at its high end: a grasp based on its overall height would miss it.
 TEST(Grasp, OfAWedgeIsWithinIt) {
   World world = block();
   world.scene.bodies[0].physics = Geometry{MeshRef{}, {}, {}};
@@ -67,7 +67,7 @@ TEST(Grasp, OfAWedgeIsWithinIt) {
                      {-0.03, 0.01, -0.01},  {0.03, -0.01, 0.02},  {0.03, 0.01, 0.02}};
   wedge->triangles = {{0, 4, 5}, {0, 5, 3}, {0, 2, 1}, {0, 3, 2}, {1, 5, 4}, {1, 2, 5}, {0, 1, 4}, {3, 5, 2}};
   world.meshes[0].physics = wedge;
-  // the slope rises from -10 mm by a half: 5 mm above the middle
+  // the slope rises from -10 mm by one half: it is 5 mm above the middle
   EXPECT_NEAR(outTo(world, 0, Vec3::UnitZ()), 0.005, 1e-12);
   EXPECT_NEAR(outTo(world, 0, -Vec3::UnitZ()), 0.01, 1e-12);
   EXPECT_NEAR(outTo(block(), 0, Vec3::UnitZ()), 0.03, 1e-12);

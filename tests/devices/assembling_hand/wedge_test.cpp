@@ -24,7 +24,8 @@ World gable() {
   return world;
 }
 
-// On its face: its top points along the ground. The only line above its middle that ends on both upright ends leans.
+// The gable lies on its face, with its top along the ground. The only line above its middle that ends on both upright
+// ends is inclined.
 TEST(Wedge, IsHeldByItsEndsOnALineThatLeans) {
   const World world = gable();
   const Pose lies{{0, 0, 0.015}, Quat(Eigen::AngleAxisd(EIGEN_PI / 2, Vec3::UnitX()))};
@@ -37,7 +38,7 @@ TEST(Wedge, IsHeldByItsEndsOnALineThatLeans) {
     EXPECT_GT(touched.z(), -0.021);
     EXPECT_LT(touched.z(), touched.x() > 0 ? 0.021 : -0.015);
   }
-  // above the centre of mass, so that its top comes up, and askew by less than friction holds
+  // above the centre of mass, so that the top comes up, and inclined by less than the friction angle
   const Vec3 to_middle = world.inertias[0].p_BCm - grasp->p_BC;
   EXPECT_LT((to_middle - to_middle.dot(grasp->a_B) * grasp->a_B).z(), -0.002);
   EXPECT_GT(std::abs(grasp->a_B.x()), std::cos(std::atan(0.6)));

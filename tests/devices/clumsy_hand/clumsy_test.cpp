@@ -1,4 +1,4 @@
-// A minute of somebody who has no idea, on the temple's ruins.
+// A minute of random grabbing in the temple's ruins.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -39,7 +39,7 @@ temple::Rebuilt visited(const std::string& scene, std::uint64_t seed, double sec
   return temple::visit(loaded, {.quiet = true}).rebuilt;
 }
 
-// No force above a limit either: the watch on the transport, which every test runs under, would end the process.
+// The transport watch, which every test runs under, ends the process on any force above a limit.
 TEST(Clumsy, AMinuteOfItLosesNoBlock) {
   const ScratchFolder folder;
   const std::string scene = ruinsOfAColumn(folder.path().string());
@@ -54,7 +54,7 @@ TEST(Clumsy, AMinuteOfItLosesNoBlock) {
   }
 }
 
-/// Follows a plan through states that stand still; every act's phases.
+/// Runs a plan with motionless bodies; returns the phases of every action.
 std::set<int> phasesOf(ClumsyPlan& plan, const ObjectState& objects, double seconds, double* fastest = nullptr) {
   std::set<int> seen;
   for (double time = 0; time < seconds; time += 1e-3) {

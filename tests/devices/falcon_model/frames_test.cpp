@@ -1,4 +1,4 @@
-// Bytes written down in the description of the protocol, both ways.
+// Bytes from the protocol description, in both directions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ TEST(FalconFrames, RepliesSayAllHomedAndMinusThree) {
 
 TEST(FalconFrames, AnyByteOutOfRangeIsNoRequest) {
   for (std::size_t i = 0; i < kFrame; ++i) {
-    if (i == 14) continue;  // means nothing
+    if (i == 14) continue;  // has no meaning
     for (const int bad : {0x40, 0x51, 0x00, 0xFF}) {
       Frame frame = kWords;
       frame[i] = static_cast<std::uint8_t>(bad);

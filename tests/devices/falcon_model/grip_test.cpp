@@ -8,20 +8,20 @@
 namespace presa::falcon_model::test {
 namespace {
 
-// At rest the spring of the hand carries what the motors push: 500 N/m, so 2 mm for a newton.
+// At rest the spring of the hand balances the motors: 500 N/m, so 2 mm per newton.
 TEST(FalconGrip, PushesTheHandAwayByForceOverStiffness) {
   Grip grip({});
   const Vec3 rest = grip.position();
   grip.drive({-249, -249, -249});
   grip.advance(3);
-  // the motors' words stay, so the force at the new place is what the spring holds
+  // the motor words stay constant, so the force at the new place equals the spring force
   EXPECT_NEAR((grip.position() - rest).z(), grip.force().z() / 500, 1e-9);
   EXPECT_GT(grip.force().z(), 0.9);
   EXPECT_LT(grip.force().head<2>().norm(), 1e-12) << "three equal words push along z";
   EXPECT_EQ(grip.counters()[0], grip.counters()[1]);
 }
 
-// m x'' = -k x - (b_hand + b_device) x': one period of the damped oscillation, from a step of the hand of 1 mm.
+// m x'' = -k x - (b_hand + b_device) x': half a period of the damped oscillation after a step of the hand by 1 mm.
 TEST(FalconGrip, SwingsAsMassSpringAndDamperDo) {
   GripSettings settings;
   settings.hand_damping = 1;
@@ -31,12 +31,12 @@ TEST(FalconGrip, SwingsAsMassSpringAndDamperDo) {
   grip.advance(1.0);
   const double decay = 2 / (2 * 0.1), omega = std::sqrt(500 / 0.1 - decay * decay);
   const double half = M_PI / omega;
-  // the impulse that the damper makes of the step has no part in it after half a swing; one grid step late is 0.06 %
+  // the damper's impulse from the step has no effect after half a period; a delay of one grid step is 0.06 %
   grip.advance(1.0 + half);
   EXPECT_NEAR((grip.position() - rest).z(), 0.001 * (1 + std::exp(-decay * half)), 0.001 * 0.002);
 }
 
-// Encoders count as from power-on until each has passed its reference from outside, while homing is asked for.
+// Encoders count from zero at power-on until each has passed its reference inwards while homing is requested.
 TEST(FalconGrip, ReferencesAreFoundOnTheWayIn) {
   FalconModel model(running(false));
   Host host(model);
@@ -68,7 +68,7 @@ TEST(FalconGrip, WithoutHomingAskedForInEveryRequestNoReferenceIsFound) {
   double z = 0.170;
   model.grip().hand([&](double) -> Vec3 { return {0, 0, z}; });
   host.cycles({.homing = true}, 400);
-  z = 0.160;  // still outside of all of them
+  z = 0.160;  // still outside all references
   host.cycles({.homing = true}, 200);
   z = 0.120;
   host.cycles({}, 100);
@@ -76,7 +76,7 @@ TEST(FalconGrip, WithoutHomingAskedForInEveryRequestNoReferenceIsFound) {
   EXPECT_EQ(host.last->homed, 0U);
 }
 
-// Wherever a hand pulls, the legs hold it.
+// The end stops keep the grip within the reach of the legs, wherever the hand pulls.
 TEST(FalconGrip, EndStopsKeepItWhereLegsReach) {
   Grip grip({});
   grip.reference();

@@ -14,7 +14,7 @@ ModelSettings bare() {
   return settings;
 }
 
-// After power-on the device says nothing to the protocol of operation.
+// After power-on the device does not answer the operating protocol.
 TEST(FalconHandshake, WithoutFirmwareThereIsNoReply) {
   FalconModel model(bare());
   Host host(model);
@@ -56,7 +56,7 @@ TEST(FalconHandshake, SomeGreetingsMayGoUnheard) {
   EXPECT_TRUE(host.greet());
 }
 
-// Each stage has its rate; bytes at another are noise.
+// Each stage has its baud rate; bytes at another rate are noise.
 TEST(FalconHandshake, GreetingsAtTheWrongRateAreNoise) {
   FalconModel model(bare());
   Host host(model);
@@ -120,7 +120,7 @@ TEST(FalconHandshake, EachUploadFaultShowsInTheEcho) {
   EXPECT_EQ(model.processor().uploads(), 3);
 }
 
-// Firmware goes with the power, and with a new edge of DTR.
+// Firmware is lost with the power, and with a new edge of DTR.
 TEST(FalconHandshake, FirmwareIsLostWithThePower) {
   FalconModel model(running());
   {

@@ -8,12 +8,12 @@
 #include "devices/falcon_model/falcon_model.h"
 #include "devices/falcon_model/model_transport.h"
 
-/// A host that does what it is told, one step after the other, and no more.
+/// A minimal host for tests: it does one step per call.
 namespace presa::falcon_model::test {
 
 using falcon::Control;
 
-/// Made up; begins as the real ones do. Long enough for several chunks, not a multiple of one.
+/// Synthetic; starts like the real firmware. Several chunks long, not a multiple of a chunk.
 inline std::vector<std::uint8_t> firmware() {
   std::vector<std::uint8_t> bytes(1000);
   std::iota(bytes.begin(), bytes.end(), std::uint8_t{0});
@@ -41,7 +41,7 @@ struct Host {
     control({Control::kLatency1ms, Control::kBaud1500000, Control::kPurgeReceive, Control::kPurgeTransmit});
   }
   bool write(std::vector<std::uint8_t> bytes) { return transport->write(bytes, now); }
-  /// Everything that arrives within that time.
+  /// All bytes that arrive within this time.
   std::vector<std::uint8_t> readFor(double seconds) {
     std::vector<std::uint8_t> all;
     for (const double until = now + seconds; now < until - 1e-9;) {
@@ -52,7 +52,7 @@ struct Host {
     }
     return all;
   }
-  /// Greeting and the 41; true: the device waits for firmware.
+  /// Greeting and the load command 41; true: the device waits for firmware.
   bool greet() {
     control({Control::kPurgeReceive, Control::kPurgeTransmit, Control::kLatency16ms, Control::kBaud9600,
              Control::kEightBitsNoParity, Control::kNoFlowControl, Control::kRtsLow, Control::kDtrLow,
@@ -63,7 +63,7 @@ struct Host {
     write({0x41});
     return readFor(0.1) == std::vector<std::uint8_t>{0x41};
   }
-  /// What the device echoes.
+  /// Uploads bytes; returns the echo.
   std::vector<std::uint8_t> upload(const std::vector<std::uint8_t>& bytes) {
     std::vector<std::uint8_t> echo;
     for (std::size_t i = 0; i < bytes.size(); i += 62) {
@@ -74,7 +74,7 @@ struct Host {
     }
     return echo;
   }
-  /// One cycle of a millisecond: a request at its beginning, the newest reply at its end.
+  /// One cycle of a millisecond: a request at its start, the newest reply at its end.
   std::optional<Status> cycle(const Request& request) {
     const Frame frame = frameOf(request);
     write({frame.begin(), frame.end()});

@@ -13,7 +13,7 @@ namespace {
 
 Vec3 thighsOf(const Vec3& counts) { return Vec3::Constant(kThighAtZero) + kThighPerCount * counts; }
 
-/// Well inside what all legs reach.
+/// A random point well inside the reach of all legs.
 Vec3 somewhere(RandomStream& random) {
   return {random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), random.uniform(0.08, 0.14)};
 }
@@ -36,7 +36,7 @@ TEST(Legs, MeetTheCheckPoints) {
   }
 }
 
-// The same source: counts for one newton, -10000 torques.
+// From the same source: counts for one newton at 10000 counts per N m.
 TEST(Legs, CountsForANewtonAreThoseOfTheCheckPoint) {
   const Vec3 p_D = *gripAt(thighsOf(Vec3::Zero()), {0, 0, 0.11});
   const Mat3 rates = thighRates(p_D, thighsOf(Vec3::Zero()));
@@ -55,11 +55,11 @@ TEST(Legs, ThereAndBackIsTheSamePlace) {
     ASSERT_TRUE(thighs) << p_D.transpose();
     const auto back = gripAt(*thighs, p_D + Vec3(0.003, -0.003, 0.003));
     ASSERT_TRUE(back);
-    EXPECT_LT((*back - p_D).norm(), 1e-12);  // a few roundings of metres, divided by the flattest torus
+    EXPECT_LT((*back - p_D).norm(), 1e-12);  // a few rounding errors, divided by the smallest slope of a torus
   }
 }
 
-// Central differences of 1e-6 m: their own error is h^2 f'''/6, about 1e-8 of the rate here, plus rounding 1e-16/h.
+// Central differences with 1e-6 m: their error is h^2 f'''/6, about 1e-8 of the rate here, plus rounding 1e-16/h.
 TEST(Legs, RatesAreTheDerivativeOfTheAngles) {
   RandomStream random(2, "legs");
   constexpr double kStep = 1e-6;

@@ -1,4 +1,4 @@
-// Each law broken once, and kept at its border.
+// Each rule of the force watch, violated once and just kept once.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Along z, so that a newton is about 220 counts a motor at rest.
+/// A push along z; a newton is about 220 counts per motor at rest.
 Request push(int counts) { return {.counts = {-counts, -counts, -counts}}; }
 
 struct Watched : testing::Test {
   FalconModel model{running()};
   Host host{model};
   void SetUp() override { host.toOperation(); }
-  /// So that the host has read ten replies.
+  /// Lets the host read ten replies.
   void homed() { host.cycles({}, 12); }
 };
 
@@ -28,7 +28,7 @@ TEST_F(Watched, QuietIsClean) {
 }
 
 TEST_F(Watched, ForceNeedsTenRepliesWithAllReferences) {
-  // a reply is read a cycle after its request: the eleventh request is the first that is written after ten
+  // a reply is read one cycle after its request: the eleventh request is the first after ten replies
   host.cycles({}, 9);
   host.cycle(push(1));
   EXPECT_THAT(model.violations(), ElementsAre(HasSubstr("before all references")));
@@ -54,7 +54,7 @@ TEST_F(Watched, NewtonsHaveALimit) {
   model.limits({.force = 100 * newton});
   host.cycle(push(100));
   EXPECT_THAT(model.violations(), IsEmpty());
-  host.cycle(push(103));  // one and a half is free: half a count for each motor
+  host.cycle(push(103));  // up to 101.5 is allowed: half a count per motor
   EXPECT_THAT(model.violations(), ElementsAre(HasSubstr("more force")));
 }
 
@@ -89,7 +89,7 @@ TEST_F(Watched, AfterALostReferenceForceGoesToZeroAsSlewAllowsAndStays) {
   model.limits({.force_rate = 100 * newton / 1e-3});
   for (const int counts : {100, 200, 300}) host.cycle(push(counts));
   model.grip().loseReference(0);
-  host.cycle(push(300));  // is told with the reply to this one
+  host.cycle(push(300));  // the reply to this one reports the loss
   for (const int counts : {200, 100, 0, 0, 0}) host.cycle(push(counts));
   EXPECT_THAT(model.violations(), IsEmpty());
   host.cycle(push(50));
@@ -107,7 +107,7 @@ TEST_F(Watched, AForceThatStaysAfterALostReferenceIsSeen) {
   EXPECT_FALSE(model.violations().empty());
 }
 
-// Without a slew limit there is no way down but at once.
+// Without a slew limit the force must be zero at once.
 TEST_F(Watched, WithoutASlewLimitALostReferenceMeansZeroAtOnce) {
   homed();
   host.cycle(push(300));

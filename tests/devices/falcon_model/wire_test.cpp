@@ -10,13 +10,13 @@ std::vector<std::uint8_t> bytesOf(const Request& request) {
   return {frame.begin(), frame.end()};
 }
 
-// 16 bytes of ten bits at 1.5 Mbaud: 106.7 us each way, then the next end of the latency timer.
+// 16 bytes of ten bits at 1.5 Mbaud: 106.7 us each way, then the wait for the latency timer.
 TEST(FalconWire, BytesTakeTheirTime) {
   FalconModel model(running());
   Host host(model);
   host.toOperation();
   host.now = 0.0100;
-  host.readFor(0.001);  // the timer ended at a whole millisecond
+  host.readFor(0.001);  // the timer ends at whole milliseconds
   std::vector<double> received;
   model.onRequest([&](const Received& request) { received.push_back(request.time); });
   const double sent = host.now;
@@ -27,7 +27,7 @@ TEST(FalconWire, BytesTakeTheirTime) {
   EXPECT_NEAR(received[0] - sent, 16 * 10 / 1.5e6, 1e-12);
 }
 
-// A full packet does not wait for the timer.
+// A full packet does not wait for the latency timer.
 TEST(FalconWire, SixtyTwoBytesGoAtOnce) {
   SerialLine line;
   line.request(9, 16, 0);
@@ -80,7 +80,7 @@ TEST(FalconWire, ARequestCutShortIsDroppedAndTheNextOneCounts) {
   EXPECT_TRUE(model.received().red);
 }
 
-/// All that comes back over a while with the fault on every reply.
+/// Number of bytes that return with the fault on every reply.
 std::size_t returned(const std::function<void(ReplyFate&)>& fault, int requests) {
   FalconModel model(running());
   Host host(model);

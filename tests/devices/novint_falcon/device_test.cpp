@@ -1,5 +1,5 @@
-// The device as the graph sees it, with its real thread and a hand-written Falcon behind it. Threads wait for each other, not
-// for a time.
+// The device as the graph sees it, with its real thread and a hand-written Falcon. Threads wait for events, not for
+// times.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,8 @@
 namespace presa::falcon {
 namespace {
 
-/// Passes everything on to a Falcon that outlives the device, one call at a time, so that a test may look at it meanwhile.
+/// Forwards calls to a Falcon that outlives the device, under a lock, so that the test can inspect the Falcon
+/// meanwhile.
 class Lent final : public FalconTransport {
  public:
   Lent(HandWrittenFalcon& falcon, std::mutex& mutex) : falcon_(falcon), mutex_(mutex) {}
@@ -42,7 +43,7 @@ class Lent final : public FalconTransport {
   std::mutex& mutex_;
 };
 
-/// A Falcon, and the lock under which it may be looked at.
+/// A Falcon with the lock for inspecting it.
 struct Desk {
   template <class Function>
   auto with(Function function) {
@@ -75,7 +76,7 @@ void waitUntil(Condition condition) {
   while (!condition()) std::this_thread::yield();
 }
 
-/// The code of the one error, and its text.
+/// Code and text of the only error.
 std::pair<int, std::string> refusal(FalconDevice& device) {
   try {
     device.open();
@@ -97,7 +98,7 @@ TEST(FalconIo, CarriesSamplesOneWayAndForcesTheOther) {
       return desk.with([](auto& falcon) { return !falcon.sent.back().zero(); });
     });
   }
-  // it went in peace: the last of all packets are zero
+  // the driver closed cleanly: the last packets have zero force
   ASSERT_GT(desk.falcon.sent.size(), 13U);
   for (std::size_t i = desk.falcon.sent.size() - 3; i < desk.falcon.sent.size(); ++i)
     EXPECT_TRUE(desk.falcon.sent[i].zero());
@@ -115,8 +116,8 @@ TEST(FalconIo, TheHapticThreadNeitherWaitsNorAllocates) {
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 
-// The thread is stuck in the kernel: after two ticks without a sign of life its last sample is not believed any more.
-// Ticks made up after a stall come at one instant and do not count.
+// When the I/O thread is stuck, its last sample becomes invalid after two ticks. Catch-up ticks after a stall happen at
+// one instant and do not count.
 TEST(FalconIo, ASilentThreadIsNoticedByTheHapticThread) {
   Desk desk;
   FalconIo io(desk.transport(), {}, {});
@@ -125,7 +126,7 @@ TEST(FalconIo, ASilentThreadIsNoticedByTheHapticThread) {
   made_up.made_up = true;
   std::unique_lock stuck(desk.mutex, std::defer_lock);
   bool survived = false;
-  for (int attempt = 0; attempt < 100 && !survived; ++attempt) {  // its last word may have been that a reply is late
+  for (int attempt = 0; attempt < 100 && !survived; ++attempt) {  // its last sample may be invalid
     waitUntil([&] { return io.latest(kTick).valid; });
     stuck.lock();
     for (int i = 0; i < 50; ++i) survived = io.latest(made_up).valid;
@@ -134,7 +135,7 @@ TEST(FalconIo, ASilentThreadIsNoticedByTheHapticThread) {
   ASSERT_TRUE(survived) << "made-up ticks take no time";
   int held = 0;
   while (io.latest(kTick).valid) ++held;
-  EXPECT_LE(held, 2 + 1);  // one more when its last word comes in the meantime
+  EXPECT_LE(held, 2 + 1);  // one more if a sample is published in the meantime
   EXPECT_FALSE(io.latest(kTick).valid);
   stuck.unlock();
   waitUntil([&] { return io.latest(kTick).valid; });
@@ -168,7 +169,7 @@ TEST(FalconIo, EndsWhileADeviceIsStillSilent) {
   waitUntil([&] { return io.status().state == LinkState::kStarting; });
 }
 
-// p = X_WD (scale p_D): a quarter turn about x takes the device's z, towards the user, to -y, and its y up to z.
+// p = X_WD (scale p_D): a quarter turn about x maps the device's z, towards the user, to -y, and its y to z.
 TEST(FalconDevice, StandsInTheWorldWhereTheRigPutsIt) {
   Desk desk;
   const double half = std::sqrt(0.5);
@@ -178,7 +179,7 @@ TEST(FalconDevice, StandsInTheWorldWhereTheRigPutsIt) {
   waitUntil([&] { return (finger = device.read(kTick)).valid; });
   EXPECT_NEAR((finger.p_WH - Vec3(0.1, 0.2 - 2 * 0.134602, 0.3)).norm(), 0, 1e-6);
 
-  // 2 N along -y of the world push along the device's z, whatever the scale: -249.4 counts a newton
+  // 2 N along -y of the world push along the device's z at any scale: -249.4 counts per newton
   waitUntil([&] {
     device.write({0, -2, 0}, kTick);
     return desk.with([](auto& falcon) { return falcon.sent.back().force[0] == -499; });
@@ -208,7 +209,7 @@ TEST(FalconDevice, VelocityTurnsAndScalesWithThePosition) {
   EXPECT_NEAR((fingerOf(sample, {{5, 5, 5}, Quat(half, half, 0, 0)}, 3).v_WH - Vec3(0, -3, 0)).norm(), 0, 1e-12);
 }
 
-// In virtual time an hour may pass in a second: no hand is held to that.
+// In virtual time an hour may pass in a second, which no device can follow.
 TEST(FalconDevice, RefusesVirtualTime) {
   Desk desk;
   FalconSettings settings = settingsOf();
@@ -220,7 +221,7 @@ TEST(FalconDevice, RefusesVirtualTime) {
   EXPECT_TRUE(desk.falcon.controls.empty());
 }
 
-/// Refused so after `homing_wait`, and nothing but zero was sent.
+/// The device must be refused with this error after `homing_wait`, with zero force sent throughout.
 void expectUnhomed(Desk& desk, double homing_wait, Code wanted, const std::string& words) {
   FalconSettings settings = settingsOf();
   settings.homing_wait = homing_wait;
@@ -237,7 +238,7 @@ TEST(FalconDevice, NotHomedIsSaidWithTheEncodersThatAreMissing) {
   expectUnhomed(desk, 0.02, kNotHomed, "no reference seen by encoder 1, 3");
 }
 
-// It moves nobody's fingers before it answers evenly; that this is not the grip's fault is said.
+// No force before replies come regularly; the error names the gaps and not the grip.
 TEST(FalconDevice, GapsInItsRepliesAreSaidForWhatTheyAre) {
   Desk desk;
   desk.falcon.damage = [replies = 0](Bytes reply) mutable { return ++replies % 5 == 0 ? Bytes{} : reply; };

@@ -12,7 +12,7 @@ namespace presa::falcon {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A reply put together here, nibble by nibble, apart from the code under test.
+/// A reply built nibble by nibble, independently of the code under test.
 inline Bytes replyOf(const Counts& encoders, int status, int unspecified = 0x41) {
   Bytes bytes{'<'};
   for (const std::int32_t count : encoders) {
@@ -25,8 +25,8 @@ inline Bytes replyOf(const Counts& encoders, int status, int unspecified = 0x41)
   return bytes;
 }
 
-/// Answers as the description of the protocol says, byte by byte, and does as badly as a test asks for. No model: it has no
-/// mass, no motors and no opinion, and writes down what it is sent.
+/// A scripted device: answers byte by byte as the protocol description says, with faults chosen by the test. It has no
+/// mechanics and checks nothing; it records what it receives.
 class HandWrittenFalcon final : public FalconTransport {
  public:
   struct Sent {
@@ -37,22 +37,22 @@ class HandWrittenFalcon final : public FalconTransport {
     bool zero() const { return force == Counts{}; }
   };
 
-  // what it is
-  bool loaded = true;       ///< its firmware runs
-  std::size_t expects = 0;  ///< bytes of firmware after which it runs
+  // properties
+  bool loaded = true;       ///< its firmware is running
+  std::size_t expects = 0;  ///< number of firmware bytes after which it runs
   Counts encoders{};
   int homed = 7, buttons = 0;
   double latency = 0.4e-3;  ///< [s] from a request to its reply
 
-  // how it fails
+  // faults
   bool unplugged = false, refuses = false, busy = false;
   int replies_to_swallow = 0;
-  std::function<Bytes(Bytes)> damage;  ///< of a reply
+  std::function<Bytes(Bytes)> damage;  ///< applied to each reply
   int deaf_greetings = 0;
   bool zero_first = false, deaf_to_speed = false, wont_run = false;
-  std::function<Bytes(int attempt, std::size_t at, Bytes)> garble;  ///< of an echo
+  std::function<Bytes(int attempt, std::size_t at, Bytes)> garble;  ///< applied to each echo
 
-  // what it saw
+  // records
   std::vector<Sent> sent;
   std::vector<Control> controls;
   Bytes firmware;

@@ -14,13 +14,13 @@
 namespace presa::falcon {
 namespace {
 
-/// Anywhere that a grip can be: a cylinder around the axis.
+/// A random position of the grip: a cylinder around the axis.
 Vec3 inWorkspace(RandomStream& random) {
   const double angle = random.uniform(0, 2 * std::numbers::pi), radius = 0.05 * std::sqrt(random.uniform());
   return {radius * std::cos(angle), radius * std::sin(angle), random.uniform(0.085, 0.165)};
 }
 
-// Written down beside the description of the device, to the micrometre that they are given with.
+// Check points from the device description, given to the micrometre.
 TEST(FalconKinematics, CheckPointsOfTheDescription) {
   const std::pair<Counts, Vec3> points[]{
       {{0, 0, 0}, {0, 0, 134.602}},
@@ -45,7 +45,7 @@ TEST(FalconKinematics, OneCountIsAsMuchAsTheCapstanSays) {
   EXPECT_NEAR(thighAngles({0, 0, 0})[1] * 180 / std::numbers::pi, 35, 1e-13);
 }
 
-// The other way round and apart from the closed form: lay one leg out link by link, then ask for its thigh.
+// Independent of the closed form: lay out one leg link by link, then compute its thigh angle.
 TEST(FalconKinematics, InverseFindsTheThighThatALegWasLaidOutWith) {
   constexpr double a = 0.060, b = 0.1025, c = 0.01443, d = 0.01125, e = 0.01125, f = -0.025, r = 0.0400, s = -0.02309;
   constexpr double azimuths_deg[]{90 + 15, -30 + 15, -150 + 15};
@@ -61,9 +61,9 @@ TEST(FalconKinematics, InverseFindsTheThighThatALegWasLaidOutWith) {
     const double azimuth = azimuths_deg[leg] * std::numbers::pi / 180;
     const Vec3 p = Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * (foot + Vec3(r, s, 0));
     const auto angles = inverse(p);
-    if (!angles) continue;  // another leg does not reach there
+    if (!angles) continue;  // out of reach of another leg
     ++reached;
-    // acos loses digits towards a stretched leg: 1e-16 / sin(0.2)
+    // acos loses digits near a stretched leg: 1e-16 / sin(0.2)
     ASSERT_NEAR((*angles)[leg], theta1, 1e-14);
   }
 }
@@ -93,7 +93,8 @@ TEST(FalconKinematics, TheWorkspaceIsReachedAllOver) {
   }
 }
 
-// Central differences, h = 1e-6 m: truncation h^2 f'''/6 and rounding eps/h both stay below 1e-8 of the entries (10 rad/m).
+// Central differences, h = 1e-6 m: truncation h^2 f'''/6 and rounding eps/h are both below 1e-8 of the entries (10
+// rad/m).
 TEST(FalconKinematics, JacobianIsTheDerivative) {
   RandomStream random(4, "falcon jacobian");
   constexpr double h = 1e-6;
@@ -121,7 +122,7 @@ TEST(FalconKinematics, AnglesThatBelongToNoPositionAreSaid) {
   EXPECT_FALSE(inverse({0, 1e308, 1e308}));
 }
 
-// A start that is no place at all must not keep the true one from being found.
+// An invalid start must not prevent the search from finding the solution.
 TEST(FalconKinematics, ABadStartIsForgiven) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Vec3& start : {Vec3(nan, 0, 0), Vec3(5, 5, 5), Vec3(0, 0, -0.1), Vec3(0, 0, 0)}) {
@@ -131,7 +132,8 @@ TEST(FalconKinematics, ABadStartIsForgiven) {
   }
 }
 
-// Every set of counts that three encoders can send comes to an end with a position whose angles are these, or with none.
+// For any counts that three encoders can send, the search ends: with a position that has these angles, or without a
+// result.
 TEST(FalconKinematics, AnyCountsAreAnsweredOrRefused) {
   RandomStream random(5, "falcon counts");
   for (int i = 0; i < 20'000; ++i) {
@@ -145,18 +147,18 @@ TEST(FalconKinematics, AnyCountsAreAnsweredOrRefused) {
   }
 }
 
-// 249 counts a newton along z, by -10000 (dp/dtheta)^T f: the motors pull the thighs in to push the grip out.
+// 249 counts per newton along z, by -10000 (dp/dtheta)^T f: the motors pull the thighs in to push the grip out.
 TEST(FalconForce, CountsOfTheDescription) {
   const Vec3 p = *direct(thighAngles({0, 0, 0}));
   EXPECT_EQ(*motorCounts({0, 0, 1}, p), (Counts{-249, -249, -249}));
   EXPECT_EQ(*motorCounts({1, 0, 0}, p), (Counts{-193, 651, -458}));
-  // full scale there: 16 N along z, 6.3 N along x
+  // saturation there: 16 N along z, 6.3 N along x
   EXPECT_EQ(*motorCounts({0, 0, 100}, p), (Counts{-4095, -4095, -4095}));
   EXPECT_LT((*motorCounts({6.2, 0, 0}, p))[1], 4095);
   EXPECT_EQ((*motorCounts({6.4, 0, 0}, p))[1], 4095);
 }
 
-// Virtual work: whatever moves, the motors do the work that the hand gets. Torque = -counts / 10000.
+// Virtual work: in any motion the work of the motors equals the work on the hand. Torque = -counts / 10000.
 TEST(FalconForce, MotorsDoTheWorkOfTheForce) {
   RandomStream random(6, "falcon work");
   for (int i = 0; i < 10'000; ++i) {
@@ -168,7 +170,7 @@ TEST(FalconForce, MotorsDoTheWorkOfTheForce) {
         *std::min_element(counts.begin(), counts.end()) == -4095)
       continue;
     const double work = Vec3(counts[0], counts[1], counts[2]).dot(dtheta) * -1e-4;
-    // half a count of each motor, and second order in dp
+    // half a count per motor, and second order in dp
     ASSERT_NEAR(work, f.dot(2 * dp), 0.5e-4 * dtheta.cwiseAbs().sum() + 1e-6 * dp.norm());
   }
 }
@@ -187,8 +189,8 @@ TEST(FalconForce, WhatIsNotFiniteIsRejected) {
   }
 }
 
-// Any 192 bits as a force: rejected because they are not finite, or within the limit, in the direction asked for (each motor
-// within half a count of one common factor), and as bytes that the packet allows.
+// Any 192 bits as a force: either rejected as not finite, or within the limit, in the requested direction (each motor
+// within half a count of one common factor), and encodable in a packet.
 TEST(FalconForce, AnyBitsAsAForceStayInRangeAndKeepTheDirection) {
   RandomStream random(7, "falcon bits");
   int finite = 0, limited = 0;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kTick = 1e-3;
 constexpr int kHomingBit = 1;
 
-/// A link and its device in virtual time; every tick the haptic thread commands `force`.
+/// A link and its device in virtual time; in every tick the haptic thread commands `force`.
 struct Bench {
   explicit Bench(const LinkSettings& settings = {}) : link(falcon, {}, settings) {
     falcon.homed = 0;
@@ -29,7 +29,7 @@ struct Bench {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// Homed, past the soft start, with `wanted` on the grip.
+  /// Homed and past the soft start, with `wanted` on the grip.
   void operate(const Vec3& wanted) {
     force = wanted;
     falcon.homed = 7;
@@ -47,7 +47,7 @@ struct Bench {
   double commanded = 0;
 };
 
-// Homing moves the origin: a force computed across it would be violent.
+// Homing moves the origin: a force computed across that jump would be violent.
 TEST(FalconLink, NoForceUntilAllThreeFlagsCameTenTimesInARow) {
   Bench bench;
   bench.force = {3, 3, 3};
@@ -57,7 +57,7 @@ TEST(FalconLink, NoForceUntilAllThreeFlagsCameTenTimesInARow) {
   }
   bench.falcon.homed = 7;
   bench.ticks(9);
-  bench.falcon.homed = 3;  // one that is missing begins the count anew
+  bench.falcon.homed = 3;  // one missing flag restarts the count
   bench.ticks(2);
   bench.falcon.homed = 7;
   const std::size_t homed_from = bench.falcon.sent.size();
@@ -65,7 +65,7 @@ TEST(FalconLink, NoForceUntilAllThreeFlagsCameTenTimesInARow) {
     bench.tick();
     ASSERT_LT(bench.falcon.sent.size(), homed_from + 100);
   }
-  // the request after the tenth reply is the first that may push
+  // the request after the tenth reply is the first with a force
   EXPECT_GE(bench.falcon.sent.size(), homed_from + 10 + 1);
   EXPECT_EQ(bench.link.status().state, LinkState::kOperating);
 }
@@ -96,7 +96,7 @@ TEST(FalconLink, EveryRequestAsksForHoming) {
   }
 }
 
-// One request, one reply: at 1 kHz, never more than one on its way when the device is in time.
+// One request per period and one reply per request; never more than one in transit when the device is on time.
 TEST(FalconLink, OneRequestEachPeriod) {
   Bench bench;
   bench.ticks(1000);
@@ -117,7 +117,7 @@ TEST(FalconLink, ForceStartsSoftlyAndArrivesInCounts) {
   const Vec3 p = *direct(thighAngles({0, 0, 0}));
   EXPECT_EQ(bench.last(), *motorCounts({2, -1, 3}, p));
   EXPECT_NEAR((bench.link.sample().p_DH - p).norm(), 0, 1e-12);
-  // rises with 1 / 0.5 s: no two requests differ by more than that, and a count for rounding
+  // rises with 1 / 0.5 s: the change between requests is bounded by that, plus a count for rounding
   const double step = 3 / ForceGate::kSoftStart * kTick;
   for (std::size_t i = 1; i < bench.falcon.sent.size(); ++i) {
     for (std::size_t m = 0; m < 3; ++m)
@@ -125,7 +125,7 @@ TEST(FalconLink, ForceStartsSoftlyAndArrivesInCounts) {
   }
 }
 
-// The output stage keeps the slope too; here it is kept whatever comes.
+// The output stage limits the slope too; here it is limited for any input.
 TEST(FalconLink, AForceNeverRisesFasterThanTheRate) {
   Bench bench(LinkSettings{.rating = {.force = 8, .force_rate = 500}});
   bench.operate({0, 0, 0});
@@ -138,20 +138,20 @@ TEST(FalconLink, AForceNeverRisesFasterThanTheRate) {
   int steps = 0;
   for (std::size_t i = from; i < bench.falcon.sent.size(); ++i) {
     const int change = std::abs(bench.falcon.sent[i].force[0] - bench.falcon.sent[i - 1].force[0]);
-    EXPECT_LE(change, 0.5 * 249.4 + 1);  // 0.5 N in a period, 249.4 counts a newton
+    EXPECT_LE(change, 0.5 * 249.4 + 1);  // 0.5 N per period, 249.4 counts per newton
     steps += change > 0.4 * 249.4;
   }
   EXPECT_GE(steps, 30);
 }
 
-// Down from the same cycle on, as fast as the slew limit lets it: sqrt(12) N in four requests.
+// The force falls from the same cycle on at the slew limit: sqrt(12) N in four requests.
 TEST(FalconLink, AfterADroppedFlagForceGoesToZeroFromTheSameCycleAndStaysThere) {
   for (const int flags : {0, 3, 5, 6}) {
     Bench bench;
     bench.operate({2, 2, 2});
     ASSERT_FALSE(bench.falcon.sent.back().zero());
     bench.falcon.homed = flags;
-    bench.tick();  // its request is answered with the dropped flag, which arrives before the next
+    bench.tick();  // the reply to this request reports the dropped flag and arrives before the next
     const Vec3 full(2, 2, 2), p_DH = bench.link.sample().p_DH;
     for (const double left : {1.0, 2.0, 3.0}) {
       bench.tick();
@@ -162,7 +162,7 @@ TEST(FalconLink, AfterADroppedFlagForceGoesToZeroFromTheSameCycleAndStaysThere) 
     bench.tick();
     EXPECT_TRUE(bench.falcon.sent.back().zero());
     const std::size_t from = bench.falcon.sent.size();
-    bench.falcon.homed = 7;  // coming back heals nothing
+    bench.falcon.homed = 7;  // the flag's return changes nothing
     bench.ticks(2000);
     for (std::size_t i = from; i < bench.falcon.sent.size(); ++i) ASSERT_TRUE(bench.falcon.sent[i].zero());
     EXPECT_EQ(bench.link.status().state, LinkState::kLatched);
@@ -174,13 +174,13 @@ TEST(FalconLink, AfterADroppedFlagForceGoesToZeroFromTheSameCycleAndStaysThere) 
   }
 }
 
-// Held for 1 to 2 ms after the last reply, then down at the slew limit: from 4 N zero is sent at 5 ms. The sample is invalid after
-// 2 ms, and what follows starts softly.
+// The force is held for 1 to 2 ms after the last reply, then falls at the slew limit: from 4 N, zero is sent after 5
+// ms. The sample becomes invalid after 2 ms, and the next force starts softly.
 TEST(FalconLink, MissingRepliesTakeTheForceDown) {
   Bench bench;
   bench.operate({0, 0, 4});
   const Counts full = bench.last();
-  bench.tick();  // the last one that is answered
+  bench.tick();  // the last one with a reply
   const double last_reply = bench.time + kTick;
   bench.falcon.replies_to_swallow = 20;
   const std::size_t from = bench.falcon.sent.size();
@@ -188,7 +188,7 @@ TEST(FalconLink, MissingRepliesTakeTheForceDown) {
     bench.tick();
     EXPECT_EQ(bench.link.sample().valid, bench.time - last_reply <= 2e-3 + 1e-9) << i;
   }
-  ASSERT_EQ(bench.falcon.sent.size(), from + 20);  // it keeps asking
+  ASSERT_EQ(bench.falcon.sent.size(), from + 20);  // it keeps sending requests
   for (std::size_t i = from; i < bench.falcon.sent.size(); ++i) {
     const double age = bench.falcon.sent[i].time - last_reply;
     const double share = std::clamp((5e-3 - age) / 4e-3, 0.0, 1.0);
@@ -201,7 +201,7 @@ TEST(FalconLink, MissingRepliesTakeTheForceDown) {
   EXPECT_EQ(bench.last(), full);
 }
 
-// A reply or two that are late are nothing unusual: 1 N less for a request, and back at the slew limit.
+// One or two late replies are common: the force drops by 1 N for a request and returns at the slew limit.
 TEST(FalconLink, AShortGapIsADip) {
   Bench bench;
   bench.operate({0, 0, 4});
@@ -224,7 +224,7 @@ TEST(FalconLink, OneLostReplyIsHeldOver) {
   EXPECT_TRUE(bench.link.sample().valid);
 }
 
-// 25 counts on every encoder are about 1.2 mm along z: 3 m/s moves 3 mm in a period.
+// 25 counts on every encoder are about 1.2 mm along z; at 3 m/s the limit is 3 mm per period.
 TEST(FalconLink, OneImpossibleSampleIsPassedOverTwoAreLatched) {
   for (const int bad : {1, 2}) {
     Bench bench;
@@ -238,7 +238,7 @@ TEST(FalconLink, OneImpossibleSampleIsPassedOverTwoAreLatched) {
     }
     EXPECT_EQ(bench.link.status().rejected, static_cast<std::uint64_t>(bad));
     EXPECT_EQ(bench.link.status().state, bad == 1 ? LinkState::kOperating : LinkState::kLatched);
-    EXPECT_EQ(bench.falcon.sent.back().zero(), bad == 2);  // 2 N, down in two requests
+    EXPECT_EQ(bench.falcon.sent.back().zero(), bad == 2);  // 2 N fall in two requests
     if (bad == 2) {
       EXPECT_EQ(bench.link.status().fault, LinkFault::kBadSamples);
     }
@@ -258,7 +258,7 @@ TEST(FalconLink, AFastHandIsNoFault) {
   Bench bench;
   bench.operate({0, 0, 2});
   for (int i = 0; i < 500; ++i) {
-    const int c = 20 * std::min(i % 100, 100 - i % 100);  // 0.95 m/s to and fro
+    const int c = 20 * std::min(i % 100, 100 - i % 100);  // 0.95 m/s back and forth
     bench.falcon.encoders = {c, c, c};
     bench.tick();
     ASSERT_EQ(bench.link.status().rejected, 0U);
@@ -266,7 +266,8 @@ TEST(FalconLink, AFastHandIsNoFault) {
   EXPECT_TRUE(bench.link.sample().valid);
 }
 
-// Along z at a steady 2 counts a period: what the positions say, after the filter has settled (3 ms).
+// Steady motion along z by 2 counts per period: the velocity must match the positions after the filter has settled (3
+// ms).
 TEST(FalconLink, VelocityIsThatOfThePositions) {
   Bench bench;
   bench.operate({0, 0, 0});
@@ -278,7 +279,7 @@ TEST(FalconLink, VelocityIsThatOfThePositions) {
   }
   const Vec3 steps = (bench.link.sample().p_DH - before) / kTick;
   EXPECT_GT(steps.z(), 0.08);
-  // the mechanism slows down by 0.07 % a period here, and the filter is three periods and a half behind
+  // the mechanism slows down by 0.07 % per period here, and the filter lags by three and a half periods
   EXPECT_NEAR((bench.link.sample().v_DH - steps).norm(), 0, 0.005 * steps.norm());
 }
 
@@ -297,7 +298,7 @@ TEST(FalconLink, AfterHomingThereIsNoVelocityOfTheJump) {
   EXPECT_NEAR((bench.link.sample().p_DH * 1e3 - Vec3(14.528, -11.579, 136.148)).norm(), 0, 1e-3);
 }
 
-// Homed anew the origin may lie anywhere: 80 mm further after 12 ms is no motion, and no fault either.
+// After a new homing the origin may be anywhere: a jump of 80 mm within 12 ms is neither a motion nor a fault.
 TEST(FalconLink, HomedAnewItForgetsWhereItWas) {
   Bench bench;
   bench.falcon.encoders = {-900, -900, -900};
@@ -315,7 +316,7 @@ TEST(FalconLink, HomedAnewItForgetsWhereItWas) {
   EXPECT_GT(bench.link.sample().p_DH.z(), 0.16);
 }
 
-// The haptic thread is dead or blocked: what it commanded last is not pushed for ever.
+// A dead or blocked haptic thread: its last command is not applied for ever.
 TEST(FalconLink, ACommandThatIsNotRenewedFades) {
   Bench bench;
   bench.operate({0, 0, 4});
@@ -333,7 +334,7 @@ TEST(FalconLink, ACommandThatIsNotFiniteTakesTheForceDown) {
     Bench bench;
     bench.operate({1, 1, 1});
     bench.force.x() = value;
-    bench.ticks(2);  // sqrt(3) N, 1 N a request
+    bench.ticks(2);  // sqrt(3) N at 1 N per request
     EXPECT_TRUE(bench.falcon.sent.back().zero());
     bench.force.x() = 1;
     bench.tick();
@@ -350,7 +351,7 @@ TEST(FalconLink, UnpluggedNothingIsSentAnyMore) {
   EXPECT_EQ(bench.link.status().state, LinkState::kDead);
   EXPECT_EQ(bench.link.status().fault, LinkFault::kLost);
   const std::size_t sent = bench.falcon.sent.size();
-  bench.falcon.unplugged = false;  // it cannot come back by itself
+  bench.falcon.unplugged = false;  // it does not come back by itself
   bench.link.rearm();
   bench.ticks(50);
   EXPECT_EQ(bench.falcon.sent.size(), sent);
@@ -364,11 +365,11 @@ TEST(FalconLink, ReleasedItGoesToZeroWhateverIsCommanded) {
   bench.ticks(50);
   ASSERT_EQ(bench.falcon.sent.size(), from + 50);
   for (std::size_t i = from; i < bench.falcon.sent.size(); ++i)
-    EXPECT_EQ(bench.falcon.sent[i].zero(), i >= from + 3);  // sqrt(12) N, 1 N a request
+    EXPECT_EQ(bench.falcon.sent[i].zero(), i >= from + 3);  // sqrt(12) N at 1 N per request
   EXPECT_FALSE(bench.link.sample().valid);
 }
 
-// A write that the bus does not take was not felt: the slope is counted from what was sent.
+// A rejected write was not felt: the slope counts from the last request that was sent.
 TEST(FalconLink, ABusyBusDoesNotMakeAStep) {
   Bench bench;
   bench.operate({0, 0, 0});
@@ -389,7 +390,7 @@ TEST(FalconLink, ButtonsComeThrough) {
   EXPECT_EQ(bench.link.sample().buttons, kButtonCentre | kButtonMinus);
 }
 
-/// Whatever goes wrong in a cycle, one in eight times.
+/// Random disturbances of a cycle; in one of eight cycles the reply is damaged or lost.
 void disturb(Bench& bench, RandomStream& random) {
   HandWrittenFalcon& falcon = bench.falcon;
   falcon.busy = random.below(50) == 0;
@@ -438,9 +439,9 @@ void disturb(Bench& bench, RandomStream& random) {
   }
 }
 
-// What holds at the wire in every one of 10^6 disturbed cycles: packets are well formed, counts within their range, the
-// homing bit set, and where the link is not in operation there is no force: none before it was in operation for the first time, and from
-// then on it only goes down, a newton a request, until it is zero: eight requests from the rated 8 N, one for the rounding of counts.
+// Invariants at the wire in each of 10^6 disturbed cycles: packets are well formed, counts within range, the homing bit
+// set. Outside operation there is no force: none before the first operation, and afterwards it only falls, a newton per
+// request, to zero: eight requests from the rated 8 N, plus one for the rounding of counts.
 TEST(FalconLink, AtTheWireTheInvariantsHoldWhateverGoesWrong) {
   RandomStream random(20262, "falcon link");
   Bench bench;
@@ -497,7 +498,7 @@ TEST(FalconLink, SameInputSameBits) {
   EXPECT_EQ(run(), run());
 }
 
-/// Answers without taking memory, so that whatever takes any is the link.
+/// Answers without allocating, so that any allocation is the link's.
 class Metronome final : public FalconTransport {
  public:
   bool control(Control, double) noexcept override { return true; }

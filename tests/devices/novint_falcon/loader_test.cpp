@@ -23,7 +23,7 @@ struct Started {
     falcon.expects = firmware.size();
   }
 
-  /// Until it is done, at most `limit` seconds of virtual time.
+  /// Runs until it is done, for at most `limit` seconds of virtual time.
   Result run(double limit = 600, double tick = 1e-3) {
     loader.start(0);
     Result result = Result::kBusy;
@@ -41,7 +41,7 @@ bool allZero(const HandWrittenFalcon& falcon) {
   return std::all_of(falcon.sent.begin(), falcon.sent.end(), [](const auto& s) { return s.well_formed && s.zero(); });
 }
 
-// The numbers of the converter's requests; bmRequestType 0x40 and wIndex 0 belong to all of them.
+// Numbers of the converter's requests; all use bmRequestType 0x40 and wIndex 0.
 TEST(FalconControl, RequestsOfTheConverter) {
   const std::map<Control, FtdiRequest> expected{
       {Control::kReset, {0, 0}},          {Control::kPurgeReceive, {0, 1}},      {Control::kPurgeTransmit, {0, 2}},
@@ -76,7 +76,7 @@ TEST(FalconLoader, WithoutFirmwareASilentDeviceIsSaidSo) {
 
 class FalconLoading : public testing::TestWithParam<bool> {};
 
-// 8492 bytes is the size of one of the real files.
+// 8492 bytes is the size of a real firmware file.
 TEST_P(FalconLoading, EveryByteArrivesInChunksThatFitOnePacket) {
   HandWrittenFalcon falcon;
   falcon.loaded = false;
@@ -98,7 +98,7 @@ TEST_P(FalconLoading, EveryByteArrivesInChunksThatFitOnePacket) {
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutAZeroFirst, FalconLoading, testing::Bool());
 
-// "Upload often fails the first one to three times": the ninth failure is still forgiven, the tenth is not.
+// "Upload often fails the first one to three times": nine failures are tolerated, ten are not.
 TEST(FalconLoader, NineFailuresAreForgivenTenAreNot) {
   for (const int failures : {1, 3, 9, 10}) {
     HandWrittenFalcon falcon;
@@ -120,7 +120,7 @@ TEST(FalconLoader, NineFailuresAreForgivenTenAreNot) {
   }
 }
 
-// The echo is the only checksum: one that is longer or shorter is as wrong as one that differs.
+// The echo is the only checksum: a longer or shorter echo is as wrong as a different one.
 TEST(FalconLoader, AnEchoOfAnotherLengthIsWrong) {
   for (const bool longer : {true, false}) {
     HandWrittenFalcon falcon;
@@ -137,7 +137,7 @@ TEST(FalconLoader, AnEchoOfAnotherLengthIsWrong) {
   }
 }
 
-// Even the very byte that would come next is no echo before it was sent.
+// Even the correct next byte is no valid echo before it was sent.
 TEST(FalconLoader, AnEchoOfWhatWasNotSentYetIsWrong) {
   HandWrittenFalcon falcon;
   falcon.loaded = false;
@@ -194,7 +194,7 @@ TEST(FalconLoader, ARefusedSettingEndsIt) {
   EXPECT_EQ(start.loader.fault(), LinkFault::kControlRefused);
 }
 
-// Pulled out at any moment of an upload: said at the next step, and nothing more is sent.
+// Unplugged at any moment of an upload: reported at the next step, and nothing more is sent.
 TEST(FalconLoader, UnpluggedAtAnyMomentIsNoticedAtOnce) {
   for (int pulled = 0; pulled < 900; pulled += 7) {
     HandWrittenFalcon falcon;

@@ -9,14 +9,14 @@
 #include "devices/falcon_model/model_transport.h"
 #include "devices/novint_falcon/link.h"
 
-/// The driver's link on the model of the device, both in one virtual time: the link is stepped every quarter of a millisecond, as its
-/// thread does, and a haptic loop of 1 kHz commands force(sample).
+/// The driver's link on the model of the device, in one virtual time: the link is stepped every 0.25 ms, as by its
+/// thread, and a haptic loop of 1 kHz commands force(sample).
 namespace presa::falcon {
 
 using Model = falcon_model::FalconModel;
 using falcon_model::ModelSettings;
 
-/// Made up, the size of the real ones; begins as they do.
+/// Synthetic, with the size and the first bytes of the real firmware.
 inline std::vector<std::uint8_t> madeUpFirmware() {
   std::vector<std::uint8_t> bytes(8492);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 31 + i / 256);
@@ -43,7 +43,7 @@ struct ModelBench {
     model.limits({.force = kForce, .force_rate = kForceRate});
     connect();
   }
-  /// As a program does that starts anew.
+  /// Connects like a newly started program.
   void connect() {
     link.reset();
     transport.reset();
@@ -66,7 +66,7 @@ struct ModelBench {
   void run(double seconds) {
     for (const auto until = quarters + std::lround(seconds / 0.25e-3); quarters < until;) step();
   }
-  /// Until the link is in that state; false: not within that time.
+  /// Runs until the link is in that state; false: not within that time.
   bool reach(LinkState state, double seconds) {
     for (const auto until = quarters + std::lround(seconds / 0.25e-3); quarters < until;) {
       step();
@@ -77,7 +77,7 @@ struct ModelBench {
   void handAt(const Vec3& p_D) {
     model.grip().hand([p_D](double) { return p_D; });
   }
-  /// Pulls it out and pushes it in, as the light asks for.
+  /// Pulls the grip out and pushes it in.
   void home() {
     const double begin = now();
     model.grip().hand([begin](double time) -> Vec3 {
@@ -85,7 +85,7 @@ struct ModelBench {
       return {0, 0, s < 1 ? 0.125 + 0.045 * s : 0.170 - 0.050 * (s - 1)};
     });
   }
-  /// In operation and past the soft start under this force.
+  /// Brings the link into operation, past the soft start, under this force.
   void operate(const Vec3& f_D) {
     force = [f_D](const LinkSample&) { return f_D; };
     reach(LinkState::kOperating, 2);

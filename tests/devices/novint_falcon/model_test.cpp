@@ -1,5 +1,5 @@
-// The driver against the model of the device: two readings of one description. What is judged is what the model received, by eyes of
-// its own (devices/falcon_model/force_watch.h); they are asked at the end of every test.
+// The driver against the model of the device, two independent implementations of one description. The forces that the
+// model received are judged by its force watch (devices/falcon_model/force_watch.h), checked at the end of every test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using falcon_model::ReplyFate;
 using falcon_model::UploadFault;
 using testing::IsEmpty;
 
-/// Half a count of rounding for each motor, where the grip is [N].
+/// Rounding error of half a count per motor at the current pose [N].
 double rounding(const ModelBench& bench) {
   return falcon_model::roundingOf(const_cast<Model&>(bench.model).grip().rates());
 }
@@ -32,12 +32,12 @@ TEST(FalconOnModel, FromPowerOnToTheFirstForce) {
   bench.run(1);
   EXPECT_TRUE(bench.model.received().green && bench.model.received().homing);
   EXPECT_NEAR((bench.felt() - Vec3(0, 0, 2)).norm(), 0, rounding(bench));
-  // counters are whole, and each is worth 0.05 mm here
+  // counters are whole numbers, and a count is 0.05 mm here
   EXPECT_NEAR((bench.link->sample().p_DH - bench.model.grip().position()).norm(), 0, 1e-4);
   EXPECT_THAT(bench.model.violations(), IsEmpty());
 }
 
-// Loading fails now and then at first, each time at another byte.
+// Uploads sometimes fail, each time at another byte.
 TEST(FalconOnModel, WrongEchoesAreTriedAgain) {
   for (const auto kind :
        {UploadFault::Kind::kCorruptByte, UploadFault::Kind::kWrongEcho, UploadFault::Kind::kLostEcho}) {
@@ -94,8 +94,8 @@ TEST(FalconOnModel, ARefusedSettingIsSaid) {
   }
 }
 
-// A hand of 500 N/m that wants to be 10 mm inside a wall of 1000 N/m: two springs, F = K k/(K + k) x, here 3.33 N. The wall sees
-// whole counts: half of one is 25 um along z, 25 mN.
+// A hand of 500 N/m with its target 10 mm inside a wall of 1000 N/m: two springs, F = K k/(K + k) x = 3.33 N. The wall
+// sees whole counts: half a count is 25 um along z, 25 mN.
 TEST(FalconOnModel, AHandPressedAgainstAWallFeelsTwoSprings) {
   ModelBench bench;
   constexpr double kWall = 0.120, kStiffness = 1000;
@@ -112,7 +112,7 @@ TEST(FalconOnModel, AHandPressedAgainstAWallFeelsTwoSprings) {
   EXPECT_THAT(bench.model.violations(), IsEmpty());
 }
 
-// 10 minutes of 1 kHz: one request a tick, each a millisecond after the one before, to the last digit of the clock.
+// 10 minutes at 1 kHz: one request per tick, exactly a millisecond apart.
 TEST(FalconOnModel, TenMinutesWithoutDrift) {
   ModelBench bench;
   ASSERT_TRUE(bench.reach(LinkState::kOperating, 1));
@@ -129,13 +129,13 @@ TEST(FalconOnModel, TenMinutesWithoutDrift) {
   bench.run(600);
   EXPECT_NEAR(static_cast<double>(count), static_cast<double>(bench.ticks - ticks), 1);
   EXPECT_EQ(bench.ticks - ticks, 600'000);
-  EXPECT_LT(worst, 1e-6);  // the sum of the clock's roundings
-  EXPECT_LT(wrong, 0.01);  // half a count each, and a tick's change of 1 mN
+  EXPECT_LT(worst, 1e-6);  // accumulated rounding of the clock
+  EXPECT_LT(wrong, 0.01);  // half a count per motor, and a change of 1 mN in a tick
   EXPECT_EQ(bench.link->status().rejected, 0U);
   EXPECT_THAT(bench.model.violations(), IsEmpty());
 }
 
-/// From 4 N with that fault, until it is over; the force may go, and comes back.
+/// Applies a fault at 4 N until it is over; the force may vanish, and returns.
 void survives(const char* what, const std::function<void(ModelBench&)>& fault, bool comes_back = true) {
   SCOPED_TRACE(what);
   ModelBench bench;
@@ -186,7 +186,7 @@ TEST(FalconOnModel, SurvivesRepliesThatAreShortSplitMergedOrMissing) {
   });
 }
 
-// Nothing that is flipped gives force before homing or beyond a limit; what it does to a sample may latch.
+// Flipped bits never cause a force before homing or above a limit; an affected sample may latch.
 TEST(FalconOnModel, SurvivesFlippedBits) {
   RandomStream random(8, "bits");
   for (int run = 0; run < 20; ++run) {
@@ -201,7 +201,7 @@ TEST(FalconOnModel, SurvivesFlippedBits) {
   }
 }
 
-// From 4 N: held 2 ms at most after the last reply was read, zero by 5 ms.
+// From 4 N: held at most 2 ms after the last reply was read, zero by 5 ms.
 TEST(FalconOnModel, SilenceIsHeldTwoMillisecondsAndZeroByFive) {
   for (const double phase : {0.0, 0.25e-3, 0.5e-3, 0.75e-3}) {
     ModelBench bench;
@@ -212,7 +212,7 @@ TEST(FalconOnModel, SilenceIsHeldTwoMillisecondsAndZeroByFive) {
     bench.model.mute(bench.now(), bench.now() + 1);
     double last_reply = bench.now(), down = -1, zero = -1;
     bench.model.onRequest([&](const falcon_model::Received& request) {
-      const double sent = request.time - 16 * 10 / 1.5e6;  // less its time on the wire
+      const double sent = request.time - 16 * 10 / 1.5e6;  // minus its transmission time
       if (down < 0 && request.meant_D.norm() < 0.99 * full) down = sent;
       if (zero < 0 && request.counts == std::array{0, 0, 0}) zero = sent;
     });
@@ -279,12 +279,12 @@ TEST(FalconOnModel, PulledOutItIsLostAndBackItStartsFromTheBeginning) {
   EXPECT_THAT(bench.model.violations(), IsEmpty());
 }
 
-// Its program is gone: motors hold, which is the worst that may be; the next program starts from zero.
+// When the program ends, the motors hold their force (the worst case); the next program starts from zero.
 TEST(FalconOnModel, AProgramThatEndedLeavesTheForceAndTheNextTakesItAway) {
   ModelBench bench;
   bench.operate({0, 0, 4});
   bench.transport->lost();
-  for (int i = 0; i < 400; ++i) ++bench.quarters;  // nobody steps the link for 0.1 s
+  for (int i = 0; i < 400; ++i) ++bench.quarters;  // the link is not stepped for 0.1 s
   bench.model.advance(bench.now());
   EXPECT_TRUE(bench.model.holdsForce());
   EXPECT_NEAR(bench.model.quietFor(bench.now()), 0.1, 2e-3);

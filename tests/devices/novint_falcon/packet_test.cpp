@@ -10,7 +10,7 @@
 namespace presa::falcon {
 namespace {
 
-/// "41*12" is twelve times 0x41.
+/// Bytes from (value, count) pairs: {0x41, 12} is twelve times 0x41.
 Bytes bytesOf(std::initializer_list<std::pair<int, int>> runs) {
   Bytes bytes;
   for (const auto& [value, count] : runs)
@@ -30,7 +30,7 @@ std::vector<Reply> parsed(PacketParser& parser, const Bytes& bytes) {
   return replies;
 }
 
-// The golden vectors stand in the description of the protocol; they are a witness apart from every program.
+// Reference vectors from the protocol description, independent of any program.
 TEST(FalconPacket, GoldenVectorsOfRequests) {
   EXPECT_EQ(sent({.homing = false}), bytesOf({{0x3c, 1}, {0x41, 14}, {0x3e, 1}}));
   EXPECT_EQ(sent({.light = kGreen}), bytesOf({{0x3c, 1}, {0x41, 12}, {0x44, 1}, {0x41, 1}, {0x3e, 1}}));
@@ -58,7 +58,7 @@ TEST(FalconPacket, ButtonsAndHomedFlagsAreSeparateBits) {
   }
 }
 
-// A device that takes the low 16 bits of 300 000 counts pushes the wrong way.
+// A device that uses the low 16 bits of 300 000 counts would push the wrong way.
 TEST(FalconPacket, ACountOutOfRangeSendsNoForce) {
   for (const int bad : {4096, -4096, 65535, 300000, -300000, 1 << 30})
     EXPECT_EQ(sent({.force = {100, bad, -100}}), sent({})) << bad;
@@ -75,7 +75,8 @@ TEST(FalconPacket, EveryEncoderValueComesBack) {
   EXPECT_EQ(parser.dropped(), 0U);
 }
 
-// What really happens: 14 bytes, whose '>' an old parser took for the end of 16 and read seven homed flags out of it.
+// Seen on devices: a reply of 14 bytes, whose '>' an old parser took for the end of 16 bytes, reading seven homed
+// flags.
 TEST(FalconPacket, AReplyOfFourteenBytesIsNone) {
   Bytes stream = replyOf({1, 2, 3}, 0x41);
   Bytes fourteen = replyOf({4, 5, 6}, 0xB1);
@@ -135,13 +136,13 @@ TEST(FalconPacket, AfterAResetNothingOldIsRead) {
   EXPECT_TRUE(parsed(parser, Bytes(bytes.begin() + 8, bytes.end())).empty());
 }
 
-/// One to three faults, as they happen on a wire, in a stream of four replies.
+/// A stream of four replies with one to three typical transmission faults.
 Bytes mutated(RandomStream& random) {
   Bytes stream;
   for (int i = 0; i < 4; ++i) {
     Bytes reply = replyOf({static_cast<int>(random.below(65536)), static_cast<int>(random.below(65536)), 0},
                           0x41 + static_cast<int>(random.below(128)), static_cast<int>(random.below(256)));
-    if (random.below(4) == 0) reply.erase(reply.begin() + 13, reply.begin() + 15);  // the short reply
+    if (random.below(4) == 0) reply.erase(reply.begin() + 13, reply.begin() + 15);  // the truncated reply
     stream.insert(stream.end(), reply.begin(), reply.end());
   }
   for (std::uint64_t faults = 1 + random.below(3); faults > 0 && stream.size() > 2; --faults) {
@@ -160,8 +161,8 @@ Bytes mutated(RandomStream& random) {
         break;
       case 3:
         stream.erase(stream.begin() + at, stream.begin() + at + count);
-        break;    // two packets run together
-      default: {  // a piece comes twice
+        break;    // two packets merged
+      default: {  // a piece repeated
         const Bytes piece(stream.begin() + at, stream.begin() + at + count);
         stream.insert(stream.begin() + at, piece.begin(), piece.end());
       }
@@ -170,7 +171,7 @@ Bytes mutated(RandomStream& random) {
   return stream;
 }
 
-/// How many frames obey the rules, found by looking at every place: each reply must be one of these.
+/// True if a valid frame starts at this position; every accepted reply must be one of these.
 bool obeysRules(const Bytes& stream, std::size_t at) {
   if (at + kPacketSize > stream.size() || stream[at] != '<' || stream[at + 15] != '>') return false;
   for (std::size_t i = 1; i <= 12; ++i)
@@ -184,8 +185,8 @@ int valueAt(const Bytes& stream, std::size_t at) {
   return value >= 32768 ? value - 65536 : value;
 }
 
-// However a million streams are damaged, no frame is believed that breaks a rule, none that obeys them all is missed
-// unless it overlaps one that was believed, and both good packets after the damage are read.
+// For a million damaged streams: no invalid frame is accepted, no valid one is missed unless it overlaps an accepted
+// one, and both good packets after the damage are read.
 TEST(FalconPacket, AMillionDamagedStreamsDeceiveNobody) {
   RandomStream random(20261, "falcon packets");
   const Bytes last = replyOf({1234, -4321, 77}, 0xB3);
@@ -195,8 +196,8 @@ TEST(FalconPacket, AMillionDamagedStreamsDeceiveNobody) {
     for (int i = 0; i < 2; ++i) stream.insert(stream.end(), last.begin(), last.end());
 
     PacketParser parser;
-    std::size_t at = 0;   // where the next believed frame may begin
-    std::size_t fed = 0;  // in pieces of any size, as reads are
+    std::size_t at = 0;   // where the next accepted frame may start
+    std::size_t fed = 0;  // in pieces of random size, like reads
     int recovered = 0;
     while (fed < stream.size()) {
       const std::size_t piece = std::min<std::size_t>(1 + random.below(62), stream.size() - fed);

@@ -22,8 +22,8 @@ Counts encodersAt(double time) {
   return counts;
 }
 
-// A reply that comes 30 ms late is taken for that of a request of now, and the next one shows where the hand went meanwhile: that is no
-// motion of a millisecond, and no fault either.
+// A reply that comes 30 ms late is attributed to a current request, and the next one shows the motion in between: that
+// must give neither a velocity nor a fault.
 TEST(FalconSampleGate, ALateReplyIsNoSpeed) {
   SampleGate gate(3, 1e-3);
   RandomStream random(1, "late");
@@ -32,7 +32,7 @@ TEST(FalconSampleGate, ALateReplyIsNoSpeed) {
     const double late = random.uniform(3e-3, 0.03);
     for (const double end = time + 0.05; time < end; time += 1e-3)
       ASSERT_EQ(gate.take(encodersAt(std::fmod(time, 0.3)), time), SampleGate::Verdict::kGood);
-    EXPECT_NEAR(gate.velocity().z(), kSpeed, 0.03);  // steps of the encoders
+    EXPECT_NEAR(gate.velocity().z(), kSpeed, 0.03);  // encoder steps
     const double asked = time;
     for (; time < asked + late; time += 1e-3) {
       if (time > asked + 2e-3) gate.unsettle(time - 2e-3, time);
@@ -42,14 +42,14 @@ TEST(FalconSampleGate, ALateReplyIsNoSpeed) {
     ASSERT_EQ(gate.take(encodersAt(std::fmod(time, 0.3)), time), SampleGate::Verdict::kGood) << late;
     fastest = std::max(fastest, gate.velocity().norm());
     if (std::fmod(time, 0.3) > 0.2) {
-      time += 0.1;  // the hand goes back
+      time += 0.1;  // the hand returns
       gate.reset();
     }
   }
   EXPECT_LT(fastest, 1.2 * kSpeed);
 }
 
-// A jump that no hand makes is one also when a reply was late.
+// An impossible jump is rejected also while replies are late.
 TEST(FalconSampleGate, AJumpIsRejectedWhileRepliesAreLate) {
   SampleGate gate(3, 1e-3);
   ASSERT_EQ(gate.take(encodersAt(0), 0), SampleGate::Verdict::kGood);

@@ -34,7 +34,7 @@ FalconSettings settingsOf(const std::string& xml, Diagnostics& diagnostics) {
   World world;
   world.options.realtime = true;
   world.scene.devices.emplace_back().role = "thumb";
-  world.scene.devices[0].limits = {.force = 1e9, .force_rate = 1e9, .watchdog_ms = 1e9};  // a scene that lies
+  world.scene.devices[0].limits = {.force = 1e9, .force_rate = 1e9, .watchdog_ms = 1e9};  // a scene with absurd limits
   return readSettings(rigWith(xml).devices.at(0), world, diagnostics);
 }
 
@@ -72,7 +72,7 @@ TEST(FalconSettings, EverythingWrongIsSaidAtOnce) {
   for (const Diagnostic& found : diagnostics.all()) EXPECT_EQ(found.where.line, 2);
 }
 
-// A rig that says of the motors what is not so would have forces beyond the rating; one that believes every sample, none that are checked.
+// A larger motor constant would give forces above the rating; a larger max speed would disable the check of samples.
 TEST(FalconSettings, ARigWidensNothing) {
   Diagnostics diagnostics;
   settingsOf(set("counts_per_torque", "12501") + set("max_speed", "3.01"), diagnostics);
@@ -82,7 +82,7 @@ TEST(FalconSettings, ARigWidensNothing) {
       << diagnostics.text();
 }
 
-// Like a motion it stands beside the rig.
+// The path is relative to the rig file, as for motions.
 TEST(FalconSettings, FirmwareIsAPathFromTheRig) {
   EXPECT_EQ(rigWith(set("firmware", "../falcon.bin")).devices[0].settings.at("firmware").value, "/lab/falcon.bin");
 }
@@ -112,7 +112,7 @@ TEST(FalconFirmware, WhatCannotBeFirmwareIsRefused) {
   }
 }
 
-// The sum is that of `printf '\xaa\x08\x00\x00' | sha256sum`.
+// The checksum is that of `printf '\xaa\x08\x00\x00' | sha256sum`.
 TEST(FalconFirmware, AnUnknownFileIsLoadedWithAWarning) {
   std::vector<std::uint8_t> read;
   EXPECT_EQ(findingsOfFirmware(std::string("\xAA\x08\0\0", 4), &read), (std::vector<int>{kFirmwareUnknown}));
@@ -120,7 +120,8 @@ TEST(FalconFirmware, AnUnknownFileIsLoadedWithAWarning) {
   EXPECT_EQ(findingsOfFirmware("\xAA\x08" + std::string(65534, 'x')), (std::vector<int>{kFirmwareUnknown}));
 }
 
-// Through the plug-in's table, as the program asks: whatever this computer has plugged in, each finding says something.
+// Through the plug-in's table, as the program calls it: each finding has a text, whatever is plugged into this
+// computer.
 TEST(FalconDiagnose, EveryProblemComesWithItsRemedy) {
   DeviceBinding binding;
   binding.driver = "novint_falcon";
@@ -154,7 +155,7 @@ TEST(FalconPlugin, MakesADeviceFromARig) {
   EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
   ASSERT_EQ(devices.size(), 1U);
   EXPECT_TRUE(devices[0]->model().empty());  // a person
-  EXPECT_FALSE(devices[0]->read({}).valid);  // not opened
+  EXPECT_FALSE(devices[0]->read({}).valid);  // not open
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What of the USB side can be tested without a bus: the bytes of its packets, and what a user is told.
+// The USB side as far as it can be tested without a bus: packet bytes and messages.
 #include <gtest/gtest.h>
 
 #include "devices/novint_falcon/usb_transport.h"
@@ -14,7 +14,7 @@ std::vector<std::uint8_t> payloadOf(const std::vector<std::uint8_t>& received) {
   return bytes;
 }
 
-// The converter puts two bytes of its own before every 64-byte packet; two bytes alone say "nothing yet".
+// The converter puts two status bytes before every 64-byte packet; two bytes alone mean "no data".
 TEST(FalconUsb, StatusBytesAreTakenOutOfEveryPacket) {
   EXPECT_TRUE(payloadOf({}).empty());
   EXPECT_TRUE(payloadOf({0x01}).empty());
@@ -39,7 +39,7 @@ TEST(FalconUsb, AByteRingKeepsTheNewest) {
   EXPECT_EQ(ring.size(), 5U);
 }
 
-// Whoever cannot open the device gets the line that helps, ready to be pasted.
+// When the device cannot be opened, the message contains the remedy, ready to paste.
 TEST(FalconUsb, EveryProblemIsSaidAndAlmostEachHasARemedy) {
   UsbFailure failure{.problem = UsbProblem::kNoPermission, .node = "/dev/bus/usb/001/007"};
   EXPECT_NE(describe(failure, "").find("/dev/bus/usb/001/007"), std::string::npos);

@@ -18,8 +18,8 @@ namespace {
 
 const Parameters kArm = paperArm();
 
-// Oracle: the transfer function of the linear model. Without dry friction what is left is the hold of the command over a
-// tick (0.1 dB at 100 Hz), the joints' counts in J and the sampling of the sum: 0.3 dB.
+// Reference: the transfer function of the linear model. Without dry friction the remaining differences are the hold of
+// the command over a tick (0.1 dB at 100 Hz), the counts in J, and the sampling: 0.3 dB.
 TEST(PercroBench, ForceResponseIsThatOfTheLinearModel) {
   Parameters p = kArm;
   p.friction.coulomb[0] = p.friction.coulomb[1] = p.friction.coulomb[2] = 0;
@@ -28,17 +28,17 @@ TEST(PercroBench, ForceResponseIsThatOfTheLinearModel) {
     EXPECT_NEAR(response.gain_db[i], linearGain(p, response.frequency[i]), 0.3) << response.frequency[i];
 }
 
-// Twice the moving mass: the band shrinks by the root of two, in the model as in the closed form of a mass on a spring.
+// With twice the moving mass the bandwidth falls by sqrt(2), in the model as in the closed form of a mass on a spring.
 TEST(PercroBench, BandwidthFallsWithTheMovingMass) {
   const std::vector<double> frequencies = steps(2, 120, 59);
   Parameters heavy = kArm;
   heavy.masses.barrel *= 2;
   const double ratio = forceResponse(kArm, frequencies).bandwidth / forceResponse(heavy, frequencies).bandwidth;
-  EXPECT_NEAR(ratio, std::numbers::sqrt2, 0.08);  // damping does not scale with it
+  EXPECT_NEAR(ratio, std::numbers::sqrt2, 0.08);  // the damping does not scale with the mass
 }
 
-// A stiff structure without friction, with fine encoders and quick motors is a mass on a sampled wall: stable below
-// K = 2 b / T [Colgate1997]. At 0.7 of it what the impact left dies as exp(-2.1 t), at 1.3 it grows as fast.
+// A rigid arm without friction, with fine encoders and fast motors, is a mass at a sampled wall: stable below K = 2 b /
+// T [Colgate1997]. At 0.7 of that bound the disturbance of the impact decays as exp(-2.1 t), at 1.3 it grows as fast.
 TEST(PercroBench, AWallOfARigidArmShakesBeyondColgatesBound) {
   Parameters p = kArm;
   p.friction = {{0, 0, 0}, {0, 0, 0}};
@@ -50,17 +50,17 @@ TEST(PercroBench, AWallOfARigidArmShakesBeyondColgatesBound) {
   EXPECT_GT(wallShake(p, 0.75, Vec3::UnitX(), 1.3 * bound, hand), 100e-6);
 }
 
-// Oracle: the box of 300 x 400 mm whose near face touches L = 441 mm and whose far corners lie at L = 1070 mm.
+// Reference: the box of 300 x 400 mm with its near face at L = 441 mm and its far corners at L = 1070 mm.
 TEST(PercroReach, TheDeepBoxEndsWhereItsCornersDo) {
   const double a = 0.6 * 0.6 + 0.15 * 0.15 + 0.2 * 0.2, b = 2 * 0.441 * 0.6, c = 0.441 * 0.441 - 1.07 * 1.07;
   const double scale = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
   EXPECT_NEAR(largestScale(kArm.geometry, {0.6, 0.3, 0.4}), scale, 1e-6);
   EXPECT_FALSE(reaches(kArm.geometry, {{0.6, 0.3, 0.4}, 0.441}));
   EXPECT_TRUE(reaches(kArm.geometry, {{0.599, 0.3, 0.4}, 0.441}));
-  EXPECT_FALSE(reaches(kArm.geometry, {{0.3, 0.4, 0.6}, 0.40}));  // its near face lies before the barrel
+  EXPECT_FALSE(reaches(kArm.geometry, {{0.3, 0.4, 0.6}, 0.40}));  // its near face is closer than the retracted barrel
 }
 
-// Oracle: the force that breaks a motor's limit, found by trying directions. 1 %: 2000 directions.
+// Reference: the force that reaches a motor's limit, over 2000 random directions; tolerance 1 %.
 TEST(PercroReach, NoDirectionAsksMoreOfAMotorThanTheForceInAll) {
   const ArmDynamics arm(kArm, {0, -9.81, 0});
   const Mat3 to_motors = transmissionInverse(kArm.geometry).transpose();
@@ -90,7 +90,7 @@ TEST(PercroFigures, AgreeWithThePrintedOnes) {
   EXPECT_EQ(compared, 12);
 }
 
-// And an arm that is not the paper's does not.
+// An arm that differs from the paper's is reported as different.
 TEST(PercroFigures, AnotherArmDiffers) {
   const auto differs = [](const Parameters& p, const std::string& name) {
     for (const Characteristic& f : figures(p)) {

@@ -1,4 +1,4 @@
-// The arms in the rest of Presa: lockstep, shipped scene and rig.
+// The arms in the whole program: lockstep, shipped scene and rig.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +16,8 @@ const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_percro.xml";
 
 std::unique_ptr<Run> lift(const std::vector<std::string>& sets = {}) { return test::runToTheEnd(kScene, kRig, sets); }
 
-// Bounds: rendered forces come in steps of stiffness times the barrel's 60 um (0.06 N), the hand feels 0.2 N of the joints'
-// friction besides, and the grip loosens by 3 N/s.
+// Tolerances: rendered forces change in steps of the stiffness times the barrel's 60 um (0.06 N), the joints' friction
+// adds 0.2 N at the hand, and the grip loosens by 3 N/s.
 TEST(PercroDevice, TwoArmsLiftTheCube) {
   const auto run = lift();
   const auto grasp = graspFigures(run->result());
@@ -59,7 +59,7 @@ std::unique_ptr<Device> thumb(
   return test::firstDevice(kScene, kRig, diagnostics, change);
 }
 
-// What is read are whole counts, seen from the base that the rig says.
+// Reported positions are whole counts, transformed by the base pose of the rig.
 TEST(PercroDevice, ReportsWholeCountsThroughTheBasePose) {
   Diagnostics diagnostics;
   const auto device = thumb(diagnostics);

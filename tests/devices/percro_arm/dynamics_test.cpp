@@ -20,7 +20,7 @@ Parameters lossless() {
   return p;
 }
 
-/// Swings by some 10 cm and rings in its structure.
+/// A state that swings by about 10 cm with vibrations of the structure.
 ArmState released(const ArmDynamics& arm) {
   ArmState state = arm.atRest({0.75, 0.05, -0.08});
   state.x += Vec3(1e-3, -2e-3, 1e-3);
@@ -42,8 +42,9 @@ double distance(const ArmState& a, const ArmState& b) {
   return std::max({(a.q - b.q).norm(), (a.x - b.x).norm(), (a.v - b.v).norm(), (a.p - b.p).norm()});
 }
 
-// Oracle: point masses carried along by the barrel's frame, their speeds by central differences. Rods of point masses stand for
-// barrel and counterweight; what turns with one joint alone is added by hand. 1e-6: the differences' step.
+// Reference: the kinetic energy of point masses attached to the barrel frame, with speeds by central differences. Rods
+// of point masses replace barrel and counterweight; parts that rotate with one joint only are added separately.
+// Tolerance 1e-6: the step of the differences.
 TEST(PercroDynamics, InertiaIsTheKineticEnergyOfItsParts) {
   const Parameters p = paperArm();
   const ArmDynamics arm(p, kGravity);
@@ -51,7 +52,7 @@ TEST(PercroDynamics, InertiaIsTheKineticEnergyOfItsParts) {
   const double reach =
       std::sqrt(p.masses.barrel_inertia / p.masses.barrel - p.masses.roll_inertia / (2 * p.masses.barrel));
   const double radius = std::sqrt(p.masses.roll_inertia / p.masses.barrel);
-  const auto barrel = [&](const Joints& q) {  // two ends along the barrel, four points around it: the same moments
+  const auto barrel = [&](const Joints& q) {  // two ends along the barrel, four points around it: equal moments
     std::vector<Vec3> points;
     const double centre = p.geometry.length_min + q[2] - p.masses.barrel_setback;
     for (const double along : {-reach, reach}) {
@@ -77,7 +78,7 @@ TEST(PercroDynamics, InertiaIsTheKineticEnergyOfItsParts) {
   }
 }
 
-// Hamilton's equations by differences: q' = dH/dp, p' = -dH/dq, x' = v, m v' = -dH/dx, each from the energy alone.
+// Hamilton's equations by finite differences of the energy: q' = dH/dp, p' = -dH/dq, x' = v, m v' = -dH/dx.
 TEST(PercroDynamics, MovesAsTheGradientOfItsEnergySays) {
   const ArmDynamics arm(lossless(), kGravity);
   RandomStream stream(2, "gradient");
@@ -97,7 +98,7 @@ TEST(PercroDynamics, MovesAsTheGradientOfItsEnergySays) {
       return (arm.energy(up, load) - arm.energy(down, load)) / (2 * d);
     };
     for (int k = 0; k < 3; ++k) {
-      // h / 2 times the second derivatives, up to 1e6 of the barrel's springs, and 1e-9 of rounding over h
+      // h / 2 times the second derivatives, up to 1e6 for the barrel's springs, plus rounding 1e-9 / h
       EXPECT_NEAR((next.q[k] - state.q[k]) / h, slope(&ArmState::p, k), 1e-4);
       EXPECT_NEAR((next.p[k] - state.p[k]) / h, -slope(&ArmState::q, k), 1e-2);
       EXPECT_NEAR((next.v[k] - state.v[k]) / h * load.mass, -slope(&ArmState::x, k), 1e-2);
@@ -105,8 +106,8 @@ TEST(PercroDynamics, MovesAsTheGradientOfItsEnergySays) {
   }
 }
 
-// Second order: half the step, a quarter of the energy's ripple; and no drift: the mean of the last second is that of the
-// first within a tenth of the ripple.
+// Second order: half the step gives a quarter of the energy ripple. No drift: the means of the first and the last
+// second agree within a tenth of the ripple.
 TEST(PercroDynamics, KeepsItsEnergyToSecondOrder) {
   const ArmDynamics arm(lossless(), kGravity);
   const TipLoad load = springHand();
@@ -128,10 +129,10 @@ TEST(PercroDynamics, KeepsItsEnergyToSecondOrder) {
   const double coarse = ripple(0.5e-3), fine = ripple(0.25e-3);
   EXPECT_GT(coarse / fine, 3.5);
   EXPECT_LT(coarse / fine, 4.5);
-  EXPECT_LT(fine, 1e-3 * 0.5 * 0.1 * 0.29);  // of the tip's kinetic energy at the start
+  EXPECT_LT(fine, 1e-3 * 0.5 * 0.1 * 0.29);  // relative to the tip's initial kinetic energy
 }
 
-// Against a reference 32 times finer than the finest.
+// Reference: a step 32 times finer than the finest.
 TEST(PercroDynamics, ConvergesWithTheSquareOfTheStep) {
   for (const bool losses : {false, true}) {
     Parameters p = paperArm();
@@ -152,7 +153,7 @@ TEST(PercroDynamics, ConvergesWithTheSquareOfTheStep) {
   }
 }
 
-// The structure rings at 90 Hz; steps up to nearly two periods of that, twenty haptic ticks.
+// The structure vibrates at 90 Hz; steps of up to nearly two such periods, twenty haptic ticks, are stable.
 TEST(PercroDynamics, NoStepIsUnstable) {
   const Parameters p = paperArm();
   const ArmDynamics arm(p, kGravity);
@@ -168,7 +169,7 @@ TEST(PercroDynamics, NoStepIsUnstable) {
   }
 }
 
-// With friction the energy falls, in every step beyond the rule's own ripple, and the arm comes to rest.
+// With friction the energy decreases in every step, up to the ripple of the method, and the arm comes to rest.
 TEST(PercroDynamics, FrictionTakesEnergyAway) {
   const ArmDynamics arm(paperArm(), Vec3::Zero());
   TipLoad load = springHand();
@@ -187,7 +188,7 @@ TEST(PercroDynamics, FrictionTakesEnergyAway) {
   EXPECT_LT(before, 0.5 * start);
 }
 
-// Dry friction: below it nothing creeps, not by one bit; above it the joint goes.
+// Dry friction: below it a joint does not creep by a single bit; above it the joint moves.
 TEST(PercroDynamics, AStuckJointDoesNotCreep) {
   const Parameters p = paperArm();
   const ArmDynamics arm(p, Vec3::Zero());
@@ -204,10 +205,10 @@ TEST(PercroDynamics, AStuckJointDoesNotCreep) {
   }
 }
 
-// Statics: a force on the tip against motors that hold the joints moves it by the compliance of eq. 4, or of K_x.
+// Statics: with the joints held by the motors, a force on the tip displaces it by the compliance of eq. 4, or of K_x.
 TEST(PercroDynamics, TipYieldsByThePrintedCompliance) {
   Parameters p = paperArm();
-  p.friction.coulomb[0] = p.friction.coulomb[1] = p.friction.coulomb[2] = 1e3;  // the joints hold
+  p.friction.coulomb[0] = p.friction.coulomb[1] = p.friction.coulomb[2] = 1e3;  // holds the joints
   const ArmDynamics arm(p, Vec3::Zero());
   for (const double length : {0.441, 0.75, 1.07}) {
     const ArmState start = arm.atRest({length, 0, 0});
@@ -225,7 +226,7 @@ TEST(PercroDynamics, TipYieldsByThePrintedCompliance) {
 TEST(PercroDynamics, TheCounterweightBalancesTheDrawnOutBarrel) {
   const ArmDynamics arm(paperArm(), kGravity);
   EXPECT_NEAR(arm.weight({0, 0, 1.070 - 0.441})[0], 0, 1e-12);
-  EXPECT_LT(arm.weight({0, 0, 0})[0], -1);  // drawn in, the counterweight pulls the tip up
+  EXPECT_LT(arm.weight({0, 0, 0})[0], -1);  // retracted, the counterweight lifts the tip
 }
 
 }  // namespace

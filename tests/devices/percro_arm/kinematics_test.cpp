@@ -13,14 +13,14 @@ namespace {
 const Parameters kArm = paperArm();
 const Geometry& kGeometry = kArm.geometry;
 
-/// A joint position within the arm's ranges.
+/// Random joints within the arm's ranges.
 Joints anywhere(RandomStream& stream) {
   return {stream.uniform(-kGeometry.tilt_range, kGeometry.tilt_range),
           stream.uniform(-kGeometry.yaw_range, kGeometry.yaw_range),
           stream.uniform(0, kGeometry.length_max - kGeometry.length_min)};
 }
 
-// Central differences of step h: error h^2 / 6 |p'''| + rounding 1e-16 / h, both below 1e-9 of L at h = 1e-5.
+// Central differences with step h: error h^2 / 6 |p'''| + rounding 1e-16 / h, both below 1e-9 of L at h = 1e-5.
 TEST(PercroKinematics, JacobianIsTheDerivativeOfThePosition) {
   RandomStream stream(1, "jacobian");
   for (int i = 0; i < 200; ++i) {
@@ -34,7 +34,7 @@ TEST(PercroKinematics, JacobianIsTheDerivativeOfThePosition) {
   }
 }
 
-// The paper's eq. 3 has -L cos q1 cos q2 where -L cos q1 sin q2 belongs: wrong by the whole length at rest.
+// The paper's eq. 3 prints -L cos q1 cos q2 in place of -L cos q1 sin q2: an error of the whole length at rest.
 TEST(PercroKinematics, ThePrintedJacobianIsNotTheDerivative) {
   const Joints q = Joints::Zero();
   const double h = 1e-5;
@@ -46,7 +46,7 @@ TEST(PercroKinematics, ThePrintedJacobianIsNotTheDerivative) {
   EXPECT_NEAR(printed, -0.441, 1e-12);
 }
 
-// 1e-12: a few roundings of numbers below 2.
+// 1e-12: a few rounding errors of numbers below 2.
 TEST(PercroKinematics, JointsAndPositionInvertEachOtherOverTheWorkspace) {
   RandomStream stream(2, "inverse");
   for (int i = 0; i < 1000; ++i) {
@@ -73,14 +73,14 @@ TEST(PercroKinematics, TransmissionHasTheSignsOfTheMotors) {
   const Mat3 k = transmission(kGeometry);
   EXPECT_LT((k * transmissionInverse(kGeometry) - Mat3::Identity()).norm(), 1e-14);
   const Joints equal = transmissionInverse(kGeometry) * Vec3(1, 1, 0);
-  EXPECT_EQ(equal[0], 0);  // both motors alike: yaw alone
+  EXPECT_EQ(equal[0], 0);  // equal motor angles: yaw only
   EXPECT_LT(equal[1], 0);
   const Joints opposite = transmissionInverse(kGeometry) * Vec3(-1, 1, 0);
-  EXPECT_GT(opposite[0], 0);  // one against the other: tilt alone
+  EXPECT_GT(opposite[0], 0);  // opposite motor angles: tilt only
   EXPECT_EQ(opposite[1], 0);
 }
 
-// Oracle: the singular value decomposition.
+// Reference: the singular value decomposition.
 TEST(PercroKinematics, GainsAreTheSingularValuesOfTheMotorJacobian) {
   RandomStream stream(4, "gains");
   for (int i = 0; i < 100; ++i) {
@@ -109,7 +109,7 @@ TEST(PercroKinematics, SingularitiesAreNamedWhereTheJacobianLosesRank) {
   }
 }
 
-// Worst move within one count of both encoders, by trying every pair of neighbours.
+// Max motion within one count of both encoders, over all pairs of neighbouring counts.
 TEST(PercroKinematics, TransverseStepIsTheWorstOfAllNeighbours) {
   for (const double length : {0.441, 0.7, 1.07}) {
     const Joints q{0, 0, length - kGeometry.length_min};
@@ -132,12 +132,13 @@ TEST(PercroKinematics, WristAnglesInvertTheThimblesFrame) {
     const Vec3 wrist{stream.uniform(-3, 3), stream.uniform(-1.5, 1.5), stream.uniform(-3, 3)};
     EXPECT_LT((wristAt(q, thimbleFrame(q, wrist)) - wrist).norm(), 1e-12);
   }
-  // at the singularity only the frame comes back
+  // at the singularity only the frame is recovered, not the angles
   const Mat3 frame = thimbleFrame(Joints::Zero(), {0.4, std::numbers::pi / 2, 0.3});
   EXPECT_LT((thimbleFrame(Joints::Zero(), wristAt(Joints::Zero(), frame)) - frame).norm(), 1e-9);
 }
 
-// What is inferred gives back the figures that it was inferred from; the resolution only to the paper's rounding: 1.3 %.
+// The inferred parameters reproduce the figures they were inferred from; the resolution only to the paper's rounding,
+// 1.3 %.
 TEST(PercroParameters, GiveThePrintedFigures) {
   EXPECT_NEAR(transverseStep(kArm, 0.441), printed::kStepShort, 0.014 * printed::kStepShort);
   EXPECT_NEAR(transverseStep(kArm, 1.070), printed::kStepLong, 0.014 * printed::kStepLong);

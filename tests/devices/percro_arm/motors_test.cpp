@@ -11,7 +11,8 @@ namespace {
 
 const Parameters kArm = paperArm();
 
-// Closed form of a first-order lag after a step of the command; the mean over a period is its integral. Exact: rounding only.
+// Closed form of a first-order lag after a step of the command; the mean over a period is its integral. Exact up to
+// rounding.
 TEST(PercroMotors, TorqueFollowsTheLagOfTheCurrentLoop) {
   MotorDrive drive(kArm.motors);
   drive.command(Vec3::Zero(), {0.1, 0, 0});
@@ -23,8 +24,8 @@ TEST(PercroMotors, TorqueFollowsTheLagOfTheCurrentLoop) {
   }
 }
 
-// Peak torque from cold heats as (peak / continuous)^2 (1 - exp(-t / tau)): the fold begins at 0.9. In the end what
-// is left is the continuous torque.
+// Peak torque heats a cold winding as (peak / continuous)^2 (1 - exp(-t / tau)); the limit starts to fall at 0.9 and
+// ends at the continuous torque.
 TEST(PercroMotors, PeakTorqueLastsUntilTheWindingIsHot) {
   MotorDrive drive(kArm.motors);
   const double ratio = kArm.motors.peak_torque / kArm.motors.continuous_torque, tau = kArm.motors.thermal_time;
@@ -35,7 +36,7 @@ TEST(PercroMotors, PeakTorqueLastsUntilTheWindingIsHot) {
     if (drive.limits()[0] < kArm.motors.peak_torque) break;
     drive.step(h), t += h;
   }
-  EXPECT_NEAR(t, until, 5e-3);  // the current's lag of 0.3 ms, and the tick
+  EXPECT_NEAR(t, until, 5e-3);  // the lag of the current, 0.3 ms, and the tick
   for (; t < 20 * tau; t += h) {
     drive.command(Vec3::Zero(), {1, 0, 0});
     drive.step(h);
@@ -68,7 +69,7 @@ TEST(PercroEncoders, ReportWholeCountsAndTheNearest) {
   }
 }
 
-// A steady motion: the line over the longest window, so at most one count over 15 periods wrong. At rest: none.
+// Steady motion: the slope over the longest window has an error of at most one count over 15 periods. At rest: zero.
 TEST(PercroEncoders, RatesAreQuietWhenSlowAndTrueWhenFast) {
   const double period = 1e-3;
   for (const double speed : {0.003, 0.1, 1.0}) {

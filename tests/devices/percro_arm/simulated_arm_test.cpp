@@ -24,8 +24,8 @@ void settle(SimulatedArm& arm, const Vec3& force, double time = 2) {
   }
 }
 
-// A bolted tip feels what was commanded, in every place and direction: J^T, K, gravity and springs agree. 1 %: the Jacobian is
-// that of the joints, which the force has bent away from the tip by up to 3 mm of 441.
+// The commanded force acts at a bolted tip in every place and direction: J^T, K, gravity and springs agree. Tolerance 1
+// %: the Jacobian is that of the joints, and the structure bends by up to 3 mm of 441.
 TEST(PercroArm, TheTipFeelsTheCommandedForce) {
   RandomStream stream(1, "force");
   for (int i = 0; i < 20; ++i) {
@@ -37,8 +37,8 @@ TEST(PercroArm, TheTipFeelsTheCommandedForce) {
   }
 }
 
-// As the paper measured its figure 6: tip bolted, motors push across, encoders tell how far the joints go. Steps: one of the
-// encoders' 60 to 130 um.
+// Like the paper's measurement for figure 6: the tip is bolted, the motors push across, the encoders measure the
+// displacement. Tolerance: one encoder step, 60 to 130 um.
 TEST(PercroArm, EncodersSeeTheComplianceThatTheTipDoesNot) {
   for (const double length : {0.5, 0.75, 1.0}) {
     SimulatedArm arm(withoutDryFriction(), Vec3::Zero(), kPeriod);
@@ -51,7 +51,7 @@ TEST(PercroArm, EncodersSeeTheComplianceThatTheTipDoesNot) {
   }
 }
 
-// With nothing pushing, what is reported lies within the encoders' steps of where the tip is.
+// Without forces the reported position is within the encoder steps of the tip position.
 TEST(PercroArm, ReportsTheTipToWithinAStep) {
   RandomStream stream(2, "report");
   for (int i = 0; i < 500; ++i) {
@@ -64,7 +64,7 @@ TEST(PercroArm, ReportsTheTipToWithinAStep) {
   }
 }
 
-// The paper's continuous force is held for ever, the peak force for a while, in the worst place.
+// In the worst place the paper's continuous force is held permanently, the peak force for a limited time.
 TEST(PercroArm, GivesThePrintedForcesInTheWorstPlace) {
   const double length = 1.069, diagonal = 1 / std::numbers::sqrt2;
   SimulatedArm arm(withoutDryFriction(), Vec3::Zero(), kPeriod);
@@ -73,7 +73,7 @@ TEST(PercroArm, GivesThePrintedForcesInTheWorstPlace) {
   EXPECT_NEAR(arm.tipForce().norm(), 4, 0.04);
   EXPECT_LE(arm.mostHeat(), 1);
   settle(arm, {0, 10 * diagonal, 10 * diagonal}, 0.1);
-  EXPECT_LT(arm.tipForce().norm(), 5);  // hot: no peak is left
+  EXPECT_LT(arm.tipForce().norm(), 5);  // hot: no peak torque left
   SimulatedArm cold(withoutDryFriction(), Vec3::Zero(), kPeriod);
   cold.place({length, 0, 0});
   settle(cold, {0, 10 * diagonal, 10 * diagonal}, 2);
@@ -81,7 +81,7 @@ TEST(PercroArm, GivesThePrintedForcesInTheWorstPlace) {
   EXPECT_GT(cold.leastShare(), 0.99);
 }
 
-// A free arm in the controller's hands neither sinks nor rises: its weight is carried.
+// A free arm neither sinks nor rises: the controller compensates its weight.
 TEST(PercroArm, CarriesItsOwnWeight) {
   SimulatedArm arm(paperArm(), kGravity, kPeriod);
   for (const double length : {0.45, 0.75, 1.05}) {
@@ -91,7 +91,7 @@ TEST(PercroArm, CarriesItsOwnWeight) {
       arm.command(Vec3::Zero());
       arm.advance({.mass = 1e-3});
     }
-    EXPECT_LT((arm.state().x - start).norm(), 5e-5) << length;  // until the current has come up
+    EXPECT_LT((arm.state().x - start).norm(), 5e-5) << length;  // initial lag of the current
   }
 }
 

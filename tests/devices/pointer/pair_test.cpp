@@ -1,4 +1,4 @@
-// The pair alone, against walls made here.
+// The pair alone, against simple walls.
 #include "devices/pointer/pair.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ constexpr double kPeriod = 1e-3, kRadius = 0.008, kSpan = 0.12, kGrip = 6, kPush
 constexpr double kOpenHalf = kSpan / 2 + kRadius;
 const FingerImpedance kFinger{.mass = 0.1, .stiffness = 300, .damping = 8};
 
-/// Two fingers at 1 kHz, and a wall of stiffness `wall` on either side of a body of that half width, which stays where it is.
+/// Two fingers at 1 kHz around a fixed body of the given half width, with a wall of stiffness `wall` [N/m] on each
+/// side.
 struct Bench {
   explicit Bench(double half_width = -1, double wall = 1000) : half_width(half_width), wall(wall) {
     pair.add(Pair::kThumb, kFinger, kPeriod);
@@ -44,8 +45,8 @@ struct Bench {
   std::uint64_t at = 0, sequence = 0;
 };
 
-// Closed form of a way of 0.3 m: 0.05 s to full speed (12.5 mm), 0.5 m/s until 25 mm are left, then e^(-t / 0.05 s). It is
-// 1 mm away at 0.05 + (0.3 - 0.0125 - 0.025) / 0.5 + 0.05 ln 25 = 0.7359 s; ticks of 1 ms: within two of them.
+// Closed form for a distance of 0.3 m: 0.05 s to full speed (12.5 mm), 0.5 m/s until 25 mm are left, then e^(-t / 0.05
+// s). It is 1 mm away at 0.05 + (0.3 - 0.0125 - 0.025) / 0.5 + 0.05 ln 25 = 0.7359 s; tolerance: two ticks of 1 ms.
 TEST(PointerFollower, GoesWithBoundedSpeedAndNeverTooFar) {
   Follower<Vec3> follower(Vec3::Zero(), Pair::kSpeed, Pair::kArrive);
   const Vec3 goal(0.18, -0.24, 0);
@@ -64,8 +65,8 @@ TEST(PointerFollower, GoesWithBoundedSpeedAndNeverTooFar) {
   EXPECT_LT((follower.value() - goal).norm(), 1e-9);
 }
 
-// Spring of the hand and spring of the wall in series, k k_w / (k + k_w) over the depth that is asked for; never more than the grip. At
-// rest nothing is left of the damping: 1e-6 N is what five seconds leave.
+// Hand spring and wall spring in series, k k_w / (k + k_w) times the commanded depth, bounded by the grip. After five
+// seconds the damping leaves an error of 1e-6 N.
 TEST(PointerPair, PressesAsTheSpringsSayAndNeverMoreThanItsGrip) {
   for (const double half_width : {0.005, 0.02, 0.035, 0.05}) {
     for (const double closing : {0.3, 0.5, 0.7, 0.85, 1.0}) {
@@ -80,8 +81,8 @@ TEST(PointerPair, PressesAsTheSpringsSayAndNeverMoreThanItsGrip) {
   }
 }
 
-// However the mouse jumps. A fingertip arrives with at most the speeds of hand, turn and grip together, so a wall of 1 N/mm sees at
-// most 0.85 N more in a millisecond.
+// For any jump of the mouse, a fingertip arrives with at most the speeds of hand, turn and grip together, so the force
+// at a wall of 1 N/mm rises by at most 0.85 N per millisecond.
 TEST(PointerPair, AJumpOfTheMouseIsNoJumpOfForce) {
   Bench bench(0.035);
   double most = 0;
@@ -91,7 +92,7 @@ TEST(PointerPair, AJumpOfTheMouseIsNoJumpOfForce) {
     bench.step();
     for (std::size_t f = 0; f < 2; ++f) most = std::max(most, bench.force[f] - before[f]);
   }
-  EXPECT_GT(most, 0.05);  // it did meet the wall
+  EXPECT_GT(most, 0.05);  // the wall was touched
   EXPECT_LT(most, bench.wall * (Pair::kSpeed + Pair::kTurn * kOpenHalf + Pair::kClose) * kPeriod);
 }
 
@@ -103,7 +104,7 @@ TEST(PointerPair, FingertipsStopAtEachOther) {
   EXPECT_NEAR(bench.x(Pair::kIndex), 0.05 + kRadius, 1e-6);
 }
 
-// A load sags by its force over the stiffness; a whole turn of the pair is one of the line between the fingertips.
+// A load causes a displacement of force over stiffness; a turn of the pair turns the line between the fingertips.
 TEST(PointerPair, YieldsToALoadAndTurns) {
   Bench bench;
   bench.load = {0, 0, -2};
@@ -113,7 +114,7 @@ TEST(PointerPair, YieldsToALoadAndTurns) {
   EXPECT_LT((bench.pair.finger(Pair::kIndex).position() - Vec3(0, kOpenHalf, 0.1 - 2 / 300.0)).norm(), 1e-6);
 }
 
-// Told to go far into what does not give way, each finger pushes with the bound, and no harder for a pointer still farther away.
+// Pointing far into a fixed obstacle, each finger pushes with the bound, independent of the distance.
 TEST(PointerPair, PushesWithABoundedForce) {
   for (const double far : {0.2, 5.0}) {
     Bench bench;
@@ -124,7 +125,7 @@ TEST(PointerPair, PushesWithABoundedForce) {
       bench.load = {0, 0, force};
       bench.step();
     }
-    EXPECT_NEAR(force, kPush, 1e-3);  // its load is one tick old, but at rest
+    EXPECT_NEAR(force, kPush, 1e-3);  // the force is one tick old, but the pair is at rest
   }
 }
 

@@ -1,4 +1,4 @@
-// The pair in shipped scenes, in lockstep, moved by states that a test writes in the view's place.
+// The pair in shipped scenes, in lockstep, moved by pointer states that the test writes in place of the view.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
 const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pointer_pair.xml";
 constexpr double kLift = 0.1, kWeight = 0.2 * 9.81, kHand = 300, kContact = 1000;
 
-/// In the place of a user: over the cube, down, close, up. The mouse jumps; the hand does not.
+/// Replaces the user: over the cube, down, close, up. The mouse jumps; the hand does not.
 class Hand final : public Module {
  public:
   Hand() : Module("hand", RateGroup::kView) {}
@@ -39,7 +39,7 @@ struct Lockstep {
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     world = loaded.world;
     Session::Options session_options;
-    session_options.open_devices = false;  // a window would be asked for
+    session_options.open_devices = false;  // avoids the check for a window
     session_options.more.push_back(std::make_unique<Hand>());
     session = std::make_unique<Session>(loaded.world, loaded.plan, control, std::move(session_options));
     executor = makeExecutor(false, session->graph(), RateTable(loaded.world->scene.rates), control);
@@ -55,8 +55,9 @@ struct Lockstep {
   std::unique_ptr<Executor> executor;
 };
 
-// Lifted by the way of the hand less what its springs and the contacts' (1 N/mm, also sideways) give under half of the weight each.
-// A fingertip that arrives with the speed of the grip swings past the grip by v sqrt(k m) at most.
+// The lift is the distance of the hand minus the compliance of the hand and contact springs (1 N/mm, also laterally)
+// under half the weight each. A fingertip that arrives with the speed of the grip overshoots the grip force by at most
+// v sqrt(k m).
 TEST(PointerScene, GraspsAndLiftsTheCube) {
   Lockstep lockstep;
   lockstep.run(8);
@@ -73,7 +74,7 @@ TEST(PointerScene, GraspsAndLiftsTheCube) {
   }
 }
 
-// What was read from the window is in the recording as where the fingers were: run again without any pointer, bit for bit.
+// The recording contains the finger positions, so a repeated run without a pointer is bit-identical.
 TEST(PointerScene, ARecordingNeedsNoPointer) {
   const ScratchFolder scratch;
   RunOptions options;
@@ -96,7 +97,7 @@ bool hasPointer(Session& session) {
                      [](const Connection& c) { return c.from->name() == kPointerPort; });
 }
 
-// A rig that points at nothing has no port for it, even where somebody writes one.
+// A rig without this driver has no pointer port, even when a pointer state is written.
 TEST(PointerScene, IsNotInTheGraphOfOtherRigs) {
   EXPECT_TRUE(hasPointer(*Lockstep().session));
   Diagnostics diagnostics;

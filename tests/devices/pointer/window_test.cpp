@@ -1,4 +1,4 @@
-// The program with a real window under an X server of its own: events that come through it grasp and lift.
+// The program with a real window on its own X server: grasping and lifting by X events.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ namespace {
 const std::string kProgram = std::string(PRESA_BINARY_DIR) + "/bin/presa";
 const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pointer_pair.xml";
 
-// The pictures that the key s saves are named by simulated time: they tell when the window answers, and when so much time has gone by
-// for the hand to arrive. Nothing here waits for a clock of the machine but to ask again.
+// The screenshots saved by the key s are named by simulated time. They show that the window responds, and that enough
+// simulated time has passed for the hand to arrive. No test waits for wall-clock time except between queries.
 constexpr const char* kHelpers = R"(
 picture() {
   rm -f presa-*.png
@@ -45,7 +45,8 @@ drag() {  # pixels right and down, in ten steps, with whatever keys are down
 }
 )";
 
-/// A run with a window, moved by the lines of `script`, stopped by Esc. `folder` has its summary and its recording.
+/// A run with a window, controlled by the lines of `script` and stopped by Esc. `folder` receives its summary and
+/// recording.
 void runWith(const std::string& scene, const std::string& script, const ScratchFolder& folder) {
   std::ofstream(folder.file("user.sh"))
       << "cd " << folder.path().string() << "\n"
@@ -54,15 +55,15 @@ void runWith(const std::string& scene, const std::string& script, const ScratchF
       << "run=$!\n"
       << kHelpers << "timeout 60 xdotool search --sync --onlyvisible --name Presa\nxdotool mousemove 680 440\npicture\n"
       << script << "xdotool key Escape\nwait $run; echo $? > " << folder.file("status") << "\n";
-  // xvfb-run's own status also tells of what it could not clean up
+  // xvfb-run's own status also reports failed clean-ups
   std::ignore = std::system(("timeout 280 xvfb-run -a -s '-screen 0 1400x900x24' bash " + folder.file("user.sh") +
                              " > " + folder.file("log") + " 2>&1")
                                 .c_str());
   EXPECT_EQ(contentsOf(folder.file("status")), "0\n") << contentsOf(folder.file("log"));
 }
 
-// By keys down to the cube, closed by the wheel, lifted by the mouse. The summary counts the grasp and how high it went; the
-// recording gives the same forces without window and mouse.
+// Moved down to the cube by keys, closed by the wheel, lifted by the mouse. The summary counts the grasp and the lift
+// height; the recording gives the same forces without window and mouse.
 TEST(PointerWindow, MouseAndKeysGraspAndLiftTheCube) {
   const ScratchFolder folder;
   runWith(PRESA_SOURCE_DIR "/config/scenes/cube.xml",
@@ -80,13 +81,14 @@ TEST(PointerWindow, MouseAndKeysGraspAndLiftTheCube) {
   EXPECT_EQ(WEXITSTATUS(verified), 0) << contentsOf(folder.file("verified"));
 }
 
-/// `count` presses of a key, a step of the pair each.
+/// Key presses for a distance [m]; each moves the pair by one step of 5 mm.
 std::string keys(double way, const std::string& key) {
   return "keys " + std::to_string(std::lround(way / 0.005)) + " " + key + "\n";
 }
 
-// The lowest drum of the temple's column stands on the ground, 0.2 m to the left of its place as the camera sees it, 12 degrees right of
-// the front. It is taken, lifted, carried over its place and let down to within 10 mm: the place draws it, and the summary counts it.
+// The lowest drum of the temple's column stands 0.2 m to the left of its goal as seen by the camera, which is 12
+// degrees right of the front. It is grasped, lifted, carried over its goal and lowered to within 10 mm; the goal
+// attracts it, and the summary counts it.
 TEST(PointerWindow, ATempleDrumCarriedToItsPlaceIsCounted) {
   const ScratchFolder folder;
   Diagnostics diagnostics;
@@ -102,7 +104,7 @@ TEST(PointerWindow, ATempleDrumCarriedToItsPlaceIsCounted) {
   spec.stones.front().X_WB.p = place - way;
   spec.stones.front().X_WB.p.z() = shape.length / 2;
   spec.rig = kRig;
-  // the pair begins 0.15 m over the ground, and takes the drum a little above its middle
+  // the pair starts 0.15 m above the ground and grasps the drum slightly above its middle
   const double down = 0.15 - shape.length / 2 - 0.008, rise = place.z() - shape.length / 2 + 0.03;
   runWith(temple::writeScene(column, spec, folder.file("drum")),
           keys(down, "Page_Down") + "later 1.5\nwheel 20 4\nlater 2\n" + keys(rise, "Page_Up") + "later 1\n" +

@@ -1,5 +1,5 @@
-// A dataset is reproducible when seed, subject and trial give the same bits; the model runs in the haptic tick when it
-// asks the system for nothing.
+// For a reproducible dataset, equal seed, subject and trial must give equal bits; to run in the haptic tick, the model
+// must not call the system.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -1,5 +1,5 @@
-// The figures of the model over many seeds. They are not those of people: they say what the mechanisms written into it make
-// of the grip study, and an independent implementation of the same equations (200 seeds) has made the same.
+// Statistics of the model over many seeds. They are not those of people: they show the effect of the model's mechanisms
+// in the grip study. An independent implementation of the same equations (200 seeds) gave the reference values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ double ratioOf(const StudyTrial& trial) { return trial.result.grip / trial.trial
 double variationOf(const StudyTrial& trial) { return 100 * trial.result.grip_sd / trial.result.grip; }
 double delayOf(const StudyTrial& trial) { return 1e3 * trial.result.notice_delay; }
 
-/// 20 seeds are 60 subjects; PRESA_SUBJECT_SEEDS asks for more.
+/// 20 seeds are 60 subjects; PRESA_SUBJECT_SEEDS overrides the number.
 int seeds() {
   const char* asked = std::getenv("PRESA_SUBJECT_SEEDS");
   return asked != nullptr ? std::atoi(asked) : 20;
@@ -30,7 +30,7 @@ int seeds() {
 
 struct Expected {
   Level level;
-  double low[3], high[3];  ///< 2.5 % and 97.5 % of the other implementation's seeds: friction, mass, stiffness
+  double low[3], high[3];  ///< 2.5 % and 97.5 % quantiles over the reference's seeds: friction, mass, stiffness
   double margin_mass[3], margin_stiffness[3];
   double drops, drops_tolerance;  ///< per trial
 };
@@ -49,7 +49,8 @@ TEST_P(Figures, AreThoseOfTheOtherImplementation) {
   const bool show = std::getenv("PRESA_SUBJECT_SEEDS") != nullptr;
   if (show) std::printf("%s, %d seeds, %zu trials\n", nameOf(expected.level).data(), seeds(), trials.size());
 
-  // mean over seeds inside the range of single seeds: an offset of two standard deviations of a seed would show
+  // the mean over seeds must lie within the range of single seeds: an offset of two standard deviations would be
+  // detected
   double (*const factors[])(const Cube&) = {frictionOf, massOf, stiffnessOf};
   const char* const names[] = {"friction", "mass", "stiffness"};
   for (int i = 0; i < 3; ++i) {
@@ -63,8 +64,8 @@ TEST_P(Figures, AreThoseOfTheOtherImplementation) {
              *statistics::standardDeviation(rho)});
   }
 
-  // The margin wanted is U(10, 40) % over subjects, standard deviation 8.7: the median of 60 subjects has a standard error of
-  // 1.25 x 8.7 / sqrt 60 = 1.4; three of them.
+  // The wanted margin is U(10, 40) % over subjects, with a standard deviation of 8.7: the median of 60 subjects has a
+  // standard error of 1.25 x 8.7 / sqrt 60 = 1.4; tolerance: three of these.
   const std::vector<double> by_mass = mediansBy(trials, massOf, marginOf);
   const std::vector<double> by_stiffness = mediansBy(trials, stiffnessOf, marginOf);
   for (int i = 0; i < 3; ++i) {
@@ -75,12 +76,12 @@ TEST_P(Figures, AreThoseOfTheOtherImplementation) {
   EXPECT_LT(by_stiffness[0], by_stiffness[1]);
   EXPECT_LT(by_stiffness[1], by_stiffness[2]) << "softer is held closer to slip";
 
-  // 4.4 to 5.0 %, the median of 60 subjects' draws of cv from U(2, 4) % is good to 10 %
+  // reference 4.4 to 5.0 %; the median of 60 draws of cv from U(2, 4) % is accurate to 10 %
   const std::vector<double> variation = mediansBy(trials, stiffnessOf, variationOf);
   for (const double value : variation) EXPECT_NEAR(value, 4.7, 0.3 + 0.47);
 
-  // 63, 72 and 380 ms. At low friction some feel the kick (30 ms) and others see it fall (160 ms), and the median jumps from
-  // the ones to the others with the subjects drawn; at mu 1.2 nearly all see it fall: an order that no draw changes.
+  // Reference 63, 72 and 380 ms. At low friction some subjects feel the kick (30 ms) and others see the fall (160 ms),
+  // so the median depends on the subjects drawn; at mu 1.2 nearly all see the fall. Only that order is stable.
   const std::vector<double> delay = mediansBy(trials, frictionOf, delayOf);
   for (int i = 0; i < 2; ++i) {
     EXPECT_GT(delay[i], 30);
@@ -133,8 +134,8 @@ INSTANTIATE_TEST_SUITE_P(Levels, Figures,
                                                   .drops_tolerance = 0.02}),
                          [](const auto& level) { return std::string(nameOf(level.param.level)); });
 
-// 4.905 N are needed just not to drop the heaviest slippery cube: above what the device gives for long. The trial goes on,
-// and says so.
+// The heaviest slippery cube needs 4.905 N to be held, above the continuous force of the device. The trial continues,
+// and the time above the rating is reported.
 TEST(Rating, TheThreeCubesThatNeedMoreThanFourNewtonAreHeldAndTimed) {
   const Traits traits = Population(Level::kL0).draw(1, 0);
   int beyond = 0;

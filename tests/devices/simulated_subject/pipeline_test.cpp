@@ -1,4 +1,4 @@
-// The same subject at the real pipeline: 1 kHz haptics, 100 Hz collision, 200 Hz dynamics.
+// The same subject in the real pipeline: 1 kHz haptics, 100 Hz collision, 200 Hz dynamics.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr const char* kSilent = "tests/devices/simulated_subject/rig_silent.xml"
 constexpr const char* kSimulated = "experiments/grip_slip/rig_simulated.xml";
 constexpr const char* kWeak = "tests/devices/simulated_subject/rig_weak.xml";
 
-/// Grip when the first finger slips while it lets go for good, and whether it came so far.
+/// Grip at the first slip of a finger during the release, and whether the release was reached.
 struct Release {
   double slip_force = NAN;
   bool done = false;
@@ -47,7 +47,7 @@ Release releaseOf(const Cube& cube) {
   return release;
 }
 
-// Rates, coupling and solver in between may not move the one number that mechanics fixes: m g / (2 mu_s) within 0.5 %.
+// Rates, coupling and solver must not change the one number that mechanics determines: m g / (2 mu_s) within 0.5 %.
 TEST(Pipeline, FirstSlipIsAtTheBoundOfStaticFrictionForEveryCube) {
   for (const Cube& cube : studyCubes()) {
     const Release release = releaseOf(cube);
@@ -57,7 +57,8 @@ TEST(Pipeline, FirstSlipIsAtTheBoundOfStaticFrictionForEveryCube) {
   }
 }
 
-// Squeezed between two soft fingertips a cube turns, one finger up and one down, unless the hand keeps its fingers level.
+// Squeezed between two soft fingertips a cube would turn, one finger up and one down, unless the hand keeps its fingers
+// level.
 TEST(Pipeline, TheHeaviestSoftCubeDoesNotTurnBetweenTheFingers) {
   StudyRun run(specOf({.mass = 0.4, .mu_s = 0.4, .mu_d = 0.3, .stiffness = 500}, kWeak, 30));
   double most = 0;
@@ -69,10 +70,10 @@ TEST(Pipeline, TheHeaviestSoftCubeDoesNotTurnBetweenTheFingers) {
   });
   run.run();
   EXPECT_TRUE(held);
-  EXPECT_LT(most, 5e-3);  // tremor and steps are below 1 mm, a cube that turns goes on until it is lost
+  EXPECT_LT(most, 5e-3);  // tremor and steps are below 1 mm, but a turning cube turns until it is lost
 }
 
-// One thumb, one index finger: a third role is nobody's.
+// There are one thumb and one index finger; a third role is rejected.
 TEST(Pipeline, ADigitIsTakenOnce) {
   Diagnostics diagnostics;
   const char* const scene = R"(<scene version="1.0" name="three"><world gravity="0 0 -9.81"/>
@@ -97,11 +98,11 @@ std::vector<double> courseOf(const Cube& cube) {
   return course;
 }
 
-// Both digits are one person, and two runs of one process are two.
+// Both digits belong to one subject, and two runs in one process have separate subjects.
 TEST(Pipeline, RunsOfOneProcessDoNotMeet) {
   const std::vector<Cube> cubes = studyCubes();
   const std::vector<double> alone = courseOf(cubes[4]);
-  StudyRun beside(specOf(cubes[20], kSimulated, 5));  // alive, its person too
+  StudyRun beside(specOf(cubes[20], kSimulated, 5));  // a second run with its own subject
   const std::vector<double> other = courseOf(cubes[20]), again = courseOf(cubes[4]);
   beside.run();
   EXPECT_GT(*std::max_element(alone.begin(), alone.end()), 1) << "it grips";

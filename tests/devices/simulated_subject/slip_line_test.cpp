@@ -1,4 +1,4 @@
-// The one number of the model that mechanics fixes: a cube slips at m g / (2 mu_s), whoever holds it.
+// The one number of the model that mechanics determines: a cube slips at m g / (2 mu_s), for every subject.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kSlow = 0.1;  // [1/s] loosening
 
-// The grip falls by kSlow x 1 ms = 0.01 % of itself in a step, and the first slip is the first sample past the crossing:
-// below the line, by at most that (positions are not quantised here).
+// The grip falls by kSlow x 1 ms = 0.01 % per step, and the first slip is the first sample after the crossing: below
+// the line by at most that (positions are not quantised here).
 constexpr double kStep = kSlow * StandAlone::kPeriod;
 
 class SlipLine : public testing::TestWithParam<Level> {};
@@ -35,7 +35,8 @@ TEST_P(SlipLine, FirstSlipIsAtTheBoundOfStaticFrictionForEveryCubeAndSubject) {
 INSTANTIATE_TEST_SUITE_P(Levels, SlipLine, testing::Values(Level::kL0, Level::kL1, Level::kL2),
                          [](const auto& level) { return std::string(nameOf(level.param)); });
 
-// Ranks of the balanced design are rational: +sqrt(75/118), -11/sqrt(354) and 0, for any number of repeats.
+// The rank correlations of the balanced design are exact: +sqrt(75/118), -11/sqrt(354) and 0, for any number of
+// repeats.
 TEST(SlipLine, CorrelatesWithTheFactorsAsTheRanksSay) {
   std::vector<double> force, mass, friction, stiffness;
   for (const Cube& cube : studyCubes()) {
@@ -50,7 +51,7 @@ TEST(SlipLine, CorrelatesWithTheFactorsAsTheRanksSay) {
   EXPECT_NEAR(*statistics::spearman(force, stiffness), 0, 1e-14);
 }
 
-// Once it slides, only m g / (2 mu_d) stops it again: the grip at which a sliding cube sticks lies above the slip line.
+// A sliding cube stops only at m g / (2 mu_d): the grip at which it sticks again is above the slip line.
 TEST(SlipLine, AProxyThatSlidesSticksAgainOnlyWithinTheDynamicCone) {
   const Cube cube{.mass = 0.2, .mu_s = 0.8, .mu_d = 0.6, .stiffness = 1000};
   DigitContact contact;
@@ -63,7 +64,7 @@ TEST(SlipLine, AProxyThatSlidesSticksAgainOnlyWithinTheDynamicCone) {
   EXPECT_EQ(contact.state(), DigitContact::State::kSlip);
   EXPECT_TRUE(contact.slipBegan());
   EXPECT_DOUBLE_EQ(contact.load(), 0.6);
-  contact.step(cube, 10, 1.01e-3, 0.81e-3 + 0.0059e-3);  // 0.6059 N on a cone of 0.606 N
+  contact.step(cube, 10, 1.01e-3, 0.81e-3 + 0.0059e-3);  // 0.6059 N, cone 0.606 N
   EXPECT_EQ(contact.state(), DigitContact::State::kStick);
   contact.step(cube, 10, 0, 0);
   EXPECT_EQ(contact.state(), DigitContact::State::kFree);

@@ -1,4 +1,4 @@
-// A subject is data: it must be the same wherever it is drawn, and each number must say where it comes from.
+// A subject is data: it must be the same wherever it is drawn, and each number must state its source.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ TEST(Traits, LevelsAreNamedBothWays) {
   EXPECT_FALSE(levelNamed("L3"));
 }
 
-// A level is a change of mechanism, not of people: all else must be the same person.
+// A level changes the mechanism, not the person: all other traits must be equal.
 TEST(Traits, TheSameSeedAndSubjectGiveTheSamePersonAtEveryLevel) {
   const std::set<std::string_view> mechanism{"finger_resolution", "position_noise", "muscle_time"};
   const Traits base = Population(Level::kL0).draw(7, 2);
@@ -61,7 +61,7 @@ TEST(Traits, OneTraitHeldFixedLeavesTheOthersAsTheyWere) {
   }
 }
 
-// Mean and spread over 4000 people, within four standard errors (1 in 16 000 by chance; the seeds are fixed).
+// Mean and spread over 4000 people within four standard errors (by chance 1 in 16 000; the seeds are fixed).
 TEST(Traits, AreSpreadOverPeopleAsTheTableSays) {
   const Population population(Level::kL0);
   constexpr int kPeople = 4000;
@@ -84,11 +84,11 @@ TEST(Traits, AreSpreadOverPeopleAsTheTableSays) {
       EXPECT_GE(low, a) << trait.name;
       EXPECT_LT(high, b) << trait.name;
     }
-    // |N(2, 0.5)|: folding moves its mean by 1e-5
+    // |N(2, 0.5)|: folding changes its mean by 1e-5
     const double expected = is_uniform ? (a + b) / 2 : kind == Spread::Kind::kLogNormal ? std::log(a) : a;
     const double sd = is_uniform ? (b - a) / std::sqrt(12.0) : b;
     EXPECT_NEAR(mean, expected, 4 * sd / std::sqrt(kPeople)) << trait.name;
-    // standard error of a standard deviation: sd sqrt((kurtosis - 1) / 4n), kurtosis 3 at most here
+    // standard error of a standard deviation: sd sqrt((kurtosis - 1) / 4n), with a kurtosis of at most 3 here
     EXPECT_NEAR(std::sqrt(squares - mean * mean), sd, 4 * sd / std::sqrt(2.0 * kPeople)) << trait.name;
   }
 }

@@ -1,4 +1,4 @@
-// Mistakes that a model of gripping invites, each of which was made once.
+// Regression tests for typical mistakes of a grip model.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ Senses holding(double height, double seen) {
   return senses;
 }
 
-// The fingers settle after a lift; a detector that starts then takes their drift for a slip, and the subject remembers a
-// grip at which nothing slipped. Heavy slippery cubes drift most.
+// The fingers settle after a lift. A slip detector that starts too early takes their drift for a slip, and the subject
+// remembers a grip at which nothing slipped. Heavy slippery cubes drift most.
 TEST(Traps, NoSlipIsNoticedThatHasNotBegun) {
   for (const Level level : {Level::kL0, Level::kL1, Level::kL2}) {
     const Population population(level);
@@ -33,7 +33,7 @@ TEST(Traps, NoSlipIsNoticedThatHasNotBegun) {
   }
 }
 
-// A grip that follows the load it feels comes too late at friction 0.4: it must go with the lift that is meant.
+// At friction 0.4 a grip that follows the felt load is too late: it must follow the commanded lift.
 TEST(Traps, GripGoesAheadWithTheLiftThatIsCommanded) {
   Brain brain(Population(Level::kL0).draw(1, 0), {}, RandomStream(1, "perception"), 1e-3);
   Senses senses = holding(0, 0);
@@ -41,23 +41,23 @@ TEST(Traps, GripGoesAheadWithTheLiftThatIsCommanded) {
   while (brain.phase() != Phase::kLoad) brain.step(senses);
   senses.effort = 1;
   for (int i = 0; i < 100; ++i) brain.step(senses);
-  // 1 + 3.25 N/N, reached to exp(-100 ms / 20 ms)
+  // 1 + 3.25 N/N, approached to exp(-100 ms / 20 ms)
   EXPECT_NEAR(brain.intent().grip, 4.25, 3.25 * std::exp(-5));
 }
 
-// With soft skin and strong muscles the grip builds up late and the cube slides; the lift must wait, or the fingers leave it
-// on the table and the subject remembers how hard it gripped nothing.
+// With soft skin and strong muscles the grip builds up late and the cube slides. The lift must wait, or the fingers
+// leave the cube on the table and the subject remembers the grip of an empty hand.
 TEST(Traps, TheCubeComesAlongWhenLifted) {
   const Population population(Level::kL0);
   for (std::uint64_t subject = 0; subject < 60; ++subject) {
     const Cube cube{.mass = 0.4, .mu_s = 0.4, .mu_d = 0.3, .stiffness = 500};
     StandAlone world(population.draw(3, subject), {.cube = cube, .subject = subject, .resolution = 90e-6});
     while (world.brain().phase() <= Phase::kSettle) ASSERT_TRUE(world.step());
-    EXPECT_GT(world.cubeHeight(), 0.01) << "subject " << subject;  // lost is 30 mm below the fingers, which are at 40
+    EXPECT_GT(world.cubeHeight(), 0.01) << "subject " << subject;  // lost: 30 mm below the fingers at 40 mm
   }
 }
 
-// A hand that sinks with what it holds has lost nothing; a cube that stays in place while the hand rises is lost.
+// A hand that sinks together with its object has not lost it; an object that stays while the hand rises is lost.
 TEST(Traps, LostIsRelativeToTheFingers) {
   Perception perception(1e-3);
   for (int i = 0; i < 1000; ++i) perception.step(holding(0.04, 0));
@@ -67,7 +67,8 @@ TEST(Traps, LostIsRelativeToTheFingers) {
   EXPECT_TRUE(perception.lost());
 }
 
-// Felt with the fingers, not told: stiffness to its own just noticeable difference (23 %) would do; it comes to 5 %.
+// Stiffness and weight are felt, not given: the just noticeable difference of stiffness is 23 %, the estimate is within
+// 5 %.
 TEST(Traps, StiffnessAndWeightAreFelt) {
   for (const Level level : {Level::kL0, Level::kL1, Level::kL2}) {
     const Traits traits = Population(level).draw(4, 0);
@@ -80,7 +81,7 @@ TEST(Traps, StiffnessAndWeightAreFelt) {
   }
 }
 
-// Fingers that open still touch what they held: that is not the next grasp.
+// Opening fingers still touch the released object: that is not the next grasp.
 TEST(Traps, LettingGoForgetsWhereTheObjectWasUntilItIsTouchedAnew) {
   Perception perception(1e-3);
   const auto live = [&](const Senses& senses) {

@@ -1,5 +1,5 @@
-// The driver through the real libusb, the model behind an emulated bus. What is judged is what the model received, by its own laws; of the
-// clock only that things happen, one after the other: the machine is shared.
+// The driver through the real libusb, with the model behind an emulated bus. The forces at the model are judged by its
+// force watch. Timing is not judged, only the order of events, because the machine is shared.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,23 +17,23 @@ using falcon::LinkState;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kPatience = 20;  // [s] after which a thing that should happen never does
+constexpr double kPatience = 20;  // [s] max wait for an event
 
 /// A Falcon on the bus and its driver, with a haptic loop of 1 kHz that pushes with a constant force.
 struct Desk {
   explicit Desk(const ModelSettings& settings = ready()) : falcon(bus.add(settings)) {
     falcon.with([](FalconModel& model, double) {
-      // the bus delays and bunches requests: between two of them lies a period of the driver's clock, not of the device's
+      // the bus delays and bunches requests: the slew limit holds on the driver's clock, not on the device's
       model.limits({.force = 8, .force_rate = 1000, .jitter = 1e-3});
     });
   }
-  /// A hand that pulls the grip out and pushes it in, again and again.
+  /// A hand that repeatedly pulls the grip out and pushes it in.
   void moveHand() {
     falcon.with([](FalconModel& model, double) {
       model.grip().hand([](double time) -> Vec3 { return {0, 0, 0.145 + 0.025 * std::sin(6 * time)}; });
     });
   }
-  /// Runs the loop until the condition on (model, what the driver says) holds; false: it never did.
+  /// Runs the loop until the condition on (model, driver's sample) holds; false: timed out.
   bool until(const std::function<bool(FalconModel&, const FingerInput&)>& condition) {
     const std::int64_t begin = monotonicNs();
     late = 0;
@@ -64,7 +64,7 @@ struct Desk {
   FalconDevice driver = driverOf("");
   Vec3 force{0, 0, 2};
   Tick tick{.period = 1e-3};
-  int late = 0;  ///< samples that were too old or none, while it waited last
+  int late = 0;  ///< late or missing samples during the last wait
 };
 
 TEST(FalconOverUsb, EnumeratesAndClaims) {
@@ -87,15 +87,15 @@ TEST(FalconOverUsb, EnumeratesAndClaims) {
   falcon::UsbFailure fine;
   const auto second = falcon::openFalcon("FALCON2", fine);
   ASSERT_TRUE(second) << fine.detail;
-  // row 19: whoever comes later is refused, and told why
+  // row 19: a second program is refused, with the reason
   falcon::UsbFailure later;
   EXPECT_FALSE(falcon::openFalcon("1-2", later));
   EXPECT_EQ(later.problem, falcon::UsbProblem::kBusy);
   EXPECT_THAT(falcon::describe(later, "1-2"), HasSubstr("another program holds /dev/bus/usb/001/003"));
 }
 
-// Seven times the echo is wrong, each time at another byte; at the eighth attempt the firmware runs.
-// Ten are allowed, the tenth is tried in virtual time: here a busy machine may spoil one or two more.
+// Seven attempts have a wrong echo, each at another byte; at the eighth the firmware runs. (A busy machine may spoil
+// one or two more; the limit of ten is tested in virtual time.)
 TEST(FalconOverUsb, LoadsFirmwareAfterSevenBadAttempts) {
   ModelSettings settings;
   settings.loader.firmware = firmware();
@@ -104,7 +104,7 @@ TEST(FalconOverUsb, LoadsFirmwareAfterSevenBadAttempts) {
   Desk desk(settings);
   desk.moveHand();
   const bool opened = opensInTime(desk.driver);
-  // the firmware runs and is obeyed whether or not its replies come evenly then
+  // the firmware runs and obeys even if its replies are irregular
   desk.falcon.with([](FalconModel& model, double) { EXPECT_GE(model.processor().uploads(), 8); });
   EXPECT_THAT(desk.violations(), IsEmpty());
   SKIP_UNLESS_OPENED(opened);
@@ -159,7 +159,7 @@ TEST(FalconOverUsb, ShortAndMergedRepliesAreLivedThrough) {
   EXPECT_THAT(desk.violations(), IsEmpty());
 }
 
-// No reply for half a second of the device's clock: zero meanwhile, and back.
+// No reply for half a second of the device's clock: the force is zero meanwhile, and returns.
 TEST(FalconOverUsb, SilenceTakesTheForceAwayAndItComesBack) {
   Desk desk;
   OPENED_OR_LATE(desk.driver);
@@ -170,7 +170,7 @@ TEST(FalconOverUsb, SilenceTakesTheForceAwayAndItComesBack) {
   EXPECT_THAT(desk.violations(), IsEmpty());
 }
 
-// A stall ends transfers but not the device: the halt is cleared and the exchange goes on.
+// A stall ends transfers but not the connection: the halt is cleared and communication continues.
 TEST(FalconOverUsb, AStallIsCleared) {
   Desk desk;
   OPENED_OR_LATE(desk.driver);
@@ -199,13 +199,13 @@ TEST(FalconOverUsb, PulledOutInTheGraspAndBackItStartsFromTheBeginning) {
   EXPECT_EQ(desk.falcon.with([](FalconModel& model, double) { return model.requests(); }), requests);
   desk.driver.close();
   desk.moveHand();
-  OPENED_OR_LATE(desk.driver);  // firmware and references again
+  OPENED_OR_LATE(desk.driver);  // loads firmware and homes again
   desk.falcon.with([](FalconModel& model, double) { EXPECT_EQ(model.processor().uploads(), 1); });
   REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
   EXPECT_THAT(desk.violations(), IsEmpty());
 }
 
-// Closing takes the force to zero, and says so to the device.
+// Closing takes the force to zero at the device.
 TEST(FalconOverUsb, ClosedItLeavesZeroBehind) {
   Desk desk;
   OPENED_OR_LATE(desk.driver);

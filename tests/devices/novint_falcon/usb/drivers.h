@@ -12,7 +12,7 @@
 /// Drivers for the tests of the emulated bus.
 namespace presa::falcon_model::test {
 
-/// Made up; begins as the real ones do.
+/// Synthetic; starts like the real firmware.
 inline std::vector<std::uint8_t> firmware() {
   std::vector<std::uint8_t> bytes(700);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 7);
@@ -41,8 +41,9 @@ inline falcon::FalconDevice driverOf(const std::string& serial) {
   return {settingsOf(serial), [serial] { return falcon::connectOverUsb(serial, {"desk.xml", 3, 1}); }};
 }
 
-/// Late replies take the force away, as they should, and each long gap starts it softly anew, which takes half a second. Where the system
-/// refuses SCHED_FIFO, or a sanitizer slows the emulated device down, that may happen as often as this while a test waits for a force.
+/// Number of late samples that excuses a missing force. Late replies take the force away, and after a long gap it
+/// returns softly, within half a second; without SCHED_FIFO or under a sanitizer this may happen repeatedly while a
+/// test waits for a force.
 constexpr int kManyLate = 20;
 inline std::string whyLate() {
 #ifdef PRESA_SANITIZE
@@ -53,7 +54,7 @@ inline std::string whyLate() {
 #endif
 }
 
-/// Opens; false: the device never answered evenly, for such a reason.
+/// Opens the device; false: its replies were irregular because of a slow machine.
 inline bool opensInTime(falcon::FalconDevice& driver) try {
   driver.open();
   return true;
@@ -64,7 +65,7 @@ inline bool opensInTime(falcon::FalconDevice& driver) try {
 
 }  // namespace presa::falcon_model::test
 
-/// Goes on when a force was reached; skips the test where `late` samples say that it could not be, otherwise it failed.
+/// Continues when a force was reached; skips the test when `late` samples explain its absence; fails otherwise.
 #define REACHED_OR_LATE(reached, late)                                       \
   if (!(reached)) {                                                          \
     if ((late) < kManyLate || whyLate().empty())                             \
@@ -72,7 +73,7 @@ inline bool opensInTime(falcon::FalconDevice& driver) try {
     GTEST_SKIP() << (late) << " samples were late; " << whyLate();           \
   }
 
-/// Goes on when the device was opened: by opensInTime, or here.
+/// Continues when the device was opened (by opensInTime, or here).
 #define SKIP_UNLESS_OPENED(opened) \
   if (!(opened)) GTEST_SKIP() << "its replies leave gaps; " << whyLate();
 #define OPENED_OR_LATE(driver) SKIP_UNLESS_OPENED(opensInTime(driver))

@@ -27,7 +27,8 @@ constexpr const char* kDescriptors =
     "07058102400000"
     "07050202400000";
 
-/// Threads that are made while it lives come first: a device does not wait for other programs. No matter where the system refuses.
+/// Threads created during its lifetime get real-time priority, so that the device is not delayed by other programs. No
+/// effect when the system refuses.
 class Prompt {
  public:
   Prompt() {
@@ -80,7 +81,7 @@ EmulatedFalcon::~EmulatedFalcon() {
 
 void EmulatedFalcon::addToSystem() {
   GError* error = nullptr;
-  // first, so that whoever hears of the device can open it
+  // first, so that the device can be opened as soon as it is announced
   const bool attached = umockdev_testbed_attach_ioctl(testbed_, ("/dev/" + node_).c_str(), base_.get(), &error);
   const std::string number = padded(port_ + 1), address = std::to_string(port_ + 1);
   const std::string device =
@@ -131,7 +132,7 @@ gboolean EmulatedFalcon::handle(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient
   return self->ioctl(client) ? TRUE : FALSE;
 }
 
-/// Nobody tells when a program closes the node or ends: looked at when the next one asks.
+/// Releases a client that has closed the node or ended. umockdev does not notify, so it is checked at the next request.
 void EmulatedFalcon::releaseIfGone() {
   if (!owner_ || umockdev_ioctl_client_get_connected(owner_.get())) return;
   for (auto* list : {&in_, &out_, &done_}) {
@@ -154,7 +155,7 @@ bool EmulatedFalcon::ioctl(UMockdevIoctlClient* client) {
       return true;
     }
     case USBDEVFS_CLAIMINTERFACE:
-    case USBDEVFS_DISCONNECT_CLAIM:  // there is no driver of the kernel to be disconnected
+    case USBDEVFS_DISCONNECT_CLAIM:  // there is no kernel driver to disconnect
       claim(client);
       return true;
     case USBDEVFS_RELEASEINTERFACE:

@@ -13,7 +13,7 @@
 
 namespace presa::falcon_model::test {
 
-/// A reference to an object of glib.
+/// Owning reference to a glib object.
 template <class T>
 struct Unref {
   void operator()(T* object) const { g_object_unref(object); }
@@ -21,7 +21,7 @@ struct Unref {
 template <class T>
 using Object = std::unique_ptr<T, Unref<T>>;
 
-/// Whoever holds it is as urgent as whoever waits for it: a test that looks at a model must not hold up its device.
+/// A mutex with priority inheritance: a test that inspects a model must not delay its device.
 class UrgentMutex {
  public:
   UrgentMutex() {
@@ -41,11 +41,11 @@ class UrgentMutex {
   pthread_mutex_t mutex_{};
 };
 
-/// A Falcon on an emulated USB port. Its model lives in real time: seconds of the steady clock since the bus was made.
-/// Thread: any; a lock is held while the model is touched.
+/// A Falcon on an emulated USB port. Its model runs in real time: seconds of the steady clock since the bus was
+/// created. Thread: any; a lock protects the model.
 class EmulatedFalcon {
  public:
-  /// `port`: of bus 1, and the device's address there. Plugged in at once.
+  /// `port`: port on bus 1, also the device's address. Plugged in at construction.
   EmulatedFalcon(UMockdevTestbed* testbed, int port, ModelSettings settings,
                  std::chrono::steady_clock::time_point epoch);
   ~EmulatedFalcon();
@@ -61,12 +61,12 @@ class EmulatedFalcon {
     return f(model_, time);
   }
 
-  /// Pulled out: transfers end, the node goes, the system is told.
+  /// Unplugs: transfers end, the device node disappears, the system is notified.
   void unplug();
   void plug();
-  /// All transfers of data are refused by the device (EPIPE) from now on.
+  /// Makes the device refuse all bulk transfers (EPIPE).
   void stallBulk(bool stalled);
-  std::string port() const { return "1-" + std::to_string(port_); }  ///< as the system calls it
+  std::string port() const { return "1-" + std::to_string(port_); }  ///< in the system's notation
   double now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - epoch_).count(); }
 
  private:
@@ -74,7 +74,7 @@ class EmulatedFalcon {
     Object<UMockdevIoctlData> urb, buffer;
     UMockdevIoctlClient* client = nullptr;
     double submitted = 0;
-    std::vector<WireByte> brings{};  // once it has ended; the model learns of it when the host fetches it
+    std::vector<WireByte> brings{};  // after completion; the model learns of it when the host fetches it
   };
   static gboolean handle(UMockdevIoctlBase* base, UMockdevIoctlClient* client, EmulatedFalcon* self);
   bool ioctl(UMockdevIoctlClient* client);
@@ -95,16 +95,16 @@ class EmulatedFalcon {
   Object<UMockdevIoctlBase> base_;
   UrgentMutex mutex_;
   FalconModel model_;
-  Object<UMockdevIoctlClient> owner_;  // who has claimed the interface
+  Object<UMockdevIoctlClient> owner_;  // the client that has claimed the interface
   bool gone_ = false, stalled_ = false;
   std::deque<Urb> in_, out_, done_;
 };
 
-/// The bus: enumerated by whatever program runs under umockdev-wrapper in this process or is started by it. One at a time.
+/// The bus, visible to programs under umockdev-wrapper in this process or started by it. One at a time.
 class EmulatedBus {
  public:
   EmulatedBus();
-  /// The next port.
+  /// Adds a device at the next port.
   EmulatedFalcon& add(ModelSettings settings);
 
  private:

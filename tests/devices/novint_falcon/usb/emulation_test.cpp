@@ -1,4 +1,4 @@
-// The emulated bus by itself: what libusb sees of it, before any driver does.
+// The emulated bus as libusb sees it, without the driver.
 #include <gtest/gtest.h>
 #include <libusb.h>
 
@@ -12,7 +12,7 @@
 namespace presa::falcon_model::test {
 namespace {
 
-/// Opened by libusb, closed at the end.
+/// A device opened by libusb, closed at the end.
 struct Opened {
   explicit Opened(int port = 1) {
     libusb_init(&context);
@@ -38,7 +38,7 @@ struct Opened {
     int sent = 0;
     return libusb_bulk_transfer(handle, 0x02, frame.data(), static_cast<int>(frame.size()), &sent, 500);
   }
-  /// Packets until there are 16 bytes of data.
+  /// Reads packets until there are 16 bytes of data.
   int read(std::vector<std::uint8_t>& bytes) const {
     for (int tries = 0; tries < 2000 && bytes.size() < kFrame; ++tries) {
       std::array<std::uint8_t, 64> packet{};
@@ -112,7 +112,7 @@ TEST(EmulatedUsb, OneProgramHasIt) {
     ASSERT_EQ(libusb_claim_interface(first.handle, 0), 0);
     EXPECT_EQ(libusb_claim_interface(second.handle, 0), LIBUSB_ERROR_BUSY);
   }
-  // who closes lets go; the system hears of it a moment later
+  // closing releases the claim; the system notices a moment later
   int result = LIBUSB_ERROR_BUSY;
   for (int i = 0; i < 500 && result != 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));

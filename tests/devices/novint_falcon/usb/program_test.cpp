@@ -1,5 +1,5 @@
-// The program in a process of its own, on emulated Falcons. Not under the sanitizers, whose libraries would have to come before umockdev's
-// in that process too.
+// The program in a separate process on emulated Falcons. Not under the sanitizers, whose libraries would have to be
+// loaded before umockdev's.
 #ifndef PRESA_SANITIZE
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 struct Outcome {
   int status = -1;  ///< exit status
-  std::string out;  ///< and what was said of errors
+  std::string out;  ///< stdout and stderr
 };
 
 Outcome presa(const std::string& arguments) {
@@ -63,7 +63,7 @@ TEST(FalconProgram, ListCheckAndDoctorSeeTheEmulatedDevices) {
   EXPECT_THAT(presa("device doctor").out, HasSubstr("FALCON1"));
 }
 
-/// The grip sinks in and out of a soft block, by up to 25 mm of 80 N/m.
+/// The grip moves in and out of a soft block, by up to 25 mm at 80 N/m.
 std::string pressedRun(const std::string& folder) {
   std::filesystem::create_directories(folder);
   const std::vector<std::uint8_t> bytes = firmware();
@@ -80,8 +80,9 @@ std::string pressedRun(const std::string& folder) {
   return folder + "/scene.xml";
 }
 
-// Row 1 as a user meets it: the program, a supervisor that holds the device, real threads. The Falcon is pulled out: why is said. While it
-// is away a re-arm changes nothing; plugged in again it opens, with firmware and references, and pushes.
+// Row 1 as a user meets it: the program, a supervisor that holds the device, real threads. The Falcon is unplugged, and
+// the program reports it. While it is away a re-arm has no effect; plugged in again it is opened, with firmware and
+// references, and pushes.
 TEST(FalconProgram, APulledOutFalconComesBackAfterARearm) {
   EmulatedBus bus;
   EmulatedFalcon& falcon = bus.add(ready());
@@ -100,7 +101,7 @@ TEST(FalconProgram, APulledOutFalconComesBackAfterARearm) {
     }
     return false;
   };
-  // how many samples were late cannot be seen from outside
+  // the number of late samples is not visible from outside
   const bool pushed = pushes();
   if (!pushed && !whyLate().empty()) GTEST_SKIP() << "no force was felt; " << whyLate();
   ASSERT_TRUE(pushed) << program.seen();

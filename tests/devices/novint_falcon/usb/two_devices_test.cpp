@@ -1,4 +1,5 @@
-// Row 1 through libusb: two drivers behind the output stages, one Falcon is pulled out. Judged is what the other one's model received.
+// Row 1 through libusb: two drivers behind their output stages; one Falcon is unplugged, and the forces at the other's
+// model are judged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@
 namespace presa::falcon_model::test {
 namespace {
 
-/// Stands for the rendering: a constant wish for both fingers.
+/// Replaces the rendering: a constant force for both fingers.
 class ConstantForce final : public Module {
  public:
   ConstantForce() : Module("rendering", RateGroup::kHaptic) {}
@@ -23,11 +24,11 @@ class ConstantForce final : public Module {
   }
   In<DeviceState> device{*this, "device_state"};
   Out<ContactExchange> out{*this, "contact_exchange"};
-  int late = 0;  ///< samples that were too old or none
+  int late = 0;  ///< late or missing samples
 };
 
-// The force on the other is zero within 20 requests of its driver, each a period of the driver's clock. How long that took on the
-// clock of the machine, which others share, is written down and not judged.
+// The force on the other device must be zero within 20 requests of its driver. The time this takes on the shared
+// machine is printed, not judged.
 TEST(TwoFalconsOverUsb, OneIsPulledOutAndTheOtherGoesToZero) {
   EmulatedBus bus;
   EmulatedFalcon &thumb = bus.add(ready()), &index = bus.add(ready());
@@ -82,7 +83,7 @@ TEST(TwoFalconsOverUsb, OneIsPulledOutAndTheOtherGoesToZero) {
   EXPECT_TRUE(runUntil([&] { return index.with([&](FalconModel&, double) { return zero_at > 0; }); }));
   EXPECT_LE(zero_after, 20);
   std::printf("zero after %d requests, %.1f ms of the machine's clock\n", zero_after, 1e3 * (zero_at - pulled));
-  // latched: nothing comes back, the other one plugged in again or not
+  // latched: no force returns, whether or not the other device is plugged in again
   thumb.plug();
   const std::uint64_t later = tick + 700;
   runUntil([&] { return tick >= later; });

@@ -19,7 +19,7 @@ Pose anyPose(RandomStream& stream) {
   return {normal(stream), Quat(Eigen::AngleAxisd(stream.uniform(0, 3), normal(stream).normalized()))};
 }
 
-/// Points about 0.7 m before A, spread by `spread` along its axes, told with noise.
+/// Points about 0.7 m in front of A, spread by `spread` along its axes, with noise.
 std::vector<LinkedSample> samplesOf(RandomStream& stream, const Pose& X_AB, const Vec3& spread, double noise,
                                     int count = 400) {
   std::vector<LinkedSample> samples;
@@ -32,7 +32,7 @@ std::vector<LinkedSample> samplesOf(RandomStream& stream, const Pose& X_AB, cons
 
 double angleBetween(const Pose& a, const Pose& b) { return 2 * (a.q.conjugate() * b.q).vec().norm(); }
 
-// Without noise only rounding is left, whichever way B stands; flat motions too, whose mirror image fits as well.
+// Without noise only rounding remains, for any pose of B; also for planar motions, which a mirror image fits as well.
 TEST(LinkedBases, AreFoundExactlyWithoutNoise) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     RandomStream stream(seed, "exact");
@@ -47,8 +47,8 @@ TEST(LinkedBases, AreFoundExactlyWithoutNoise) {
   }
 }
 
-// The expected errors are standard errors: over many placements the squares come out as they say. 400 draws of three squares
-// scatter by about 4 % (chi square); 15 % is beyond three of these.
+// The expected errors are standard errors: over many poses the squared errors must agree. 400 draws of three squares
+// scatter by about 4 % (chi square); the tolerance of 15 % is more than three of these.
 TEST(LinkedBases, MissByWhatTheyExpect) {
   double position = 0, angle = 0;
   constexpr int kSeeds = 400;
@@ -64,8 +64,8 @@ TEST(LinkedBases, MissByWhatTheyExpect) {
   EXPECT_NEAR(angle, 1, 0.15);
 }
 
-// The condition number against its meaning: points on a circle of radius r have moments r^2/2, r^2/2 and r^2 about their
-// centre, in arcs at 0.1 m; shifts count 1.
+// The condition number from its definition: points on a circle of radius r have moments r^2/2, r^2/2 and r^2 about
+// their centre, scaled to arcs at 0.1 m; translations count 1.
 TEST(LinkedBases, ConditionIsThatOfTheNormalEquations) {
   std::vector<LinkedSample> circle;
   for (int i = 0; i < 360; ++i) {
@@ -92,7 +92,7 @@ TEST(LinkedBases, WhatIsNoRigidMotionIsRefused) {
   RandomStream stream(2, "loose");
   const Pose X_AB = anyPose(stream);
   auto samples = samplesOf(stream, X_AB, {0.1, 0.1, 0.1}, 30e-6);
-  for (LinkedSample& s : samples) s.p_B *= 1.05;  // a joint that is not homed stretches what its arm sees
+  for (LinkedSample& s : samples) s.p_B *= 1.05;  // a joint that is not homed scales the positions of its arm
   EXPECT_NE(fitBases(samples).refusal.find("did not hold one point"), std::string::npos);
   samples.resize(kLeastSamples - 1);
   EXPECT_NE(fitBases(samples).refusal.find("too few"), std::string::npos);
