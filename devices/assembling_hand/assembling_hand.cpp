@@ -25,11 +25,10 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
        .model = "fingers that assemble by a plan: no person"});
 }
 
-const DevicePlugin kPlugin{
-    .name = "assembling_hand",
-    .summary = "one of two simulated fingertips that put a scene's assembly together by themselves",
-    .create = create,
-    .rating = kImaginedRating};
+const DevicePlugin kPlugin{.name = "assembling_hand",
+                           .summary = "one of two simulated fingertips that build a scene's assembly on their own",
+                           .create = create,
+                           .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::assembling

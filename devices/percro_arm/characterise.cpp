@@ -5,7 +5,7 @@ namespace presa::percro {
 std::vector<Assumption> assumptions(const Parameters& p) {
   const Geometry& g = p.geometry;
   return {
-      {"tilt ratio tau_1", "1", g.tilt_ratio, "inferred from 55 and 130 um: what each asks for, halved"},
+      {"tilt ratio tau_1", "1", g.tilt_ratio, "inferred from 55 and 130 um: mean of the two values"},
       {"drum radius r_b", "mm", g.drum_radius * 1e3,
        "inferred: smallest worst condition number from L = 441 to 1070 mm"},
       {"range of tilt, of yaw", "rad", g.tilt_range, "guess; yaw 0.698"},

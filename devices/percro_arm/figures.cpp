@@ -34,13 +34,13 @@ Characteristic unprinted(const std::string& name, const std::string& unit, doubl
 void addResolution(const Parameters& p, Figures& out) {
   const Geometry& g = p.geometry;
   const std::string note =
-      "2.2; both encoders of the differential step at once. 55 to 130 is not 441 to 1070: either is off";
+      "2.2; both encoders of the differential step at once. The ratio 55:130 differs from 441:1070";
   out.push_back(printedAs("position step across, L = 441 mm", "um", printed::kStepShort * 1e6,
                           measuredStep(p, g.length_min) * 1e6, 0.02, Basis::kFitted, note));
   out.push_back(printedAs("position step across, L = 1070 mm", "um", printed::kStepLong * 1e6,
                           measuredStep(p, g.length_max) * 1e6, 0.02, Basis::kFitted, note));
   out.push_back(unprinted("position step along the barrel", "um", axialStep(p) * 1e6, Basis::kFollows,
-                          "from the drum that makes the conditioning best"));
+                          "from the drum radius with the best conditioning"));
 }
 
 void addWorkspace(const Parameters& p, Figures& out) {
@@ -49,7 +49,7 @@ void addWorkspace(const Parameters& p, Figures& out) {
   const Vec3 wide{printed::kBoxHeight, printed::kBoxWidth, printed::kBoxDepth};
   out.push_back(printedAs("box of 300 x 400 mm: its depth along the barrel", "mm", printed::kBoxDepth * 1e3,
                           largestScale(g, deep) * printed::kBoxDepth * 1e3, 0.002, Basis::kFollows,
-                          "2.1.1; from L = 441 to 1070 mm alone, which are printed to 1 mm"));
+                          "2.1.1; from L = 441 to 1070 mm, printed to 1 mm"));
   out.push_back(atLeast("box of 300 x 400 x 600 mm, 600 across: scale that fits", 1, largestScale(g, wide),
                         "2.1.1; with tilt to 45 and yaw to 40 degrees"));
   out.push_back(
@@ -64,14 +64,14 @@ void addWorkspace(const Parameters& p, Figures& out) {
     }
   }
   out.push_back(unprinted("condition number of J K^-1, worst in that box", "1", worst, Basis::kFollows,
-                          "2.1: \"optimal\", fig. 2; the best that any drum can do between L = 441 and 1070 mm"));
+                          "2.1: \"optimal\", fig. 2; the best for any drum between L = 441 and 1070 mm"));
 }
 
 void addForces(const Parameters& p, Figures& out) {
   const ReachBox box{{largestScale(p.geometry, {0.6, 0.3, 0.4}) * 0.6, 0.3, 0.4}, p.geometry.length_min};
   out.push_back(printedAs("continuous force, worst place and direction", "N", printed::kContinuousForce,
                           leastForce(p, box, p.motors.continuous_torque), 0.02, Basis::kFitted,
-                          "2.1; over the box, beside carrying the arm"));
+                          "2.1; over the box, while carrying the arm"));
   out.push_back(printedAs("peak force, worst place and direction", "N", printed::kPeakForce,
                           leastForce(p, box, p.motors.peak_torque), 0.02, Basis::kFitted, "2.1"));
   const double ratio = p.motors.peak_torque / p.motors.continuous_torque;
@@ -85,21 +85,21 @@ void addStructure(const Parameters& p, Figures& out) {
   out.push_back(printedAs("stiffness along the barrel", "N/mm", 23.74, along.stiffness * 1e-3, 0.03, Basis::kFitted,
                           "2.1.2; pushed to 10 N, displacement by the encoder"));
   out.push_back(printedAs("R^2 of that line", "1", 0.994, along.r_squared, 0.02, Basis::kFollows,
-                          "2.1.2; 10 N bend 420 um, seven steps of the encoder"));
+                          "2.1.2; 10 N give 420 um, seven steps of the encoder"));
   out.push_back(printedAs("stiffness across, L = 1070 mm", "N/mm", printed::kStiffLong * 1e-3,
                           push(p, p.geometry.length_max - 1e-3, Vec3::UnitY(), 4).stiffness * 1e-3, 0.05,
                           Basis::kFitted, "2.1.2, fig. 6"));
   out.push_back(printedAs("stiffness across, L = 441 mm", "N/mm", printed::kStiffShort * 1e-3,
                           push(p, p.geometry.length_min + 1e-3, Vec3::UnitY(), 4).stiffness * 1e-3, 0.05,
-                          Basis::kFitted, "2.1.2, fig. 6; 4 N bend 300 um, five steps of the encoders"));
+                          Basis::kFitted, "2.1.2, fig. 6; 4 N give 300 um, five steps of the encoders"));
 }
 
 void addDynamics(const Parameters& p, Figures& out) {
   const ForceResponse response = forceResponse(p, steps(2, 120, 59));
   out.push_back({"force bandwidth along the barrel (-3 dB)", "Hz", printed::kBandwidthLow, printed::kBandwidthHigh,
-                 response.bandwidth, 0, Basis::kFitted, "2.1.2, fig. 5; the moving mass is chosen for it"});
+                 response.bandwidth, 0, Basis::kFitted, "2.1.2, fig. 5; the moving mass is fitted to it"});
   out.push_back(unprinted("resonance on the way", "Hz", response.resonance, Basis::kAssumed,
-                          "damping 0.1 of critical; the paper's text names none"));
+                          "damping 0.1 of critical; not stated in the paper"));
   const ArmDynamics arm(p, Vec3::Zero());
   const Joints in = Joints::Zero(), drawn_out{0, 0, p.geometry.length_max - p.geometry.length_min};
   const double low = p.geometry.length_min, high = p.geometry.length_max;

@@ -137,7 +137,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 }
 
 const DevicePlugin kPlugin{.name = "pointer",
-                           .summary = "one of two fingertips that mouse and keys move in the window",
+                           .summary = "one of two fingertips moved with mouse and keys in the window",
                            .create = create,
                            .rating = kImaginedRating};
 

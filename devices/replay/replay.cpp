@@ -65,7 +65,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 }
 
 const DevicePlugin kPlugin{.name = "replay",
-                           .summary = "goes where a finger went in a recording, whatever it meets",
+                           .summary = "repeats the motion of a recorded finger, regardless of forces",
                            .create = create,
                            .rating = kImaginedRating};
 
