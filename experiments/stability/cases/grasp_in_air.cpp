@@ -68,7 +68,7 @@ Case graspInAir() {
   result.source =
       "Force of two springs of stiffness k on a free body between them; the bound h^2 K / 2 of explicit "
       "coupling is that of symplectic Euler.";
-  result.oracle = "At rest each finger presses with k times its depth, whatever the mass.";
+  result.oracle = "At rest each finger presses with k times its depth, for any mass.";
   result.scene = "grasp_in_air.xml";
   for (const double stiffness : {500.0, 2000.0, 10'000.0}) {
     for (const double mass : {0.001, 0.01, 0.1, 1.0}) {

@@ -75,7 +75,7 @@ std::vector<Finding> lean(const Wall& wall) {
 Case hapticWall() {
   Case result;
   result.name = "haptic_wall";
-  result.title = "A finger leans on a wall at the limit of what a sampled loop can render";
+  result.title = "A finger leans on a wall at the stability limit of a sampled loop";
   result.source =
       "Stability of a sampled spring on a mass with damping [Colgate 1997, Gil 2009: about b / ((d + 1/2) T)]; "
       "the limit is computed exactly from the eigenvalues of the discrete loop.";
