@@ -1,8 +1,8 @@
 #pragma once
 #include <atomic>
 
-#include "framework/core/graph/port.h"
 #include "framework/assembly/assembly_state.h"
+#include "framework/core/graph/port.h"
 
 namespace presa {
 

@@ -2,8 +2,8 @@
 #include <functional>
 
 #include "framework/core/graph/module.h"
-#include "framework/session/view.h"
 #include "framework/core/schedule/executor.h"
+#include "framework/session/view.h"
 
 namespace presa {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "framework/record/monitor/monitor.h"
-#include "framework/scene/world.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/core/schedule/timing_stats.h"
+#include "framework/record/monitor/monitor.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 

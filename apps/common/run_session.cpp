@@ -13,8 +13,8 @@
 #include "apps/common/terminal/prompt_end.h"
 #include "apps/common/terminal/status_line.h"
 #include "apps/common/version.h"
-#include "framework/session/realtime_policy.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/session/realtime_policy.h"
 
 namespace presa {
 namespace {

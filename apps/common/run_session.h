@@ -6,10 +6,10 @@
 
 #include "apps/common/run_result.h"
 #include "framework/bus/command_desk.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
 
 namespace presa {
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "apps/experiment/seal.h"
-#include "framework/record/checksum/checksum.h"
 #include "framework/core/diagnostics/diagnostics.h"
+#include "framework/record/checksum/checksum.h"
 
 namespace presa::experiment {
 namespace {

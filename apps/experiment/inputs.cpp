@@ -4,8 +4,8 @@
 #include <set>
 #include <system_error>
 
-#include "framework/record/checksum/checksum.h"
 #include "experiments/runner/definition/order.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/scene/load.h"
 
 namespace presa::experiment {

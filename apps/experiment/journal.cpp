@@ -12,9 +12,9 @@
 #include <system_error>
 #include <utility>
 
-#include "framework/record/checksum/checksum.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/input/input.h"
+#include "framework/record/checksum/checksum.h"
 
 namespace presa::experiment {
 namespace {

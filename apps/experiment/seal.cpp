@@ -10,8 +10,8 @@
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/file_text.h"
-#include "framework/record/checksum/signature.h"
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/record/checksum/signature.h"
 
 namespace presa::experiment {
 namespace {

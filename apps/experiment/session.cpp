@@ -8,16 +8,16 @@
 #include <system_error>
 
 #include "apps/common/atomic_file.h"
-#include "apps/experiment/inputs.h"
-#include "apps/experiment/operator/desk.h"
-#include "apps/experiment/session_records.h"
-#include "apps/experiment/trial_table.h"
 #include "apps/common/file_text.h"
 #include "apps/common/machine.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
-#include "framework/record/checksum/checksum.h"
+#include "apps/experiment/inputs.h"
+#include "apps/experiment/operator/desk.h"
+#include "apps/experiment/session_records.h"
+#include "apps/experiment/trial_table.h"
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/record/checksum/checksum.h"
 
 namespace presa::experiment {
 namespace {

@@ -1,8 +1,8 @@
 #include "apps/experiment/trial_run.h"
 
+#include "apps/common/terminal/prompt_end.h"
 #include "apps/experiment/surface_switch.h"
 #include "apps/experiment/trial_tap.h"
-#include "apps/common/terminal/prompt_end.h"
 #include "framework/session/load_world.h"
 #include "framework/session/realtime_policy.h"
 #include "framework/session/session.h"

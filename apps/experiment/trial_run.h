@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "apps/experiment/operator/operator_tap.h"
-#include "framework/device/device.h"
 #include "experiments/runner/definition/presentation.h"
 #include "experiments/runner/definition/trial.h"
+#include "framework/device/device.h"
 
 namespace presa::experiment {
 

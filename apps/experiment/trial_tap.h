@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 
-#include "framework/device/output_stage.h"
 #include "experiments/runner/definition/sample_names.h"
 #include "experiments/runner/definition/trial.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/schedule/executor.h"
+#include "framework/device/output_stage.h"
 
 namespace presa::experiment {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/diagnostics/diagnostics.h"
 #include "apps/temple/building/block.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 namespace presa::temple {
 

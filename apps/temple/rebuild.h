@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/graph/port.h"
-#include "framework/scene/world.h"
 #include "framework/assembly/assembly_state.h"
+#include "framework/core/graph/port.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa::temple {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "framework/core/math/random.h"
 #include "apps/temple/building/block.h"
+#include "framework/core/math/random.h"
 
 namespace presa::temple {
 

@@ -4,10 +4,10 @@
 #include <mutex>
 #include <vector>
 
-#include "framework/core/graph/port.h"
 #include "framework/assembly/assembly_guide.h"
-#include "framework/session/view.h"
+#include "framework/core/graph/port.h"
 #include "framework/scene/world.h"
+#include "framework/session/view.h"
 
 namespace presa::temple {
 

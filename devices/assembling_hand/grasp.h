@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 
-#include "framework/scene/world.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa::assembling {
 

@@ -2,8 +2,8 @@
 #include <optional>
 #include <vector>
 
-#include "framework/scene/world.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa::assembling {
 

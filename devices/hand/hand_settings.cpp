@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "devices/hand/finger_plant.h"
-#include "framework/input/folders.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/input/folders.h"
 
 namespace presa {
 namespace {

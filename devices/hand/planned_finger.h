@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "framework/device/device.h"
 #include "devices/hand/hand_settings.h"
 #include "devices/hand/pair_plan.h"
+#include "framework/device/device.h"
 
 namespace presa {
 

@@ -4,8 +4,8 @@
 #include "devices/novint_falcon/falcon_device.h"
 #include "devices/novint_falcon/firmware.h"
 #include "devices/novint_falcon/usb_transport.h"
-#include "framework/input/folders.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/input/folders.h"
 
 namespace presa::falcon {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "devices/novint_falcon/codes.h"
-#include "framework/record/checksum/checksum.h"
 #include "framework/input/input.h"
+#include "framework/record/checksum/checksum.h"
 
 namespace presa::falcon {
 namespace {

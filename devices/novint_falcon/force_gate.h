@@ -1,8 +1,8 @@
 #pragma once
 #include <algorithm>
 
-#include "framework/device/device_rating.h"
 #include "framework/core/math/spatial.h"
+#include "framework/device/device_rating.h"
 
 namespace presa::falcon {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "devices/percro_arm/parameters.h"
 #include "devices/percro_arm/characterisation/characterisation.h"
+#include "devices/percro_arm/parameters.h"
 
 namespace presa::percro {
 

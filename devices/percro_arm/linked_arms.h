@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "devices/percro_arm/simulated_arm.h"
 #include "devices/percro_arm/calibration/linked_bases.h"
+#include "devices/percro_arm/simulated_arm.h"
 #include "framework/core/math/random.h"
 
 /// The second calibration of [Bergamasco2006 2.2] on modelled arms: the thimbles are clamped in line with the barrels

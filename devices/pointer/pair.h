@@ -2,8 +2,8 @@
 #include <array>
 #include <optional>
 
-#include "devices/pointer/follower.h"
 #include "devices/hand/finger_plant.h"
+#include "devices/pointer/follower.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/device/pointer_state.h"
 

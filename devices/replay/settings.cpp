@@ -9,9 +9,9 @@
 #include <system_error>
 
 #include "devices/hand/hand_settings.h"
+#include "framework/core/schedule/rates.h"
 #include "framework/input/folders.h"
 #include "framework/record/record_plugin.h"
-#include "framework/core/schedule/rates.h"
 
 namespace presa {
 namespace {

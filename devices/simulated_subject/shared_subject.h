@@ -3,12 +3,12 @@
 #include <memory>
 #include <optional>
 
-#include "framework/scene/world.h"
+#include "devices/simulated_subject/model/brain.h"
+#include "devices/simulated_subject/model/hand.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
-#include "devices/simulated_subject/model/brain.h"
-#include "devices/simulated_subject/model/hand.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "experiments/faults/fault.h"
-#include "framework/device/wrapped_device.h"
 #include "experiments/study/study_run.h"
 #include "experiments/study/yielding_finger.h"
+#include "framework/device/wrapped_device.h"
 
 namespace presa::faults {
 

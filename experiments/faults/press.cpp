@@ -13,10 +13,10 @@
 #include <new>
 #include <stdexcept>
 
+#include "experiments/study/experiment_file.h"
+#include "framework/core/schedule/clock.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/schedule/clock.h"
-#include "experiments/study/experiment_file.h"
 
 namespace presa::faults {
 namespace {

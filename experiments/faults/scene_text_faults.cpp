@@ -4,9 +4,9 @@
 
 #include "experiments/faults/scene_faults.h"
 #include "experiments/faults/temporary_file.h"
-#include "framework/scene/load.h"
-#include "framework/core/schedule/clock.h"
 #include "experiments/study/experiment_file.h"
+#include "framework/core/schedule/clock.h"
+#include "framework/scene/load.h"
 
 namespace presa::faults {
 namespace {

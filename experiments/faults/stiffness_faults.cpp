@@ -5,9 +5,9 @@
 #include "experiments/faults/metered_devices.h"
 #include "experiments/faults/scene_faults.h"
 #include "experiments/faults/temporary_file.h"
+#include "experiments/study/experiment_file.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "experiments/study/experiment_file.h"
 
 namespace presa::faults {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "experiments/faults/scene_faults.h"
-#include "framework/scene/load.h"
 #include "experiments/study/study_run.h"
 #include "experiments/study/yielding_finger.h"
+#include "framework/scene/load.h"
 
 namespace presa::faults {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "framework/device/device_modules.h"
 #include "experiments/study/prescribed_finger.h"
+#include "framework/device/device_modules.h"
 
 /// Fingers on exactly known paths.
 namespace presa::stability {

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "framework/core/math/spatial.h"
 #include "experiments/study/prescribed_finger.h"
+#include "framework/core/math/spatial.h"
 
 /// A hand that plays with a body at random, by seed.
 namespace presa::stability {

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "framework/scene/world.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/session/session.h"
 #include "framework/core/schedule/executor.h"
+#include "framework/session/session.h"
 
 namespace presa {
 

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "framework/scene/scene.h"
 #include "framework/assembly/assembly_state.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/scene.h"
 
 namespace presa {
 

@@ -1,7 +1,7 @@
 #pragma once
-#include "framework/scene/scene.h"
 #include "framework/assembly/assembly_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/scene.h"
 
 namespace presa {
 

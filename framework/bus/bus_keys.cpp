@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "framework/record/checksum/certify.h"
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/record/checksum/certify.h"
 
 namespace presa::bus {
 namespace {

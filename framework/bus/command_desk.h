@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "framework/bus/state_bus.h"
-#include "framework/scene/open_surfaces.h"
 #include "framework/core/state/surface_settings.h"
+#include "framework/scene/open_surfaces.h"
 
 namespace presa::bus {
 

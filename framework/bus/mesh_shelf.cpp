@@ -7,8 +7,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "framework/record/checksum/checksum.h"
 #include "framework/input/folders.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/scene/load.h"
 
 namespace presa::bus {

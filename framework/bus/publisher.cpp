@@ -5,9 +5,9 @@
 
 #include "framework/bus/mesh_shelf.h"
 #include "framework/bus/scene_hash.h"
-#include "framework/device/output_stage.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/output_stage.h"
 
 namespace presa::bus {
 

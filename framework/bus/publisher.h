@@ -6,8 +6,8 @@
 #include "framework/bus/command_desk.h"
 #include "framework/bus/state_bus.h"
 #include "framework/core/graph/port.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa::bus {
 

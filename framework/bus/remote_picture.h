@@ -6,9 +6,9 @@
 
 #include "framework/bus/sequence_watch.h"
 #include "framework/bus/state_bus.h"
-#include "framework/scene/world.h"
 #include "framework/core/schedule/timing_stats.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa::bus {
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/world.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
 #include "framework/device/pointer_state.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 

@@ -4,17 +4,17 @@
 #include <optional>
 #include <vector>
 
-#include "framework/device/device.h"
-#include "framework/device/output_stage.h"
-#include "framework/device/sample_check.h"
 #include "framework/core/exchange/event_ring.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/graph/stage_watch.h"
-#include "framework/scene/ages.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/object_state.h"
+#include "framework/device/device.h"
+#include "framework/device/output_stage.h"
+#include "framework/device/sample_check.h"
+#include "framework/scene/ages.h"
 
 namespace presa {
 

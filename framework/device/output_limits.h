@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/device/device_rating.h"
 #include "framework/core/diagnostics/diagnostics.h"
+#include "framework/device/device_rating.h"
 #include "framework/scene/ages.h"
 #include "framework/scene/scene.h"
 

@@ -1,10 +1,10 @@
 #pragma once
 #include <cstdint>
 
+#include "framework/core/math/spatial.h"
 #include "framework/device/output_limits.h"
 #include "framework/device/passivity_controller.h"
 #include "framework/device/thermal_budget.h"
-#include "framework/core/math/spatial.h"
 
 namespace presa {
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <memory>
 
+#include "framework/core/schedule/executor.h"
 #include "framework/device/device.h"
 #include "framework/device/output_limits.h"
-#include "framework/core/schedule/executor.h"
 
 namespace presa {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <variant>
 
-#include "framework/geometry/closest_point.h"
 #include "framework/core/math/spatial.h"
+#include "framework/geometry/closest_point.h"
 
 namespace presa {
 

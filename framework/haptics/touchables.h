@@ -28,13 +28,11 @@ class Touchables {
   Pose frameOf(std::int32_t body) const noexcept { return body == kNoBody ? Pose{} : placed(body); }
   /// Velocity of the material point of the body at p_W [m/s].
   Vec3 velocityAt(std::int32_t body, const Vec3& p_W) const noexcept;
-  /// Fills the finger's surroundings with everything it can meet while its centre stays within `reach` of the HIP,
+  /// Fills `near`, in the coordinates of the body `frame`, with everything that a fingertip can meet while its centre stays within `reach` of the HIP,
   /// which moved by `moved` since the last tick. When `patch` is null or does not cover this, all bodies are examined.
   /// Returns the distance by which a surface may have approached the HIP in a tick of `period` [m].
-  double surround(const Finger& finger, const Vec3& p_WH, double reach, double moved, double period,
+  double surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved, double period,
                   const FingerPatch* patch) const noexcept;
-  /// Transforms the finger's state and `point` into the coordinates of `body`.
-  void moveToFrame(Finger& finger, Vec3& point, std::int32_t body) const noexcept;
 
  private:
   struct Touchable {

@@ -15,28 +15,6 @@
 
 namespace presa {
 
-/// One tick of one rate group: whether it was a catch-up tick, and the version of every value read across rates, in the
-/// graph's bridge order. Thread timing makes these versions differ from run to run; recording them makes a replay
-/// exact.
-struct ScheduleRow {
-  static constexpr int kMaxBridges = 12;
-  std::uint64_t index = 0;
-  std::uint64_t made_up = 0;  ///< bit 0: Tick::made_up, bit 1: Tick::resumed
-  std::array<std::uint64_t, kMaxBridges> versions{};
-};
-
-/// Groups whose ticks are recorded: all but the bus, which only publishes the others' results and is not needed for a
-/// replay.
-inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
-constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
-
-/// Log to which the executors write when a run is recorded: one ring per rate group (one writer each), drained by the
-/// recorder's writer thread.
-struct ScheduleLog {
-  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;
-  ScheduleLog();
-};
-
 struct RecorderStatus {
   std::uint64_t rows = 0;     ///< haptic ticks accepted: written or waiting to be written
   std::uint64_t dropped = 0;  ///< haptic ticks or schedule rows lost because the disk was too slow

@@ -1,8 +1,8 @@
 #include <filesystem>
 
+#include "framework/core/state/limits.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/schemas.h"
-#include "framework/core/state/limits.h"
 
 namespace presa {
 namespace {

@@ -103,14 +103,6 @@ struct DeviceRole {
   SourceLocation where;
 };
 
-struct Rates {
-  double haptic = 1000;    ///< [Hz]
-  double collision = 100;  ///< [Hz], haptic / collision is a whole number
-  double dynamics = 200;   ///< [Hz], haptic / dynamics is a whole number
-  double view = 60;        ///< [Hz]
-  double bus = 200;        ///< publishing rate of the run's state [Hz]; not settable in a scene
-};
-
 /// Haptic rendering method. The defaults are Presa's methods; the other values select the conventional ones for
 /// comparison.
 struct HapticSettings {

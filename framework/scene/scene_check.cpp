@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
+#include "framework/core/state/limits.h"
 #include "framework/scene/ages.h"
 #include "framework/scene/scene_parts.h"
-#include "framework/core/state/limits.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa {

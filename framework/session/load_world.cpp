@@ -1,11 +1,11 @@
 #include "framework/session/load_world.h"
 
 #include "framework/input/folders.h"
+#include "framework/scene/bus_settings.h"
+#include "framework/scene/load.h"
 #include "framework/session/realtime_policy.h"
 #include "framework/session/session.h"
 #include "framework/session/stiffness_bound.h"
-#include "framework/scene/bus_settings.h"
-#include "framework/scene/load.h"
 
 namespace presa {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/session/plan.h"
 #include "framework/scene/world.h"
+#include "framework/session/plan.h"
 
 namespace presa {
 

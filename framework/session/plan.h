@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "framework/core/graph/module.h"
-#include "framework/scene/world.h"
 #include "framework/core/schedule/tick.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/session/plan.h"
 #include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/plan.h"
 
 namespace presa {
 

@@ -4,10 +4,10 @@
 #include <bit>
 
 #include "framework/core/graph/port.h"
-#include "framework/scene/open_surfaces.h"
 #include "framework/core/schedule/rates.h"
 #include "framework/core/state/surface_change.h"
 #include "framework/core/state/surface_settings.h"
+#include "framework/scene/open_surfaces.h"
 
 namespace presa {
 namespace {

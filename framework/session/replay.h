@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
+#include "framework/record/recording.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/record/recording.h"
 
 namespace presa {
 

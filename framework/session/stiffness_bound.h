@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "framework/device/device_modules.h"
-#include "framework/session/plan.h"
 #include "framework/scene/load.h"
+#include "framework/session/plan.h"
 
 namespace presa {
 

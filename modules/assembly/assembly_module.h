@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "framework/core/graph/port.h"
-#include "framework/session/module_plugin.h"
 #include "framework/session/assembly_control.h"
+#include "framework/session/module_plugin.h"
 #include "modules/assembly/places.h"
 
 namespace presa::assembly {

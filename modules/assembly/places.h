@@ -2,11 +2,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "framework/scene/goal_pose.h"
-#include "framework/scene/scene.h"
 #include "framework/assembly/assembly_state.h"
 #include "framework/assembly/attraction.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/goal_pose.h"
+#include "framework/scene/scene.h"
 
 namespace presa::assembly {
 

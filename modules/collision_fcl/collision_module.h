@@ -4,11 +4,11 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/graph/stage_watch.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 #include "modules/collision_fcl/broad_phase.h"
 
 namespace presa {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "framework/scene/world.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 #include "modules/dynamics_ode/finger_row.h"
 
 namespace presa::ode {

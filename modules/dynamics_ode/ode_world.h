@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "framework/core/graph/stage_watch.h"
-#include "framework/scene/world.h"
 #include "framework/assembly/attraction.h"
+#include "framework/core/graph/stage_watch.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 #include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/ode_options.h"
 

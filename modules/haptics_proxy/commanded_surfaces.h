@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "framework/scene/open_surfaces.h"
 #include "framework/core/state/surface_settings.h"
+#include "framework/scene/open_surfaces.h"
 
 namespace presa {
 

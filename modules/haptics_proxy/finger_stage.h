@@ -12,8 +12,6 @@
 
 namespace presa {
 
-class Touchables;
-
 /// State of one finger, kept from tick to tick.
 struct Finger {
   bool alive = false;
@@ -25,6 +23,9 @@ struct Finger {
   Vec3 p_WH = Vec3::Zero();          ///< HIP of the last tick [m]
   std::unique_ptr<Surroundings> near;
 };
+
+/// Transforms the finger's state and `point` into the coordinates of `body`.
+void moveToFrame(Finger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept;
 
 /// The surface parameters in force. Both references must outlive the stages.
 struct SurfacesInForce {

@@ -104,7 +104,7 @@ void HapticsProxy::stepFinger(std::size_t f, double period, Watch& watch) noexce
   finger.p_WH = input.p_WH;
   const bool patched = patches_.hasValue() && f < static_cast<std::size_t>(patches_->count);
   // 10 %: room for being pushed out of a moving body
-  tick.approach = touchables_.surround(finger, input.p_WH, way + 1.1 * finger.radius, moved, period,
+  tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved, period,
                                        patched ? &patches_->fingers[f] : nullptr);
   finger.near->setStep(moved + tick.approach);
   const std::size_t gathered = commanded_.size() + place_bodies_.size();

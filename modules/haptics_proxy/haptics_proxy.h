@@ -5,9 +5,9 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/graph/stage_watch.h"
+#include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
-#include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/finger_stage.h"
 
 namespace presa {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <limits>
 
-#include "modules/haptics_proxy/finger_stage.h"
 #include "framework/haptics/touchables.h"
+#include "modules/haptics_proxy/finger_stage.h"
 
 namespace presa {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "modules/haptics_proxy/finger_stage.h"
 #include "framework/haptics/touchables.h"
+#include "modules/haptics_proxy/finger_stage.h"
 
 namespace presa {
 namespace {

@@ -2,8 +2,8 @@
 #include <osg/Geometry>
 #include <vector>
 
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_patch.h"
+#include "framework/scene/world.h"
 
 namespace presa::view {
 

@@ -3,13 +3,13 @@
 #include <memory>
 #include <optional>
 
+#include "framework/assembly/assembly_guide.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/graph/stage_watch.h"
-#include "framework/assembly/assembly_guide.h"
-#include "framework/session/view.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
+#include "framework/session/view.h"
 #include "modules/view_osg/renderer.h"
 #include "modules/view_osg/video.h"
 

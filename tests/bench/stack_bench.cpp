@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/core/schedule/clock.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/schedule/clock.h"
 
 namespace presa {
 namespace {

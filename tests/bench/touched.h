@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "framework/core/graph/graph.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_exchange.h"
+#include "framework/scene/world.h"
 
 // Worlds made in memory, fingers that slide over them, and the two modules that render this, driven by a graph as in
 // a run.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "framework/core/schedule/executor.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/schedule/executor.h"
 #include "tests/apps/presa/support.h"
 #include "tests/support/alloc_lock_guard.h"
 

@@ -6,8 +6,8 @@
 #include "apps/presa/explain/callgrind_file.h"
 #include "apps/presa/explain/instruction_counts.h"
 #include "apps/presa/explain/module_times.h"
-#include "framework/session/session.h"
 #include "framework/core/schedule/executor.h"
+#include "framework/session/session.h"
 #include "tests/apps/presa/support.h"
 #include "tests/effects/instructions.h"
 

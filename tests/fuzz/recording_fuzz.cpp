@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "framework/record/checksum/checksum.h"
 #include "framework/core/plugin/plugin_loader.h"
+#include "framework/record/checksum/checksum.h"
 #include "tests/framework/record/mutation.h"
 
 extern "C" const presa::ChecksumPlugin presaChecksums;

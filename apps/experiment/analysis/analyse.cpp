@@ -7,10 +7,10 @@
 #include "apps/common/atomic_file.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
-#include "framework/record/checksum/checksum.h"
-#include "framework/core/diagnostics/refuse.h"
 #include "experiments/runner/definition/read.h"
 #include "experiments/runner/statistics/resampling.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/record/checksum/checksum.h"
 
 namespace presa::experiment::analysis {
 namespace {

@@ -1,5 +1,5 @@
-#include "apps/experiment/analysis/section.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/section.h"
 #include "experiments/runner/statistics/regression.h"
 
 namespace presa::experiment::analysis {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "apps/experiment/analysis/section.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/section.h"
 #include "experiments/runner/statistics/margin.h"
 #include "experiments/runner/statistics/means.h"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "apps/common/terminal/text.h"
 #include "apps/experiment/analysis/cells.h"
 #include "apps/experiment/analysis/section.h"
-#include "apps/common/terminal/text.h"
 
 namespace presa::experiment::analysis {
 

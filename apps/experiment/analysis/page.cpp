@@ -1,11 +1,11 @@
 #include "apps/common/report/page.h"
 #include <regex>
 
-#include "apps/experiment/analysis/analyse.h"
 #include "apps/common/report/html.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
+#include "apps/experiment/analysis/analyse.h"
 
 namespace presa::experiment::analysis {
 namespace {

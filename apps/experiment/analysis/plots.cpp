@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/experiment/analysis/cells.h"
-#include "apps/experiment/analysis/section.h"
 #include "apps/common/report/svg_facets.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/cells.h"
+#include "apps/experiment/analysis/section.h"
 #include "experiments/runner/statistics/margin.h"
 #include "framework/scene/xml/value_rule.h"
 

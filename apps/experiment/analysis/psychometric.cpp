@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/experiment/analysis/psychometric_fit.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/psychometric_fit.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa::experiment::analysis {

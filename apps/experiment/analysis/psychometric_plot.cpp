@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/experiment/analysis/psychometric_fit.h"
 #include "apps/common/report/svg_facets.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/psychometric_fit.h"
 
 namespace presa::experiment::analysis {
 namespace {

@@ -1,7 +1,7 @@
 #include <map>
 
-#include "apps/experiment/analysis/section.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/section.h"
 #include "experiments/runner/statistics/correlation.h"
 #include "experiments/runner/statistics/ranks.h"
 #include "experiments/runner/statistics/resampling.h"

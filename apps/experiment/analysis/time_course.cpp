@@ -3,9 +3,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "apps/experiment/analysis/section.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/analysis/section.h"
 #include "framework/record/record_plugin.h"
 
 namespace presa::experiment::analysis {

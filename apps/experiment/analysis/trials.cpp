@@ -6,8 +6,8 @@
 #include <set>
 
 #include "apps/experiment/dataset.h"
-#include "framework/core/diagnostics/refuse.h"
 #include "experiments/runner/definition/order.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa::experiment::analysis {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/experiment/export/bids_session.h"
 #include "apps/common/version.h"
+#include "apps/experiment/export/bids_session.h"
 
 namespace presa::experiment {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/experiment/operator/session_view.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/operator/session_view.h"
 
 namespace presa::experiment {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/experiment/dry_run.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/dry_run.h"
 #include "experiments/runner/definition/presentation.h"
 #include "framework/core/schedule/clock.h"
 

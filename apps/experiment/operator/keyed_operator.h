@@ -1,9 +1,9 @@
 #pragma once
 #include <memory>
 
+#include "apps/common/terminal/interruption.h"
 #include "apps/experiment/operator/board.h"
 #include "apps/experiment/operator/operator.h"
-#include "apps/common/terminal/interruption.h"
 
 namespace presa::experiment {
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "framework/device/output_stage.h"
 #include "experiments/runner/definition/trial.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
+#include "framework/device/output_stage.h"
 
 namespace presa::experiment {
 

@@ -1,5 +1,5 @@
-#include "apps/experiment/operator/operator.h"
 #include "apps/common/terminal/job_progress.h"
+#include "apps/experiment/operator/operator.h"
 
 namespace presa::experiment {
 namespace {

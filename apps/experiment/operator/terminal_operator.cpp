@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "apps/experiment/operator/keyed_operator.h"
 #include "apps/common/terminal/keys.h"
 #include "apps/common/terminal/status_line.h"
+#include "apps/experiment/operator/keyed_operator.h"
 #include "framework/core/diagnostics/refuse.h"
 
 namespace presa::experiment {

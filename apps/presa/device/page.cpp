@@ -1,11 +1,11 @@
 #include "apps/common/report/page.h"
 
-#include "apps/presa/device/characterise.h"
 #include "apps/common/report/contours.h"
 #include "apps/common/report/html.h"
 #include "apps/common/report/svg_facets.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
+#include "apps/presa/device/characterise.h"
 
 namespace presa::device {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/presa/device/characterise.h"
 #include "apps/common/terminal/text.h"
+#include "apps/presa/device/characterise.h"
 
 namespace presa::device {
 namespace {

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <typeinfo>
 
+#include "apps/common/terminal/text.h"
 #include "apps/presa/explain/instruction_counts.h"
 #include "apps/presa/explain/module_times.h"
-#include "apps/common/terminal/text.h"
 
 namespace presa {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 #include <array>
 
-#include "framework/record/recording.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/record/recording.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 

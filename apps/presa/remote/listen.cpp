@@ -2,13 +2,13 @@
 
 #include <cstdio>
 
-#include "apps/presa/remote/join.h"
 #include "apps/common/terminal/interruption.h"
+#include "apps/presa/remote/join.h"
 #include "framework/bus/mesh_shelf.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/core/diagnostics/printable.h"
-#include "framework/scene/load.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/scene/load.h"
 
 namespace presa {
 

@@ -18,8 +18,8 @@
 #include "apps/common/terminal/interruption.h"
 #include "framework/bus/publisher.h"
 #include "framework/bus/scene_hash.h"
-#include "framework/scene/load.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/scene/load.h"
 
 namespace presa {
 namespace {

@@ -8,6 +8,11 @@
 #include <thread>
 
 #include "apps/common/atomic_file.h"
+#include "apps/common/file_text.h"
+#include "apps/common/machine.h"
+#include "apps/common/terminal/job_progress.h"
+#include "apps/common/terminal/text.h"
+#include "apps/common/version.h"
 #include "apps/studies/cost/fixed_rig.h"
 #include "apps/studies/cost/forecast.h"
 #include "apps/studies/cost/hash.h"
@@ -16,13 +21,8 @@
 #include "apps/studies/cost/meshes.h"
 #include "apps/studies/cost/metrics.h"
 #include "apps/studies/cost/run_store.h"
-#include "apps/common/file_text.h"
-#include "apps/common/machine.h"
-#include "apps/common/terminal/job_progress.h"
-#include "apps/common/terminal/text.h"
-#include "apps/common/version.h"
-#include "framework/core/schedule/clock.h"
 #include "experiments/study/jobs.h"
+#include "framework/core/schedule/clock.h"
 
 namespace presa::cost {
 namespace {

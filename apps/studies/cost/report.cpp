@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/studies/cost/analysis.h"
-#include "apps/studies/cost/metrics.h"
-#include "apps/studies/cost/work_plots.h"
 #include "apps/common/report/html.h"
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
+#include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/metrics.h"
+#include "apps/studies/cost/work_plots.h"
 
 namespace presa::cost {
 namespace {

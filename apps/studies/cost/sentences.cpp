@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
+#include "apps/common/terminal/text.h"
 #include "apps/studies/cost/analysis.h"
 #include "apps/studies/cost/metrics.h"
-#include "apps/common/terminal/text.h"
 
 namespace presa::cost {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/studies/cost/analysis.h"
-#include "apps/studies/cost/metrics.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
+#include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/metrics.h"
 
 namespace presa::cost {
 namespace {

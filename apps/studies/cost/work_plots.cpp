@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "apps/studies/cost/analysis.h"
-#include "apps/studies/cost/metrics.h"
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
+#include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/metrics.h"
 
 namespace presa::cost {
 namespace {

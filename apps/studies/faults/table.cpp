@@ -1,8 +1,8 @@
-#include "apps/studies/faults/runner.h"
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
+#include "apps/studies/faults/runner.h"
 
 namespace presa::faults {
 namespace {

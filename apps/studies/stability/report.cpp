@@ -5,10 +5,10 @@
 
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
-#include "apps/studies/stability/curves.h"
-#include "apps/studies/stability/table.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
+#include "apps/studies/stability/curves.h"
+#include "apps/studies/stability/table.h"
 
 namespace presa::stability {
 namespace {

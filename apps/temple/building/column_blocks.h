@@ -1,7 +1,7 @@
 #pragma once
-#include "framework/core/math/random.h"
 #include "apps/temple/building/block.h"
 #include "apps/temple/building/proportions.h"
+#include "framework/core/math/random.h"
 
 namespace presa::temple {
 

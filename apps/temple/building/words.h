@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/temple/building/block.h"
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/scene/assembly_words.h"
-#include "apps/temple/building/block.h"
 
 namespace presa::temple {
 

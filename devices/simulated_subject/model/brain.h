@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "framework/core/math/random.h"
 #include "devices/simulated_subject/model/perception.h"
 #include "devices/simulated_subject/model/traits.h"
+#include "framework/core/math/random.h"
 
 namespace presa::subject {
 

@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "framework/core/math/random.h"
 #include "devices/simulated_subject/model/senses.h"
 #include "devices/simulated_subject/model/traits.h"
+#include "framework/core/math/random.h"
 
 namespace presa::subject {
 

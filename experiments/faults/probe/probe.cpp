@@ -6,8 +6,8 @@
 
 #include "experiments/faults/probe/probe_log.h"
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/session/plugin.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/session/plugin.h"
 
 namespace presa::faults {
 namespace {

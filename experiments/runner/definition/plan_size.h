@@ -1,6 +1,6 @@
 #pragma once
-#include "framework/core/diagnostics/diagnostics.h"
 #include "experiments/runner/definition/definition.h"
+#include "framework/core/diagnostics/diagnostics.h"
 
 namespace presa::experiment {
 

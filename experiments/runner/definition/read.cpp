@@ -10,10 +10,9 @@
 #include "experiments/runner/definition/presentation.h"
 #include "experiments/runner/definition/read_parts.h"
 #include "framework/input/folders.h"
+#include "framework/scene/xml/schema.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/scene/schemas.h"
-#include "framework/scene/xml/schema.h"
 
 namespace presa::experiment {
 namespace {

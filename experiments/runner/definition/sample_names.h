@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "experiments/runner/definition/expression.h"
-#include "framework/scene/scene.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/scene.h"
 
 namespace presa::experiment {
 

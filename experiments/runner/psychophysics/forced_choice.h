@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/psychophysics/method.h"
+#include "framework/core/math/random.h"
 
 namespace presa::psychophysics {
 

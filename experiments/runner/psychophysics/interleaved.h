@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/psychophysics/staircase.h"
+#include "framework/core/math/random.h"
 
 namespace presa::psychophysics {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/statistics/interval.h"
 #include "experiments/runner/statistics/psychometric_function.h"
+#include "framework/core/math/random.h"
 
 /// Maximum-likelihood fit of a psychometric function to counts per stimulus level. Deterministic. Thread: any.
 namespace presa::statistics {

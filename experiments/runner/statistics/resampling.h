@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/statistics/interval.h"
+#include "framework/core/math/random.h"
 
 /// Inference for dependent trials, many per person. Seeded: the same stream gives the same result. Thread: any.
 namespace presa::statistics {

@@ -11,7 +11,7 @@ struct Rates {
   double collision = 100;  ///< [Hz], haptic / collision is a whole number
   double dynamics = 200;   ///< [Hz], haptic / dynamics is a whole number
   double view = 60;        ///< [Hz]
-  double bus = 200;        ///< at which the state is published [Hz]; no scene changes it
+  double bus = 200;        ///< publishing rate of the run's state [Hz]; not settable in a scene
 };
 
 /// The rates of a run in whole nanoseconds: every group's period is a whole number of haptic periods, so

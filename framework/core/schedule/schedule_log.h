@@ -8,8 +8,9 @@
 
 namespace presa {
 
-/// One tick of one rate group, whether it came too late for the device, and the version of every value that it read across
-/// rates, in the graph's bridge order. Threads make these versions differ from run to run; with them a replay is exact.
+/// One tick of one rate group: whether it was a catch-up tick, and the version of every value read across rates, in the
+/// graph's bridge order. Thread timing makes these versions differ from run to run; recording them makes a replay
+/// exact.
 struct ScheduleRow {
   static constexpr int kMaxBridges = 12;
   std::uint64_t index = 0;
@@ -17,13 +18,13 @@ struct ScheduleRow {
   std::array<std::uint64_t, kMaxBridges> versions{};
 };
 
-/// Groups whose ticks are recorded: all but the bus, which only carries away what the others made. A replay does without it, and
-/// recordings stay as they were.
+/// Groups whose ticks are recorded: all but the bus, which only publishes the others' results and is not needed for a
+/// replay.
 inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
 constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
 
-/// The executors write here when a run is recorded: one ring per rate group (one writer each), drained by
-/// the recorder's thread.
+/// Log to which the executors write when a run is recorded: one ring per rate group (one writer each), drained by the
+/// recorder's writer thread.
 struct ScheduleLog {
   std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;
   ScheduleLog();

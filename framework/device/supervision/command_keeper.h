@@ -1,8 +1,8 @@
 #pragma once
 #include <algorithm>
 
-#include "framework/device/output_stage.h"
 #include "framework/core/state/device_state.h"
+#include "framework/device/output_stage.h"
 
 namespace presa {
 

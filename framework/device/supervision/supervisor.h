@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "framework/device/device.h"
 #include "framework/core/schedule/executor.h"
+#include "framework/device/device.h"
 #include "framework/device/supervision/command_keeper.h"
 #include "framework/device/supervision/share.h"
 

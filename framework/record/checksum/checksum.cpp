@@ -4,10 +4,10 @@
 #include <cerrno>
 #include <system_error>
 
-#include "framework/record/checksum/plugin.h"
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/input/input.h"
 #include "framework/core/plugin/plugin_loader.h"
+#include "framework/input/input.h"
+#include "framework/record/checksum/plugin.h"
 
 namespace presa {
 namespace {

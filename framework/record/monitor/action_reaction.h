@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "framework/scene/scene.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/scene.h"
 
 namespace presa {
 

@@ -8,12 +8,12 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/graph/stage_watch.h"
-#include "framework/record/monitor/action_reaction.h"
-#include "framework/scene/world.h"
 #include "framework/core/schedule/timing_stats.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/record/monitor/action_reaction.h"
+#include "framework/scene/world.h"
 
 namespace presa {
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <optional>
 
-#include "framework/record/checksum/checksum.h"
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/record/checksum/checksum.h"
 #include "framework/record/record_plugin/row_check.h"
 #include "framework/record/record_plugin/seal.h"
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "framework/record/record_plugin/flight_buffer.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/record/record_plugin/flight_buffer.h"
 
 namespace presa::record {
 namespace {

@@ -13,8 +13,8 @@
 #include <filesystem>
 
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/record/record_plugin/seal.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/record/record_plugin/seal.h"
 
 namespace presa::record {
 namespace {

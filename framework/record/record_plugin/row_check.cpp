@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/record/record_plugin/stored.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/surface_settings.h"
+#include "framework/record/record_plugin/stored.h"
 
 namespace presa::record {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/core/state/limits.h"
 #include "framework/record/record_plugin/inspection.h"
 #include "framework/record/record_plugin/open_file.h"
-#include "framework/core/state/limits.h"
 
 namespace presa::record {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <regex>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/experiment/analysis/analyse.h"
 #include "apps/experiment/operator/operator.h"
 #include "apps/experiment/session.h"
-#include "apps/common/scratch_folder.h"
 #include "experiments/runner/definition/read.h"
 #include "experiments/runner/statistics/margin.h"
 #include "tests/apps/experiment/grip_study.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "apps/experiment/analysis/analyse.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/experiment/analysis/analyse.h"
 #include "tests/apps/experiment/synthetic_dataset.h"
 
 // Psychometric fits from the log to the table, against the fits of another implementation (scipy, Nelder-Mead).

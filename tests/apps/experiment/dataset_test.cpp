@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/experiment/inputs.h"
 #include "apps/experiment/session.h"
-#include "apps/common/scratch_folder.h"
-#include "framework/record/checksum/checksum.h"
 #include "experiments/runner/definition/read.h"
+#include "framework/record/checksum/checksum.h"
 #include "tests/apps/experiment/contents.h"
 
 namespace presa::experiment {

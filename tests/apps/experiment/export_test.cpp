@@ -7,13 +7,13 @@
 #include <map>
 #include <sstream>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/experiment/export/csv.h"
 #include "apps/experiment/export/staging.h"
 #include "apps/experiment/operator/operator.h"
 #include "apps/experiment/session.h"
-#include "apps/common/scratch_folder.h"
-#include "framework/core/diagnostics/diagnostics.h"
 #include "experiments/runner/definition/read.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin.h"
 #include "tests/apps/experiment/bids_files.h"
 #include "tests/apps/experiment/bids_rules.h"

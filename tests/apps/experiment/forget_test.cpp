@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/experiment/journal.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/experiment/journal.h"
 #include "framework/core/diagnostics/diagnostics.h"
 #include "tests/apps/experiment/contents.h"
 

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/experiment/analysis/analyse.h"
 #include "apps/experiment/dataset.h"
-#include "apps/common/scratch_folder.h"
 #include "tests/apps/experiment/contents.h"
 
 // The small dataset that ships with each experiment: whole, unaltered, and what was found in it is still found.

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "apps/experiment/analysis/analyse.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/experiment/analysis/analyse.h"
 #include "tests/apps/experiment/synthetic_dataset.h"
 
 namespace presa::experiment::analysis {

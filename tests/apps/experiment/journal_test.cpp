@@ -4,10 +4,10 @@
 
 #include <csignal>
 
-#include "apps/experiment/journal.h"
 #include "apps/common/scratch_folder.h"
-#include "framework/record/checksum/checksum.h"
+#include "apps/experiment/journal.h"
 #include "framework/core/diagnostics/diagnostics.h"
+#include "framework/record/checksum/checksum.h"
 #include "tests/apps/experiment/contents.h"
 #include "tests/apps/experiment/refusal.h"
 

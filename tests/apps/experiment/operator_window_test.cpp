@@ -6,9 +6,9 @@
 #include <fstream>
 #include <tuple>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/experiment/dataset.h"
 #include "apps/experiment/session_log.h"
-#include "apps/common/scratch_folder.h"
 #include "tests/apps/experiment/contents.h"
 
 // The operator's window under an X server of its own, with keys that come through it.

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <functional>
 
-#include "apps/experiment/respondent.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/experiment/respondent.h"
 #include "experiments/runner/definition/presentation.h"
 #include "experiments/runner/definition/read.h"
 #include "experiments/runner/definition/row.h"
@@ -35,7 +35,7 @@ std::string findings(const std::string& name, const std::string& from, const std
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  const std::string up = "../../../experiments/";
+  const std::string up = "../../../../experiments/";
   for (std::size_t i = text.find(up); i != std::string::npos; i = text.find(up))
     text.replace(i, up.size(), std::string(PRESA_SOURCE_DIR) + "/experiments/");
   const ScratchFolder scratch;

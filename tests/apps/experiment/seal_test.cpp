@@ -8,9 +8,9 @@
 
 #include "apps/common/file_text.h"
 #include "apps/common/scratch_folder.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/checksum/plugin.h"
 #include "framework/record/checksum/signature.h"
-#include "framework/core/diagnostics/diagnostics.h"
 
 // What a checksum cannot prove: who sealed a session.
 namespace presa::experiment {

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "apps/experiment/dataset.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/experiment/dataset.h"
 #include "framework/core/math/random.h"
 #include "tests/apps/experiment/contents.h"
 

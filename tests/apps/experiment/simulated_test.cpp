@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/experiment/operator/operator.h"
 #include "apps/experiment/session.h"
-#include "apps/common/scratch_folder.h"
-#include "experiments/runner/definition/read.h"
 #include "devices/simulated_subject/model/traits.h"
+#include "experiments/runner/definition/read.h"
 #include "tests/apps/experiment/contents.h"
 #include "tests/apps/experiment/refusal.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/experiment/session.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/experiment/session.h"
 #include "experiments/runner/definition/read.h"
 #include "framework/record/record_plugin.h"
 

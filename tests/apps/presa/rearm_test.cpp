@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/session/load_world.h"
-#include "framework/record/record_plugin.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/record/record_plugin.h"
+#include "framework/session/load_world.h"
 #include "tests/apps/presa/support.h"
 #include "tests/support/on_terminal.h"
 

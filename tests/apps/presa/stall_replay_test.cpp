@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "framework/session/load_world.h"
-#include "framework/record/record_plugin.h"
-#include "framework/session/replay.h"
 #include "framework/core/schedule/executor.h"
+#include "framework/record/record_plugin.h"
+#include "framework/session/load_world.h"
+#include "framework/session/replay.h"
 #include "tests/apps/presa/support.h"
 
 namespace presa {

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "apps/common/file_text.h"
-#include "framework/scene/load.h"
 #include "apps/temple/building/assembly_text.h"
+#include "framework/scene/load.h"
 #include "tests/apps/temple/support.h"
 
 namespace presa::temple {

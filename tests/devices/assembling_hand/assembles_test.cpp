@@ -1,10 +1,10 @@
 // The whole pipeline in lockstep: two fingers assemble bodies by friction only.
 #include <gtest/gtest.h>
 
+#include "framework/assembly/assembly_state.h"
+#include "framework/core/schedule/executor.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/schedule/executor.h"
-#include "framework/assembly/assembly_state.h"
 
 namespace presa {
 namespace {

@@ -4,11 +4,11 @@
 #include <set>
 
 #include "apps/common/scratch_folder.h"
+#include "apps/temple/building/building.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/visit.h"
 #include "apps/temple/written_scene.h"
 #include "devices/clumsy_hand/clumsy_plan.h"
-#include "apps/temple/building/building.h"
 #include "tests/support/shipped_rig.h"
 
 namespace presa::clumsy {

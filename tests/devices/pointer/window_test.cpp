@@ -10,9 +10,9 @@
 
 #include "apps/common/file_text.h"
 #include "apps/common/scratch_folder.h"
-#include "apps/temple/written_scene.h"
 #include "apps/temple/building/building.h"
 #include "apps/temple/building/proportions.h"
+#include "apps/temple/written_scene.h"
 
 namespace presa {
 namespace {

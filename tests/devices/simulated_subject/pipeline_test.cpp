@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/study/study_run.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "experiments/study/study_run.h"
 #include "tests/devices/simulated_subject/study.h"
 
 namespace presa::subject {

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "framework/core/schedule/executor.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/schedule/executor.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 /// effects_probe SCENE TICKS STAGE SHAPE [PATH=VALUE…]: plays the scene in lockstep with the haptic stages that it calls

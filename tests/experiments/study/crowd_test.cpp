@@ -1,10 +1,10 @@
 // A full run of a scene with 5 000 bodies.
 #include <gtest/gtest.h>
 
+#include "experiments/study/prescribed_finger.h"
+#include "framework/core/state/object_state.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/state/object_state.h"
-#include "experiments/study/prescribed_finger.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {

@@ -1,8 +1,8 @@
 // Rates that a scene may set: the age limits of data follow them, so that a grasp holds at any rate. Virtual time.
 #include <gtest/gtest.h>
 
-#include "framework/session/load_world.h"
 #include "experiments/study/study_run.h"
+#include "framework/session/load_world.h"
 
 namespace presa {
 namespace {

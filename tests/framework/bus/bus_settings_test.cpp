@@ -2,10 +2,10 @@
 
 #include <fstream>
 
-#include "framework/session/load_world.h"
-#include "framework/session/plan.h"
 #include "framework/scene/load.h"
 #include "framework/scene/world.h"
+#include "framework/session/load_world.h"
+#include "framework/session/plan.h"
 
 namespace presa {
 namespace {

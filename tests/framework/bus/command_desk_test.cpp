@@ -9,10 +9,10 @@
 
 #include "framework/bus/local_bus.h"
 #include "framework/bus/publisher.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
 #include "tests/framework/bus/troubled_post.h"
 
 namespace presa::bus {

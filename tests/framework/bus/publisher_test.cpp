@@ -5,11 +5,11 @@
 
 #include <vector>
 
+#include "experiments/study/study_run.h"
 #include "framework/bus/local_bus.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "experiments/study/study_run.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa::bus {

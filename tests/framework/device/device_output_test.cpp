@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "framework/device/device_modules.h"
 #include "framework/core/graph/graph_builder.h"
+#include "framework/device/device_modules.h"
 #include "tests/framework/device/stand_ins.h"
 
 namespace presa {

@@ -15,7 +15,7 @@ using test::Outcome;
 /// The experiment of the fixtures with `factors` before its design, and the design's attributes replaced.
 void writeExperiment(const Bench& bench, const std::string& factors, const std::string& design = "repeats=\"2\"") {
   std::string text = contentsOf(test::kSource + "/tests/apps/experiment/fixtures/lift.xml");
-  const std::string old_scene = "../../../experiments/grip_slip/scene.xml",
+  const std::string old_scene = "../../../../experiments/grip_slip/scene.xml",
                     old_design = "<design repeats=\"2\" practice=\"1\"/>";
   text.replace(text.find(old_scene), old_scene.size(), test::kSource + "/experiments/grip_slip/scene.xml");
   text.replace(text.find(old_design), old_design.size(), factors + "<design " + design + "/>");

@@ -7,8 +7,8 @@
 
 #include "apps/common/scratch_folder.h"
 #include "framework/core/graph/graph_builder.h"
-#include "framework/record/record_plugin/recorder.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/record/record_plugin/recorder.h"
 
 namespace presa::record {
 

@@ -1,10 +1,10 @@
 // Whole runs in lockstep: the effect of a scene's <assembly> on real bodies.
 #include <gtest/gtest.h>
 
+#include "framework/assembly/assembly_state.h"
+#include "framework/core/schedule/executor.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "framework/core/schedule/executor.h"
-#include "framework/assembly/assembly_state.h"
 
 namespace presa {
 namespace {

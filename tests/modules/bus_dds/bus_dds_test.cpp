@@ -5,10 +5,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "experiments/study/study_run.h"
 #include "framework/bus/publisher.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/core/schedule/clock.h"
-#include "experiments/study/study_run.h"
 #include "tests/modules/bus_dds/viewer_process.h"
 
 namespace presa::bus {

@@ -9,9 +9,9 @@
 
 #include "framework/bus/command_desk.h"
 #include "framework/bus/publisher.h"
+#include "framework/core/schedule/clock.h"
 #include "framework/record/checksum/checksum.h"
 #include "framework/record/record_plugin.h"
-#include "framework/core/schedule/clock.h"
 #include "tests/modules/bus_dds/viewer_process.h"
 
 namespace presa::bus {

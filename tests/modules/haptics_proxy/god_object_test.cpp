@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "modules/haptics_proxy/god_object.h"
 #include "framework/haptics/nearest_feasible.h"
+#include "modules/haptics_proxy/god_object.h"
 
 namespace presa {
 namespace {

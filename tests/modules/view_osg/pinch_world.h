@@ -2,11 +2,11 @@
 #include <memory>
 #include <string>
 
-#include "framework/session/view.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
+#include "framework/session/view.h"
 
 /// A cube held by two fingers above a table, built in code, without a scene file or other modules.
 namespace presa::view_test {

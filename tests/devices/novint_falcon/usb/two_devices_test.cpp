@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "framework/device/device_modules.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_modules.h"
 #include "tests/devices/novint_falcon/usb/drivers.h"
 
 namespace presa::falcon_model::test {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/core/math/random.h"
 #include "experiments/runner/statistics/margin.h"
+#include "framework/core/math/random.h"
 
 namespace presa::statistics {
 namespace {

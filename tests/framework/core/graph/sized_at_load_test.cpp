@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "framework/core/graph/graph_builder.h"
 #include "framework/assembly/assembly_state.h"
 #include "framework/assembly/attraction.h"
+#include "framework/core/graph/graph_builder.h"
 #include "framework/core/state/object_state.h"
 #include "tests/support/alloc_lock_guard.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "experiments/faults/press.h"
-#include "framework/device/device_rating.h"
 #include "framework/core/schedule/realtime_rights.h"
+#include "framework/device/device_rating.h"
 #include "framework/device/supervision/command_keeper.h"
 
 // A whole program under the real supervisor, with its probe for a device, on files that lie; then the program is killed. The probe is

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "framework/input/folders.h"
 #include "experiments/study/study_run.h"
+#include "framework/input/folders.h"
 #include "tests/modules/haptics_proxy/surface/support/mesh_files.h"
 #include "tests/modules/haptics_proxy/surface/support/mesh_oracle.h"
 
@@ -40,7 +40,8 @@ struct Way {
 
 /// Runs a scripted finger motion over the man of libcgal-demo, 0.15 m tall, in the whole program.
 Way follow(const std::string& motion) {
-  const std::filesystem::path folder = std::filesystem::path(PRESA_BINARY_DIR) / "tests/modules/haptics_proxy/surface/man";
+  const std::filesystem::path folder =
+      std::filesystem::path(PRESA_BINARY_DIR) / "tests/modules/haptics_proxy/surface/man";
   std::filesystem::create_directories(folder);
   TriMesh man = readOff(packagedMesh("man"));
   scaleTo(man, 0.15);

@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "framework/core/graph/graph_builder.h"
-#include "framework/scene/world.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/world.h"
 
 namespace presa::test {
 
