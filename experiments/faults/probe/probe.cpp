@@ -7,7 +7,7 @@
 #include "experiments/faults/probe/probe_log.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/schedule/clock.h"
-#include "framework/session/plugin.h"
+#include "framework/device/device_plugin.h"
 
 namespace presa::faults {
 namespace {
