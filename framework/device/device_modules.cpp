@@ -75,14 +75,6 @@ OutputStage::Trust DeviceOutput::trust(std::size_t finger, const Tick& tick) con
 }
 
 void DeviceOutput::step(const Tick& tick) noexcept {
-  NoStageWatch nobody;
-  run(tick, nobody);
-}
-
-void DeviceOutput::stepWatched(const Tick& tick, StageWatch& watch) noexcept { run(tick, watch); }
-
-template <class Watch>
-void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
   // the machine's sleep is not in the tick's time
   const double elapsed = tick.resumed ? std::max(tick.time - last_tick_.time, Executor::kGap) : tick.period;
   last_tick_ = tick;
@@ -108,9 +100,7 @@ void DeviceOutput::run(const Tick& tick, Watch& watch) noexcept {
     command.status |= stages_[f].status();
     report(f, reported_[f], stages_[f].status(), tick.time);
     reported_[f] = stages_[f].status();
-    watch.done(0);
     send(f, tick);
-    watch.done(1);
   }
   rearms_ = device_->rearms;
 }
@@ -145,11 +135,6 @@ void DeviceOutput::stop() {
 std::vector<std::string> DeviceOutput::stages() const {
   return {"output stage: finite, magnitude, energy, thermal, fade (soft start, watchdog, stop), slew",
           "write to the device, but for ticks made up after a late wake-up: the force is held"};
-}
-
-std::vector<std::string> DeviceOutput::stageFunctions() const {
-  const std::string step = "presa::DeviceOutput::step", write = "presa::DeviceOutput::send";
-  return {step + " - " + write, write};
 }
 
 }  // namespace presa

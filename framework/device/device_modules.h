@@ -6,7 +6,6 @@
 
 #include "framework/core/exchange/event_ring.h"
 #include "framework/core/graph/port.h"
-#include "framework/core/graph/stage_watch.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/contact_patch.h"
@@ -45,16 +44,14 @@ class DeviceInput final : public Module {
 };
 
 /// The output stages and the devices behind them. Reads the ages of what the command was made from.
-class DeviceOutput final : public Module, public WatchedStages {
+class DeviceOutput final : public Module {
  public:
   /// `safety`: as `devices`. `rates`: of the scene. `realtime`: the last fade, after the run, keeps the pace of the clock.
   DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const Rates& rates, bool realtime);
   void step(const Tick& tick) noexcept override;
-  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   /// Takes every force down to zero within the slew limit, then lets go.
   void stop() override;
   std::vector<std::string> stages() const override;
-  std::vector<std::string> stageFunctions() const override;
 
   /// Main thread: the next fault or watchdog event; false when there is none.
   bool nextEvent(FaultEvent& event) noexcept { return events_.pop(event); }
@@ -63,8 +60,6 @@ class DeviceOutput final : public Module, public WatchedStages {
   static constexpr double kSilentZero = 0.005;
 
  private:
-  template <class Watch>
-  void run(const Tick& tick, Watch& watch) noexcept;
   OutputStage::Trust trust(std::size_t finger, const Tick& tick) const noexcept;
   void send(std::size_t finger, const Tick& tick) noexcept;
   void report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept;

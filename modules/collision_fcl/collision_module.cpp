@@ -12,8 +12,6 @@ namespace {
 /// A patch is made larger than needed by this factor, so that it serves for several queries.
 constexpr double kFarther = 1.5;
 
-enum Stage : std::size_t { kPlace, kLook, kDeliver };
-
 std::size_t touchableCount(const World& world) {
   return static_cast<std::size_t>(
       std::ranges::count_if(world.scene.bodies, [](const Body& body) { return body.haptic.has_value(); }));
@@ -57,23 +55,13 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
 }
 
 void CollisionModule::step(const Tick& tick) noexcept {
-  NoStageWatch nobody;
-  stepWatched(tick, nobody);
-}
-
-void CollisionModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
   ContactPatches& patches = contact_patches.value;
   patches.time = tick.time;
   patches.count = device_state->count;
   if (any_moves_) placeBodies(tick);
-  watch.done(kPlace);
   for (std::size_t f = 0; f < static_cast<std::size_t>(patches.count); ++f) {
     const Ball needed = ballOf(f, tick);
-    const bool serves = lastPatchServes(f, needed);
-    watch.done(kLook);
-    if (serves) continue;
-    makePatch(needed, patches.fingers[f]);
-    watch.done(kDeliver);
+    if (!lastPatchServes(f, needed)) makePatch(needed, patches.fingers[f]);
   }
 }
 
@@ -171,11 +159,6 @@ std::vector<std::string> CollisionModule::stages() const {
   return {"place the bodies that have moved in the broad phase (FCL's dynamic tree of boxes)",
           std::string("does each finger's last patch still hold what it can reach: fingertip, stretch and ") + margin,
           "bodies within reach, and a cut through the hierarchy of each mesh among them"};
-}
-
-std::vector<std::string> CollisionModule::stageFunctions() const {
-  const std::string module = "presa::CollisionModule::";
-  return {module + "placeBodies", module + "lastPatchServes", module + "makePatch"};
 }
 
 }  // namespace presa

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/core/graph/stage_watch.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/device_state.h"
@@ -18,14 +17,12 @@ namespace presa {
 /// nothing is then searched or copied. A late or too small patch costs time but no accuracy: the tick then examines all
 /// bodies and starts from the roots. In: contact_exchange, device_state, object_state (optional; absent: bodies stay at
 /// their start pose). Out: contact_patches. Thread: collision; allocates at construction only.
-class CollisionModule final : public Module, public WatchedStages {
+class CollisionModule final : public Module {
  public:
   explicit CollisionModule(std::shared_ptr<const World> world);
 
   void step(const Tick& tick) noexcept override;
-  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   std::vector<std::string> stages() const override;
-  std::vector<std::string> stageFunctions() const override;
 
   In<ContactExchange> contact_exchange{*this, "contact_exchange"};
   In<DeviceState> device_state{*this, "device_state"};

@@ -2,6 +2,7 @@
 
 #include "framework/scene/ages.h"
 #include "modules/dynamics_ode/ode_runtime.h"
+#include "modules/dynamics_ode/stages.h"
 
 namespace presa::ode {
 namespace {
@@ -34,8 +35,7 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world)
                ages::fingers(world->scene.rates)),
       objects_(*this, "object_state"),
       world_(std::move(world)),
-      options_(optionsOf(*world_)),
-      stages_(listStages(options_)) {
+      options_(optionsOf(*world_)) {
   objects_.value.bodies.resize(world_->scene.bodies.size());
   if (world_->scene.assembly) attractions_.emplace(*this, "attractions", In<Attractions>::Optional{});
 }
@@ -57,41 +57,12 @@ void DynamicsModule::step(const Tick& tick) noexcept {
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value);
 }
 
-void DynamicsModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
-  /// Translates Stage to the numbers of stages(), which omits stages that the scene does not use.
-  class Listed final : public StageWatch {
-   public:
-    Listed(const std::vector<StageText>& stages, StageWatch& watch) : stages_(stages), watch_(watch) {}
-    void done(std::size_t stage) noexcept override {
-      for (std::size_t i = 0; i < stages_.size(); ++i) {
-        if (stages_[i].stage == static_cast<Stage>(stage)) watch_.done(i);
-      }
-    }
-
-   private:
-    const std::vector<StageText>& stages_;
-    StageWatch& watch_;
-  } listed(stages_, watch);
-  attract();
-  bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, listed);
-}
-
 void DynamicsModule::stop() {
   bodies_.reset();
   detachThread();
 }
 
-std::vector<std::string> DynamicsModule::stages() const {
-  std::vector<std::string> all;
-  for (const StageText& stage : stages_) all.push_back(stage.what);
-  return all;
-}
-
-std::vector<std::string> DynamicsModule::stageFunctions() const {
-  std::vector<std::string> all;
-  for (const StageText& stage : stages_) all.push_back(stage.functions);
-  return all;
-}
+std::vector<std::string> DynamicsModule::stages() const { return listStages(options_); }
 
 }  // namespace presa::ode
 

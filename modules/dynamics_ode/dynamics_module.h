@@ -7,21 +7,18 @@
 #include "framework/core/graph/port.h"
 #include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/ode_world.h"
-#include "modules/dynamics_ode/stages.h"
 
 namespace presa::ode {
 
 /// Module of the free bodies: contact exchange in, object state out. Thread: dynamics.
-class DynamicsModule final : public Module, public WatchedStages {
+class DynamicsModule final : public Module {
  public:
   explicit DynamicsModule(std::shared_ptr<const World> world);
 
   void start() override;
   void step(const Tick& tick) noexcept override;
-  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
-  std::vector<std::string> stageFunctions() const override;
 
   const Faults& faults() const noexcept { return bodies_->faults(); }  ///< valid between start and stop
 
@@ -34,7 +31,6 @@ class DynamicsModule final : public Module, public WatchedStages {
   std::uint64_t attractions_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;
-  std::vector<StageText> stages_;  ///< stages used by this scene
   std::unique_ptr<OdeWorld> bodies_;
 };
 

@@ -13,13 +13,10 @@
 #include "modules/dynamics_ode/islands.h"
 #include "modules/dynamics_ode/layers.h"
 #include "modules/dynamics_ode/sleep.h"
-#include "modules/dynamics_ode/stages.h"
 #include "modules/dynamics_ode/step_solver.h"
 
 namespace presa::ode {
 namespace {
-
-void done(StageWatch& watch, Stage stage) noexcept { watch.done(static_cast<std::size_t>(stage)); }
 
 // Contacts with a gap (negative depth) are not counted.
 BodyPenetration penetrationOf(const std::vector<BodyContact>& contacts) noexcept {
@@ -54,8 +51,8 @@ struct OdeWorld::Impl {
     if (options.method.sleeping) sleep.emplace(bodies);
   }
 
-  void step(const ContactExchange& exchange, double time, double period, StageWatch& watch);
-  void substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch);
+  void step(const ContactExchange& exchange, double time, double period);
+  void substep(const ContactExchange& exchange, double time, double h, int substeps);
   void lookAhead();
   void findIslands(const ContactExchange& exchange);
   void wakeTouched(const ContactExchange& exchange);
@@ -160,22 +157,18 @@ int OdeWorld::Impl::substepsNow() {
   return static_cast<int>(std::clamp(options.iteration_budget / visits, 1.0, double(options.large_substeps)));
 }
 
-void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps, StageWatch& watch) {
+void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps) {
   bodies.resetForces();
   if (attractor) attractor->drive(bodies, h);
   fingers.read(exchange, time, h, bodies);
-  done(watch, Stage::kExtrapolate);
-  if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps, watch)) ++fallback_steps;
+  if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) ++fallback_steps;
   for (std::size_t f = 0; f < kMaxFingers; ++f) {
     const Vec3 force = fingers.force(f);
     finger_force[f] += force / substeps;
     finger_impulse[f] += h * force;
   }
-  done(watch, Stage::kSolve);
   bodies.driftRotations(h);
-  done(watch, Stage::kRotate);
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
-  done(watch, Stage::kPublish);
 }
 
 void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
@@ -185,10 +178,9 @@ void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
   if (nonsense > 0) fault(Faults::kBadFinger, nonsense);
 }
 
-void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period, StageWatch& watch) {
+void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period) {
   finger_force.fill(Vec3::Zero());
   wakeTouched(exchange);
-  done(watch, Stage::kWake);
   if (attractor) attractor->carry(bodies, sleep ? &*sleep : nullptr, period);
   if (!bodies.anyAwake()) {
     contacts.clear();
@@ -202,11 +194,9 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
     findIslands(exchange);
     solver.setCrowded(anyLarge());
     if (s == 0) substeps = substepsNow();
-    done(watch, Stage::kCollide);
-    substep(exchange, time + s * period / substeps, period / substeps, substeps, watch);
+    substep(exchange, time + s * period / substeps, period / substeps, substeps);
   }
   if (sleep) sleep->afterStep(bodies, islands, period);
-  done(watch, Stage::kWake);
 }
 
 OdeWorld::OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options)
@@ -215,23 +205,16 @@ OdeWorld::OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options
 OdeWorld::~OdeWorld() = default;
 
 void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept {
-  NoStageWatch nobody;
-  step(fingers, time, period, out, nobody);
-}
-
-void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out,
-                    StageWatch& watch) noexcept {
   Impl& impl = *impl_;
   if (!impl.failed) {
     try {
-      impl.step(fingers, time, period, watch);
+      impl.step(fingers, time, period);
     } catch (const std::exception&) {
       impl.giveUp();
     }
   }
   write(time, out);
   out.time_end = time + period;
-  done(watch, Stage::kPublish);
 }
 
 void OdeWorld::attract(const Attractions& attractions) {

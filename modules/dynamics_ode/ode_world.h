@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "framework/assembly/attraction.h"
-#include "framework/core/graph/stage_watch.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
@@ -37,8 +36,6 @@ class OdeWorld {
   /// Advances all bodies from `time` to time + period [s]. `fingers` is the last contact exchange with its time; it is
   /// extrapolated to `time` and fades when older than ages::fingers. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
-  /// As above; reports each completed Stage to `watch`.
-  void step(const ContactExchange& fingers, double time, double period, ObjectState& out, StageWatch& watch) noexcept;
   /// Sets the snap constraints from the next step on. Never called: none.
   void attract(const Attractions& attractions);
   /// Writes the current poses as a state valid from `time` on [s].

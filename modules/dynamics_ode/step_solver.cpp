@@ -7,8 +7,6 @@
 
 #include <algorithm>
 
-#include "modules/dynamics_ode/stages.h"
-
 namespace presa::ode {
 namespace {
 
@@ -40,26 +38,26 @@ StepSolver::StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, cons
       load_(bodies.size()) {}
 
 bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, int layers,
-                       double h, int substeps, StageWatch& watch) {
+                       double h, int substeps) {
   all_.assign(bodies_.size(), 1);
   iterations_ = solver_.iterations(contacts.size(), layers, substeps);
   joints_.begin(contacts, bodies_, h);
   soften(islands, h);
   const bool isotropic = options_.method.friction == DynamicsSettings::Friction::kIsotropic && !contacts.empty();
   if (isotropic) startFromLastStep(islands);
-  if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h, watch);
-  pass(fingers, islands, all_, h, true, watch);
+  if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h);
+  pass(fingers, islands, all_, h, true);
   if (fingers.letGo(islands, wrong_)) {
     putBack(islands, wrong_);
-    pass(fingers, islands, wrong_, h, true, watch);
+    pass(fingers, islands, wrong_, h, true);
   }
   if (!isotropic) return any(fell_back_);
   joints_.readForces(islands, all_);
   for (int repeat = 0; repeat < kMostRepeats && judge(islands); ++repeat) {
     putBack(islands, wrong_);
     boundByNormalForce(islands);
-    predict(fingers, islands, wrong_, h, watch);
-    pass(fingers, islands, wrong_, h, true, watch);
+    predict(fingers, islands, wrong_, h);
+    pass(fingers, islands, wrong_, h, true);
     joints_.readForces(islands, wrong_);
   }
   joints_.end(bodies_);
@@ -74,12 +72,10 @@ void StepSolver::boundByNormalForce(Islands& islands) {
   }
 }
 
-void StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
-                      StageWatch& watch) {
+void StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h,
+                      bool friction) {
   joints_.addTo(engine_, bodies_, islands, wanted, friction);
-  watch.done(static_cast<std::size_t>(friction ? Stage::kSolve : Stage::kPredict));
   fingers.addTo(engine_, bodies_, islands, wanted);
-  watch.done(static_cast<std::size_t>(Stage::kFingers));
   solver_.solve(islands, wanted, h, friction ? iterations_ : std::min(iterations_, kPredictionIterations), fell_back_);
   engine_.clearContacts();
 }
@@ -157,11 +153,9 @@ void StepSolver::putBack(Islands& islands, const std::vector<char>& wanted) {
   }
 }
 
-void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h,
-                         StageWatch& watch) {
-  watch.done(static_cast<std::size_t>(Stage::kSolve));
+void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h) {
   counts.predictions += static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1));
-  pass(fingers, islands, wanted, h, false, watch);
+  pass(fingers, islands, wanted, h, false);
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const BodyContact& c = joints_.contact(i);
     if (wanted[islandOf(i, islands)] == 0) continue;
@@ -175,7 +169,6 @@ void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vec
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     joints_[i].slides = joints_[i].slides && joints_.slip(i, bodies_).norm() > kSlidesFast;
   }
-  watch.done(static_cast<std::size_t>(Stage::kPredict));
 }
 
 // Friction above its cone: the normal force has fallen since the last step (after an impact), or friction was not

@@ -1,7 +1,6 @@
 #pragma once
 #include <vector>
 
-#include "framework/core/graph/stage_watch.h"
 #include "modules/dynamics_ode/contact_joints.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/island_solver.h"
@@ -23,7 +22,7 @@ class StepSolver {
   /// Steps all bodies from the start of the step. `layers`: stack height (`Layers`, `kAllLayers`). True when an island
   /// fell back to the iterative solver.
   bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, int layers, double h,
-             int substeps, StageWatch& watch);
+             int substeps);
 
   bool isDirect(const Islands::Island& island) const noexcept { return solver_.isDirect(island); }
   void setCrowded(bool crowded) noexcept { solver_.setCrowded(crowded); }
@@ -33,8 +32,7 @@ class StepSolver {
   } counts;
 
  private:
-  void pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction,
-            StageWatch& watch);
+  void pass(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, bool friction);
   /// The contacts of one pair of bodies.
   struct Patch {
     std::size_t body = 0;  // B
@@ -54,7 +52,7 @@ class StepSolver {
     return islands.of(static_cast<std::size_t>(joints_.contact(i).B));
   }
   bool findSliding(Islands& islands);
-  void predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h, StageWatch& watch);
+  void predict(FingerJoints& fingers, Islands& islands, const std::vector<char>& wanted, double h);
   bool judge(Islands& islands);
   void putBack(Islands& islands, const std::vector<char>& wanted);
 

@@ -1,10 +1,6 @@
 #include "modules/haptics_proxy/haptics_proxy.h"
 
-#include <cxxabi.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <typeinfo>
 
 #include "framework/session/module_plugin.h"
 
@@ -15,12 +11,6 @@ void interpolateBodies(Touchables& touchables, const ObjectState& objects, doubl
   touchables.interpolate(objects, time);
 }
 void holdBodies(Touchables& touchables, const ObjectState& objects, double) noexcept { touchables.hold(objects); }
-
-std::string nameOf(const std::type_info& type) {
-  const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr),
-                                                    std::free);
-  return name ? name.get() : type.name();
-}
 
 }  // namespace
 
@@ -58,32 +48,17 @@ std::unique_ptr<FingerStage> HapticsProxy::frictionOf(const HapticEffects& effec
 }
 
 void HapticsProxy::step(const Tick& tick) noexcept {
-  NoStageWatch nobody;
-  run(tick, nobody);
-}
-
-void HapticsProxy::stepWatched(const Tick& tick, StageWatch& watch) noexcept { run(tick, watch); }
-
-template <class Watch>
-void HapticsProxy::run(const Tick& tick, Watch& watch) noexcept {
-  for (const auto& commanded : commanded_) {
-    commanded->surfaces.step(commanded->settings.value(), tick.period);
-    watch.done(0);
-  }
+  for (const auto& commanded : commanded_) commanded->surfaces.step(commanded->settings.value(), tick.period);
   if (objects_.hasValue()) {
-    for (const PlaceBodies& stage : place_bodies_) {
-      stage.apply(touchables_, objects_.value(), tick.time);
-      watch.done(commanded_.size());
-    }
+    for (const PlaceBodies& stage : place_bodies_) stage.apply(touchables_, objects_.value(), tick.time);
   }
   ContactExchange& out = contact_.value;
   out.time = tick.time;
   out.count = device_->count;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, tick.period, watch);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, tick.period);
 }
 
-template <class Watch>
-void HapticsProxy::stepFinger(std::size_t f, double period, Watch& watch) noexcept {
+void HapticsProxy::stepFinger(std::size_t f, double period) noexcept {
   const FingerInput& input = device_->fingers[f];
   FingerContact& out = contact_.value.fingers[f];
   Finger& finger = fingers_[f];
@@ -107,12 +82,7 @@ void HapticsProxy::stepFinger(std::size_t f, double period, Watch& watch) noexce
   tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved, period,
                                        patched ? &patches_->fingers[f] : nullptr);
   finger.near->setStep(moved + tick.approach);
-  const std::size_t gathered = commanded_.size() + place_bodies_.size();
-  watch.done(gathered);
-  for (std::size_t i = 0; i < finger_stages_.size(); ++i) {
-    finger_stages_[i]->apply(tick);
-    watch.done(gathered + 1 + i);
-  }
+  for (const auto& stage : finger_stages_) stage->apply(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
 }
 
@@ -123,16 +93,6 @@ std::vector<std::string> HapticsProxy::stages() const {
   stages.emplace_back("gather the pieces within reach of each fingertip");
   for (const auto& stage : finger_stages_) stages.emplace_back(stage->what());
   return stages;
-}
-
-std::vector<std::string> HapticsProxy::stageFunctions() const {
-  std::vector<std::string> functions;
-  if (!commanded_.empty()) functions.emplace_back("presa::CommandedSurfaces::step");
-  if (effects_.poses == HapticEffects::Poses::kInterpolate) functions.emplace_back("presa::Touchables::interpolate");
-  if (effects_.poses == HapticEffects::Poses::kHold) functions.emplace_back("presa::Touchables::hold");
-  functions.emplace_back("presa::Touchables::surround");
-  for (const auto& stage : finger_stages_) functions.push_back(nameOf(typeid(*stage)) + "::apply");
-  return functions;
 }
 
 namespace {

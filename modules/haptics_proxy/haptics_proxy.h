@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/core/graph/stage_watch.h"
 #include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
@@ -17,14 +16,12 @@ namespace presa {
 ///   f = k (p_WP - p_WH), modified by the effects that the scene uses.
 /// The collision thread's patches limit the bodies to examine; without a patch all bodies are examined.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
-class HapticsProxy final : public Module, public WatchedStages {
+class HapticsProxy final : public Module {
  public:
   explicit HapticsProxy(const std::shared_ptr<const World>& world) : HapticsProxy(world, effectsOf(*world)) {}
   HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects);
   void step(const Tick& tick) noexcept override;
-  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   std::vector<std::string> stages() const override;
-  std::vector<std::string> stageFunctions() const override;
   std::vector<LeftOut> leftOut() const override { return effectsLeftOut(effects_); }
 
  private:
@@ -42,10 +39,7 @@ class HapticsProxy final : public Module, public WatchedStages {
   };
   SurfacesInForce surfaces(const HapticEffects& effects);
   std::unique_ptr<FingerStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
-  template <class Watch>
-  void run(const Tick& tick, Watch& watch) noexcept;
-  template <class Watch>
-  void stepFinger(std::size_t finger, double period, Watch& watch) noexcept;
+  void stepFinger(std::size_t finger, double period) noexcept;
 
   std::shared_ptr<const World> world_;
   HapticEffects effects_;

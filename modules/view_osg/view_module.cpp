@@ -61,21 +61,14 @@ void ViewModule::start() {
 }
 
 void ViewModule::step(const Tick& tick) noexcept {
-  NoStageWatch nobody;
-  stepWatched(tick, nobody);
-}
-
-void ViewModule::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
   if (!renderer_ || broken_) return;
   try {
     copyPorts(tick);
     picture_->follow(frame_, timings_);
-    watch.done(0);
     if (windowed()) drawWindow();
     if (video_ && video_->due(frame_.time)) film();
     if (screenshotDue()) saveScreenshot();
     saveSeries();
-    watch.done(1);
   } catch (const std::exception& error) {
     giveUp(error.what());
   }

@@ -5,7 +5,6 @@
 
 #include "framework/assembly/assembly_guide.h"
 #include "framework/core/graph/port.h"
-#include "framework/core/graph/stage_watch.h"
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
@@ -18,7 +17,7 @@ namespace presa::view {
 /// The view module. Off-screen it only copies the states until the picture is due; in a window every step draws a
 /// frame.
 /// Thread: view; may allocate; nothing waits for it.
-class ViewModule final : public View, public WatchedStages {
+class ViewModule final : public View {
  public:
   explicit ViewModule(std::shared_ptr<const World> world);
   ~ViewModule() override;
@@ -26,7 +25,6 @@ class ViewModule final : public View, public WatchedStages {
   /// Opens the window or the off-screen context. Throws InputError when that fails.
   void start() override;
   void step(const Tick& tick) noexcept override;
-  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
 

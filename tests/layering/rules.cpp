@@ -155,7 +155,6 @@ Finding opensAFileByItself(const SourceFile& file) {
   static const std::set<std::string> kOwn{
       "framework/geometry/mesh_import_plugin/isolation.cpp",
       "apps/presa/explain/description.cpp",
-      "apps/presa/explain/instruction_counts.cpp",
       "apps/common/machine.cpp",
       "apps/studies/faults/periods.cpp",
       "apps/studies/cost/measure.cpp",

@@ -51,7 +51,7 @@ int explain(const Arguments& arguments) {
   options.open_devices = arguments.cost;
   Session session(loaded.world, loaded.plan, control, std::move(options));
   nlohmann::json run = describeSession(loaded, session, before);
-  if (arguments.cost) addCost(run, arguments.inputs, loaded, session);
+  if (arguments.cost) addCost(run, loaded, session);
   if (arguments.format == "json") {
     std::printf("%s\n", run.dump(2).c_str());
   } else {
@@ -74,8 +74,8 @@ void addExplain(Command app, int& status) {
       .oneOf({"window", "offscreen", "none"});
   addBusOptions(command, arguments->bus, "explain a run that is published");
   command.flag("--cost", arguments->cost,
-               "play the scene with its devices and tell time and instructions per tick of each module and\n"
-               "stage; takes up to a minute");
+               "play the scene with its devices (10 s of it at most) and tell for each module the wall time of\n"
+               "one step, median and p99.9, and the median's share of its thread's period");
   command.footer(
       "Examples:  presa explain config/scenes/cube.xml --cost\n"
       "           presa explain config/scenes/cube.xml --cost --record --view offscreen\n"

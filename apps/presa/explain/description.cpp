@@ -33,12 +33,8 @@ std::string reasonOf(const Plan& plan, const std::string& module) {
 void describeModule(const Module& module, const Plan& plan, json& out) {
   const char* group = toString(module.group());
   out["modules"].push_back({{"name", module.name()}, {"group", group}, {"reason", reasonOf(plan, module.name())}});
-  const auto stages = module.stages(), functions = module.stageFunctions();
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const json function = i < functions.size() ? json(functions[i]) : json();
-    out["stages"].push_back(
-        {{"group", group}, {"module", module.name()}, {"stage", stages[i]}, {"function", function}});
-  }
+  for (const std::string& stage : module.stages())
+    out["stages"].push_back({{"group", group}, {"module", module.name()}, {"stage", stage}});
   for (const LeftOut& left_out : module.leftOut()) {
     out["left_out"].push_back({{"what", left_out.what}, {"why", left_out.why}});
   }

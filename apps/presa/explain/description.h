@@ -12,9 +12,9 @@ namespace presa {
 std::set<std::string> mappedLibraries();
 
 /// What the session runs, why, and what it does without:
-///   scene; threads[] name rate_hz period_s; modules[] name group reason; stages[] group module stage function (null: none
-///   of its own); connections[] from to value across_rates [when_old old_after_s]; devices[] role driver;
-///   left_out[] what why; libraries[] name plugin needed_by ("the program": one of `before`, "the scene": came with it).
+///   scene; threads[] name rate_hz period_s; modules[] name group reason; stages[] group module stage;
+///   connections[] from to value across_rates [when_old old_after_s]; devices[] role driver; left_out[] what why;
+///   libraries[] name plugin needed_by ("the program": one of `before`, "the scene": came with it).
 nlohmann::json describeSession(const Loaded& loaded, Session& session, const std::set<std::string>& before);
 
 }  // namespace presa

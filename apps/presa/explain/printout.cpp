@@ -21,31 +21,19 @@ std::string padded(std::string line, std::size_t width) {
   return line;
 }
 
-std::string grouped(double number) {
-  std::string digits = std::to_string(std::llround(number));
-  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
-    digits.insert(static_cast<std::size_t>(at), " ");
-  return digits;
-}
-
-// Microseconds, and instructions, of a row that may have either.
-std::string figures(const json& row) {
+// Microseconds, and the share of the period, of a module that was measured.
+std::string figures(const json& module) {
+  if (!module.contains("median_ns")) return {};
   const auto microseconds = [&](const char* key) {
-    if (!row.contains(key) || !row[key].is_number()) return std::string(9, ' ');
-    const double value = row[key].get<double>() * 1e-3;
+    const double value = module[key].get<double>() * 1e-3;
     return format(value < 1e5 ? " %8.2f" : " %8.0f", value);
   };
-  std::string out = microseconds("median_ns") + microseconds("p999_ns");
-  if (row.contains("instructions_per_tick") && row["instructions_per_tick"].is_number()) {
-    const std::string number = grouped(row["instructions_per_tick"].get<double>());
-    out += std::string(number.size() < 13 ? 13 - number.size() : 1, ' ') + number;
-  }
-  while (!out.empty() && out.back() == ' ') out.pop_back();
-  return out;
+  return microseconds("median_ns") + microseconds("p999_ns") +
+         format(" %8.2f %%", 100 * module["share_of_period"].get<double>());
 }
 
-void line(std::string& out, const std::string& left, const json& row) {
-  const std::string right = figures(row);
+void line(std::string& out, const std::string& left, const json& module) {
+  const std::string right = figures(module);
   // a long left side keeps its words: the figures go to a line of their own
   if (!right.empty() && left.size() > kFigures) {
     out += left + '\n' + std::string(kFigures, ' ') + right + '\n';
@@ -56,9 +44,7 @@ void line(std::string& out, const std::string& left, const json& row) {
 
 void threads(std::string& out, const json& run) {
   const std::string title = "Threads, and what runs on them in order";
-  out += run.contains("cost") ? padded(title, kFigures) + "us median    p99.9 instructions\n" + padded("", kFigures) +
-                                    "           (per tick)\n"
-                              : title + '\n';
+  out += (run.contains("cost") ? padded(title, kFigures) + "us median    p99.9  of period" : title) + '\n';
   for (const json& thread : run["threads"]) {
     out += format("\n  %s, %.0f Hz\n", text(thread["name"]).c_str(), thread["rate_hz"].get<double>());
     for (const json& module : run["modules"]) {
@@ -66,7 +52,7 @@ void threads(std::string& out, const json& run) {
       line(out, "    " + padded(text(module["name"]), 16) + text(module["reason"]), module);
       int number = 0;
       for (const json& stage : run["stages"]) {
-        if (stage["module"] == module["name"]) line(out, format("      %d. ", ++number) + text(stage["stage"]), stage);
+        if (stage["module"] == module["name"]) out += format("      %d. ", ++number) + text(stage["stage"]) + '\n';
       }
     }
   }
@@ -101,8 +87,7 @@ void libraries(std::string& out, const json& run, bool plugins, const char* need
 std::string explainText(const json& run) {
   std::string out = "Scene " + text(run["scene"]) + "\n\n";
   threads(out, run);
-  if (run.contains("cost"))
-    out += "\n  " + text(run["cost"]["time"]) + "\n  " + text(run["cost"]["instructions"]) + '\n';
+  if (run.contains("cost")) out += "\n  " + text(run["cost"]["time"]) + '\n';
   out += "\nDevices\n";
   for (const json& device : run["devices"])
     out += "  " + padded(text(device["role"]), 18) + "driver " + text(device["driver"]) + '\n';

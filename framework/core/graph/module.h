@@ -36,8 +36,6 @@ class Module {
   virtual void stop() {}
   /// What one step does, in order, for `presa explain`.
   virtual std::vector<std::string> stages() const { return {}; }
-  /// For each of stages(): the function that does it, as a profiler names it. Empty: stages are not functions of their own.
-  virtual std::vector<std::string> stageFunctions() const { return {}; }
   /// Effects this module could have and the scene does not call for.
   virtual std::vector<LeftOut> leftOut() const { return {}; }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kBaseMemory = 64u << 20;
 constexpr std::size_t kMemoryPerByte = 100;
 constexpr std::size_t kMostMemory = std::size_t{6} << 30;
-/// Processor time limit: a megabyte of text takes less than 1 s, several seconds under valgrind (`presa explain
-/// --cost`).
+/// Processor time limit: a megabyte of text takes less than 1 s, several seconds under valgrind (`presa cost
+/// --instructions`).
 constexpr unsigned kBaseSeconds = 2;
 constexpr unsigned kSecondsPerMegabyte = 4;
 

@@ -54,22 +54,17 @@ struct Monitor::Impl {
   }
 
   /// Processes one tick, in the stages that Monitor::stages() lists.
-  template <class Watch>
   void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
-               const ObjectState* state, std::uint64_t version, Watch& watch) noexcept;
-  // not inlined, because `explain --cost` lists each as a row
-  [[gnu::noinline]] void addToHash(const DeviceState& device, const ContactExchange& contact,
-                                   const ObjectState* fresh) noexcept;
-  [[gnu::noinline]] void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
-                                    bool fresh) noexcept;
+               const ObjectState* state, std::uint64_t version) noexcept;
+  void addToHash(const DeviceState& device, const ContactExchange& contact, const ObjectState* fresh) noexcept;
+  void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
   void sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept;
   void noteSlip(std::size_t f, const FingerContact& now, double time) noexcept;
-  [[gnu::noinline]] void sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state,
-                                    bool fresh) noexcept;
+  void sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
   void follow(std::size_t i, const ObjectState& state, double time) noexcept;
   void noteGrasp(std::size_t i, double time) noexcept;
-  [[gnu::noinline]] void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
-                                const ForceCommand& command, const ObjectState* state) noexcept;
+  void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
+              const ObjectState* state) noexcept;
   Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
     return state && body < state->count() ? state->poseAt(body, time)
                                           : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
@@ -214,16 +209,12 @@ void Monitor::Impl::sumFingers(const Tick& tick, const ContactExchange& contact,
   coverage_lost = contact.coverage_lost;
 }
 
-template <class Watch>
 void Monitor::Impl::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
-                            const ForceCommand& command, const ObjectState* state, std::uint64_t version,
-                            Watch& watch) noexcept {
+                            const ForceCommand& command, const ObjectState* state, std::uint64_t version) noexcept {
   const bool fresh = state != nullptr && version != objects_version;
   objects_version = version;
   addToHash(device, contact, fresh ? state : nullptr);
-  watch.done(0);
   sumFingers(tick, contact, state, fresh);
-  watch.done(1);
   if (fresh && state->faults != 0) {
     if (object_faults == 0) object_fault_time = tick.time;
     object_faults |= state->faults;
@@ -231,10 +222,7 @@ void Monitor::Impl::observe(const Tick& tick, const DeviceState& device, const C
   if (fresh) solver_fallbacks = state->fallback_steps;
   sumObjects(tick, contact, state, fresh);
   simulated_time = static_cast<double>(tick.index + 1) * tick.period;
-  watch.done(2);
-  if (stride == 0) return;
-  sample(tick, device, contact, command, state);
-  watch.done(3);
+  if (stride > 0) sample(tick, device, contact, command, state);
 }
 
 void Monitor::step(const Tick& tick) noexcept {
@@ -243,16 +231,9 @@ void Monitor::step(const Tick& tick) noexcept {
           objects_.version());
 }
 
-void Monitor::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
-  const bool moving = objects_.connected() && objects_.hasValue();
-  impl_->observe(tick, device_.value(), contact_.value(), command_.value(), moving ? &objects_.value() : nullptr,
-                 objects_.version(), watch);
-}
-
 void Monitor::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
                       const ForceCommand& command, const ObjectState* objects, std::uint64_t objects_version) noexcept {
-  NoStageWatch nobody;
-  impl_->observe(tick, device, contact, command, objects, objects_version, nobody);
+  impl_->observe(tick, device, contact, command, objects, objects_version);
 }
 
 std::vector<std::string> Monitor::stages() const {
@@ -261,13 +242,6 @@ std::vector<std::string> Monitor::stages() const {
                                   "object path, grasp and loss"};
   if (impl_->stride > 0) stages.push_back("trace sample every " + std::to_string(impl_->stride) + " ticks");
   return stages;
-}
-
-std::vector<std::string> Monitor::stageFunctions() const {
-  const std::string impl = "presa::Monitor::Impl::";
-  std::vector<std::string> functions{impl + "addToHash", impl + "sumFingers", impl + "sumObjects"};
-  if (impl_->stride > 0) functions.push_back(impl + "sample");
-  return functions;
 }
 
 const std::array<FingerSummary, kMaxFingers>& Monitor::fingers() const noexcept { return impl_->fingers; }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/core/graph/stage_watch.h"
 #include "framework/core/schedule/timing_stats.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
@@ -64,19 +63,17 @@ struct TraceSample {
 /// Haptic-rate observer: summaries, state hash and a decimated trace. Allocates all memory at construction.
 /// Thread: haptic (step); read the results after the executor has stopped. In ports, all optional (a scene without
 /// fingers has none): device_state, contact_exchange, force_command, object_state.
-class Monitor final : public Module, public WatchedStages {
+class Monitor final : public Module {
  public:
   /// `loosen_time`: start of the scripted release [s], or infinity. `trace_rate` [Hz]; 0: no trace.
   Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate);
   ~Monitor() override;
   void step(const Tick& tick) noexcept override;
-  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   /// As step, for states passed as arguments. `objects` null: no dynamics, bodies keep their start poses.
   /// An object state is summed and hashed when `objects_version` changes.
   void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
                const ObjectState* objects, std::uint64_t objects_version) noexcept;
   std::vector<std::string> stages() const override;
-  std::vector<std::string> stageFunctions() const override;
 
   const std::array<FingerSummary, kMaxFingers>& fingers() const noexcept;
   /// Same order as Scene::bodies.

@@ -65,10 +65,6 @@ std::vector<std::string> FileRecorder::stages() const {
                     : "hand the row to the writer thread, waiting for the disk when it is behind"};
 }
 
-std::vector<std::string> FileRecorder::stageFunctions() const {
-  return {"presa::record::FileRecorder::fillRow", "presa::record::FileRecorder::handOver"};
-}
-
 // ---- haptic thread
 
 template <class Row>
@@ -79,13 +75,6 @@ void FileRecorder::put(std::size_t offset, const Row& row) noexcept {
 void FileRecorder::step(const Tick& tick) noexcept {
   fillRow(tick);
   handOver();
-}
-
-void FileRecorder::stepWatched(const Tick& tick, StageWatch& watch) noexcept {
-  fillRow(tick);
-  watch.done(0);
-  handOver();
-  watch.done(1);
 }
 
 void FileRecorder::handOver() noexcept {

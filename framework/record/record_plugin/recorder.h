@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/core/graph/stage_watch.h"
 #include "framework/core/state/surface_change.h"
 #include "framework/core/state/surface_settings.h"
 #include "framework/record/record_plugin/row_ring.h"
@@ -30,15 +29,13 @@ struct WriterSettings {
 /// Records into world.options.record, or, when only world.options.flight is set, keeps a flight recording for faults.
 /// Two threads: step() runs on the haptic thread and puts rows into a ring; the writer, an ordinary thread, drains the
 /// ring and is, between construction and finish(), the only thread that touches the file.
-class FileRecorder final : public Recorder, public WatchedStages {
+class FileRecorder final : public Recorder {
  public:
   explicit FileRecorder(std::shared_ptr<const World> world, WriterSettings settings = {});
   ~FileRecorder() override;
 
   void step(const Tick& tick) noexcept override;
-  void stepWatched(const Tick& tick, StageWatch& watch) noexcept override;
   std::vector<std::string> stages() const override;
-  std::vector<std::string> stageFunctions() const override;
   void attach(ScheduleLog& schedule) override { schedule_.store(&schedule, std::memory_order_release); }
   void fault(double time, const std::string& what) override;
   void finish() override;
