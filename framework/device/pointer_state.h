@@ -5,8 +5,7 @@
 
 namespace presa {
 
-/// Port that carries it. A replay has no such port: among the haptic group's it must be the last by name, for a recording numbers
-/// what was read across rates by name.
+/// Port that carries it.
 inline constexpr const char* kPointerPort = "pointer_state";
 
 /// Where somebody at the window wants a pair of fingertips, in full at any time: a reader that misses some misses nothing.

@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct RecorderStatus {
 class Recorder : public Module {
  public:
   using Module::Module;
-  /// The schedule log of the executors; call before start().
+  /// The schedule log of the executors, with its inputs set; call before start().
   virtual void attach(ScheduleLog& schedule) = 0;
   /// Main thread. Reports a fault at `time` [s]; a flight recorder then writes its file.
   virtual void fault(double time, const std::string& what) = 0;
@@ -68,6 +69,9 @@ struct Recording {
   };
   std::vector<Command> commands;
   std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
+  /// The values whose versions the schedule holds. Absent in format 6 and older: then all that the group reads, in the
+  /// alphabetical order of their names.
+  std::optional<ScheduleInputs> inputs;
 };
 
 /// A table of a recording by column, one value per haptic tick. The columns are described in the file.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "framework/core/graph/port.h"
 #include "framework/core/schedule/rates.h"
@@ -74,10 +75,14 @@ class RecordedCommands final : public Module {
   Out<SurfaceSettings> settings_{*this, "surface_settings"};
 };
 
+constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
+
 class Replayer {
  public:
-  Replayer(const Recording& recording, Session& session, const RateTable& rates, RunControl& control)
+  Replayer(const Recording& recording, const ScheduleColumns& columns, Session& session, const RateTable& rates,
+           RunControl& control)
       : recording_(recording),
+        columns_(columns),
         session_(session),
         rates_(rates),
         control_(control),
@@ -105,8 +110,6 @@ class Replayer {
   }
 
  private:
-  static constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
-
   std::size_t rows(RateGroup group) const {
     const std::size_t schedule = recording_.schedule[static_cast<std::size_t>(group)].size();
     return group == RateGroup::kHaptic ? std::min(schedule, recording_.device.size()) : schedule;
@@ -116,7 +119,7 @@ class Replayer {
     if (!session_.graph().runs(group)) return false;
     const auto g = static_cast<std::size_t>(group);
     if (next_[g] >= rows(group)) return false;
-    const ScheduleRow& row = recording_.schedule[g][next_[g]];
+    const ScheduleRow row = inOrder(recording_.schedule[g][next_[g]], columns_[g]);
     if (group == RateGroup::kHaptic) {
       control_.stop_requested = recording_.device[next_[g]].stop_requested;
       control_.rearms = recording_.device[next_[g]].rearms;
@@ -128,6 +131,13 @@ class Replayer {
     if (group == RateGroup::kHaptic) compare(next_[g]);
     ++next_[g];
     return true;
+  }
+
+  /// With the versions in the order of the replay's inputs.
+  static ScheduleRow inOrder(const ScheduleRow& recorded, const std::vector<std::size_t>& columns) {
+    ScheduleRow row = recorded;
+    for (std::size_t i = 0; i < columns.size(); ++i) row.versions[i] = recorded.versions[columns[i]];
+    return row;
   }
 
   void compare(std::size_t row) {
@@ -145,6 +155,7 @@ class Replayer {
   }
 
   const Recording& recording_;
+  const ScheduleColumns& columns_;
   Session& session_;
   const RateTable& rates_;
   RunControl& control_;
@@ -191,6 +202,45 @@ std::vector<std::unique_ptr<Module>> changesOf(const Recording& recording) {
   return changes;
 }
 
+bool readsUnconnected(const Graph& graph, RateGroup group, const std::string& name) {
+  for (const Module* module : graph.modules(group)) {
+    for (const InPortBase* input : module->inputs()) {
+      if (input->name() == name && !input->connected()) return true;
+    }
+  }
+  return false;
+}
+
+/// By group, for each value that the replay reads across rates: its column of versions in the recording. Recorded names
+/// that the replay reads within the group (commands) or not at all (the pointer in the window) are ignored.
+ScheduleColumns columnsOf(const Recording& recording, const Graph& graph, Diagnostics& diagnostics) {
+  ScheduleColumns columns;
+  const ScheduleInputs replayed = graph.scheduleInputs();
+  for (const RateGroup group : kGroups) {
+    const auto g = static_cast<std::size_t>(group);
+    columns[g].resize(replayed[g].size());
+    std::iota(columns[g].begin(), columns[g].end(), 0);
+    if (!recording.inputs || recording.schedule[g].empty()) continue;
+    const std::vector<std::string>& recorded = (*recording.inputs)[g];
+    const auto wrong = [&](const std::string& what) {
+      diagnostics.error(678, {recording.file, 0, 0}, std::string("schedule/") + toString(group) + ": " + what,
+                        "replay it with the version of Presa that recorded it: " + recording.program_version);
+    };
+    for (std::size_t i = 0; i < replayed[g].size(); ++i) {
+      const auto found = std::find(recorded.begin(), recorded.end(), replayed[g][i]);
+      columns[g][i] = static_cast<std::size_t>(found - recorded.begin());
+      if (found == recorded.end())
+        wrong("a replay reads '" + replayed[g][i] + "' across rates; attribute 'inputs' does not name it");
+    }
+    for (const std::string& name : recorded) {
+      if (std::find(replayed[g].begin(), replayed[g].end(), name) == replayed[g].end() &&
+          readsUnconnected(graph, group, name))
+        wrong("attribute 'inputs' names '" + name + "'; in a replay nothing writes it");
+    }
+  }
+  return columns;
+}
+
 }  // namespace
 
 RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) : recording_(recording) {
@@ -206,11 +256,13 @@ RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) :
   session_options.devices = devicesOf(recording);
   session_options.more = changesOf(recording);
   session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
+  columns_ = columnsOf(recording, session_->graph(), diagnostics);
+  if (diagnostics.hasErrors()) session_.reset();
 }
 
 ReplayResult RecordedRun::run() {
   const RateTable rates(loaded_.world->scene.rates);
-  return Replayer(recording_, *session_, rates, control_).run();
+  return Replayer(recording_, columns_, *session_, rates, control_).run();
 }
 
 }  // namespace presa

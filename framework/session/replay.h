@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "framework/record/recording.h"
 #include "framework/session/load_world.h"
@@ -23,12 +25,16 @@ struct ReplayResult {
   bool verified() const { return problem.empty() && ticks == recorded && ticks > 0 && fingers > 0 && differing == 0; }
 };
 
+/// By group, for each of its inputs across rates: the column of a recording's schedule that holds its versions.
+using ScheduleColumns = std::array<std::vector<std::size_t>, kScheduledGroupCount>;
+
 /// A recorded run once more, on this thread: the same scene, rig, seed and share of force, with the recorded samples for devices, and with
 /// what experiments and commands changed on the way. It is on no bus. Thread: one.
 class RecordedRun {
  public:
-  /// `recording`, as RecordPlugin::read gave it, outlives this. Findings of its scene go to `diagnostics`, and E677 where scene and
-  /// recording do not belong together; with errors there is nothing to run. Throws InputError.
+  /// `recording`, as RecordPlugin::read gave it, outlives this. Findings of its scene go to `diagnostics`; E677 when scene
+  /// and recording do not match; E678 when the recording does not say which version of an input was read. With errors
+  /// there is nothing to run. Throws InputError.
   RecordedRun(const Recording& recording, Diagnostics& diagnostics);
   /// Every recorded tick of every rate group, each reading exactly the versions that it read then; compares the commanded forces bit by
   /// bit. Once.
@@ -43,6 +49,7 @@ class RecordedRun {
   RunControl control_;
   Loaded loaded_;
   std::unique_ptr<Session> session_;
+  ScheduleColumns columns_;
 };
 
 }  // namespace presa

@@ -102,6 +102,10 @@ Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunContro
   for (auto& module : options.more) builder.add(std::move(module));
   builder.connectByName();
   graph_ = builder.build();
+  if (recorder_ == nullptr) return;
+  schedule_ = std::make_unique<ScheduleLog>();
+  schedule_->inputs = graph_.scheduleInputs();
+  recorder_->attach(*schedule_);
 }
 
 void Session::offerPointer() {
@@ -146,8 +150,6 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned, const std::s
   if (planned.plugin == "record") {
     auto recorder = recordPlugin().create(world);
     recorder_ = recorder.get();
-    schedule_ = std::make_unique<ScheduleLog>();
-    recorder->attach(*schedule_);
     return recorder;
   }
   auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world);

@@ -41,6 +41,12 @@ void Graph::stop(RateGroup group) {
   for (auto it = modules.rbegin(); it != modules.rend(); ++it) (*it)->stop();
 }
 
+ScheduleInputs Graph::scheduleInputs() const {
+  ScheduleInputs names;
+  for (std::size_t g = 0; g < names.size(); ++g) names[g] = groups_[g].input_names;
+  return names;
+}
+
 void Graph::keepHistory(std::size_t bytes) {
   for (const auto& bridge : bridges_) bridge->keepHistory(bytes);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "framework/core/graph/port.h"
@@ -35,6 +36,9 @@ class Graph {
   void pull(RateGroup group) noexcept;
   void stepModule(RateGroup group, std::size_t i, const Tick& tick) noexcept { stepModule(groupOf(group), i, tick); }
 
+  /// What each group reads across rates, in the order of ScheduleRow::versions.
+  ScheduleInputs scheduleInputs() const;
+
   /// Replay: keep published values, then step with exactly the recorded ones.
   void keepHistory(std::size_t bytes);
   /// False, and nothing done, when a version in `row` has not been published yet.
@@ -49,7 +53,8 @@ class Graph {
   struct Group {
     std::vector<Module*> modules;
     std::vector<Output> outputs;      ///< parallel to modules
-    std::vector<BridgeBase*> inputs;  ///< by name of the value: the order of ScheduleRow::versions
+    std::vector<BridgeBase*> inputs;  ///< in the order of ScheduleRow::versions: by name
+    std::vector<std::string> input_names;
   };
   Group& groupOf(RateGroup group) noexcept { return groups_[static_cast<std::size_t>(group)]; }
   const Group& groupOf(RateGroup group) const noexcept { return groups_[static_cast<std::size_t>(group)]; }

@@ -73,10 +73,17 @@ void GraphBuilder::checkInputs() {
     }
   }
   std::set<std::pair<const OutPortBase*, RateGroup>> bridges;
+  std::set<std::pair<std::string, RateGroup>> names;
   std::array<int, kRateGroupCount> count{};
   for (const Link& link : links_) {
     const RateGroup to = link.to->owner().group();
     if (link.from->owner().group() == to || !bridges.insert({link.from, to}).second) continue;
+    if (isScheduled(to) && !names.insert({link.to->name(), to}).second) {
+      diagnostics_.error(508, kGraph,
+                         std::string("the ") + toString(to) + " group reads two values named '" + link.to->name() +
+                             "' across rates; a recording tells them apart by name",
+                         "rename a port");
+    }
     if (++count[static_cast<std::size_t>(to)] == ScheduleRow::kMaxBridges + 1) {
       diagnostics_.error(507, kGraph,
                          std::string("the ") + toString(to) + " group reads more than " +
@@ -138,7 +145,7 @@ Graph GraphBuilder::build() {
   }
   if (diagnostics_.hasErrors()) throw InputError(diagnostics_);
 
-  // by name, so that a recording fits the graph that replays it, whatever else was connected then
+  // by name: recordings of format 6 and older do not say which value a column is of, and count on this order
   std::stable_sort(links_.begin(), links_.end(),
                    [](const Link& a, const Link& b) { return a.to->name() < b.to->name(); });
   std::map<std::pair<const OutPortBase*, RateGroup>, BridgeBase*> bridges;
@@ -154,6 +161,7 @@ Graph GraphBuilder::build() {
       graph.bridges_.push_back(link.from->makeBridge());
       bridge = graph.bridges_.back().get();
       graph.groupOf(to).inputs.push_back(bridge);
+      graph.groupOf(to).input_names.push_back(link.to->name());
       for (auto& output : graph.groupOf(from).outputs) {
         if (output.module == &link.from->owner()) output.bridges.push_back(bridge);
       }

@@ -25,7 +25,8 @@ class GraphBuilder {
   void connectByName();
 
   /// Throws InputError with every finding (E5xx): duplicate module name, unconnected required input,
-  /// type mismatch, two writers for one name, loop within a rate group (printed port by port).
+  /// type mismatch, two writers for one name, two values of one name read across rates by one group, loop within a rate
+  /// group (printed port by port).
   Graph build();
 
  private:

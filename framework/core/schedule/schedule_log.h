@@ -2,15 +2,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "framework/core/exchange/event_ring.h"
 #include "framework/core/schedule/tick.h"
 
 namespace presa {
 
-/// One tick of one rate group: whether it was a catch-up tick, and the version of every value read across rates, in the
-/// graph's bridge order. Thread timing makes these versions differ from run to run; recording them makes a replay
-/// exact.
+/// One tick of one rate group: whether it was a catch-up tick, and the version of every value read across rates:
+/// versions[i] belongs to the name i of the group's ScheduleInputs. Thread timing makes these versions differ from run
+/// to run; recording them makes a replay exact.
 struct ScheduleRow {
   static constexpr int kMaxBridges = 12;
   std::uint64_t index = 0;
@@ -23,9 +25,13 @@ struct ScheduleRow {
 inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
 constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
 
+/// By group: the port names of the values read across rates, each once, in the order of ScheduleRow::versions.
+using ScheduleInputs = std::array<std::vector<std::string>, kScheduledGroupCount>;
+
 /// Log to which the executors write when a run is recorded: one ring per rate group (one writer each), drained by the
 /// recorder's writer thread.
 struct ScheduleLog {
+  ScheduleInputs inputs;  ///< Graph::scheduleInputs; set before a recorder is attached
   std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;
   ScheduleLog();
 };

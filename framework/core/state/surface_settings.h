@@ -7,8 +7,6 @@ namespace presa {
 
 /// What commands have asked the surfaces to be: of each open parameter (openSurfaces) the last value, none before the first. Whole
 /// state, so that a reader who misses one sees the next. Only where a run takes commands.
-/// The port is called surface_settings: a replay has no writer at another rate, and what a tick read across rates is known by the
-/// order of names, so it has to come after those that a replay has.
 struct SurfaceSettings {
   static constexpr std::size_t kMost = 96;
   struct Slot {

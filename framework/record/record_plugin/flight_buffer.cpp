@@ -38,6 +38,11 @@ FlightBuffer::FlightBuffer(std::shared_ptr<const World> world)
   const Sha256 loaded;  // loads the plug-in now rather than at the first fault
 }
 
+void FlightBuffer::nameInputs(const ScheduleInputs& inputs) {
+  inputs_ = inputs;
+  if (file_) file_->nameInputs(inputs_);
+}
+
 void FlightBuffer::append(const std::uint64_t* rows, std::size_t count) {
   if (missing_ == 0) close();  // not earlier: the schedule of the last rows arrives after the rows
   for (std::size_t i = 0; i < count; ++i) {
@@ -80,6 +85,7 @@ void FlightBuffer::begin() {
   }
   files_.push_back(name);
   missing_ = after_;
+  file_->nameInputs(inputs_);
   const std::size_t oldest = filled_ < capacity_ ? 0 : next_;
   const std::size_t to_the_end = std::min(filled_, capacity_ - oldest);
   file_->append(&kept_[oldest * layout_.words()], to_the_end);

@@ -16,6 +16,7 @@ class FlightBuffer final : public RowSink {
   explicit FlightBuffer(std::shared_ptr<const World> world);
 
   const RowLayout& layout() const noexcept override { return layout_; }
+  void nameInputs(const ScheduleInputs& inputs) override;
   void append(const std::uint64_t* rows, std::size_t count) override;
   void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) override;
   void addFault(const std::string& what) override;
@@ -38,6 +39,7 @@ class FlightBuffer final : public RowSink {
   std::size_t capacity_, after_;       // rows
   std::vector<std::uint64_t> kept_;    // circular buffer of `capacity_` rows
   std::size_t next_ = 0, filled_ = 0;  // rows
+  ScheduleInputs inputs_;
   std::array<std::deque<ScheduleRow>, kScheduledGroupCount> schedule_;
   std::unique_ptr<RecordingFile> file_;  // open while a fault is being written
   std::size_t missing_ = 0;              // rows still to be written to it

@@ -53,6 +53,7 @@ void takeHeader(const StoredRecording& stored, Recording& recording) {
   recording.haptic_period = stored.haptic_period;
   recording.fingers = stored.fingers.size();
   recording.bodies = stored.scene_bodies;
+  recording.inputs = stored.inputs;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "framework/core/schedule/rates.h"
 #include "framework/record/record_plugin/flight_buffer.h"
@@ -224,6 +225,7 @@ std::size_t FileRecorder::drainBlock() {
 void FileRecorder::drainSchedule() {
   ScheduleLog* schedule = schedule_.load(std::memory_order_acquire);
   if (schedule == nullptr) return;
+  if (!std::exchange(inputs_named_, true)) onFile([&] { file_->nameInputs(schedule->inputs); });
   for (int g = 0; g < kScheduledGroupCount; ++g) {
     auto& ring = *schedule->rings[static_cast<std::size_t>(g)];
     std::size_t rows = 0;

@@ -87,6 +87,7 @@ class FileRecorder final : public Recorder {
   std::vector<std::uint64_t> row_;    ///< haptic thread: the row being filled
   std::vector<std::uint64_t> block_;  ///< writer: rows taken from the ring
   std::vector<ScheduleRow> schedule_block_;
+  bool inputs_named_ = false;  ///< writer
   std::chrono::steady_clock::time_point flushed_at_;
   std::atomic<ScheduleLog*> schedule_{nullptr};
 

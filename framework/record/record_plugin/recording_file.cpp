@@ -57,6 +57,9 @@ std::string utcNow() {
   return text;
 }
 
+/// Size of the attribute `inputs`: 12 names of 64 characters, separated by blanks, fit.
+constexpr std::size_t kInputsBytes = 1024;
+
 /// A name as an HDF5 link name: '/' would start a sub-group.
 std::string linkName(std::string name) {
   std::replace(name.begin(), name.end(), '/', '_');
@@ -71,9 +74,9 @@ Table scheduleTable() {
   table.columns.push_back({"made_up", offsetof(ScheduleRow, made_up), Cell::kU64, "1",
                            "1: run late, when a newer tick was due; not sent to the device; 2: the first after a gap"});
   for (std::size_t i = 0; i < ScheduleRow::kMaxBridges; ++i) {
-    table.columns.push_back({"version_" + std::to_string(i),
-                             offsetof(ScheduleRow, versions) + i * sizeof(std::uint64_t), Cell::kU64, "1",
-                             "version read from the group's bridge " + std::to_string(i) + "; 0: none"});
+    table.columns.push_back(
+        {"version_" + std::to_string(i), offsetof(ScheduleRow, versions) + i * sizeof(std::uint64_t), Cell::kU64, "1",
+         "version read of the value that 'inputs' names at place " + std::to_string(i) + " (from 0); 0: none"});
   }
   return table;
 }
@@ -117,6 +120,8 @@ void RecordingFile::create(const World& world) {
   }
   for (int g = 0; g < kScheduledGroupCount; ++g) {
     schedule_.push_back(createTable("schedule", toString(static_cast<RateGroup>(g)), scheduleTable()));
+    // with room for the names, so that they change no place in the file when they come
+    h5::writeAttribute(schedule_.back().dataset, kInputsAttribute, std::string(kInputsBytes, '\0'));
   }
   describe(world);
 }
@@ -188,6 +193,15 @@ void RecordingFile::appendTo(TableFile& table, const void* rows, std::size_t cou
   h5::check(H5Dwrite(table.dataset, table.memory_type, memory_space, file_space, H5P_DEFAULT, rows), "rows");
   table.rows = end;
   table.sum.add(rows, count * table.row_bytes);
+}
+
+void RecordingFile::nameInputs(const ScheduleInputs& inputs) {
+  for (std::size_t g = 0; g < inputs.size(); ++g) {
+    std::string names;
+    for (const std::string& name : inputs[g]) names += (names.empty() ? "" : " ") + name;
+    if (names.size() > kInputsBytes) throw h5::Failure("names of inputs are too long: " + names);
+    h5::writeAttribute(schedule_[g].dataset, kInputsAttribute, names);
+  }
 }
 
 void RecordingFile::append(const std::uint64_t* rows, std::size_t count) {

@@ -13,12 +13,14 @@ namespace presa::record {
 
 /// Version of the file layout; a reader refuses a higher one.
 inline constexpr std::uint64_t kFormatVersion =
-    6;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256
+    7;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows per chunk of the file and per write.
 inline constexpr std::size_t kBlockRows = 1024;
 
 Table scheduleTable();
+/// Attribute of a schedule table, since format 7: the names of ScheduleInputs, separated by blanks.
+inline constexpr const char* kInputsAttribute = "inputs";
 
 /// A recording being written: tables of named columns that only grow and are flushed together. After a kill at any
 /// moment the file is readable up to its last flush. For this reason nothing is compressed (a compressed chunk moves
@@ -30,6 +32,7 @@ class RecordingFile final : public RowSink {
   explicit RecordingFile(const World& world);
 
   const RowLayout& layout() const noexcept override { return layout_; }
+  void nameInputs(const ScheduleInputs& inputs) override;
   void append(const std::uint64_t* rows, std::size_t count) override;
   void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) override;
   void addFault(const std::string& what) override;

@@ -14,6 +14,8 @@ class RowSink {
  public:
   virtual ~RowSink() = default;
   virtual const RowLayout& layout() const noexcept = 0;
+  /// Whose versions the rows of the schedule hold; before the first of them.
+  virtual void nameInputs(const ScheduleInputs& inputs) = 0;
   /// `count` rows of layout().bytes() each.
   virtual void append(const std::uint64_t* rows, std::size_t count) = 0;
   virtual void appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) = 0;

@@ -16,7 +16,8 @@ const char* const kRootAttributes[] = {"format",         "format_version",    "d
                                        "seed",           "force_share",       "realtime",         "haptic_period_s",
                                        "rate_haptic_hz", "rate_collision_hz", "rate_dynamics_hz", "rate_view_hz"};
 const char* const kTexts[] = {"scene_xml", "rig_xml", "body_names"};
-const char* const kTableAttributes[] = {"finger", "body", "fingertip_radius_m", "columns", "units", "descriptions"};
+const char* const kTableAttributes[] = {"finger", "body",         "fingertip_radius_m", "columns",
+                                        "units",  "descriptions", kInputsAttribute};
 
 class Sum {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/state/limits.h"
@@ -17,6 +18,12 @@ constexpr int kAttributeCode = 671;
 // allowance for a killed run [bytes]: its newest rows may be part of the tables' extents but not yet written (chunk
 // caches, and HDF5's allocation steps)
 constexpr std::uint64_t kUnwritten = std::uint64_t{64} << 20;
+
+constexpr std::uint64_t kInputsSince = 7;
+
+bool isInName(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+}
 
 /// The table as in an older format: without the columns that were added in version `since`.
 Table asIn(std::uint64_t version, Table table, std::initializer_list<const char*> added, std::uint64_t since) {
@@ -46,9 +53,11 @@ class Structure {
       group("haptic/bodies", "body", bodyTable(), stored_.scene_bodies, stored_.bodies);
     }
     if (!look_.isGroup("schedule")) return;
-    for (int g = 0; g < kScheduledGroupCount; ++g) {
-      table(std::string("schedule/") + toString(static_cast<RateGroup>(g)),
-            asIn(stored_.version, scheduleTable(), {"made_up"}, 2), stored_.schedule[static_cast<std::size_t>(g)]);
+    if (stored_.version >= kInputsSince) stored_.inputs.emplace();
+    for (std::size_t g = 0; g < stored_.schedule.size(); ++g) {
+      const std::string path = std::string("schedule/") + toString(static_cast<RateGroup>(g));
+      const bool sound = table(path, asIn(stored_.version, scheduleTable(), {"made_up"}, 2), stored_.schedule[g]);
+      if (sound && stored_.inputs) (*stored_.inputs)[g] = inputs(path);
     }
   }
 
@@ -74,6 +83,28 @@ class Structure {
     stored_.scene_xml = look_.longText("scene_xml");
     stored_.rig_xml = look_.longText("rig_xml");
     stored_.scene_bodies = look_.textCount("body_names", kMaxBodies);
+  }
+
+  /// Names of ports, as many as a row has versions at most, none twice.
+  std::vector<std::string> inputs(const std::string& path) {
+    std::vector<std::string> names;
+    const auto wrong = [&](const std::string& what) {
+      look_.wrong(kAttributeCode, path, std::string("attribute '") + kInputsAttribute + "': " + what);
+      return std::vector<std::string>{};
+    };
+    std::istringstream words(look_.text(path, kInputsAttribute));
+    for (std::string name; words >> name;) {
+      const std::string place = "name " + std::to_string(names.size() + 1);
+      if (!std::all_of(name.begin(), name.end(), isInName))
+        return wrong(place + " is none of a port: allowed are letters, digits, '_', '-' and '.'");
+      if (std::find(names.begin(), names.end(), name) != names.end())
+        return wrong(place + ", '" + name + "', is there before; allowed is once");
+      names.push_back(std::move(name));
+    }
+    if (names.size() > ScheduleRow::kMaxBridges)
+      return wrong("found " + std::to_string(names.size()) + " names, allowed up to " +
+                   std::to_string(ScheduleRow::kMaxBridges));
+    return names;
   }
 
   bool table(const std::string& path, const Table& columns, StoredTable& result) {

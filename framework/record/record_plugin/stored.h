@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct StoredRecording {
   std::vector<StoredTable> fingers;  ///< in the order of the roles
   std::vector<StoredTable> bodies;   ///< in the order of the scene
   std::array<StoredTable, kScheduledGroupCount> schedule;
+  std::optional<ScheduleInputs> inputs;  ///< of the schedule's rows; nothing before format 7
 };
 
 /// Checks the structure of a file against the schema: objects and their kinds, types, storage, attributes. Takes no

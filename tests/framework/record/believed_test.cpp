@@ -9,6 +9,7 @@
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/reader.h"
 #include "framework/record/record_plugin/samples.h"
+#include "framework/record/record_plugin/seal.h"
 #include "tests/framework/record/damage.h"
 #include "tests/framework/record/recording_fixture.h"
 
@@ -185,6 +186,45 @@ TEST_F(Believed, AChecksumTellsDamageFromDifference) {
   expectRefused([](Damage& d) { d.attribute("haptic/fingers/index", "fingertip_radius_m", 1.0); }, {"E676"});
   expectRefused([](Damage& d) { d.dropAttribute("/", "sha256"); }, {"E676", "'sha256' is missing"});
   expectRefused([](Damage& d) { d.dropAttribute("haptic/ticks", "sha256"); }, {"E676", "haptic/ticks"});
+}
+
+// `inputs` holds names of ports: one per version column at most, none twice.
+TEST_F(Believed, NamesOfInputsAreNamesOfPorts) {
+  const auto named = [](const std::string& names) {
+    return [names](Damage& d) { d.attribute("schedule/haptic", "inputs", names); };
+  };
+  std::string many = "a0";
+  for (int i = 1; i <= ScheduleRow::kMaxBridges; ++i) many += " a" + std::to_string(i);
+  expectRefused(named(many), {"E671", "schedule/haptic", "'inputs'", "found 13 names", "up to 12"});
+  expectRefused(named("object_state contact_patches object_state"), {"E671", "name 3", "'object_state'"});
+  expectRefused(named("object_state contact\x1b[31m"), {"E671", "name 2", "letters"});
+  expectRefused([](Damage& d) { d.dropAttribute("schedule/dynamics", "inputs"); },
+                {"E671", "schedule/dynamics", "'inputs' is missing"});
+  expectRefused([](Damage& d) { d.attribute("schedule/view", "inputs", std::uint64_t{3}); },
+                {"E671", "schedule/view", "not a text"});
+  // valid names in another order are detected by the checksum
+  expectRefused(named("object_state contact_patches"), {"E676", "attributes and texts"});
+}
+
+// Format 6 has a checksum and no `inputs`.
+TEST_F(Believed, FormatSixNamesNoInputs) {
+  EXPECT_TRUE(readRecording(file_).inputs.has_value());
+  damage([](Damage& d) {
+    std::vector<seal::TableSum> sums;
+    for (const char* table : {"haptic/ticks", "haptic/fingers/thumb", "haptic/fingers/index", "haptic/bodies/cube",
+                              "schedule/haptic", "schedule/collision", "schedule/dynamics", "schedule/view"}) {
+      d.dropAttribute(table, "inputs");
+      const h5::Handle object(H5Oopen(d.file(), table, H5P_DEFAULT), H5Oclose, table);
+      sums.push_back({table, d.rowsOf(table), h5::readStringAttribute(object, seal::kAttribute)});
+    }
+    d.attribute("/", "format_version", std::uint64_t{6});
+    d.attribute("/", seal::kAttribute, seal::sumOf(d.file(), sums));
+  });
+  EXPECT_EQ(refusal(), "");
+  const Recording recording = readRecording(file_);
+  EXPECT_TRUE(recording.checksum);
+  EXPECT_FALSE(recording.inputs.has_value());
+  EXPECT_EQ(differenceFromPrefix(recording), "");
 }
 
 // Recordings of an older format and of killed runs have no checksum; they are read and reported as such.

@@ -25,7 +25,7 @@ const char* const kPaths[] = {"/",        "haptic",    "haptic/fingers", "haptic
 const char* const kAttributes[] = {"format",    "format_version", "complete", "dropped",         "program_version",
                                    "start_utc", "scene_file",     "seed",     "force_share",     "realtime",
                                    "sha256",    "finger",         "body",     "haptic_period_s", "fault_1",
-                                   "fault_2",   "scene_name",     "columns",  "rate_haptic_hz"};
+                                   "fault_2",   "scene_name",     "columns",  "rate_haptic_hz",  "inputs"};
 const char* const kColumns[] = {"index",     "time",      "device_count", "command_count",   "device_time",
                                 "commanded", "rearms",    "phase",        "stop_requested",  "surfaces_changed",
                                 "valid",     "mode",      "body",         "p_WH_x",          "f_command_W_z",
@@ -177,7 +177,7 @@ void mutateOnce(Damage& damage, Words& words) {
     default: {
       const std::string object = words.object(), name = words.of(kAttributes);
       // half of the time declare an older format, without checksum, so that the mutation reaches the later checks
-      if (words.byte() % 2 == 0) return damage.attribute("/", "format_version", std::uint64_t{1} + words.byte() % 6);
+      if (words.byte() % 2 == 0) return damage.attribute("/", "format_version", std::uint64_t{1} + words.byte() % 7);
       return damage.dropAttribute(object, name);
     }
   }
@@ -198,8 +198,11 @@ std::string judgeRecording(const Recording& r, std::uint64_t specimen_ticks) {
   for (const Recording::Command& command : r.commands)
     if (command.row >= ticks || command.slot >= 96) return "a command out of range";
   if (r.schedule.front().size() > ticks) return "a schedule for ticks that are not there";
+  for (std::size_t g = 0; r.inputs && g < r.inputs->size(); ++g)
+    if ((*r.inputs)[g].size() > ScheduleRow::kMaxBridges) return "more inputs than versions";
   if (!(r.haptic_period > 0) || !(r.force_share > 0 && r.force_share <= 1)) return "a setting out of range";
-  if (r.checksum && (ticks != specimen_ticks || r.seed != 7 || r.command[0].f_H_W[0].x() != 0.5))
+  if (r.checksum && (ticks != specimen_ticks || r.seed != 7 || (r.inputs && r.inputs->front().size() != 2) ||
+                     r.command[0].f_H_W[0].x() != 0.5))
     return "another recording with a right checksum";
   return {};
 }
@@ -234,6 +237,7 @@ void writeSpecimen(const std::string& file, std::uint64_t ticks) {
   world.options.overwrite = true;
   const h5::Library library;
   RecordingFile out(world);
+  out.nameInputs({{{"contact_patches", "object_state"}, {}, {"contact_exchange"}, {}}});
   std::vector<std::uint64_t> words(out.layout().words());
   auto* const row = reinterpret_cast<std::byte*>(words.data());
   const auto put = [&](std::size_t offset, const auto& one) { std::memcpy(row + offset, &one, sizeof one); };

@@ -244,8 +244,8 @@ TEST(Reader, RefusesEveryWrongFileWithItsReason) {
   std::string newer = bytes;
   const std::size_t version = newer.find(std::string("format_version\0", 15));
   ASSERT_NE(version, std::string::npos);
-  ASSERT_EQ(newer[version + 40], 6);
-  newer[version + 40] = 7;
+  ASSERT_EQ(newer[version + 40], 7);
+  newer[version + 40] = 8;
   writeBytes(bad, newer);
   EXPECT_EQ(readCode(bad), 606);
 

@@ -94,11 +94,21 @@ std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime) {
   return world;
 }
 
+ScheduleInputs inputsOfAll() {
+  ScheduleInputs inputs;
+  for (std::size_t g = 0; g < inputs.size(); ++g) {
+    for (int v = ScheduleRow::kMaxBridges; v-- > 0;)  // not in alphabetical order
+      inputs[g].push_back(std::string(toString(static_cast<RateGroup>(g))) + '_' + std::to_string(v));
+  }
+  return inputs;
+}
+
 RecordedRun::RecordedRun(std::shared_ptr<const World> world, WriterSettings settings)
     : rates(world->scene.rates), recorder(nullptr), graph([&] {
         GraphBuilder builder;
         builder.add(std::make_unique<Source>());
         recorder = &builder.add(std::make_unique<FileRecorder>(std::move(world), std::move(settings)));
+        schedule.inputs = inputsOfAll();
         recorder->attach(schedule);
         builder.connectByName();
         return builder.build();
@@ -122,6 +132,7 @@ void RecordedRun::step(std::uint64_t ticks) {
 std::string differenceFromPrefix(const Recording& recording) {
   const std::size_t ticks = recording.time.size();
   if (recording.device.size() != ticks || recording.command.size() != ticks) return "lists of different length";
+  if (recording.inputs && *recording.inputs != inputsOfAll()) return "names of inputs";
   for (std::size_t i = 0; i < ticks; ++i) {
     if (!sameBits(recording.time[i], RateTable(Rates{}).tick(RateGroup::kHaptic, i).time))
       return "time of tick " + std::to_string(i);

@@ -47,6 +47,9 @@ class Source final : public Module {
 /// Two fingers, a fixed table and a free cube.
 std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime);
 
+/// Names of the inputs of a RecordedRun's schedule: one for every version column.
+ScheduleInputs inputsOfAll();
+
 /// A recorder connected to a Source in one graph.
 struct RecordedRun {
   explicit RecordedRun(std::shared_ptr<const World> world, WriterSettings settings = {});

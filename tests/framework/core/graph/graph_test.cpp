@@ -195,6 +195,25 @@ TEST(CatchUp, StillSendsOnceAPeriodWhenItNeverCatchesUp) {
   }
 }
 
+// A recording knows what was read across rates by name.
+TEST(Graph, RejectsTwoValuesOfOneNameAcrossRates) {
+  const auto found = [](RateGroup readers) {
+    GraphBuilder builder;
+    auto& one = builder.add(std::make_unique<Counter>("one", RateGroup::kHaptic, "ticks"));
+    auto& two = builder.add(std::make_unique<Counter>("two", RateGroup::kHaptic, "ticks"));
+    auto& first = builder.add(std::make_unique<Follower>("first", readers, "ticks", "x"));
+    auto& second = builder.add(std::make_unique<Follower>("second", readers, "ticks", "y"));
+    builder.connect(one.out, first.in);
+    builder.connect(two.out, second.in);
+    return findings(builder);
+  };
+  EXPECT_NE(found(RateGroup::kDynamics).find("error[E508]: the dynamics group reads two values named 'ticks'"),
+            std::string::npos)
+      << found(RateGroup::kDynamics);
+  EXPECT_EQ(found(RateGroup::kHaptic), "");  // in place
+  EXPECT_EQ(found(RateGroup::kBus), "");     // never recorded
+}
+
 // A replay that is told the versions reads exactly those, also when newer ones exist.
 TEST(Replay, ReadsTheVersionsItIsTold) {
   GraphBuilder builder;
