@@ -16,7 +16,7 @@
 namespace presa::experiment {
 namespace {
 
-constexpr int kKeyThere = 696, kNoKey = 697;
+enum Code { kKeyThere = 696, kNoKey = 697 };
 constexpr std::uint64_t kMaxKey = 4096;
 constexpr const char* kHelp = "presa experiment key FILE makes FILE, the secret key, and FILE.pub, the public one";
 

@@ -72,7 +72,7 @@ void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
     diagnostics.error(121, {"--screenshot", 0, 0}, "a screenshot needs a view, found --view none",
                       "use --view offscreen");
   if (!a.screenshots.empty() && !(std::atof(a.screenshots.front().c_str()) > 0))
-    diagnostics.error(979, {"--screenshot-every", 0, 0},
+    diagnostics.error(123, {"--screenshot-every", 0, 0},
                       "a picture every '" + a.screenshots.front() + "' seconds cannot be taken",
                       "--screenshot-every 0.5 out/pictures");
 }

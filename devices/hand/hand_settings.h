@@ -4,19 +4,13 @@
 #include <vector>
 
 #include "devices/hand/motion.h"
+#include "framework/device/device_settings.h"
 #include "framework/scene/world.h"
 
 namespace presa {
 
 /// The rig settings of a simulated hand: motion, side, mass, stiffness, damping, lost_at.
 const std::vector<std::string>& handKeys();
-
-/// Reports settings that the driver does not know (E401).
-void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::string>& known,
-                           Diagnostics& diagnostics);
-
-/// Reads a setting that must be a positive number (E403); `fallback` when the rig does not give it.
-double positiveSetting(const DeviceBinding& binding, const std::string& key, double fallback, Diagnostics& diagnostics);
 
 struct HandSettings {
   std::unique_ptr<Motion> motion;

@@ -6,7 +6,7 @@ namespace presa::falcon {
 
 /// Error numbers of the Falcon driver (E4xx: rigs and devices).
 enum Code : int {
-  kUnevenReplies = 478,
+  kUnevenReplies = 459,
   kBadNumber = 480,
   kFirmwareUnreadable = 481,
   kFirmwareEmpty = 482,

@@ -4,9 +4,9 @@
 #include <limits>
 #include <optional>
 
-#include "devices/hand/hand_settings.h"
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/firmware.h"
+#include "framework/device/device_settings.h"
 #include "framework/input/folders.h"
 #include "framework/scene/xml/value_rule.h"
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "devices/hand/hand_settings.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/device/device_settings.h"
 #include "framework/input/folders.h"
 #include "framework/record/record_plugin.h"
 

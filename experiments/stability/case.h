@@ -69,7 +69,7 @@ std::vector<Case> allCases();
 
 /// Path of a file under scenes/. The folder experiments/stability is searched for in the environment variable
 /// PRESA_EXPERIMENTS, next to the program (up to four levels up), and in the working directory; throws InputError
-/// (E610).
+/// (E615).
 std::string sceneFile(const std::string& name);
 
 /// Settings of a run of one of the scenes. `duration` 0: until the end of its script.

@@ -30,7 +30,7 @@ std::string experimentFile(const std::string& name) {
     if (fs::exists(file)) return file.lexically_normal().string();
     tried += (tried.empty() ? "" : ", ") + folder.string();
   }
-  refuse(610, name, "file not found in the folder experiments",
+  refuse(615, name, "file not found in the folder experiments",
          "looked in: " + tried + "; set PRESA_EXPERIMENTS to the folder experiments");
 }
 

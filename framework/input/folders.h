@@ -24,7 +24,7 @@ bool mayName(const std::string& folder, const std::string& file);
 bool checkNamed(const SourceLocation& where, const std::string& file, Diagnostics& diagnostics);
 /// Message of E692.
 std::string outside(const std::string& folder, const std::string& file);
-inline constexpr int kOutside = 692;
+enum FolderCode { kOutside = 692 };
 extern const char* const kOutsideHelp;
 
 }  // namespace presa::input

@@ -58,7 +58,7 @@ void checkWords(const xml::Element& words, Diagnostics& diagnostics) {
   for (const xml::Element& element : words.children("element")) {
     const std::string name = element.attribute("name");
     if (std::find(names.begin(), names.end(), name) != names.end())
-      diagnostics.error(218, element.where("name"), "a second element is named " + quote(name));
+      diagnostics.error(203, element.where("name"), "a second element is named " + quote(name));
     names.push_back(name);
   }
 }

@@ -9,7 +9,7 @@ namespace {
 
 using xml::Element;
 
-enum Code { kVersion = 401, kDuplicateRole = 402, kDuplicateKey = 403, kCapacity = 404 };
+enum Code { kVersion = 412, kDuplicateRole = 413, kDuplicateKey = 414, kCapacity = 415 };
 
 const xml::Schema& rigSchema() {
   static const xml::Schema schema(schemas::rig);

@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-constexpr int kVersion = 201;
+enum Code { kVersion = 201 };
 
 const xml::Schema& sceneSchema() {
   static const xml::Schema schema(schemas::scene);

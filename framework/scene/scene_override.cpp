@@ -9,7 +9,7 @@ namespace {
 using xml::Element;
 using xml::ElementRule;
 
-constexpr int kBadPath = 202;
+enum Code { kBadPath = 202 };
 
 std::vector<std::string> split(const std::string& path) {
   std::vector<std::string> parts{""};

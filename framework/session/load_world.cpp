@@ -15,7 +15,7 @@ std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostic
   for (const std::string& set : sets) {
     const std::size_t equals = set.find('=');
     if (equals == std::string::npos || equals == 0) {
-      diagnostics.error(110, {"--set " + set, 0, 0}, "expected PATH=VALUE, found '" + set + "'",
+      diagnostics.error(123, {"--set " + set, 0, 0}, "expected PATH=VALUE, found '" + set + "'",
                         "for example --set body/cube/physics/mass=0.1");
       continue;
     }

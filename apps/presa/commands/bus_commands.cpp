@@ -41,7 +41,7 @@ std::vector<Setting> parseSettings(const std::vector<std::string>& words) {
     const auto [end, error] = std::from_chars(begin, word.data() + word.size(), setting.value);
     const bool number = error == std::errc{} && end == word.data() + word.size();
     if (setting.parameter.empty() || setting.parameter.size() > bus::kLongestParameter || !number)
-      diagnostics.error(110, {"presa bus set", 0, 0}, "expected NAME=NUMBER, found " + quote(word),
+      diagnostics.error(123, {"presa bus set", 0, 0}, "expected NAME=NUMBER, found " + quote(word),
                         "for example material/steel/stiffness=500; presa bus list shows the names");
     settings.push_back(std::move(setting));
   }
@@ -122,7 +122,7 @@ struct Arguments {
 std::uint64_t wantedRun(const std::string& words) {
   const std::uint64_t id = words.empty() ? 0 : runFrom(words);
   if (id == 0 && !words.empty())
-    refuse(110, "--run", "expected the id of a run, hexadecimal, found " + quote(words), "presa bus list shows them");
+    refuse(123, "--run", "expected the id of a run, hexadecimal, found " + quote(words), "presa bus list shows them");
   return id;
 }
 

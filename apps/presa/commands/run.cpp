@@ -35,7 +35,7 @@ void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder, error);
     if (error)
-      diagnostics.error(120, {file, 0, 0}, "cannot make the folder " + folder.string() + ": " + error.message());
+      diagnostics.error(124, {file, 0, 0}, "cannot make the folder " + folder.string() + ": " + error.message());
   }
   for (const auto& [option, file] :
        {std::pair{"--screenshot", arguments.options.screenshot}, {"--video", arguments.options.video}}) {

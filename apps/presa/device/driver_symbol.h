@@ -7,6 +7,8 @@
 
 namespace presa::device {
 
+enum DriverCode { kNoDriver = 470, kLacks = 471 };
+
 /// The table of this type that a driver exports as `symbol`. Refuses in the user's words: E470 no such driver, E471 it has
 /// no such table (`lacks`: "has no figures of its own"), or one of another build.
 template <class Table>
@@ -19,10 +21,10 @@ const Table& driverTable(const std::string& command, const std::string& driver, 
       refuse(code, command, what, help.empty() ? error.diagnostics().all().at(0).help : help);
     }
   };
-  find("presaDevicePlugin", 470, "there is no driver " + quote(driver), "");
-  void* found = find(symbol, 471, "driver " + quote(driver) + " " + lacks, "percro_arm has");
+  find("presaDevicePlugin", kNoDriver, "there is no driver " + quote(driver), "");
+  void* found = find(symbol, kLacks, "driver " + quote(driver) + " " + lacks, "percro_arm has");
   const Table& table = *reinterpret_cast<const Table* (*)()>(found)();
-  if (table.abi != kPluginAbi) refuse(471, command, "driver " + quote(driver) + " is of another build of Presa");
+  if (table.abi != kPluginAbi) refuse(kLacks, command, "driver " + quote(driver) + " is of another build of Presa");
   return table;
 }
 

@@ -125,7 +125,7 @@ std::vector<Json> runInTurn(const PeriodsOptions& options) {
 int comparePeriods(const PeriodsOptions& options) {
   for (const std::string& scene : options.scenes) load(scene, options.seconds);  // refused before any run
   if (const std::string refused = realtimeRights().fifo; !refused.empty())
-    refuse(479, "presa device periods", "without SCHED_FIFO a period says nothing of the scene: " + refused,
+    refuse(469, "presa device periods", "without SCHED_FIFO a period says nothing of the scene: " + refused,
            "as root, or with rtprio in limits.conf");
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
   const std::vector<Json> runs = runInTurn(options);

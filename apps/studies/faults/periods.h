@@ -15,7 +15,7 @@ struct PeriodsOptions {
 
 /// `presa device periods`: two scenes against the clock, in turn, and how the second one's haptic period differs: medians over the runs
 /// of the 50th, 99th and 99.9th percentile, their ratio, and its 95 % interval by bootstrap. Runs in which another machine took the
-/// processor (steal) count apart. Exit status 0 compared, 130 Ctrl-C. Throws InputError: E479 SCHED_FIFO is refused here, and what a
+/// processor (steal) count apart. Exit status 0 compared, 130 Ctrl-C. Throws InputError: E469 SCHED_FIFO is refused here, and what a
 /// scene has.
 int comparePeriods(const PeriodsOptions& options);
 

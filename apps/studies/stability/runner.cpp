@@ -25,7 +25,7 @@ std::vector<Case> chosenCases(const RunnerOptions& options, std::vector<Case> al
   Diagnostics diagnostics;
   for (const std::string& wanted : options.cases) {
     if (std::find(names.begin(), names.end(), wanted) != names.end()) continue;
-    diagnostics.error(611, {"--case " + wanted, 0, 0}, "there is no case " + quote(wanted) + didYouMean(wanted, names),
+    diagnostics.error(616, {"--case " + wanted, 0, 0}, "there is no case " + quote(wanted) + didYouMean(wanted, names),
                       "presa stability --list names them");
   }
   if (!options.out.empty()) {

@@ -11,6 +11,8 @@
 namespace presa::temple {
 namespace {
 
+enum Code { kVersion = 966 };
+
 constexpr std::array kKinds{BlockKind::kDrum,     BlockKind::kCapital,       BlockKind::kArchitrave,
                             BlockKind::kTriglyph, BlockKind::kMetope,        BlockKind::kCornice,
                             BlockKind::kTympanum, BlockKind::kRakingCornice, BlockKind::kTile};
@@ -19,7 +21,7 @@ AssemblyWords read(xml::Document& document, Diagnostics& diagnostics) {
   static const xml::Schema schema(schemas::words);
   if (!document.validate(schema, diagnostics)) return {};
   const xml::Element root = document.root();
-  checkVersion(root, "words", 969, diagnostics);
+  checkVersion(root, "words", kVersion, diagnostics);
   checkWords(root, diagnostics);
   AssemblyWords words = readWords(root);
   for (const BlockKind kind : kKinds) {

@@ -14,7 +14,7 @@ const char* elementName(BlockKind kind);
 /// Languages that words are shipped in: "en", "it".
 std::vector<std::string> shippedLanguages();
 /// The shipped words (config/temple/words_LANGUAGE.xml), checked: every kind of block is there. All findings go to `diagnostics`
-/// (E969 format version or unknown language, E968 a kind of block without words, E218, E219). Never throws for bad input.
+/// (E966 format version, E969 unknown language, E968 a kind of block without words, E203, E219). Never throws for bad input.
 AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics);
 /// Those of a file.
 AssemblyWords readWordsFile(const std::string& file, Diagnostics& diagnostics);

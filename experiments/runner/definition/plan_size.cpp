@@ -8,7 +8,7 @@
 namespace presa::experiment {
 namespace {
 
-constexpr int kTooLarge = 694;
+enum Code { kTooLarge = 694 };
 
 /// Without a fraction up to 1e15, where a double still holds whole numbers exactly.
 std::string numberText(double count) {

@@ -12,7 +12,7 @@
 namespace presa {
 namespace {
 
-constexpr int kUnreadable = 303;
+enum Code { kUnreadable = 303 };
 
 /// A read-only stream over the bytes of a file in memory.
 class Bytes final : public Assimp::IOStream {

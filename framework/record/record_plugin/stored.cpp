@@ -14,7 +14,7 @@ namespace {
 
 // range of the haptic period [s]: the schema's range of rates plus 10 %, because periods are rounded to nanoseconds
 constexpr double kShortestPeriod = 0.9 / 40'000, kLongestPeriod = 1.1 / 100;
-constexpr int kAttributeCode = 671;
+enum Code { kAttribute = 671 };
 // allowance for a killed run [bytes]: its newest rows may be part of the tables' extents but not yet written (chunk
 // caches, and HDF5's allocation steps)
 constexpr std::uint64_t kUnwritten = std::uint64_t{64} << 20;
@@ -89,7 +89,7 @@ class Structure {
   std::vector<std::string> inputs(const std::string& path) {
     std::vector<std::string> names;
     const auto wrong = [&](const std::string& what) {
-      look_.wrong(kAttributeCode, path, std::string("attribute '") + kInputsAttribute + "': " + what);
+      look_.wrong(kAttribute, path, std::string("attribute '") + kInputsAttribute + "': " + what);
       return std::vector<std::string>{};
     };
     std::istringstream words(look_.text(path, kInputsAttribute));
@@ -155,7 +155,7 @@ StoredRecording openStored(const std::string& file, Diagnostics& findings) {
   stored.version = opened.version;
   Structure(stored, opened.bytes, findings).check();
   const auto& all = findings.all();
-  if (std::any_of(all.begin(), all.end(), [](const Diagnostic& one) { return one.code != kAttributeCode; }))
+  if (std::any_of(all.begin(), all.end(), [](const Diagnostic& one) { return one.code != kAttribute; }))
     throw InputError(findings);
   return stored;
 }

@@ -13,12 +13,7 @@
 namespace presa::xml {
 namespace {
 
-constexpr int kUnreadable = 101;
-constexpr int kEmpty = 102;
-constexpr int kNotText = 103;
-constexpr int kDoctype = 105;
-constexpr int kTooLarge = 106;
-constexpr int kCrowded = 695;
+enum Code { kUnreadable = 101, kEmpty = 102, kNotText = 103, kDoctype = 105, kTooLarge = 106, kCrowded = 695 };
 
 struct FreeParser {
   void operator()(xmlParserCtxt* context) const { xmlFreeParserCtxt(context); }

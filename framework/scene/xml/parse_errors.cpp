@@ -6,9 +6,7 @@
 namespace presa::xml {
 namespace {
 
-constexpr int kNotText = 103;
-constexpr int kNotWellFormed = 104;
-constexpr int kTooDeep = 106;
+enum Code { kNotText = 103, kNotWellFormed = 104, kTooDeep = 107 };
 
 struct Words {
   const char* message;

@@ -15,9 +15,7 @@ namespace presa::xml {
 namespace {
 
 constexpr const char* kWhiteSpace = " \t\r\n";
-constexpr int kWrongKind = 116;
-constexpr int kOutOfRange = 117;
-constexpr int kWrongCount = 118;
+enum Code { kWrongKind = 116, kOutOfRange = 117, kWrongCount = 118 };
 
 const xmlChar* toXml(const std::string& text) { return reinterpret_cast<const xmlChar*>(text.c_str()); }
 

@@ -59,10 +59,10 @@ TEST(Rig, MistakesGiveOneMessageAtTheirPlace) {
     const char* to;
   };
   const Slip kSlips[] = {
-      {401, "version=\"1.0\"", "@version=\"3.0\""},
-      {402, "role=\"index\"", "@role=\"thumb\""},
-      {403, "key=\"gain\"", "@key=\"motion\""},
-      {403, "key=\"gain\"", "@key=\"serial\""},
+      {412, "version=\"1.0\"", "@version=\"3.0\""},
+      {413, "role=\"index\"", "@role=\"thumb\""},
+      {414, "key=\"gain\"", "@key=\"motion\""},
+      {414, "key=\"gain\"", "@key=\"serial\""},
       {115, "<device role=\"index\" driver=\"replay\">", "@<device role=\"index\">"},
       {114, "driver=\"replay\"", "@drivr=\"replay\""},
       {116, "serial=\"A1\"", "@serial=\"\""},

@@ -227,7 +227,7 @@ TEST(SceneErrors, WhatIsNoTextHasAPlace) {
 TEST(SceneErrors, DepthIsLimited) {
   std::string deep = "<scene>";
   for (int i = 0; i < 100000; ++i) deep += "<a>";
-  EXPECT_EQ(codesOf(findingsOf(deep)), std::vector<int>{106});
+  EXPECT_EQ(codesOf(findingsOf(deep)), std::vector<int>{107});
 }
 
 TEST(SceneErrors, SizeIsLimited) {

@@ -24,7 +24,7 @@ TEST(Periods, AreComparedInTurn) {
   if (const std::string refused = realtimeRights().fifo; !refused.empty()) {
     const test::Outcome outcome = test::presa("device periods " + kCube + " " + kHold);
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.err.find("error[E479]"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("error[E469]"), std::string::npos) << outcome.err;
     return;
   }
   const std::string folder = test::scratch("periods");

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/scene/scene.h"
+
+/// Reading the settings that a rig gives a device; for every driver. Thread: before a run.
+namespace presa {
+
+/// Reports settings that the driver does not know (E401).
+void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::string>& known,
+                           Diagnostics& diagnostics);
+
+/// Reads a setting that must be a positive number (E403); `fallback` when the rig does not give it.
+double positiveSetting(const DeviceBinding& binding, const std::string& key, double fallback, Diagnostics& diagnostics);
+
+}  // namespace presa
