@@ -3,18 +3,18 @@
 #include <bit>
 #include <string_view>
 
+#include "framework/core/math/fnv.h"
+
 namespace presa::bus {
 namespace {
 
 class Hash {
  public:
-  void add(std::uint64_t word) {
-    for (unsigned shift = 0; shift < 64; shift += 8) addByte(static_cast<std::uint8_t>(word >> shift));
-  }
+  void add(std::uint64_t word) { hash_.addWord(word); }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   void add(std::string_view text) {
-    for (const char c : text) addByte(static_cast<std::uint8_t>(c));
-    addByte(0);
+    hash_.add(text);
+    hash_.add(std::uint8_t{0});
   }
   void add(const Vec3& v) {
     for (const double x : v) add(x);
@@ -29,14 +29,10 @@ class Hash {
       for (const std::int32_t index : triangle) add(static_cast<std::uint64_t>(index));
     }
   }
-  std::uint64_t value() const { return value_; }
+  std::uint64_t value() const { return hash_.value(); }
 
  private:
-  void addByte(std::uint8_t byte) {
-    value_ ^= byte;
-    value_ *= 0x100000001b3ULL;
-  }
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+  Fnv1a hash_;
 };
 
 struct AddShape {

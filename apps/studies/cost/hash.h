@@ -2,20 +2,21 @@
 #include <cstdint>
 #include <string>
 
+#include "framework/core/math/fnv.h"
+
 namespace presa::cost {
 
-/// FNV-1a of texts, each ended by a zero so that "ab" "c" is not "a" "bc".
+/// Of texts, each ended by a zero so that "ab" "c" is not "a" "bc".
 class Hash {
  public:
   void add(const std::string& text) {
-    for (const char c : text) byte(static_cast<unsigned char>(c));
-    byte(0);
+    hash_.add(text);
+    hash_.add(std::uint8_t{0});
   }
-  std::uint64_t value() const { return value_; }
+  std::uint64_t value() const { return hash_.value(); }
 
  private:
-  void byte(unsigned char b) { value_ = (value_ ^ b) * 0x100000001b3; }
-  std::uint64_t value_ = 0xcbf29ce484222325;
+  Fnv1a hash_;
 };
 
 }  // namespace presa::cost

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "framework/core/math/fnv.h"
+
 namespace presa {
 
 /// Random numbers that are the same on every machine: the raw output of std::mt19937_64 is fixed by the standard, its
@@ -45,11 +47,10 @@ class RandomStream {
   }
 
  private:
-  /// FNV-1a.
   static std::uint64_t hashOf(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    return hash;
+    Fnv1a hash;
+    hash.add(text);
+    return hash.value();
   }
   /// SplitMix64: neighbouring seeds give unrelated streams.
   static std::uint64_t mix(std::uint64_t x) {

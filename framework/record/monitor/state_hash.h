@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "framework/core/math/fnv.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
@@ -15,42 +16,27 @@ namespace presa {
 /// Order: device state, contact exchange, and the object state when a new one has arrived, tick after tick. Within a
 /// state: members as declared, only entries in use; vectors x y z; quaternions w x y z; numbers least significant byte
 /// first, booleans as one byte.
-/// Source: [Fowler–Noll–Vo, FNV-1a 64]
 class StateHash {
  public:
   void add(const DeviceState& state) noexcept;
   void add(const ContactExchange& state) noexcept;
   void add(const ObjectState& state) noexcept;
-  std::uint64_t value() const noexcept { return hash_; }
-
-  void addByte(std::uint8_t byte) noexcept {
-    hash_ ^= byte;
-    hash_ *= kPrime;
-  }
+  std::uint64_t value() const noexcept { return hash_.value(); }
 
  private:
-  static constexpr std::uint64_t kPrime = 0x100000001b3ULL;
-  static constexpr std::uint64_t power(std::uint64_t base, std::size_t exponent) {
-    return exponent == 0 ? 1 : base * power(base, exponent - 1);
-  }
   template <class Word>
   void addWord(Word word) noexcept {
-    if (word == 0) {  // same result as byte by byte, faster: most of thousands of bodies do not move
-      constexpr std::uint64_t kAll = power(kPrime, sizeof(Word));
-      hash_ *= kAll;
-      return;
-    }
-    for (unsigned shift = 0; shift < 8 * sizeof(Word); shift += 8) addByte(static_cast<std::uint8_t>(word >> shift));
+    word == 0 ? hash_.addZeros<sizeof(Word)>() : hash_.addWord(word);  // faster: most bodies do not move
   }
   void add(double value) noexcept { addWord(std::bit_cast<std::uint64_t>(value)); }
   void add(std::int32_t value) noexcept { addWord(static_cast<std::uint32_t>(value)); }
   void add(std::uint32_t value) noexcept { addWord(value); }
-  void add(bool value) noexcept { addByte(value ? 1 : 0); }
+  void add(bool value) noexcept { hash_.add(std::uint8_t{value}); }
   void add(const Vec3& v) noexcept;
   void add(const Pose& pose) noexcept;
   void add(const FingerContact& finger) noexcept;
 
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  Fnv1a hash_;
 };
 
 }  // namespace presa

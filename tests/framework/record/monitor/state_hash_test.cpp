@@ -14,19 +14,6 @@
 namespace presa {
 namespace {
 
-std::uint64_t hashOf(const std::string& bytes) {
-  StateHash hash;
-  for (const char c : bytes) hash.addByte(static_cast<std::uint8_t>(c));
-  return hash.value();
-}
-
-// Published test vectors of FNV-1a, 64 bit (draft-eastlake-fnv, appendix).
-TEST(StateHash, MatchesThePublishedVectors) {
-  EXPECT_EQ(hashOf(""), 0xcbf29ce484222325ULL);
-  EXPECT_EQ(hashOf("a"), 0xaf63dc4c8601ec8cULL);
-  EXPECT_EQ(hashOf("foobar"), 0x85944171f73967e8ULL);
-}
-
 /// All hashed states, so that each field can be changed in turn.
 struct States {
   DeviceState device;
