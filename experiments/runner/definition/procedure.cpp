@@ -15,10 +15,7 @@ template <class... Ts>
 Overloaded(Ts...) -> Overloaded<Ts...>;
 
 ForcedChoicePlan planOf(const Procedure& procedure) {
-  const psychophysics::Task task = procedure.task == Task::kTwoIntervals      ? psychophysics::Task::kTwoIntervals
-                                   : procedure.task == Task::kTwoAlternatives ? psychophysics::Task::kTwoAlternatives
-                                                                              : psychophysics::Task::kYesNo;
-  return {task, procedure.coding, procedure.asks_for_less, procedure.balance_over};
+  return {procedure.task, procedure.coding, procedure.asks_for_less, procedure.balance_over};
 }
 
 }  // namespace

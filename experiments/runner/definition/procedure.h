@@ -43,12 +43,7 @@ struct StimulusAxis {
   std::vector<Coupled> coupled;
 };
 
-enum class Task {
-  kYesNo,            ///< one stimulus, one question
-  kTwoIntervals,     ///< 2IFC: standard and comparison one after the other, in either order
-  kTwoAlternatives,  ///< 2AFC: side by side
-  kAdjust            ///< the standard, then the adjustable comparison, repeated until confirmed
-};
+using psychophysics::Task;
 
 /// A model that answers in place of a participant. It compares the measured percepts of the two stimuli, with noise set
 /// by the Weber fraction.

@@ -8,7 +8,7 @@ namespace presa::psychophysics {
 ForcedChoice::ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan, const RandomStream& stream)
     : method_(std::move(method)), plan_(plan), stream_(stream) {
   if (!method_) throw std::invalid_argument("forced choice needs a method that chooses the level");
-  if (method_->next() && method_->next()->kind == TrialKind::kAdjustment) {
+  if (plan_.task == Task::kAdjust || (method_->next() && method_->next()->kind == TrialKind::kAdjustment)) {
     throw std::invalid_argument("forced choice cannot go with the method of adjustment");
   }
   if (plan_.balance_over == 0) throw std::invalid_argument("balance_over (trials) must be > 0");

@@ -9,9 +9,10 @@
 namespace presa::psychophysics {
 
 enum class Task {
-  kTwoIntervals,     ///< 2IFC: standard and comparison one after the other
+  kYesNo,            ///< one stimulus, one question
+  kTwoIntervals,     ///< 2IFC: standard and comparison one after the other, in either order
   kTwoAlternatives,  ///< 2AFC: side by side
-  kYesNo,            ///< one stimulus
+  kAdjust            ///< the standard, then the adjustable comparison, until confirmed; not a forced choice
 };
 
 struct ForcedChoicePlan {
@@ -29,7 +30,8 @@ struct ForcedChoicePlan {
 /// positive. It owns the method; run and replay the trials through this object only.
 class ForcedChoice final : public Method {
  public:
-  /// Throws std::invalid_argument without a method, with a method of adjustment, or when `balance_over` is 0.
+  /// Throws std::invalid_argument without a method, with a method of adjustment or the task kAdjust, or when
+  /// `balance_over` is 0.
   ForcedChoice(std::unique_ptr<Method> method, ForcedChoicePlan plan, const RandomStream& stream);
 
   const Method& method() const noexcept { return *method_; }

@@ -97,6 +97,7 @@ TEST(ForcedChoice, ThereIsNoThirdPlace) {
   EXPECT_THROW(task.respond({.chosen = 3}), std::invalid_argument);
   EXPECT_TRUE(task.trials().empty());
   EXPECT_THROW(ForcedChoice(nullptr, {}, RandomStream(1, "places")), std::invalid_argument);
+  EXPECT_THROW(ForcedChoice(sevenLevels(), {.task = Task::kAdjust}, RandomStream(1, "places")), std::invalid_argument);
   EXPECT_THROW(ForcedChoice(sevenLevels(), {.balance_over = 0}, RandomStream(1, "places")), std::invalid_argument);
 }
 
