@@ -40,7 +40,7 @@ std::string quotedForShell(const std::string& text) {
 
 /// All instructions of one run from start to end.
 double callgrind(const StudySpec& spec, double duration) {
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const std::string program = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "presa").string();
   std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null " + quotedForShell(program) +
                         " run " + quotedForShell(spec.scene) + " --lockstep --view none --quiet --seed " +
                         std::to_string(spec.seed) + " --for " + std::to_string(duration);
