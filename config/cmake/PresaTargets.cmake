@@ -1,4 +1,5 @@
 option(PRESA_TESTS "Build the tests" ON)
+option(PRESA_UNITY "Compile several files of a library at once: a cold build takes a third of the time" ON)
 set(PRESA_SANITIZE "" CACHE STRING "Value for -fsanitize= (address,undefined or thread); empty: none")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -27,21 +28,38 @@ if(PRESA_SANITIZE)
   target_link_options(presa_options INTERFACE -fsanitize=${PRESA_SANITIZE})
 endif()
 
-# presa_plugin(NAME SOURCES a.cpp … LIBRARIES …): the shared object presa_NAME.so, loaded only when a scene calls for it
+# presa_unity(TARGET ALONE pattern …): compiles its files in batches, but for those that a pattern fits: they have names in their unnamed
+# name space that others of the batch have, too.
+function(presa_unity target)
+  cmake_parse_arguments(ARG "" "" "ALONE" ${ARGN})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PRESA_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    foreach(pattern IN LISTS ARG_ALONE)
+      if(source MATCHES "${pattern}")
+        set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+# presa_plugin(NAME SOURCES a.cpp … LIBRARIES … ALONE …): the shared object presa_NAME.so, loaded only when a scene calls for it
 function(presa_plugin name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;ALONE" ${ARGN})
   add_library(presa_${name} SHARED ${ARG_SOURCES})
   set_target_properties(presa_${name} PROPERTIES PREFIX "")
   target_link_libraries(presa_${name} PUBLIC presa_framework PRIVATE ${ARG_LIBRARIES})
+  presa_unity(presa_${name} ALONE ${ARG_ALONE})
 endfunction()
 
-# presa_library(NAME LIBRARIES …): a static library from every .cpp of the calling folder and below, without its programs (main.cpp)
+# presa_library(NAME LIBRARIES … ALONE …): a static library from every .cpp of the calling folder and below, without its programs (main.cpp)
 function(presa_library name)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;ALONE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   list(FILTER sources EXCLUDE REGEX "/main.cpp$")
   add_library(presa_${name} STATIC ${sources})
   target_link_libraries(presa_${name} PUBLIC presa_framework ${ARG_LIBRARIES})
+  presa_unity(presa_${name} ALONE ${ARG_ALONE})
 endfunction()
 
 # presa_program(COMMAND MAIN main.cpp LIBRARIES …): the program presa-COMMAND, which `presa COMMAND` starts. The target presa_programs

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "framework/bus/state_bus.h"
-#include "framework/core/state/surface_settings.h"
 #include "framework/scene/open_surfaces.h"
+#include "framework/scene/surface_settings.h"
 
 namespace presa::bus {
 

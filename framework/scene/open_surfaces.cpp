@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/core/state/surface_settings.h"
+#include "framework/scene/surface_settings.h"
 
 namespace presa {
 namespace {

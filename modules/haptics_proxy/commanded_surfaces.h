@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "framework/core/state/surface_settings.h"
 #include "framework/scene/open_surfaces.h"
+#include "framework/scene/surface_settings.h"
 
 namespace presa {
 

@@ -11,10 +11,10 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/state/surface_change.h"
-#include "framework/core/state/surface_settings.h"
 #include "framework/record/record_plugin/row_ring.h"
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
+#include "framework/scene/surface_settings.h"
 
 namespace presa::record {
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/surface_settings.h"
 #include "framework/record/record_plugin/stored.h"
+#include "framework/scene/surface_settings.h"
 
 namespace presa::record {
 namespace {
