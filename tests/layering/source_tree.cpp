@@ -94,7 +94,8 @@ std::vector<std::string> rooms() {
   for (const SourceFile& file : sourceTree()) {
     if (file.path.starts_with('.') || file.path.find('/') == std::string::npos) continue;
     names.insert(file.topFolder());
-    if (file.topFolder() != "tests" && file.part() != file.path) names.insert(file.part());
+    if (file.topFolder() != "tests" && file.topFolder() != "config" && file.part() != file.path)
+      names.insert(file.part());
   }
   return {names.begin(), names.end()};
 }

@@ -22,7 +22,7 @@ struct SourceFile {
 const std::vector<SourceFile>& sourceTree();
 /// Names at the root, without what git ignores.
 std::vector<std::string> rootEntries();
-/// Folders of the first and second level ("framework", "framework/core"); of the tests, which mirror them, the first alone.
+/// Folders of the first and second level ("framework", "framework/core"); of tests and config the first alone.
 std::vector<std::string> rooms();
 
 /// Shared libraries that an ELF file asks for by name (DT_NEEDED), as readelf lists them. Throws when it cannot.
