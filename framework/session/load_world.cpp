@@ -1,5 +1,8 @@
 #include "framework/session/load_world.h"
 
+#include <optional>
+#include <set>
+
 #include "framework/input/folders.h"
 #include "framework/scene/bus_settings.h"
 #include "framework/scene/load.h"
@@ -56,22 +59,51 @@ Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics
   return loaded;
 }
 
-}  // namespace
+struct SceneAndRig {
+  Scene scene;
+  Rig rig;
+};
 
-Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics) {
+/// None where there is nothing that more findings could be about.
+std::optional<SceneAndRig> readSceneAndRig(const Inputs& inputs, const RunOptions& options, Diagnostics& diagnostics) {
   const std::vector<Override> overrides = parseSets(inputs.sets, diagnostics);
   Scene scene = loadScene(inputs.scene, overrides, diagnostics);
   const std::string rig_file = inputs.rig.empty() ? scene.default_rig : inputs.rig;
   Rig rig;
   const bool named = inputs.rig.empty() && !rig_file.empty();  // by the scene, not by a person
-  if (named && !input::checkNamed({inputs.scene, 0, 0}, rig_file, diagnostics)) return {};
+  if (named && !input::checkNamed({inputs.scene, 0, 0}, rig_file, diagnostics)) return std::nullopt;
   if (!rig_file.empty()) rig = loadRig(rig_file, diagnostics);
   if (inputs.rig.empty() && !options.bus && rig.bus && opensMoreThanASceneMay(*rig.bus))
     diagnostics.error(751, {rig_file, 0, 0},
                       "the scene chose this rig, which opens the network or takes commands: a scene may do neither",
                       "--rig " + rig_file + " says that you want it, --bus none that you do not");
-  if (diagnostics.hasErrors() && scene.bodies.empty()) return {};
-  return finish(std::move(scene), std::move(rig), std::move(options), diagnostics);
+  if (diagnostics.hasErrors() && scene.bodies.empty()) return std::nullopt;
+  return SceneAndRig{std::move(scene), std::move(rig)};
+}
+
+}  // namespace
+
+Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics) {
+  std::optional<SceneAndRig> read = readSceneAndRig(inputs, options, diagnostics);
+  if (!read) return {};
+  return finish(std::move(read->scene), std::move(read->rig), std::move(options), diagnostics);
+}
+
+std::vector<std::string> plugInsFor(const Inputs& inputs, const RunOptions& options, Diagnostics& diagnostics) {
+  const std::optional<SceneAndRig> read = readSceneAndRig(inputs, options, diagnostics);
+  if (!read || diagnostics.hasErrors()) return {};
+  const Plan plan = makePlan(read->scene, read->rig, options, diagnostics);
+  std::set<std::string> names;
+  for (const PlannedModule& module : plan.modules) names.insert(module.plugin);
+  for (const PlannedDevice& device : plan.devices) names.insert(device.driver);
+  const auto isMesh = [](const std::optional<Geometry>& geometry) {
+    return geometry && std::holds_alternative<MeshRef>(geometry->shape);
+  };
+  for (const Body& body : read->scene.bodies) {
+    if (isMesh(body.visual) || isMesh(body.haptic) || isMesh(body.physics)) names.insert("mesh_import");
+  }
+  if (plan.has("record")) names.insert("checksum");  // a recording carries one
+  return {names.begin(), names.end()};
 }
 
 Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_name, const std::string& rig_xml,

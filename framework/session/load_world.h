@@ -24,7 +24,10 @@ struct Loaded {
 /// the result is usable only when that has no errors.
 Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics);
 
-/// The same from a recording.
+/// Names of the plug-ins that such a run would load. Loads none of them and reads no mesh. Findings as loadWorld.
+std::vector<std::string> plugInsFor(const Inputs& inputs, const RunOptions& options, Diagnostics& diagnostics);
+
+/// As loadWorld, from a recording.
 Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_name, const std::string& rig_xml,
                          RunOptions options, Diagnostics& diagnostics);
 

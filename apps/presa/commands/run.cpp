@@ -21,7 +21,7 @@ namespace {
 struct Arguments {
   Inputs inputs;
   RunOptions options;
-  bool lockstep = false, realtime = false, quiet = false;
+  bool lockstep = false, realtime = false, quiet = false, plug_ins = false;
   std::string view;  ///< empty: choose
   double speed = 0;  ///< 0: as is usual
   std::string summary, report;
@@ -61,6 +61,13 @@ std::string commandLine(const Arguments& a) {
   return line;
 }
 
+int printPlugIns(const Arguments& arguments, Diagnostics& diagnostics) {
+  const auto names = plugInsFor(arguments.inputs, arguments.options, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  for (const std::string& name : names) std::printf("%s\n", name.c_str());
+  return diagnostics.hasErrors() ? kExitBadInput : kExitOk;
+}
+
 int run(Arguments arguments) {
   arguments.options.realtime = !arguments.lockstep;
   arguments.options.bound_stiffness = true;
@@ -71,6 +78,7 @@ int run(Arguments arguments) {
   arguments.options.hardware_flight = "flight-" + now + ".h5";
 
   Diagnostics diagnostics;
+  if (arguments.plug_ins) return printPlugIns(arguments, diagnostics);
   const Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
   if (!diagnostics.hasErrors() && arguments.options.bus_commands && !busOf(*loaded.world))
@@ -137,6 +145,7 @@ void addRun(Command app, int& status) {
   addBusCommandsOption(command, a->options.bus_commands);
   command.option("--summary", a->summary, "results as JSON");
   command.option("--report", a->report, "results as one HTML page with plots");
+  command.flag("--plug-ins", a->plug_ins, "print the plug-ins that this run would load, and run nothing");
   command.flag("--quiet", a->quiet, "no status line and no closing text");
   command.footer(
       "Exit status: 0 no fault, 1 fault while running, 2 bad input (nothing written), 130 Ctrl-C.\n"

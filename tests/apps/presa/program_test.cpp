@@ -40,6 +40,16 @@ TEST(Run, WritesTheSummaryThatIsPromised) {
   EXPECT_EQ(summary.at("state_hash").get<std::string>().size(), 18u);
 }
 
+// ./dev run builds these first: the list is right when a run needs no other, and it is had without loading any of them.
+TEST(Run, NamesThePlugInsThatItWouldLoad) {
+  const auto plain = presa("run " + kCube + " --view none --plug-ins");
+  EXPECT_EQ(plain.status, 0) << plain.err;
+  EXPECT_EQ(plain.out, "dynamics_ode\nhaptics_proxy\nscripted\n");
+  const auto recorded = presa("run " + kCube + " --view offscreen --record never.h5 --plug-ins");
+  EXPECT_EQ(recorded.out, "checksum\ndynamics_ode\nhaptics_proxy\nrecord\nscripted\nview_osg\n");
+  EXPECT_EQ(presa("run no_such_scene.xml --plug-ins").status, 2);
+}
+
 // Rates that only a reference needs are for virtual time.
 TEST(Run, RefusesRatesThatNoClockKeeps) {
   const std::string fast = "run " + kCube + " --view none --quiet --for 0.01 --set rates/haptic=20000 ";
