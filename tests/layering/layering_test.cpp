@@ -118,7 +118,7 @@ TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
 // `presa run` is the command that people start most: it maps nothing of the other uses.
 TEST(Layering, TheProgramHoldsNothingOfTheOtherUses) {
   const std::set<std::string> mapped = nameSpaces(std::filesystem::path(PRESA_BINARY_DIR) / "bin/presa");
-  EXPECT_TRUE(mapped.contains("bus")) << "the names of the program's functions were not read";
+  EXPECT_TRUE(mapped.contains("terminal")) << "the names of the program's functions were not read";
   for (const char* use : {"temple", "experiment", "cost", "stability", "faults", "psychophysics", "statistics"}) {
     EXPECT_FALSE(mapped.contains(use)) << use;
   }
