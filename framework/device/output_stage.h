@@ -52,7 +52,7 @@ class OutputStage {
   enum class Trust : std::uint8_t {
     kGood,
     kFading,   ///< a little old: to zero within fade_out
-    kDropped,  ///< too old, or no sample: to zero at the slew limit; returns softly, or, after a short gap, at that limit
+    kDropped,  ///< too old, or no sample: to zero at the slew limit; returns softly (short gap: at that limit)
   };
   struct Input {
     Vec3 command = Vec3::Zero();  ///< wanted force on the finger, in W [N]
