@@ -12,7 +12,7 @@
 
 namespace presa {
 
-/// A property of a model that belongs into the data of a run, such as a trait of a simulated subject.
+/// A property of a model that belongs in the data of a run, such as a trait of a simulated subject.
 struct DeviceFact {
   std::string name, unit;
   double value = 0;

@@ -144,7 +144,7 @@ for (const point of document.querySelectorAll('.plot [data-name]')) {
 
 std::string head(const std::string& title) {
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         // the browser itself then guarantees that the page asks nobody for anything
+         // the browser then guarantees that the page sends no request
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'; img-src data:\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
