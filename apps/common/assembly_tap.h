@@ -6,7 +6,8 @@
 
 namespace presa {
 
-/// Tells the end of a run how much of the scene's assembly stands. Beside the assembly, on its thread: no value crosses for it.
+/// Counts the filled places of the scene's assembly for the result of a run. Runs in the rate group of the assembly
+/// module.
 class AssemblyTap final : public Module {
  public:
   explicit AssemblyTap(std::atomic<std::int32_t>& filled)

@@ -26,7 +26,7 @@ int writeAll(int file, const std::string& text) {
     if (step < 0) return errno;
     written += static_cast<std::size_t>(step);
   }
-  // on disk before the name points to it, or a power cut could leave an empty file under the final name
+  // sync before the rename, or a power cut could leave an empty file under the final name
   return ::fsync(file) == 0 ? 0 : errno;
 }
 

@@ -6,7 +6,8 @@
 
 namespace presa {
 
-/// All bytes of a file; empty when it cannot be read. Throws InputError when it is no regular file or has more than 1 GiB.
+/// All bytes of a file; empty when it cannot be read. Throws InputError when it is no regular file or has more than 1
+/// GiB.
 inline std::string contentsOf(const std::filesystem::path& file) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 30U;
   input::Refusal refusal;

@@ -8,7 +8,7 @@
 namespace presa {
 namespace {
 
-constexpr double kRippleWindow = 2.0;  // [s], the end of the hold, when the lift has died away
+constexpr double kRippleWindow = 2.0;  // [s] at the end of the hold, when the lift's transient has decayed
 
 using Samples = std::span<const TraceSample>;
 
@@ -65,7 +65,7 @@ std::optional<double> gripRipple(Samples hold, std::size_t finger, double hold_e
 }
 
 std::optional<SlipOnset> firstSlipFrom(const RunResult::ContactPoint& point, std::int32_t body, double loosen_begin) {
-  // the monitor's own list is complete until it is full; the one onset it always keeps covers the rest
+  // the monitor's list is complete until it is full; beyond that, the one onset that it always keeps is used
   for (const SlipOnset& slip : point.slips) {
     if (slip.time >= loosen_begin && slip.body == body) return slip;
   }
@@ -88,7 +88,7 @@ FingerGrasp fingerGrasp(Samples hold, std::size_t finger, const RunResult::Objec
     low = low.cwiseMin(p_BP);
     high = high.cwiseMax(p_BP);
     normal_sum += contact.normal_force;
-    // listed force acts on the finger, its negative carries the object
+    // the listed force acts on the finger; its negative carries the object
     upward_sum -= contact.f_H_W.z();
     if (sticks(contact, object.body)) ++stick;
   }

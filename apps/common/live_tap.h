@@ -9,18 +9,18 @@
 
 namespace presa {
 
-/// What the terminal shows, a few times a second. Written by the haptic thread, read by the main thread;
-/// each value is whole, the set may mix two ticks.
+/// Values for the status line. Written by the haptic thread, read by the main thread a few times a second;
+/// each value is consistent, but the values may come from two different ticks.
 struct LiveValues {
   std::atomic<std::int32_t> phase{-1};
   std::array<std::atomic<double>, kMaxFingers> normal_force{};
   std::array<std::atomic<std::int32_t>, kMaxFingers> mode{};
   std::atomic<std::uint32_t> losses{0};         ///< ContactExchange::coverage_lost and pop_through
   std::atomic<std::uint32_t> object_faults{0};  ///< ObjectFault bits seen
-  std::atomic<double> object_fault_time{-1};    ///< of the last one that came up [s]
+  std::atomic<double> object_fault_time{-1};    ///< time of the last new fault [s]
 };
 
-/// Haptic-rate tap for the status line.
+/// Observer module at the haptic rate, for the status line.
 class LiveTap final : public Module {
  public:
   explicit LiveTap(LiveValues& values) : Module("live_tap", RateGroup::kHaptic), values_(values) {}

@@ -14,7 +14,7 @@ std::string times(std::uint32_t count, const char* one, const char* more) {
 std::vector<std::string> lossesOf(const RunResult& result) {
   std::vector<std::string> losses;
   if (result.coverage_lost.count > 0) {
-    // the count is one for all fingers together
+    // the count is for all fingers together
     const std::string whose =
         result.contact_points.size() == 1 ? "finger '" + result.contact_points.front().name + "'" : "a finger";
     losses.push_back("the surface near " + whose + " was not fully known in " +

@@ -6,8 +6,8 @@
 
 namespace presa {
 
-/// What a run felt that was not there, or did not feel that was, in whole sentences: ticks in which a fingertip could not see every
-/// surface in its reach, and surfaces that a fingertip got past. Empty: nothing of that. Plain text.
+/// Haptic losses of a run in whole sentences: ticks in which a fingertip missed surfaces in its reach (coverage_lost),
+/// and surfaces that a fingertip passed through (pop_through). Empty: none. Plain text.
 std::vector<std::string> lossesOf(const RunResult& result);
 
 }  // namespace presa

@@ -5,8 +5,8 @@
 namespace presa {
 namespace {
 
-constexpr std::int64_t kFrame = 16'000'000;    // [ns] between pictures of a run that is held
-constexpr std::int64_t kBehind = 200'000'000;  // [ns] that a slow machine may be late; more is not made up for
+constexpr std::int64_t kFrame = 16'000'000;    // [ns] between pictures of a paused run
+constexpr std::int64_t kBehind = 200'000'000;  // [ns] longest delay that is caught up
 
 }  // namespace
 
@@ -39,7 +39,7 @@ bool Pacer::due(double time) noexcept {
     anchor_ns_ = now;
   }
   const std::int64_t at = anchor_ns_ + static_cast<std::int64_t>((time - anchor_time_) / speed * 1e9);
-  if (at - now > kFrame) {  // slow motion: the window lives on meanwhile
+  if (at - now > kFrame) {  // slow motion: return to refresh the window
     sleepUntilNs(now + kFrame);
     return false;
   }

@@ -7,12 +7,12 @@
 
 namespace presa {
 
-/// Keeps a lockstep run with a window at the pace that its user asks for: the last module of the view group, whose steps wait. A single
-/// step is one picture. Not for hardware, which must not be held. Meanwhile
-/// commands are read: there is one thread, and the bus does not step.
+/// Paces a lockstep run at the speed that the user of the window asks for: the last module of the view group; its step
+/// waits. A single step is one picture. Not for hardware, which must not be paused. While it waits it calls
+/// `meanwhile`, which reads commands: there is only one thread, and the bus group does not step.
 class Pacer final : public Module {
  public:
-  /// `view` is set before the first step; null: nobody looks on. All outlive this.
+  /// `view` is set before the first step; null: no window. All arguments must outlive this.
   Pacer(const TimeWish& wish, View*& view, const RunControl& control, const std::function<void(double)>& meanwhile)
       : Module("pace", RateGroup::kView), wish_(wish), view_(view), control_(control), meanwhile_(meanwhile) {}
   void step(const Tick& tick) noexcept override;
@@ -24,9 +24,9 @@ class Pacer final : public Module {
   const TimeWish& wish_;
   View*& view_;
   const RunControl& control_;
-  const std::function<void(double)>& meanwhile_;  // with the simulated time
-  std::uint32_t steps_ = 0;                       // done
-  double speed_ = 0;                              // since the anchor; 0: there is none
+  const std::function<void(double)>& meanwhile_;  // called with the simulated time
+  std::uint32_t steps_ = 0;                       // single steps done
+  double speed_ = 0;                              // speed since the anchor; 0: no anchor
   double anchor_time_ = 0;
   std::int64_t anchor_ns_ = 0;
 };

@@ -12,7 +12,7 @@
 
 namespace presa {
 
-/// Everything known about a finished run, as plain data. Summary, report and closing lines are made of this alone.
+/// All results of a finished run, as plain data: the only input of summary, report and closing lines.
 /// Pointers stay valid as long as executor and monitor live.
 struct RunResult {
   struct Rate {
@@ -35,7 +35,7 @@ struct RunResult {
     double friction_dynamic = 0;
     ObjectSummary summary;
   };
-  /// A stretch of a scripted motion.
+  /// A phase of a scripted motion.
   struct Phase {
     std::string name;
     double begin = 0, end = 0;  ///< [s]
@@ -44,12 +44,12 @@ struct RunResult {
     double time = 0;  ///< simulated [s]
     std::string text;
   };
-  /// What should not happen, and how often it did.
+  /// A kind of haptic loss: how often it happened, and when first.
   struct Loss {
     std::uint32_t count = 0;
     double first = -1;  ///< [s]; -1: never
   };
-  /// How much of the scene's assembly stands in its places.
+  /// How many places of the scene's assembly are filled.
   struct Assembly {
     int goals = 0, filled = 0;
   };
@@ -66,10 +66,10 @@ struct RunResult {
   bool interrupted = false;  ///< stopped by the user before its end
   double simulated_seconds = 0;
   double wall_seconds = 0;
-  std::vector<std::string> realtime_missing;  ///< settings that could not be had ("SCHED_FIFO 80: not permitted")
+  std::vector<std::string> realtime_missing;  ///< refused real-time settings ("SCHED_FIFO 80: not permitted")
   std::vector<Rate> rates;                    ///< groups that ran, in the order of RateGroup
   std::vector<ContactPoint> contact_points;   ///< as Scene::devices
-  Loss coverage_lost;  ///< ticks in which a fingertip could not see every surface in its reach, all fingers together
+  Loss coverage_lost;  ///< ticks in which a fingertip missed surfaces in its reach, all fingers together
   std::vector<Object> objects;
   std::optional<Assembly> assembly;                 ///< none: the scene has none
   std::vector<Phase> phases;                        ///< empty for a real hand
@@ -79,7 +79,7 @@ struct RunResult {
   std::string screenshot;           ///< PNG path, may be empty
   std::optional<double> sharpness;  ///< View::sharpness of the last frame; none: no window
   Recording recording;
-  std::vector<std::string> flight_records;  ///< the seconds around each fault, where nothing was recorded
+  std::vector<std::string> flight_records;  ///< files with the seconds around each fault, if the run was not recorded
   std::uint64_t solver_fallbacks = 0;       ///< dynamics steps in which the direct solver gave up on an island
   std::uint64_t state_hash = 0;
 };
@@ -88,7 +88,7 @@ struct RunResult {
 /// `result.world` must be set. Device roles name the contact points.
 void takeMonitor(const Monitor& monitor, RunResult& result);
 
-/// The phase of that name, or null.
+/// The phase named `name`, or null.
 const RunResult::Phase* findPhase(const RunResult& result, const std::string& name);
 
 }  // namespace presa

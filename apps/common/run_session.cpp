@@ -19,7 +19,7 @@
 namespace presa {
 namespace {
 
-// the run that a signal stops; a second signal leaves at once
+// the run that a signal stops; a second signal ends it at once
 std::atomic<RunControl*> signalled{nullptr};
 std::atomic<bool> interrupted{false};
 std::atomic<std::int64_t> first_signal_ns{0};
@@ -27,7 +27,7 @@ std::atomic<std::int64_t> first_signal_ns{0};
 extern "C" void onSignal(int) {
   RunControl* control = signalled.load();
   if (control == nullptr) return;
-  // one key press may arrive twice, at the process and at its group: only a later signal means "at once"
+  // one key press may arrive twice, at the process and at its group: only a later signal ends the run at once
   const std::int64_t now = monotonicNs();
   std::int64_t first = 0;
   if (!first_signal_ns.compare_exchange_strong(first, now) && now - first > 500'000'000) control->abort = true;
@@ -36,7 +36,7 @@ extern "C" void onSignal(int) {
   terminal::PromptEnd::ask();
 }
 
-/// While it lives, Ctrl-C, SIGTERM and SIGHUP stop the run instead of the process.
+/// During its lifetime, Ctrl-C, SIGTERM and SIGHUP stop the run instead of the process.
 class SignalGuard {
  public:
   explicit SignalGuard(RunControl& control) : signals_(onSignal) {
@@ -53,7 +53,7 @@ class SignalGuard {
 };
 
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
-constexpr int kTripsTold = 6;                         // each is a note of its own; the rest is counted
+constexpr int kTripsTold = 6;                         // trips reported by a note each; further ones are counted
 constexpr double kDefaultDuration = 10;               // [s], for scenes without a script
 
 }  // namespace
@@ -61,15 +61,15 @@ constexpr double kDefaultDuration = 10;               // [s], for scenes without
 struct Run::Live {
   LiveValues values;
   StatusLine line;
-  std::optional<terminal::Keys> keys;   // while forces may have to be re-armed
-  std::atomic<std::int32_t> filled{0};  // places of the assembly
+  std::optional<terminal::Keys> keys;   // present while a re-arm by key is possible
+  std::atomic<std::int32_t> filled{0};  // filled places of the assembly
   std::int64_t start_ns = 0;
   explicit Live(bool quiet) : line(quiet) {}
 };
 
 Run::Run(const Loaded& loaded, Settings settings)
     : loaded_(loaded), settings_(std::move(settings)), live_(std::make_unique<Live>(settings_.quiet)) {
-  // duration and the moment of the picture follow the script unless the user said otherwise
+  // duration and time of the picture follow the script unless the user gave them
   Diagnostics diagnostics;
   const DeviceList devices = createDevices(*loaded_.world, loaded_.plan, diagnostics);
   RunOptions options = loaded_.world->options;
@@ -127,8 +127,8 @@ Run::Run(const Loaded& loaded, Settings settings)
 
 Run::~Run() = default;
 
-// What commands may set beside the surfaces: what the user at the window may, where this run has it. No force, no limit, and no re-arm:
-// who is elsewhere does not see the finger.
+// Parameters that commands may set besides the surfaces: those that the user at the window may set. No force, no limit
+// and no re-arm: a remote user does not see the finger.
 void Run::offerToCommands(bool paced) {
   auto* commandable = dynamic_cast<bus::Commandable*>(session_->graph().find("bus_dds"));
   desk_ = commandable != nullptr ? commandable->desk() : nullptr;
@@ -141,7 +141,7 @@ void Run::offerToCommands(bool paced) {
     desk_->offer({"time/speed", [this] { return time_wish_.speed.load(); }, always(kSlowest), always(kFastest),
                   [this](double speed) { time_wish_.speed = speed; }});
   }
-  // an undo is no part of a recording, which would not be the same when it is run again
+  // an undo is not recorded, and a replay without it would differ
   if (AssemblyControl* assembly = session_->assembly(); assembly != nullptr && loaded_.world->options.record.empty()) {
     desk_->offer({"assembly/undone", [this] { return undone_; }, [this] { return undone_; },
                   [this] { return undone_ + 1; },
@@ -178,7 +178,7 @@ void Run::execute() {
   finish();
 }
 
-// Main thread, between other things: faults, a closed window, the status line.
+// Called regularly on the main thread: faults, a closed window, the status line.
 void Run::poll() {
   FaultEvent event;
   while (session_->output() != nullptr && session_->output()->nextEvent(event)) {

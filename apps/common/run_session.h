@@ -21,21 +21,21 @@ class Run {
     double trace_rate = 0;  ///< samples per second kept for plots
     bool quiet = false;     ///< no status line
     std::string command;    ///< command line, for the report
-    double speed = 1;       ///< of a lockstep run with a window: simulated seconds in a second
-    bool paced = false;     ///< a lockstep run keeps that speed without a window, too
+    double speed = 1;       ///< lockstep with a window: simulated seconds per wall-clock second
+    bool paced = false;     ///< lockstep without a window: keep `speed`, too
     RealtimeProbe rights = realtimeRights;
-    std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own taps
+    std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own observer modules
     std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap
     /// Called with every poll; `key` was pressed on the terminal, 0: none. False ends the run.
     std::function<bool(Session& session, char key)> watch = {};
   };
-  /// Builds the session. Throws InputError; nothing has been written then.
+  /// Builds the session. Throws InputError before anything is written.
   Run(const Loaded& loaded, Settings settings);
   ~Run();
 
-  /// Runs to the end, or until Ctrl-C (forces fade first). Throws what a module threw in start().
+  /// Runs to the end, or until Ctrl-C (forces fade first). Rethrows exceptions of Module::start().
   void execute();
-  /// Everything there is to tell about it. Valid while this Run lives.
+  /// The results. Valid as long as this object.
   const RunResult& result() const noexcept { return result_; }
 
  private:
@@ -53,9 +53,9 @@ class Run {
   RunControl control_;
   TimeWish time_wish_;
   View* view_ = nullptr;
-  bus::CommandDesk* desk_ = nullptr;        // where the run takes commands
-  std::function<void(double)> while_held_;  // in lockstep: commands are read
-  double undone_ = 0;                       // by commands
+  bus::CommandDesk* desk_ = nullptr;        // receives commands from the bus; null: none
+  std::function<void(double)> while_held_;  // lockstep: reads commands while the run is paused
+  double undone_ = 0;                       // number of undos by commands
   struct Live;
   std::unique_ptr<Live> live_;
   std::unique_ptr<Session> session_;

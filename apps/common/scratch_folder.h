@@ -5,7 +5,7 @@
 
 namespace presa {
 
-/// A folder of our own under the system's temporary one, gone with this object.
+/// A new folder in the system's temporary one; removed with this object.
 class ScratchFolder {
  public:
   ScratchFolder() {

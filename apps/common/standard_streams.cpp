@@ -11,7 +11,8 @@
 namespace presa {
 
 void openStandardStreams() {
-  // the lowest free number is taken, so that each gets its own; output is opened for reading, so that writing to it fails
+  // open() takes the lowest free number, so that each gets its own; output is opened read-only, so that writing to it
+  // fails
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
     if (::open("/dev/null", descriptor == STDERR_FILENO ? O_RDWR : O_RDONLY) != descriptor) ::_exit(1);

@@ -2,12 +2,12 @@
 
 namespace presa {
 
-/// First of all in main: descriptors 0, 1 and 2 that came closed are opened on the null device, so that no file of the program gets
-/// one of these numbers and takes what is meant for a terminal. Output that came closed takes nothing: see outputLost(). A full file
-/// size limit becomes an error of write() instead of the end.
+/// Call first in main. Opens descriptors 0, 1 and 2 on the null device if they are closed, so that no other file gets
+/// one of these numbers and receives terminal output. Writing to an output that was closed fails: see outputLost().
+/// Exceeding the file size limit becomes an error of write() instead of ending the process.
 void openStandardStreams();
 
-/// Last of all: whether something that was written to standard output was lost (disk full, closed); says so on standard error.
+/// Call last in main. Whether some standard output was lost (disk full, closed); if so, reports it on standard error.
 bool outputLost();
 
 }  // namespace presa

@@ -11,7 +11,7 @@
 namespace presa {
 namespace {
 
-// keys stay in the order they are written here, which is the order a person reads them in
+// keys keep the order in which they are written here
 using Json = nlohmann::ordered_json;
 
 Json vector(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
@@ -57,7 +57,7 @@ Json slipOnset(const SlipOnset& slip) {
 }
 
 Json reaction(const ActionReaction::Result& result) {
-  if (result.windows == 0) return nullptr;  // it never held a free body for a tenth of a second
+  if (result.windows == 0) return nullptr;  // the finger never held a free body for a tenth of a second
   return {{"worst", result.worst}, {"time_s", result.time}, {"windows", result.windows}};
 }
 

@@ -14,7 +14,7 @@ std::uint64_t countAllocations() { return allocations.load(std::memory_order_rel
 
 }  // namespace
 
-// Counted, and told to the program in every cycle: once it runs, a supervisor takes no memory.
+// Counts allocations; the program sees the count in every cycle. A running supervisor must not allocate.
 void* operator new(std::size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;

@@ -12,55 +12,57 @@
 
 namespace presa {
 
-/// A number that a device would have the data say of it.
+/// A property of a model that belongs in the data of a run, such as a trait of a simulated subject.
 struct DeviceFact {
   std::string name, unit;
   double value = 0;
-  bool of_run = false;  ///< drawn anew for each run; else the same whenever seed and person are
+  bool of_run = false;  ///< drawn anew for each run; false: the same for the same seed and subject
 };
 
-/// A haptic device of one finger: position out, force in. read and write run on the haptic thread and
-/// neither allocate nor block longer than the device exchange; open and close may do anything.
+/// A haptic device of one finger: position out, force in; SI units, world frame W, H is the fingertip's centre (HIP).
+/// read, write, rearm, see and point run on the haptic thread, do not allocate and block no longer than the device
+/// exchange; open, reopen and close run on the main thread and may block. DeviceInput checks every sample that read()
+/// returns, and an OutputStage bounds every force before write().
 class Device {
  public:
   virtual ~Device() = default;
-  /// Makes the device ready. Throws InputError with the exact reason when it cannot.
+  /// Makes the device ready. Throws InputError with the exact reason when this fails.
   virtual void open() {}
   virtual void close() noexcept {}
 
-  /// The sample for this tick. A simulated finger moves on to tick.time under the force held since the last write: after a
-  /// stall ticks come without a write between them, or not at all.
+  /// The sample for this tick; `valid` is false when there is none. A simulated finger advances to tick.time under the
+  /// force of the last write: after a stall, ticks are skipped, or come without a write between them.
   virtual FingerInput read(const Tick& tick) noexcept = 0;
-  /// Sends the force on the finger, held until the next write [N, world frame].
+  /// Sends the force on the finger [N, world frame]; the device holds it until the next write.
   virtual void write(const Vec3& f_H_W, const Tick& tick) noexcept = 0;
 
-  /// Somebody has looked and forgives a latched fault: the device may try again. Called before read.
+  /// The user has re-armed the run: clears a latched fault, so that the device may try again. Called before read.
   virtual void rearm() noexcept {}
 
-  /// Main thread, while read and write go on: opens again what was lost, as open() does; what was not is left alone. Gives up when
-  /// `stop` is set. The device stays lost until a re-arm.
+  /// Reconnects a lost device as open() does and leaves a connected one untouched. Main thread, while read and write
+  /// continue. Gives up when `stop` is set. The device stays lost until a re-arm.
   virtual void reopen(const std::atomic<bool>& /*stop*/) {}
 
-  /// A simulated hand that looks: asks for the bodies' poses in see(), called before read. No hardware does.
+  /// True for a simulated hand that needs the bodies' poses; it gets them in see(), before read. False for hardware.
   virtual bool looks() const { return false; }
   virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}
 
-  /// A finger that somebody moves in the window: asks for the pointer's state in point(), called before read. No hardware does.
+  /// True for a finger moved with the mouse; it gets the pointer's state in point(), before read. False for hardware.
   virtual bool points() const { return false; }
   virtual void point(const PointerState& /*pointer*/, const Tick& /*tick*/) noexcept {}
 
-  /// What moves the finger where no person does, to be shown with every number that comes of it: "simulated subject, level
-  /// L1: a model, not a person"; empty: a person.
+  /// Name of the model that moves the finger, shown with all results: "simulated subject, level L1: a model, not a
+  /// person". Empty: a person moves it.
   virtual std::string model() const { return {}; }
-  /// What there is to know of that model: its traits.
+  /// Parameters of that model, for the data of the run.
   virtual std::vector<DeviceFact> facts() const { return {}; }
-  /// Names of the phases that FingerInput::phase counts; empty for a real hand.
+  /// Names of the phases of a scripted motion, indexed by FingerInput::phase; empty for a real hand.
   virtual std::vector<std::string> phases() const { return {}; }
-  /// Start times of those phases [s], one more for the end; empty for a real hand.
+  /// Start times of those phases, then the end of the last one [s]; empty for a real hand.
   virtual std::vector<double> phaseTimes() const { return {}; }
-  /// Viscous damping b of device plus hand that the stiffness bound K <= (b + B) / ((d + 1/2) T) may count on [N s/m].
+  /// Viscous damping b of device plus hand for the stiffness bound K <= (b + B) / ((d + 1/2) T) [N s/m]; 0: unknown.
   virtual double damping() const { return 0; }
-  /// Lines worth telling the user at start ("finger damping raised to 10 N s/m for 10 N/mm").
+  /// Notes for the user, shown at start ("finger damping raised to 10 N s/m for 10 N/mm").
   virtual std::vector<std::string> notes() const { return {}; }
 };
 

@@ -43,7 +43,7 @@ std::vector<std::string> DeviceInput::stages() const {
 
 namespace {
 
-// What `presa explain` shows; each finger keeps to its own.
+// The shortest watchdog, which `presa explain` shows; step() uses each finger's own.
 double firstWatchdog(const std::vector<FingerSafety>& safety) {
   double first = In<ObjectState>::kNever;
   for (const FingerSafety& finger : safety) first = std::min(first, finger.watchdog);
@@ -75,7 +75,7 @@ OutputStage::Trust DeviceOutput::trust(std::size_t finger, const Tick& tick) con
 }
 
 void DeviceOutput::step(const Tick& tick) noexcept {
-  // the machine's sleep is not in the tick's time
+  // tick.time does not count the time for which the machine was suspended
   const double elapsed = tick.resumed ? std::max(tick.time - last_tick_.time, Executor::kGap) : tick.period;
   last_tick_ = tick;
   ForceCommand& command = command_.value;
@@ -105,12 +105,13 @@ void DeviceOutput::step(const Tick& tick) noexcept {
   rearms_ = device_->rearms;
 }
 
-// A device that gets many forces at one instant feels only the last: as one step, and past the slew limit.
+// Catch-up ticks are not written: the device would receive many forces at one instant, in effect one step past the slew
+// limit.
 void DeviceOutput::send(std::size_t finger, const Tick& tick) noexcept {
   if (!tick.made_up) devices_[finger]->write(command_.value.f_H_W[finger], tick);
 }
 
-// One event when a bit comes up, not one per tick.
+// One event when a bit is newly set, not one per tick.
 void DeviceOutput::report(std::size_t finger, std::uint32_t before, std::uint32_t now, double time) noexcept {
   const std::uint32_t risen = now & ~before & (kOutputLatches | kOutputWatchdog | kOutputWarm | kOutputOverload);
   if (risen != 0) events_.push({time, static_cast<std::int32_t>(finger), risen});
@@ -118,7 +119,7 @@ void DeviceOutput::report(std::size_t finger, std::uint32_t before, std::uint32_
 
 void DeviceOutput::stop() {
   Tick tick = last_tick_;
-  tick.made_up = false;  // these are written
+  tick.made_up = false;  // the ticks of this fade are written
   for (bool moving = true; moving;) {
     moving = false;
     ++tick.index;

@@ -20,14 +20,14 @@ namespace presa {
 /// The devices of a run, in the order of the scene's roles. Opened and closed by the program's main thread.
 using DeviceList = std::vector<std::unique_ptr<Device>>;
 
-/// Something went wrong while running. Carried to the main thread by a ring.
+/// A fault of the output stage during a run. A ring carries it to the main thread.
 struct FaultEvent {
   double time = 0;  ///< [s]
   std::int32_t finger = -1;
-  std::uint32_t status = 0;  ///< the OutputStatus bit that came up
+  std::uint32_t status = 0;  ///< the OutputStatus bits that were newly set
 };
 
-/// First module of the haptic group: reads every device into one Device State, and believes none of them unchecked.
+/// First module of the haptic group: reads every device, checks each sample (SampleCheck) and writes the Device State.
 class DeviceInput final : public Module {
  public:
   DeviceInput(DeviceList& devices, const RunControl& control);
@@ -43,20 +43,21 @@ class DeviceInput final : public Module {
   Out<DeviceState> state_{*this, "device_state"};
 };
 
-/// The output stages and the devices behind them. Reads the ages of what the command was made from.
+/// Last module of the haptic group: passes each finger's force through its OutputStage and writes it to the device. The
+/// ages of the sample, the contact patches and the Object State decide how far the stage trusts the command.
 class DeviceOutput final : public Module {
  public:
-  /// `safety`: as `devices`. `rates`: of the scene. `realtime`: the last fade, after the run, keeps the pace of the clock.
+  /// `safety`: one entry per device. `rates`: the scene's. `realtime`: stop() paces its last fade by the clock.
   DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>& safety, const Rates& rates, bool realtime);
   void step(const Tick& tick) noexcept override;
-  /// Takes every force down to zero within the slew limit, then lets go.
+  /// After the last tick: takes every force down to zero within the slew limit.
   void stop() override;
   std::vector<std::string> stages() const override;
 
   /// Main thread: the next fault or watchdog event; false when there is none.
   bool nextEvent(FaultEvent& event) noexcept { return events_.pop(event); }
 
-  /// A device that gives no sample is at zero force after this [s], where slew allows it.
+  /// A device without samples is at zero force after this time [s], if the slew limit allows it.
   static constexpr double kSilentZero = 0.005;
 
  private:

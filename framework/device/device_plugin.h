@@ -9,15 +9,15 @@
 #include "framework/device/device_rating.h"
 #include "framework/scene/world.h"
 
-/// The table of a driver, a plug-in under devices/ (see plugin_loader.h).
+/// The table that a driver, a plug-in under devices/, exports with PRESA_DEVICE_PLUGIN (see plugin_loader.h).
 namespace presa {
 
-/// What a driver finds when it is asked how its devices are: one line each, good news too.
+/// One result of DevicePlugin::diagnose about a device or the computer; good results are reported, too.
 struct DeviceFinding {
   enum class Verdict : std::uint8_t { kFine, kWarning, kProblem };
   Verdict verdict = Verdict::kFine;
   int code = 0;         ///< as in Diagnostic; 0: none
-  std::string device;   ///< which one: a serial number, a port; empty: the computer, or the rig
+  std::string device;   ///< the device's serial number or port; empty: the computer, or the rig
   std::string message;  ///< one line
   std::string help;     ///< what to do; may be empty
 };
@@ -26,22 +26,24 @@ struct DevicePlugin {
   int abi = kPluginAbi;
   const char* name;
   const char* summary;
-  /// Checks binding.settings (all findings to `diagnostics`); null when something is wrong.
+  /// Creates the device without touching hardware. Checks binding.settings (all findings to `diagnostics`); null when
+  /// a setting is wrong. Thread: main.
   std::unique_ptr<Device> (*create)(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
-  /// Looks for its hardware and at what may be wrong with it; moves nothing. The binding may be empty: then at every device.
-  /// Thread: main; may take a second a device. Null: no hardware.
+  /// Looks for its hardware and reports problems; moves nothing. An empty binding means every device of this driver.
+  /// Thread: main; may take a second per device. Null: no hardware.
   std::vector<DeviceFinding> (*diagnose)(const DeviceBinding& binding) = nullptr;
-  /// The line of a udev rule that lets a user open its hardware; null: none needed.
+  /// Line of a udev rule that lets a user open the hardware; null: none needed.
   const char* udev_rule = nullptr;
-  DeviceRating rating = {};  ///< of its hardware, or of the hardware that it models; unsound: E655
-  /// Moves something real: in real time it lives in a process of its own (framework/device/supervision), with a world that holds its binding
-  /// and its role, and nothing else.
+  DeviceRating rating = {};  ///< of its hardware, or of the hardware that it models; E655 unless isSound()
+  /// True if the driver moves real hardware. In real time it then runs in a process of its own
+  /// (framework/device/supervision), where `world` holds only its binding and its role.
   bool hardware = false;
-  /// What somebody has to do while it opens, in one sentence; null: nothing.
+  /// What the user has to do while the device opens, in one sentence; null: nothing.
   const char* while_opening = nullptr;
 };
 
-/// The table of a driver. Loads its plug-in; throws InputError when that cannot be done.
+/// The table of a driver. Loads its plug-in. Throws InputError when it cannot be loaded, or when its rating is not
+/// sound (E655).
 const DevicePlugin& devicePlugin(const std::string& driver);
 
 }  // namespace presa

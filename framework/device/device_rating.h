@@ -4,33 +4,35 @@
 
 namespace presa {
 
-/// What a driver's hardware can bear, and what a hand is to meet from it. It stands in the driver's code: no file can widen it (README.md
-/// says who may set what). The default is careful: it holds for a driver that says nothing.
+/// Limits of a driver's hardware and of the forces that a hand may meet from it. They stand in the driver's code; scene
+/// and rig can only tighten them (LIMITS.md lists who may set what). The careful defaults hold for a driver that states
+/// no rating.
 struct DeviceRating {
-  double force = 5;                                             ///< nominal, for a short while [N]
+  double force = 5;                                             ///< nominal force, for a short time [N]
   double force_rate = 1000;                                     ///< fastest change of the force [N/s]
-  double continuous = std::numeric_limits<double>::infinity();  ///< for as long as one likes [N]; infinite: as `force`
+  double continuous = std::numeric_limits<double>::infinity();  ///< force for unlimited time [N]; infinite: `force`
   double heating_time = 60;                                     ///< time constant of the motors' heat [s]
-  double speed = 1;                                             ///< at which the device must not push a hand on [m/s]
-  double soft_start = 0.5;                                      ///< shortest way from zero to the full force [s]
-  double watchdog = 0.1;  ///< oldest Object State that a force may be made from [s]: two periods at 20 Hz
+  double speed = 1;                                             ///< no force may push a hand that is faster [m/s]
+  double soft_start = 0.5;                                      ///< shortest time from zero to the full force [s]
+  double watchdog = 0.1;  ///< oldest Object State that a force may be computed from [s]: two periods at 20 Hz
   enum class Behind : std::uint8_t {
-    kMotors,   ///< a hand may be held by them
-    kModel,    ///< of motors: limited as they are, unless a study wants to see them overloaded
-    kNothing,  ///< the finger is imagined
+    kMotors,   ///< real motors, which may hold a hand
+    kModel,    ///< a model of motors: same limits, unless a study records their overload
+    kNothing,  ///< no motors: the finger is simulated
   };
   Behind behind = Behind::kMotors;
 
-  /// The slowest way from any force to zero [s]. With the 5 ms for which a supervisor holds a dead program's last command, two more
-  /// for its being late, and a cycle, a force is gone 20 ms after whatever happened.
+  /// Longest time that the slew limit may take from any force to zero [s]. A supervisor holds a dead program's last
+  /// command for 5 ms; with 2 ms for delays and one cycle, the force is zero within 20 ms of any failure.
   static constexpr double kSlowestDecay = 0.012;
 };
 
-/// Of fingers that only a computer moves: generous, and finite, so that nothing overflows.
+/// Rating of simulated fingers: generous, but finite, so that nothing overflows.
 inline constexpr DeviceRating kImaginedRating{
     .force = 1000, .force_rate = 1e6, .speed = 1000, .watchdog = 10, .behind = DeviceRating::Behind::kNothing};
 
-/// All of it is finite and more than zero (`continuous` may be infinite), and zero is reached in time from any force.
+/// True if all values are finite (`continuous` may be infinite) and above zero, and the slew limit takes any force to
+/// zero within kSlowestDecay.
 constexpr bool isSound(const DeviceRating& rating) noexcept {
   const auto good = [](double value) { return value > 0 && value <= std::numeric_limits<double>::max(); };
   return good(rating.force) && good(rating.force_rate) && rating.continuous > 0 && good(rating.heating_time) &&

@@ -5,7 +5,7 @@
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/scene/scene.h"
 
-/// Reading the settings that a rig gives a device; for every driver. Thread: before a run.
+/// Helpers for drivers that read the settings a rig gives a device. Thread: main, before a run.
 namespace presa {
 
 /// Reports settings that the driver does not know (E401).

@@ -26,7 +26,7 @@ std::string text(const char* pattern, const std::string& role, Numbers... number
   return line.data();
 }
 
-/// Puts one wish after another between what the rating bears and what leads to zero in time, and says what it took.
+/// Clamps each limit of scene and rig to the rating and to the slowest allowed decay, and reports every change.
 class Lowering {
  public:
   Lowering(const DeviceRole& wanted, const DeviceBinding& bound, const DeviceRating& rating,
@@ -96,7 +96,7 @@ class Lowering {
     return rating_.watchdog;
   }
 
-  /// The rig may tighten the rating, not widen it.
+  /// The rig may tighten the rating but not widen it (W651).
   double allowedUpTo(const char* name, const std::optional<double>& allowed, double rated, const char* unit) {
     if (!allowed || *allowed <= rated) return allowed.value_or(rated);
     findings_.warning(kRigPastRating, bound_.where,

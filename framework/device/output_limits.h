@@ -10,31 +10,33 @@
 
 namespace presa {
 
-/// What the output stage of one finger keeps to.
+/// Limits that the output stage of one finger enforces.
 struct OutputLimits {
   double force = 8;          ///< magnitude [N]
   double force_rate = 1000;  ///< slew [N/s]
   double soft_start = 0.5;   ///< from zero to full force at start, after a watchdog and after a re-arm [s]
   double fade_out = 0.02;    ///< from full force to zero [s]
-  double continuous = std::numeric_limits<double>::infinity();  ///< [N]
-  double heating_time = 60;                                     ///< [s]
-  bool records_overload = false;                                ///< past `continuous` is an event, not a limit
-  double speed = std::numeric_limits<double>::infinity();       ///< [m/s]
-  bool passivity = false;                                       ///< the hand may get no net energy
+  double continuous = std::numeric_limits<double>::infinity();  ///< force for unlimited time [N]
+  double heating_time = 60;                                     ///< time constant of the motors' heat [s]
+  bool records_overload = false;                                ///< a force above `continuous` is only reported
+  double speed = std::numeric_limits<double>::infinity();       ///< over-speed trip [m/s]
+  bool passivity = false;                                       ///< the hand may receive no net energy
 };
 
-/// What the output stage of one finger keeps to, and when it stops to trust the dynamics.
+/// Limits of one finger's output stage, and the age from which it no longer trusts the dynamics.
 struct FingerSafety {
   OutputLimits limits;
   double watchdog = ages::kFloor;  ///< age of the Object State at which the force fades [s]
 };
 
-/// The rating alone: for those who hold it whatever a scene and a rig say.
+/// The limits of the rating alone, for code that enforces it independently of scene and rig (supervisor, transport
+/// watch).
 OutputLimits limitsOf(const DeviceRating& rating) noexcept;
 
-/// The smallest of what the scene wants, the rig allows and the device can bear. Where the rig says nothing, half of the nominal
-/// force is allowed. The slew is never so slow that zero takes longer than DeviceRating::kSlowestDecay.
-/// What is taken from a wish is said: to `findings` what goes past the rating (W650 to W654), to `notes` what one may wonder about.
+/// The limits of one finger: for each, the smallest of the scene's wish, the rig's limit and the device's rating. If
+/// the rig sets no force limit, motors and models get half of their nominal force. The slew limit is raised if zero
+/// would take longer than DeviceRating::kSlowestDecay. Reports W650 to W654 to `findings` for values beyond the rating,
+/// and appends a note for every limit that was lowered to `notes`. Thread: main.
 FingerSafety safetyFor(const DeviceRole& wanted, const DeviceBinding& bound, const DeviceRating& rating,
                        std::vector<std::string>& notes, Diagnostics& findings);
 

@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-// Of a place [m] or a velocity [m/s] with which one can reckon.
+// Whether a position [m] or a velocity [m/s] is finite and below 1000 in every component.
 bool plausible(const Vec3& v) { return v.allFinite() && v.cwiseAbs().maxCoeff() < 1e3; }
 
 }  // namespace
@@ -37,7 +37,7 @@ void OutputStage::rearm() noexcept {
   hurrying_ = false;
 }
 
-// What latches. A hand that is fast by itself is nobody's fault: only one that the force drives on.
+// Latches faults. Over-speed needs two ticks in a row and a force along the motion: a hand may be fast on its own.
 void OutputStage::judge(const Input& input) noexcept {
   if (!input.command.allFinite()) latches_ |= kOutputNotFinite;
   if (input.lost) latches_ |= kOutputLost;
@@ -50,7 +50,7 @@ void OutputStage::judge(const Input& input) noexcept {
   status_ |= latches_;
 }
 
-// Scaled by the largest component first: the square of 1e308 would overflow.
+// Scales by the largest component first: the square of 1e308 would overflow.
 Vec3 OutputStage::bounded(Vec3 force, double most, OutputStatus sign) noexcept {
   if (const double largest = force.cwiseAbs().maxCoeff(); largest > most) {
     force *= most / largest;

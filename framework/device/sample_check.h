@@ -5,15 +5,16 @@
 
 namespace presa {
 
-/// What a device says of a finger, before anybody believes it. Not finite, or further from the last good sample than a hand gets: such
-/// a sample is rejected, the second in a row latches. A sample that is missing, rejected or old is bridged by the one before, at
-/// rest, for kHold; after that the finger is not valid. Thread: haptic; nonblocking.
+/// Checks the samples of one device. A sample that is not finite, or farther from the last good one than a hand can
+/// move, is rejected; the second rejection in a row latches. A missing, rejected or old sample is bridged for kHold by
+/// the last good position with zero velocity; after that the finger is not valid. Thread: haptic; nonblocking.
 class SampleCheck {
  public:
-  static constexpr double kFastest = 20;        ///< faster than a hand throws [m/s]
-  static constexpr double kHold = 1e-3 + 1e-9;  ///< since the sample was due [s]
+  static constexpr double kFastest = 20;        ///< speed that no hand reaches [m/s]
+  static constexpr double kHold = 1e-3 + 1e-9;  ///< longest age of a sample that is used or bridged [s]
 
-  /// What the rest of the graph is to work with; `lost`: until a re-arm.
+  /// Takes the device's sample, returns the checked one. `period`: since the last call [s]. `lost` stays set until
+  /// rearm().
   FingerInput take(FingerInput input, double period) noexcept {
     since_ += period;
     const bool rejected = input.valid && !possible(input);
@@ -32,7 +33,7 @@ class SampleCheck {
     return input;
   }
   bool latched() const noexcept { return latched_; }
-  /// The place is believed anew.
+  /// Clears the latch and accepts the next finite position, wherever it is.
   void rearm() noexcept {
     latched_ = doubted_ = false;
     good_.valid = false;
@@ -44,7 +45,7 @@ class SampleCheck {
     return !good_.valid || (input.p_WH - good_.p_WH).norm() <= kFastest * since_;
   }
   FingerInput good_;
-  double since_ = 0;  // the last good one [s]
+  double since_ = 0;  // age of the last good sample [s]
   bool doubted_ = false, latched_ = false;
 };
 

@@ -4,20 +4,21 @@
 
 namespace presa {
 
-/// How warm the force of one finger has made its motors, as a share of the rise that the continuous rating allows: first order in
-/// the square of the force, heat' = ((F / continuous)^2 - heat) / heating_time. Thread: haptic; nonblocking.
+/// Thermal model of one finger's motors: heat is the temperature rise as a share of the rise that the continuous rating
+/// allows, first order in the square of the force: heat' = ((F / continuous)^2 - heat) / heating_time. The step is
+/// exact for a force held over the period. Thread: haptic; nonblocking.
 class ThermalBudget {
  public:
-  /// [N], [s]; infinite: never warm.
+  /// `continuous` [N], infinite: never warm; `heating_time`: time constant [s].
   ThermalBudget(double continuous, double heating_time) : continuous_(continuous), heating_time_(heating_time) {}
 
-  /// `force`: that was held over the period [N].
+  /// `force`: magnitude held over `period` [N], [s].
   void step(double force, double period) noexcept {
     const double load = force / continuous_;
     heat_ += -std::expm1(-period / heating_time_) * (load * load - heat_);
   }
   double heat() const noexcept { return heat_; }
-  /// The force that may be given now: any while cool, in the last tenth less and less, hot the continuous one.
+  /// The largest force allowed now [N]: `peak` up to a heat of 0.9, then falling, `continuous` at a heat of 1.
   double most(double peak) const noexcept {
     if (!(peak > continuous_)) return peak;
     const double room = std::clamp((1 - heat_) / kFold, 0.0, 1.0);

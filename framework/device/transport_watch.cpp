@@ -11,7 +11,7 @@ namespace presa {
 namespace {
 
 constexpr double kRounding = 1e-9;
-constexpr double kGone = 0.02;  // what is on its way down may take its time, once [s]
+constexpr double kGone = 0.02;  // a force may take this long to zero after the device is lost [s]
 
 class TransportWatch final : public WrappedDevice {
  public:

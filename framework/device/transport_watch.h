@@ -7,10 +7,12 @@
 
 namespace presa {
 
-/// Between the output stage and a device, in tests: looks at every force that is sent, with eyes of its own, and ends the process with a
-/// message when one is not finite, above the limit, further from the one before than the slew limit allows, not zero before the
-/// first usable sample, or not zero 20 ms after the device was lost. Whatever `limits` became of scene and rig, `rating` holds. `./dev test` puts it before every device of every test
-/// (PRESA_WATCH_TRANSPORT); otherwise the device is returned as it is. Thread: haptic; nonblocking.
+/// Test probe between the output stage and a device. Checks every force that is sent and aborts the process with a
+/// message when one is not finite, above the limit, changed faster than the slew limit, not zero before the first
+/// usable sample, not zero right after a gap (Tick::resumed), or not zero 20 ms after the device was lost. The smaller
+/// of `limits` and `rating` holds, so that a wrong `limits` cannot hide a fault. `./dev test` puts the probe in front
+/// of every device of every test (environment variable PRESA_WATCH_TRANSPORT); otherwise `device` is returned as it is.
+/// Thread: haptic; nonblocking.
 std::unique_ptr<Device> watched(std::unique_ptr<Device> device, const OutputLimits& limits, const DeviceRating& rating,
                                 const RunControl& control);
 

@@ -5,7 +5,7 @@
 
 namespace presa {
 
-/// A device with something around it: everything passes through but what a class of its own changes.
+/// Decorator base: forwards every call to the wrapped device; a subclass overrides the calls that it changes.
 class WrappedDevice : public Device {
  public:
   explicit WrappedDevice(std::unique_ptr<Device> device) : device_(std::move(device)) {}

@@ -2,11 +2,11 @@
 
 namespace presa {
 
-/// What the program asks of the module that puts bodies together. Thread: any.
+/// Requests of the program to the module that assembles bodies. Thread: any.
 class AssemblyControl {
  public:
   virtual ~AssemblyControl() = default;
-  /// Takes out the body that was put last, at the module's next step.
+  /// Removes the body that was placed last, at the module's next step.
   virtual void undo() noexcept = 0;
 };
 

@@ -27,7 +27,7 @@ std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostic
   return overrides;
 }
 
-/// The scene with softer materials, as if --set had asked for them: a recording holds what was felt.
+/// Lowers stiffnesses above the stability bound as --set would, so that a recording holds the rendered values.
 void boundStiffness(Loaded& loaded, const DeviceList& devices, Diagnostics& diagnostics) {
   World world = *loaded.world;
   const auto lowered = boundedMaterials(world.scene, stiffnessBound(devices, loaded.plan, world.scene), diagnostics);
@@ -42,17 +42,17 @@ Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics
   loaded.plan = makePlan(scene, rig, options, diagnostics);
   if (options.realtime && options.flight.empty() && !options.hardware_flight.empty() && drivesHardware(loaded.plan)) {
     options.flight = options.hardware_flight;
-    Diagnostics said;  // all of it already
+    Diagnostics said;  // discarded: the first plan has reported the same findings
     loaded.plan = makePlan(scene, rig, options, said);
   }
   if (options.realtime) checkCommandRate(scene, rig, loaded.plan, diagnostics);
-  // meshes are read even when the scene has findings of its own: the user sees all at once
+  // meshes are read even if the scene has findings, so that the user sees all findings at once
   loaded.world =
       std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
   if (diagnostics.hasErrors()) return loaded;
   const DeviceList devices = createDevices(*loaded.world, loaded.plan, diagnostics);
   if (!diagnostics.hasErrors()) {
-    std::vector<std::string> notes;  // for those who run it
+    std::vector<std::string> notes;  // discarded: Session collects them for the run
     safetyOf(*loaded.world, notes, diagnostics);
   }
   if (!diagnostics.hasErrors() && loaded.world->options.bound_stiffness) boundStiffness(loaded, devices, diagnostics);
@@ -64,13 +64,13 @@ struct SceneAndRig {
   Rig rig;
 };
 
-/// None where there is nothing that more findings could be about.
+/// None if the scene could not be read or names a forbidden rig file: then there is nothing more to check.
 std::optional<SceneAndRig> readSceneAndRig(const Inputs& inputs, const RunOptions& options, Diagnostics& diagnostics) {
   const std::vector<Override> overrides = parseSets(inputs.sets, diagnostics);
   Scene scene = loadScene(inputs.scene, overrides, diagnostics);
   const std::string rig_file = inputs.rig.empty() ? scene.default_rig : inputs.rig;
   Rig rig;
-  const bool named = inputs.rig.empty() && !rig_file.empty();  // by the scene, not by a person
+  const bool named = inputs.rig.empty() && !rig_file.empty();  // by the scene, not by the user
   if (named && !input::checkNamed({inputs.scene, 0, 0}, rig_file, diagnostics)) return std::nullopt;
   if (!rig_file.empty()) rig = loadRig(rig_file, diagnostics);
   if (inputs.rig.empty() && !options.bus && rig.bus && opensMoreThanASceneMay(*rig.bus))

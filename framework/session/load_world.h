@@ -8,10 +8,10 @@
 
 namespace presa {
 
-/// What the command line names.
+/// Files and overrides that the command line names.
 struct Inputs {
   std::string scene;
-  std::string rig;                ///< empty: the scene's own
+  std::string rig;                ///< empty: the rig that the scene names
   std::vector<std::string> sets;  ///< PATH=VALUE
 };
 
@@ -20,14 +20,14 @@ struct Loaded {
   Plan plan;
 };
 
-/// Scene, overrides, rig, meshes and plan; drivers and their settings are checked too. All findings go to `diagnostics`;
-/// the result is usable only when that has no errors.
+/// Reads scene, overrides, rig and meshes and makes the plan; checks drivers and their settings, too. All findings go
+/// to `diagnostics`; the result is usable only if it has no errors. Thread: main.
 Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics);
 
-/// Names of the plug-ins that such a run would load. Loads none of them and reads no mesh. Findings as loadWorld.
+/// Names of the plug-ins that a run of these inputs would load. Loads no plug-in, reads no mesh. Findings as loadWorld.
 std::vector<std::string> plugInsFor(const Inputs& inputs, const RunOptions& options, Diagnostics& diagnostics);
 
-/// As loadWorld, from a recording.
+/// As loadWorld, from the texts of a recording.
 Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_name, const std::string& rig_xml,
                          RunOptions options, Diagnostics& diagnostics);
 

@@ -12,10 +12,10 @@ namespace presa {
 
 struct ModulePlugin {
   int abi = kPluginAbi;
-  const char* name;     ///< folder name
+  const char* name;     ///< name of its folder
   const char* summary;  ///< one line for --help and explain
   std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world);
-  std::string (*library)() = nullptr;  ///< what does its work: "ODE 0.16.2"; null: nothing but Presa
+  std::string (*library)() = nullptr;  ///< outside library and version: "ODE 0.16.2"; null: none
 };
 
 }  // namespace presa

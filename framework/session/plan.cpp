@@ -6,7 +6,7 @@ namespace presa {
 namespace {
 
 constexpr double kFastestRealTime = 10000;  // [Hz]
-/// The haptic tick goes through so many bodies in less time than it takes to look into a list of those near.
+/// The haptic tick tests up to this many bodies faster than it reads a list of near ones.
 constexpr std::size_t kFewTouchables = 32;
 
 template <class Wanted>

@@ -8,7 +8,7 @@
 
 namespace presa {
 
-/// One plug-in that a run loads, and why.
+/// One plug-in that a run loads, and the reason.
 struct PlannedModule {
   std::string plugin;  ///< folder name
   RateGroup group = RateGroup::kHaptic;
@@ -19,7 +19,7 @@ struct PlannedDevice {
   std::string role, driver;
 };
 
-/// What a scene calls for, and nothing else. Pure decision: loads and starts nothing.
+/// The plug-ins and drivers that a scene needs, and no others. Plain data: nothing is loaded or started yet.
 struct Plan {
   std::vector<PlannedModule> modules;
   std::vector<PlannedDevice> devices;  ///< in the order of the scene's roles

@@ -28,7 +28,7 @@ const ForceCommand* commandOf(const Graph& graph) {
   return nullptr;
 }
 
-/// A finger of a recording: gives the recorded samples, ignores forces.
+/// A finger of a recording: returns the recorded samples, ignores forces.
 class RecordedFinger final : public Device {
  public:
   RecordedFinger(const Recording& recording, std::size_t finger) : recording_(recording), finger_(finger) {}
@@ -96,7 +96,7 @@ class Replayer {
     constexpr std::size_t kHistoryBytes = 32u << 20;
     graph.keepHistory(kHistoryBytes);
     for (RateGroup group : kGroups) graph.start(group);
-    // each group goes on while what its next tick read has been written: some order of the original run
+    // each group advances as soon as the versions of its next tick are published: a possible order of the original run
     bool moved = true;
     while (moved) {
       moved = false;
@@ -133,7 +133,7 @@ class Replayer {
     return true;
   }
 
-  /// With the versions in the order of the replay's inputs.
+  /// The recorded row with its versions in the order of the replay's inputs.
   static ScheduleRow inOrder(const ScheduleRow& recorded, const std::vector<std::size_t>& columns) {
     ScheduleRow row = recorded;
     for (std::size_t i = 0; i < columns.size(); ++i) row.versions[i] = recorded.versions[columns[i]];
@@ -170,7 +170,7 @@ DeviceList devicesOf(const Recording& recording) {
   return devices;
 }
 
-/// A session without devices of its own would open those of the rig: nothing is run whose fingers are not those of the scene.
+/// Checks that the recording has the fingers of its scene. Without them, the session would open the devices of the rig.
 void checkBelongs(const Recording& recording, const Scene& scene, Diagnostics& diagnostics) {
   const auto compare = [&](const std::string& what, auto recorded, auto in_scene) {
     if (recorded == in_scene) return;
@@ -192,7 +192,7 @@ void checkBelongs(const Recording& recording, const Scene& scene, Diagnostics& d
   }
 }
 
-/// What changed on the way does so again; modules only where something did.
+/// Modules that repeat the recorded changes; none if nothing changed during the run.
 std::vector<std::unique_ptr<Module>> changesOf(const Recording& recording) {
   std::vector<std::unique_ptr<Module>> changes;
   const auto& changed = recording.surfaces_changed;
@@ -211,8 +211,8 @@ bool readsUnconnected(const Graph& graph, RateGroup group, const std::string& na
   return false;
 }
 
-/// By group, for each value that the replay reads across rates: its column of versions in the recording. Recorded names
-/// that the replay reads within the group (commands) or not at all (the pointer in the window) are ignored.
+/// For each group and each value that the replay reads across rates: its column of versions in the recording. Recorded
+/// names that the replay reads within the group (commands) or not at all (the pointer in the window) are ignored.
 ScheduleColumns columnsOf(const Recording& recording, const Graph& graph, Diagnostics& diagnostics) {
   ScheduleColumns columns;
   const ScheduleInputs replayed = graph.scheduleInputs();
@@ -247,7 +247,7 @@ RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) :
   RunOptions options;
   options.seed = recording.seed;
   options.force_share = recording.force_share;
-  options.bus = BusSettings{.network = "none"};  // what is run again is not on show
+  options.bus = BusSettings{.network = "none"};  // a replay is not published
   options.bus_commands = !recording.commands.empty();
   loaded_ = loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
   if (!diagnostics.hasErrors()) checkBelongs(recording, loaded_.world->scene, diagnostics);

@@ -15,31 +15,32 @@ namespace presa {
 struct ReplayResult {
   std::uint64_t ticks = 0;        ///< haptic ticks replayed, each compared
   std::uint64_t recorded = 0;     ///< haptic ticks of the recording
-  std::size_t fingers = 0;        ///< of every tick, each compared
-  std::uint64_t differing = 0;    ///< of these, with a commanded force that is not the same to the bit
-  double first_difference = -1;   ///< time of the first [s]
+  std::size_t fingers = 0;        ///< fingers per tick, each compared
+  std::uint64_t differing = 0;    ///< ticks with a commanded force that is not the same to the bit
+  double first_difference = -1;   ///< time of the first differing tick [s]
   double largest_difference = 0;  ///< [N]
   std::string problem;            ///< why the replay could not go to the end; empty when it did
 
-  /// Every commanded force of the recording was compared, there was one, and all are the same.
+  /// True if every commanded force of the recording was compared, there was at least one, and all are the same.
   bool verified() const { return problem.empty() && ticks == recorded && ticks > 0 && fingers > 0 && differing == 0; }
 };
 
-/// By group, for each of its inputs across rates: the column of a recording's schedule that holds its versions.
+/// For each group and each of its inputs across rates: the column of the recorded schedule that holds its versions.
 using ScheduleColumns = std::array<std::vector<std::size_t>, kScheduledGroupCount>;
 
-/// A recorded run once more, on this thread: the same scene, rig, seed and share of force, with the recorded samples for devices, and with
-/// what experiments and commands changed on the way. It is on no bus. Thread: one.
+/// Runs a recorded run again on the calling thread: the same scene, rig, seed and force share, with the recorded
+/// samples in place of devices, and with the recorded changes of experiments and commands. It is on no bus. Thread:
+/// one.
 class RecordedRun {
  public:
-  /// `recording`, as RecordPlugin::read gave it, outlives this. Findings of its scene go to `diagnostics`; E677 when scene
-  /// and recording do not match; E678 when the recording does not say which version of an input was read. With errors
-  /// there is nothing to run. Throws InputError.
+  /// `recording` comes from RecordPlugin::read and outlives this. Findings of its scene go to `diagnostics`; E677 when
+  /// scene and recording do not match; E678 when the recording does not hold the versions of an input. With errors,
+  /// run() must not be called. Throws InputError.
   RecordedRun(const Recording& recording, Diagnostics& diagnostics);
-  /// Every recorded tick of every rate group, each reading exactly the versions that it read then; compares the commanded forces bit by
-  /// bit. Once.
+  /// Replays every recorded tick of every rate group with exactly the recorded versions of its inputs, and compares the
+  /// commanded forces bit by bit. Call once.
   ReplayResult run();
-  /// Of the states that came again.
+  /// Hash of the replayed states.
   std::uint64_t stateHash() const { return session_->monitor().hash(); }
   const Monitor& monitor() const { return session_->monitor(); }
   const std::shared_ptr<const World>& world() const { return loaded_.world; }

@@ -13,7 +13,7 @@
 namespace presa {
 namespace {
 
-/// Null where the rig has none for the role.
+/// Null if the rig has no device for the role.
 const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
   const auto found = std::find_if(rig.devices.begin(), rig.devices.end(),
                                   [&](const DeviceBinding& binding) { return binding.role == role; });
@@ -63,7 +63,8 @@ std::vector<std::string> engineVersions(const Plan& plan) {
 
 namespace {
 
-/// Of the driver that the rig names; of an imagined finger where it names none: a replay and a study bring devices of their own.
+/// The rating of the driver that the rig names, or kImaginedRating without one: replays and studies bring their own
+/// devices.
 const DeviceRating& ratingOf(const DeviceBinding* binding) {
   return binding == nullptr ? kImaginedRating : devicePlugin(binding->driver).rating;
 }
@@ -83,7 +84,7 @@ std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>&
 
 Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
     : devices_(std::move(options.devices)) {
-  Diagnostics said;  // when the world was loaded
+  Diagnostics said;  // discarded: reported when the world was loaded
   const std::vector<FingerSafety> safety = safetyOf(*world, notes_, said);
   if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);
   if (options.wrap) devices_ = options.wrap(std::move(devices_));

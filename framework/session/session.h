@@ -15,19 +15,19 @@ namespace presa {
 
 struct DevicePlugin;
 
-/// Names and versions of the libraries that the plan's modules work with: "ODE 0.16.2". Loads the plug-ins.
+/// Names and versions of the libraries that the plan's modules use: "ODE 0.16.2". Loads the plug-ins.
 std::vector<std::string> engineVersions(const Plan& plan);
 
-/// A planned run brought to life: plug-ins loaded, devices opened, graph built and frozen.
-/// Thread: main. The executor runs graph(); everything else is read after it, or through atomics.
+/// A run ready to start: plug-ins loaded, devices opened, graph built and frozen.
+/// Thread: main. The executor runs graph(); everything else is read after the run, or through atomics.
 class Session {
  public:
   struct Options {
     double trace_rate = 0;                      ///< samples per second for plots; 0: none
     DeviceList devices;                         ///< replay: used instead of the rig's drivers
-    bool open_devices = true;                   ///< explain: looks at the drivers without touching hardware
-    std::vector<std::unique_ptr<Module>> more;  ///< the program's own taps
-    /// What the program puts around the rig's devices once they are open; none: nothing.
+    bool open_devices = true;                   ///< false (explain): loads the drivers without touching hardware
+    std::vector<std::unique_ptr<Module>> more;  ///< the program's own observer modules
+    /// Wraps the rig's devices once they are open; empty: they stay as they are.
     std::function<DeviceList(DeviceList)> wrap;
   };
   /// Throws InputError with every finding.
@@ -38,16 +38,16 @@ class Session {
 
   Graph& graph() noexcept { return graph_; }
   const DeviceList& devices() const noexcept { return devices_; }
-  /// Main thread, while the graph runs: opens again what was lost, each device for itself. What stays lost is in the findings.
+  /// Main thread, while the graph runs: reconnects each lost device. Returns the findings about devices that stay lost.
   std::vector<Diagnostic> reopenDevices(const std::atomic<bool>& stop);
-  /// Lines worth telling the user about the limits that hold.
+  /// Notes for the user about the limits in force.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
   DeviceOutput* output() noexcept { return output_; }  ///< null without devices
   const Monitor& monitor() const noexcept { return *monitor_; }
   Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
   View* view() noexcept { return view_; }                     ///< null without a view
-  AssemblyControl* assembly() noexcept { return assembly_; }  ///< null where nothing is put together
+  AssemblyControl* assembly() noexcept { return assembly_; }  ///< null if nothing is assembled
 
   /// Start of the scripted phase of that name [s]; infinity when no device has one.
   double phaseStart(const std::string& phase) const;
@@ -68,14 +68,14 @@ class Session {
   AssemblyControl* assembly_ = nullptr;
 };
 
-/// The view of a world alone, for a graph of one's own (its plug-in is loaded; throws InputError when that cannot be done).
+/// Only the view of a world, for a graph of the caller. Loads its plug-in; throws InputError when that fails.
 std::unique_ptr<View> makeView(std::shared_ptr<const World> world);
 
-/// What the output stages of a world's fingers keep to, in the order of its roles. What was lowered goes to `notes` and `findings`
-/// (safetyFor). Loads the drivers' plug-ins.
+/// Limits of the output stages of a world's fingers, in the order of its roles. Lowered limits are reported to `notes`
+/// and `findings` (safetyFor). Loads the drivers' plug-ins.
 std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes, Diagnostics& findings);
 
-/// What somebody has to do while the devices of a run open, a line for each.
+/// Instructions for the user while the devices of a run open (DevicePlugin::while_opening), one line each.
 std::vector<std::string> whileOpening(const Plan& plan);
 
 /// The drivers of a rig, checked but not opened, in the order of the plan. Findings go to `diagnostics`.

@@ -5,17 +5,17 @@
 
 namespace presa {
 
-/// What of a run a picture can show; the names of `--show`, in the order of the window's keys 1 to 9 and 0.
+/// Parts of a run that a picture can show; the names of `--show`, in the order of the window's keys 1 to 9 and 0.
 enum class ShownPart : std::size_t {
   kVisual,    ///< bodies as they look
-  kHaptic,    ///< what fingers feel, as lines
-  kPhysics,   ///< what collides, as lines
+  kHaptic,    ///< haptic geometries, as lines
+  kPhysics,   ///< physics geometries, as lines
   kPatches,   ///< triangles that are near a finger now
-  kHips,      ///< where the devices are
+  kHips,      ///< HIPs, the positions of the devices
   kProxies,   ///< fingertips at the surface
-  kCones,     ///< static friction
-  kForces,    ///< on the fingers
-  kSleeping,  ///< bodies that the dynamics lets rest
+  kCones,     ///< cones of static friction
+  kForces,    ///< forces on the fingers
+  kSleeping,  ///< bodies that sleep in the dynamics
   kFrames,    ///< axes of world and bodies, x red, y green, z blue
   kPlots      ///< force, penetration and haptic rate of the last seconds; key g
 };

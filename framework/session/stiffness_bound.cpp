@@ -10,7 +10,7 @@
 namespace presa {
 namespace {
 
-/// Above the rounding of a damping that was chosen to lie at the bound, below anything that is felt.
+/// Relative tolerance: above the rounding of a damping chosen to lie at the bound, too small to be felt.
 constexpr double kRounding = 1e-6;
 
 bool touchable(const Scene& scene, std::size_t material) {

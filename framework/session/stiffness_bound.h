@@ -7,23 +7,24 @@
 
 namespace presa {
 
-/// The stiffest sampled wall that the devices of a run bear: K_max = b / ((d + 1/2) T) [GilHulin2009, ColgateSchenkel1997], b the
-/// damping that a device claims (Device::damping), d the samples that its force comes late.
+/// The stiffest sampled wall that the devices of a run render stably: K_max = b / ((d + 1/2) T) [GilHulin2009,
+/// ColgateSchenkel1997], with b the damping of the device (Device::damping), d the delay of its force in samples, and T
+/// the haptic period.
 struct StiffnessBound {
   double stiffness =
-      0;  ///< K_max of the device that bears least [N/m]; 0: no device claims any damping, nothing is known
+      0;  ///< K_max of the device with the smallest bound [N/m]; 0: unknown, because no device declares a damping
   double damping = 0;  ///< its b [N s/m]
-  int delay = 0;       ///< its d: 0 where it is a model, 1 where commands go to hardware and act a cycle later
+  int delay = 0;       ///< its d: 0 for a model, 1 for hardware, where a command acts one cycle later
   double period = 0;   ///< T [s]
-  std::string role;    ///< that it plays
+  std::string role;    ///< its role
 };
 StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene);
 
-/// Share of K_max that a material may have: with it every disturbance dies out, and the hand may let go.
+/// Share of K_max that a material may have: disturbances then die out, even if the hand lets go.
 inline constexpr double kStableShare = 0.5;
 
-/// Brings each material that fingers can touch down to kStableShare of the bound; empty: none is above. One warning W454 for
-/// each, with the bound.
+/// Overrides that lower each touchable material above kStableShare of the bound to it; empty: none is above. One
+/// warning W454 for each, with the bound.
 std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics);
 
 }  // namespace presa

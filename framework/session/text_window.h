@@ -7,7 +7,7 @@
 
 namespace presa {
 
-/// A window of text for somebody at a desk: lines out, keys in. Thread: the one that opened it.
+/// A window for an operator that shows lines of text and reads keys. Thread: the one that opened it.
 class TextWindow {
  public:
   struct Line {
@@ -16,13 +16,14 @@ class TextWindow {
   };
 
   virtual ~TextWindow() = default;
-  /// What fits, in characters of equal width.
+  /// Size of the window in characters of equal width.
   virtual std::size_t columns() const = 0;
   virtual std::size_t rows() const = 0;
   virtual void show(const std::vector<Line>& lines) = 0;
-  /// The next key pressed within that time, as a terminal would send it; 0: none. The window lives through such calls.
+  /// Waits up to `ms` for a key and returns it as a terminal would send it; 0: none. Call it often: it also updates the
+  /// window.
   virtual char key(int ms) = 0;
-  /// The user closed it.
+  /// Whether the user has closed the window.
   virtual bool closed() const = 0;
 };
 

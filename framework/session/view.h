@@ -10,32 +10,33 @@
 
 namespace presa {
 
-/// What somebody at the window asks of simulated time. Written by the view, read by whoever steps it; any thread.
+/// Pause, speed and jumps of simulated time that the user asks for at the window. Written by the view, read by the
+/// module or loop that advances time; any thread.
 struct TimeWish {
   std::atomic<bool> paused{false};
-  std::atomic<double> speed{1};         ///< simulated seconds in a second
-  std::atomic<std::uint32_t> steps{0};  ///< single steps asked for since the start, while paused
-  std::atomic<double> jump_to{-1};      ///< a moment of a recording [s]; who goes there sets it to -1
+  std::atomic<double> speed{1};         ///< simulated seconds per wall-clock second
+  std::atomic<std::uint32_t> steps{0};  ///< number of single steps asked for while paused, since the start
+  std::atomic<double> jump_to{-1};      ///< requested time in a recording [s]; the reader sets it back to -1
 };
 
-/// The picture of a run, as the application sees it: a module of the view group that draws what its ports bring.
-/// Which engine draws is the plug-in's matter.
+/// The picture of a run, as the application sees it: a module of the view group that draws the values of its input
+/// ports. The plug-in chooses the graphics engine.
 class View : public Module {
  public:
   using Module::Module;
 
-  /// The user closed the window or pressed Esc. May be asked from any thread.
+  /// Whether the user has closed the window or pressed Esc. From any thread.
   virtual bool wantsStop() const noexcept = 0;
 
-  /// How often the user has asked to take out again what was put last, and has done anything at all in the window. From any thread.
+  /// Number of undo requests (remove the body placed last), and of inputs of any kind in the window. From any thread.
   virtual std::uint32_t undosWanted() const noexcept = 0;
   virtual std::uint32_t inputs() const noexcept = 0;
 
-  /// Share of the window's width and height in which the last frame's bodies were drawn, so that frames come in time; 1: all of it.
-  /// From any thread.
+  /// Resolution at which the last frame's bodies were drawn, as a share of the window's width and height; below 1 to
+  /// keep the frame rate. From any thread.
   virtual double sharpness() const noexcept = 0;
 
-  /// What became of RunOptions::screenshot. Ask after stop().
+  /// Outcome of RunOptions::screenshot. Read it after stop().
   struct Screenshot {
     enum class Outcome { kNotAsked, kPending, kWritten, kFailed };
     Outcome outcome = Outcome::kNotAsked;
@@ -43,25 +44,27 @@ class View : public Module {
   };
   virtual Screenshot screenshot() const = 0;
 
-  /// Why RunOptions::video is not, or not wholly, there; empty: it is, or nobody asked. Ask after stop().
+  /// Reason why the video of RunOptions::video is missing or incomplete; empty: complete, or none wanted. Read it after
+  /// stop().
   virtual std::string videoTrouble() const = 0;
 
-  /// A line under the time, until the next one; an alarm is red. On the thread of the view, between start() and stop().
+  /// Shows a line under the time until the next one; an alarm is red. On the thread of the view, between start() and
+  /// stop().
   virtual void setBanner(const std::string& text, bool alarm) = 0;
 
-  /// Timing of the groups for the head-up display, by RateGroup; null where there is none. They must outlive the view.
-  /// Read while the groups run, so the figures shown are approximate. Call before start().
+  /// Timings of the groups for the head-up display, by RateGroup; null for groups without one. They must outlive the
+  /// view, which reads them while the groups run: the figures shown are approximate. Call before start().
   virtual void setTimings(const std::array<const GroupTiming*, kRateGroupCount>& timings) noexcept = 0;
 
-  /// Mouse and keys of the window move a pair of these fingers (as DeviceState): from then on the view writes PointerState. Call
-  /// before the graph is built.
+  /// Lets mouse and keys of the window move a pair of these fingers (indices into DeviceState): the view then writes
+  /// PointerState. Call before the graph is built.
   virtual void offerPointer(const std::vector<std::size_t>& fingers) = 0;
 
-  /// Keys of the window hold and slow time, by `wish`, which must outlive the view; with a length [s] there is a bar to move about
-  /// in a recording, too. Call before start().
+  /// Lets keys of the window pause and slow time through `wish`, which must outlive the view; a length above 0 [s] adds
+  /// a bar for jumping within a recording. Call before start().
   virtual void offerTime(TimeWish& wish, double length) noexcept = 0;
 
-  /// Handles input and draws what was shown last, for while time is held. On the thread of the view.
+  /// Handles input and draws the last state again while time is paused. On the thread of the view.
   virtual void refresh() noexcept = 0;
 };
 

@@ -8,10 +8,10 @@
 
 namespace presa {
 
-/// Adds --bus NETWORK, --domain N and --bus-keys DIR; `bus` stays empty where the user says neither.
+/// Adds --bus NETWORK, --domain N and --bus-keys DIR; `bus` stays empty if the user gives none of them.
 void addBusOptions(Command command, std::optional<BusSettings>& bus, const std::string& what_for);
 
-/// Adds --meshes DIR; the folder of the meshes that ship goes before those that the user names.
+/// Adds --meshes DIR; the folder of Presa's own meshes comes before those that the user names.
 void addMeshesOption(Command command, std::vector<std::string>& folders);
 
 /// Adds --bus-commands.

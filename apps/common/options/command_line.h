@@ -37,7 +37,7 @@ class Option {
   Option& separatedBy(char delimiter);
   Option& showDefault();
   Option& kind(const std::string& name);  ///< of the value, in the help
-  Option& atOnce();                       ///< its action runs when it is met, not after the last option
+  Option& atOnce();                       ///< its action runs as soon as it is parsed, not after the last option
 
  private:
   CLI::Option* option_;
@@ -49,11 +49,11 @@ class Command {
   explicit Command(CLI::App& app) : app_(&app) {}
 
   Command command(const std::string& name, const std::string& summary);
-  void needCommand();  ///< one of its commands must follow
+  void needCommand();  ///< one of its subcommands must follow
   void footer(const std::string& text);
-  void action(std::function<void()> run);  ///< after its options were read
+  void action(std::function<void()> run);  ///< runs after its options have been parsed
 
-  // Positional where the name has no dashes. `value` lives until the program ends.
+  // Positional if the name has no dashes. `value` must live until the program ends.
   Option option(const std::string& name, std::string& value, const std::string& help);
   Option option(const std::string& name, double& value, const std::string& help);
   Option option(const std::string& name, int& value, const std::string& help);
@@ -70,7 +70,7 @@ class Command {
   Option each(const std::string& name, std::function<void(const std::string&)> take, const std::string& help);
   Option eachNumber(const std::string& name, std::function<void(int)> take, const std::string& help);
   bool given(const std::string& name) const;  ///< in an action: whether the user gave it
-  /// One that was declared before.
+  /// An option that was declared before.
   Option named(const std::string& name);
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// --allow-folder, of every command that has no commands of its own.
+/// Adds --allow-folder to every command without subcommands.
 void offerFolders(CLI::App& app) {
   const auto commands = app.get_subcommands([](CLI::App*) { return true; });
   for (CLI::App* command : commands) offerFolders(*command);
@@ -44,7 +44,7 @@ fs::path programFolder() {
   return fs::read_symlink("/proc/self/exe", unknown).parent_path();
 }
 
-/// Becomes the program that the first one or two words name, where there is one; otherwise returns.
+/// Replaces this process by the program that the first one or two words name; returns if there is none.
 void becomeNamed(int argc, char** argv) {
   for (const int words : {2, 1}) {
     if (argc <= words) continue;
@@ -62,9 +62,9 @@ void becomeNamed(int argc, char** argv) {
   }
 }
 
-/// What a program beside this one says about itself in one line; empty if it does not.
+/// The one-line summary of a program in the same folder; empty if it has none.
 std::string summaryOf(const fs::path& program) {
-  std::string quoted;  // a path of our own installation, which may hold any character all the same
+  std::string quoted;  // a path of our own installation, which may still hold any character
   for (const char c : program.string()) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   const auto close = [](FILE* pipe) { pclose(pipe); };
   const std::unique_ptr<FILE, decltype(close)> pipe(popen(("'" + quoted + "' --summary 2>/dev/null").c_str(), "r"),
@@ -74,7 +74,7 @@ std::string summaryOf(const fs::path& program) {
   return printable(std::string(line.data(), std::strcspn(line.data(), "\n")));
 }
 
-/// Lists the programs beside this one in the help, each where its words put it.
+/// Lists the other programs of this folder in the help, each under the words of its command.
 void listPrograms(CLI::App& app) {
   std::vector<fs::path> found;
   std::error_code error;
@@ -101,7 +101,7 @@ bool asksForHelp(int argc, char** argv) {
          });
 }
 
-/// The words that `presa` was called with, the program's own among them; the option parser takes them from the back.
+/// The arguments of `presa`, preceded by the words of this program; in reverse, as the option parser takes them.
 std::vector<std::string> wordsOf(int argc, char** argv, const Program& program) {
   std::vector<std::string> words = program.words;
   words.insert(words.end(), argv + std::min(argc, 1), argv + argc);

@@ -7,18 +7,19 @@
 
 namespace presa {
 
-/// The main() of Presa's programs. `presa` is the one command that people type; a command that belongs to another app is a
-/// program of its own beside it, named after it with dashes: `presa experiment run` starts `presa-experiment run`,
-/// `presa device faults` starts `presa-device-faults`. A program that somebody else puts there is found in the same way.
+/// The main() of Presa's programs. Users type only `presa`; a command of another app is a program of its own in the
+/// same folder, named after the command with dashes: `presa experiment run` starts `presa-experiment run`, `presa
+/// device faults` starts `presa-device-faults`. Other programs in this folder with such names are found in the same
+/// way.
 struct Program {
-  /// The words of the command that this program is: {"device", "faults"}; none for `presa` itself.
+  /// The words of this program's command: {"device", "faults"}; none for `presa` itself.
   std::vector<std::string> words;
-  /// Declares its commands; the action of each leaves its exit status in `status`.
+  /// Declares its commands; the action of each command stores its exit status in `status`.
   std::function<void(Command presa, int& status)> declare;
-  std::string footer;  ///< of the help of `presa` itself
+  std::string footer;  ///< last lines of the help, for `presa` itself
 };
 
-/// Parses, runs, and turns what is thrown into an exit status. `--summary` prints the line that stands in `presa --help`.
+/// Parses, runs, and turns exceptions into an exit status. `--summary` prints the program's line of `presa --help`.
 int runProgram(int argc, char** argv, const Program& program);
 
 }  // namespace presa

@@ -5,7 +5,7 @@
 
 namespace presa {
 
-/// Adds --show PART,no-PART…: what the picture shows besides its own choice, or leaves out.
+/// Adds --show PART,no-PART…: parts that the picture shows in addition to its defaults, or leaves out.
 void addShowOption(Command command, std::vector<std::string>& show);
 
 }  // namespace presa

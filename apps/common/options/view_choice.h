@@ -5,8 +5,8 @@
 
 namespace presa {
 
-/// Where a picture goes: as the user says (window, offscreen, none), else (empty) to a window when somebody looks on while it goes
-/// (`live`) and there is a display, else off-screen when a file is `drawn`, else nowhere.
+/// Chooses where a picture goes: the user's choice (window, offscreen, none); if that is empty, a window if the run is
+/// watched `live` and there is a display, else off-screen if a file is `drawn`, else none.
 RunOptions::View chooseView(const std::string& wanted, bool live, bool drawn);
 
 }  // namespace presa

@@ -8,12 +8,12 @@
 namespace presa::svg {
 namespace {
 
-/// A crossing lies on an edge of the grid, which has a number: lines of neighbouring cells meet in it.
+/// Crossings are indexed by grid edge; the lines of neighbouring cells meet at their common edge.
 struct Crossings {
   std::map<std::size_t, Point> at;                           // by edge
   std::map<std::size_t, std::vector<std::size_t>> joined{};  // edges that a cell's line joins
   void join(std::size_t a, std::size_t b) { joined[a].push_back(b), joined[b].push_back(a); }
-  /// Takes the line away that leaves `edge`, as far as it goes.
+  /// Removes and returns the line that starts at `edge`, followed to its end.
   std::vector<Point> take(std::size_t edge) {
     std::vector<Point> line{at.at(edge)};
     while (!joined[edge].empty()) {
@@ -46,7 +46,7 @@ std::vector<std::vector<Point>> contours(const std::vector<double>& x, const std
   for (std::size_t j = 0; j + 1 < y.size(); ++j) {
     for (std::size_t i = 0; i + 1 < columns; ++i) {
       if (!std::isfinite(height(i, j) + height(i + 1, j) + height(i, j + 1) + height(i + 1, j + 1))) continue;
-      std::vector<std::size_t> found;  // round the cell: a saddle's two lines join neighbours
+      std::vector<std::size_t> found;  // in order round the cell: at a saddle, two lines join neighbouring edges
       crossing(i, j, 0, found), crossing(i + 1, j, 1, found), crossing(i, j + 1, 0, found), crossing(i, j, 1, found);
       for (std::size_t k = 0; k + 1 < found.size(); k += 2) crossings.join(found[k], found[k + 1]);
     }

@@ -5,8 +5,8 @@
 
 namespace presa::svg {
 
-/// The lines along which heights over a grid have a value, by marching squares: straight across each cell. z of (x[i], y[j])
-/// at [j * x.size() + i]; cells with a corner that is NaN have none. Axes ascending.
+/// Contour lines of heights over a grid by marching squares: straight across each cell. z of (x[i], y[j]) is at
+/// [j * x.size() + i]; cells with a NaN corner have no line. Axes ascending.
 std::vector<std::vector<Point>> contours(const std::vector<double>& x, const std::vector<double>& y,
                                          const std::vector<double>& z, double level);
 

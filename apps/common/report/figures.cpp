@@ -7,7 +7,7 @@
 namespace presa {
 namespace {
 
-/// The object whose height is drawn: the one that was grasped, else the first that the trace follows.
+/// The object whose height is drawn: the grasped one, else the first traced one.
 const RunResult::Object* drawnObject(const RunResult& result, const std::optional<GraspFigures>& grasp) {
   if (grasp) return &result.objects[grasp->object];
   const auto rank = [](const RunResult::Object& object) {

@@ -13,7 +13,7 @@ namespace presa {
 svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFigures>& grasp,
                            std::size_t contact_point);
 
-/// Tangential over normal force of one contact point, with the lines at which friction gives way. Needs a trace.
+/// Tangential over normal force of one contact point, with the friction limits as lines. Needs a trace.
 svg::ScatterFigure frictionFigure(const RunResult& result, const std::optional<GraspFigures>& grasp,
                                   std::size_t contact_point);
 

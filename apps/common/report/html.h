@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-/// Tables of a page. Cells are HTML already.
+/// Tables of a page. Cells must be HTML, already escaped.
 namespace presa::html {
 
 inline std::string row(const std::vector<std::string>& cells, const std::string& tag = "td") {

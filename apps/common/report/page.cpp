@@ -5,7 +5,7 @@
 namespace presa::page {
 namespace {
 
-// Colours keep their order of lightness for readers who do not tell hues apart; paper is always light.
+// Colours differ in lightness, for readers who cannot distinguish hues; print is always light.
 const char* const kStyle = R"CSS(
 :root { color-scheme: light dark;
   --bg: #ffffff; --card: #f6f7f9; --ink: #1b1f24; --soft: #5b6570; --rule: #dde1e6; --grid: #e7eaee;
@@ -89,7 +89,7 @@ svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }
   .pair { grid-template-columns: 1fr 1fr; } .plot, .scroll { overflow: visible; } }
 )CSS";
 
-// Shows the values under the pointer. Without it the page loses nothing else.
+// Shows the values under the pointer; the rest of the page works without it.
 const char* const kScript = R"JS(
 for (const plot of document.querySelectorAll('.plot')) {
   const block = plot.querySelector('script[type="application/json"]');
@@ -144,7 +144,7 @@ for (const point of document.querySelectorAll('.plot [data-name]')) {
 
 std::string head(const std::string& title) {
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         // the browser itself then guarantees that the page asks nobody for anything
+         // the browser then guarantees that the page sends no request
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'; img-src data:\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +

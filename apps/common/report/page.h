@@ -3,10 +3,10 @@
 
 namespace presa::page {
 
-/// A self-contained page: what stands before and after its content.
+/// Beginning and end of a self-contained page.
 std::string head(const std::string& title);
 std::string tail();
-/// The figure, as rendered for a page, as a file of its own: what the page defines goes with it.
+/// A figure rendered for a page, as a file of its own, with the style definitions of the page.
 std::string picture(const std::string& figure_html, const std::string& title);
 
 }  // namespace presa::page

@@ -16,7 +16,7 @@ struct Bit {
   std::uint32_t bit;
   const char* name;
 };
-// clipping, slew and damping come and go all the time; these are the ones that tell a story
+// bits worth listing; clipping, slew and damping change too often
 constexpr Bit kBits[] = {{kOutputNotFinite, "force not a number"},
                          {kOutputLost, "device lost"},
                          {kOutputSpeed, "hand too fast"},

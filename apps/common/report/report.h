@@ -5,8 +5,8 @@
 
 namespace presa {
 
-/// The run as one HTML page that stands alone: styles, plots, script and screenshot are inside it, and its content
-/// policy forbids every request. A screenshot that cannot be read is named in the notes.
+/// The run as one self-contained HTML page: styles, plots, script and screenshot are inside it, and its content
+/// policy forbids every request. A screenshot that cannot be read is mentioned in the notes.
 std::string reportHtml(const RunResult& result);
 
 /// Writes it atomically. Throws std::system_error when the file cannot be written.

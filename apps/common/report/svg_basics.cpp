@@ -13,7 +13,7 @@ std::vector<double> niceTicks(double low, double high, int target) {
   const double lead = raw / power;
   const double step = power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
   std::vector<double> ticks;
-  // counted in whole steps, so that rounding cannot add up along the axis
+  // counts whole steps, so that rounding errors do not accumulate along the axis
   const double slack = 1e-9;
   for (double k = std::ceil(low / step - slack); k <= high / step + slack; ++k) ticks.push_back(k * step);
   return ticks;

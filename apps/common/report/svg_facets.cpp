@@ -28,13 +28,13 @@ struct Range {
   }
 };
 
-/// What all facets share.
+/// Scales and layout that all facets share.
 struct Axes {
   Range x, y;
   std::vector<double> x_ticks, y_ticks;
 };
 
-/// Widens one range, so that a unit is as long on both axes.
+/// Widens one range so that a unit has the same length on both axes.
 void equalise(Range& x, Range& y, double width, double height) {
   const double unit = std::max((x.high - x.low) / width, (y.high - y.low) / height);
   const auto widen = [](Range& range, double to) {
@@ -75,7 +75,7 @@ Axes axesOf(const FacetFigure& figure, double width, double height) {
   return axes;
 }
 
-/// Circle, square, triangle, diamond, down triangle, cross: told apart without colour.
+/// Circle, square, triangle, diamond, down triangle, cross: distinguishable without colour.
 std::string symbolPath(double x, double y, double r, int shape) {
   const auto at = [&](double dx, double dy) { return px(x + dx) + " " + px(y + dy); };
   switch (shape % 6) {
@@ -178,7 +178,7 @@ std::string legendOf(const FacetFigure& figure) {
   return out;
 }
 
-/// One facet with its frame, and the ticks where it stands at an edge.
+/// One facet with its frame, and with ticks if it is at an edge of the figure.
 std::string facetAt(const FacetFigure& figure, const Axes& axes, std::size_t row, std::size_t column, const Scale& x,
                     const Scale& y) {
   std::string out;

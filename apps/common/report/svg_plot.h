@@ -3,21 +3,21 @@
 #include <string>
 #include <vector>
 
-/// Plots as SVG text, for one page that needs nothing else. Colours are CSS classes ("finger", "object", "force" …)
-/// that the page defines for light, dark and paper. All text is escaped here.
+/// Plots as SVG text for a self-contained page. Colours are CSS classes ("finger", "object", "force" …) that the page
+/// defines for light, dark and print. All text is escaped here.
 namespace presa::svg {
 
 struct Point {
   double x = 0, y = 0;
 };
 
-/// A shaded, named stretch of the time axis.
+/// A shaded, named interval of the time axis.
 struct Band {
   std::string label;
   double begin = 0, end = 0;
 };
 
-/// A level worth comparing with, drawn across the panel.
+/// A reference level, drawn across the panel.
 struct Level {
   double value = 0;
   std::string label;
@@ -37,14 +37,14 @@ struct Panel {
   std::string unit{};                ///< "m"; may be empty
   double height = 160;               ///< of the plotting area [px]
   bool from_zero = false;            ///< the y axis includes 0
-  std::vector<std::string> names{};  ///< not empty: y counts these names from 0
+  std::vector<std::string> names{};  ///< if not empty: labels of y = 0, 1, 2 …
   std::vector<Series> series{};
   std::vector<Level> levels{};
 };
 
 struct TimeFigure {
-  std::string title;         ///< for those who cannot see it
-  std::vector<double> time;  ///< of all panels, or what else runs along the x axis; ascending
+  std::string title;         ///< for screen readers
+  std::vector<double> time;  ///< x values of all panels, usually time; ascending
   std::string x_label = "time [s]";
   std::vector<Band> bands;
   std::vector<Panel> panels;
@@ -87,10 +87,10 @@ struct WorkFigure {
   std::string title;
   std::string x_label, y_label;  ///< with unit
   std::vector<WorkPoint> points;
-  std::vector<Point> front;       ///< what no other point beats, by rising cost
+  std::vector<Point> front;       ///< Pareto front, by rising cost
   std::vector<Level> x_levels{};  ///< the period
   std::vector<Level> y_levels{};  ///< just-noticeable differences
-  double floor = 0;               ///< the reference knows no better; 0: none
+  double floor = 0;               ///< error of the reference itself; 0: none
 };
 
 /// The panels over one time axis, with legend, bands and the data for the page's hover read-out.
@@ -102,12 +102,12 @@ std::string render(const WorkFigure& figure);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) inside [low, high], about `target` of them.
 std::vector<double> niceTicks(double low, double high, int target);
-/// With as many decimals as ticks `step` apart need.
+/// The number with as many decimals as ticks `step` apart need.
 std::string tickText(double value, double step);
-/// The polyline as a plot `columns` pixels wide can show it: first, lowest, highest and last point of every column.
+/// Thins a polyline for a plot `columns` pixels wide to the first, lowest, highest and last point of every column.
 /// Points are kept or dropped, never moved; no extreme is lost.
 std::vector<Point> decimate(const std::vector<Point>& line, double x_low, double x_high, int columns);
-/// & < > " ' as entities.
+/// Text with & < > " ' replaced by entities.
 std::string escape(const std::string& text);
 
 }  // namespace presa::svg

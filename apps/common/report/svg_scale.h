@@ -13,7 +13,7 @@ struct Scale {
   }
 };
 
-/// Pixel coordinates: a tenth of a pixel is as fine as anyone can see.
+/// Pixel coordinates, rounded to a tenth of a pixel.
 inline std::string px(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);

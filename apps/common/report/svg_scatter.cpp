@@ -11,7 +11,7 @@ namespace {
 constexpr double kWidth = 520, kHeight = 400;                         // [px]
 constexpr double kLeft = 56, kRight = 506, kTop = 14, kBottom = 350;  // plotting area
 
-/// Dots as zero-length strokes, each pixel position once: thousands of samples stay a small file.
+/// Dots as zero-length strokes, each pixel position once, so that thousands of samples make a small file.
 std::string dots(const Cloud& cloud, const Scale& x, const Scale& y) {
   std::set<std::pair<long, long>> drawn;
   std::string path;

@@ -50,7 +50,7 @@ std::string bandLabels(const std::vector<Band>& bands, const Scale& x, double y)
   std::string out;
   for (const Band& band : bands) {
     const double width = x(band.end) - x(band.begin);
-    // a name that does not fit is left to the tooltip and the read-out
+    // a name that does not fit appears only in the tooltip and the read-out
     if (static_cast<double>(band.label.size()) * kCharacter > width) continue;
     out += textAt(0.5 * (x(band.begin) + x(band.end)), y, "phase", escape(band.label));
   }

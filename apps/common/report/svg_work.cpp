@@ -36,7 +36,7 @@ std::string powerText(int exponent) {
   return "1e" + std::to_string(exponent);
 }
 
-/// Decades, with their halves where there are few.
+/// Ticks at decades; with intermediate ticks if there are few decades.
 std::vector<std::pair<double, std::string>> ticks(const LogScale& scale) {
   std::vector<std::pair<double, std::string>> found;
   const double low = scale.scale.data_low, high = scale.scale.data_high;
@@ -128,7 +128,7 @@ std::string render(const WorkFigure& figure) {
     path +=
         (path.empty() ? "M" : "L") + px(x(point.x)) + " " + px(point.y > 0 ? std::min(y(point.y), kBottom) : kBottom);
   if (figure.front.size() > 1) out += "<path class=\"pareto\" d=\"" + path + "\"/>\n";
-  // the default last: nothing may hide it
+  // draw the default last, so that no other point hides it
   for (const bool usual : {false, true}) {
     for (const WorkPoint& point : figure.points) {
       if ((point.css_class == "usual") == usual) out += symbol(point, x, y, point.at.y <= figure.floor);

@@ -5,7 +5,7 @@
 
 namespace presa {
 
-/// The run in a few lines: verdict, contact points, rates, faults, where the files went.
+/// The run in a few lines: verdict, contact points, rates, faults, paths of the files.
 std::string closingText(const RunResult& result, const std::string& summary_file, const std::string& report_file,
                         bool color);
 

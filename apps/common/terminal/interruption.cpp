@@ -11,7 +11,7 @@ extern "C" void noteSignal(int) {
   PromptEnd::ask();
 }
 
-/// What came before counts no more.
+/// Clears signals that came before.
 auto noteAnew() {
   signal_came = 0;
   return noteSignal;

@@ -4,7 +4,8 @@
 
 namespace presa::terminal {
 
-/// While it lives, Ctrl-C, SIGTERM and SIGHUP call `handler` instead of ending the process; SIGHUP that was ignored stays so (nohup).
+/// During its lifetime, Ctrl-C, SIGTERM and SIGHUP call `handler` instead of ending the process; an ignored SIGHUP
+/// stays ignored (nohup).
 /// Thread: main.
 class EndSignals {
  public:
@@ -18,7 +19,8 @@ class EndSignals {
   std::array<struct sigaction, 3> old_{};
 };
 
-/// While it lives, these signals are noted instead of ending the process; a run that goes on is asked to stop (PromptEnd).
+/// During its lifetime, these signals are noted instead of ending the process; a current run is asked to stop
+/// (PromptEnd).
 /// Thread: main; one at a time.
 class Interruption {
  public:

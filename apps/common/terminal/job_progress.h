@@ -7,8 +7,9 @@
 
 namespace presa::terminal {
 
-/// Progress of many jobs on stderr: one refreshed line on a terminal, a plain line every two seconds elsewhere; says how much
-/// time is left. While it lives Ctrl-C and SIGTERM are noted instead of ending the process. Thread: main; one at a time.
+/// Progress of many jobs on stderr, with the remaining time: one refreshed line on a terminal, a plain line every two
+/// seconds elsewhere. During its lifetime Ctrl-C and SIGTERM are noted instead of ending the process. Thread: main; one
+/// at a time.
 class JobProgress {
  public:
   explicit JobProgress(std::size_t jobs);
@@ -18,7 +19,7 @@ class JobProgress {
 
   void done(const std::string& what);
   void more(std::size_t jobs) { jobs_ += jobs; }
-  /// How long the rest will take, as known now; without it every job is taken to last as long as those before.
+  /// Sets the expected remaining time; without it, every job is assumed to last as long as those before.
   void expect(double seconds_left);
   void show();
   void finish();

@@ -9,7 +9,7 @@ namespace presa::terminal {
 
 namespace {
 
-// what a signal's handler can reach
+// global, so that a signal handler can reach it
 std::atomic<bool> taken{false};
 termios as_it_was{};
 
@@ -17,7 +17,7 @@ termios as_it_was{};
 
 Keys::Keys() {
   termios now{};
-  // a program in the background that touches the terminal is stopped by it
+  // the system stops a background program that changes the terminal
   if (::isatty(STDIN_FILENO) == 0 || ::tcgetpgrp(STDIN_FILENO) != ::getpgrp() || ::tcgetattr(STDIN_FILENO, &now) != 0)
     return;
   before_ = as_it_was = now;

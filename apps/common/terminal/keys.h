@@ -5,8 +5,8 @@
 
 namespace presa::terminal {
 
-/// Keys one by one and unseen, while it lives; the terminal is as it was afterwards. Signals stay: Ctrl-C stops cleanly. Without a
-/// terminal on stdin, or in the background, there are no keys. Thread: main.
+/// During its lifetime, reads keys one by one and without echo; afterwards the terminal is as before. Signals still
+/// work: Ctrl-C stops cleanly. Without a terminal on stdin, or in the background, there are no keys. Thread: main.
 class Keys {
  public:
   Keys();
@@ -15,9 +15,9 @@ class Keys {
   Keys& operator=(const Keys&) = delete;
 
   bool available() const noexcept { return before_.has_value(); }
-  /// The next key, waited for at most that long [ms]; 0: none.
+  /// Waits up to this time [ms] for the next key; 0: none.
   char next(int ms) const;
-  /// The terminal as it was, from the handler of a signal that ends the process.
+  /// Restores the terminal; may be called in the handler of a signal that ends the process.
   static void giveBack() noexcept;
 
  private:

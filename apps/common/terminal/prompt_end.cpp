@@ -11,9 +11,9 @@
 namespace presa::terminal {
 namespace {
 
-constexpr std::int64_t kFadeNs = 50'000'000;  // of the clock, in virtual time
+constexpr std::int64_t kFadeNs = 50'000'000;  // wall-clock time for the fade of a run in virtual time
 constexpr std::int64_t kStuckNs = 80'000'000;
-// of all threads together, which sleep for most of the fade
+// processor time of all threads together, which sleep for most of the fade
 constexpr std::int64_t kStuckLiveNs = 300'000'000;
 constexpr int kInterrupted = 130;
 
@@ -29,7 +29,7 @@ extern "C" void leaveNow(int) {
 
 }  // namespace
 
-// Time is that of the processor: on a busy machine a run that is about to end must not be taken for stuck.
+// The timer counts processor time: on a busy machine, a run that is about to end must not be taken for stuck.
 PromptEnd::PromptEnd(RunControl& control, bool realtime) : control_(control), realtime_(realtime) {
   struct sigaction action {};
   action.sa_handler = leaveNow;
@@ -56,7 +56,7 @@ void PromptEnd::ask() noexcept {
   if (!run->has_timer_) return;
   itimerspec now{};
   timer_gettime(run->timer_, &now);
-  if (now.it_value.tv_sec != 0 || now.it_value.tv_nsec != 0) return;  // it runs already
+  if (now.it_value.tv_sec != 0 || now.it_value.tv_nsec != 0) return;  // the timer already runs
   itimerspec once{};
   once.it_value.tv_nsec = run->realtime_ ? kStuckLiveNs : kStuckNs;
   timer_settime(run->timer_, 0, &once, nullptr);

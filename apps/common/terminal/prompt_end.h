@@ -5,9 +5,9 @@
 
 namespace presa::terminal {
 
-/// While it lives, around Executor::run: a run that a signal stops ends within 100 ms. Forces fade first, in virtual time for at
-/// most 50 ms of the clock. A run that is deep in one step then, and cannot look up, ends where it stands: the process leaves with
-/// status 130, and files hold what a kill leaves of them (all up to the last flush, every record of a session).
+/// Around Executor::run: a run that a signal stops ends within 100 ms. Forces fade first, in virtual time for at most
+/// 50 ms of the clock. If the run is then still in a long step, the process ends in the middle of it with status 130;
+/// files then hold the same as after a kill (all data up to the last flush, every record of a session).
 /// Thread: that of the executor; one at a time.
 class PromptEnd {
  public:
@@ -16,7 +16,7 @@ class PromptEnd {
   PromptEnd(const PromptEnd&) = delete;
   PromptEnd& operator=(const PromptEnd&) = delete;
 
-  /// From the signal's handler: asks the run that goes on, if one does, to stop.
+  /// Called by the signal handler: asks the current run, if there is one, to stop.
   static void ask() noexcept;
 
  private:

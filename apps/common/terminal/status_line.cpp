@@ -100,7 +100,7 @@ bool wantsColor(std::FILE* stream) {
 
 StatusLine::StatusLine(bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), color_(wantsColor(stderr)) {
-  // a log line says how far a run has come; at its very start there is nothing to say
+  // a log line reports progress; at the start of a run there is none
   next_ns_ = monotonicNs() + (terminal_ ? kRefresh : kPlainLine);
 }
 

@@ -8,7 +8,7 @@
 
 namespace presa {
 
-/// What a run is doing right now, as plain values.
+/// The current state of a run, as plain values.
 struct LiveStatus {
   struct Finger {
     std::string name;
@@ -16,12 +16,12 @@ struct LiveStatus {
     double normal_force = 0;  ///< [N]
   };
   double time = 0;      ///< simulated [s]
-  double duration = 0;  ///< simulated [s]; not finite or 0: open end
+  double duration = 0;  ///< simulated [s]; not finite or 0: no planned end
   bool realtime = false;
   double wall_seconds = 0;         ///< since the start
   std::uint64_t haptic_ticks = 0;  ///< since the start
   std::uint64_t haptic_missed = 0;
-  std::uint32_t losses = 0;  ///< ticks with a surface not fully known, and surfaces got past
+  std::uint32_t losses = 0;  ///< coverage_lost and pop_through together (losses.h)
   std::string phase;         ///< of a scripted motion, may be empty
   std::vector<Finger> fingers;
 };
@@ -40,12 +40,12 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// True when it is time for the next show(); cheap, to be asked often.
+  /// True when it is time for the next show(); cheap to call often.
   bool due() const;
   void show(const LiveStatus& status);
-  /// A line of its own above the status line.
+  /// Prints a line above the status line.
   void note(const std::string& text);
-  /// Takes the refreshed line away. show() must not follow.
+  /// Removes the refreshed line. Do not call show() afterwards.
   void finish();
 
  private:
@@ -62,7 +62,7 @@ class StatusLine {
   std::uint64_t last_ticks_ = 0;
 };
 
-/// Whether to colour what goes to this stream: a terminal, and NO_COLOR unset or empty (no-color.org).
+/// Whether to colour output to this stream: it is a terminal, and NO_COLOR is unset or empty (no-color.org).
 bool wantsColor(std::FILE* stream);
 
 }  // namespace presa

@@ -51,7 +51,7 @@ std::string styled(const std::string& text, Style style, bool color) {
 
 void Line::add(const std::string& part, Style style) {
   const std::size_t gap = text_.empty() ? 0 : 2;
-  const std::string shown = printable(part);  // names of fingers and phases are a file's
+  const std::string shown = printable(part);  // names of fingers and phases come from a file
   const std::size_t width = widthOf(shown);
   full_ = full_ || width_ + gap + width > columns_;
   if (full_) return;

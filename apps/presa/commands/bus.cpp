@@ -76,7 +76,7 @@ void addMeasure(Command app, int& status) {
     if (*bus)
       settings->bus = **bus;
     else
-      settings->bus.domain = 1 + static_cast<int>(std::random_device{}() % kMostBusDomain);  // no other run is there
+      settings->bus.domain = 1 + static_cast<int>(std::random_device{}() % kMostBusDomain);  // away from other runs
     const terminal::Interruption interruption;
     const std::vector<Heard> heard = measureBus(*settings);
     auto json = nlohmann::ordered_json::array();

@@ -30,7 +30,7 @@ std::string nameOf(const FoundRun& run) {
   return "run " + textOfRun(run.info.run) + " of scene '" + printable(run.info.scene_name) + "'";
 }
 
-/// All of them, before anything is sent. NaN and infinity are numbers here: the run refuses them.
+/// Parses all values before the first one is sent. NaN and infinity are accepted here; the run refuses them.
 std::vector<Setting> parseSettings(const std::vector<std::string>& words) {
   std::vector<Setting> settings;
   Diagnostics diagnostics;
@@ -56,7 +56,7 @@ int fail(int code, int status, const std::string& message, const std::string& he
   return status;
 }
 
-/// The run that is meant; null: `status` says why none is.
+/// The run that the options select; null: none, and `status` is the exit status.
 const FoundRun* choose(const std::vector<FoundRun>& runs, std::uint64_t id, int& status) {
   const FoundRun* chosen = nullptr;
   const FoundRun* closed = nullptr;
@@ -82,7 +82,7 @@ const FoundRun* choose(const std::vector<FoundRun>& runs, std::uint64_t id, int&
   return chosen;
 }
 
-/// Says what became of one command; whether it was accepted.
+/// Prints the outcome of one command; returns whether it was accepted.
 bool tell(const FoundRun& run, const Setting& setting, const bus::Answer& answer) {
   using Verdict = bus::Answer::Verdict;
   if (answer.verdict == Verdict::kAccepted) {
@@ -176,7 +176,7 @@ int list(const Arguments& arguments, const BusSettings& bus) {
   if (arguments.json) {
     auto all = nlohmann::ordered_json::array();
     for (const FoundRun& run : runs) all.push_back(toJson(run));
-    // names are bytes from outside: the answer is ASCII whatever they are
+    // names are bytes from outside: escape them, so that the output is always ASCII
     std::printf("%s\n", all.dump(2, ' ', true, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     for (const FoundRun& run : runs) print(run);

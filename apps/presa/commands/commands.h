@@ -4,7 +4,7 @@
 
 namespace presa {
 
-/// Each adds one command, which leaves its exit status in `status`.
+/// Each function adds one command, which stores its exit status in `status`.
 void addRun(Command app, int& status);
 void addCheck(Command app, int& status);
 void addExplain(Command app, int& status);

@@ -21,14 +21,14 @@ struct Arguments {
   std::optional<BusSettings> bus;
 };
 
-/// What it leaves goes to `scratch`: nobody asked for it.
+/// Output files of the run go to `scratch`, because the user did not ask for them.
 RunOptions optionsOf(const Arguments& arguments, const ScratchFolder& scratch) {
   RunOptions options;
   options.bound_stiffness = true;
   options.bus = arguments.bus;
   if (arguments.record) {
     options.record = scratch.file("run.h5");
-    options.realtime = true;  // a recorder that waits for the disk would hide what it costs a haptic tick
+    options.realtime = true;  // a recorder that waits for the disk would hide its cost per haptic tick
   }
   if (arguments.view == "window") options.view = RunOptions::View::kWindow;
   if (arguments.view == "offscreen") {

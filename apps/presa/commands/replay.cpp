@@ -18,12 +18,12 @@ namespace {
 
 struct Arguments {
   std::string file, page, view;
-  RunOptions shown;  ///< what of it is to be seen
+  RunOptions shown;  ///< options of the view
   double speed = 1;
   bool verify = false;
 };
 
-/// A window only when asked for.
+/// A window only if the user asks for one.
 RunOptions::View viewOf(const Arguments& arguments) {
   return chooseView(arguments.view, false, !arguments.shown.screenshot.empty() || !arguments.shown.video.empty());
 }
@@ -43,7 +43,7 @@ void printFaults(const std::vector<std::string>& faults) {
   for (const std::string& fault : faults) std::printf("  fault at %s\n", printable(fault).c_str());
 }
 
-/// Whether it is known that nobody changed it.
+/// Prints whether the recording is complete and unchanged.
 void printProvenance(const Recording& recording) {
   if (!recording.complete)
     std::printf(
@@ -85,7 +85,7 @@ int printVerdict(const ReplayResult& result) {
   return kExitFault;
 }
 
-/// What was lost in the run is lost in its replay as well.
+/// Haptic losses of the run occur in its replay as well.
 void printLosses(const RecordedRun& run) {
   RunResult result;
   result.world = run.world();
@@ -93,7 +93,7 @@ void printLosses(const RecordedRun& run) {
   for (const std::string& loss : lossesOf(result)) std::printf("  warning: %s\n", loss.c_str());
 }
 
-/// A recording that begins in the middle of a run, at a fault: to be seen, not to be run again.
+/// A recording of the seconds around a fault: it begins in the middle of a run and can be shown but not replayed.
 int showFlight(const std::string& file, const RecordedSamples& samples) {
   std::printf("%s: %.3f to %.3f s of scene %s, around a fault\n", file.c_str(), samples.time.front(),
               samples.time.back(), printable(samples.scene_file).c_str());

@@ -22,8 +22,8 @@ struct Arguments {
   Inputs inputs;
   RunOptions options;
   bool lockstep = false, realtime = false, quiet = false, plug_ins = false;
-  std::string view;  ///< empty: choose
-  double speed = 0;  ///< 0: as is usual
+  std::string view;  ///< empty: automatic
+  double speed = 0;  ///< 0: default
   std::string summary, report;
 };
 

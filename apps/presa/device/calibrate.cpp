@@ -25,7 +25,7 @@ double degrees(const Pose& a, const Pose& b) {
          std::numbers::pi;
 }
 
-/// Somewhere else, as people place things.
+/// A random pose near the given one: a device that was placed by hand.
 Pose astray(const Pose& X_AB, std::uint64_t seed) {
   RandomStream stream(seed, "where the second device stands");
   const auto any = [&](double most) {

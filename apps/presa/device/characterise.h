@@ -8,7 +8,7 @@ namespace presa::device {
 struct CharacteriseOptions {
   std::string driver;           ///< folder under devices/
   std::string out;              ///< folder for report.html and characteristics.json; empty: none
-  std::string format = "text";  ///< of what is printed: text or json
+  std::string format = "text";  ///< format of the output: text or json
 };
 
 /// `presa device characterise`: exit status 0 when every figure that is printed agrees, 1 when one does not. Throws

@@ -26,9 +26,9 @@ using Verdict = DeviceFinding::Verdict;
 constexpr const char* kLimits =
     "write '@plugdev - rtprio 95' and '@plugdev - memlock unlimited' to "
     "/etc/security/limits.d/presa.conf, then log in again";
-constexpr const char* kGroup = "plugdev";  // may open USB devices on Debian; the drivers' rules name it
+constexpr const char* kGroup = "plugdev";  // group that may open USB devices on Debian; the drivers' rules use it
 
-/// On a thread of its own, which it would stay on.
+/// Tries on a thread of its own, which would keep the priority.
 int priorityRefused() {
   int refused = 0;
   std::thread([&refused] {
@@ -61,14 +61,14 @@ struct Rule {
   std::string driver, file, line;
 };
 
-/// Of the drivers that have one and can be loaded.
+/// The udev rules of the drivers that have one and can be loaded.
 std::vector<Rule> rulesOf(const std::vector<std::string>& of_drivers, const std::string& folder) {
   std::vector<Rule> rules;
   for (const std::string& name : of_drivers) {
     try {
       if (const char* line = devicePlugin(name).udev_rule)
         rules.push_back({name, terminal::format("%s/60-presa-%s.rules", folder.c_str(), name.c_str()), line});
-    } catch (const InputError&) {  // said where the driver itself is reported
+    } catch (const InputError&) {  // reported among the findings of the driver
     }
   }
   return rules;

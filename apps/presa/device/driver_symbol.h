@@ -9,8 +9,8 @@ namespace presa::device {
 
 enum DriverCode { kNoDriver = 470, kLacks = 471 };
 
-/// The table of this type that a driver exports as `symbol`. Refuses in the user's words: E470 no such driver, E471 it has
-/// no such table (`lacks`: "has no figures of its own"), or one of another build.
+/// The table of this type that a driver exports as `symbol`. Refuses in the user's words: E470 no such driver, E471 it
+/// has no such table (`lacks`: "has no figures of its own"), or one of another build.
 template <class Table>
 const Table& driverTable(const std::string& command, const std::string& driver, const char* symbol,
                          const std::string& lacks) {

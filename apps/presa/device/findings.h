@@ -6,17 +6,17 @@
 
 namespace presa::device {
 
-/// What is known of one driver and its hardware.
+/// Findings about one driver and its hardware.
 struct Report {
-  std::string name;     ///< of the driver; "this computer"
-  std::string summary;  ///< of the driver; for a device of a rig, its role
+  std::string name;     ///< name of the driver, or "this computer"
+  std::string summary;  ///< summary of the driver; for a device of a rig, its role
   std::vector<DeviceFinding> findings;
 };
 
-/// Drivers that came with this program.
+/// Drivers that are installed with this program.
 std::vector<std::string> drivers();
 
-/// Asks the binding's driver how its hardware is. A driver that cannot be loaded is a finding too.
+/// Calls diagnose() of the binding's driver. A driver that cannot be loaded is a finding, too.
 Report ask(const DeviceBinding& binding);
 
 bool hasProblem(const std::vector<Report>& reports);

@@ -7,17 +7,19 @@
 
 namespace presa::device {
 
-/// A rig of two devices that stand somewhere: read, and written again with the second moved.
+/// Reads a rig of two devices with poses, and writes it again with another pose of the second device.
 class RigBases {
  public:
-  /// Throws InputError: what is wrong with the file, and E473 when it has not two devices of one driver with pos and quat.
+  /// Throws InputError with the findings of the file, or E473 unless it has two devices of one driver with pos and
+  /// quat.
   explicit RigBases(const std::string& file);
 
   const std::string& driver() const { return driver_; }
   const std::string& role(int device) const { return roles_[device]; }
   const Pose& base(int device) const { return bases_[device]; }  ///< X_WD
 
-  /// The rig with the second device's base there, for a file in that folder: the files it names are told from there.
+  /// XML of the rig with this pose of the second device, for a file in this folder: paths in it are made relative to
+  /// it.
   std::string withSecondAt(const Pose& X_WB, const std::string& folder) const;
 
  private:

@@ -25,7 +25,7 @@ Style styleOf(const Characteristic& figure) {
   return !figure.compared() ? Style::kPlain : figure.agrees() ? Style::kGood : Style::kBad;
 }
 
-/// JSON knows no infinity.
+/// JSON has no infinity.
 nlohmann::json numberOrNull(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
 
 nlohmann::json toJson(const Characteristic& f) {

@@ -13,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLongest = 10;  // [s] of the scene
-constexpr double kNoScript = 2;  // [s] when nothing says how long it is
+constexpr double kLongest = 10;  // longest simulated time [s]
+constexpr double kNoScript = 2;  // simulated time of a scene without a script [s]
 
 void say(const std::string& what) {
   if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s\n", what.c_str());

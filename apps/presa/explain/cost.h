@@ -6,10 +6,10 @@
 
 namespace presa {
 
-/// Plays the session's scene and adds what it costs to its description:
+/// Runs the session's scene and adds its cost to the description:
 ///   modules[] median_ns, p999_ns, ticks, share_of_period (median over the period of the module's group);
 ///   cost: simulated_s, time (one sentence on how it was measured).
-/// Takes a while: says on standard error what it does when somebody watches. The session is used up.
+/// Takes a while: reports progress on standard error if that is a terminal. The session cannot be run again.
 void addCost(nlohmann::json& run, const Loaded& loaded, Session& session);
 
 }  // namespace presa

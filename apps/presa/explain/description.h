@@ -11,10 +11,10 @@ namespace presa {
 /// Shared objects mapped into this process now, by file name.
 std::set<std::string> mappedLibraries();
 
-/// What the session runs, why, and what it does without:
+/// Describes the session: its parts, the reasons for them, and the parts left out:
 ///   scene; threads[] name rate_hz period_s; modules[] name group reason; stages[] group module stage;
 ///   connections[] from to value across_rates [when_old old_after_s]; devices[] role driver; left_out[] what why;
-///   libraries[] name plugin needed_by ("the program": one of `before`, "the scene": came with it).
+///   libraries[] name plugin needed_by ("the program": one of `before`; "the scene": loaded for it).
 nlohmann::json describeSession(const Loaded& loaded, Session& session, const std::set<std::string>& before);
 
 }  // namespace presa

@@ -18,7 +18,7 @@ double quantile(Samples& samples, double q) {
   return static_cast<double>(samples[at]);
 }
 
-/// Of a pair of reads with nothing between.
+/// Time between two reads of the clock with nothing between them.
 std::int64_t clockCost() {
   Samples samples;
   for (int i = 0; i < 1001; ++i) {

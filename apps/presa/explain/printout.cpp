@@ -34,7 +34,7 @@ std::string figures(const json& module) {
 
 void line(std::string& out, const std::string& left, const json& module) {
   const std::string right = figures(module);
-  // a long left side keeps its words: the figures go to a line of their own
+  // a long left side is not cut: the figures go to a line of their own
   if (!right.empty() && left.size() > kFigures) {
     out += left + '\n' + std::string(kFigures, ' ') + right + '\n';
   } else {

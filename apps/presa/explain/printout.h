@@ -4,7 +4,7 @@
 
 namespace presa {
 
-/// The description of a session for people: aligned, with a column for each figure when it has been measured.
+/// The description of a session as aligned text, with a column for each measured figure.
 std::string explainText(const nlohmann::json& run);
 /// The same graph for graphviz.
 std::string explainDot(const nlohmann::json& run);

@@ -13,7 +13,7 @@
 namespace presa {
 namespace {
 
-/// Puts the recording where a view looks for a run. Group: view, before it.
+/// Writes the recorded states to the ports that a view reads. Runs in the view group, before the view.
 class RecordedSource final : public Module {
  public:
   explicit RecordedSource(const RecordedMoment& moment) : Module("recording", RateGroup::kView), moment_(moment) {}
@@ -63,7 +63,7 @@ class Player {
     graph_.step(RateGroup::kView, {index_, time_, period()});
     ++index_;
   }
-  /// Off-screen: what is wanted is drawn as its time comes, so only that need come.
+  /// Off-screen: draws the one wanted time, or all times for a video.
   void all() {
     const RunOptions& options = world_->options;
     if (options.video.empty()) time_ = options.screenshot_time < 0 ? moment_.end() : options.screenshot_time;

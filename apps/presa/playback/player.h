@@ -7,7 +7,8 @@
 namespace presa {
 
 /// Shows a recording with the view of the world's options: in a window until its user has enough, off-screen one moment
-/// (RunOptions::screenshot_time; -1: the end) or all of it as a video. Returns the exit status. Throws InputError. Thread: main.
+/// (RunOptions::screenshot_time; -1: the end) or all of it as a video. Returns the exit status. Throws InputError.
+/// Thread: main.
 int play(const RecordedSamples& samples, const std::shared_ptr<const World>& world, double speed);
 
 }  // namespace presa

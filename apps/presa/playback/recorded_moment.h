@@ -9,20 +9,20 @@
 
 namespace presa {
 
-/// The states of a recorded run at its ticks, as far as a picture needs them.
+/// The states of a recorded run at its ticks, as far as a view needs them.
 class RecordedMoment {
  public:
-  /// Both outlive this; the world is that of the recording.
+  /// Both must outlive this; the world is that of the recording.
   RecordedMoment(const RecordedSamples& samples, const World& world);
 
   double begin() const { return samples_.time.front(); }
   double end() const { return samples_.time.back(); }
-  /// At the newest tick that is not later.
+  /// Sets the states to the last tick at or before this time.
   void fill(double time, ObjectState& objects, DeviceState& device, ContactExchange& contacts,
             ForceCommand& command) const;
 
  private:
-  /// Columns of one table, found once.
+  /// Column indices of one table, looked up once.
   using Column = const std::vector<double>*;
   using Vector = std::array<Column, 3>;
   struct Finger {

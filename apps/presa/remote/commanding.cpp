@@ -13,10 +13,10 @@ namespace presa {
 namespace {
 
 constexpr std::int64_t kLookEvery = 10'000'000;   // [ns]
-constexpr std::int64_t kSendEvery = 100'000'000;  // [ns], until it is answered
-constexpr std::int64_t kSettled = 400'000'000;    // [ns] without news: there are no more runs
+constexpr std::int64_t kSendEvery = 100'000'000;  // [ns] between repetitions of an unanswered command
+constexpr std::int64_t kSettled = 400'000'000;    // [ns] without news, after which all runs are taken to be known
 
-/// Remembers the static part, and nothing else.
+/// Keeps only the static part of a run.
 class RunsOnly final : public bus::Listener {
  public:
   void onRun(const bus::RunInfo& announced, std::int64_t) override { runs.push_back(announced); }
@@ -92,7 +92,7 @@ std::optional<bus::Answer> Commanding::set(std::uint64_t run, const std::string&
       return to.run == run && to.sender == sender_ && to.number == command.number;
     });
     if (answer != answers_.end()) {
-      // one at a time is neither overtaken nor far ahead: somebody commands in this name. Once more, under a new one
+      // with one command at a time, this answer means that another sender uses the same id: try again with a new id
       const bool disturbed =
           answer->verdict == bus::Answer::Verdict::kOvertaken || answer->verdict == bus::Answer::Verdict::kOutOfOrder;
       if (!disturbed || renamed) return *answer;

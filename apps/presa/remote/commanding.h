@@ -6,21 +6,23 @@
 
 namespace presa {
 
-/// A run on the bus, and what of it may be set, by name.
+/// A run on the bus and its settable parameters, sorted by name.
 struct FoundRun {
   bus::RunInfo info;
   std::vector<bus::OpenParameter> parameters;
 };
 
-/// Whoever lists runs or sets parameters, on one network. Thread: main. Ends early on Ctrl-C (terminal::Interruption).
+/// Lists runs on one network and sets their parameters. Thread: main. Its calls end early on Ctrl-C
+/// (terminal::Interruption).
 class Commanding {
  public:
   /// Throws InputError as openReader does.
   explicit Commanding(const BusSettings& settings);
 
-  /// By id. Looks for runs until nothing new has come for a moment, at most `wait` seconds. `id`: until that one is there; 0: any.
+  /// The runs, sorted by id. Waits at most `wait` seconds, until run `id` is found or, for id 0, no new run has come
+  /// for a moment.
   const std::vector<FoundRun>& look(double wait, std::uint64_t id);
-  /// Sends it again and again until it is answered, at most `wait` seconds; none then, or on Ctrl-C.
+  /// Sends the command repeatedly until it is answered; none after `wait` seconds or on Ctrl-C.
   std::optional<bus::Answer> set(std::uint64_t run, const std::string& parameter, double value, double wait);
 
  private:
@@ -35,7 +37,7 @@ class Commanding {
   std::uint64_t sender_, sent_ = 0;
 };
 
-/// As people write it: 16 digits, hexadecimal. `runFrom`: 0 when it is none.
+/// The id of a run as text: 16 hexadecimal digits. `runFrom`: 0 if the text is no such id.
 std::string textOfRun(std::uint64_t run);
 std::uint64_t runFrom(const std::string& text);
 

@@ -6,7 +6,7 @@
 namespace presa {
 namespace {
 
-/// Remembers the static part, and nothing else.
+/// Keeps only the static part of a run.
 class AwaitRun final : public bus::Listener {
  public:
   void onRun(const bus::RunInfo& announced, std::int64_t) override { run = announced; }

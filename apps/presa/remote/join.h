@@ -5,7 +5,7 @@
 
 namespace presa {
 
-/// The run that is on the bus; none within `seconds`, or on Ctrl-C (terminal::Interruption).
+/// The run on the bus; none if there is none within `seconds`, or on Ctrl-C (terminal::Interruption).
 std::optional<bus::RunInfo> awaitRun(bus::Reader& reader, double seconds);
 
 }  // namespace presa

@@ -28,7 +28,7 @@ Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes
   picture.onRun(*run, monotonicNs());
   const std::int64_t begin = monotonicNs();
   double seconds = 0;
-  // taken once a frame, as a viewer does
+  // takes samples once per frame, as a viewer does
   while (seconds < duration && picture.state() != bus::RemotePicture::State::kEnded &&
          !terminal::Interruption::came()) {
     sleepUntilNs(monotonicNs() + 16'000'000);

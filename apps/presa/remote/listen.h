@@ -6,17 +6,18 @@
 
 namespace presa {
 
-/// What one viewer without a picture saw of a run.
+/// Statistics of one viewer without a picture.
 struct Heard {
   std::uint64_t received = 0, lost = 0, doubled = 0, late = 0;
-  std::uint64_t refused = 0;  ///< on the sender's side
-  std::uint64_t overrun = 0;  ///< thrown away on this side
+  std::uint64_t refused = 0;  ///< samples refused on the sender's side
+  std::uint64_t overrun = 0;  ///< samples dropped on this side
   double seconds = 0;
   double latency_p50 = 0, latency_p99 = 0, latency_max = 0;  ///< from sender to here, on one machine [s]
   bool joined = false, ended = false;
 };
 
-/// Joins, and listens for that long, or to the end of the run; `wait`: for a run [s]. Says on stderr when it has joined, unless quiet. `meshes`: folders as of bus::takeFromShelf.
+/// Joins a run and listens for the duration, or to the end of the run; waits up to `wait` for a run [s]. Unless quiet,
+/// reports on stderr when it has joined. `meshes`: folders as in bus::takeFromShelf.
 Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
              bool quiet);
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::int64_t kPeriodNs = 5'000'000;
 
-/// Small balls on a grid; `presa view --join` shows them, too.
+/// A scene of small balls on a grid; `presa view --join` can show it, too.
 std::string ballsXml(int objects) {
   std::string xml = R"(<scene version="1.0" name="bus_measurement"><world gravity="0 0 0"/>
     <materials><material name="wood" stiffness="1000" color="0.75 0.25 0.2"/></materials>)";
@@ -41,7 +41,7 @@ std::string ballsXml(int objects) {
   return xml + "</scene>";
 }
 
-/// Publishes, once a period by the clock.
+/// Publishes once per period of the clock.
 class Sender {
  public:
   /// Opens the network; throws InputError.
@@ -85,7 +85,7 @@ class Sender {
   std::vector<double> height_;
 };
 
-/// A viewer in a process of its own, and what it says when it is done.
+/// A viewer in a process of its own, and its result.
 class Listener {
  public:
   explicit Listener(const MeasureSettings& settings) {
@@ -106,7 +106,7 @@ class Listener {
                                    std::to_string(settings.bus.domain),
                                    "--for",
                                    std::to_string(settings.duration)};
-    // the folder of the viewers lies beside that of the run
+    // the viewers' folder of keys lies beside that of the run
     if (!settings.bus.keys.empty())
       words.insert(words.end(),
                    {"--bus-keys", (std::filesystem::absolute(settings.bus.keys).parent_path() / "viewer").string()});
@@ -131,7 +131,7 @@ class Listener {
     std::array<char, 4096> part;
     bool told = false;
     for (ssize_t count = 1; count != 0;) {
-      // a signal may come to this process alone: the viewer ends with it
+      // a signal may reach only this process: end the viewer, too
       if (!told && terminal::Interruption::came()) told = ::kill(process_, SIGINT) == 0;
       pollfd waiting{answer_, POLLIN, 0};
       if (::poll(&waiting, 1, 20) <= 0) continue;

@@ -5,7 +5,7 @@
 
 namespace presa {
 
-/// What the bus is to be measured with.
+/// Settings of a measurement of the bus.
 struct MeasureSettings {
   BusSettings bus;
   int objects = 120, viewers = 2;
@@ -13,7 +13,8 @@ struct MeasureSettings {
   bool quiet = false;
 };
 
-/// One answer for each viewer; each is a process of its own, and so is the sender (this one). On Ctrl-C what there is.
+/// Returns one result per viewer. Each viewer is a process of its own; this process sends. On Ctrl-C, returns the
+/// results so far.
 std::vector<Heard> measureBus(const MeasureSettings& settings);
 
 }  // namespace presa

@@ -22,7 +22,7 @@ namespace {
 
 using bus::RemotePicture;
 
-/// Puts the remote states where a view looks for them. Group: view, before it.
+/// Writes the remote states to the ports that a view reads. Runs in the view group, before the view.
 class RemoteSource final : public Module {
  public:
   RemoteSource(RemotePicture& picture, View*& view)
@@ -41,7 +41,7 @@ class RemoteSource final : public Module {
   Out<ForceCommand> command_{*this, "force_command"};
 };
 
-/// What this viewer draws: the run's scene as it was sent, or its own.
+/// The scene that this viewer draws: the run's scene as it was sent, or the viewer's own.
 std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::RunInfo& run) {
   Diagnostics diagnostics;
   const bool own = !settings.scene.empty();
@@ -60,7 +60,7 @@ std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::
   return std::make_shared<const World>(std::move(world));
 }
 
-/// The picture's clock is that of the run, one period behind; the machine's clock only says when to draw.
+/// The picture follows the run's simulated time, one period behind; the machine's clock only decides when to draw.
 class Viewer {
  public:
   Viewer(const ViewerSettings& settings, bus::Reader& reader, const bus::RunInfo& run)

@@ -6,13 +6,13 @@
 
 namespace presa {
 
-/// What `presa view --join` was asked for.
+/// Options of `presa view --join`.
 struct ViewerSettings {
-  std::string scene;                ///< own scene file; empty: the run's
+  std::string scene;                ///< the viewer's own scene file; empty: the run's scene
   std::vector<std::string> meshes;  ///< folders, as of bus::takeFromShelf
   BusSettings bus;
-  double wait = 10;     ///< for a run [s]
-  double duration = 0;  ///< wall [s]; 0: to the end of the run
+  double wait = 10;     ///< longest wait for a run [s]
+  double duration = 0;  ///< wall-clock time [s]; 0: to the end of the run
   RunOptions::View view = RunOptions::View::kNone;
   std::string screenshot;
   double screenshot_time = -1;    ///< of the run [s]; -1: when the viewer ends
@@ -22,7 +22,7 @@ struct ViewerSettings {
 
 inline constexpr int kExitNoRun = 3;
 
-/// Joins, draws, and says on the terminal what it sees; returns the exit status. Throws InputError.
+/// Joins a run, draws it, and reports on the terminal; returns the exit status. Throws InputError.
 int showRemote(const ViewerSettings& settings);
 
 }  // namespace presa

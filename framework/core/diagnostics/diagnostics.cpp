@@ -40,7 +40,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
   }
   ++dropped_;
   if (!is_error) return;
-  // an error is worth more than a warning that got here first
+  // the list is full: an error replaces the last warning
   const auto last_warning = std::find_if(
       all_.rbegin(), all_.rend(), [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::kWarning; });
   if (last_warning != all_.rend()) *last_warning = std::move(diagnostic);
@@ -63,7 +63,7 @@ std::string format(const Diagnostic& diagnostic) {
   const bool is_error = diagnostic.severity == Diagnostic::Severity::kError;
   char code[32];
   std::snprintf(code, sizeof code, is_error ? "error[E%03d]: " : "warning[W%03d]: ", diagnostic.code);
-  // messages quote what files and other processes say
+  // messages quote text of files and other processes
   std::string text = printable(positionText(diagnostic.where)) + code + printableLines(diagnostic.message);
   if (!diagnostic.help.empty()) text += "\n  help: " + printableLines(diagnostic.help);
   return text;

@@ -50,7 +50,7 @@ class Diagnostics {
 
 std::string format(const Diagnostic& diagnostic);
 
-/// Thrown where a caller cannot go on: carries every finding.
+/// Thrown by code that cannot go on; carries every finding. what() is diagnostics().text().
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Diagnostics diagnostics);
@@ -62,8 +62,8 @@ class InputError : public std::runtime_error {
 
 /// 'value' for use in a message: at most 60 characters, control characters shown as '?'.
 std::string quote(const std::string& value);
-/// The candidate nearest to `word` by edit distance (Damerau-Levenshtein, upper and lower case alike), or "" when none is close:
-/// one slip in up to five letters, one more for every three letters after that.
+/// The candidate nearest to `word` by edit distance (optimal string alignment, ignoring case), or "" when none is
+/// close: one typing error is allowed in up to five letters, two in six, one more for every three further letters.
 std::string nearestName(const std::string& word, const std::vector<std::string>& candidates);
 /// " (did you mean 'x'?)" or "".
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);

@@ -13,7 +13,7 @@ std::string lowerCase(std::string word) {
 
 std::size_t allowedDistance(std::size_t length) { return length < 6 ? 1 : 1 + (length - 3) / 3; }
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string alignment).
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string alignment).
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -40,9 +40,9 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   for (const std::string& candidate : candidates) {
     const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
     const std::size_t allowed = allowedDistance(longer);
-    if (longer - shorter > allowed) continue;  // also keeps a very long word from costing anything
+    if (longer - shorter > allowed) continue;  // also skips very long words, which would be expensive
     const std::size_t distance = editDistance(lower, lowerCase(candidate));
-    // a word of which no letter is right is not a slip of the keyboard
+    // a word without one correct letter is no typing error
     if (distance > allowed || distance >= longer || distance >= nearest_distance) continue;
     nearest = candidate;
     nearest_distance = distance;

@@ -12,7 +12,7 @@ struct Character {
   std::size_t bytes = 0;  // 0: not UTF-8
 };
 
-// As RFC 3629 has it: no longer forms, no surrogates, nothing above 10FFFF.
+// Decodes UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above 10FFFF.
 Character characterAt(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[at + i])); };
   const std::uint32_t first = byte(0);

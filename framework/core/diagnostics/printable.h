@@ -4,15 +4,15 @@
 
 namespace presa {
 
-/// Text from outside (another process, a file, a device), for the terminal: what a terminal would obey, or would show as something
-/// else, stands there as \xNN or \u{NNNN}. That are control characters (C0 with newline and tab, DEL, C1), bytes that are not UTF-8, and the
-/// characters that turn the direction of writing, break lines or have no width. Everything else stays as it is.
+/// Makes text from outside (another process, a file, a device) safe for a terminal: control characters (C0 with
+/// newline and tab, DEL, C1), bytes that are not UTF-8, and characters that change the writing direction, break lines
+/// or have no width are written as \xNN or \u{NNNN}. All other characters stay as they are.
 std::string printable(std::string_view text);
 
-/// The same, of at most `most` characters; what is longer ends in "...".
+/// The same, cut after `most` characters; "..." marks the cut.
 std::string printable(std::string_view text, std::size_t most);
 
-/// The same of text that has lines: they stay. For pages there is svg::escape.
+/// The same for text of several lines: newlines stay. HTML pages use svg::escape instead.
 std::string printableLines(std::string_view text);
 
 }  // namespace presa

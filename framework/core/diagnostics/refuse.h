@@ -6,7 +6,7 @@
 
 namespace presa {
 
-/// Throws InputError with one finding about a file, or an option, as a whole; `file` may be empty.
+/// Throws InputError with one finding about a whole file or an option; `file` may be empty.
 [[noreturn]] inline void refuse(int code, const std::string& file, const std::string& message,
                                 const std::string& help = {}) {
   Diagnostics diagnostics;

@@ -8,20 +8,20 @@
 
 namespace presa {
 
-/// Events in order from one writer thread to one reader thread. Its memory is taken at construction;
-/// when it is full an event is dropped and counted, never waited for.
+/// Queue of events in order, from one writer thread to one reader thread. Its memory is taken at
+/// construction; when it is full, the writer drops the event and counts it instead of waiting.
 template <PlainData T>
 class EventRing {
  public:
   explicit EventRing(std::size_t capacity) : queue_(capacity) {}
 
-  /// Writer. Wait-free; false (and counted) when full.
+  /// Writer: wait-free; false, and the event is counted as dropped, when the ring is full.
   bool push(const T& event) noexcept {
     if (queue_.push(event)) return true;
     dropped_.fetch_add(1, std::memory_order_relaxed);
     return false;
   }
-  /// Reader: takes the oldest event.
+  /// Reader: takes the oldest event; false when there is none.
   bool pop(T& event) noexcept { return queue_.pop(event); }
 
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }

@@ -8,33 +8,33 @@
 
 namespace presa {
 
-/// Data that may cross threads: no owner, no pointer to free. (Eigen's fixed-size types are plain
-/// bytes but declare a copy constructor, so std::is_trivially_copyable is not the question here.)
+/// Data that may cross threads: it owns nothing. (Eigen's fixed-size types are plain bytes but declare
+/// a copy constructor, so the concept does not ask for std::is_trivially_copyable.)
 template <class T>
 concept PlainData =
     std::is_trivially_destructible_v<T> && std::is_default_constructible_v<T> && std::is_copy_assignable_v<T>;
 
-/// Data whose memory the scene decides: its writer sizes it at load, and from then on an assignment between two values
-/// that were sized alike takes no memory. `roomBytes()` is that memory; declaring it is the promise.
+/// Data whose size depends on the scene: its writer sizes it at load; after that, an assignment between two values of
+/// the same size must not allocate. A type promises this by declaring `roomBytes()`, the memory it owns.
 template <class T>
 concept SizedAtLoad = std::default_initializable<T> && std::is_copy_assignable_v<T> && requires(const T& value) {
   { value.roomBytes() }
   noexcept->std::same_as<std::size_t>;
 };
 
-/// What ports carry.
+/// Data that ports can carry.
 template <class T>
 concept ExchangedData = PlainData<T> || SizedAtLoad<T>;
 
 /// Wait-free hand-over of the latest value from one writer thread to one reader thread (triple
-/// buffer). The writer never waits and never fails; the reader sees whole values in order and may
-/// miss some. Each value carries a version (1, 2, 3 …) and the writer's simulated time.
-/// Several readers need one LatestValue each. It takes memory at construction only, given a value as large as those to come.
+/// buffer). The writer never waits and never fails; the reader sees whole values in order and may miss
+/// some. Each value carries a version (1, 2, 3 …) and the writer's simulated time [s]. Several readers need
+/// one LatestValue each. Allocates only at construction, provided that `sized` is as large as later values.
 template <ExchangedData T>
 class LatestValue {
  public:
   LatestValue() = default;
-  /// Before either thread uses it: `sized` is what publish() will be given, as far as size goes.
+  /// Before either thread uses it; `sized` has the size of the values that publish() will get.
   explicit LatestValue(const T& sized) {
     for (Slot& slot : slots_) slot.value = sized;
   }
@@ -45,18 +45,18 @@ class LatestValue {
     slot.value = value;
     slot.time = time;
     slot.version = ++published_;
-    // release: the slot's contents are visible to whoever takes this index
+    // release: the slot's contents are visible to the thread that takes this index
     write_ = middle_.exchange(static_cast<std::uint8_t>(write_ | kNew), std::memory_order_acq_rel) & kIndex;
   }
 
-  /// Reader: takes the latest value if there is a newer one; true when there was.
+  /// Reader: takes the latest value; false when there is none newer than the current one.
   bool update() noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kNew) == 0) return false;
     read_ = middle_.exchange(read_, std::memory_order_acq_rel) & kIndex;
     return true;
   }
 
-  /// Reader: the value last taken; version 0 and what construction left, a default T or `sized`, before the first.
+  /// Reader: the value last taken. Before the first: version 0 and the initial value (a default T or `sized`).
   const T& value() const noexcept { return slots_[read_].value; }
   std::uint64_t version() const noexcept { return slots_[read_].version; }
   double time() const noexcept { return slots_[read_].time; }

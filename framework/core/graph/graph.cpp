@@ -36,7 +36,7 @@ void Graph::pull(RateGroup group) noexcept {
 }
 
 void Graph::stop(RateGroup group) {
-  // in reverse, so that a reader never outlives what it reads
+  // in reverse order, so that readers stop before their writers
   auto& modules = groupOf(group).modules;
   for (auto it = modules.rbegin(); it != modules.rend(); ++it) (*it)->stop();
 }

@@ -9,16 +9,16 @@
 
 namespace presa {
 
-/// A value's way from one module to another. Within a rate group the reader sees the writer's value in
-/// place; across groups it goes through a bridge.
+/// One link from an output port to an input port. Within a rate group the reader sees the writer's value in
+/// place; across groups the value goes through a bridge.
 struct Connection {
   const OutPortBase* from = nullptr;
   const InPortBase* to = nullptr;
   BridgeBase* bridge = nullptr;  ///< null within a rate group
 };
 
-/// The frozen graph: modules in step order and their connections. Made by GraphBuilder only.
-/// Each group's functions belong to the one thread that runs the group.
+/// The frozen graph: modules in step order and their connections. Made by GraphBuilder only. Functions that
+/// take a group are called on the one thread that runs this group; step and replayStep do not block.
 class Graph {
  public:
   const std::vector<Connection>& connections() const noexcept { return connections_; }
@@ -32,16 +32,16 @@ class Graph {
   /// `row`, when given, receives the versions that were read.
   void step(RateGroup group, const Tick& tick, ScheduleRow* row = nullptr) noexcept;
   void stop(RateGroup group);
-  /// The parts of a step, for measuring: pull the group's inputs, then step the i-th of modules(group) and publish it.
+  /// The parts of step(), for measuring: pull the group's inputs, then step modules(group)[i] and publish its outputs.
   void pull(RateGroup group) noexcept;
   void stepModule(RateGroup group, std::size_t i, const Tick& tick) noexcept { stepModule(groupOf(group), i, tick); }
 
-  /// What each group reads across rates, in the order of ScheduleRow::versions.
+  /// Names of the values that each group reads across rates, in the order of ScheduleRow::versions.
   ScheduleInputs scheduleInputs() const;
 
-  /// Replay: keep published values, then step with exactly the recorded ones.
+  /// Replay: every bridge keeps published values in about `bytes` of memory; replayStep then reads recorded versions.
   void keepHistory(std::size_t bytes);
-  /// False, and nothing done, when a version in `row` has not been published yet.
+  /// Steps with the versions in `row`. False, without stepping, when one of them has not been published yet.
   bool replayStep(RateGroup group, const Tick& tick, const ScheduleRow& row) noexcept;
 
  private:

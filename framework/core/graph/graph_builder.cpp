@@ -92,8 +92,8 @@ void GraphBuilder::checkInputs() {
   }
 }
 
-// Kahn's algorithm, taking ready modules in the order in which they were added: the step order is the
-// same in every run.
+// Kahn's algorithm; ready modules are taken in the order in which they were added, so that the step
+// order is the same in every run.
 std::vector<Module*> GraphBuilder::order(RateGroup group) {
   std::vector<Module*> open;
   for (const auto& module : modules_) {
@@ -110,7 +110,7 @@ std::vector<Module*> GraphBuilder::order(RateGroup group) {
   while (!open.empty()) {
     const auto ready = std::find_if(open.begin(), open.end(), [&](const Module* m) { return waits_for(m) == nullptr; });
     if (ready == open.end()) {
-      // every open module waits for another: walk back until one repeats
+      // every remaining module waits for another one: follow the links backwards until a module repeats
       std::vector<const Link*> walk;
       const Module* at = open.front();
       std::vector<const Module*> seen;
@@ -145,7 +145,7 @@ Graph GraphBuilder::build() {
   }
   if (diagnostics_.hasErrors()) throw InputError(diagnostics_);
 
-  // by name: recordings of format 6 and older do not say which value a column is of, and count on this order
+  // sorted by name: recordings of format 6 and older do not name their columns and rely on this order
   std::stable_sort(links_.begin(), links_.end(),
                    [](const Link& a, const Link& b) { return a.to->name() < b.to->name(); });
   std::map<std::pair<const OutPortBase*, RateGroup>, BridgeBase*> bridges;

@@ -8,7 +8,7 @@
 
 namespace presa {
 
-/// Collects modules and connections, validates them, and freezes them into a Graph. Single use.
+/// Collects modules and connections, validates them, and freezes them into a Graph. Single use; main thread.
 class GraphBuilder {
  public:
   /// Takes the module; returns it for connecting.
@@ -19,14 +19,14 @@ class GraphBuilder {
     return reference;
   }
 
-  /// Connects one output to one input; their types must be the same.
+  /// Connects an output to an input. E502 (other type) and E503 (already connected) are thrown by build().
   void connect(OutPortBase& from, InPortBase& to);
-  /// Connects every input that is still open to the one output of the same port name and type.
+  /// Connects every input that is still open to the output of the same name (E504 when several have it).
   void connectByName();
 
-  /// Throws InputError with every finding (E5xx): duplicate module name, unconnected required input,
-  /// type mismatch, two writers for one name, two values of one name read across rates by one group, loop within a rate
-  /// group (printed port by port).
+  /// Throws InputError with every finding: unconnected required input (E501), type mismatch, input with two writers,
+  /// ambiguous name, duplicate module name (E505), loop within a rate group (E506, printed port by port), a group that
+  /// reads too many values across rates (E507) or two of the same name (E508).
   Graph build();
 
  private:

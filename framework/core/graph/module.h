@@ -9,13 +9,13 @@ namespace presa {
 class InPortBase;
 class OutPortBase;
 
-/// Something that a run does without.
+/// An effect or plug-in that a run leaves out, and the reason.
 struct LeftOut {
   std::string what, why;
 };
 
-/// A node of the graph: constant parameters, plain state, ports as members. Ports declare themselves in the
-/// constructor, the builder connects them, and after build() nothing changes any more.
+/// A node of the graph: constant parameters, plain state, ports as members. Ports register with the module in their
+/// constructors, the builder connects them, and build() freezes the connections.
 class Module {
  public:
   Module(std::string name, RateGroup group) : name_(std::move(name)), group_(group) {}
@@ -28,15 +28,15 @@ class Module {
   const std::vector<InPortBase*>& inputs() const noexcept { return inputs_; }
   const std::vector<OutPortBase*>& outputs() const noexcept { return outputs_; }
 
-  /// Once before the first step, on the thread that will call step. May allocate and throw.
+  /// Called once before the first step, on the group's thread. May allocate; an exception ends the run.
   virtual void start() {}
-  /// One tick. In the haptic group: no allocation, lock, exception, text or system call.
+  /// One tick: read inputs, write outputs. In the haptic group: no allocation, lock, exception, text or system call.
   virtual void step(const Tick& tick) noexcept = 0;
-  /// Once after the last step, on the same thread.
+  /// Called once after the last step, on the same thread.
   virtual void stop() {}
-  /// What one step does, in order, for `presa explain`.
+  /// Stages of one step, in order, for `presa explain`.
   virtual std::vector<std::string> stages() const { return {}; }
-  /// Effects this module could have and the scene does not call for.
+  /// Effects that this module can have but the scene does not call for.
   virtual std::vector<LeftOut> leftOut() const { return {}; }
 
  private:

@@ -11,20 +11,20 @@
 
 namespace presa {
 
-/// What a reader does with a value that has grown old.
+/// How a reader treats a value older than InPortBase::oldAfter(). A declaration: the reader's step() implements it.
 enum class WhenOld { kHold, kExtrapolate, kFadeToZero };
 
-/// One value's way into one rate group, as the executors and the replay see it. All readers of the group share it, so
-/// that within a tick they see the same version.
+/// Carries one output across threads into one rate group. All readers in the group share the bridge, so that within
+/// a tick they see the same version.
 class BridgeBase {
  public:
   virtual ~BridgeBase() = default;
   virtual void addReader(InPortBase& reader) = 0;
-  /// Reader's side, before its group's step: takes the latest value; returns its version (0: none yet).
+  /// Reader's thread, before its group's step: takes the latest value; returns its version (0: none yet).
   virtual std::uint64_t pull() noexcept = 0;
-  /// Writer's side, after its module's step.
+  /// Writer's thread, after its module's step: publishes the output with the tick's simulated time [s].
   virtual void push(double time) noexcept = 0;
-  /// Replay only: keep published values in about this much memory, and read exactly the given version.
+  /// Replay only: keepHistory keeps published values in about `bytes`, pullVersion reads one of them; false: not there.
   virtual void keepHistory(std::size_t bytes) = 0;
   virtual bool pullVersion(std::uint64_t version) noexcept = 0;
 };
@@ -57,7 +57,7 @@ class InPortBase {
   std::type_index type() const noexcept { return type_; }
   bool optional() const noexcept { return optional_; }
   WhenOld whenOld() const noexcept { return when_old_; }
-  /// Age in seconds from which the value counts as old.
+  /// Age above which the value counts as old [s].
   double oldAfter() const noexcept { return old_after_; }
   bool connected() const noexcept { return connected_; }
 
@@ -75,8 +75,8 @@ class InPortBase {
 template <ExchangedData T>
 class Out;
 
-/// Input port. Same rate: reads the writer's value in place. Across rates: the latest value pulled before
-/// this group's step, with its age.
+/// Input port. Within a rate group it sees the writer's value in place; across groups it holds the latest value,
+/// taken before this group's step, with its age.
 template <ExchangedData T>
 class In final : public InPortBase {
  public:
@@ -87,13 +87,13 @@ class In final : public InPortBase {
   In(Module& owner, std::string name, Optional, WhenOld when_old = WhenOld::kHold, double old_after = kNever)
       : InPortBase(owner, std::move(name), typeid(T), true, when_old, old_after) {}
 
-  /// The value; a default T before the writer's first step.
+  /// Before the writer's first step: across groups a default T, within a group the output's initial value.
   const T& value() const noexcept { return *value_; }
   const T* operator->() const noexcept { return value_; }
-  /// 0 until the first value, then growing by one with each.
+  /// Across groups: 0 until the first value, then its number, counted by the writer. Within a group: always 0.
   std::uint64_t version() const noexcept { return version_; }
   bool hasValue() const noexcept { return direct_ || version_ > 0; }
-  /// Seconds since the writer's tick (simulated time).
+  /// Simulated time since the writer's tick [s]; 0 within a group.
   double age(const Tick& now) const noexcept { return direct_ ? 0.0 : now.time - time_; }
   bool old(const Tick& now) const noexcept { return age(now) > old_after_; }
 
@@ -112,7 +112,7 @@ class In final : public InPortBase {
 template <ExchangedData T>
 class Bridge final : public BridgeBase {
  public:
-  /// `source` has the size that it will have.
+  /// `source` already has its final size: the slots are copies of it.
   explicit Bridge(const T& source) : source_(source), latest_(source) {}
 
   void addReader(InPortBase& reader) override { readers_.push_back(static_cast<In<T>*>(&reader)); }
@@ -161,8 +161,8 @@ class Bridge final : public BridgeBase {
   std::uint64_t pushed_ = 0;
 };
 
-/// Output port: the module writes `value` in its step; the graph publishes it. What is SizedAtLoad the module sizes in its
-/// constructor: the exchange makes room for it as it finds it, when the graph is built.
+/// Output port: the module writes `value` in step(); the graph publishes it afterwards. A SizedAtLoad value must have
+/// its final size when the module's constructor ends: build() allocates the bridges by it.
 template <ExchangedData T>
 class Out final : public OutPortBase {
  public:

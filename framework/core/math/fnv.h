@@ -5,7 +5,7 @@
 
 namespace presa {
 
-/// FNV-1a, 64 bit, byte by byte: the same on every machine. Not a cryptographic hash.
+/// FNV-1a hash, 64 bit, byte by byte: the same on every machine. Not a cryptographic hash.
 /// Source: [Fowler–Noll–Vo, FNV-1a 64]
 class Fnv1a {
  public:
@@ -13,12 +13,12 @@ class Fnv1a {
   constexpr void add(std::string_view text) noexcept {
     for (const char c : text) add(static_cast<std::uint8_t>(c));
   }
-  /// The bytes of an unsigned number, the least significant first.
+  /// Adds the bytes of an unsigned number, the least significant first.
   template <class Word>
   constexpr void addWord(Word word) noexcept {
     for (unsigned shift = 0; shift < 8 * sizeof(Word); shift += 8) add(static_cast<std::uint8_t>(word >> shift));
   }
-  /// As so many bytes of zero, in one multiplication.
+  /// Adds `count` bytes of zero in one multiplication.
   template <std::size_t count>
   constexpr void addZeros() noexcept {
     constexpr std::uint64_t kAll = power(kPrime, count);

@@ -12,13 +12,13 @@
 
 namespace presa {
 
-/// Random numbers that are the same on every machine: the raw output of std::mt19937_64 is fixed by the standard, its
-/// distributions and std::shuffle are not, so they are written out here. A stream is named: drawing more from one
-/// ("stimulus noise") leaves the others ("order") as they were.
+/// Random numbers that are the same on every machine: the standard fixes the raw output of std::mt19937_64, but not the
+/// distributions and std::shuffle, which are therefore written out here. Each named stream is independent: drawing more
+/// numbers from "stimulus noise" does not change those of "order".
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name) : engine_(mix(seed ^ hashOf(name))) {}
-  /// The stream of one item of many: a subject, a trial.
+  /// A stream of its own for one item of many, such as a subject or a trial.
   RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t item)
       : engine_(mix(mix(seed ^ hashOf(name)) + item)) {}
 
@@ -33,14 +33,14 @@ class RandomStream {
       if (const std::uint64_t drawn = bits(); drawn >= unfair) return drawn % count;
     }
   }
-  /// Mean 0, standard deviation 1 [Box & Muller 1958]; takes two raw numbers, keeps nothing back.
+  /// Mean 0, standard deviation 1 [Box & Muller 1958]; draws two raw numbers on every call.
   double normal() {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());
   }
-  /// exp of a normal variable: half of all draws lie below `median`.
+  /// Log-normal: exp of a normal variable, with the given median.
   double logNormal(double median, double sd_of_log) { return median * std::exp(sd_of_log * normal()); }
-  /// Every order equally likely [Fisher & Yates].
+  /// All orders are equally likely [Fisher & Yates].
   template <class T>
   void shuffle(std::span<T> items) {
     for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[below(left)]);

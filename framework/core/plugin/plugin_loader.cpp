@@ -35,7 +35,7 @@ std::vector<fs::path> searchFolders() {
   return folders;
 }
 
-/// A name comes from a rig or scene file; it must not lead out of the plug-in folders.
+/// Names come from rig and scene files; they must not lead out of the plug-in folders.
 bool isPluginName(const std::string& name) {
   return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
 }
@@ -54,7 +54,7 @@ void* openPlugin(const std::string& name) {
       tried += (tried.empty() ? "" : ", ") + path.string();
       continue;
     }
-    // A plug-in that lacks a library must fail here, not at its first call in a running haptic loop: RTLD_NOW.
+    // RTLD_NOW: a plug-in that lacks a library fails here, not at its first call in a running haptic loop.
     if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     const char* reason = dlerror();
     refuse(591, "", "plug-in " + path.string() + " does not load: " + (reason ? reason : "unknown reason"),

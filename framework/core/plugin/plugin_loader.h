@@ -16,7 +16,7 @@ void* pluginSymbol(const std::string& name, const char* symbol);
 /// Throws InputError E510 when a plug-in was built for another version of the interface.
 void requireAbi(const std::string& plugin, int abi);
 
-/// The table that the plug-in's C function `symbol` returns. Throws as pluginSymbol and requireAbi do.
+/// The table that the plug-in's C function `symbol` returns. Throws the errors of pluginSymbol and requireAbi.
 template <class Table>
 const Table& pluginTable(const std::string& plugin, const char* symbol) {
   using Entry = const Table* (*)();
@@ -25,7 +25,7 @@ const Table& pluginTable(const std::string& plugin, const char* symbol) {
   return table;
 }
 
-/// Path of a program that Presa starts itself; it lies beside the framework library.
+/// Path of a helper program that Presa starts itself; helpers lie beside the framework library.
 std::string helperProgram(const std::string& name);
 
 }  // namespace presa

@@ -3,15 +3,15 @@
 
 namespace presa {
 
-/// Which ticks of a group that is late are made up (Tick::made_up). Made up after a stall they run at one instant, and only
-/// the newest may leave for the world. A group that never gets up to date, because its ticks cost as much as its period,
-/// still sends one a period: the force at a device must not hang until the stall is given up.
+/// Decides which ticks of a late group are catch-up ticks (Tick::made_up). After a stall the missed ticks run at one
+/// instant, and only the newest may write to the world outside. A group that never catches up, because its ticks take
+/// as long as its period, still writes once per period: the force at a device must not freeze meanwhile.
 /// Thread: the group's; nonblocking.
 class CatchUp {
  public:
   explicit CatchUp(std::int64_t period_ns) : period_(period_ns) {}
 
-  /// Of the tick that begins at `now`, `late` after it was due [ns]. Once for each tick, in order.
+  /// Whether the tick that begins at `now`, `late` after it was due [ns], is a catch-up tick. Call once per tick.
   bool madeUp(std::int64_t now, std::int64_t late) noexcept {
     const bool newest = late < period_, begins = !newest && !late_;
     late_ = !newest;
@@ -25,7 +25,7 @@ class CatchUp {
 
  private:
   std::int64_t period_;
-  std::int64_t since_ = 0;  // when a tick was last sent, or the stall ended
+  std::int64_t since_ = 0;  // last tick that was no catch-up tick, or begin of the delay [ns]
   bool late_ = false;
 };
 

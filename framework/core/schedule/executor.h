@@ -14,19 +14,19 @@
 
 namespace presa {
 
-/// How a run ends early, and where it is. Shared by the program's main thread and an executor.
+/// Requests to a running executor, and the time it has reached. Shared by the main thread and the executor's threads.
 struct RunControl {
   std::atomic<bool> stop_requested{false};  ///< device input sees it at its next tick: forces fade
-  std::atomic<bool> abort{false};           ///< leave now
-  std::atomic<std::uint32_t> rearms{0};     ///< counted up by whoever has looked: latched faults are forgiven
+  std::atomic<bool> abort{false};           ///< leave after the current tick, without the fade
+  std::atomic<std::uint32_t> rearms{0};     ///< number of re-arms; each one clears latched faults
   std::atomic<double> time{0};              ///< simulated time reached [s]
-  /// Once stop is requested in virtual time: leave at this moment of monotonicNs(), faded or not.
+  /// Lockstep only, after a stop request: leave at this instant of monotonicNs(), even if the fade is not over.
   std::atomic<std::int64_t> leave_by_ns{kNever};
   static constexpr std::int64_t kNever = INT64_MAX;
 };
 
-/// Runs a graph for a while. Both executors run the same graph with the same ticks; they differ only in
-/// who waits for whom.
+/// Runs a graph for a given simulated time. Both executors step the same graph with the same ticks; they
+/// differ only in threads and clock.
 class Executor {
  public:
   Executor(Graph& graph, RateTable rates, RunControl& control) : graph_(graph), rates_(rates), control_(control) {}
@@ -36,24 +36,24 @@ class Executor {
   /// every group has stopped. Rethrows what a module threw in start().
   virtual void run(double duration) = 0;
 
-  /// Called between ticks on the thread that called run(): every 100 haptic ticks in lockstep, every 20 ms in real time.
+  /// Sets a function that run() calls on its own thread: every 100 haptic ticks in lockstep, every 20 ms in real time.
   void onPoll(std::function<void()> poll) { poll_ = std::move(poll); }
   void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }
-  /// Reads execution times from another clock [ns], such as threadCpuNs for studies of cost. Before run().
+  /// Measures execution times with another clock [ns], such as threadCpuNs for studies of cost. Call before run().
   void timeBy(std::int64_t (*clock)() noexcept) noexcept { clock_ = clock; }
   const GroupTiming& timing(RateGroup group) const noexcept { return timings_[static_cast<std::size_t>(group)]; }
   /// Wall time from the first tick's deadline to the end of the last haptic tick [s], without start-up.
   double wallSeconds() const noexcept { return wall_seconds_; }
   const RateTable& rates() const noexcept { return rates_; }
-  /// What could not be had (scheduling class, locked memory), in words for the user.
+  /// Real-time rights that the system refused (SCHED_FIFO, locked memory), in words for the user.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
   /// Simulated time from a stop request to the end: the output stage fades within it.
   static constexpr double kFadeTime = 0.15;
-  /// A group that is late runs its missed ticks at once (Tick::made_up, all but the newest), so that simulated time
-  /// follows the clock; after a stall longer than this it gives them up and counts them [s].
+  /// A late group runs its missed ticks at once (Tick::made_up for all but the newest), so that simulated time follows
+  /// the clock; after a stall longer than this it skips and counts them [s].
   static constexpr double kCatchUpLimit = 0.1;
-  /// A group that has not run for longer than this is told so (Tick::resumed) [s].
+  /// After a gap longer than this, Tick::resumed is set in the group's first tick [s].
   static constexpr double kGap = 1;
 
  protected:
@@ -71,14 +71,14 @@ class Executor {
   double wall_seconds_ = 0;
 };
 
-/// All groups on the calling thread in virtual time: deterministic to the bit, as fast as the machine goes.
-/// At one instant the slow groups step before the fast ones: dynamics, collision, haptic, view, bus.
+/// Runs all groups on the calling thread in virtual time: deterministic to the bit, as fast as the machine can.
+/// Groups due at the same instant step in the order dynamics, collision, haptic, view, bus.
 class LockstepExecutor final : public Executor {
  public:
   using Executor::Executor;
   void run(double duration) override;
-  /// Stalls, for studies: asked at every instant at which a group is due, with the simulated time. While it says true the
-  /// group's ticks wait; then they run at once, as in real time, those older than kCatchUpLimit are given up and counted.
+  /// Simulates stalls, for studies. `held_up` is called whenever a group is due, with the simulated time [s]; while it
+  /// returns true, the group's ticks wait; then they run at once, or are skipped after kCatchUpLimit, as in real time.
   void delay(std::function<bool(RateGroup, double)> held_up) { held_up_ = std::move(held_up); }
 
  private:
@@ -88,7 +88,7 @@ class LockstepExecutor final : public Executor {
   std::array<std::uint64_t, kRateGroupCount> done_{};  // ticks run or given up, by group
 };
 
-/// One thread per rate group with absolute deadlines; SCHED_FIFO and locked memory where the system allows it.
+/// Runs one thread per rate group with absolute deadlines; SCHED_FIFO and locked memory where the system allows it.
 class RealtimeExecutor final : public Executor {
  public:
   using Executor::Executor;

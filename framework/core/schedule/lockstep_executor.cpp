@@ -21,7 +21,7 @@ void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double 
     done = index;
   }
   timing.missed.fetch_add(index - done, std::memory_order_relaxed);
-  const bool resumed = late > rates_.ticksWithin(group, kGap);  // then only the newest is left
+  const bool resumed = late > rates_.ticksWithin(group, kGap);  // all but the newest tick have been skipped
   for (; done <= index; ++done) stepTimed(group, done, done < index, resumed);
 }
 

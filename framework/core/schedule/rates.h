@@ -14,8 +14,8 @@ struct Rates {
   double bus = 200;        ///< publishing rate of the run's state [Hz]; not settable in a scene
 };
 
-/// The rates of a run in whole nanoseconds: every group's period is a whole number of haptic periods, so
-/// that all groups meet at the same instants of simulated time.
+/// The rates of a run in whole nanoseconds. Every group's period is a whole number of haptic periods, so
+/// that the ticks of all groups fall on the instants of the haptic ticks.
 class RateTable {
  public:
   explicit RateTable(const Rates& rates);

@@ -98,7 +98,7 @@ void RealtimeExecutor::runGroup(RateGroup group, double duration, Shared& shared
     prefaultStack();
   }
   shared.ready.arrive_and_wait();
-  // the first thread through sets the common start, a little ahead so that all reach it
+  // the first thread to arrive sets the common start, 5 ms ahead so that all threads reach it
   std::int64_t unset = 0;
   shared.start_ns.compare_exchange_strong(unset, monotonicNs() + 5'000'000);
   if (!shared.failed) loop(group, duration, shared);
@@ -150,7 +150,7 @@ void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {
     }
   }
   if (group != RateGroup::kHaptic) return;
-  // the last tick stands for the time up to the next deadline
+  // the last tick covers the time up to the next deadline
   sleepUntilNs(start + static_cast<std::int64_t>(end) * period);
   wall_seconds_ = static_cast<double>(monotonicNs() - start) * 1e-9;
 }

@@ -4,20 +4,20 @@
 
 namespace presa {
 
-/// What the system lets this process have of what keeps a haptic tick on time.
+/// The real-time rights that the system grants or refuses this process.
 struct RealtimeRights {
   std::string fifo;    ///< why SCHED_FIFO is refused; empty: granted
   std::string memory;  ///< why memory cannot be locked; empty: granted
   bool granted() const { return fifo.empty() && memory.empty(); }
 };
 
-/// Asks by trying, on a thread of its own, and leaves nothing changed. Thread: main.
+/// Tries both rights, SCHED_FIFO on a temporary thread, and undoes them. Thread: main.
 RealtimeRights realtimeRights();
 
-/// Tests put another answer in its place.
+/// Replaces realtimeRights() in tests.
 using RealtimeProbe = std::function<RealtimeRights()>;
 
-/// Of the haptic thread under SCHED_FIFO: above ordinary work and interrupts' soft part, below the kernel's watchdog threads (99).
+/// SCHED_FIFO priority of the haptic thread: above ordinary work and softirqs, below the kernel's watchdogs (99).
 inline constexpr int kHapticPriority = 80;
 
 }  // namespace presa

@@ -10,8 +10,8 @@
 
 namespace presa {
 
-/// One tick of one rate group: whether it was a catch-up tick, and the version of every value read across rates:
-/// versions[i] belongs to the name i of the group's ScheduleInputs. Thread timing makes these versions differ from run
+/// One tick of one rate group: whether it was a catch-up tick, and the version of every value read across rates.
+/// versions[i] belongs to name i of the group's ScheduleInputs. Thread timing makes these versions differ from run
 /// to run; recording them makes a replay exact.
 struct ScheduleRow {
   static constexpr int kMaxBridges = 12;
@@ -20,12 +20,12 @@ struct ScheduleRow {
   std::array<std::uint64_t, kMaxBridges> versions{};
 };
 
-/// Groups whose ticks are recorded: all but the bus, which only publishes the others' results and is not needed for a
-/// replay.
+/// Groups whose ticks are recorded: all but the bus, which only publishes results of the others and is not needed for
+/// a replay.
 inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
 constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
 
-/// By group: the port names of the values read across rates, each once, in the order of ScheduleRow::versions.
+/// For each group: the port names of the values read across rates, each once, in the order of ScheduleRow::versions.
 using ScheduleInputs = std::array<std::vector<std::string>, kScheduledGroupCount>;
 
 /// Log to which the executors write when a run is recorded: one ring per rate group (one writer each), drained by the

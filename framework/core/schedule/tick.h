@@ -3,22 +3,22 @@
 
 namespace presa {
 
-/// The groups of modules that run together, each at its own rate and, in real time, on its own thread.
+/// Groups of modules that step together: each group has its own rate and, in real time, its own thread.
 enum class RateGroup : std::uint8_t { kHaptic, kCollision, kDynamics, kView, kBus };
 inline constexpr int kRateGroupCount = 5;
 const char* toString(RateGroup group) noexcept;
 
-/// One step of a rate group. Time is simulated time, index * period exactly, in both executors; no module
-/// reads a wall clock, so a recording can be replayed to the bit.
+/// One step of a rate group. Time is simulated time, exactly index * period in both executors. Modules take their
+/// time from here and read no clock, so that a recording can be replayed to the bit.
 struct Tick {
   std::uint64_t index = 0;
   double time = 0;    ///< [s]
   double period = 0;  ///< [s]
-  /// Run late, when a newer tick of its group was due already: state goes on, nothing leaves for the world outside, which
-  /// would see all of them at one instant.
+  /// Catch-up tick: it runs late, when a newer tick of its group is already due. Modules advance their state but send
+  /// nothing to the world outside, which would receive all catch-up ticks at one instant.
   bool made_up = false;
-  /// The first after a gap: for longer than Executor::kGap no tick ran, and whatever was at the devices was held. The process stood
-  /// still, or the whole machine slept.
+  /// First tick after a gap longer than Executor::kGap: the process was stopped or the machine was suspended, and the
+  /// devices held their last forces meanwhile.
   bool resumed = false;
 };
 

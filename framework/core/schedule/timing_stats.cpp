@@ -14,13 +14,13 @@ struct OctaveEdges {
     for (std::size_t k = 0; k < edge.size(); ++k) edge[k] = std::exp2(static_cast<double>(k) / 32.0);
   }
 };
-// built while the library loads, so that add() meets no first-use guard
+// constructed while the library loads, so that add() needs no first-use guard
 const OctaveEdges kOctave;
 
 }  // namespace
 
 int DurationHistogram::bucketOf(std::int64_t nanoseconds) noexcept {
-  // no integer lies strictly between 1 and 2, so the lowest octave has room for 0 and 1 of their own
+  // no integer lies strictly between 1 and 2, so buckets 0 and 1 of the lowest octave hold 0 and 1
   if (nanoseconds < 2) return static_cast<int>(nanoseconds);
   const int octave = std::bit_width(static_cast<std::uint64_t>(nanoseconds)) - 1;
   const double mantissa = std::ldexp(static_cast<double>(nanoseconds), -octave);

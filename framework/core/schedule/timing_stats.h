@@ -5,8 +5,8 @@
 
 namespace presa {
 
-/// Distribution of durations in fixed memory: 32 buckets per octave of nanoseconds (error below 2.2 %),
-/// exact maximum. One writer; read after the run or, for a live display, approximately.
+/// Histogram of durations in fixed memory: 32 buckets per octave of nanoseconds (error below 2.2 %), exact
+/// maximum. One writer; exact when read after the run, approximate when read live.
 class DurationHistogram {
  public:
   void add(std::int64_t nanoseconds) noexcept;
@@ -27,13 +27,13 @@ class DurationHistogram {
   std::int64_t max_ = 0;
 };
 
-/// What one rate group did. Execution time is CPU work per tick; period and lateness are wall clock and
-/// stay empty in lockstep, where there is no deadline to miss.
+/// Timing of one rate group [ns]. Execution is the duration of a tick by Executor::timeBy's clock. Period and
+/// lateness are real time only; in lockstep, which has no deadlines, they stay empty.
 struct GroupTiming {
   // counters are atomic for the live display; the histograms are read after the run
   std::atomic<std::uint64_t> ticks{0};
   std::atomic<std::uint64_t> missed{0};   ///< ticks that began more than one period late
-  std::atomic<std::uint64_t> skipped{0};  ///< ticks given up after a stall too long to catch up
+  std::atomic<std::uint64_t> skipped{0};  ///< ticks skipped after a stall too long to catch up
   DurationHistogram execution;
   DurationHistogram period;
   DurationHistogram lateness;

@@ -8,28 +8,28 @@
 
 namespace presa {
 
-/// A body near one finger. Of a mesh: the cut, nodes of its hierarchy (MeshTree) that together hold every triangle within
-/// `radius` of `center_B`. A haptic tick starts from the cut while what it looks at lies in that ball, else from the root: it
-/// never lacks a triangle.
+/// A body near one finger. A mesh has a cut: nodes of its MeshTree that together hold every triangle within `radius` of
+/// `center_B`. A haptic tick starts its query at the cut while the query stays within that ball, else at the root, so
+/// that it never misses a triangle.
 struct NearBody {
   std::int32_t body = kNoBody;
   std::int32_t cut_count = 0;    ///< 0: a primitive, or no cut
-  Vec3 center_B = Vec3::Zero();  ///< [m]
+  Vec3 center_B = Vec3::Zero();  ///< in coordinates of `body` [m]
   double radius = 0;             ///< [m]
   std::array<std::int32_t, kMaxCutNodes> cut;
 };
 
-/// What one finger can reach before the next query: a body that is not listed stays out of its reach as long as everything that
-/// the finger looks at lies within `radius` of `center_W`.
+/// The bodies that one finger can reach before the next query. The list is complete as long as the finger's query stays
+/// within `radius` of `center_W`.
 struct FingerPatch {
-  std::uint64_t serial = 0;  ///< of the query that made it: equal serials mean equal patches
-  Vec3 center_W = Vec3::Zero();
-  double radius = -1;  ///< [m]; negative: the list is of no use, every body has to be looked at
+  std::uint64_t serial = 0;      ///< number of the query that made it: equal serials mean equal patches
+  Vec3 center_W = Vec3::Zero();  ///< [m]
+  double radius = -1;            ///< [m]; negative: the list is not usable, every body has to be tested
   std::int32_t body_count = 0;
   std::array<NearBody, kMaxNearBodies> bodies;
 };
 
-/// Bodies near every finger, and where to begin on their meshes. Written by: collision thread.
+/// Bodies near every finger, and the nodes at which to start in their meshes. Written by: collision thread.
 struct ContactPatches {
   double time = 0;         ///< simulated time of the query [s]
   std::int32_t count = 0;  ///< fingers
@@ -37,7 +37,7 @@ struct ContactPatches {
 
   ContactPatches() = default;
   ContactPatches(const ContactPatches& other) { *this = other; }
-  /// Copies only what is in use, and what is not there yet.
+  /// Copies only the fingers in use, and only patches whose serial differs.
   ContactPatches& operator=(const ContactPatches& other) {
     if (this == &other) return *this;
     time = other.time;

@@ -20,26 +20,26 @@ struct BodyMotion {
   bool asleep = false;
 };
 
-/// What can go wrong in the dynamics (ObjectState::faults).
+/// Faults of the dynamics (ObjectState::faults).
 enum ObjectFault : std::uint32_t {
-  kFaultBodyFrozen = 1,    ///< a body's state was not finite or beyond reason: it stands still now
-  kFaultEngineFailed = 2,  ///< the engine gave up: every body stands still
-  kFaultBadFinger = 4,     ///< a finger contact made no sense: ignored
+  kFaultBodyFrozen = 1,    ///< a body's state was not finite or implausible: the body is frozen
+  kFaultEngineFailed = 2,  ///< the engine failed: all bodies are frozen
+  kFaultBadFinger = 4,     ///< a finger contact was implausible and was ignored
 };
 
-/// How deep bodies stand in each other: over the contact points between two bodies, fixed ones included and fingers not, from which the
-/// step just solved started (its last sub-step). What sleeps on what sleeps or is fixed is not looked at, and not counted.
+/// Penetration depth over all contact points between bodies (fixed ones included, fingers not) at the start of the last
+/// sub-step of the step just solved. Contacts of sleeping bodies with sleeping or fixed ones are not counted.
 struct BodyPenetration {
   static constexpr std::int32_t kUnknown = -1;
-  std::int32_t points = kUnknown;  ///< kUnknown: the engine does not say, and the depths are NaN
+  std::int32_t points = kUnknown;  ///< kUnknown: the engine does not report penetration, and the depths are NaN
   double mean = std::numeric_limits<double>::quiet_NaN();   ///< [m]; 0 where nothing touches
   double worst = std::numeric_limits<double>::quiet_NaN();  ///< [m]; 0 where nothing touches
 };
 
-/// Object State: every body of the scene (fixed ones too, in scene order), over the step just solved.
-/// It says for which time it is valid; a reader interpolates to its own "now", so that no pose jumps
-/// ahead when it is published (a jump of one 5 ms step costs a factor five in stable stiffness).
-/// A default one has no bodies; the dynamics has sized it by the scene before the first step, and its length stays.
+/// Object State: motion of every body of the scene (fixed ones too, in scene order) over the step just solved.
+/// A reader interpolates between time_begin and time_end to its own "now", so that no pose jumps when a new state
+/// is published (a jump of one 5 ms step costs a factor five in stable stiffness).
+/// The dynamics sizes it by the scene before the first step; its length then stays constant.
 /// Written by: dynamics thread.
 struct ObjectState {
   double time_begin = 0;     ///< [s]
@@ -48,17 +48,17 @@ struct ObjectState {
   /// Steps since the start in which an island had to change from the direct to the iterative solver.
   std::uint64_t fallback_steps = 0;
   BodyPenetration penetration;
-  /// By finger: what it gave to the bodies since the start, in W [N s]. Its difference over a time is the mean force.
+  /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
   std::array<Vec3, kMaxFingers> finger_impulse_W;
   std::vector<BodyMotion> bodies;
 
   ObjectState() { finger_impulse_W.fill(Vec3::Zero()); }
 
   std::int32_t count() const noexcept { return static_cast<std::int32_t>(bodies.size()); }
-  /// Memory beside the struct itself (SizedAtLoad).
+  /// Heap memory that it owns [bytes] (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return bodies.capacity() * sizeof(BodyMotion); }
 
-  /// Pose of body i, one of those there are, at time t; t outside [time_begin, time_end] is held at the nearer end.
+  /// Pose X_WB of body i, 0 <= i < count(), at time t [s]; t is clamped to [time_begin, time_end].
   Pose poseAt(std::int32_t i, double t) const {
     const BodyMotion& body = bodies[static_cast<std::size_t>(i)];
     const double span = time_end - time_begin;

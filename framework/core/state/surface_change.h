@@ -2,7 +2,7 @@
 
 namespace presa {
 
-/// Whether the surfaces of the scene have changed to their other friction (Material::changed_friction). It happens once.
+/// Whether the surfaces have switched to their second friction (Material::changed_friction); at most once per run.
 struct SurfaceChange {
   bool happened = false;
 };

@@ -6,24 +6,24 @@
 
 namespace presa {
 
-/// Which force reaches a device whose program may stop or die at any moment: the commanded one, through an output stage of its own,
-/// while commands come; zero, as fast as the slew limit allows, as soon as they do not. Then only a command of exactly zero opens the
-/// way again: whoever comes back begins at zero.
+/// Decides which force reaches a device whose program may stop or die at any moment. While commands come, it passes
+/// them through an output stage of its own; when they stop, it takes the force to zero at the slew limit. After that,
+/// only a command of exactly zero lets forces pass again, so that a returning program starts at zero.
 /// Thread: one; nonblocking.
 class CommandKeeper {
  public:
-  /// Keeps to the rating alone: a program that lies, or has been lied to, is held by it, too.
+  /// Enforces the driver's rating, so that wrong limits in the program or its files have no effect here.
   explicit CommandKeeper(const DeviceRating& rating) : stage_(limitsOf(rating)) {}
 
   struct Input {
     bool fresh = false;  ///< a command came since the last step
-    bool alone = false;  ///< the program is gone
+    bool alone = false;  ///< the program is gone; latches
     Vec3 command = Vec3::Zero();
     FingerInput finger{};
   };
 
-  /// `elapsed`: since the step before, by the clock [s]. Who was held up himself drops a command that is old no later, and goes down by
-  /// what the time allowed, though never by more than a haptic tick may.
+  /// Returns the force to send, in W [N]. `elapsed`: since the last step, by the clock [s]. A delayed keeper still
+  /// drops an old command in time; its force then goes down by at most kLongestStep of slew.
   Vec3 step(const Input& input, double elapsed) noexcept {
     age_ = input.fresh ? 0 : age_ + elapsed;
     alone_ = alone_ || input.alone;
@@ -43,7 +43,7 @@ class CommandKeeper {
   bool dropped() const noexcept { return dropped_; }
   const Vec3& last() const noexcept { return stage_.last(); }
 
-  /// Of a command [s]: longer than a late haptic tick, short enough for zero within 10 ms from 5 N.
+  /// Longest age of a command [s]: more than a late haptic tick, short enough for zero within 10 ms from 5 N.
   static constexpr double kHold = 5e-3;
   static constexpr double kLongestStep = 1e-3;  ///< [s]
 

@@ -8,37 +8,37 @@
 
 namespace presa {
 
-/// What the program wants of a supervised device.
+/// Command of the program to a supervised device.
 struct SupervisedCommand {
   Vec3 f_H_W = Vec3::Zero();  ///< force on the finger [N]
 };
 
-/// What the supervisor says in every cycle.
+/// Report of the supervisor, published in every cycle.
 struct SupervisorReport {
-  FingerInput finger;            ///< as the device gave it
-  bool dropped = false;          ///< commands stopped coming: zero until one of exactly zero came
+  FingerInput finger;            ///< the device's sample, unchecked
+  bool dropped = false;          ///< commands stopped: force zero until a command of exactly zero comes
   Vec3 sent = Vec3::Zero();      ///< force that the device holds from now on [N]
   std::uint64_t cycles = 0;      ///< since the start
-  std::uint64_t allocated = 0;   ///< times memory was taken since the start: none
-  std::uint32_t rearms_met = 0;  ///< re-arms that it has carried out
+  std::uint64_t allocated = 0;   ///< allocations since the start; must stay 0
+  std::uint32_t rearms_met = 0;  ///< value of SupervisorShare::rearms that it has carried out
 };
 
-/// Memory that a program and the supervisor of one device share. Made by the program; both are the same build.
+/// Memory that the program and the supervisor of one device share. The program makes it; both are of the same build.
 struct SupervisorShare {
   static constexpr std::size_t kTextSize = 32 * 1024;
   enum class State : std::uint32_t {
     kStarting,  ///< the supervisor opens the device
     kRunning,
     kRefused,  ///< the device does not open: `answer` holds the findings
-    kOver,
+    kOver,     ///< the supervisor has ended
   };
 
-  // before the start
+  // written by the program before it starts the supervisor
   double period = 0.25e-3;  ///< of a cycle [s]
   std::size_t task_size = 0;
-  char task[kTextSize] = {};  ///< what to open (task.h)
+  char task[kTextSize] = {};  ///< the device to open (task.h)
 
-  // from then on
+  // shared from then on
   std::atomic<State> state{State::kStarting};
   std::size_t answer_size = 0;
   char answer[kTextSize] = {};  ///< written once, before `state` leaves kStarting: notes, or findings

@@ -10,11 +10,11 @@
 
 namespace presa {
 
-/// One T in memory that two processes see, freed when both have let go of it. Throws std::system_error.
+/// One T in memory that two processes share; freed when both have unmapped it. Throws std::system_error.
 template <class T>
 class SharedMemory {
  public:
-  /// Makes it, with a T in it. fd() is for the other process; it is closed on exec unless handed over.
+  /// Allocates the memory and constructs a T in it. Pass fd() to the other process; it is closed on exec otherwise.
   static SharedMemory made(const char* name) {
     const int fd = memfd_create(name, MFD_CLOEXEC);
     if (fd < 0 || ftruncate(fd, sizeof(T)) != 0) fail("shared memory");
@@ -22,7 +22,7 @@ class SharedMemory {
     new (memory.mapped_) T;
     return memory;
   }
-  /// The other process's.
+  /// Maps the memory in the other process.
   static SharedMemory joined(int fd) { return SharedMemory(fd); }
 
   SharedMemory() = default;

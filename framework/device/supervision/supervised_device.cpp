@@ -21,8 +21,8 @@ enum Code { kNotStarted = 498, kDied = 499 };
 constexpr int kShareFd = 3, kLifeFd = 4;                              // in the supervisor
 constexpr std::int64_t kLook = 5'000'000, kPatience = 1'000'000'000;  // [ns]
 
-/// What the new process keeps of this one: the standard streams, the shared memory, the pipe. A group of its own: Ctrl-C and Ctrl-Z
-/// are for the program.
+/// The new process keeps the standard streams, the shared memory and the pipe. It gets a session of its own, so that
+/// Ctrl-C and Ctrl-Z reach only the program.
 class SpawnSettings {
  public:
   SpawnSettings(int share_fd, int life_fd) {
@@ -45,7 +45,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes_{};
 };
 
-/// Well away from the numbers that the new process gives them: dup2 of a number onto itself would leave it closed on exec.
+/// Moves a descriptor to 16 or above, away from kShareFd and kLifeFd: dup2 onto itself would leave it closed on exec.
 int movedUp(int fd) noexcept {
   const int moved = fcntl(fd, F_DUPFD_CLOEXEC, 16);
   ::close(fd);
@@ -142,14 +142,14 @@ void SupervisedDevice::end() noexcept {
 
 FingerInput SupervisedDevice::read(const Tick& tick) noexcept {
   SupervisorShare& share = *live_.load(std::memory_order_acquire);
-  // ticks made up after a late wake-up come all at once: no time has passed between them
+  // catch-up ticks come all at once: no time has passed between them
   if (share.report.update() || std::exchange(seen_, &share) != &share)
     silence_ = 0;
   else if (!tick.made_up)
     silence_ += tick.period;
   const SupervisorReport& report = share.report.value();
   FingerInput finger = report.finger;
-  if (report.rearms_met != share.rearms.load(std::memory_order_relaxed)) finger.lost = false;  // of before
+  if (report.rearms_met != share.rearms.load(std::memory_order_relaxed)) finger.lost = false;  // from before the re-arm
   finger.valid = finger.valid && !report.dropped && silence_ <= kSilent;
   finger.lost = finger.lost || silence_ > kDead;
   finger.age += silence_;

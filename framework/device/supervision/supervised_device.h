@@ -10,19 +10,20 @@
 
 namespace presa {
 
-/// A device of real hardware that lives in a process of its own, its supervisor, which takes the force to zero when this process
-/// stops or dies. read and write exchange the latest values with it, wait-free, without a system call.
+/// Proxy of a hardware device that runs in a process of its own, its supervisor, which takes the force to zero when
+/// this process stops or dies. read and write exchange the latest values with it, wait-free, without a system call.
 class SupervisedDevice final : public Device {
  public:
-  /// `driver`: the same device, never opened here; it answers what there is to know of it.
+  /// `driver`: the same device, never opened here; it answers model(), facts() and damping().
   SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file);
   ~SupervisedDevice() override { close(); }
 
-  /// Starts the supervisor and waits until it has the device. Throws its findings; E498 it does not start, E499 it died.
+  /// Starts the supervisor and waits until it has opened the device. Throws InputError with the supervisor's findings,
+  /// E498 when it does not start, E499 when it ended.
   void open() override;
-  /// The device is let go at zero force.
+  /// Ends the supervisor, which takes the force to zero before it closes the device; kills it after a second.
   void close() noexcept override;
-  /// After the device or its supervisor was lost: the old one, if it still lives, ends, and a new one opens the device.
+  /// After the device or its supervisor was lost: ends the old supervisor and starts a new one, which opens the device.
   void reopen(const std::atomic<bool>& stop) override;
   FingerInput read(const Tick& tick) noexcept override;
   void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
@@ -34,11 +35,11 @@ class SupervisedDevice final : public Device {
   std::vector<std::string> notes() const override { return notes_; }
 
   pid_t supervisor() const noexcept { return child_; }
-  /// Any thread may not: haptic thread, or nobody runs. What the supervisor said last.
+  /// The supervisor's last report. Haptic thread only, or while no thread runs.
   const SupervisorReport& report() const noexcept { return live_.load()->report.value(); }
 
-  static constexpr double kSilent = 2e-3;  ///< a supervisor that says nothing for so long has no sample [s]
-  static constexpr double kDead = 20e-3;   ///< and for so long is lost [s]
+  static constexpr double kSilent = 2e-3;  ///< without a report for longer, the sample is not valid [s]
+  static constexpr double kDead = 20e-3;   ///< without a report for longer, the device is lost [s]
 
  private:
   void start(const std::atomic<bool>& stop);
@@ -50,15 +51,15 @@ class SupervisedDevice final : public Device {
   std::unique_ptr<Device> driver_;
   SupervisorTask task_;
   SharedMemory<SupervisorShare> share_;                 // of the newest supervisor
-  std::vector<SharedMemory<SupervisorShare>> retired_;  // the haptic thread may have been reading there
-  std::atomic<SupervisorShare*> live_{nullptr};         // where it reads and writes
+  std::vector<SharedMemory<SupervisorShare>> retired_;  // kept mapped: the haptic thread may still read them
+  std::atomic<SupervisorShare*> live_{nullptr};         // the one that read and write use
   std::vector<std::string> notes_;
   pid_t child_ = -1;
-  int life_ = -1;  // while it is open, this process lives
-  // haptic thread's
+  int life_ = -1;  // our end of the pipe: the supervisor sees it close when this process dies
+  // haptic thread only
   SupervisorShare* seen_ = nullptr;
   double silence_ = 0;
-  std::atomic<bool> lost_{false};  // told to the main thread
+  std::atomic<bool> lost_{false};  // read by the main thread
 };
 
 }  // namespace presa

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kPriority = 84;  // above the program's haptic thread and a driver's own
 
-/// What is meant for the program is not for its supervisor: Ctrl-C, Ctrl-Z, a closed terminal.
+/// Ctrl-C, Ctrl-Z and a closed terminal are meant for the program, not for its supervisor.
 void ignoreSignals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGTTIN, SIGTTOU, SIGPIPE})
     std::signal(signal, SIG_IGN);
@@ -32,7 +32,7 @@ void answer(SupervisorShare& share, const std::string& text, SupervisorShare::St
   share.state.store(state, std::memory_order_release);
 }
 
-/// The part of a world that a driver of hardware may look at.
+/// The part of a world that a hardware driver may use: its binding and its role.
 World worldOf(const SupervisorTask& task) {
   World world;
   world.rig.file = task.rig_file;
@@ -70,21 +70,21 @@ bool isGone(int life_fd) noexcept {
 void runCycles(Supervisor& supervisor, double period, int life_fd) {
   const auto period_ns = static_cast<std::int64_t>(period * 1e9);
   bool alone = false;
-  std::int64_t look = 0;  // once a millisecond is soon enough: a dead program is noticed by its silence, too
+  std::int64_t look = 0;  // next poll of the pipe; 1 ms suffices, because a dead program also stops sending commands
   std::int64_t before = monotonicNs();
   for (std::int64_t wake = before;;) {
     wake += period_ns;
     sleepUntilNs(wake);
     const std::int64_t now = monotonicNs();
     if (now > wake)
-      wake += (now - wake) / period_ns * period_ns;  // what is missed is missed; the next comes on its time
+      wake += (now - wake) / period_ns * period_ns;  // missed cycles are skipped; the next one comes at its time
     if (wake >= look) {
       alone = alone || isGone(life_fd);
       look = wake + 1'000'000;
     }
     if (!supervisor.cycle(alone, static_cast<double>(now - before) * 1e-9)) return;
     before =
-        monotonicNs();  // the force was written by now: a cycle that was held up half-way gains no time for the next
+        monotonicNs();  // after the write: a delay within this cycle does not count as elapsed time of the next one
   }
 }
 

@@ -9,23 +9,23 @@
 
 namespace presa {
 
-/// How often memory was taken in this process so far.
+/// Returns the number of allocations in this process so far.
 using CountAllocations = std::uint64_t (*)();
 
-/// One device, kept for a program in another process: passes samples to it and forces from it in every cycle, and takes the
-/// force to zero when no more come.
+/// Holds one device for a program in another process. In every cycle it passes the sample to the program and the
+/// program's force to the device; when commands stop, it takes the force to zero.
 /// Thread: one; cycle() neither allocates, locks nor throws.
 class Supervisor {
  public:
-  /// `device` is open. `rating`: of its driver, as this process knows it; what scene and rig say does not come here.
+  /// `device` is open. `rating`: the driver's, loaded by this process; the limits of scene and rig do not reach it.
   Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, const DeviceRating& rating,
              CountAllocations count);
 
-  /// `alone`: the program is gone. `elapsed`: since the cycle before ended [s]. False: there is nothing left to do.
+  /// `alone`: the program is gone. `elapsed`: since the end of the last cycle [s]. False: the device may be closed.
   bool cycle(bool alone, double elapsed) noexcept;
   void close() noexcept { device_->close(); }
 
-  /// Zero force is sent for as long before the device is let go [s].
+  /// Zero force is sent for this long before the device is closed [s].
   static constexpr double kFarewell = 0.05;
 
  private:
@@ -37,11 +37,12 @@ class Supervisor {
   std::uint64_t allocated_before_;
   SupervisorReport report_;
   double time_ = 0;      // since the start [s]
-  double farewell_ = 0;  // zero for so long with nobody to command [s]
+  double farewell_ = 0;  // time at zero force since the program left [s]
 };
 
-/// The process: opens what the share's task names, runs cycles until the program is gone or closes it. `share_fd`: the shared
-/// memory; `life_fd`: reads end of file when the program has died. Returns the exit status.
+/// Main function of the process: opens the device of the share's task and runs cycles until the program dies or closes
+/// the device. `share_fd`: the shared memory; `life_fd`: a pipe that reads end of file when the program has died.
+/// Returns the exit status: 0, or 2 when the device does not open.
 int superviseDevice(int share_fd, int life_fd, CountAllocations count);
 
 }  // namespace presa

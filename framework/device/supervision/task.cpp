@@ -5,7 +5,7 @@
 namespace presa {
 namespace {
 
-/// Fields one after another, each ended by a zero byte: no field of ours holds one.
+/// Writes fields one after another, each ended by a zero byte; a field is cut at its first zero byte.
 class Writer {
  public:
   Writer& operator<<(const std::string& field) {

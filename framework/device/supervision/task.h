@@ -7,7 +7,8 @@
 
 namespace presa {
 
-/// What a supervisor is to open. As text it crosses to another process of the same build.
+/// The device that a supervisor is to open. `packed` and `unpacked…` carry it, and the answers, as text between two
+/// processes of the same build.
 struct SupervisorTask {
   DeviceBinding binding;
   std::string rig_file;

@@ -15,9 +15,10 @@
 #include "framework/session/session.h"
 #include "tests/framework/device/stand_ins.h"
 
-// Ten thousand random scenes and rigs, each through the readers of the files, the limits, the output stage and the supervisor's keeper:
-// whatever they say, no force beyond the driver's rating reaches the transport, no step that it does not allow, and nothing takes longer
-// than 20 ms to zero. The files lie in every number; the rendering behind them commands anything; then one of seven things fails.
+// Ten thousand random scenes and rigs pass through the file readers, the limits, the output stage and the supervisor's
+// keeper. For all of them, no force and no change of force beyond the driver's rating reaches the transport, and after
+// a failure the force is zero within 20 ms. Every number in the files is random, the rendering commands any force, and
+// then one of seven failures occurs.
 namespace presa {
 namespace {
 
@@ -28,7 +29,7 @@ using test::Patches;
 constexpr double kGone = 0.020;  // [s]
 constexpr double kTouched = 1e-9;
 
-/// What a run may do to its finger at the end.
+/// Failures that may end a run.
 enum class End { kStop, kLost, kSilent, kNotANumber, kStall, kKilled, kOld };
 constexpr int kEnds = 7;
 
@@ -47,7 +48,8 @@ class Finger final : public Device {
   Vec3 sent = Vec3::Zero();
 };
 
-/// One finger from the rendering to the transport: the program's stage, and a supervisor's keeper that runs four times a tick.
+/// One finger from the rendering to the transport: the program's stage, and a supervisor's keeper that runs four times
+/// a tick.
 class Chain {
  public:
   Chain(const FingerSafety& safety, const DeviceRating& rating, const Rates& rates)
@@ -66,7 +68,7 @@ class Chain {
   double period() const { return table_.period(RateGroup::kHaptic); }
   double force() const { return sent_.norm(); }
 
-  /// One haptic tick; what leaves it, here and behind the keeper, is within the rating.
+  /// One haptic tick; checks that the forces after the stage and after the keeper are within the rating.
   void tick(Reached& reached) {
     if (!stalled) {
       stepIfDue(RateGroup::kDynamics);
@@ -140,7 +142,7 @@ class AnyFiles {
     return text.data();
   }
 
-  /// Nothing where the readers refuse what was written.
+  /// None if the readers refuse the file.
   std::optional<FingerSafety> read(const std::string& driver, Rates& rates, Reached& reached) {
     static constexpr std::array<int, 4> kHaptic{100, 500, 1000, 2000};
     const int haptic = kHaptic[random_.below(kHaptic.size())];
@@ -186,7 +188,7 @@ class AnyFiles {
             Reached& reached) {
     const auto end = static_cast<End>(random_.below(kEnds));
     ++reached.ends[static_cast<std::size_t>(end)];
-    double before = 0;  // until somebody may know [s]
+    double before = 0;  // time until the failure can be detected [s]
     switch (end) {
       case End::kStop:
         chain.control.stop_requested = true;
@@ -207,9 +209,10 @@ class AnyFiles {
         break;
       case End::kStall:
       case End::kOld:
-        if (rating.watchdog > 1) return;  // an imagined finger may wait
+        if (rating.watchdog > 1) return;  // a simulated finger may take longer
         chain.stalled = true;
-        // the dynamics' watchdog, or the collision's: two periods or 20 ms; the rating bounds the one, the schema's 10 Hz the other
+        // the dynamics' watchdog, or the collision's: two periods or 20 ms; the rating bounds the one, the schema's 10
+        // Hz the other
         before = std::min(safety.watchdog, ages::patches(rates)) + 1 / rates.dynamics;
         ASSERT_LE(safety.watchdog, rating.watchdog);
         reached.watchdogs += safety.watchdog == rating.watchdog ? 1 : 0;

@@ -12,7 +12,7 @@ namespace {
 using test::Objects;
 using test::Patches;
 
-/// A finger that stands still and remembers what was sent to it.
+/// A finger that stands still and keeps the forces sent to it.
 class StillFinger final : public Device {
  public:
   FingerInput read(const Tick&) noexcept override { return {.valid = !silent, .lost = lost}; }
@@ -52,7 +52,7 @@ struct Rig {
     const auto divisor = static_cast<std::uint64_t>(rates.divisor(group));
     if (i % divisor == 0) graph.step(group, rates.tick(group, i / divisor));
   }
-  /// Ticks made up at one instant after a stall, as an executor runs them.
+  /// Catch-up ticks at one instant after a stall, as an executor runs them.
   void catchUp(int ticks) {
     for (; ticks > 0; --ticks, ++i) {
       Tick tick = rates.tick(RateGroup::kHaptic, i);
@@ -85,7 +85,7 @@ TEST(DeviceOutput, ADynamicsFaultFadesTheForceForGood) {
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 
-// Object State older than the role's watchdog (20 ms): the force fades, an event says so, and it comes back softly.
+// Object State older than the role's watchdog (20 ms): the force fades, an event is reported, and it comes back softly.
 TEST(DeviceOutput, AStalledDynamicsFadesTheForceUntilItIsBack) {
   Rig rig;
   rig.run(1000);
@@ -102,8 +102,9 @@ TEST(DeviceOutput, AStalledDynamicsFadesTheForceUntilItIsBack) {
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 
-// Every rate that a scene may name: a value is as old as its writer's period just before the next one comes. That is its usual age,
-// and the force stays; older than two periods, and than 20 ms, its writer has stopped, and the force goes.
+// Every rate that a scene may name: a value is as old as its writer's period just before the next one comes. That is
+// its usual age, and the force stays; older than two periods, and than 20 ms, its writer has stopped, and the force
+// goes.
 TEST(DeviceOutput, WhatIsOldFollowsFromTheRateOfItsWriter) {
   for (const double rate : {10., 20., 40., 50., 100., 200., 1000.}) {
     const int period = static_cast<int>(std::lround(1000 / rate)), old_after = std::max(20, 2 * period);  // [ticks]
@@ -125,7 +126,8 @@ TEST(DeviceOutput, WhatIsOldFollowsFromTheRateOfItsWriter) {
   }
 }
 
-// A device that gives no sample: the force is held for a tick and is zero at 5 ms, from 4 N at 1 N/ms; softly back with the samples.
+// A device that gives no sample: the force is held for a tick and is zero at 5 ms, from 4 N at 1 N/ms; softly back with
+// the samples.
 TEST(DeviceOutput, ASilentDeviceIsAtZeroAfterFiveMilliseconds) {
   Rig rig;
   rig.run(1000);
@@ -142,7 +144,7 @@ TEST(DeviceOutput, ASilentDeviceIsAtZeroAfterFiveMilliseconds) {
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 
-// A device that is gone and comes back has no force until somebody re-arms it, and starts softly then.
+// A device that is lost and comes back has no force until a re-arm, and then starts softly.
 TEST(DeviceOutput, ALostDeviceAsksForARearm) {
   Rig rig;
   rig.run(1000);
@@ -162,8 +164,8 @@ TEST(DeviceOutput, ALostDeviceAsksForARearm) {
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 
-// Ticks made up after a stall fall on one instant for the device: it hears once, and the force changes by what the slew limit
-// allows for one tick from the force that it held, however many there were. Meanwhile the fade has gone on.
+// Catch-up ticks fall on one instant for the device: it gets one force, which differs from the held one by at most the
+// slew limit of one tick, for any number of catch-up ticks. The fade advances during all of them.
 TEST(DeviceOutput, TicksMadeUpAtOneInstantAreOneStepOfTheForce) {
   Rig rig;
   rig.run(1000);
@@ -178,8 +180,8 @@ TEST(DeviceOutput, TicksMadeUpAtOneInstantAreOneStepOfTheForce) {
   EXPECT_LE(rig.finger->steepest, kSlew);
 }
 
-// Nothing ran for ten seconds and the hand was held by whatever was at the device: the first force after it is zero, at once and not
-// along the slew limit of one tick, and stays so until somebody re-arms.
+// No tick ran for ten seconds while the device held its last force: the next force is zero at once, without the slew
+// limit of one tick, and stays zero until a re-arm.
 TEST(DeviceOutput, TheFirstForceAfterAGapIsZero) {
   Rig rig;
   rig.run(1000);
@@ -199,7 +201,7 @@ TEST(DeviceOutput, TheFirstForceAfterAGapIsZero) {
   EXPECT_NEAR(rig.finger->force.x(), 4 * 0.1 / 0.5, 1e-9);
 }
 
-// The end of a run leaves no force on the finger, however it was a moment before.
+// The end of a run leaves no force on the finger, for any force before.
 TEST(DeviceOutput, StopTakesTheForceDown) {
   Rig rig;
   rig.run(1000);

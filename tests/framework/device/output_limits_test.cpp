@@ -35,7 +35,7 @@ class Limits : public testing::Test {
   Diagnostics findings;
 };
 
-// Nothing said, a rating known: half of the nominal force, 1 N/ms, half a second, the device's own heat and speed.
+// A rig without limits: half of the nominal force, 1 N/ms, half a second, the rating's heat and speed.
 TEST_F(Limits, WithoutAWordTheyAreSafe) {
   const OutputLimits found = limits();
   EXPECT_EQ(found.force, 5);
@@ -51,8 +51,8 @@ TEST_F(Limits, WithoutAWordTheyAreSafe) {
   EXPECT_EQ(findings.text(), "");
 }
 
-// The scene asks for more than the rig allows, and the rig allows more than the device bears: the device's rating it is, in each of
-// them, and each is said, with the place where it was asked for.
+// The scene asks for more than the rig allows, and the rig allows more than the device bears: the device's rating it
+// is, in each of them, and each is said, with the place where it was asked for.
 TEST_F(Limits, TheRigRaisesThemUpToTheRatingAndNoFurther) {
   role.limits = {.force = 1e9, .force_rate = 1e9, .watchdog_ms = 1e9};
   bound.limits.force = 50;
@@ -79,7 +79,7 @@ TEST_F(Limits, TheRigRaisesThemUpToTheRatingAndNoFurther) {
   EXPECT_EQ(findings.all().size(), 6U);
 }
 
-// Each word of the rig that tightens counts.
+// Each limit of the rig that tightens the rating holds.
 TEST_F(Limits, TheRigTightensEachOfThem) {
   bound.limits.force = 2;
   bound.limits.force_rate = 600;
@@ -97,7 +97,7 @@ TEST_F(Limits, TheRigTightensEachOfThem) {
                                  HasSubstr("the force changes by up to 600 N/s (the scene asks for 1000")));
 }
 
-// And each of the scene's.
+// So does each limit of the scene.
 TEST_F(Limits, TheSceneTightensWhatTheRigLeaves) {
   role.limits = {.force = 1, .force_rate = 300, .watchdog_ms = 15};
   bound.limits.force = 2;
@@ -110,7 +110,8 @@ TEST_F(Limits, TheSceneTightensWhatTheRigLeaves) {
   EXPECT_THAT(notes, IsEmpty());
 }
 
-// A slew of 0.1 N/s would hold a hand for a minute. Who asked for it, scene or rig, is told; 8 N in 12 ms are 667 N/s.
+// A slew of 0.1 N/s would hold a hand for a minute. The warning names its source, scene or rig; 8 N in 12 ms are 667
+// N/s.
 TEST_F(Limits, TheWayDownIsNeverSlow) {
   bound.limits.force = 8;
   role.limits.force_rate = 0.1;
@@ -124,7 +125,7 @@ TEST_F(Limits, TheWayDownIsNeverSlow) {
   EXPECT_THAT(findings.text(), HasSubstr("rig.xml:3:7: warning[W652]"));
 }
 
-// Motors that are real are limited; a model may be overloaded by a study, which writes it down.
+// Real motors are limited; a study may overload a model and record it.
 TEST_F(Limits, OnlyAModelMayBeOverloaded) {
   bound.limits.records_overload = true;
   EXPECT_TRUE(limits().records_overload);
@@ -147,7 +148,7 @@ TEST(DeviceRatings, AreFiniteAndLeadToZeroInTime) {
   EXPECT_FALSE(isSound({.force = std::numeric_limits<double>::quiet_NaN()}));
 }
 
-// 8 N at 1 N/ms are not down within 5 ms: said before anybody finds out.
+// 8 N at 1 N/ms are not zero within 5 ms: a note says so at the start.
 TEST_F(Limits, ASlowWayDownIsSaid) {
   bound.limits.force = 8;
   limits();
@@ -158,7 +159,7 @@ TEST_F(Limits, ImaginedFingersHaveWhatTheSceneWants) {
   EXPECT_EQ(limits(kImaginedRating).force, 8);
   EXPECT_THAT(notes, IsEmpty());
   role.limits = {.force = 1e12, .force_rate = 1e12};
-  EXPECT_EQ(limits(kImaginedRating).force, 1000);  // all the same something that one can reckon with
+  EXPECT_EQ(limits(kImaginedRating).force, 1000);  // large but finite
   EXPECT_EQ(limits(kImaginedRating).force_rate, 1e6);
 }
 

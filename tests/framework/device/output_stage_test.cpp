@@ -22,12 +22,13 @@ Vec3 settle(OutputStage& stage, const Vec3& command) {
   return f;
 }
 
-/// Any bits at all as a number: NaN, infinities, denormals, 1e308 among them.
+/// A number of random bits: NaN, infinities, denormals and 1e308 occur.
 double anyDouble(std::mt19937_64& random) { return std::bit_cast<double>(random()); }
 
-// The invariants over ten million cycles of hostile input: finite, at most the limit, never faster than the slew limit. Commands are
-// any bit patterns or jumps of a plausible size; positions and velocities too; every verdict of the watchdogs, stops, stalls,
-// lost devices and re-arms come at random; with and without each of the optional stages. Tolerance: rounding.
+// The invariants over ten million cycles of hostile input: finite, at most the limit, never faster than the slew limit.
+// Commands are any bit patterns or jumps of a plausible size; positions and velocities too; every verdict of the
+// watchdogs, stops, stalls, lost devices and re-arms come at random; with and without each of the optional stages.
+// Tolerance: rounding.
 TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -54,7 +55,7 @@ TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
     OutputStage stage(limits);
     Vec3 before = Vec3::Zero(), steady = Vec3::Zero();
     for (int tick = 0; tick < kTicks; ++tick) {
-      // not oftener: each begins a soft start, and what is never strong reaches no limit
+      // not more often: each re-arm begins a soft start, and a force that never grows reaches no limit
       if (stage.latched() ? random() % 70 == 0 : random() % 20'000 == 0) stage.rearm();
       if (random() % 60 == 0) steady = vector(hostile, 10);
       const std::uint64_t dice = random() % 256;
@@ -88,7 +89,7 @@ TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
               static_cast<unsigned long long>(latched));
 }
 
-// A command that is no number latches: the force goes down at the slew limit and stays at zero, whatever follows.
+// A command that is not finite latches: the force goes down at the slew limit and stays at zero for any later command.
 TEST(OutputStage, NotANumberLatchesZero) {
   OutputStage stage(kLimits);
   EXPECT_NEAR(settle(stage, {3, 0, 0}).x(), 3, 1e-12);
@@ -109,7 +110,7 @@ TEST(OutputStage, StartsSoftly) {
   EXPECT_NEAR(f.x(), 2, 1e-9);
 }
 
-// Old information: zero within the fade time; when it is back, softly up again.
+// Old data: zero within the fade time; with new data, up again softly.
 TEST(OutputStage, WatchdogFadesAndComesBack) {
   OutputStage stage(kLimits);
   settle(stage, {4, 0, 0});
@@ -130,7 +131,8 @@ TEST(OutputStage, WhatIsDroppedGoesDownAsFastAsSlewAllows) {
   EXPECT_NEAR(stage.step({.command = {4, 0, 0}}, kPeriod).x(), 4 * kPeriod / kLimits.soft_start, 1e-9);  // softly again
 }
 
-// A sample that is late by no more than three ticks dips into the force: it comes back as fast as slew allows, and does not start anew.
+// A sample that is late by no more than three ticks dips into the force: it comes back as fast as slew allows, and does
+// not start anew.
 TEST(OutputStage, AShortGapIsADip) {
   for (int gap = 1; gap <= 3; ++gap) {
     OutputStage stage(kLimits);
@@ -144,7 +146,7 @@ TEST(OutputStage, AShortGapIsADip) {
   }
 }
 
-// A lost device: to zero, and nothing but a re-arm brings the force back, softly; if it is still lost, nothing does.
+// A lost device: to zero; only a re-arm brings the force back, softly, and not while the device is still lost.
 TEST(OutputStage, ALostDeviceStaysAtZeroUntilRearmed) {
   OutputStage stage(kLimits);
   settle(stage, {4, 0, 0});
@@ -162,7 +164,7 @@ TEST(OutputStage, ALostDeviceStaysAtZeroUntilRearmed) {
   EXPECT_EQ(stage.last().norm(), 0);
 }
 
-// The others let go with it, and say that it was not theirs.
+// The other fingers' forces go to zero, too, with a status that names another finger.
 TEST(OutputStage, AnotherFingersLostDeviceLatchesToo) {
   OutputStage stage(kLimits);
   settle(stage, {4, 0, 0});
@@ -188,8 +190,8 @@ TEST(OutputStage, AHandThatIsDrivenTooFastTrips) {
   EXPECT_NEAR(braked.last().x(), 4, 1e-12);
 }
 
-// 8 N on motors that bear 4 N: heat is 4 (1 - e^(-t/tau)), the limit begins to fall at 0.9 of it, t = -tau ln(1 - 0.9/4), and ends
-// at 4 N. Tolerance: the soft start of 0.5 s, whose heat lacks (1 - 1/3) of 0.5 s.
+// 8 N on motors that bear 4 N: heat is 4 (1 - e^(-t/tau)), the limit begins to fall at 0.9 of it, t = -tau ln(1 -
+// 0.9/4), and ends at 4 N. Tolerance: the soft start of 0.5 s, whose heat lacks (1 - 1/3) of 0.5 s.
 TEST(OutputStage, WarmMotorsGiveNoMoreThanTheyBear) {
   OutputLimits limits = kLimits;
   limits.continuous = 4;
@@ -205,7 +207,7 @@ TEST(OutputStage, WarmMotorsGiveNoMoreThanTheyBear) {
   EXPECT_NEAR(stage.heat(), 1, 0.01);
 }
 
-// Where the rig wants it recorded, nothing is limited, and every tick says so.
+// If the rig wants overload recorded, the force is not limited, and every tick reports it.
 TEST(OutputStage, AnOverloadCanBeAnEventInsteadOfALimit) {
   OutputLimits limits = kLimits;
   limits.continuous = 4;
@@ -218,7 +220,7 @@ TEST(OutputStage, AnOverloadCanBeAnEventInsteadOfALimit) {
   EXPECT_EQ(stage.status(), kOutputClean);
 }
 
-// What is within the limits passes unchanged to the bit.
+// A force within the limits passes unchanged to the bit.
 TEST(OutputStage, LeavesAGoodCommandAlone) {
   OutputStage stage(kLimits);
   const Vec3 wanted(1.25, -0.3, 2.1);

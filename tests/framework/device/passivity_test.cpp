@@ -5,13 +5,14 @@
 
 #include "framework/device/output_stage.h"
 
-// A hand on the port of a device whose environment is active: it must end up with no energy that it did not bring.
+// A hand on a device with an active environment: its net energy from the device must not be positive.
 namespace presa {
 namespace {
 
 constexpr double kPeriod = 1e-3;
 
-/// A hand of 0.2 kg behind a spring and damper (300 N/m, 4 N s/m), pushed once; stepped exactly enough in ten parts a tick.
+/// A hand of 0.2 kg behind a spring and damper (300 N/m, 4 N s/m), pushed once; stepped exactly enough in ten parts a
+/// tick.
 struct Hand {
   double x = 0, v = 0.3;
   void step(double force) {
@@ -23,8 +24,8 @@ struct Hand {
 };
 
 struct Outcome {
-  double largest = 0;  // way of the hand in the last second [m]
-  double given = 0;    // net energy to the hand over all of it [J]
+  double largest = 0;  // largest excursion of the hand in the last second [m]
+  double given = 0;    // net energy to the hand over the whole run [J]
   double most_given = 0;
 };
 
@@ -59,8 +60,8 @@ TEST(Passivity, AnActiveEnvironmentGivesNoNetEnergy) {
   EXPECT_LT(with.most_given, 8 * 0.3 * kPeriod);
 }
 
-// A passive wall in front of a moving hand: nothing is taken from what it may rightly give back. The hand waits for the soft start:
-// a spring that grows stiffer while it is pressed does give energy.
+// A passive wall in front of a moving hand: the controller does not reduce the energy that the wall may give back. The
+// hand waits for the soft start, because a spring that grows stiffer while it is pressed does give energy.
 TEST(Passivity, APassiveEnvironmentIsLeftAlone) {
   OutputStage with({.passivity = true}), without({});
   double largest = 0;

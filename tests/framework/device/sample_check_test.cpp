@@ -20,7 +20,7 @@ TEST(SampleCheck, AGoodSamplePasses) {
   EXPECT_EQ(out.v_WH.x(), 0.1);
 }
 
-// One bad sample: the last good place for one tick, at rest. The second in a row: latched, whatever follows, until re-armed.
+// One bad sample: the last good position for one tick, at rest. The second in a row latches until a re-arm.
 TEST(SampleCheck, TheSecondImpossibleSampleLatches) {
   for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 1e308, 0.1 + 0.03}) {
     SampleCheck check;
@@ -34,7 +34,7 @@ TEST(SampleCheck, TheSecondImpossibleSampleLatches) {
     EXPECT_TRUE(out.lost);
     EXPECT_FALSE(check.take(at(0.1), kPeriod).valid);
     check.rearm();
-    EXPECT_TRUE(check.take(at(0.7), kPeriod).valid);  // wherever it is now
+    EXPECT_TRUE(check.take(at(0.7), kPeriod).valid);  // any position is accepted now
   }
 }
 
@@ -48,7 +48,7 @@ TEST(SampleCheck, AJumpIsJudgedByTheTimeThatItHad) {
   EXPECT_FALSE(check.latched());
 }
 
-// A missing sample is bridged for one tick; then the finger is not valid, and its place is the last that was.
+// A missing sample is bridged for one tick; then the finger is not valid and keeps its last position.
 TEST(SampleCheck, ASilentDeviceIsBridgedForOneTick) {
   SampleCheck check;
   check.take(at(0.1), kPeriod);
@@ -58,10 +58,10 @@ TEST(SampleCheck, ASilentDeviceIsBridgedForOneTick) {
   EXPECT_FALSE(out.valid);
   EXPECT_FALSE(out.lost);
   EXPECT_EQ(out.p_WH.x(), 0.1);
-  EXPECT_TRUE(check.take(at(0.101), kPeriod).valid);  // it is back by itself
+  EXPECT_TRUE(check.take(at(0.101), kPeriod).valid);  // valid again without a re-arm
 }
 
-// A sample that is old when it comes is as good as none.
+// A sample that is already old when it comes counts as missing.
 TEST(SampleCheck, AnOldSampleIsNone) {
   SampleCheck check;
   check.take(at(0.1), kPeriod);

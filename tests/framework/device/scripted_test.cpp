@@ -16,7 +16,8 @@ std::string writeFile(const std::string& name, const std::string& text) {
   return path.string();
 }
 
-// Oracle: the closed form of m x'' + b x' + k x = F from rest, under-damped. The plant is exact, so only rounding remains.
+// Oracle: the closed form of m x'' + b x' + k x = F from rest, under-damped. The plant is exact, so only rounding
+// remains.
 TEST(FingerPlant, FollowsTheClosedFormOfADampedOscillator) {
   const FingerImpedance impedance{.mass = 0.1, .stiffness = 300, .damping = 2};
   for (const double period : {1e-3, 0.25e-3, 5e-3}) {
@@ -145,7 +146,7 @@ TEST(KeyframeMotion, PassesThroughItsKeyframes) {
   EXPECT_EQ(motion->phase_names, (std::vector<std::string>{"reach", "hold"}));
 }
 
-// Every mistake is named with its line and column, all of them at once.
+// Every error is reported with its line and column, all of them at once.
 TEST(KeyframeMotion, NamesEveryMistakeWithItsPlace) {
   const std::string file =
       writeFile("bad.csv",

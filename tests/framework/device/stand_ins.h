@@ -5,10 +5,10 @@
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/object_state.h"
 
-// Modules that stand before the output stage in a graph.
+// Test modules that replace the modules before the output stage.
 namespace presa::test {
 
-/// Stands for the rendering: wishes for a force.
+/// Replaces the rendering: commands a given force.
 class Commands final : public Module {
  public:
   explicit Commands(const Vec3& wish = Vec3::Zero()) : Module("rendering", RateGroup::kHaptic), wanted(wish) {}
@@ -21,7 +21,7 @@ class Commands final : public Module {
   Out<ContactExchange> out{*this, "contact_exchange"};
 };
 
-/// Stands for the dynamics: goes wrong, or stops, when told.
+/// Replaces the dynamics: reports a fault, or stops, on request.
 class Objects final : public Module {
  public:
   Objects() : Module("objects", RateGroup::kDynamics) {}
@@ -33,7 +33,7 @@ class Objects final : public Module {
   Out<ObjectState> out{*this, "object_state"};
 };
 
-/// Stands for the collision thread.
+/// Replaces the collision thread.
 class Patches final : public Module {
  public:
   Patches() : Module("patches", RateGroup::kCollision) {}

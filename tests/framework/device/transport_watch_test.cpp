@@ -5,7 +5,7 @@
 
 #include "framework/device/transport_watch.h"
 
-// The watch that stands before every device in every test: each of its four promises broken on purpose.
+// The watch in front of every device in every test: each of its checks is violated on purpose.
 namespace presa {
 namespace {
 
@@ -73,7 +73,7 @@ TEST_F(TransportWatchTest, ARearmForgivesIt) {
   tick(1);
 }
 
-// The scene had its way with the limits: the watch holds the rating.
+// The limits are wrong, as if a scene had widened them: the watch enforces the rating.
 class LyingLimits : public TransportWatchTest {
  protected:
   OutputLimits limits() const override { return {.force = 1e9, .force_rate = 1e9}; }

@@ -1,4 +1,4 @@
-// A recording run again, or shown as a page, when what it says is not what a run writes.
+// Replay and page of recordings with contents that no run writes.
 #include <gtest/gtest.h>
 
 #include "apps/common/report/recording_page.h"
@@ -21,7 +21,7 @@ class Belief : public testing::Test {
     presa::Run(loaded, presa::Run::Settings{.trace_rate = 0, .quiet = true, .command = ""}).execute();
     recording_ = recordPlugin().read(options.record);
   }
-  /// Codes of what is said against running it.
+  /// Codes of the findings that prevent a replay.
   std::vector<int> refusals() const {
     Diagnostics diagnostics;
     const RecordedRun run(recording_, diagnostics);
@@ -76,7 +76,7 @@ TEST_F(Belief, FingersBodiesAndRateAreThoseOfTheScene) {
   EXPECT_EQ(refusals(), std::vector<int>{677});
 }
 
-// The time of the start went into the page as it was: a script ran.
+// The start time was written into the page unescaped, so that a script in it ran.
 TEST_F(Belief, NothingOfARecordingIsMarkupOnItsPage) {
   RecordedSamples samples = recordPlugin().samples(folder_.file("run.h5"));
   const std::string attack = "<script>alert(1)</script><img src=x onerror=\"alert('2')\">&";

@@ -1,4 +1,4 @@
-// A recording says of which values its schedule holds the versions; a replay finds its own by name.
+// A recording names the values whose versions its schedule holds; a replay finds its inputs by name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDuration = 2.5;  // [s] the cube is in the air
 
-/// Comes before every other value by name.
+/// Sorts before every other value by name.
 constexpr const char* kFirst = "a_brake_state";
 
 /// At another rate than the dynamics, so that its versions are not those of the object state.
@@ -89,7 +89,7 @@ class RecordedInputs : public testing::Test {
   const std::string file_ = folder_.file("run.h5");
 };
 
-// ... which the order of names alone does not: the same file, read as one that does not name them, is another run.
+// The order alone is not enough: the same file, read in a format without names, gives another run.
 TEST_F(RecordedInputs, AValueThatComesFirstByNameLeavesTheReplayExact) {
   Recording recording = recordWithBrake();
   ASSERT_TRUE(recording.inputs);

@@ -77,7 +77,7 @@ TEST_F(Replay, TheSameSceneCommandsTheSameForcesToTheBit) {
   EXPECT_NEAR(again->result().phases.back().end, static_cast<double>(a.time.size()) * 1e-3, 1e-9);
 }
 
-// The hand does not yield: where it pressed 6 mm deep at 1 N/mm it presses as deep at 0.5 N/mm, and half as hard.
+// The hand's motion is given: it presses 6 mm deep at 1 N/mm and at 0.5 N/mm, with half the force.
 TEST_F(Replay, TheSameMotionAgainstASofterCubeGivesLessForce) {
   run("", "first.h5");
   run(rig(kWhole, kWhole), "softer.h5", {"material/rubber/stiffness=500"});
@@ -163,7 +163,7 @@ RecordedPath line() {
   return path;
 }
 
-// A path of constant speed: at any time it is where that speed has brought it; beside a row that is not usable nothing is made up.
+// A path of constant speed: positions between rows are interpolated, but not next to a row that is not usable.
 TEST(RecordedPath, IsOnTheStraightLineBetweenUsableRows) {
   const RecordedPath path = line();
   PathReader reader(path, 1);

@@ -15,8 +15,8 @@ struct Message {
   std::array<std::uint64_t, 256> words{};
 };
 
-// Whatever the two threads do, a reader never sees half of one value and half of another, never an older
-// one after a newer one, and the version it is told belongs to the value. (Under tsan: no race either.)
+// For any interleaving of the two threads, the reader never sees a torn value or an older value after a newer
+// one, and the version belongs to the value. (Under tsan: no race either.)
 TEST(LatestValue, ReaderNeverSeesTornOrOlderValue) {
   LatestValue<Message> latest;
   constexpr std::uint64_t kCount = 200'000;
@@ -54,7 +54,7 @@ TEST(LatestValue, IsEmptyUntilPublished) {
   EXPECT_EQ(latest.version(), 1u);
 }
 
-// Events arrive in order and none is lost unless counted.
+// Events arrive in order, and every lost event is counted.
 TEST(EventRing, KeepsOrderAndCountsWhatItDrops) {
   EventRing<int> ring(4);
   int accepted = 0;

@@ -24,7 +24,7 @@ class Counter final : public Module {
   Out<Number> out;
 };
 
-/// Adds one to what it reads, and remembers everything it saw.
+/// Adds one to its input, and keeps all inputs.
 class Follower final : public Module {
  public:
   Follower(std::string name, RateGroup group, std::string in_port, std::string out_port)
@@ -48,7 +48,7 @@ std::string findings(GraphBuilder& builder) {
   return {};
 }
 
-// Modules of one rate see this tick's values, in whatever order they were added.
+// Modules of one rate read this tick's values, independently of the order in which they were added.
 TEST(Graph, StepsWritersBeforeReadersWithinARate) {
   GraphBuilder builder;
   auto& last = builder.add(std::make_unique<Follower>("last", RateGroup::kHaptic, "b", "c"));
@@ -72,7 +72,7 @@ TEST(Graph, RejectsAnUnconnectedInputAndOffersTheNearestName) {
   EXPECT_NE(text.find("did you mean 'object_state'"), std::string::npos) << text;
 }
 
-// A loop within a rate has no order: the whole way round is printed.
+// A loop within a rate group has no step order: the error prints the whole loop.
 TEST(Graph, RejectsLoopAndPrintsIt) {
   GraphBuilder builder;
   builder.add(std::make_unique<Follower>("one", RateGroup::kHaptic, "b", "a"));
@@ -84,7 +84,7 @@ TEST(Graph, RejectsLoopAndPrintsIt) {
   EXPECT_NE(text.find("two.b -> one.b"), std::string::npos) << text;
 }
 
-// The same loop across rates is how a haptic system works: one side reads the value before.
+// The same loop across rates is allowed, and usual in a haptic system: one side reads the previous value.
 TEST(Graph, AcceptsALoopAcrossRates) {
   GraphBuilder builder;
   builder.add(std::make_unique<Follower>("one", RateGroup::kHaptic, "b", "a"));
@@ -103,7 +103,7 @@ class OtherReader final : public Module {
   In<Other> in{*this, "a"};
 };
 
-// Names agree but types do not; and everything that is wrong is said at once.
+// Ports of the same name but different types are refused; all errors are reported at once.
 TEST(Graph, RejectsATypeMismatchAndADuplicateNameTogether) {
   GraphBuilder builder;
   builder.add(std::make_unique<Counter>("same", RateGroup::kHaptic, "a"));
@@ -133,7 +133,7 @@ TEST(Lockstep, MeetsRatesAtTheSameInstants) {
   EXPECT_EQ(executor.timing(RateGroup::kDynamics).ticks, 4u);
 }
 
-/// Keeps the ticks it was stepped with.
+/// Keeps the ticks of its steps.
 class Diary final : public Module {
  public:
   Diary() : Module("diary", RateGroup::kHaptic) {}
@@ -141,8 +141,8 @@ class Diary final : public Module {
   std::vector<Tick> ticks;
 };
 
-// A stall of 50 ms in virtual time: what it held up runs at once, and only the newest of it is for the device. A longer one
-// is given up, and counted, but for the newest.
+// After a stall of 50 ms in virtual time the delayed ticks run at once, and only the newest writes to the device. After
+// a longer stall, all but the newest tick are skipped and counted.
 TEST(Lockstep, MarksTheTicksThatAStallMadeUp) {
   for (const auto& [stall, made_up, skipped] : {std::tuple{0.050, 50u, 0u}, std::tuple{0.200, 0u, 200u}}) {
     GraphBuilder builder;
@@ -163,7 +163,7 @@ TEST(Lockstep, MarksTheTicksThatAStallMadeUp) {
   }
 }
 
-// What leaves for a device as the clock says it: ticks cost `cost_us`, the loop was stalled for `stall_us` at the start.
+// Times at which ticks write to a device: ticks take `cost_us`, and the loop was stalled for `stall_us` at the start.
 std::vector<std::int64_t> sentAt(std::int64_t stall_us, std::int64_t cost_us, int ticks) {
   CatchUp catch_up(1000);
   std::vector<std::int64_t> sent;
@@ -183,7 +183,7 @@ TEST(CatchUp, SendsOnlyTheNewestOfWhatWasMissed) {
   EXPECT_EQ(sentAt(10'500, 20, 13), (std::vector<std::int64_t>{10'700, 11'000, 12'000}));
 }
 
-// Ticks that cost more than a period never get up to date; the device still hears something once a period.
+// Ticks that take longer than a period never catch up; the device still gets a force once per period.
 TEST(CatchUp, StillSendsOnceAPeriodWhenItNeverCatchesUp) {
   const std::vector<std::int64_t> sent = sentAt(0, 1500, 100);
   ASSERT_GT(sent.size(), 90u);
@@ -195,7 +195,7 @@ TEST(CatchUp, StillSendsOnceAPeriodWhenItNeverCatchesUp) {
   }
 }
 
-// A recording knows what was read across rates by name.
+// A recording holds the names of the values read across rates.
 TEST(Graph, RejectsTwoValuesOfOneNameAcrossRates) {
   const auto found = [](RateGroup readers) {
     GraphBuilder builder;
@@ -214,7 +214,7 @@ TEST(Graph, RejectsTwoValuesOfOneNameAcrossRates) {
   EXPECT_EQ(found(RateGroup::kBus), "");     // never recorded
 }
 
-// A replay that is told the versions reads exactly those, also when newer ones exist.
+// A replay reads exactly the recorded versions, even if newer ones exist.
 TEST(Replay, ReadsTheVersionsItIsTold) {
   GraphBuilder builder;
   builder.add(std::make_unique<Counter>("fast", RateGroup::kHaptic, "ticks"));
@@ -233,7 +233,7 @@ TEST(Replay, ReadsTheVersionsItIsTold) {
   EXPECT_EQ(slow.seen, (std::vector<double>{0, 3, 7, 10}));
 }
 
-// Real threads: every group does its ticks, no value is lost for good, and a stop request ends all of them.
+// Real threads: every group runs its ticks, the newest value always arrives, and a stop request ends all groups.
 TEST(Realtime, RunsEveryGroupAndStopsOnRequest) {
   GraphBuilder builder;
   auto& fast = builder.add(std::make_unique<Counter>("fast", RateGroup::kHaptic, "ticks"));

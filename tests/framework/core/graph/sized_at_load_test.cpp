@@ -1,4 +1,4 @@
-// Values whose memory the scene decides: room for them is made when the graph is built, and never again.
+// SizedAtLoad values: memory is allocated when the graph is built, and never again.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -18,7 +18,7 @@ static_assert(!ExchangedData<std::vector<int>>, "what says nothing of its room m
 
 constexpr std::size_t kBodies = 5000;
 
-/// Bodies that all have gone as far as there were steps.
+/// Bodies whose position is the number of steps.
 class Bodies final : public Module {
  public:
   Bodies() : Module("bodies", RateGroup::kDynamics) { out.value.bodies.resize(kBodies); }
@@ -56,7 +56,7 @@ TEST(SizedAtLoad, TakesNoMemoryFromTheFirstPublicationOn) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   Pair pair;
   const RealTimeGuard guard;
-  // seven steps and seven looks: each of the three slots is written and read more than once
+  // seven steps and seven reads: each of the three slots is written and read more than once
   for (std::uint64_t n = 0; n < 7; ++n) {
     pair.graph.step(RateGroup::kDynamics, {n, 0, 0.005});
     pair.graph.step(RateGroup::kHaptic, {n, 0, 0.001});
@@ -66,7 +66,7 @@ TEST(SizedAtLoad, TakesNoMemoryFromTheFirstPublicationOn) {
   EXPECT_EQ(pair.reader->count, static_cast<std::int32_t>(kBodies));
 }
 
-// Room is not news: who looks before the first step finds no bodies, not some at the origin.
+// Before the first step a reader finds no bodies, although memory is already allocated.
 TEST(SizedAtLoad, HasNoBodiesBeforeTheFirstPublication) {
   Pair pair;
   pair.graph.step(RateGroup::kHaptic, {0, 0, 0.001});
@@ -90,7 +90,7 @@ TEST(SizedAtLoad, AReplayReadsTheVersionsItIsToldAndTakesNoMemoryOnTheWay) {
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 
-// How many bodies are drawn changes all the time, how many there may be does not.
+// The number of values in use may change at every step; the capacity does not.
 TEST(SizedAtLoad, AttractionsComeAndGoInTheRoomThatWasMade) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   Attractions wanted;

@@ -11,7 +11,7 @@
 namespace presa {
 namespace {
 
-// Written down once: a study must give the same order on every machine and in every later version.
+// Golden values: a study must give the same order on every machine and in every later version.
 TEST(RandomStream, FirstNumbersAreFixedForEver) {
   RandomStream stream(20061, "order");
   std::vector<std::uint64_t> drawn;

@@ -14,7 +14,7 @@ constexpr DeviceRating kRating{.force = 8, .force_rate = 1000, .speed = 1, .soft
 
 class Keeper : public testing::Test {
  protected:
-  /// `steps` cycles under a command that is fresh in every fourth; the largest force and the largest change.
+  /// Runs `steps` cycles with a fresh command in every fourth; records the largest force and the largest change.
   void command(const Vec3& force, int steps) {
     for (int i = 0; i < steps; ++i) step({.fresh = i % 4 == 0, .command = force});
   }
@@ -66,7 +66,8 @@ TEST_F(Keeper, IsAtZeroTenMillisecondsAfterTheLastCommand) {
   EXPECT_EQ(force(), 0);
 }
 
-// A keeper that was held up for 6 ms itself: the command is older than 5 ms then, and one haptic tick's worth of the way is made up.
+// A keeper that was held up for 6 ms itself: the command is older than 5 ms then, and one haptic tick's worth of the
+// way is made up.
 TEST_F(Keeper, WhoWasHeldUpHimselfDropsNoLater) {
   press();
   keeper_.step({.command = kWanted}, 6e-3);
@@ -74,7 +75,7 @@ TEST_F(Keeper, WhoWasHeldUpHimselfDropsNoLater) {
   EXPECT_DOUBLE_EQ(force(), 3);
 }
 
-// Whatever is commanded: the device's rating. 1e9 N in one write, a thousand times to and fro.
+// Any command is limited to the device's rating: 1e9 N in one write, a thousand times in alternating directions.
 TEST_F(Keeper, HoldsTheRatingWhateverIsCommanded) {
   command(Vec3::Zero(), 4);
   int at_rating = 0, at_slew = 0;
@@ -103,7 +104,7 @@ TEST_F(Keeper, TripsAtTheRatingsSpeed) {
 TEST_F(Keeper, OpensAgainAtZeroOnly) {
   press();
   silence(200);
-  command(kWanted, 4000);  // it comes back as if nothing had been
+  command(kWanted, 4000);  // the program returns without starting at zero
   EXPECT_EQ(force(), 0);
   command(Vec3::Zero(), 4);
   command(kWanted, 4);
@@ -125,7 +126,7 @@ TEST_F(Keeper, NeverTrustsADeadProgramAgain) {
 TEST_F(Keeper, DoesNotBelieveEveryCommand) {
   press();
   command({0, 0, 1e300}, 40);
-  EXPECT_DOUBLE_EQ(force(), 8);  // what the device is rated for
+  EXPECT_DOUBLE_EQ(force(), 8);  // the device's rating
   command({0, std::numeric_limits<double>::quiet_NaN(), 0}, 40);
   EXPECT_EQ(force(), 0);  // latched
   command(Vec3::Zero(), 4);

@@ -8,9 +8,9 @@
 #include "framework/device/device_rating.h"
 #include "framework/device/supervision/command_keeper.h"
 
-// A whole program under the real supervisor, with its probe for a device, on files that lie; then the program is killed. The probe is
-// rated for 10 N and 1 N/ms, and that is what it gets. Times are counted in the supervisor's cycles, of which each takes a quarter of a
-// millisecond at least: a machine that is busy makes them longer, not more.
+// A whole program under the real supervisor, with its probe for a device, on files that lie; then the program is
+// killed. The probe is rated for 10 N and 1 N/ms, and that is what it gets. Times are counted in the supervisor's
+// cycles, of which each takes a quarter of a millisecond at least: a machine that is busy makes them longer, not more.
 namespace presa {
 namespace {
 

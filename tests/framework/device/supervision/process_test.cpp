@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 constexpr double kPeriod = 1e-3;  // [s]
 
-/// A probe in a supervisor's hands, ticked by this thread once a millisecond, or as well as the machine lets it.
+/// A probe device in a real supervisor process, ticked by this thread about once a millisecond.
 class Supervised : public testing::Test {
  protected:
   Supervised() {
@@ -57,11 +57,11 @@ class Supervised : public testing::Test {
     const Tick tick{.index = ticks_, .time = static_cast<double>(ticks_) * kPeriod, .period = kPeriod};
     ++ticks_;
     const FingerInput finger = device_->read(tick);
-    // as the output stage does: a machine that pauses this thread makes the supervisor drop the force meanwhile
+    // restarts at zero as the output stage does: if the machine pauses this thread, the supervisor drops the force
     device_->write(finger.valid ? force : Vec3::Zero(), tick);
     return finger;
   }
-  /// Until it holds, or five seconds.
+  /// Ticks until the condition holds, at most for five seconds.
   template <class Holds>
   bool ticksUntil(const Vec3& force, const Holds& holds) {
     for (int i = 0; i < 5000; ++i) {
@@ -137,10 +137,11 @@ TEST_F(Supervised, ASupervisorThatDiesIsALostDevice) {
   ASSERT_TRUE(press());
   kill(device_->supervisor(), SIGKILL);
   EXPECT_TRUE(ticksUntil({0, 0, 3}, [](const FingerInput& finger) { return finger.lost && !finger.valid; }));
-  device_->close();  // and does not wait for it
+  device_->close();  // does not wait for the supervisor
 }
 
-// What a re-arm in `presa run` begins with: the device is opened again by a supervisor of its own. One that is not lost stays as it is.
+// What a re-arm in `presa run` begins with: the device is opened again by a supervisor of its own. One that is not lost
+// stays as it is.
 TEST_F(Supervised, OneThatWasLostIsTakenOverByANewSupervisor) {
   open();
   ASSERT_TRUE(press());
@@ -157,13 +158,13 @@ TEST_F(Supervised, OneThatWasLostIsTakenOverByANewSupervisor) {
   EXPECT_EQ(log_->writer, device_->supervisor());
 }
 
-// It cannot be opened again: that is said, and it stays lost.
+// A device that cannot be opened again is reported and stays lost.
 TEST_F(Supervised, WhatStaysAwayStaysLost) {
   open();
   kill(device_->supervisor(), SIGKILL);
   ASSERT_TRUE(ticksUntil(Vec3::Zero(), [](const FingerInput& finger) { return finger.lost; }));
   const int kept = dup(fd_), nothing = ::open("/dev/null", O_RDWR);
-  dup2(nothing, fd_);  // no log any more where the probe looks for it
+  dup2(nothing, fd_);  // the probe no longer finds its log
   EXPECT_THROW(device_->reopen(false), InputError);
   EXPECT_TRUE(tick(Vec3::Zero()).lost);
   EXPECT_EQ(dup2(kept, fd_), fd_);

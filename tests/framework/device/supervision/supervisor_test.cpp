@@ -7,7 +7,7 @@
 namespace presa {
 namespace {
 
-/// Notes what comes and goes.
+/// Keeps the calls that it gets.
 struct Notes {
   FingerInput sample;
   Vec3 force = Vec3::Zero();
@@ -36,7 +36,7 @@ class SupervisorCycle : public testing::Test {
     notes_.sample.p_WH = {1, 2, 3};
     notes_.sample.valid = true;
   }
-  /// A millisecond: one command, four cycles.
+  /// One millisecond: one command, four cycles.
   bool tick(const Vec3& force) {
     share_.command.publish({force}, 0);
     bool goes_on = true;
