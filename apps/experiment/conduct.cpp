@@ -33,7 +33,7 @@ class Conductor {
     return true;
   }
 
-  /// Standard and what is to be set, until it is confirmed.
+  /// Method of adjustment: presents the standard and the comparison in turn until the level is confirmed.
   bool adjust() {
     const auto& plan = std::get<psychophysics::AdjustmentPlan>(experiment_.procedure->plan);
     psychophysics::Adjuster adjuster(plan, trial_.stimulus->level);
@@ -55,18 +55,18 @@ class Conductor {
     return false;
   }
 
-  /// False: it ended the trial.
+  /// Runs one presentation. False: the trial ended in it.
   bool show(const Presentation& presentation) {
     TrialSetting setting = setting_;
     if (!files_.empty()) setting.record = files_[result_.presented.size()];
-    // each presentation has a stream of its own, the first that of the trial
+    // each presentation has its own random stream; the first one has the trial's seed
     const std::uint64_t seed = trial_.seed + result_.presented.size();
     result_.presented.push_back(present(experiment_, presentation, seed, setting));
     const TrialResult& shown = result_.presented.back();
     return shown.state == Trial::State::kDone && shown.faults.empty();
   }
 
-  /// The gap between two presentations. False: the operator ended the trial in it.
+  /// Waits between two presentations. False: the operator ended the trial meanwhile.
   bool pause() {
     if (!setting_.realtime) return true;
     const std::int64_t until = monotonicNs() + static_cast<std::int64_t>(experiment_.procedure->gap * 1e9);

@@ -9,11 +9,11 @@
 
 namespace presa::experiment {
 
-/// One run of a trial, all its presentations and the answer.
+/// Result of one run of a trial: all its presentations and the answer.
 struct Conducted {
   Outcome outcome = Outcome::kInterrupted;
-  std::string reason;    ///< of an abort or interruption
-  std::string excluded;  ///< rule that holds for one of the presentations; empty: the trial counts
+  std::string reason;    ///< reason of an abort or interruption
+  std::string excluded;  ///< exclusion rule that one of the presentations met; empty: the trial counts
   std::vector<TrialResult> presented;
   std::optional<psychophysics::Response> response;
 
@@ -21,8 +21,8 @@ struct Conducted {
   bool unanswered = false;
 };
 
-/// Presents what the trial asks for, one recording each (`files`: paths, none when empty), and gets the answer. `respondent`: null
-/// without a procedure. Throws InputError.
+/// Runs the presentations of a trial and gets the answer. `files`: path of the recording of each presentation (empty:
+/// no recording). `respondent`: null without a procedure. Throws InputError.
 Conducted conduct(const Experiment& experiment, const PlannedTrial& trial, const std::vector<std::string>& files,
                   const TrialSetting& setting, Respondent* respondent);
 

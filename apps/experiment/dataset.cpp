@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kJournal = "journal.jsonl";
 
-/// Findings of one session, collected file by file.
+/// Validates one session file by file.
 class Validation {
  public:
   explicit Validation(const SessionFolder& folder) : folder_(folder) {}
@@ -73,7 +73,7 @@ class Validation {
     }
   }
 
-  /// What became of each trial that counts: the outcome of its last run, why it is excluded.
+  /// Notes the outcome of the last run of each trial, and why trials are excluded.
   void noteTrials() {
     std::map<int, const LoggedRun*> last;
     for (const LoggedRun& run : log_.runs) {
@@ -103,7 +103,7 @@ class Validation {
 }  // namespace
 
 std::vector<SessionFolder> sessionsIn(const std::string& data) {
-  std::set<fs::path> found;  // each once, however the folder is written
+  std::set<fs::path> found;  // canonical paths: each session once
   std::error_code error;
   const fs::path top = fs::canonical(data, error);
   if (error) return {};

@@ -6,18 +6,18 @@
 
 namespace presa::experiment {
 
-/// Every session below a folder (or the folder itself), in order of their paths.
+/// Every session in or below a folder, ordered by path.
 std::vector<SessionFolder> sessionsIn(const std::string& data);
 
-/// What is to be said of one session. Reads, never writes.
+/// Validation result of one session.
 struct Verdict {
   std::vector<std::string>
-      findings;          ///< files missing, changed or not in the log, a session not finished; empty: in order
-  bool altered = false;  ///< a file or the log is not what was written: not merely unfinished, or with a stranger
-  std::vector<std::string> notes;  ///< what the data itself tells: trials given up, skipped, excluded and why
-  std::size_t trials = 0;          ///< done and counted
+      findings;          ///< files missing, changed or not in the log; an unfinished session; empty: no findings
+  bool altered = false;  ///< the log or a logged file has changed; unfinished sessions and extra files do not set it
+  std::vector<std::string> notes;  ///< trials given up, skipped or excluded, with the reason
+  std::size_t trials = 0;          ///< completed trials that count
   std::size_t runs = 0;
-  std::string seal;  ///< sum of the log's last record: noted elsewhere, it proves the session later
+  std::string seal;  ///< checksum of the log's last record; a copy kept elsewhere proves the session later
 };
 Verdict validate(const SessionFolder& folder);
 

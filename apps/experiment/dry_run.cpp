@@ -14,7 +14,7 @@ namespace {
 
 using terminal::format;
 
-/// What is told of a trial beside its place in the order.
+/// A column of the dry run: a property of a trial beside its place in the order.
 struct DryColumn {
   std::string name, unit;
   std::string heading() const { return headingOf(name, unit); }
@@ -155,7 +155,7 @@ std::string dryRunJson(const Experiment& experiment, const Subject& subject, int
                     {"block", trial.block},
                     {"repeat", trial.repeat},
                     {"condition", condition},
-                    {"seed", std::to_string(trial.seed)}});  // 64 bits are more than a JSON number holds
+                    {"seed", std::to_string(trial.seed)}});  // as text: a JSON number cannot hold 64 bits
   }
   const Span trial = durationOf(experiment);
   const double n = static_cast<double>(trials.size());

@@ -8,16 +8,16 @@
 
 namespace presa::experiment {
 
-/// Seconds that a trial takes: `least` when every awaited thing happens at once, `most` when nothing does.
+/// Duration of a trial [s]: `least` when every awaited event happens at once, `most` when none happens.
 struct Span {
   double least = 0, most = 0;
 };
 Span durationOf(const Experiment& experiment);
 
-/// All trials of a session, those of a method as somebody meets them who is right three times in four.
+/// All trials of a session. Where a method chooses the levels, the answers are simulated at 75 % correct.
 std::vector<PlannedTrial> previewTrials(const Experiment& experiment, int subject_number, int session);
 
-/// The same as people read it, as a table (CSV) and as JSON.
+/// The trials as text, as a CSV table and as JSON.
 std::string dryRunText(const Experiment& experiment, const Subject& subject, int session,
                        const std::vector<PlannedTrial>& trials);
 std::string dryRunCsv(const Experiment& experiment, const std::vector<PlannedTrial>& trials);

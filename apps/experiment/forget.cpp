@@ -20,13 +20,13 @@ constexpr const char* kJournal = "journal.jsonl";
 bool isTable(const fs::path& file) { return file.extension() == ".csv" || file.extension() == ".tsv"; }
 char separatorOf(const fs::path& file) { return file.extension() == ".csv" ? ',' : '\t'; }
 
-/// Texts that people make of a dataset.
+/// Text files made from a dataset, such as reports.
 bool isText(const fs::path& file) {
   static const std::set<std::string> kKinds{"", ".html", ".json", ".md", ".rst", ".svg", ".tex", ".txt"};
   return kKinds.contains(file.extension().string());
 }
 
-/// Its first cell is the subject, as BIDS and as trials.csv write it.
+/// True when the first cell names the subject, in the form of BIDS or of trials.csv.
 bool isRowOf(const DelimitedRecord& record, const std::string& subject) {
   const std::string& cell = record.cells.front();
   return cell == subject || cell == "sub-" + subject;
@@ -38,7 +38,7 @@ bool hasRows(const fs::path& file, const std::string& subject) {
   return std::any_of(records.begin(), records.end(), [&](const DelimitedRecord& one) { return isRowOf(one, subject); });
 }
 
-/// Every other byte as it was.
+/// The file without the subject's rows; all other bytes are unchanged.
 std::string withoutRows(const fs::path& file, const std::string& subject) {
   const std::string text = contentsOf(file);
   std::string kept;
@@ -48,7 +48,8 @@ std::string withoutRows(const fs::path& file, const std::string& subject) {
   return kept;
 }
 
-/// The pseudonym as a word of its own; one of digits alone only with its prefix, or every number would be it.
+/// True when the text contains the pseudonym as a whole word. A pseudonym of digits only must have its prefix "sub-":
+/// otherwise every number would match.
 bool names(const std::string& text, const std::string& subject) {
   const bool digits = std::all_of(subject.begin(), subject.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   const std::string word = digits ? "sub-" + subject : subject;
@@ -61,12 +62,12 @@ bool names(const std::string& text, const std::string& subject) {
   return false;
 }
 
-/// Of a folder, however it is written.
+/// Name of a folder, with or without a trailing slash.
 std::string nameOf(const fs::path& folder) {
   return folder.has_filename() ? folder.filename().string() : folder.parent_path().filename().string();
 }
 
-/// One walk over a dataset.
+/// Walks over a dataset and collects a subject's traces.
 class Search {
  public:
   explicit Search(const std::string& subject) : subject_(subject), prefix_("sub-" + subject) {}
@@ -105,7 +106,7 @@ class Search {
       traces_.files.push_back(entry.path().string());
   }
 
-  /// The tables of a session are its subject's alone, and under its checksums.
+  /// Skips tables inside sessions: they hold one subject only and are covered by the checksums.
   void look(const fs::path& file) {
     if (fs::exists(file.parent_path() / kJournal)) return;
     if (isTable(file)) {
@@ -120,7 +121,7 @@ class Search {
   Traces traces_;
 };
 
-/// Nobody goes on with a session that is being removed.
+/// Locks the sessions, so that none is resumed while it is being removed.
 std::vector<Journal> lockSessions(const std::vector<std::string>& folders) {
   std::vector<Journal> locks;
   for (const std::string& folder : folders) {

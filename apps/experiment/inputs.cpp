@@ -24,7 +24,7 @@ std::vector<Override> overridesOf(const std::vector<std::string>& sets) {
   return overrides;
 }
 
-/// Absolute, each once. The experiment has been read: nothing is wrong with its files.
+/// Absolute paths without duplicates. The experiment has been read before, so its files are valid.
 std::set<std::string> filesOf(const Experiment& experiment, int subject_number) {
   Diagnostics ignored;
   std::set<std::string> files;
@@ -39,7 +39,7 @@ std::set<std::string> filesOf(const Experiment& experiment, int subject_number) 
   return files;
 }
 
-/// From the experiment's folder: a dataset names no machine.
+/// Path relative to the experiment's folder: a dataset holds no paths of a machine.
 std::string nameOf(const std::string& file, const Experiment& experiment) {
   const fs::path folder = fs::absolute(experiment.file).lexically_normal().parent_path();
   return fs::path(file).lexically_relative(folder).string();

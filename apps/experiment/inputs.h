@@ -4,11 +4,11 @@
 
 namespace presa::experiment {
 
-/// SHA-256 of every file that an experiment's scene and rig name in any condition of a subject (meshes, motions), by its path
-/// from the experiment's folder. Throws std::system_error when one cannot be read.
+/// SHA-256 of every file (mesh, motion) that an experiment's scene and rig name in any condition of a subject. Keys are
+/// paths relative to the experiment's folder. Throws std::system_error when a file cannot be read.
 Json inputSums(const Experiment& experiment, int subject_number);
 
-/// Throws InputError E936 with every file that is not what `sums` say, or is new since.
+/// Throws InputError E936 that lists every file whose checksum differs from `sums`, and every file missing from `sums`.
 void checkInputs(const Experiment& experiment, int subject_number, const Json& sums);
 
 }  // namespace presa::experiment

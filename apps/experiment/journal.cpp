@@ -21,15 +21,15 @@ namespace {
 
 constexpr std::string_view kHead = "{\"sha256\":\"", kMiddle = "\",\"record\":", kOldHead = "{\"sum\":\"";
 constexpr std::size_t kDigits = 64;
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 28U;  // a session of a thousand trials takes 5 MB
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 28U;  // 256 MB; a session of a thousand trials takes 5 MB
 
-/// Before the first record there is no sum.
+/// Sum of a line; `before` is the previous line's sum, empty for the first record.
 std::string sumOf(const std::string& before, std::string_view record) {
   return sha256OfText(before + std::string(record));
 }
 
 int openLocked(const std::string& file, int flags) {
-  // a FIFO would wait for its reader
+  // O_NONBLOCK: opening a FIFO would wait for its reader
   const int descriptor = ::open(file.c_str(), flags | O_WRONLY | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     if (errno == EEXIST)
@@ -49,7 +49,7 @@ int openLocked(const std::string& file, int flags) {
   return descriptor;
 }
 
-/// The record of a line, when its sum is right; `sum` goes on to it.
+/// The record of a line if its sum is right; `sum` is updated to the line's sum.
 std::optional<std::string_view> recordOf(std::string_view line, std::string& sum) {
   const std::size_t start = kHead.size() + kDigits + kMiddle.size();
   if (line.size() <= start || !line.starts_with(kHead) || line.back() != '}') return std::nullopt;
@@ -89,8 +89,8 @@ Journal Journal::hold(const std::string& file) { return {file, openLocked(file, 
 
 Journal Journal::reopen(const std::string& file, Contents& contents) {
   const int descriptor = openLocked(file, 0);
-  Journal journal(file, descriptor, 0, {});  // closes it if reading throws
-  contents = read(file);                     // again, now that nobody else writes
+  Journal journal(file, descriptor, 0, {});  // closes the descriptor if read() throws
+  contents = read(file);                     // read again: under the lock nobody else writes
   if (contents.torn_bytes > 0 && ::ftruncate(descriptor, static_cast<off_t>(contents.good_bytes)) != 0)
     refuse(922, file, std::string("cannot be written: ") + std::strerror(errno));
   journal.size_ = contents.good_bytes;
@@ -122,7 +122,7 @@ void Journal::append(const Json& record) {
   }
   if (error == 0 && ::fsync(descriptor_) != 0) error = errno;
   if (error != 0) {
-    // half a record would look like damage to the next one
+    // cut off the partial record: the next append would make it look like damage
     if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) error = errno;
     throw std::system_error(error, std::generic_category(), "cannot write " + file_);
   }

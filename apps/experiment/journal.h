@@ -7,33 +7,34 @@ namespace presa::experiment {
 
 using Json = nlohmann::ordered_json;
 
-/// The write-ahead log of a session: one record per line, on disk before append() returns. Each line carries the SHA-256 of the
-/// sum before it and of its own record, so that a changed, missing or added line is told from a good log; a line without its end
-/// is what a crash tears. Whoever notes the last sum can prove the whole log later, and with the sums in it every file.
-/// Held under a lock: a session is run by one process at a time. Thread: main.
+/// The write-ahead log of a session: one JSON record per line, on disk before append() returns. Each line carries the
+/// SHA-256 of the previous line's sum followed by its own record, so a changed, missing or added line is detected. A
+/// last line without its end is the trace of a crash. A copy of the last sum proves the whole log later, and, by the
+/// sums in the log, every file. The log is locked while it is open: one process at a time runs a session. Thread: main.
 class Journal {
  public:
-  /// What a log holds, read without touching it. Throws InputError: E922 cannot be read; E923 a whole line is damaged, or of
-  /// the format before SHA-256. A last line without its end is only counted.
+  /// Contents of a log, read without changing it. Throws InputError: E922 cannot be read; E923 a complete line is
+  /// damaged or has the format from before SHA-256. An incomplete last line is only counted (`torn_bytes`).
   struct Contents {
     std::vector<Json> records;
     std::size_t good_bytes = 0, torn_bytes = 0;
-    std::string sum;  ///< of the last record: the seal of all before it
+    std::string sum;  ///< sum of the last record: the seal of the whole log
   };
   static Contents read(const std::string& file);
 
-  /// A new log; throws InputError E920 when there is one already, E922 when it cannot be written.
+  /// Creates a log. Throws InputError E920 when it exists already, E922 when it cannot be written.
   static Journal create(const std::string& file);
-  /// A log to go on with: what a crash left behind the last whole record is cut off. Throws InputError E921 when another
-  /// process runs the session.
+  /// Opens a log to append to it and cuts off an incomplete last line. Throws InputError E921 when another process runs
+  /// the session.
   static Journal reopen(const std::string& file, Contents& contents);
-  /// Only keeps others from running the session while it lives; the log may be damaged. Throws InputError E921, E922.
+  /// Only locks the session for the lifetime of the object; the log may be damaged. Throws InputError E921, E922.
   static Journal hold(const std::string& file);
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&&) = delete;
   ~Journal();
 
-  /// Throws std::system_error when it cannot be written (disk full); the log then ends with the record before.
+  /// Throws std::system_error when the record cannot be written (disk full); the log then ends with the previous
+  /// record.
   void append(const Json& record);
 
  private:

@@ -8,22 +8,22 @@
 
 namespace presa::experiment {
 
-/// Who answers the question of a trial. Thread: main.
+/// Answers the question of a trial: a person or a model. Thread: main.
 class Respondent {
  public:
   virtual ~Respondent() = default;
-  /// Place chosen, 1 or 2; yes is 1. None: nobody answers any more, the session is to stop.
+  /// The chosen presentation, 1 or 2; "yes" is 1. No value: the session is to stop.
   virtual std::optional<int> choose(const PlannedTrial& trial, std::span<const TrialResult> presented) = 0;
-  /// What to do with the level after a round of adjustment, numbered from 1.
+  /// The change of the level after a round of adjustment; rounds count from 1.
   virtual std::optional<psychophysics::AdjustmentKey> adjust(const PlannedTrial& trial, const TrialResult& standard,
                                                              const TrialResult& comparison, int round) = 0;
 };
 
-/// The experiment's simulated observer, which is a model and not a person: compares the measure it is told to, with noise of its own
-/// for every trial. Needs Experiment::procedure with an observer.
+/// The experiment's simulated observer, a model: compares the measure that the experiment names, with fresh noise in
+/// every trial. Needs Experiment::procedure with an observer.
 std::unique_ptr<Respondent> simulatedRespondent(const Experiment& experiment, int subject_number);
 
-/// The participant, whose answer is typed in: at the operator's terminal, after the text "question" of the experiment.
+/// The participant. The answer is typed at the operator's terminal, after the experiment's text "question".
 std::unique_ptr<Respondent> keyboardRespondent(const Experiment& experiment, Operator& person,
                                                const std::string& language);
 

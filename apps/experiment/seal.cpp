@@ -20,10 +20,10 @@ enum Code { kKeyThere = 696, kNoKey = 697 };
 constexpr std::uint64_t kMaxKey = 4096;
 constexpr const char* kHelp = "presa experiment key FILE makes FILE, the secret key, and FILE.pub, the public one";
 
-/// Says what is signed: a signature of anything else cannot be taken for one of a session.
+/// The signed message. Its prefix keeps a signature made for another purpose from passing as a session's.
 std::string messageOf(const std::string& seal) { return "presa session seal\n" + seal + "\n"; }
 
-/// Never over another file, and never readable by others for a moment.
+/// Creates a file with `mode` from the start; never overwrites an existing one.
 void writeNew(const std::string& file, const std::string& text, mode_t mode) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (descriptor < 0) refuse(kKeyThere, file, std::string("cannot be made: ") + std::strerror(errno));
@@ -69,7 +69,7 @@ std::optional<std::string> signatureTrouble(const SessionFolder& folder, const s
   const std::string text = contentsOf(folder.file(kSignatureFile));
   const Json kept = Json::parse(text, nullptr, false);
   const bool readable = kept.is_object() && kept.contains("ed25519") && kept.at("ed25519").is_string();
-  // the key is read in any case: a wrong one must not look like a missing signature
+  // read the key in any case: a bad key must not be reported as a missing signature
   const std::string signature = readable ? kept.at("ed25519").get<std::string>() : "";
   const bool good = withKey(key, [&](const std::string& open) { return isSignedBy(open, messageOf(seal), signature); });
   if (good) return std::nullopt;

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that a document names, from `folder` on: a dataset names no machine.
+/// Makes absolute paths in a document relative to `folder`: a dataset holds no paths of a machine.
 std::string withoutRoot(std::string xml, const fs::path& folder) {
   const std::string mark = "=\"/";
   for (std::size_t at = xml.find(mark); at != std::string::npos; at = xml.find(mark, at + 1)) {
@@ -37,7 +37,7 @@ std::string withoutRoot(std::string xml, const fs::path& folder) {
 
 fs::path absolute(const std::string& path) { return fs::absolute(path).lexically_normal(); }
 
-/// What the session was run with, as it is kept.
+/// Names and texts of the session's copies of experiment, scene and rig.
 std::vector<std::pair<const char*, std::string>> documentsOf(const Experiment& experiment) {
   const fs::path folder = absolute(experiment.file).parent_path();
   return {{"experiment.xml", withoutRoot(experiment.resolved_xml, folder)},
@@ -45,16 +45,16 @@ std::vector<std::pair<const char*, std::string>> documentsOf(const Experiment& e
           {"rig.xml", withoutRoot(experiment.rig_xml, folder)}};
 }
 
-/// A process that died before its first record leaves an empty log: nothing to overwrite.
+/// Creates the log. An empty log, left by a process that died before its first record, is reused.
 Journal createJournal(const SessionFolder& folder) {
   if (!fs::exists(folder.journal())) return Journal::create(folder.journal());
   Journal::Contents contents;
   Journal journal = Journal::reopen(folder.journal(), contents);
-  if (!contents.records.empty()) return Journal::create(folder.journal());  // says that it is there
+  if (!contents.records.empty()) return Journal::create(folder.journal());  // throws E920: the log exists
   return journal;
 }
 
-/// On the disk, and under its name: what the log says of a file must hold after a power cut too.
+/// Forces a file or folder to disk: the log's statement about a file must hold after a power cut.
 void syncFile(const std::string& path, int flags = 0) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
@@ -198,7 +198,7 @@ SubjectSession::End SubjectSession::run(Operator& person, const std::string& lan
   });
   const std::unique_ptr<Respondent> respondent = respondentFor(desk);
   if (trials_->next() != nullptr && !desk.welcome()) return End::kStopped;
-  int in_vain = 0;  // aborts in a row
+  int in_vain = 0;  // consecutive aborts
   while (const PlannedTrial* next = trials_->next()) {
     const PlannedTrial trial = *next;
     desk.begin(trial, *trials_);
@@ -210,7 +210,7 @@ SubjectSession::End SubjectSession::run(Operator& person, const std::string& lan
     const bool again = result.outcome == Outcome::kInterrupted && desk.ending() == Operator::Wish::kRepeat;
     if (result.outcome == Outcome::kInterrupted && !again) return End::kStopped;
     in_vain = result.outcome == Outcome::kAborted ? in_vain + 1 : 0;
-    // a method cannot go on without an answer
+    // a psychophysical method needs an answer to continue
     if (experiment_.procedure && in_vain >= experiment_.retry.attempts) return End::kFault;
     const std::string what =
         terminal::format("trial %d", trial.number) + (result.reason.empty() ? "" : ": " + result.reason);

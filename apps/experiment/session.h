@@ -8,26 +8,28 @@
 
 namespace presa::experiment {
 
-/// A session of one subject: its folder, its log, and the trials that are still to come. Everything that a crash must not take away
-/// is on disk before the next step is taken. Thread: main.
+/// A session of one subject: its folder, its log, and the trials still to run. Every step is on disk before the next
+/// one begins, so that a crash loses at most the current trial. Thread: main.
 class SubjectSession {
  public:
-  /// A new one in DATA/sub-ID/ses-N; the log names files from that folder on. Throws InputError E920 when it exists, E925 when the folder cannot be made.
+  /// Creates a session in DATA/sub-ID/ses-N; paths in its log are relative to that folder. Throws InputError E920 when
+  /// the session exists, E925 when the folder cannot be created.
   static SubjectSession begin(const Experiment& experiment, SessionStart start, const std::string& data);
-  /// One to go on with: queue and names of files are rebuilt from the log, an interrupted run is marked and comes next.
-  /// Throws InputError E926 when experiment, scene or rig are not what the session began with, E936 when a file they name is not.
+  /// Continues a session: the queue of trials and the file names are rebuilt from the log; an interrupted run is marked
+  /// and its trial comes next. Throws InputError E926 when experiment, scene or rig have changed since the session
+  /// began, E936 when a file that they name has changed.
   static SubjectSession resume(const Experiment& experiment, const SessionFolder& folder);
 
   enum class End { kComplete, kStopped, kFault };
-  /// Runs what is left. kStopped: Ctrl-C; kFault: a device, dynamics or recording failed, see fault(). The trial that was going on is marked
-  /// and comes again after resume.
-  /// Throws std::system_error when the disk fails, what was logged before stays whole; InputError E928 when trials ask a question that
-  /// nobody can answer. `language`: of the texts that are shown.
+  /// Runs the remaining trials. kStopped: Ctrl-C or the operator; kFault: a device, the dynamics or the recording
+  /// failed, or a procedure's trial was aborted too often, see fault(). The interrupted trial is marked and comes again
+  /// after resume. `language`: language of the texts shown. Throws std::system_error when the disk fails (earlier
+  /// records stay intact), InputError E928 when trials ask a question and there is nobody to answer.
   End run(Operator& person, const std::string& language);
 
   const SessionFolder& folder() const noexcept { return folder_; }
   const TrialSource& trials() const noexcept { return *trials_; }
-  /// Why run() ended with kFault.
+  /// The reason why run() ended with kFault.
   std::string fault() const { return log_.runs.empty() ? "" : log_.runs.back().end.value("reason", ""); }
   const SessionStart& start() const noexcept { return log_.start; }
   int runsMade() const noexcept { return static_cast<int>(log_.runs.size()); }

@@ -20,7 +20,7 @@ Outcome outcomeOf(const Json& record) {
   throw std::out_of_range("no outcome " + name);
 }
 
-/// A log speaks of files in its own folder only: by their names, without a path.
+/// A log names files of its own folder only, without a path.
 void checkFileName(const std::string& name) {
   if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
     throw std::runtime_error("it names " + quote(name) + ", which is no file of its own folder");

@@ -9,7 +9,7 @@ namespace {
 
 using psychophysics::AdjustmentKey;
 
-constexpr double kQuartile = 0.6744897501960817;  // of the normal distribution
+constexpr double kQuartile = 0.6744897501960817;  // upper quartile of the standard normal distribution
 
 class SimulatedRespondent final : public Respondent {
  public:
@@ -43,7 +43,7 @@ class SimulatedRespondent final : public Respondent {
   }
 
  private:
-  /// Noise of either percept, such that a ratio of 1 + weber is told apart in 75 % of pairs.
+  /// Log of the percept with Gaussian noise, scaled so that a ratio of 1 + weber is discriminated in 75 % of pairs.
   double noisy(double percept, RandomStream& random) const {
     const double sd = std::log1p(weber_) / (kQuartile * std::numbers::sqrt2);
     return std::log(percept) + sd * random.normal();

@@ -5,12 +5,13 @@
 
 namespace presa::experiment {
 
-/// Tells rendering that the surfaces have changed. It reads what the trial decided in the tick before, which is no data of this
-/// one: so it stands before rendering and the tap behind it, and the change is there in the first tick of its phase.
-/// Only where an experiment has such a phase. Thread: haptic, the trial's own; nonblocking.
+/// Tells the renderer that a phase of the trial has changed the friction of surfaces. It reads the trial's decision of
+/// the previous tick, not data of this one, so it runs before the renderer while TrialTap runs after it; the change
+/// applies in the first tick of its phase. In the graph only when an experiment has such a phase. Thread: haptic;
+/// nonblocking.
 class SurfaceSwitch final : public Module {
  public:
-  /// `trial` outlives it.
+  /// `trial` must outlive this object.
   explicit SurfaceSwitch(const Trial& trial) : Module("surface_switch", RateGroup::kHaptic), trial_(trial) {}
 
   void step(const Tick&) noexcept override { change_.value.happened = trial_.frictionChanged(); }

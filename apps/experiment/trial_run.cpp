@@ -11,7 +11,7 @@
 namespace presa::experiment {
 namespace {
 
-/// What subjects feel is the experiment's to say, and in its record.
+/// Refuses scenes that take commands: only the experiment may decide what subjects feel, and its log records it.
 void refuseCommands(const World& world, Diagnostics& diagnostics) {
   if (!takesCommands(world)) return;
   diagnostics.error(730, {world.scene.file, 0, 0}, "its bus takes commands, which would change what subjects feel",
@@ -24,12 +24,12 @@ double longestOf(const Experiment& experiment) {
   return seconds;
 }
 
-/// A simulated subject is drawn from the experiment's seed and its own number: one person in every trial.
+/// A simulated subject depends on the experiment's seed and its number only: the same person in every trial.
 SimulatedPerson personOf(const Experiment& experiment, int subject) {
   return {experiment.seed, static_cast<std::uint64_t>(subject), experiment.level};
 }
 
-/// What the devices say of themselves, that of a run or that of all runs.
+/// Facts that the devices report: those of one run (`of_run`) or those of all runs.
 std::vector<DeviceFact> factsOf(const DeviceList& devices, bool of_run) {
   std::vector<DeviceFact> facts;
   for (const auto& device : devices) {
@@ -40,7 +40,7 @@ std::vector<DeviceFact> factsOf(const DeviceList& devices, bool of_run) {
   return facts;
 }
 
-/// One trial's session, from its parts to its result.
+/// The Session of one presentation: setup, run, result.
 class TrialRun {
  public:
   TrialRun(const Experiment& experiment, const Presentation& presentation, std::uint64_t seed,
@@ -49,7 +49,7 @@ class TrialRun {
         world_(load(experiment, presentation, seed, setting, plan_)),
         trial_(experiment, presentation.columns, 1 / world_->scene.rates.haptic) {
     Session::Options options;
-    std::vector<std::string> notes;  // an experiment is refused, never halved
+    std::vector<std::string> notes;  // stays empty: an experiment is refused rather than run at reduced force
     forceShare(drivesHardware(plan_), world_->options, realtimeRights, notes);
     auto tap = std::make_unique<TrialTap>(trial_, experiment, world_->scene, control_);
     tap_ = tap.get();
@@ -72,7 +72,7 @@ class TrialRun {
       const terminal::PromptEnd prompt(control_, setting_.realtime);
       executor_->run(world_->options.duration);
     }
-    poll();  // a signal stops it between polls, too
+    poll();  // once more: a signal may have stopped the run between polls
     return result();
   }
 

@@ -25,7 +25,7 @@ std::string textOf(const Json& value) {
   return quoted + "\"";
 }
 
-/// record[a][b]; nothing when there is none.
+/// Text of record[a][b], or kNothing when it is missing.
 std::string at(const Json& record, const std::string& a, const std::string& b = {}) {
   if (!record.is_object() || !record.contains(a)) return kNothing;
   const Json& value = record[a];
@@ -38,7 +38,7 @@ std::vector<TableColumn> columnsOf(const Experiment& experiment) {
   using R = const LoggedRun&;
   const auto from_begin = [](const std::string& name) { return [name](S, R run) { return at(run.begin, name); }; };
   const auto from_end = [](const std::string& name) { return [name](S, R run) { return at(run.end, name); }; };
-  // the condition's own text where there is one: a word is no number, and 0.4 stays 0.4
+  // prefer the condition's own text: a level may be a word, and 0.4 keeps its spelling
   const auto value = [](const std::string& name) {
     return [name](S, R run) {
       const std::string given = at(run.begin, "condition", name);

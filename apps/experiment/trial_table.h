@@ -6,11 +6,11 @@
 
 namespace presa::experiment {
 
-/// One row per run of a trial (CSV): who, which, the condition, how it ended, measures and quality; units stand in the
-/// header in brackets, "n/a" where there is nothing. A function of the log alone.
+/// CSV with one row per run of a trial: subject, trial, condition, outcome, measures and quality. Units are in brackets
+/// in the header, missing values are "n/a". A function of the log alone.
 std::string trialTable(const Experiment& experiment, const SessionLog& log);
 
-/// What each column means, with its unit.
+/// JSON with the meaning and unit of each column.
 std::string tableColumnsJson(const Experiment& experiment);
 
 }  // namespace presa::experiment

@@ -10,8 +10,9 @@
 
 namespace presa::experiment {
 
-/// Last of the haptic group: shows every tick to the trial, keeps the figures of its quality, and asks the run to stop when the
-/// trial has ended or a device is lost. Forces fade then, as at every stop. Thread: haptic; nonblocking.
+/// Last module of the haptic group: passes every tick to the trial's state machine, keeps quality figures, and asks the
+/// run to stop when the trial has ended or a device is lost. Forces then fade, as at every stop. Thread: haptic;
+/// nonblocking.
 class TrialTap final : public Module {
  public:
   TrialTap(Trial& trial, const Experiment& experiment, const Scene& scene, RunControl& control)
@@ -33,9 +34,9 @@ class TrialTap final : public Module {
 
   double clippedSeconds() const noexcept { return clipped_; }
   double lostSeconds() const noexcept { return lost_; }
-  /// The first finger whose device was silent for kLost; -1: none.
+  /// Index of the first finger whose device was silent for longer than kLost; -1: none.
   int lostFinger() const noexcept { return lost_finger_; }
-  static constexpr double kLost = 0.1;  ///< [s] long after the forces have faded: no hiccup, a trial that is not one
+  static constexpr double kLost = 0.1;  ///< [s] well after the forces have faded; the trial is invalid then
   double mostForce() const noexcept { return most_; }
   double time() const noexcept { return time_; }
 

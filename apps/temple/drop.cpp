@@ -22,7 +22,7 @@ DropResult drop(const Building& building, const std::vector<SceneSpec::Stone>& s
   spec.name = "drop";
   spec.stones = stones;
   spec.physics_only = true;
-  // beside stones as firm as the ground islands are small
+  // beside fixed stones islands are small and need no fine steps
   spec.fine_steps = std::ranges::none_of(stones, [](const SceneSpec::Stone& stone) { return stone.fixed; });
   const std::string file = folder + "/drop.xml";
   writeFileAtomically(file, sceneText(building, spec));

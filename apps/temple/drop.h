@@ -6,13 +6,14 @@
 
 namespace presa::temple {
 
-/// A lockstep run of stones with the scene's own dynamics, without anything seen or felt.
+/// Result of a drop: a lockstep run of stones with the scene's own dynamics, without graphics and haptics.
 struct DropResult {
-  std::vector<Pose> X_WB;     ///< of each stone, at the end
-  std::vector<double> moved;  ///< of each, over the whole run: of its origin, and the turn times its reach [m]
-  bool sound = true;          ///< the dynamics found nothing beyond reason
+  std::vector<Pose> X_WB;     ///< final pose of each stone
+  std::vector<double> moved;  ///< displacement of each: of its origin, plus rotation times radius [m]
+  bool sound = true;          ///< the dynamics reported no fault
 };
-/// Starts from rest. `folder` has the meshes of meshFiles(…, true); a scene file is written there. Throws InputError.
+/// Runs `duration` [s] from rest. `folder` must hold the meshes of meshFiles(…, true); the scene file is written there.
+/// Throws InputError.
 DropResult drop(const Building& building, const std::vector<SceneSpec::Stone>& stones, double duration,
                 const std::string& folder);
 

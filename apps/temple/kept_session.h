@@ -8,23 +8,23 @@
 
 namespace presa::temple {
 
-/// What a visit leaves on the disk, so that another process can go on with it.
+/// The saved state of a visit, from which another process can continue it.
 struct KeptSession {
-  std::string size, parameters;  ///< of the building: shipped, or a file
+  std::string size, parameters;  ///< the building: name of a shipped one, or a file
   std::uint64_t seed = 1;
-  double spent = 0;        ///< that people have worked on it [s]
-  int placed = 0;          ///< blocks that stood
-  std::vector<Pose> X_WB;  ///< by block
+  double spent = 0;        ///< elapsed assembly time [s]
+  int placed = 0;          ///< number of blocks at their goals
+  std::vector<Pose> X_WB;  ///< pose of each block
 };
 
-/// Where visits are kept unless the user says otherwise: $XDG_STATE_HOME/presa/temple, or ~/.local/state/presa/temple.
+/// Default folder of saved visits: $XDG_STATE_HOME/presa/temple, or ~/.local/state/presa/temple.
 std::string defaultVisitFolder();
 std::string sessionFile(const std::string& folder);
 std::string logFile(const std::string& folder);
 
-/// JSON. Numbers come back to the bit.
+/// The session as JSON. Numbers are read back bit-exactly.
 std::string keptText(const KeptSession& kept);
-/// E967: the file cannot be read, or says something else. Nothing is written.
+/// Reads a session. E967: the file cannot be read or is not a session.
 std::optional<KeptSession> readKept(const std::string& file, Diagnostics& diagnostics);
 
 }  // namespace presa::temple

@@ -10,8 +10,8 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kLifted = 0.02;  // above where it was taken [m]
-constexpr double kFalls = 0.5;    // [m/s]
+constexpr double kLifted = 0.02;  // min height above the first touch of a lifted block [m]
+constexpr double kFalls = 0.5;    // min downward speed of a falling block [m/s]
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void BlockWatch::notePenetration(const ObjectState& objects, double period) noex
   window_ = deepest_ = 0;
 }
 
-// The field begins at the ground.
+// The workspace box begins at the ground, so a block below the ground is outside too.
 bool BlockWatch::isOutside(const Vec3& p_WB) const noexcept {
   const auto& field = world_->scene.assembly->field;
   if (!p_WB.allFinite()) return true;
@@ -83,7 +83,7 @@ void Witness::step(const Tick&) noexcept {
   for (std::size_t i = 0; i < taken_.size(); ++i) noteFall(i);
 }
 
-// Lifted and fast, downwards: out of the fingers.
+// A lifted block that moves down fast was dropped.
 void Witness::noteFall(std::size_t i) noexcept {
   if (taken_[i] == kNotTaken) return;
   const BodyMotion& body = objects_->bodies[i];
@@ -96,7 +96,7 @@ Rebuilt measure(const Assembly& assembly, const Witness& witness) {
   Rebuilt rebuilt;
   rebuilt.pieces = static_cast<int>(assembly.goals.size());
   rebuilt.placed = witness.assembly().filled;
-  for (std::size_t g = 0; g < witness.assembly().goals.size(); ++g) {  // none before the first step
+  for (std::size_t g = 0; g < witness.assembly().goals.size(); ++g) {  // empty before the first step
     const GoalState& state = witness.assembly().goals[g];
     if (state.status != GoalState::Status::kFilled) continue;
     const Pose& X_WB = witness.objects().bodies[static_cast<std::size_t>(state.body)].X_WB_end;

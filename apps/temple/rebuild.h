@@ -13,28 +13,28 @@
 
 namespace presa::temple {
 
-/// What came of an assembly.
+/// Result of an assembly run.
 struct Rebuilt {
   int pieces = 0, placed = 0;
-  double worst_position_error = 0;  ///< of the placed, from where they belong [m]
-  double worst_angle_error = 0;     ///< [rad]
-  int drops = 0;                    ///< times a lifted piece fell
-  double mean_fingertip_depth = 0;  ///< of the fingertips into what they touch, while they do [m]
-  /// Of blocks into each other and the ground, over all contact points of the run [m]; NaN: not known.
+  double worst_position_error = 0;  ///< max distance of a placed block from its goal [m]
+  double worst_angle_error = 0;     ///< max angle of a placed block to its goal [rad]
+  int drops = 0;                    ///< number of times that a lifted block fell
+  double mean_fingertip_depth = 0;  ///< mean penetration of fingertips in contact [m]
+  /// Mean penetration of blocks into each other and the ground, over all contact points of the run [m]; NaN: unknown.
   double mean_penetration = 0;
-  double worst_penetration = 0;  ///< of the deepest point, as a mean over kPenetrationOver [m]; NaN: not known
-  int lost = 0;                  ///< blocks not finite, below the ground or outside the field at the end
-  double longest_outside = 0;    ///< that one block was it without a break [s]
+  double worst_penetration = 0;  ///< max of the deepest point's mean over kPenetrationOver [m]; NaN: unknown
+  int lost = 0;                  ///< blocks not finite, below the ground or outside the workspace at the end
+  double longest_outside = 0;    ///< longest uninterrupted time that a block was lost [s]
   double simulated_seconds = 0, wall_seconds = 0;
   std::uint32_t faults = 0;  ///< ObjectFault bits
   bool interrupted = false;
 };
 
-/// What blocks of an assembly have been through: how deep they stood in each other, and how long they were where nobody reaches them.
-/// Once for each state of the dynamics. Thread: haptic.
+/// Statistics of an assembly's blocks: penetration, and time spent outside the workspace. Call see() with every state
+/// of the dynamics; repeated states are ignored. Thread: haptic.
 class BlockWatch {
  public:
-  /// An impact of 5 or 10 ms is deeper than what rests: the worst is that of means over so long.
+  /// Averaging window of the worst penetration: short impacts of 5 or 10 ms are deeper than resting contacts.
   static constexpr double kPenetrationOver = 0.1;  // [s]
 
   explicit BlockWatch(std::shared_ptr<const World> world);
@@ -50,17 +50,17 @@ class BlockWatch {
   bool isOutside(const Vec3& p_WB) const noexcept;
 
   std::shared_ptr<const World> world_;
-  std::vector<std::size_t> blocks_;  // that some goal is for
-  std::vector<double> outside_;      // by block: for so long now [s]
+  std::vector<std::size_t> blocks_;  // bodies that belong to a goal
+  std::vector<double> outside_;      // by block: time outside so far [s]
   double longest_outside_ = 0;
-  double seen_ = 0;  // up to here [s]
+  double seen_ = 0;  // time of the last state [s]
   bool known_ = true;
-  double depths_ = 0;  // of all points
+  double depths_ = 0;  // sum over all points [m]
   std::uint64_t points_ = 0;
   double window_ = 0, deepest_ = 0, worst_ = 0;  // [s], [m s], [m]
 };
 
-/// Sees a run as it goes, tick by tick; read when it is over. Thread: haptic.
+/// Observes a run tick by tick; read the results after the run. Thread: haptic.
 class Witness final : public Module {
  public:
   explicit Witness(std::shared_ptr<const World> world);
@@ -80,17 +80,17 @@ class Witness final : public Module {
   In<AssemblyState> assembly_{*this, "assembly_state"};
   In<ContactExchange> contact_{*this, "contact_exchange"};
   BlockWatch blocks_;
-  std::vector<double> taken_;  // by body: height at which a finger first touched it; kNotTaken
+  std::vector<double> taken_;  // by body: its height at the first touch [m], or kNotTaken
   int drops_ = 0;
   double depth_ = 0;
   std::uint64_t touches_ = 0;
 };
 
-/// All but the times.
+/// The results of a run, except the times.
 Rebuilt measure(const Assembly& assembly, const Witness& witness);
 
-/// As JSON: size seed pieces placed worst_position_error_m worst_angle_error_deg drops mean_fingertip_depth_m mean_penetration_m
-/// worst_penetration_m (null: not known) lost longest_outside_s simulated_s wall_s faults.
+/// JSON with the keys size seed pieces placed worst_position_error_m worst_angle_error_deg drops mean_fingertip_depth_m
+/// mean_penetration_m worst_penetration_m (null: not known) lost longest_outside_s simulated_s wall_s faults.
 std::string summaryText(const Rebuilt& rebuilt, const std::string& size, std::uint64_t seed);
 
 }  // namespace presa::temple

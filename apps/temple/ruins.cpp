@@ -13,13 +13,13 @@ namespace presa::temple {
 namespace {
 
 constexpr std::size_t kGroup = 8;
-constexpr int kGroups = 60;        // at most: a façade needs about ten
-constexpr int kAttempts = 20;      // to let fall again what has not come to rest with all others
-constexpr double kRound = 0.2;     // from rest to rest [s]
-constexpr int kRounds = 15;        // of a group
-constexpr int kLastRounds = 8;     // of all together
-constexpr double kLastSecond = 1;  // [s]
-// moved less in a round: lies; what trembles in a heap solved by iterations does not count, as for falling asleep [m]
+constexpr int kGroups = 60;        // max; a façade needs about ten
+constexpr int kAttempts = 20;      // to drop blocks again that do not come to rest with all others
+constexpr double kRound = 0.2;     // duration of a round, which starts from rest [s]
+constexpr int kRounds = 15;        // max rounds of a group
+constexpr int kLastRounds = 8;     // max rounds of all blocks together
+constexpr double kLastSecond = 1;  // duration of the last round [s]
+// A block at rest moves less than this in a round [m]. Jitter in a heap, from the iterative solver, is tolerated.
 constexpr double kStill = 2e-4;
 
 class Strewing {
@@ -69,7 +69,7 @@ class Strewing {
     return drop(building_, stones, duration, folder_);
   }
 
-  /// The next blocks over spots that are free of each other.
+  /// Chooses the next blocks and their spots, which do not overlap.
   std::vector<SceneSpec::Stone> drawGroup(RandomStream& random) {
     std::vector<SceneSpec::Stone> group;
     const std::size_t before = spots_.count();
@@ -88,11 +88,11 @@ class Strewing {
     return group;
   }
 
-  /// Lets the next blocks fall. Those that lie then stay; the others wait to fall elsewhere.
+  /// Drops the next group. Blocks that come to rest stay; the others will be dropped elsewhere. False when stopped.
   bool strewGroup(std::uint64_t number) {
     RandomStream random(seed_, "ruins", number);
     const std::vector<SceneSpec::Stone> group = drawGroup(random);
-    // what lies is as firm as the ground for now
+    // blocks at rest are fixed for now
     std::vector<SceneSpec::Stone> stones = lying_;
     for (SceneSpec::Stone& stone : stones) stone.fixed = true;
     stones.insert(stones.end(), group.begin(), group.end());
@@ -114,10 +114,11 @@ class Strewing {
     return true;
   }
 
-  /// All are free to move now, until none does; names those that still do in the end. False when stopped.
+  /// Frees all blocks and runs until none moves. Blocks that still move at the end go into restless_. False when
+  /// stopped.
   bool settleAll() {
     for (int round = 0; round < kLastRounds; ++round) {
-      // now and then time enough to roll off what is not level
+      // every fourth round is long enough for blocks to roll off inclined faces
       DropResult result = run(lying_, round % 4 == 3 ? kLastSecond : kRound);
       if (largest(result) < kStill) result = run(lying_, kLastSecond);
       ruins_.still = largest(result);
@@ -133,7 +134,7 @@ class Strewing {
     return true;
   }
 
-  /// Blocks that tremble or roll are to fall again, elsewhere.
+  /// Takes up the restless blocks to drop them again elsewhere.
   void takeUp() {
     std::erase_if(lying_, [&](const SceneSpec::Stone& stone) {
       return std::ranges::find(restless_, stone.block) != restless_.end();

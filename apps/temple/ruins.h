@@ -8,18 +8,18 @@
 namespace presa::temple {
 
 struct Ruins {
-  std::vector<Pose> X_WB;        ///< by block
-  double simulated_seconds = 0;  ///< of all runs
-  double still = 0;              ///< how far the farthest block moved in the last second [m]
+  std::vector<Pose> X_WB;        ///< pose of each block
+  double simulated_seconds = 0;  ///< total over all runs
+  double still = 0;              ///< max displacement of a block in the last second [m]
 };
 
-/// Called after each step with the number of blocks that lie, and of all; false stops.
+/// Called after each round with the number of blocks at rest and of all blocks; return false to stop.
 using RuinsProgress = std::function<bool(std::size_t lying, std::size_t all, const std::string& what)>;
 
-/// Strews the blocks over the field beside their building's site by falls of a few millimetres, in groups, the large ones first, with the
-/// scene's own dynamics in lockstep; then lets all of them settle together. Every block lies at rest, its middle on the field, and in no
-/// other. The same building and seed give the same bits. `folder`: scratch space of its own.
-/// Empty X_WB when `progress` stopped it. Throws InputError (E974, E977). Thread: main.
+/// Strews the blocks over the field beside the building's site: drops them by a few millimetres, in groups, large
+/// blocks first, with the scene's own dynamics in lockstep, and then lets all of them settle together. At the end every
+/// block is at rest with its centre on the field. Results are bit-identical for the same building and seed. `folder`:
+/// scratch space. X_WB is empty when `progress` stopped the run. Throws InputError (E974, E977). Thread: main.
 Ruins strewRuins(const Building& building, std::uint64_t seed, const std::string& folder,
                  const RuinsProgress& progress);
 

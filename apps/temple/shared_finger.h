@@ -6,20 +6,20 @@
 
 namespace presa::temple {
 
-/// A finger that is the visitor's, and a simulated hand's while nobody is there. At every change of hands it is gone for kPause: no force,
-/// no contact, so that it may be elsewhere afterwards.
+/// A finger moved by the visitor's device, or by a simulated hand while there is no visitor. At every change its
+/// samples are invalid for kPause, without force and contact, so that it may continue at another position.
 class SharedFinger final : public WrappedDevice {
  public:
   /// `visitor`: the visitor's device.
   explicit SharedFinger(std::unique_ptr<Device> visitor) : WrappedDevice(std::move(visitor)) {}
 
   static constexpr double kPause = 0.3;    ///< [s]
-  static constexpr double kMoves = 0.015;  ///< a visitor who is there moves the device so far [m]
+  static constexpr double kMoves = 0.015;  ///< min displacement of the device that counts as a visitor's touch [m]
 
-  /// Main thread, the run going on: from the next tick on that hand moves the finger; null: the visitor. The hand before it is
-  /// freed with the next one.
+  /// Hands the finger to `hand` from the next tick on; null: to the visitor. The previous hand is kept until the next
+  /// call, because the haptic thread may still use it. Main thread, during a run.
   void give(std::unique_ptr<Device> hand);
-  /// The visitor's device was moved, or a button of it pressed, since the hand has the finger. Any thread.
+  /// True when the visitor's device was moved or one of its buttons changed since the hand took over. Any thread.
   bool visitorMoved() const noexcept { return moved_.load(std::memory_order_relaxed); }
 
   FingerInput read(const Tick& tick) noexcept override;
@@ -29,7 +29,7 @@ class SharedFinger final : public WrappedDevice {
 
  private:
   void change(const Tick& tick) noexcept;
-  /// A hand's time begins when it gets the finger.
+  /// The tick in the hand's time, which begins when it takes over.
   Tick sinceChange(const Tick& tick) const noexcept;
 
   std::unique_ptr<Device> hand_, last_;  // main thread
@@ -39,7 +39,7 @@ class SharedFinger final : public WrappedDevice {
   Device* moving_ = nullptr;  // null: the visitor
   Tick changed_;
   double back_at_ = 0;  // [s]
-  FingerInput left_;    // what the visitor's device said when the hand got the finger
+  FingerInput left_;    // the visitor's device when the hand took over
   bool left_known_ = false;
 };
 

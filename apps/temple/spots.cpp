@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kReachX = 0.3, kFront = -0.15, kBack = 0.15;  // [m]
-constexpr double kRoom = 3.5;         // of the blocks' own area; what there is not is found on top of others
+constexpr double kRoom = 3.5;         // field area over the blocks' area; blocks without room fall onto others
 constexpr double kSiteBorder = 0.01;  // [m]
-constexpr double kBorder = 0.02;      // of the field, for the middle of a block [m]
-constexpr double kGap = 0.004;        // between what falls and what lies [m]
+constexpr double kBorder = 0.02;      // min distance of a block's origin from the field's edge [m]
+constexpr double kGap = 0.004;        // between a falling block and blocks at rest [m]
 constexpr int kDirections = 16, kDraws = 80, kSides = 24;
-// a block does not stand on a face this much smaller than its height tells
+// max ratio of a block's height to its shortest edge for it to stand upright
 constexpr double kSlender = 2.2;
 constexpr double kTilt = 0.3, kTiltOfSlab = 0.08;  // [rad]
 
@@ -33,7 +33,7 @@ double areaFromAbove(const Block& block) {
   return extent[1] * extent[2];
 }
 
-/// Any face down that is not too small for the height above it, then a tilt and a turn.
+/// Random orientation: a face down on which the block is not too slender, then a tilt and a turn about z.
 Quat drawTurn(const Vec3& extent, RandomStream& random) {
   std::vector<int> axes;
   for (int axis = 0; axis < 3; ++axis) {

@@ -24,27 +24,27 @@
 namespace presa {
 namespace {
 
-constexpr double kBehind = 0.1;          // of the building's middle, from the field's [m]
-constexpr double kEachBlock = 100;       // an automatic rebuilding is given up after so long a block [s]
+constexpr double kBehind = 0.1;          // distance of the building's centre behind that of the field [m]
+constexpr double kEachBlock = 100;       // time limit of an automatic rebuilding, per block [s]
 constexpr double kPictureAfter = 0.005;  // one step of the dynamics [s]
-constexpr double kLetGo = 2;             // for the fingers, once all stands [s]
-constexpr double kFinish = 8;            // for who looks on [s]
+constexpr double kLetGo = 2;             // time to let go, once all blocks are placed [s]
+constexpr double kFinish = 8;            // time to show the result to spectators [s]
 constexpr double kOpenEnd = 7 * 86400;   // [s]
 
 struct Arguments {
   std::string size = "column", parameters, folder, rig, view, screenshot, video, summary, language = "en";
-  std::vector<std::string> show;         // as RunOptions
-  std::string visits;                    // where they are kept; empty: the default
-  std::string kept;                      // session to go on with
+  std::vector<std::string> show;         // as in RunOptions
+  std::string visits;                    // folder of saved visits; empty: the default
+  std::string kept;                      // session to continue
   std::vector<std::string> screenshots;  // seconds, folder
   std::uint64_t seed = 1;
-  double limit = 0;         // simulated [s]; 0: by the number of blocks, or without end
-  double time_scale = 0;    // 0: none
+  double limit = 0;         // simulated [s]; 0: by the number of blocks, or unlimited
+  double time_scale = 0;    // simulated seconds per wall-clock second; 0: none
   double attract = 0;       // [s]; 0: never
-  bool attracting = false;  // no visitor came to the ruins before
+  bool attracting = false;  // no visitor came during the previous ruins
   bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
 
-  /// Somebody puts it together: not only a picture or a scene is wanted.
+  /// True when the building is to be assembled, rather than only drawn or written.
   bool visit() const {
     return automatic || go_on || attract > 0 || limit > 0 || time_scale > 0 || !screenshots.empty() || !video.empty() ||
            (folder.empty() && screenshot.empty());
@@ -77,10 +77,10 @@ void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
                       "--screenshot-every 0.5 out/pictures");
 }
 
-/// Every block where it fell; none when interrupted.
+/// Strews the ruins; no value when interrupted.
 std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::uint64_t seed) {
   const ScratchFolder scratch;
-  // the last job: all settle together
+  // one job per block, and a last one: all settle together
   terminal::JobProgress progress(building.blocks.size() + 1);
   std::size_t told = 0;
   const auto tell = [&](std::size_t lying, std::size_t, const std::string& what) {
@@ -133,7 +133,7 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   options.duration = a.limit > 0   ? a.limit
                      : a.automatic ? kEachBlock * static_cast<double>(building.blocks.size())
                                    : kOpenEnd;
-  if (!a.rig.empty()) options.seed = a.seed;  // what the rig's fingers draw; the ruins have theirs
+  if (!a.rig.empty()) options.seed = a.seed;  // random numbers of the rig's fingers; the ruins have their own
   options.realtime = a.realtime();
   options.allow_no_rt = a.allow_no_rt;
   options.bound_stiffness = !a.automatic;
@@ -196,7 +196,7 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
   return temple::visit(loaded, settings);
 }
 
-/// The blocks as they lay when that visit was kept.
+/// The scene with the block poses of a saved visit.
 std::optional<temple::SceneSpec> specOf(const temple::Building& building, const temple::KeptSession& kept,
                                         const std::string& file, Diagnostics& diagnostics) {
   if (kept.X_WB.size() != building.blocks.size()) {
@@ -212,7 +212,7 @@ std::optional<temple::SceneSpec> specOf(const temple::Building& building, const 
   return spec;
 }
 
-/// `again`: nobody came while the hands put all together, and there are to be other ruins.
+/// One visit. `again` is set when the simulated hands finished without a visitor: start over with new ruins.
 int runOnce(Arguments a, bool& again) {
   Diagnostics diagnostics;
   std::optional<temple::KeptSession> kept;

@@ -3,7 +3,7 @@
 
 namespace presa {
 
-/// `presa temple`.
+/// Adds the command `presa temple`.
 void addTemple(Command app, int& status);
 
 }  // namespace presa

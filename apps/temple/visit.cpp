@@ -16,7 +16,7 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kShownFinish = 10;  // when the hands have put all together, before the next ruins [s]
+constexpr double kShownFinish = 10;  // pause after the hands have finished, before the next ruins [s]
 
 class Visit {
  public:
@@ -76,7 +76,7 @@ class Visit {
     return !again_ && (settings_.finish < 0 || !done_at_ || look.time < *done_at_ + settings_.finish);
   }
 
-  // A touch of the device, a key or a button: the visitor's. A while without: the hands'.
+  // The visitor takes over by moving the device or pressing a key or button; the hands take over after a pause.
   void takeTurns(const VisitTap::Look& look, bool touched) {
     if (attracting_) {
       for (const SharedFinger* finger : fingers_) touched = touched || finger->visitorMoved();
@@ -115,13 +115,13 @@ class Visit {
   const VisitSettings& settings_;
   std::shared_ptr<const World> world_;
   const Assembly& assembly_;
-  const Witness* witness_ = nullptr;  // both owned by the run
+  const Witness* witness_ = nullptr;  // this and tap_: owned by the run
   VisitTap* tap_ = nullptr;
   std::unique_ptr<Run> run_;
   std::optional<VisitLog> log_;
   std::optional<double> done_at_;  // [s]
   std::uint32_t undone_ = 0, inputs_ = 0;
-  std::vector<SharedFinger*> fingers_;  // owned by the run; none without an attraction
+  std::vector<SharedFinger*> fingers_;  // owned by the run; empty unless settings_.attract > 0
   double touched_at_ = 0;               // [s]
   bool at_once_ = settings_.attracting, attracting_ = false, again_ = false;
 };

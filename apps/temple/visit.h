@@ -9,25 +9,25 @@
 namespace presa::temple {
 
 struct VisitSettings {
-  /// Over when all stands and the finish has been shown for so long [simulated s]; negative: when the user ends it.
+  /// Time that the finished building is shown before the visit ends [simulated s]; negative: until the user ends it.
   double finish = -1;
-  double time_scale = 0;  ///< simulated seconds in one of the clock, in lockstep; 0: as fast as the machine goes
+  double time_scale = 0;  ///< simulated seconds per wall-clock second, in lockstep; 0: as fast as possible
   bool quiet = false;     ///< no status line
-  /// Simulated seconds without a touch after which simulated hands take over, until somebody touches anything; 0: never.
+  /// Idle time after which simulated hands take over, until the visitor's next input [simulated s]; 0: never.
   double attract = 0;
-  bool attracting = false;                                    ///< they have it from the start
-  std::string folder;                                         ///< where the visit is kept (VisitLog); empty: nowhere
-  KeptSession start;                                          ///< what it starts with
-  std::string language;                                       ///< for the log
-  std::function<bool(int placed, int pieces)> progress = {};  ///< called now and then; false stops
+  bool attracting = false;                                    ///< the simulated hands begin
+  std::string folder;                                         ///< folder for saving (VisitLog); empty: not saved
+  KeptSession start;                                          ///< initial state
+  std::string language;                                       ///< language, for the log
+  std::function<bool(int placed, int pieces)> progress = {};  ///< called regularly; return false to stop
 };
 
 struct VisitEnd {
   Rebuilt rebuilt;
-  bool again = false;  ///< the hands have put all together, and nobody came: time for other ruins
+  bool again = false;  ///< the simulated hands finished without a visitor: start over with new ruins
 };
-/// Runs a scene with an <assembly> and fingers, whoever moves them: until it is over, or for RunOptions::duration. Undo by the key u, in the
-/// window or on the terminal. Throws InputError, std::system_error. Thread: main.
+/// Runs a scene with an <assembly> and fingers until the visit ends, at most for RunOptions::duration. The key u, in
+/// the window or on the terminal, undoes a placement. Throws InputError, std::system_error. Thread: main.
 VisitEnd visit(const Loaded& loaded, const VisitSettings& settings);
 
 }  // namespace presa::temple

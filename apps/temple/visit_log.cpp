@@ -79,7 +79,7 @@ void VisitLog::keep(const VisitTap::Look& look) {
   // the blocks are the scene's first bodies
   std::copy_n(look.X_WB.begin(), kept_.X_WB.size(), kept_.X_WB.begin());
   if (look.now.finished) {
-    std::filesystem::remove(file_);  // nothing is left to go on with
+    std::filesystem::remove(file_);  // finished: nothing to continue
     return;
   }
   writeFileAtomically(file_, keptText(kept_));

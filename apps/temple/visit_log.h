@@ -8,15 +8,15 @@
 
 namespace presa::temple {
 
-/// Keeps a visit in a folder while it goes on: a line of log.jsonl for everything that happens, and session.json, replaced as a whole
-/// after everything that is placed or taken out. Neither says anything about a person. Thread: main.
+/// Saves a visit in a folder while it runs: log.jsonl has a line per event, and session.json is replaced atomically
+/// after every block that is placed or taken out. Neither holds personal data. Thread: main.
 class VisitLog {
  public:
-  /// Makes the folder. `base`: what the visit starts with. Throws std::system_error.
+  /// Creates the folder. `base`: initial state of the visit. Throws std::system_error.
   VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language);
 
   void note(const std::vector<GuideEvent>& events, const VisitTap::Look& look);
-  /// Other than what the guide sees: "attract", "takeover", "end".
+  /// Events that do not come from the guide: "attract", "takeover", "end".
   void note(const std::string& event, double time);
 
  private:

@@ -11,7 +11,8 @@
 
 namespace presa::temple {
 
-/// Follows a run with the guide of its assembly. Steps on the view's thread; the main thread takes what it has seen.
+/// Runs the guide of the assembly and passes its events and state to the main thread. Thread: step() runs on the view's
+/// thread; the other functions are for the main thread.
 class VisitTap final : public Module {
  public:
   explicit VisitTap(std::shared_ptr<const World> world);
@@ -20,17 +21,17 @@ class VisitTap final : public Module {
 
   struct Look {
     double time = 0;     ///< [s]
-    double touched = 0;  ///< a finger was on something then, the last time [s]
+    double touched = 0;  ///< last time that a finger was in contact [s]
     Guidance now;
-    std::vector<Pose> X_WB;  ///< as Scene::bodies
+    std::vector<Pose> X_WB;  ///< in the order of Scene::bodies
   };
   Look look() const;
-  /// Since the last call.
+  /// The events since the last call.
   std::vector<GuideEvent> takeEvents();
 
-  /// Text under the time of that view, from the next step on; empty: none.
+  /// Sets the text below the time in the view, from the next step on; empty: no text.
   void setBanner(const std::string& text);
-  /// Whose banner it is: a view of the same run.
+  /// Sets the view that shows the banner; it must belong to the same run.
   void showOn(View* view) { view_.store(view, std::memory_order_relaxed); }
 
  private:
@@ -40,7 +41,7 @@ class VisitTap final : public Module {
   std::shared_ptr<const World> world_;
   AssemblyGuide guide_;
   std::atomic<View*> view_{nullptr};
-  mutable std::mutex mutex_;  // of all below
+  mutable std::mutex mutex_;  // guards all members below
   Look look_;
   std::vector<GuideEvent> events_;
   std::string banner_;

@@ -20,7 +20,7 @@ std::string writeScene(const Building& building, const SceneSpec& spec, const st
   const std::filesystem::path root(folder);
   std::filesystem::create_directories(root / "meshes");
   for (const SceneFile& file : meshFiles(building, false)) writeFileAtomically((root / file.path).string(), file.text);
-  // last: where it stands everything it names is there
+  // written last: when scene.xml exists, all files that it names exist
   const std::string scene = (root / "scene.xml").string();
   writeFileAtomically(scene, sceneText(building, spec));
   return scene;

@@ -9,7 +9,7 @@
 #include "tests/bench/plain_tree.h"
 #include "tests/bench/touched.h"
 
-// What proxy_tick is compared with: of each tick only the search for the surface, in a plain tree, from nothing.
+// Lower bound of proxy_tick: only the search for the surface in each tick, in a plain tree, without temporal coherence.
 namespace presa::bench {
 namespace {
 
@@ -24,8 +24,8 @@ const PlainTree& treeOf(int triangles) {
   return *tree;
 }
 
-/// One query: the point of the mesh closest to the fingertip's centre, which rests on the surface on the way that
-/// proxy_tick goes, and all triangles that the fingertip touches.
+/// One query: the point of the mesh closest to the centre of the fingertip, which rests on the surface along the path
+/// of proxy_tick, and all triangles that the fingertip touches.
 void query(benchmark::State& state, int triangles, double radius) {
   constexpr std::size_t kBlock = 5;
   const PlainTree& tree = treeOf(triangles);

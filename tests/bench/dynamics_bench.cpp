@@ -10,8 +10,8 @@
 #include "framework/core/schedule/clock.h"
 #include "modules/dynamics_ode/ode_world.h"
 
-// What a dynamics step costs over ODE alone: the same settled cubes, collided and solved by hand with ODE's plain friction, the same
-// solver and as many iterations.
+// Cost of a dynamics step compared with bare ODE: the same settled cubes, collided and solved by hand with ODE's own
+// friction, the same solver and number of iterations.
 namespace presa::ode {
 namespace {
 
@@ -67,7 +67,7 @@ OdeOptions optionsOf(const World& world, bool direct) {
   OdeOptions options;
   options.method = world.scene.dynamics;
   options.method.solver = direct ? DynamicsSettings::Solver::kDirect : DynamicsSettings::Solver::kIterative;
-  options.method.substeps = 1;  // bare ODE takes one step too: like with like
+  options.method.substeps = 1;  // as bare ODE
   options.method.sleeping = false;
   return options;
 }
@@ -127,7 +127,7 @@ class BareOde {
       contact.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM;
       contact.surface.mu = 0.5;
       contact.surface.soft_erp = 0.2;
-      contact.surface.soft_cfm = 1e-4;  // as ours for these masses
+      contact.surface.soft_cfm = 1e-4;  // as in Presa for these masses
       contact.geom = found[static_cast<std::size_t>(i)];
       dJointAttach(dJointCreateContact(world_, joints_, &contact), dGeomGetBody(a), dGeomGetBody(b));
     }
@@ -138,7 +138,7 @@ class BareOde {
   int contacts_ = 0;
 };
 
-// Presa and bare ODE take turns, so that a noisy machine slows both.
+// Presa and bare ODE alternate, so that a noisy machine slows both.
 void BM_DynamicsStep(benchmark::State& state) {
   const auto n = static_cast<int>(state.range(0));
   const auto layout = static_cast<Layout>(state.range(1));
@@ -173,7 +173,7 @@ void BM_DynamicsStep(benchmark::State& state) {
   state.counters["fallbacks"] = static_cast<double>(bodies.fallbackSteps());
 }
 
-// A still pile of 27 cubes, awake and asleep.
+// A resting pile of 27 cubes, awake and asleep.
 void BM_SleepingPile(benchmark::State& state) {
   const auto world = sceneOf(3, kBlock);
   OdeOptions options = optionsOf(*world, false);

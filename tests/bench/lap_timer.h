@@ -9,7 +9,7 @@
 
 namespace presa::bench {
 
-/// What reading the thread's processor clock twice costs by itself [ns]: the median, measured once. It is taken off every
+/// Cost of reading the thread's processor clock twice [ns]: the median, measured once. It is subtracted from every
 /// window.
 inline double clockNs() {
   static const double cost = [] {
@@ -24,9 +24,8 @@ inline double clockNs() {
   return cost;
 }
 
-/// The time of each of a series of windows that is run again and again, doing the same every time. The machine's
-/// interrupts (tens of us of processor time each) fall on other windows in every run, so a window's cheapest run is its
-/// own cost.
+/// Times of a series of windows that is repeated with identical work. Interrupts of the machine (tens of us of
+/// processor time each) hit other windows in every run, so the min over the runs is a window's own cost.
 class Windows {
  public:
   explicit Windows(std::size_t count) : own_(count, std::numeric_limits<double>::infinity()) {}
@@ -53,7 +52,7 @@ class Windows {
   std::vector<double> own_, raw_;  // [us]
 };
 
-/// Runs `work` and says what it took.
+/// Runs `work` and returns its processor time [ns].
 template <class Work>
 std::int64_t cpuNsOf(const Work& work) {
   const std::int64_t begin = threadCpuNs();

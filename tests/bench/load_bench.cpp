@@ -17,7 +17,7 @@
 #include "tests/bench/lap_timer.h"
 #include "tests/bench/touched.h"
 
-// What comes before a run: the collision thread's hierarchy, and a big mesh read from its file.
+// Work before a run: building the hierarchy of the collision thread, and reading a big mesh from its file.
 namespace presa::bench {
 namespace {
 
@@ -49,7 +49,7 @@ std::string writeObj(const TriMesh& mesh) {
   return std::fclose(out) == 0 ? file : "";
 }
 
-/// As a scene with that one fixed body is loaded; false: it was not.
+/// Loads a scene with this single fixed body; false: it failed.
 bool load(const std::string& file) {
   Scene scene = worldOf({{}}, 8e-3)->scene;
   scene.bodies[0].haptic = Geometry{MeshRef{.file = file}, {}, {}};
@@ -69,7 +69,7 @@ struct Loaded {
 
 constexpr const char* kFileToLoad = "PRESA_BENCH_LOAD";
 
-/// In this program begun anew for that, so that its peak of memory is the load's.
+/// Loads the file in a new process of this program, so that its peak memory is that of the load.
 Loaded loadApart(const std::string& file, const std::string& benchmark) {
   setenv(kFileToLoad, file.c_str(), 1);
   const pid_t child = fork();
@@ -88,7 +88,7 @@ Loaded loadApart(const std::string& file, const std::string& benchmark) {
   return {us(used.ru_utime) + us(used.ru_stime), static_cast<double>(used.ru_maxrss) / 1024, status == 0};
 }
 
-/// From the file to a world with its modules made: processor time, the kernel's included, and peak memory.
+/// From the file to a world with its modules: processor time, including the kernel's, and peak memory.
 void loadSphere(benchmark::State& state, int triangles) {
   if (const char* file = std::getenv(kFileToLoad)) _exit(load(file) ? 0 : 1);
   const std::string file = writeObj(*sphereMesh(triangles));

@@ -4,7 +4,7 @@
 
 #include "framework/device/output_stage.h"
 
-// What the way from the graph to one device costs in each tick: the floor is 0.3 us.
+// Cost per tick of the output from the graph to one device: the floor is 0.3 us.
 namespace presa {
 namespace {
 

@@ -12,7 +12,7 @@ const Vec3& cornerOf(const TriMesh& mesh, std::int32_t triangle, std::size_t i) 
   return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(triangle)][i])];
 }
 
-/// From p to the nearest point of the triangle, by the region in which p lies [Ericson2004 5.1].
+/// Vector from p to the nearest point of the triangle, by the Voronoi region of p [Ericson2004 5.1].
 inline Vec3 wayTo(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -51,7 +51,7 @@ PlainTree::PlainTree(const TriMesh& mesh) {
 
 std::int32_t PlainTree::build(std::vector<std::int32_t>& order, std::size_t begin, std::size_t end, const TriMesh& mesh,
                               const std::vector<Vec3>& middles) {
-  // the root is a node even where all fits into one leaf
+  // the root is an inner node even if all triangles fit into one leaf
   if (end - begin <= kLeaf && !nodes_.empty()) return addLeaf(order, begin, end, mesh);
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (std::size_t i = begin; i < end; ++i) {
@@ -131,7 +131,7 @@ void PlainTree::query(const Vec3& p, double radius, Found& found) const {
   };
   std::array<Waiting, 64> waiting;
   std::size_t count = 0;
-  // how far to look, and its square: what is rounded in a float's distance is below one part in 10^5 here
+  // search distance and its square; the rounding error of float distances is below one part in 10^5 here
   float farthest = std::numeric_limits<float>::infinity(), most = farthest;
   const auto look = [&] {
     most = static_cast<float>(std::max(best, within)) * (1 + 2e-5F);
@@ -139,7 +139,7 @@ void PlainTree::query(const Vec3& p, double radius, Found& found) const {
   };
   const auto leaf = [&](std::size_t at) {
     const Spheres& spheres = spheres_[at];
-    float away[kLeaf];  // at least
+    float away[kLeaf];  // lower bounds of the distances
     for (int i = 0; i < kLeaf; ++i) {
       const float x = spheres.x[i] - q[0], y = spheres.y[i] - q[1], z = spheres.z[i] - q[2];
       away[i] = std::sqrt(x * x + y * y + z * z) - spheres.radius[i];
@@ -161,7 +161,7 @@ void PlainTree::query(const Vec3& p, double radius, Found& found) const {
   for (;;) {
     while (at >= 0) {
       const Node& node = nodes_[static_cast<std::size_t>(at)];
-      // outside by how much along x and y, then along z below and above: without branches
+      // distance outside of the boxes along x and y, then along z below and above, without branches
       const Four below = node.low_xy - q_xy, above = q_xy - node.high_xy;
       const Four out_xy = below > above ? below : above, out_z = (node.z - q_z) * Four{1, 1, -1, -1};
       const Four positive_xy = out_xy > 0 ? out_xy : Four{}, positive_z = out_z > 0 ? out_z : Four{};

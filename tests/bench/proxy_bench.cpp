@@ -11,27 +11,27 @@
 #include "tests/bench/lap_timer.h"
 #include "tests/bench/touched.h"
 
-// What a haptic tick, a step of the collision thread and both together cost while fingers slide over a body. Presa as it
-// runs: the modules in a graph. bound_bench.cpp has what to compare with.
+// Cost of a haptic tick, of a step of the collision thread, and of both together, while fingers slide over a body, with
+// the modules in a graph as in a run. bound_bench.cpp has the lower bound.
 namespace presa::bench {
 namespace {
 
 constexpr int kPasses = 5;
 
-/// A rig, made again only for another benchmark: Google Benchmark calls each several times.
+/// Creates a rig. It is recreated only for another benchmark, because Google Benchmark calls each several times.
 using MakeRig = std::function<std::unique_ptr<Rig>()>;
 Rig& rigOf(const std::string& name, const MakeRig& make) {
   static std::string made;
   static std::unique_ptr<Rig> rig;
   if (made != name) {
-    rig.reset();  // one at a time
+    rig.reset();  // free the previous rig first
     rig = make();
     made = name;
   }
   return *rig;
 }
 
-/// Whether a lap was what the name says, and the same each time.
+/// Checks that the fingers touch and slip, and that every lap gives the same forces.
 struct Watched {
   explicit Watched(std::size_t ticks) : first(ticks, Vec3::Zero()) {}
   void look(std::size_t tick, const ContactExchange& contacts, bool first_pass) {
@@ -61,8 +61,8 @@ void report(benchmark::State& state, const Watched& watched) {
   if (watched.touching == 0) state.SkipWithError("the finger touches nothing");
 }
 
-/// p50_us and mean_us over blocks of the five ticks between two steps of the dynamics, p99_us over single ticks: reading
-/// the clock costs a good part of a tick.
+/// p50_us and mean_us over blocks of the five ticks between two steps of the dynamics, because reading the clock costs
+/// a good part of a tick; p99_us over single ticks.
 void hapticTick(benchmark::State& state, const std::string& name, const MakeRig& make) {
   Rig& rig = rigOf(name, make);
   const auto lap = static_cast<std::size_t>(rig.lap());
@@ -100,7 +100,7 @@ void hapticTick(benchmark::State& state, const std::string& name, const MakeRig&
   report(state, watched);
 }
 
-/// Processor time per simulated ms of haptic and collision group together, over periods of the collision group.
+/// Processor time of haptic and collision group together per simulated ms, over periods of the collision group.
 void bothThreads(benchmark::State& state, const std::string& name, const MakeRig& make) {
   Rig& rig = rigOf(name, make);
   Windows periods(static_cast<std::size_t>(rig.lap() / Rig::kCollision));
@@ -145,7 +145,8 @@ void collisionStep(benchmark::State& state, const std::string& name, const MakeR
   report(state, steps, steps, 1);
 }
 
-/// A square of bodies 0.15 m apart, every tenth of them swinging and the others asleep; one in the middle is touched.
+/// A square grid of bodies 0.15 m apart, every tenth of them swinging and the others asleep; one in the middle is
+/// touched.
 std::unique_ptr<Rig> manyBodies(int count, Touched body, Motion motion) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   std::vector<Touched> bodies;
@@ -161,7 +162,7 @@ std::unique_ptr<Rig> manyBodies(int count, Touched body, Motion motion) {
   return std::make_unique<Rig>(worldOf(bodies, 8e-3), std::move(motion));
 }
 
-/// A finger of 8 mm in a circle on top of one of many boxes.
+/// A fingertip of 8 mm radius moving in a circle on top of one of many boxes.
 std::unique_ptr<Rig> manyBoxes(int count) {
   constexpr double kEdge = 0.06, kCircle = 0.02;
   Motion motion;

@@ -14,7 +14,7 @@
 namespace presa {
 namespace {
 
-/// One scene, stepped by hand, its haptic ticks timed.
+/// One scene, stepped by hand, with timed haptic ticks.
 struct Timed {
   explicit Timed(const std::string& scene) {
     Diagnostics diagnostics;
@@ -47,8 +47,9 @@ struct Timed {
   std::vector<std::int64_t> ticks;
 };
 
-// Processor time of a haptic tick beside a cube alone, and beside fifty bodies on each other of 1 to 10000 in mass: the same hand and
-// object, turn by turn on one thread. Here both share one core's caches; in a run the dynamics have a thread of their own.
+// Processor time of a haptic tick with a single cube, and with a stack of fifty bodies of mass ratio 1 to 10000 beside
+// it: the same hand and object, alternating on one thread. Both share one core's caches here; in a run the dynamics has
+// its own thread.
 void BM_HapticTickBesideStack(benchmark::State& state) {
   constexpr std::uint64_t kTicks = 5000;
   double alone_p50 = 0, alone_p999 = 0, stack_p50 = 0, stack_p999 = 0;

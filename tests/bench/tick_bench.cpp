@@ -12,8 +12,8 @@
 namespace presa {
 namespace {
 
-// The whole haptic tick of two fingers (devices, rendering, output stages, monitor) through a shipped scene's ten
-// seconds of reach, lift, hold and drop. Percentiles over the ticks of one run.
+// Cost of the whole haptic tick of two fingers (devices, rendering, output stages, monitor) in a shipped scene's ten
+// seconds of reach, lift, hold and drop. Percentiles are over the ticks of one run.
 void BM_HapticTickOfScene(benchmark::State& state, const char* scene) {
   Diagnostics diagnostics;
   const Loaded loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene, "", {}}, {}, diagnostics);

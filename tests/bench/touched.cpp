@@ -32,7 +32,7 @@ BodyMeshes hapticMesh(const std::shared_ptr<const TriMesh>& mesh) {
   return meshes;
 }
 
-// A pass before its lap: off the surface, back along the way, down on it again, and sliding until all is steady [ticks].
+// Parts of a pass before its lap: lift off, return along the path, come down, and slide until all is steady [ticks].
 constexpr std::ptrdiff_t kOff = 100, kBack = 100, kDown = 200, kSteady = 200;
 constexpr std::ptrdiff_t kLead = kOff + kBack + kDown + kSteady;
 constexpr double kAbove = 0.03;  // [m]
@@ -201,7 +201,7 @@ void Rig::fillPass() {
 }
 
 void Rig::comeDown() {
-  // the first time there is nothing to lift off from
+  // the first pass has no contact to lift off from
   for (std::ptrdiff_t t = fresh_ ? kOff - kLead : -kLead; t < 0; ++t) {
     if (t % kDynamics == 0) moveBodies(t);
     if (t % kCollision == 0) collide(t);

@@ -8,15 +8,15 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/scene/world.h"
 
-// Worlds made in memory, fingers that slide over them, and the two modules that render this, driven by a graph as in
-// a run.
+// Worlds made in memory, fingers that slide over them, and the two modules that render them, driven by a graph as in a
+// run.
 namespace presa::bench {
 
 inline constexpr double kSphere = 0.05;  ///< radius of every sphere [m]
-inline constexpr double kDepth = 1e-3;   ///< of the HIP below where the fingertip would rest [m]
-inline constexpr double kSpeed = 0.1;    ///< of the HIP along the surface [m/s]
+inline constexpr double kDepth = 1e-3;   ///< depth of the HIP below the resting position of the fingertip [m]
+inline constexpr double kSpeed = 0.1;    ///< speed of the HIP along the surface [m/s]
 
-/// An icosphere of kSphere with that many triangles, 20 * 4^k, each made once. `bumpy`: with bumps of 0.5 mm.
+/// An icosphere of radius kSphere with 20 * 4^k triangles, cached. `bumpy`: with bumps of 0.5 mm.
 std::shared_ptr<const TriMesh> sphereMesh(int triangles, bool bumpy = false);
 
 /// A body to be touched: a mesh, or a box.
@@ -26,28 +26,29 @@ struct Touched {
   Vec3 p_WB = Vec3::Zero();
   bool fixed = true;
 };
-/// These bodies of one material, 1 N/mm with friction 0.6/0.4, and `fingers` fingertips of that radius. The only place
-/// where the benchmarks make a World.
+/// A world with these bodies of one material (1 N/mm, friction 0.6/0.4) and `fingers` fingertips of this radius [m].
+/// The only place where the benchmarks make a World.
 std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers = 1);
 
-/// A smooth closed way around the unit sphere, up and down, that comes nowhere near itself: one point per haptic tick, at
-/// constant speed, which on a sphere of that radius is kSpeed. A whole number of collision periods.
+/// A smooth closed path around the unit sphere, up and down, that never comes close to itself: one point per haptic
+/// tick at constant speed, which is kSpeed on a sphere of this radius [m]. Its length is a whole number of collision
+/// periods.
 std::vector<Vec3> wayAround(double radius);
 
-/// What fingers and bodies do. It is periodic: one period is a lap.
+/// Periodic motion of fingers and bodies; one period is a lap.
 struct Motion {
-  std::size_t lap = 0;  ///< haptic ticks
-  /// Where a finger's HIP is at that tick of the lap, in coordinates of body `carrier`, raised by `height`.
+  std::size_t lap = 0;  ///< length in haptic ticks
+  /// Position of a finger's HIP at a tick of the lap, in coordinates of body `carrier`, raised by `height` [m].
   std::function<Vec3(std::size_t finger, std::size_t tick, double height)> p_BH;
   std::size_t carrier = 0;
   std::vector<std::size_t> swinging;  ///< bodies that swing by 5 mm and 0.2 rad, four times a lap
 };
-/// Fingers around a sphere, the second half a lap ahead of the first.
+/// Motion of fingers around a sphere, the second one half a lap ahead of the first.
 Motion aroundSphere(double fingertip_radius);
 
-/// HapticsProxy and CollisionModule in one graph with sources of what they read, stepped by hand. A pass: fingers lift
-/// off, come down again and slide, then do the lap that is timed, its ticks counted from 0. Every pass does the same; its
-/// time begins anew.
+/// HapticsProxy and CollisionModule in one graph with sources of their inputs, stepped by hand. In a pass the fingers
+/// lift off, come down again and slide, then do the timed lap, whose ticks count from 0. All passes are identical; time
+/// restarts in each.
 class Rig {
  public:
   Rig(std::shared_ptr<const World> world, Motion motion);
@@ -56,9 +57,9 @@ class Rig {
   Rig& operator=(const Rig&) = delete;
 
   std::ptrdiff_t lap() const { return static_cast<std::ptrdiff_t>(motion_.lap); }
-  /// All that comes before the lap.
+  /// The part of a pass before the lap.
   void comeDown();
-  /// What is not under test and comes before a tick: the dynamics' and the hands' part, in this order.
+  /// Update the inputs before a tick, not timed: the bodies' part, then the fingers'.
   void moveBodies(std::ptrdiff_t tick) noexcept;
   void moveFingers(std::ptrdiff_t tick) noexcept;
   void collide(std::ptrdiff_t tick) noexcept;  ///< a step of the collision group
@@ -83,7 +84,7 @@ class Rig {
   struct Held {
     Vec3 p_WH, v_WH;
   };
-  std::vector<Held> held_;  ///< of each finger, tick by tick of a pass
+  std::vector<Held> held_;  ///< every finger's state, tick by tick of a pass
   bool fresh_ = true;
 };
 

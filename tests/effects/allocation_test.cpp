@@ -17,7 +17,8 @@ struct Violations {
   std::string first;
 };
 
-// A shipped scene's whole script (reach, squeeze, lift, hold, slip and drop), stepped by hand as lockstep does.
+// A shipped scene's whole script (reach, squeeze, lift, hold, slip and drop), stepped by hand like the lockstep
+// executor.
 std::array<Violations, kRateGroupCount> violationsOf(const std::string& scene) {
   Diagnostics diagnostics;
   const Loaded loaded = loadWorld({test::source(scene), "", {}}, {}, diagnostics);

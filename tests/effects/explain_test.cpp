@@ -33,7 +33,7 @@ std::string whyLeftOut(const json& run, const std::string& what) {
   return "not left out";
 }
 
-// The list is the truth: what the scene names is in it, what it does not name is left out with the reason.
+// The list is true: stages that the scene needs are in it, the others are left out with the reason.
 TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
   const std::string cube = source("config/scenes/cube.xml");
   const json full = explain(cube);
@@ -80,7 +80,7 @@ TEST(Explain, NamesThreadsModulesAndLibrariesWithReasons) {
 
 // ---- cost ----------------------------------------------------------------------------------------------------------
 
-// Every module has a time, recording and view too, and its share of the period of its thread.
+// Every module, recording and view included, has a time and its share of the period of its thread.
 TEST(ExplainCost, AddsWhatEachModuleCosts) {
   const json run = explain(source("config/scenes/pinch_and_lift.xml") + " --cost --record --view offscreen");
   ASSERT_TRUE(run.contains("cost"));
@@ -95,7 +95,7 @@ TEST(ExplainCost, AddsWhatEachModuleCosts) {
   }
 }
 
-// One row of figures for each module, none for a stage.
+// One row of figures per module, none per stage.
 TEST(ExplainCost, PrintsATableOfModules) {
   const auto outcome = test::presa("explain " + source("config/scenes/cube.xml") + " --cost");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -112,7 +112,7 @@ TEST(ExplainCost, PrintsATableOfModules) {
   EXPECT_FALSE(measured["1."]);
 }
 
-// A run that is timed module by module is the same run: its states have the hash of one that is not.
+// Timing every module does not change a run: the state hash is the same.
 TEST(ExplainCost, MeasuringChangesNoBit) {
   const auto sessionOf = [](RunControl& control, RateTable& rates) {
     Diagnostics diagnostics;
@@ -120,7 +120,7 @@ TEST(ExplainCost, MeasuringChangesNoBit) {
     rates = RateTable(loaded.world->scene.rates);
     return std::make_unique<Session>(loaded.world, loaded.plan, control, Session::Options{});
   };
-  constexpr double kLength = 2.5;  // [s] the amphora is in the air
+  constexpr double kLength = 2.5;  // [s] the amphora is lifted by then
   RunControl control;
   RateTable rates{Rates{}};
   const auto measured = sessionOf(control, rates);

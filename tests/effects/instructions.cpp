@@ -10,7 +10,7 @@
 namespace presa::test {
 namespace {
 
-// Seconds too, for the program's --for.
+// Replaces "{ticks}", and "{seconds}" for the program's --for.
 std::string withLength(std::string command, int ticks) {
   const auto replace = [&](const std::string& key, const std::string& value) {
     if (const std::size_t at = command.find(key); at != std::string::npos) command.replace(at, key.size(), value);
@@ -32,7 +32,7 @@ double totalInstructions(const std::string& file) {
 double count(const std::string& command, int ticks, std::string& out) {
   const std::string file = scratch("callgrind.out");
   const Outcome outcome =
-      // counted inside the tick only: start-up differs from run to run by what addresses and process numbers do to it
+      // count inside the tick only: start-up varies from run to run with addresses and process numbers
       shell("valgrind --tool=callgrind --toggle-collect='presa::Graph::step(*' --callgrind-out-file=" + file + ' ' +
             withLength(command, ticks));
   EXPECT_EQ(outcome.status, 0) << command << '\n' << outcome.out << outcome.err;

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using test::scratch;
 using test::source;
 
-/// `presa run` in real time as a child: looked at from outside while it runs.
+/// `presa run` in real time as a child process, inspected from outside while it runs.
 class RunningChild {
  public:
   explicit RunningChild(const std::vector<std::string>& options) {
@@ -40,8 +40,8 @@ class RunningChild {
   RunningChild(const RunningChild&) = delete;
   RunningChild& operator=(const RunningChild&) = delete;
 
-  /// Waits until its haptic thread has slept between ticks for a while: every group has started together by then.
-  /// False when the child ended before that.
+  /// Waits until its haptic thread has slept between ticks several times: all groups have started by then. False when
+  /// the child ended before that.
   bool waitUntilItRuns() const {
     while (pid_ != 0 && ::waitpid(pid_, nullptr, WNOHANG) == 0) {
       if (hapticSleeps() >= 50) return true;
@@ -92,8 +92,8 @@ std::string fixedScene() {
   return scene;
 }
 
-// Fixed objects only: no dynamics thread and no libode; no mesh and nothing free: no libfcl; nobody looks: no libosg; nothing
-// recorded: no libhdf5. Read by the kernel's account of the running process.
+// Fixed objects only: no dynamics thread and no libode; no mesh and no free body: no libfcl; no view: no libosg; no
+// recording: no libhdf5. Read from /proc of the running process.
 TEST(RunningProcess, HasOnlyTheThreadsAndLibrariesOfItsScene) {
   const RunningChild child({fixedScene()});
   ASSERT_TRUE(child.waitUntilItRuns());
@@ -106,7 +106,7 @@ TEST(RunningProcess, HasOnlyTheThreadsAndLibrariesOfItsScene) {
     EXPECT_EQ(maps.find(absent), std::string::npos) << absent;
 }
 
-// ... and this does not hold because nothing is ever there.
+// The check is sensitive: a full scene has all of these threads and libraries.
 TEST(RunningProcess, HasWhatAFullSceneCallsFor) {
   const std::string file = scratch("full.h5");
   const RunningChild child({source("config/scenes/pinch_and_lift.xml"), "--record", file, "--overwrite"});
@@ -119,7 +119,7 @@ TEST(RunningProcess, HasWhatAFullSceneCallsFor) {
   EXPECT_EQ(maps.find("libosg"), std::string::npos);
 }
 
-// The program itself is linked with none of the engines: they can come only as plug-ins.
+// The program is linked with none of the engines: only plug-ins can load them.
 TEST(Program, IsLinkedWithNoEngine) {
   const auto linked = test::shell("readelf -d " + std::string(PRESA_BINARY_DIR) + "/bin/presa");
   ASSERT_EQ(linked.status, 0) << linked.err;

@@ -15,7 +15,7 @@ using test::scratch;
 using test::source;
 using test::TickCount;
 
-// What an effect that is off may cost: the goal of the project. Measured differences are 0; a single branch is 2 or 3.
+// Max cost of a switched-off effect [instructions per tick]. Measured differences are 0; a single branch costs 2 or 3.
 constexpr double kNothing = 4;
 
 class SwitchedOff : public testing::Test {
@@ -25,7 +25,7 @@ class SwitchedOff : public testing::Test {
   }
 };
 
-// A ball that one finger presses on and slides over: fixed, so that only the haptic loop runs.
+// A fixed ball that one finger presses on and slides over; only the haptic loop runs.
 std::string ballScene() {
   std::ofstream(scratch("press.csv")) << "time_s,role,x_m,y_m,z_m,phase\n0,thumb,0,0,0.07,reach\n0.2,thumb,0,0,0.055,"
                                          "reach\n3,thumb,0.02,0.01,0.05,hold\n";
@@ -43,8 +43,8 @@ TickCount probe(const std::string& without, const std::string& shape, const std:
                       ' ' + shape + sets);
 }
 
-// The scene switches the effect off; the other run has the stage taken out of its list by hand. And with the effect on the
-// count rises: the measurement is not blind.
+// One run switches the effect off in the scene; the other has the stage removed from its list by hand. With the effect
+// on the count rises, so the measurement is sensitive.
 void expectFree(const std::string& stage, const std::string& on_shape, const std::string& off_shape,
                 const std::string& off_sets) {
   const TickCount off = probe("none", off_shape, off_sets), without = probe(stage, off_shape, off_sets);
@@ -63,7 +63,7 @@ TEST_F(SwitchedOff, ForceShadingIsFree) { expectFree("shading", "smooth", "mesh"
 
 // ---- plug-ins ------------------------------------------------------------------------------------------------------
 
-/// The program with only these plug-ins beside it: what is missing does not exist.
+/// A copy of the program with only these plug-ins.
 std::string programWith(const std::vector<std::string>& plugins) {
   const fs::path from = PRESA_BINARY_DIR, to = scratch("program_of_" + std::to_string(plugins.size()));
   fs::create_directories(to / "bin");
@@ -77,7 +77,7 @@ std::string programWith(const std::vector<std::string>& plugins) {
     if (name.starts_with("libpresa_")) copy("lib/presa/" + name);
   }
   for (const std::string& plugin : plugins) copy("lib/presa/presa_" + plugin + ".so");
-  for (const char* folder : {"config", "experiments"}) {  // from where its scenes may name rigs and motions
+  for (const char* folder : {"config", "experiments"}) {  // folders from which scenes may name rigs and motions
     if (!fs::exists(to / folder)) fs::create_directory_symlink(fs::path(PRESA_SOURCE_DIR) / folder, to / folder);
   }
   return (to / "bin/presa").string();
@@ -96,8 +96,8 @@ TickCount lockstep(const std::string& program, const std::string& arguments) {
   return result;
 }
 
-// Neither recorded nor shown, a run costs what it costs in a program that cannot record, show, search a mesh, or move a body.
-// (Nothing moves here: what ODE takes from the heap differs by some instructions with where the heap happens to lie.)
+// Without recording and view, a run costs the same as in a program that cannot record, show, search a mesh, or move a
+// body. (Nothing moves here: ODE's heap use costs some instructions more or less depending on the address of the heap.)
 TEST_F(SwitchedOff, RecordingAndViewAreFree) {
   const TickCount whole = lockstep(std::string(PRESA_BINARY_DIR) + "/bin/presa", ballScene());
   const TickCount bare = lockstep(programWith({"haptics_proxy", "scripted"}), ballScene());
@@ -106,7 +106,7 @@ TEST_F(SwitchedOff, RecordingAndViewAreFree) {
   EXPECT_NE(whole.out, "no hash");
 }
 
-// Gravity pulls on free bodies only: where none is, it costs what it costs in a program without dynamics, at any value.
+// Gravity acts on free bodies only: without any, a run costs the same as in a program without dynamics, at any gravity.
 TEST_F(SwitchedOff, GravityIsFreeWhereNothingCanFall) {
   const std::string scene = scratch("fixed.xml");
   std::ofstream(scene) << R"(<scene version="1.0" name="fixed" rig=")" << source("config/rigs/hover.xml") << R"(">
@@ -124,9 +124,9 @@ TEST_F(SwitchedOff, GravityIsFreeWhereNothingCanFall) {
   EXPECT_EQ(weightless.out, bare.out);
 }
 
-// A cube that two fingers hold, weightless: it costs what it costs where gravity was never set, and no bit differs. With gravity
-// the trace is another, and another again where it was never set: the comparison is not blind.
-// (The two runs of a pair differ in one word of their command lines, of one length: the heap lies the same.)
+// A weightless cube held by two fingers costs the same as when gravity was never set, with bit-identical results. With
+// gravity the trace differs, and differs again when gravity is never set: the comparison is sensitive.
+// (The command lines of a pair differ in one word of equal length, so that the heap has the same address.)
 TEST_F(SwitchedOff, GravityIsFreeForABodyThatIsHeld) {
   const auto held = [](const std::string& without, const std::string& gravity) {
     return countPerTick(std::string(PRESA_BINARY_DIR) + "/bin/effects_probe " + source("config/scenes/cube.xml") +

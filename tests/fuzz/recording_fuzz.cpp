@@ -11,7 +11,7 @@
 extern "C" const presa::ChecksumPlugin presaChecksums;
 
 namespace presa {
-// instead of plug-ins: the only one that a recording needs is compiled in
+// replaces plug-in loading: the only plug-in that a recording needs is compiled in
 void* pluginSymbol(const std::string&, const char*) { return const_cast<ChecksumPlugin*>(&presaChecksums); }
 }  // namespace presa
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kTicks = 40;
 
-/// In memory where the system has such a folder: each input writes a megabyte.
+/// A folder in memory if the system has one: each input writes a megabyte.
 std::string folder() {
   const std::string shared = "/dev/shm";
   const std::string base =
@@ -37,7 +37,7 @@ struct Files {
 
 }  // namespace
 
-/// Any bytes are damage to a recording, which is then refused or sound (tests/framework/record/mutation.h).
+/// Any input describes damage to a recording, which must then be refused or sound (tests/framework/record/mutation.h).
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Files files;
   std::filesystem::copy_file(files.specimen, files.run, std::filesystem::copy_options::overwrite_existing);

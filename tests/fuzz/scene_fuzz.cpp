@@ -4,7 +4,7 @@
 
 #include "framework/scene/load.h"
 
-/// Any bytes are a scene or errors, never both and never neither; a scene reads back from its resolved form.
+/// Any input gives either a scene or errors, never both or neither; a scene can be read back from its resolved form.
 /// Run:  scene_fuzz CORPUS config/scenes -max_len=8192
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -1,4 +1,5 @@
-// The number of an error or warning has one meaning; framework/core/diagnostics/CODES.md says which, and who uses it.
+// The number of an error or warning has one meaning; framework/core/diagnostics/CODES.md lists it with the files that
+// use it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@
 namespace presa::layering {
 namespace {
 
-/// Files by number.
+/// Files that use each number.
 using Uses = std::map<int, std::set<std::string>>;
 
 constexpr const char* kPage = "framework/core/diagnostics/CODES.md";
@@ -24,7 +25,7 @@ void addMatches(const std::string& text, const std::regex& pattern, const std::s
     uses[std::stoi((*at)[1])].insert(path);
 }
 
-/// Where a finding is made, in an enum of codes, or in a text that is printed as it stands.
+/// Finds numbers where a finding is created, in an enum of codes, or in a literal text.
 void addUses(const SourceFile& file, Uses& uses) {
   static const std::regex kCall(R"(\b(?:error|warning|refuse|wrong|fail|warn|report|code)\(\s*([1-9]\d\d)\s*[,)])");
   static const std::regex kEnum(R"(enum \w*Code\b[^{;]*\{([^}]*)\})"), kValue(R"(= ([1-9]\d\d)\b)");
@@ -44,7 +45,7 @@ Uses usesInSources() {
   return uses;
 }
 
-/// Rows "| 401 | meaning | file, file |"; a number that has two is in `twice`.
+/// Parses rows "| 401 | meaning | file, file |"; numbers with two rows go into `twice`.
 Uses usesOnPage(std::set<int>& twice) {
   static const std::regex kRow(R"(\| ([1-9]\d\d) \| [^|]+ \| ([^|]+) \|)"), kFile(R"([^,\s]+)");
   Uses uses;
@@ -80,8 +81,8 @@ TEST(Codes, EachIsFoundWhereItIsWritten) {
   EXPECT_THAT(found, testing::ElementsAre(101, 102, 103, 106, 107, 109));
 }
 
-// A number that a further file uses fails here. If it means the same there, add the file to the row; if not, take a free
-// number.
+// A number used by an unlisted file fails here. If it means the same there, add the file to the row; if not, take a
+// free number.
 TEST(Codes, AreListedOnceWithEveryFileThatUsesThem) {
   std::set<int> twice;
   const Uses page = usesOnPage(twice), sources = usesInSources();

@@ -1,4 +1,4 @@
-// An architecture holds as long as something fails when it is broken. These tests read the sources and the binaries.
+// These tests read the sources and the binaries and fail when the architecture is broken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 using testing::IsEmpty;
 using testing::IsSupersetOf;
 
-/// "path: finding" of every file that breaks the rule.
+/// Every file that breaks the rule, as "path: finding".
 std::vector<std::string> offenders(const std::function<Finding(const SourceFile&)>& rule) {
   std::vector<std::string> found;
   for (const SourceFile& file : sourceTree()) {
@@ -27,7 +27,7 @@ std::vector<std::string> offenders(const std::function<Finding(const SourceFile&
   return found;
 }
 
-// If the walk missed folders, every rule below would hold for nothing.
+// If the walk missed folders, the rules below would be pointless.
 TEST(Layering, TheWalkSeesTheWholeTree) {
   std::set<std::string> paths;
   for (const SourceFile& file : sourceTree()) paths.insert(file.path);
@@ -35,26 +35,26 @@ TEST(Layering, TheWalkSeesTheWholeTree) {
                                    "modules/dynamics_ode/CMakeLists.txt", "tests/layering/layering_test.cpp"}));
 }
 
-// An engine that only one folder knows can be replaced; one that leaks cannot.
+// An engine that only one folder includes can be replaced.
 TEST(Layering, EachOutsideLibraryIsIncludedInOneFolder) { EXPECT_THAT(offenders(includesForeignLibrary), IsEmpty()); }
 
-// Modules and devices meet in the graph alone, so that any of them can be left out of a run.
+// Modules and devices are connected only by the graph, so that a run can leave out any of them.
 TEST(Layering, IncludesFollowTheArrows) { EXPECT_THAT(offenders(includesAgainstTheArrows), IsEmpty()); }
 
 TEST(Layering, HeadersHavePragmaOnce) { EXPECT_THAT(offenders(lacksPragmaOnce), IsEmpty()); }
 
 TEST(Layering, FilesStayShortEnoughToRead) { EXPECT_THAT(offenders(isTooLong), IsEmpty()); }
 
-// What works in one checkout only breaks for the next person.
+// Paths of one machine break every other checkout.
 TEST(Layering, NoFileNamesAPathOfOneMachine) { EXPECT_THAT(offenders(namesPathOfOneMachine), IsEmpty()); }
 
-// Summer time or a corrected clock must not be felt.
+// A change of the wall clock must not affect a run.
 TEST(Layering, NothingThatRunsReadsTheWallClock) { EXPECT_THAT(offenders(readsTheWallClock), IsEmpty()); }
 
-// A pipe that is waited for, a device without an end, a file of another folder: one place knows how to refuse them.
+// framework/input refuses pipes that block, devices without an end, and files of other folders.
 TEST(Layering, FilesFromOutsideComeThroughOneDoor) { EXPECT_THAT(offenders(opensAFileByItself), IsEmpty()); }
 
-// A newcomer reads one page a room; deeper pages are for what the code cannot say.
+// Every room has one README page.
 TEST(Layering, EveryRoomSaysWhatItIsFor) {
   std::vector<std::string> silent;
   for (const std::string& room : rooms()) {
@@ -63,7 +63,7 @@ TEST(Layering, EveryRoomSaysWhatItIsFor) {
   EXPECT_THAT(silent, IsEmpty());
 }
 
-// What the author of a module reads fits into an afternoon.
+// The core stays small enough for the author of a module to read in an afternoon.
 TEST(Layering, TheCoreStaysSmall) {
   std::size_t lines = 0;
   for (const SourceFile& file : sourceTree()) {
@@ -73,7 +73,7 @@ TEST(Layering, TheCoreStaysSmall) {
   EXPECT_LE(lines, 2300U);
 }
 
-// The shape of the root is fixed; what tools demand there is listed by name.
+// The entries of the root are fixed; files that tools demand there are listed by name.
 TEST(Layering, TheRootHoldsNothingElse) {
   const std::set<std::string> allowed{"CMakeLists.txt",  "CMakePresets.json", "README.md",   "LICENSE",
                                       "CONTRIBUTING.md", "CHANGELOG.md",      "dev",         ".ci",
@@ -87,8 +87,8 @@ TEST(Layering, TheRootHoldsNothingElse) {
   EXPECT_THAT(others, IsEmpty());
 }
 
-// A run maps an engine only when its scene calls for it: so neither the program nor the framework, and no plug-in but
-// the engine's own, may ask the linker for one.
+// A run maps an engine only when its scene needs it: neither the program nor the framework, and no plug-in but the
+// engine's own, may be linked with one.
 TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
   const std::map<std::string, std::string> home_of{
       {"libode", "presa_dynamics_ode.so"},   {"libfcl", "presa_collision_fcl.so"},
@@ -115,7 +115,7 @@ TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
   EXPECT_THAT(wrong, IsEmpty());
 }
 
-// `presa run` is the command that people start most: it maps nothing of the other uses.
+// `presa` itself, the most used program, contains nothing of the other uses.
 TEST(Layering, TheProgramHoldsNothingOfTheOtherUses) {
   const std::set<std::string> mapped = nameSpaces(std::filesystem::path(PRESA_BINARY_DIR) / "bin/presa");
   EXPECT_TRUE(mapped.contains("terminal")) << "the names of the program's functions were not read";

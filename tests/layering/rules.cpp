@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t kMaxLines = 800;
 constexpr std::size_t kMaxReadmeLines = 40;
-constexpr std::size_t kMaxLongReadmeLines = 140;  // the root's, and config's reference of the scene format
+constexpr std::size_t kMaxLongReadmeLines = 140;  // the root's README, and config's reference of the scene format
 
 struct Library {
-  const char* headers;  ///< regular expression over the included name
+  const char* headers;  ///< regular expression for the included name
   const char* home;     ///< the one folder that may include it
 };
 
-// tests may include a library beside its home: as an independent oracle
+// tests may include any library, as an independent oracle
 constexpr std::array kLibraries{
     Library{"ode/.*", "modules/dynamics_ode/"},
     Library{"mujoco/.*", "modules/dynamics_mujoco/"},
@@ -38,7 +38,8 @@ constexpr std::array kLibraries{
     Library{"(gtest|gmock|benchmark|rapidcheck)[./].*", "tests/"},
 };
 
-/// What the files below one folder may include of the tree, beside that folder itself. The longest folder that fits a file counts.
+/// Folders that the files below `from` may include, beside `from` itself. The longest `from` that matches a file
+/// counts.
 struct Arrows {
   const char* from;
   std::vector<std::string> to;
@@ -60,12 +61,12 @@ const std::vector<Arrows>& arrows() {
        {"framework/core/", "framework/input/", "framework/scene/", "framework/device/", "framework/record/"}},
       {"modules/", {"framework/"}},
       {"devices/", {"framework/", "devices/hand/"}},
-      // a model of a device stands behind the narrow interface of the device's driver
+      // a model of a device implements the narrow interface of the device's driver
       {"devices/falcon_model/", {"framework/", "devices/hand/", "devices/novint_falcon/transport.h"}},
       {"experiments/runner/", {"framework/"}},
       {"experiments/study/", {"framework/"}},
       {"experiments/stability/", {"framework/", "experiments/study/"}},
-      // faults are rehearsed on the driver and a model of its device
+      // fault rehearsals use the driver and a model of its device
       {"experiments/faults/", {"framework/", "experiments/study/", "devices/novint_falcon/", "devices/falcon_model/"}},
       {"apps/common/", {"framework/"}},
       {"apps/presa/", {"framework/", "devices/", "apps/common/"}},
@@ -78,7 +79,7 @@ const std::vector<Arrows>& arrows() {
   return kArrows;
 }
 
-/// Modules and devices are plug-ins: each of their folders knows itself only.
+/// The folder that a file may always include. For modules, devices and studies it is their own folder only.
 std::string ownRoom(const Arrows& arrows, const SourceFile& file) {
   const std::string from = arrows.from;
   return from == "modules/" || from == "devices/" || from == "apps/studies/" ? file.part() + "/" : from;
@@ -132,7 +133,7 @@ Finding isTooLong(const SourceFile& file) {
 }
 
 Finding namesPathOfOneMachine(const SourceFile& file) {
-  // a path begins after a blank, quote or bracket: "network/" or a URL is none
+  // a path begins after a blank, quote or bracket, so that "network/" or a URL does not match
   static const std::regex kPath(R"((?:^|[\s"'(<=:])(/(?:work|home|root|Users)/[\w.]))");
   std::smatch match;
   if (!file.isText() || !std::regex_search(file.text, match, kPath)) return {};
@@ -143,7 +144,7 @@ Finding readsTheWallClock(const SourceFile& file) {
   static const std::regex kClock(R"(CLOCK_REALTIME|system_clock|gettimeofday|\b(std::|::)?time\((nullptr|NULL|0\)|&))");
   const std::string top = file.topFolder();
   const bool runs = top == "framework" || top == "modules" || top == "devices";
-  // a recording says when it was begun
+  // exception: a recording stores its date
   if (!runs || !file.isCpp() || file.path == "framework/record/record_plugin/recording_file.cpp") return {};
   std::smatch match;
   if (!std::regex_search(file.text, match, kClock)) return {};
@@ -158,7 +159,7 @@ Finding opensAFileByItself(const SourceFile& file) {
       "apps/common/machine.cpp",
       "apps/studies/faults/periods.cpp",
       "apps/studies/cost/measure.cpp",
-      "framework/record/record_plugin/open_file.cpp"};  // HDF5 has a way of its own, behind the door's look
+      "framework/record/record_plugin/open_file.cpp"};  // HDF5 opens files itself, after a check
   const std::string top = file.topFolder();
   const bool reads = top == "framework" || top == "modules" || top == "devices" || top == "apps";
   std::smatch match;

@@ -4,7 +4,7 @@
 
 #include "tests/layering/source_tree.h"
 
-/// The rules of the architecture, each a function from a file to what is wrong with it (nothing: no value).
+/// The rules of the architecture, each a function from a file to its finding (no value: the file obeys the rule).
 namespace presa::layering {
 
 using Finding = std::optional<std::string>;
@@ -14,9 +14,9 @@ Finding includesAgainstTheArrows(const SourceFile& file);
 Finding lacksPragmaOnce(const SourceFile& file);
 Finding isTooLong(const SourceFile& file);
 Finding namesPathOfOneMachine(const SourceFile& file);
-/// What runs goes by the clock that never jumps.
+/// framework, modules and devices must use the monotonic clock.
 Finding readsTheWallClock(const SourceFile& file);
-/// Files from outside come in by framework/input; what is left to the standard library are files of /proc, and the program's own.
+/// Files from outside must be opened by framework/input; exceptions are files of /proc and the program's own.
 Finding opensAFileByItself(const SourceFile& file);
 
 }  // namespace presa::layering

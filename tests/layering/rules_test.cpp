@@ -1,4 +1,4 @@
-// A rule that never fires proves nothing: each is shown one file that breaks it and one that does not.
+// Each rule is applied to a file that breaks it and to one that does not.
 #include "tests/layering/rules.h"
 
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ TEST(LayeringRules, LengthIsCountedInLines) {
 }
 
 TEST(LayeringRules, PathsOfOneMachineAreFound) {
-  // put together here, so that this file does not break the rule itself
+  // concatenated, so that this file does not break the rule
   const std::string home = std::string("/ho") + "me/ada/presa";
   EXPECT_TRUE(namesPathOfOneMachine({"apps/a.cpp", "open(\"" + home + "\");"}));
   EXPECT_TRUE(namesPathOfOneMachine({"apps/README.md", "see " + home}));

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kRoot = PRESA_SOURCE_DIR;
 
-bool isLocal(const std::string& name) {  // of one developer's checkout, as .gitignore has it
+bool isLocal(const std::string& name) {  // local to a checkout, as in .gitignore
   static const std::set<std::string> kNames{".git",    "build", "out", ".cache", "compile_commands.json",
                                             ".vscode", ".idea"};
   return kNames.contains(name) || name.starts_with("build-") || name.ends_with(".swp");
@@ -128,7 +128,7 @@ std::set<std::string> neededLibraries(const std::string& file) {
   if (!fs::exists(file)) throw std::runtime_error(file + " was not built");
   static const std::regex kNeeded(R"(\(NEEDED\)[^\[]*\[([^\]]+)\])");
   auto names = firstGroups(outputOf("LC_ALL=C readelf -d '" + file + "'"), kNeeded);
-  if (names.empty()) throw std::runtime_error("readelf named no library for " + file);  // libc at least is there
+  if (names.empty()) throw std::runtime_error("readelf named no library for " + file);  // libc is always linked
   return names;
 }
 

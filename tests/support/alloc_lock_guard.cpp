@@ -8,7 +8,7 @@ struct ThreadState {
   int count = 0;
   const char* first = "";
 };
-// plain data of the program itself: touching it never allocates
+// plain data of the program: access never allocates
 constinit thread_local ThreadState state;
 
 }  // namespace
@@ -49,7 +49,7 @@ void note(const char* function) noexcept {
 }  // namespace
 }  // namespace presa
 
-// ---- the same names as in libc: the dynamic linker finds these first, for the program and every library -------------
+// ---- interposed functions of libc: the dynamic linker finds these first, for the program and every library ----------
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -68,8 +68,8 @@ void note(const char* function) noexcept {
 
 namespace {
 
-/// The function that would have been called without us. Looked up at the first call, which may come before any static
-/// constructor has run; twice by two threads does no harm.
+/// The interposed function of libc. It is looked up at the first call, which may come before any static constructor has
+/// run; a simultaneous lookup by two threads is harmless.
 template <class Function>
 class Original {
  public:
@@ -99,7 +99,7 @@ mode_t modeOf(int flags, va_list arguments) {
 extern "C" {
 
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
-// glibc's allocator under its own names, so that dlsym, which allocates, is not needed to allocate
+// glibc's allocator under its internal names: dlsym, which allocates, cannot be used to find it
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
@@ -222,7 +222,7 @@ int munmap(void* address, std::size_t size) noexcept {
   presa::note("munmap");
   return original(address, size);
 }
-// how std::atomic::wait and latches reach the futex
+// std::atomic::wait and latches call the futex through this function
 long syscall(long number, ...) noexcept {
   static constinit Original<long(long, ...)> original("syscall");
   presa::note("syscall");

@@ -6,15 +6,15 @@
 /// own the same functions (then a guard counts nothing, and the trap only runs the function).
 namespace presa {
 
-/// While it lives, counts what its thread must not do: allocate or free, lock or wait, sleep, map memory, open, read,
-/// write. Sees calls from Presa, from plug-ins and from every library through their dynamic symbols; what a library
-/// calls inside itself (the write of a printf) is for the system call trap below.
+/// During its lifetime, counts the forbidden calls of its thread: allocate or free, lock or wait, sleep, map memory,
+/// open, read, write. It sees calls from Presa, plug-ins and libraries through dynamic symbols; internal calls of a
+/// library (the write of a printf) are left to the system call trap below.
 ///
 ///     RealTimeGuard guard;
 ///     module.step(tick);
 ///     EXPECT_EQ(guard.violations(), 0) << guard.first();
 ///
-/// Guards nest; each counts from its own start. Make and read it on one thread.
+/// Guards nest; each counts from its own construction. Construct and read a guard on one thread.
 class RealTimeGuard {
  public:
   RealTimeGuard() noexcept;
@@ -22,9 +22,9 @@ class RealTimeGuard {
   RealTimeGuard(const RealTimeGuard&) = delete;
   RealTimeGuard& operator=(const RealTimeGuard&) = delete;
 
-  /// Forbidden calls of this thread since the guard was made.
+  /// Forbidden calls of this thread since the guard's construction.
   int violations() const noexcept;
-  /// Name of the first forbidden function, "" when there was none.
+  /// Name of the first forbidden function; "": none.
   const char* first() const noexcept;
   /// False under the sanitizers.
   static bool active() noexcept;
@@ -34,12 +34,12 @@ class RealTimeGuard {
   const char* first_before_;
 };
 
-/// Runs `function` in a child process in which every system call but reading or awaiting the clock is caught by the
-/// kernel (seccomp). "" when it made none, else the first one in words ("system call 1 (write)"), or how the child
-/// ended. Warm up beforehand whatever does its set-up at the first call.
+/// Runs `function` in a child process in which the kernel (seccomp) traps every system call except reading or awaiting
+/// the clock. Returns "" when there was none, otherwise the first one as text ("system call 1 (write)"), or how the
+/// child ended. Warm up code beforehand that does set-up at its first call.
 std::string runUnderSyscallTrap(const std::function<void()>& function);
 
-/// False under the sanitizers and where the kernel refuses filters: then runUnderSyscallTrap proves nothing.
+/// False under the sanitizers and where the kernel refuses filters: runUnderSyscallTrap() proves nothing then.
 bool syscallTrapWorks();
 
 }  // namespace presa

@@ -10,7 +10,7 @@
 
 namespace presa::test {
 
-/// A program with a terminal of its own.
+/// Runs a program in a pseudo-terminal.
 class OnTerminal {
  public:
   explicit OnTerminal(std::vector<std::string> command) {
@@ -30,7 +30,7 @@ class OnTerminal {
   OnTerminal(const OnTerminal&) = delete;
   OnTerminal& operator=(const OnTerminal&) = delete;
 
-  /// Reads until it has been said; false when the program ended, or said nothing for ten seconds.
+  /// Reads until the text has appeared; false when the program ended, or printed nothing for ten seconds.
   bool says(const std::string& text) {
     for (char bytes[4096]; seen_.find(text) == std::string::npos;) {
       pollfd waiting{terminal_, POLLIN, 0};
@@ -41,7 +41,7 @@ class OnTerminal {
     }
     return true;
   }
-  /// Takes in what is said within that time [s], so that the program never waits for its reader.
+  /// Reads the output for a time [s], so that the program never waits for its reader.
   void listen(double seconds) {
     pollfd waiting{terminal_, POLLIN, 0};
     char bytes[4096];
@@ -49,7 +49,7 @@ class OnTerminal {
     if (const ssize_t read = ::read(terminal_, bytes, sizeof bytes); read > 0)
       seen_.append(bytes, static_cast<std::size_t>(read));
   }
-  /// What was said so far counts no more.
+  /// Discards the output so far.
   void forget() { seen_.clear(); }
   void press(char key) { ASSERT_EQ(write(terminal_, &key, 1), 1); }
   int status() {

@@ -13,7 +13,7 @@
 /// A shipped scene with a shipped rig, for the tests of the rig's devices.
 namespace presa::test {
 
-/// In lockstep, to the end of its script.
+/// Runs the scene in lockstep to the end of its script.
 inline std::unique_ptr<Run> runToTheEnd(const std::string& scene, const std::string& rig,
                                         const std::vector<std::string>& sets = {}) {
   Diagnostics diagnostics;
@@ -26,7 +26,7 @@ inline std::unique_ptr<Run> runToTheEnd(const std::string& scene, const std::str
   return run;
 }
 
-/// The device of the rig's first role, after `change`; null with findings when it refuses.
+/// The device of the rig's first role after `change`; null, with findings, when it is refused.
 inline std::unique_ptr<Device> firstDevice(
     const std::string& scene, const std::string& rig, Diagnostics& diagnostics,
     const std::function<void(DeviceBinding&)>& change = [](DeviceBinding&) {}) {
@@ -36,7 +36,7 @@ inline std::unique_ptr<Device> firstDevice(
   return devicePlugin(binding.driver).create(binding, *loaded.world, diagnostics);
 }
 
-/// Three seconds of ticks with forces that come and go.
+/// Expects three seconds of ticks with varying forces to be free of real-time violations.
 inline void expectRealTime(Device& device) {
   const RealTimeGuard guard;
   for (std::uint64_t i = 0; i < 3000; ++i) {

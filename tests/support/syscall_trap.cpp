@@ -17,12 +17,12 @@
 namespace presa {
 namespace {
 
-/// What the child tells its parent: a system call's number, or one of these.
+/// Report of the child to its parent: a system call's number, or one of these.
 constexpr int kClean = -1;
 constexpr int kThrew = -2;
 constexpr int kNoFilter = -3;
 
-int report_pipe = -1;  // of the child; a signal handler takes no argument
+int report_pipe = -1;  // of the child; global because a signal handler takes no argument
 
 [[noreturn]] void report(int outcome) {
   const ssize_t written = write(report_pipe, &outcome, sizeof outcome);
@@ -57,7 +57,7 @@ bool installFilter() {
       allow,
       skip_unless(SYS_clock_nanosleep, 1),
       allow,
-      // writing is for the report alone
+      // write is allowed for the report only
       skip_unless(SYS_write, 3),
       load(offsetof(seccomp_data, args[0])),
       skip_unless(report_pipe, 1),
@@ -78,7 +78,7 @@ bool installFilter() {
   report(kClean);
 }
 
-/// Outcome in words; "" for a clean run.
+/// The outcome as text; "" for a clean run.
 std::string inWords(int outcome) {
   switch (outcome) {
     case kClean:

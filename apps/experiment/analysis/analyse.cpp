@@ -48,7 +48,7 @@ std::vector<std::string> notesOn(const Request& request, const std::vector<Sessi
   return notes;
 }
 
-/// Ids are names of files: a second table of one gets a number.
+/// Table ids are file names: repeated ids get a number.
 void makeIdsDiffer(std::vector<Section>& sections) {
   std::set<std::string> taken;
   for (Section& section : sections) {
@@ -138,7 +138,7 @@ void write(const Result& result, const std::string& out) {
   }
   for (const Section& section : result.sections) {
     for (Table table : section.tables) {
-      if (!result.trials.model().empty()) {  // a table is read without the page that says so
+      if (!result.trials.model().empty()) {  // a table may be read without the report that names the model
         table.columns.push_back({"subjects_are"});
         for (auto& row : table.rows) row.emplace_back(result.trials.model());
       }

@@ -15,10 +15,10 @@ struct CellMeansOf {
     double mean = 0;
     std::optional<double> sd;
     std::optional<statistics::Interval> over_trials;     ///< t interval of the cell's trials
-    std::optional<statistics::Interval> within_subject;  ///< Cousineau and Morey
+    std::optional<statistics::Interval> within_subject;  ///< after Cousineau and Morey
   };
   std::vector<OfCell> cells;
-  std::optional<double> correction;  ///< Morey's, when there are intervals within subjects
+  std::optional<double> correction;  ///< Morey's factor; set when there are within-subject intervals
 };
 CellMeansOf cellMeans(const Context& context, const std::string& y, const NameList& by);
 

@@ -11,7 +11,7 @@ namespace {
 using statistics::MeanEstimate;
 using terminal::format;
 
-/// Both conventions of the trials of one group.
+/// Safety margins of the trials of one group in both conventions: relative to the grip force and to the slip force.
 struct Margins {
   std::vector<double> of_grip, of_slip;
 };
@@ -36,7 +36,7 @@ void addEstimate(const std::vector<double>& values, double confidence, std::vect
   row.push_back(cellOf(estimate ? std::optional(estimate->interval) : std::nullopt));
 }
 
-/// How the medians go along the levels of one factor.
+/// Sentence on the trend of the medians over the levels of one factor.
 std::string sentence(const std::string& by, const std::string& unit, const std::vector<std::string>& levels,
                      const std::vector<double>& medians) {
   if (medians.size() < 2) return {};

@@ -13,7 +13,7 @@ namespace {
 using svg::escape;
 using terminal::format;
 
-/// Exponents, written x^0.5, stand high.
+/// Turns exponents, written x^0.5, into superscripts.
 std::string sentenceHtml(const std::string& sentence) {
   static const std::regex exponent("\\^((?:−|-)?[0-9.]+)");
   return std::regex_replace(escape(sentence), exponent, "<sup>$1</sup>");

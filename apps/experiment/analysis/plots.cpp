@@ -22,7 +22,7 @@ double numberOf(const std::string& label) {
   return xml::readNumber(label, value) == xml::NumberKind::kFinite ? value : FacetPoint::kNone;
 }
 
-/// Levels of a name among the groups, in their order.
+/// Distinct levels of the grouping variable at `place`, in the order of the groups.
 NameList levelsAt(const std::vector<Group>& groups, std::size_t place) {
   NameList all;
   for (const Group& group : groups) {
@@ -35,7 +35,7 @@ std::size_t indexOf(const NameList& levels, const std::string& level) {
   return static_cast<std::size_t>(std::find(levels.begin(), levels.end(), level) - levels.begin());
 }
 
-/// "mass 0.2 kg"
+/// Name, level and unit, such as "mass 0.2 kg".
 std::string named(const Context& context, const std::string& name, const std::string& level) {
   const std::string unit = context.unitOf(name);
   return name + " " + level + (unit.empty() ? "" : " " + unit);
@@ -59,7 +59,7 @@ void addColorLegend(const Context& context, const std::string& name, const NameL
     figure.legend.push_back({named(context, name, levels[i]), kind, static_cast<int>(i)});
 }
 
-/// Round ticks where the levels lie, when there are few.
+/// Axis ticks at the levels when there are at most 8; otherwise empty, for ticks at round numbers.
 std::vector<double> ticksAt(const Trials& trials, const std::string& name, const std::vector<std::size_t>& rows) {
   std::vector<double> values = trials.numbersOf(name, rows);
   std::sort(values.begin(), values.end());

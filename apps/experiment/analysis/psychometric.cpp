@@ -12,7 +12,7 @@ using statistics::Interval;
 using statistics::PsychometricFunction;
 using terminal::format;
 
-/// A number, or a column that is the same in all these trials.
+/// The standard: `text` is a number, or a column with one value in all these trials.
 std::optional<double> standardOf(const std::string& text, const Trials& trials, const std::vector<std::size_t>& rows) {
   if (text.empty()) return std::nullopt;
   double value = 0;
@@ -27,7 +27,7 @@ std::string thresholdName(const wanted::Psychometric& what) {
   return "threshold_" + format("%g", 100 * what.threshold) + "_percent";
 }
 
-/// What is told of one fit, by column.
+/// The reported numbers of one fit, by column.
 using Numbers = std::map<std::string, Cell>;
 
 Numbers numbersOf(const wanted::Psychometric& what, const Context& context, const Stimulus& stimulus, const Fit& fit) {

@@ -15,7 +15,7 @@ using svg::FacetPoint;
 using svg::Layer;
 using terminal::format;
 
-constexpr std::size_t kMostFacetRows = 6;  ///< subjects; of more only all together are drawn
+constexpr std::size_t kMostFacetRows = 6;  ///< with more subjects only all together are drawn
 
 std::vector<Layer> layersOf(const wanted::Psychometric& what, const Fit& fit, int color) {
   Layer data{Layer::Kind::kSymbols, color, false, {}}, curve{Layer::Kind::kLine, color, false, {}},
@@ -60,7 +60,7 @@ std::string headOf(const wanted::Psychometric& what, const Fit& fit) {
   return head;
 }
 
-/// Where a name stands in a list, taken anew when it is not there.
+/// Index of a name in a list; the name is appended if it is missing.
 std::size_t placeOf(const std::string& name, std::vector<std::string>& names) {
   const auto found = std::find(names.begin(), names.end(), name);
   const auto place = static_cast<std::size_t>(found - names.begin());

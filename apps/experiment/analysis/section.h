@@ -9,10 +9,10 @@
 
 namespace presa::experiment::analysis {
 
-/// Nothing, words, a number, or an interval.
+/// A table cell: empty, text, a number or an interval.
 using Cell = std::variant<std::monostate, std::string, double, statistics::Interval>;
 
-/// Nothing stays nothing.
+/// A missing value becomes an empty cell.
 template <class Value>
 Cell cellOf(const std::optional<Value>& value) {
   Cell cell;
@@ -20,44 +20,44 @@ Cell cellOf(const std::optional<Value>& value) {
   return cell;
 }
 
-/// A result as people, programs and spreadsheets read it: one source for report, JSON and CSV.
+/// A result table: the one source for the HTML report, JSON and CSV.
 struct Table {
   struct Column {
     std::string name, unit{};
-    std::string format = "%.3g";  ///< of the report only; "p": a probability
+    std::string format = "%.3g";  ///< used in the report only; "p": a probability
   };
-  std::string id;  ///< of its CSV: letters, digits, underscores
+  std::string id;  ///< name of its CSV file: letters, digits, underscores
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
-  bool folded = false;  ///< long: the report shows it on demand
+  bool folded = false;  ///< a long table: the report shows it on demand
 };
 
-/// What one element of the analysis came to.
+/// The result of one element of the analysis.
 struct Section {
   std::string kind, title;
-  std::string method;                  ///< how its numbers were found, with sources
-  std::vector<std::string> finding{};  ///< in sentences
-  bool headline = true;                ///< they stand at the top of the report too
-  std::vector<std::string> notes{};    ///< what a reader must know before he believes it
+  std::string method;                  ///< how the numbers were computed, with sources
+  std::vector<std::string> finding{};  ///< sentences
+  bool headline = true;                ///< the findings are repeated at the top of the report
+  std::vector<std::string> notes{};    ///< caveats for the reader
   std::vector<Table> tables{};
   std::string figure{};          ///< HTML
   std::string figure_caption{};  ///< plain text
 };
 
-/// What every analysis works with.
+/// The input of every analysis.
 struct Context {
   const Experiment& experiment;
   const Trials& trials;
   double confidence() const { return experiment.analysis.confidence; }
   std::uint64_t seed() const { return experiment.analysis.seed; }
-  /// "mass [kg]"
+  /// Name and unit, such as "mass [kg]".
   std::string heading(const std::string& name) const;
   std::string unitOf(const std::string& name) const;
-  /// "95 %"
+  /// The confidence level, such as "95 %".
   std::string percent() const;
 };
 
-/// One function per element. Deterministic: the same data and seed, the same numbers.
+/// One function per element. Deterministic: the same data and seed give the same numbers.
 Section section(const wanted::Spearman& what, const Context& context);
 Section section(const wanted::CellMeans& what, const Context& context);
 Section section(const wanted::Margin& what, const Context& context);
@@ -73,12 +73,12 @@ Section section(const wanted::TimeCourse& what, const Context& context);
 std::string csvOf(const Table& table);
 Json jsonOf(const Section& section);
 std::string htmlOf(const Table& table);
-/// A number as `format` says; "p": as a probability.
+/// The number in printf format `format`; "p": as a probability.
 std::string numberText(double value, const std::string& format);
-/// "0.61 to 0.78"
+/// The bounds, such as "0.61 to 0.78".
 std::string intervalText(const statistics::Interval& interval, const std::string& format);
 
-/// "3 trials without F_slip_measured are left out", or nothing.
+/// Adds a note such as "3 trials without F_slip_measured are left out" to `section`, or nothing if none are left out.
 void noteIncomplete(const Context& context, const std::vector<std::string>& names, Section& section);
 
 }  // namespace presa::experiment::analysis

@@ -14,7 +14,7 @@ using terminal::format;
 
 constexpr std::size_t kSubjectDraws = 2000;
 
-/// Levels that were computed in different ways must tie: see statistics::toLevels.
+/// Levels computed in different ways must tie in rank: see statistics::toLevels.
 std::vector<double> leveled(const Context& context, const std::string& name, const std::vector<std::size_t>& rows) {
   return statistics::toLevels(context.trials.numbersOf(name, rows));
 }
@@ -35,7 +35,7 @@ std::vector<int> strataOf(const Trials& trials, const NameList& within, const st
   return strata;
 }
 
-/// One factor: all trials, then each subject's own.
+/// The correlation with one factor: over all trials, then over each subject's own.
 class OfOneFactor {
  public:
   OfOneFactor(const wanted::Spearman& what, const std::string& x, const Context& context)
@@ -55,10 +55,10 @@ class OfOneFactor {
     return found;
   }
 
-  std::optional<SpearmanTest> test;  ///< of all trials, once rows() was called
+  std::optional<SpearmanTest> test;  ///< test over all trials; set by rows()
   std::optional<statistics::PermutationTest> permutation;
 
-  /// The probability that counts: trials of one person are not independent, shuffles respect that.
+  /// The reported p value. Permutation within subjects is preferred: the trials of one person are not independent.
   double p() const { return permutation ? permutation->p : test->p; }
 
  private:

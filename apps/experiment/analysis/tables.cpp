@@ -12,7 +12,7 @@ namespace {
 
 using statistics::Interval;
 
-/// As many digits as it takes to read the same number back.
+/// Shortest text that reads back as the same number.
 std::string exact(double value) { return std::isfinite(value) ? xml::numberText(value) : "n/a"; }
 
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -45,7 +45,7 @@ Json jsonOf(const Table& table) {
   return json;
 }
 
-/// A long name may break at its underscores.
+/// Column heading; a long name may break at its underscores.
 std::string headOf(const Table::Column& column) {
   std::string out;
   for (const char c : svg::escape(headingOf(column.name, column.unit)))

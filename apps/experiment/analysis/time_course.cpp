@@ -13,7 +13,7 @@ namespace {
 
 using terminal::format;
 
-/// What figure 12 of the PERCRO paper shows of one trial.
+/// Signals of one trial, as in figure 12 of the PERCRO paper.
 struct Course {
   std::vector<double> time, finger, body, force, state;  ///< heights [m], normal force [N], ContactMode
 };
@@ -45,7 +45,8 @@ std::vector<Phase> phasesOf(const Trials::Row& row) {
   return phases;
 }
 
-/// Per phase: how long in which state, and how far the finger wandered on the body while it stuck.
+/// Per phase: share of time in each contact state, mean normal force, and the drift of the finger on the body while it
+/// stuck.
 Table checksOf(const Course& course, const std::vector<Phase>& phases) {
   Table table{"time_course",
               {{"phase"},

@@ -22,7 +22,7 @@ double numberOf(const std::string& text) {
 
 bool isDone(const LoggedRun& run) { return run.outcome == Outcome::kDone && !run.practice; }
 
-/// Fills the table run by run.
+/// Fills the table of trials run by run.
 class Collector {
  public:
   Collector(const Experiment& experiment, Trials& trials) : experiment_(experiment), trials_(trials) {
@@ -73,9 +73,9 @@ class Collector {
   }
 
   void findMissing(const SessionData& session, const std::set<int>& done, SessionCensus& census) {
-    std::map<int, std::string> why;  // of each trial that was begun or planned
+    std::map<int, std::string> why;  // state of each trial that was begun or planned
     const SessionStart& start = session.log.start;
-    if (!experiment_.procedure) {  // a method alone knows how many trials it takes
+    if (!experiment_.procedure) {  // with a procedure the number of trials is not known in advance
       for (const PlannedTrial& trial : planTrials(experiment_, start.subject.number, start.session)) {
         if (!trial.practice) why[trial.number] = census.complete ? "never begun" : "not run yet";
       }
@@ -125,7 +125,7 @@ class Collector {
   std::size_t subject_ = 0;
 };
 
-/// The levels of a name in the order in which they are to be told.
+/// The levels of a name in the order in which they are reported.
 std::vector<std::string> levelsOf(const Experiment& experiment, const Trials& trials, const std::string& name) {
   std::vector<std::string> all;
   const auto add = [&](const std::string& level) {
@@ -204,7 +204,7 @@ std::vector<SessionData> readSessions(const std::string& data) {
   std::string experiment;
   for (const SessionFolder& folder : sessionsIn(data)) {
     const Journal::Contents contents = Journal::read(folder.journal());
-    if (contents.records.empty()) continue;  // it never began
+    if (contents.records.empty()) continue;  // the session never began
     const Json& start = contents.records.front();
     sessions.push_back({folder, readLog(folder.journal(), contents.records)});
     const std::string name = start.value("experiment", "");

@@ -15,7 +15,7 @@ struct Arguments {
   std::string out;
 };
 
-/// Beside a session, within a dataset: a session's folder holds nothing but what its log names.
+/// Default output folder: inside a dataset, but beside a single session, whose folder must hold only files of its log.
 std::string outOf(const Arguments& a) {
   if (!a.out.empty()) return a.out;
   std::filesystem::path data = std::filesystem::path(a.request.data).lexically_normal();

@@ -20,7 +20,7 @@ struct ValidateArguments {
   std::string data, key;
 };
 
-/// What the lab's key says of a session that is in order; true when it says nothing against it.
+/// Checks the signature of a valid session and prints the result; false when the key disproves it.
 bool signatureGood(const SessionFolder& folder, const Verdict& verdict, const std::string& key) {
   const bool is_signed = std::filesystem::exists(folder.file(kSignatureFile));
   if (key.empty()) {
@@ -114,7 +114,7 @@ struct ForgetArguments {
   bool yes = false;
 };
 
-/// Asks on a terminal; elsewhere only --yes will do.
+/// Asks for confirmation on a terminal; without a terminal --yes is required.
 bool confirmed(const ForgetArguments& a) {
   if (a.yes) return true;
   if (::isatty(STDIN_FILENO) == 0) {

@@ -6,17 +6,17 @@
 
 namespace presa {
 
-/// `presa experiment`.
+/// Adds the command `presa experiment`.
 void addExperiment(Command app, int& status);
 
-/// Its commands, by what they work on.
+/// Its subcommands, grouped by the object that they work on.
 void addSessionCommands(Command app, int& status);  ///< dry-run, run, resume
 void addDatasetCommands(Command app, int& status);  ///< validate, key, sign, forget
 void addExport(Command app, int& status);
 void addAnalyse(Command app, int& status);
 void addSimulate(Command app, int& status);
 
-/// The argument DIR.
+/// Adds the positional argument DIR.
 void addFolder(Command command, std::string& folder);
 
 }  // namespace presa

@@ -26,7 +26,7 @@ std::size_t recordingsOf(const std::vector<SourceSession>& sessions) {
   return recordings;
 }
 
-/// What the reader of the numbers has to know.
+/// Prints the caveats that a reader of the numbers must know.
 void sayWhatItIs(const std::vector<SourceSession>& sessions, const std::string& out) {
   std::printf("%zu sessions: %s\n", sessions.size(), out.c_str());
   for (const SourceSession& session : sessions) {

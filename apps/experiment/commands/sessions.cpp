@@ -15,7 +15,7 @@ namespace {
 
 using namespace experiment;
 
-/// Who looks, and in which language the texts are.
+/// The operator's display and the language of the texts.
 struct OperatorChoice {
   std::string kind = "auto", language = "en";
 };
@@ -42,7 +42,7 @@ int dryRun(const Arguments& a) {
   return kExitOk;
 }
 
-/// On a terminal a session in real time is watched, and one that nobody has to answer runs by itself elsewhere.
+/// "auto" selects the terminal display for a real-time session on a terminal, and one line of progress otherwise.
 std::unique_ptr<Operator> operatorFor(const SubjectSession& session, const std::string& kind) {
   if (kind == "window") return windowOperator();
   const bool watched = kind == "terminal" || (kind == "auto" && session.start().realtime &&
@@ -50,7 +50,7 @@ std::unique_ptr<Operator> operatorFor(const SubjectSession& session, const std::
   return watched ? terminalOperator() : silentOperator(session.trials().left());
 }
 
-/// Runs what is left of a session and says how it ended.
+/// Runs the remaining trials of a session and prints how it ended.
 int runToEnd(SubjectSession& session, const OperatorChoice& choice) {
   SubjectSession::End end = SubjectSession::End::kStopped;
   try {
@@ -96,7 +96,7 @@ int run(const Arguments& a) {
   return runToEnd(session, a.operator_choice);
 }
 
-/// The one session below a folder that is not finished.
+/// Resumes the one unfinished session below a folder.
 int resume(const std::string& data, const OperatorChoice& choice) {
   struct Open {
     SessionFolder folder;
@@ -107,15 +107,15 @@ int resume(const std::string& data, const OperatorChoice& choice) {
   for (const SessionFolder& folder : sessionsIn(data)) {
     try {
       const Journal::Contents contents = Journal::read(folder.journal());
-      if (contents.records.empty()) continue;  // it never began: run begins it
+      if (contents.records.empty()) continue;  // the session never began; `run` begins it
       const SessionLog log = readLog(folder.journal(), contents.records);
       if (!log.complete) open.push_back({folder, log.start});
     } catch (const InputError& error) {
-      std::fputs(error.diagnostics().text().c_str(), stderr);  // the others can go on
+      std::fputs(error.diagnostics().text().c_str(), stderr);  // the other sessions can still be resumed
       unreadable = true;
     }
   }
-  if (open.empty() && unreadable) return kExitBadInput;  // whether one is left cannot be told
+  if (open.empty() && unreadable) return kExitBadInput;  // an unreadable session may be unfinished
   if (open.empty()) {
     std::printf("%s: no session is left to finish\n", data.c_str());
     return kExitOk;

@@ -16,7 +16,7 @@ namespace {
 using namespace experiment;
 namespace fs = std::filesystem;
 
-/// "2/8"
+/// Parses "2/8": shard 2 of 8.
 void takeShard(const std::string& text, StudiesPlan& plan) {
   if (text.empty()) return;
   char rest = 0;
@@ -26,7 +26,7 @@ void takeShard(const std::string& text, StudiesPlan& plan) {
            "--shard 1/4 on the first of four machines");
 }
 
-/// What was asked for, so that the same command goes on and another one does not mix with it.
+/// Writes the plan into the folder: the same command continues it, a different one is refused.
 void claimFolder(const StudiesPlan& plan, const Experiment& experiment) {
   const std::string file = plan.out + "/plan.txt";
   const std::string text = "experiment " + experiment.name + "\nseed " + std::to_string(experiment.seed) + "\nlevel " +

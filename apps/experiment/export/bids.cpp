@@ -21,7 +21,7 @@ BySubject bySubject(const std::vector<SourceSession>& sessions) {
   return subjects;
 }
 
-/// When the participant's first session began.
+/// Begin of the participant's first session [s since 1970].
 std::time_t zeroOf(const std::vector<const SourceSession*>& sessions) {
   std::time_t zero = instantOf(sessions.front()->start.value("utc", ""));
   for (const SourceSession* session : sessions) zero = std::min(zero, instantOf(session->start.value("utc", "")));

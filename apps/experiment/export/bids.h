@@ -7,11 +7,11 @@
 
 namespace presa::experiment {
 
-/// The version of the specification that the layout follows: https://bids-specification.readthedocs.io
+/// The version of the BIDS specification that the layout follows: https://bids-specification.readthedocs.io
 inline constexpr const char* kBidsVersion = "1.10.0";
 
 struct BidsOptions {
-  std::string license;               ///< empty: none was given, and the dataset says so
+  std::string license;               ///< empty: no licence given; the dataset says so
   std::vector<std::string> authors;  ///< may be empty
 };
 
@@ -24,10 +24,10 @@ using Continue = std::function<bool(const std::string&)>;
 ///   sub-S01/ses-1/sub-S01_ses-1_scans.tsv .json
 ///   sub-S01/ses-1/beh/…_task-NAME_beh.tsv .json                          one row for each trial run that ended
 ///   sub-S01/ses-1/motion/…_task-NAME_tracksys-presa_run-001_motion.tsv   one for each recording, with its .json,
-///                        …_run-001_channels.tsv, …_run-001_events.tsv      channels and phases; run-… counts recordings
-///   sourcedata/sub-S01/ses-1/experiment.xml scene.xml rig.xml            as the session began with them
-/// False when `more` ended it: nothing is left then. Throws InputError E931 (a file was altered), E933 (`out` exists), what
-/// RecordPlugin::samples throws, and std::system_error (disk full).
+///                        …_run-001_channels.tsv, …_run-001_events.tsv      its channels and phases
+///   sourcedata/sub-S01/ses-1/experiment.xml scene.xml rig.xml            the versions at the start of the session
+/// Returns false when `more` ended the export; no files are left then. Throws InputError E931 (a file was altered) and
+/// E933 (`out` exists), the exceptions of RecordPlugin::samples, and std::system_error (disk full).
 bool exportBids(const std::vector<SourceSession>& sessions, const std::string& out, const BidsOptions& options,
                 const Continue& more);
 

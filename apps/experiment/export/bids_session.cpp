@@ -24,7 +24,7 @@ constexpr std::time_t kYear1900 = -2208988800;
 std::string text(const Json& json) { return json.dump(2) + "\n"; }
 std::string seconds(double value) { return terminal::format("%.6f", value); }
 
-/// Not of the trial: in the names of the files, or a name of ours.
+/// Columns left out of the BIDS table: file names hold subject and session; `file` is a name in the source folder.
 bool leftOut(const SourceColumn& column) {
   static const std::set<std::string> kNames{"subject", "session", "file"};
   return kNames.contains(column.name);
@@ -112,7 +112,7 @@ void BidsSession::writeRecording(const LoggedRun& run, const std::string& file, 
 }
 
 void BidsSession::writeMotion(const std::string& base, const Motion& motion, const LoggedRun& run) const {
-  out_.write(base + "_motion.tsv", motion.rows('\t'));  // no header: the specification forbids one
+  out_.write(base + "_motion.tsv", motion.rows('\t'));  // the specification forbids a header
   Tsv channels({"name", "component", "type", "tracked_point", "units", "description", "reference_frame"});
   for (const Channel& one : motion.channels()) {
     const bool in_frame = one.component != kNothing;
@@ -120,7 +120,7 @@ void BidsSession::writeMotion(const std::string& base, const Motion& motion, con
                   in_frame ? "world" : kNothing});
   }
   out_.write(base + "_channels.tsv", channels.text());
-  // virtual time is exact; a real clock shows what was achieved
+  // virtual time is exact; in real time the achieved rate is ticks per wall time
   const double wall = run.end.value("wall_s", 0.0);
   const bool measured = source_.log.start.realtime && wall > 0;
   Json json = taskJson();
@@ -145,7 +145,7 @@ void BidsSession::writeEvents(const std::string& base, const Motion& motion, con
   if (!run.end.contains("phases") || run.end.at("phases").size() <= presentation) return;
   std::vector<std::pair<double, std::vector<std::string>>> events;
   for (const auto& [phase, stretch] : run.end.at("phases").at(presentation).items()) {
-    if (stretch.at(0).is_null()) continue;  // never reached
+    if (stretch.at(0).is_null()) continue;  // phase never reached
     const double begin = stretch.at(0).get<double>();
     const std::string duration = stretch.at(1).is_null() ? kNothing : seconds(stretch.at(1).get<double>() - begin);
     events.push_back({begin,

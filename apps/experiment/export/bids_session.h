@@ -7,7 +7,7 @@
 
 namespace presa::experiment {
 
-/// A table of text cells, written as BIDS asks: tabs, a header, n/a for nothing.
+/// A table of text cells in the format of BIDS: tab-separated, with a header, "n/a" for a missing value.
 class Tsv {
  public:
   explicit Tsv(const std::vector<std::string>& header) { add(header); }
@@ -18,7 +18,8 @@ class Tsv {
   std::string text_;
 };
 
-/// Instant of a log [s since 1970]. Clocks of people are not shared: dates are told from `zero`, which becomes 1900.
+/// Time of a log record [s since 1970]. Exports shift dates for privacy: the participant's first session falls into
+/// 1900.
 std::time_t instantOf(const std::string& utc);
 std::string shifted(const std::string& utc, std::time_t zero);
 
@@ -26,9 +27,9 @@ std::string shifted(const std::string& utc, std::time_t zero);
 class BidsSession {
  public:
   BidsSession(const SourceSession& source, std::time_t zero, const StagedFolder& out);
-  /// False when `more` said so.
+  /// Returns false when `more` ended the export.
   bool write(const Continue& more);
-  /// What NAME of an experiment is in file names: letters and digits.
+  /// The experiment's name as a BIDS label: letters and digits only.
   static std::string labelOf(const std::string& name);
 
  private:

@@ -24,7 +24,7 @@ std::string lineOf(const std::vector<std::string>& cells) {
 
 std::string headingOf(const SourceColumn& column) { return experiment::headingOf(column.name, column.unit); }
 
-/// Of all sessions, in the order in which they first come: another experiment may have other columns.
+/// Columns of all sessions in the order of first appearance: experiments may differ in their columns.
 std::vector<SourceColumn> allColumns(const std::vector<SourceSession>& sessions) {
   std::vector<SourceColumn> all;
   for (const SourceSession& session : sessions) {
@@ -75,7 +75,7 @@ std::string columnsJson(const std::vector<SourceColumn>& columns) {
   return json.dump(2) + "\n";
 }
 
-/// Zero: what people ask for most, or all there is.
+/// Rate of a time series [Hz]; `asked` = 0: 1000, or the haptic rate if that is lower.
 double rateOf(const Motion& motion, double asked) {
   constexpr double kUsual = 1000;
   if (asked > motion.nominalRate() * (1 + 1e-9))

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kNothing = "n/a";
 constexpr const char* kAxes = "xyz";
 
-/// The shortest text that gives the same float again.
+/// Appends the shortest text that reads back as the same float.
 void append(std::string& text, double value) {
   if (!std::isfinite(value)) {
     text += kNothing;
@@ -30,7 +30,7 @@ std::vector<double> lengths(const RecordedTable& table, const std::string& vecto
   return all;
 }
 
-/// What a device that gave no sample is said to be is not data.
+/// Replaces the values of ticks without a device sample by NaN.
 std::vector<double> whereValid(std::vector<double> values, const std::vector<double>& valid) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (valid[i] != 1) values[i] = NAN;
@@ -95,7 +95,7 @@ std::size_t Motion::count(const std::string& type) const {
 
 std::vector<std::size_t> Motion::ticksAt(double rate) const {
   std::vector<std::size_t> ticks;
-  const double slack = 1e-6 * samples_.haptic_period;  // times are sums of periods
+  const double slack = 1e-6 * samples_.haptic_period;  // times are sums of periods, with rounding errors
   std::size_t tick = 0;
   for (std::size_t k = 0;; ++k) {
     const double time = begin() + static_cast<double>(k) / rate;

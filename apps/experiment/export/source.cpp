@@ -20,7 +20,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// "mass [kg]" is mass in kg.
+/// Splits a heading such as "mass [kg]" into name and unit.
 SourceColumn columnOf(const std::string& heading, const Json& described) {
   const auto unit = described.value("Units", "");
   const std::string tail = unit.empty() ? "" : " [" + unit + "]";
@@ -40,7 +40,7 @@ void readTable(SourceSession& session) {
   for (std::size_t i = 1; i < records.size(); ++i) session.rows.push_back(records[i].cells);
 }
 
-/// Title and words from the experiment as the session began with it.
+/// Reads title, description and instructions from the session's copy of the experiment.
 void readWords(SourceSession& session) {
   Diagnostics ignored;
   const auto document = xml::Document::load(session.folder.file("experiment.xml"), ignored);
@@ -56,7 +56,7 @@ void readWords(SourceSession& session) {
 
 bool hasTrial(const SessionLog& log) { return std::any_of(log.runs.begin(), log.runs.end(), ended); }
 
-/// What the log says of files beside the recordings.
+/// Checks the logged checksums of the files other than recordings.
 void checkDocuments(const SourceSession& session) {
   for (const Json& record : {session.start, session.end}) {
     if (!record.is_object() || !record.contains("sha256")) continue;
@@ -76,7 +76,7 @@ SourceSession read(const SessionFolder& folder, const Journal::Contents& content
   return session;
 }
 
-/// File systems that ignore case must tell them apart too.
+/// Refuses sessions whose file names would collide, also on file systems that ignore case.
 void checkNames(const std::vector<SourceSession>& sessions) {
   std::map<std::string, const SourceSession*> taken;
   std::map<std::string, std::string> subjects;

@@ -26,12 +26,12 @@ int openLocked(const fs::path& folder) {
   return -1;
 }
 
-/// Half a copy of people's data must not lie about hidden.
+/// Removes the hidden folders of killed exports: partial copies of personal data must not stay behind.
 void removeLeftovers(const fs::path& parent, const std::string& prefix) {
   for (const auto& entry : fs::directory_iterator(parent)) {
     if (!entry.path().filename().string().starts_with(prefix) || entry.is_symlink()) continue;
     const int lock = openLocked(entry.path());
-    if (lock < 0) continue;  // its process is at work
+    if (lock < 0) continue;  // locked: its process is still running
     fs::remove_all(entry.path());
     ::close(lock);
   }
@@ -72,7 +72,7 @@ void StagedFolder::write(const std::string& name, const std::string& text) const
 void StagedFolder::publish() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  fs::permissions(hidden_, static_cast<fs::perms>(0777 & ~mask));  // mkdtemp makes it for its owner alone
+  fs::permissions(hidden_, static_cast<fs::perms>(0777 & ~mask));  // mkdtemp creates the folder with mode 0700
   if (::renameat2(AT_FDCWD, hidden_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0)
     refuse(933, target_.string(), std::string("cannot be made: ") + std::strerror(errno));
   hidden_.clear();

@@ -4,8 +4,8 @@
 
 namespace presa::experiment {
 
-/// A new folder that appears under its name only when it is whole. Until then it lies beside it, hidden; what a killed process
-/// left there is removed by the next one that makes the same folder. Thread: main.
+/// A new folder that gets its name only when it is complete. Until then it is a hidden folder beside the target. Hidden
+/// folders of killed processes are removed when the same target is staged again. Thread: main.
 class StagedFolder {
  public:
   /// Throws InputError E933 when `target` exists or cannot be made.
@@ -14,9 +14,9 @@ class StagedFolder {
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
-  /// Writes a file; its folders are made. Throws std::system_error.
+  /// Writes a file and creates its parent folders. Throws std::system_error.
   void write(const std::string& name, const std::string& text) const;
-  /// Gives it its name. Throws InputError E933 when somebody else has made `target` meanwhile.
+  /// Renames the hidden folder to `target`. Throws InputError E933 when `target` has been created meanwhile.
   void publish();
 
  private:

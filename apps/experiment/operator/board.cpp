@@ -49,7 +49,7 @@ void addWatch(const SessionView::Watch& watch, std::size_t columns, Board& board
                    watch.value < watch.line ? Style::kWarning : Style::kPlain});
 }
 
-/// Cuts at characters, not at bytes of one.
+/// Cuts the text to `columns` characters (UTF-8).
 std::string cut(const std::string& text, std::size_t columns) {
   std::size_t seen = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -76,7 +76,7 @@ std::vector<std::string> levelPlot(const std::vector<psychophysics::Trial>& answ
   constexpr std::size_t kAxis = 10;
   const std::size_t shown = std::min(answers.size(), columns - kAxis);
   const auto first = answers.end() - static_cast<std::ptrdiff_t>(shown);
-  double least = 0, most = 0;  // the standard is always in it
+  double least = 0, most = 0;  // the range always contains the standard (level 0)
   for (auto one = first; one != answers.end(); ++one) {
     least = std::min(least, one->stimulus.level);
     most = std::max(most, one->stimulus.level);

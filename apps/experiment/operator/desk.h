@@ -8,26 +8,26 @@
 
 namespace presa::experiment {
 
-/// The operator's side of a session: what is shown, what he wants, rests and notes. Thread: main.
+/// The session's interface to the operator: fills the display, takes requests, handles rests and notes. Thread: main.
 class Desk {
  public:
   using Wish = Operator::Wish;
-  /// `note`: where a note goes that he has written.
+  /// `note` is called with each note of the operator.
   Desk(const Experiment& experiment, const SessionStart& start, std::string language, Operator& person,
        std::function<void(const std::string&)> note);
 
-  /// Before the first trial: what the participant is told. False: the session is to stop.
+  /// Shows the participant's instructions before the first trial. False: the session is to stop.
   bool welcome();
-  /// A trial begins; `source` offers it.
+  /// Call when a trial begins; `source` is the source of the trials.
   void begin(const PlannedTrial& trial, const TrialSource& source);
-  /// Now and then while it goes on, at its time [s].
+  /// Call repeatedly during the trial with its time [s].
   void look(double time);
-  /// The trial is to end now: skip, repeat or stop. kNone: it goes on.
+  /// The operator's request to end the trial now: skip, repeat or stop. kNone: the trial continues.
   Wish ending() const noexcept { return ending_; }
-  /// The trial has ended. Waits where there is a pause or a rest; false: the session is to stop.
+  /// Call when a trial has ended. Waits for the end of a pause or rest. False: the session is to stop.
   bool between(const std::string& what, const TrialSource& source);
 
-  /// Where the haptic thread writes; null when nobody looks.
+  /// The values that the haptic thread writes; null when there is no display.
   TrialLive* live() noexcept { return person_.silent() ? nullptr : &live_; }
   Operator& person() noexcept { return person_; }
   const std::string& language() const noexcept { return language_; }
@@ -47,8 +47,8 @@ class Desk {
   bool pause_ = false, practice_ = false;
   std::int64_t begin_ns_;
   std::size_t ended_ = 0;        // trials since begin_ns_
-  std::size_t since_rest_ = 0;   // trials that count
-  double least_ = 0, each_ = 0;  // length of a trial [s]: at least; of those that ended, with all between them
+  std::size_t since_rest_ = 0;   // trials since the last rest, without practice
+  double least_ = 0, each_ = 0;  // duration of a trial [s]: min; mean of the ended ones, breaks included
 };
 
 }  // namespace presa::experiment

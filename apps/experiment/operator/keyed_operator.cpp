@@ -73,10 +73,10 @@ class KeyedOperator final : public Operator {
   void ended(const std::string& what) override { view_.last = what; }
 
  private:
-  /// Nobody can answer any more.
+  /// True after Ctrl-C or when the display is closed.
   bool gone() const { return terminal::Interruption::came() || face_->closed(); }
 
-  /// One of `allowed`; 0: the operator stops.
+  /// Waits for one of the keys `allowed`; 0: the operator stops.
   char answer(const std::string& question, const std::string& allowed) {
     prompt_ = question;
     for (;;) {

@@ -8,36 +8,36 @@
 
 namespace presa::experiment {
 
-/// The person who runs a session: what is shown, what is asked for, what is written down. Hidden from the participant, who sees the
-/// scene alone. Thread: main.
+/// The person who runs a session: sees its state, requests pauses and stops, writes notes. The participant sees only
+/// the scene. Thread: main.
 class Operator {
  public:
   enum class Wish { kNone, kPause, kRepeat, kSkip, kStop };
 
   virtual ~Operator() = default;
 
-  /// Cheap, to be called often: shows when it is time.
+  /// Updates the display when it is due. Cheap: call it often.
   virtual void show(const SessionView& view) = 0;
-  /// What was asked for since the last call; kPause is for after the trial.
+  /// The request made since the last call. kPause takes effect after the trial.
   virtual Wish wish() = 0;
-  /// A note that was written since; it goes into the log.
+  /// The note written since the last call; it goes into the log.
   virtual std::optional<std::string> takeNote() { return std::nullopt; }
-  /// Waits between trials, for at least `seconds`, until the operator goes on: kNone, or kStop.
+  /// Waits between trials, for at least `seconds`, until the operator continues. Returns kNone or kStop.
   virtual Wish await(const std::string& why, double seconds) = 0;
-  /// The participant's answer, 1 or 2; none: the operator stops.
+  /// The participant's answer, 1 or 2; no value: the operator stops the session.
   virtual std::optional<int> ask(const std::string& question) = 0;
   virtual std::optional<psychophysics::AdjustmentKey> askAdjust(const std::string& question) = 0;
-  /// One trial has ended.
+  /// Called when a trial has ended.
   virtual void ended(const std::string& what) = 0;
-  /// Nobody is there to be asked.
+  /// True when there is no person to ask.
   virtual bool silent() const { return false; }
 };
 
-/// One line of progress; nothing is asked, Ctrl-C stops. `jobs`: trials to come.
+/// Shows one line of progress and asks no questions; Ctrl-C stops. `jobs`: number of trials to come.
 std::unique_ptr<Operator> silentOperator(std::size_t jobs);
-/// The whole screen of a terminal, with keys. E953 when there is none.
+/// Uses the whole screen of the terminal, and its keys. E953 without a terminal.
 std::unique_ptr<Operator> terminalOperator();
-/// The same in a window of its own, for a second screen. E703 without a display.
+/// The same in a separate window, for a second screen. E703 without a display.
 std::unique_ptr<Operator> windowOperator();
 
 }  // namespace presa::experiment

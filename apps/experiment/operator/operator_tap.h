@@ -12,18 +12,18 @@
 
 namespace presa::experiment {
 
-/// What the operator sees of a trial that goes on. Written by the haptic thread, read by the main thread; each value is whole, the set
-/// may mix two ticks.
+/// Live values of the running trial for the operator. Written by the haptic thread, read by the main thread. Each value
+/// is atomic; the set may mix two ticks.
 struct TrialLive {
-  std::vector<std::string> roles;                                     ///< of the fingers, written before the run
-  std::atomic<double> time{0}, phase_begin{0}, watch{0}, clipped{0};  // [s], but for watch
+  std::vector<std::string> roles;                                     ///< roles of the fingers, written before the run
+  std::atomic<double> time{0}, phase_begin{0}, watch{0}, clipped{0};  // [s], except `watch`
   std::atomic<std::size_t> phase{0};
   std::atomic<bool> device_lost{false};
   std::array<std::atomic<double>, kMaxFingers> force{};  // normal [N]
   std::array<std::atomic<std::int32_t>, kMaxFingers> mode{};
 };
 
-/// In the graph only when somebody looks. Thread: haptic; nonblocking.
+/// Writes TrialLive every tick. In the graph only when there is a display. Thread: haptic; nonblocking.
 class OperatorTap final : public Module {
  public:
   OperatorTap(const Trial& trial, const Experiment& experiment, TrialLive& live)

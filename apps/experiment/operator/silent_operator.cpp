@@ -9,7 +9,7 @@ class SilentOperator final : public Operator {
   explicit SilentOperator(std::size_t jobs) : progress_(jobs), left_(jobs) {}
 
   void show(const SessionView& view) override {
-    if (view.left > left_) progress_.more(view.left - left_);  // a trial comes again
+    if (view.left > left_) progress_.more(view.left - left_);  // a trial is repeated
     left_ = view.left;
     if (view.seconds_left >= 0) progress_.expect(view.seconds_left);
     progress_.show();

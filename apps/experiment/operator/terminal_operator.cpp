@@ -13,7 +13,7 @@ namespace {
 
 using terminal::Style;
 
-/// The other screen of a terminal; all as it was afterwards.
+/// The alternate screen of a terminal; the destructor restores the terminal.
 class Screen final : public Face {
  public:
   Screen() : color_(wantsColor(stderr)) {

@@ -28,7 +28,7 @@ struct Key {
   auto operator<=>(const Key&) const = default;
 };
 
-/// Numbers of all studies by what they are; in the order of their first appearance.
+/// Numbers of all studies, grouped by their name, in the order of first appearance.
 class Collection {
  public:
   void add(int study, const analysis::Result& result) {
@@ -64,7 +64,7 @@ class Collection {
     for (const Cell& cell : row) {
       const auto* word = std::get_if<std::string>(&cell);
       if (word == nullptr) continue;
-      if (subjects.contains(*word)) return;  // of one person: another one in each study
+      if (subjects.contains(*word)) return;  // numbers of single subjects are not comparable between studies
       name += (name.empty() ? "" : " ") + *word;
     }
     for (std::size_t c = 0; c < row.size() && c < table.columns.size(); ++c) {
@@ -87,7 +87,7 @@ class Collection {
     for (const double value : sorted) spread.mean += value / n;
     for (const double value : sorted) spread.sd += (value - spread.mean) * (value - spread.mean);
     spread.sd = sorted.size() > 1 ? std::sqrt(spread.sd / (n - 1)) : 0;
-    const auto quantile = [&](double share) {  // linear between order statistics
+    const auto quantile = [&](double share) {  // linear interpolation between order statistics
       const double at = share * (n - 1);
       const auto i = static_cast<std::size_t>(at);
       const double next = i + 1 < sorted.size() ? sorted[i + 1] : sorted[i];

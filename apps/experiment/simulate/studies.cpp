@@ -43,7 +43,7 @@ std::string lastLineOf(const std::string& file) {
   return last;
 }
 
-/// The processes that run now.
+/// The running worker processes.
 class Workers {
  public:
   explicit Workers(const StudiesPlan& plan) : plan_(plan) {}
@@ -72,7 +72,7 @@ class Workers {
     int status = 0;
     std::string subject, log;
   };
-  /// One that has ended, if any has.
+  /// A process that has ended, if there is one.
   std::optional<Ended> reap() {
     int status = 0;
     const pid_t id = ::waitpid(-1, &status, WNOHANG);

@@ -5,37 +5,37 @@
 
 namespace presa::experiment {
 
-/// Many studies of an experiment, each with simulated subjects of its own: what to expect before any person comes.
+/// Many simulated studies of an experiment, each with its own simulated subjects, to plan the real study.
 struct StudiesPlan {
   std::string experiment_file;
-  std::string level;  ///< of the simulated subjects; empty: as the rig says
+  std::string level;  ///< level of the simulated subjects; empty: the rig's
   std::string rig_file;
   int subjects = 3, studies = 1;
-  int jobs = 0;               ///< sessions at once; 0: one per processor
-  int shard = 1, shards = 1;  ///< this machine runs every `shards`-th session, from `shard` on
-  bool recordings = false;    ///< keep every haptic tick too
+  int jobs = 0;               ///< parallel sessions; 0: one per processor
+  int shard = 1, shards = 1;  ///< this machine runs every `shards`-th session, beginning with `shard`
+  bool recordings = false;    ///< record every haptic tick
   std::string out;
 };
 
-/// One session of them, in OUT/study-NNN/sub-NN/ses-1.
+/// One session of a study, in OUT/study-NNN/sub-NN/ses-1.
 struct StudySession {
   int study = 0, subject = 0;
   std::string data;  ///< folder of the study
   std::string subject_id;
-  std::uint64_t seed = 0;  ///< of the experiment in this study
+  std::uint64_t seed = 0;  ///< seed of the experiment in this study
 };
 
-/// All sessions of this shard. The first study has the experiment's own seed, the next ones those after it.
+/// All sessions of this shard. Study k (from 0) has the seed `first_seed` + k.
 std::vector<StudySession> sessionsOf(const StudiesPlan& plan, std::uint64_t first_seed);
 
 struct StudiesOutcome {
-  std::size_t complete = 0, found = 0;  ///< `found`: complete already before
-  std::vector<std::string> failed;      ///< what each said at its end
+  std::size_t complete = 0, found = 0;  ///< `found`: complete before this call
+  std::vector<std::string> failed;      ///< last output of each failed session
   bool interrupted = false;
 };
 
-/// Runs what is not complete yet, each session in a process of its own so that one that fails takes no other with it. A session that
-/// was cut off is resumed. Progress on stderr; Ctrl-C stops, the same command goes on.
+/// Runs the incomplete sessions, each in its own process so that a failure stays isolated. Interrupted sessions are
+/// resumed. Progress goes to stderr; Ctrl-C stops, and the same command continues later.
 StudiesOutcome runStudies(const StudiesPlan& plan, const std::vector<StudySession>& sessions);
 
 }  // namespace presa::experiment

@@ -9,10 +9,10 @@
 namespace presa::cost {
 namespace {
 
-// engines other than the scene's are there to compare with: they know no fingers, so none can be a default
+// other engines serve only for comparison: they do not support fingers, so none can be a default
 constexpr const char* kEngineKnob = "engine";
 
-/// Comparable in this metric: has an error and a cost.
+/// True when the outcome has an error in this metric and a cost.
 bool shown(const Outcome& outcome, const std::string& metric) {
   return outcome.failure.empty() && outcome.timed() && outcome.error.contains(metric);
 }
@@ -24,7 +24,7 @@ std::optional<double> numeric(const std::string& text) {
   return value;
 }
 
-/// The one knob in which two settings differ; null when there are none or several.
+/// The only knob in which two settings differ; null when they differ in none or several.
 const std::string* onlyDifference(const Setting& a, const Setting& b) {
   const std::string* found = nullptr;
   for (std::size_t k = 0; k < a.choices.size() && k < b.choices.size(); ++k) {
@@ -86,7 +86,7 @@ std::vector<KnobGain> knobGains(const Result& result, const std::string& metric)
   std::vector<KnobGain> gains;
   if (result.outcomes.empty() || !shown(result.outcomes.front(), metric)) return gains;
   const Outcome& usual = result.outcomes.front();
-  // a factor of an error that the reference itself does not know says nothing
+  // an error ratio is meaningless when the error is below the uncertainty of the reference
   const double known = std::max(kRounding, result.resolution(metric) / 10);
   const Spread cost = usual.perSecond();
   for (const Outcome& other : result.outcomes) {
@@ -100,7 +100,7 @@ std::vector<KnobGain> knobGains(const Result& result, const std::string& metric)
                   changed.median / cost.median,
                   other.error.at(metric) / usual.error.at(metric),
                   std::nullopt};
-    // a change within the spread of the repeats is no change
+    // a change within the spread of the repeats does not count
     const bool apart = changed.low > cost.high || changed.high < cost.low;
     if (apart && std::abs(std::log(gain.cost_ratio)) > 0.05 && gain.error_ratio > 0)
       gain.per_double_cost = std::pow(gain.error_ratio, std::log(2.0) / std::log(gain.cost_ratio));

@@ -6,37 +6,36 @@
 
 #include "apps/studies/cost/result.h"
 
-/// What the numbers of a study say.
+/// Analysis of a study's results: Pareto front, gain per knob, the cheapest settings.
 namespace presa::cost {
 
-/// Indices of the outcomes that no other beats in both error and cost, by rising cost. Errors below the reference's
-/// resolution count as equal to it.
+/// Pareto front of error and cost: indices of the outcomes that no other outcome beats in both, by rising cost. Errors
+/// below the reference's resolution count as equal to it.
 using CostOf = Spread (Outcome::*)() const;
 std::vector<std::size_t> paretoFront(const Result& result, const std::string& metric,
                                      CostOf cost = &Outcome::perSecond);
 
-/// How far the default is from the front: 1 is on it.
+/// Distance of the default setting from the Pareto front, as ratios; 1: on the front.
 struct FrontDistance {
-  double cost = 1;              ///< its cost over that of the cheapest setting that is as accurate
-  double error = 1;             ///< its error over that of the most accurate setting that costs no more
+  double cost = 1;              ///< its cost over the cost of the cheapest setting at least as accurate
+  double error = 1;             ///< its error over the error of the most accurate setting that costs no more
   std::size_t as_accurate = 0;  ///< index of that cheapest setting
   std::size_t as_cheap = 0;     ///< index of that most accurate setting
-  /// The lesser way to the front; where one of the two is no way at all, because a cheaper setting is just as accurate or a
-  /// more accurate one costs just as much, the other.
+  /// The smaller of the two ratios; if one of them is 1, the other.
   double least() const { return cost > 1 && error > 1 ? std::min(cost, error) : std::max(cost, error); }
 };
-/// Against the settings of the default's own engine: the others know no fingers and are there to compare with.
-/// Nothing when the default has no error or cost in this metric.
+/// Distance of the default, among the settings with its engine; other engines do not support fingers and serve only for
+/// comparison. No value when the default has no error or cost in this metric.
 std::optional<FrontDistance> distanceToFront(const Result& result, const std::string& metric);
-/// A default that is farther than this from the front, in cost and in error, should be another.
+/// A default farther than this from the front, in cost and in error, should be replaced.
 inline constexpr double kNearFront = 1.3;
 
-/// What going from the default to one other value of one knob does.
+/// Effect of changing one knob from its default to another value.
 struct KnobGain {
   std::string knob, from, to;
-  double cost_ratio = 1;   ///< of processor time
-  double error_ratio = 1;  ///< below 1: better
-  /// Error for twice the cost over error now, along this knob; nothing where the cost does not measurably change.
+  double cost_ratio = 1;   ///< ratio of processor time
+  double error_ratio = 1;  ///< below 1: more accurate
+  /// Extrapolated error ratio for twice the cost along this knob; no value when the cost does not change measurably.
   std::optional<double> per_double_cost;
 };
 std::vector<KnobGain> knobGains(const Result& result, const std::string& metric);
@@ -47,13 +46,14 @@ std::optional<std::size_t> cheapestBelow(const Result& result, const std::string
 /// Index of the cheapest setting below the just-noticeable difference in every metric that has one.
 std::optional<std::size_t> cheapestUnfelt(const Result& result);
 
-/// Least-squares slope of log(error) over log(value) of a numeric knob, all else as in the default, times -1.
+/// Observed order of convergence: minus the least-squares slope of log(error) over log(value) of a numeric knob, with
+/// all other knobs at their defaults.
 std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& knob);
 
-/// The report's last words, one text per rule that has something to say.
+/// The sentences at the end of the report: at most one per rule.
 std::vector<std::string> sentences(const Result& result);
 
-/// "0.0123 N"
+/// Number and unit, such as "0.0123 N".
 std::string withUnit(double value, const std::string& unit);
 
 }  // namespace presa::cost

@@ -3,7 +3,7 @@
 
 namespace presa {
 
-/// `presa cost`.
+/// Adds the command `presa cost`.
 void addCost(Command app, int& status);
 
 }  // namespace presa

@@ -31,13 +31,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTooLong = "it took too long";
 constexpr int kWatched = -1;
-constexpr int kCounted = 1000;  ///< instructions are kept beside the repeats
+constexpr int kCounted = 1000;  ///< pseudo repeat number of the run that counts instructions
 
-/// One run to make: of a setting, or of a level of the reference.
+/// One run to do: of a setting, or of a level of the reference.
 struct Task {
   std::vector<std::string> sets;
   std::uint64_t hash = 0;
-  int repeat = kWatched;  ///< of timed runs: which
+  int repeat = kWatched;  ///< kWatched, kCounted, or the index of a timed run
 };
 
 int workersOf(const DriverOptions& options) {
@@ -159,7 +159,7 @@ StudySpec Driver::spec(const Task& task) const {
   return spec;
 }
 
-// a job leaves its result on disk: what it returns is only why it could not
+// A job saves its result on disk; it returns text only on failure.
 void Driver::work(const std::vector<Task>& tasks, int workers, const std::string& what) {
   std::vector<Task> missing;
   std::set<std::pair<std::uint64_t, int>> planned;
@@ -201,7 +201,7 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
   for (const JobResult& job : results) stopped_ = stopped_ || job.outcome == JobResult::Outcome::kNotRun;
 }
 
-// The reference is refined until its own uncertainty is small beside the smallest error that the report shows.
+// Refines the reference until its own uncertainty is small compared with the smallest error in the report.
 void Driver::watchAll() {
   std::vector<Task> tasks;
   for (std::size_t level = 0; level < std::min<std::size_t>(2, study_.reference.size()); ++level)
@@ -239,7 +239,7 @@ void Driver::timeAll(int repeat) {
       tasks.push_back(task);
   }
   if (repeat == kCounted) return work(tasks, options_.workers, "instructions");
-  work(tasks, 1, "time");  // one at a time: two runs would share the cache that they are measured by
+  work(tasks, 1, "time");  // one at a time: parallel runs would share the cache and disturb the timing
 }
 
 void Driver::compare(std::size_t levels) {
@@ -280,7 +280,7 @@ void Driver::compare(std::size_t levels) {
   reference.fine_enough = allResolved();
 }
 
-/// Whether every error shown is known to a tenth.
+/// True when the reference resolves every error in the report to a tenth.
 bool Driver::allResolved() const {
   for (const std::string& name : result_.metrics) {
     for (const Outcome& outcome : result_.outcomes) {

@@ -6,16 +6,16 @@
 namespace presa::cost {
 
 struct DriverOptions {
-  int workers = 0;  ///< of the watched runs, 0: one per processor; timed runs go one at a time
+  int workers = 0;  ///< parallel watched runs, 0: one per processor; timed runs run one at a time
   bool resume = false;
-  bool instructions = false;  ///< count them too, with valgrind
+  bool instructions = false;  ///< count instructions too, with valgrind
 };
 
-/// Runs a study (Study::folder must be there), with its progress on stderr. Throws InputError for bad input before any work. Ctrl-C gives an incomplete
-/// result that says so; the runs that ended are kept.
+/// Runs a study with progress on stderr. Study::folder must exist. Throws InputError for bad input before any work.
+/// After Ctrl-C the result is incomplete and marked as interrupted; finished runs are kept on disk.
 Result runStudy(const Study& study, const DriverOptions& options);
 
-/// Whether files can be written there: E803 when not. Makes the folder.
+/// Creates the folder and checks that it is writable: otherwise E803.
 void checkFolder(const std::string& folder, Diagnostics& diagnostics);
 
 }  // namespace presa::cost

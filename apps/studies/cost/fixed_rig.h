@@ -5,8 +5,8 @@
 
 namespace presa::cost {
 
-/// The rig as an XML text in which no finger's damping depends on the rates any more: what the scene as it stands asks
-/// for is written down, so that every setting has the same hands. Empty without devices.
+/// The rig as XML text with the damping of every finger fixed at its value for the unmodified scene. Automatic damping
+/// depends on the rates; fixed damping gives every setting the same hands. Empty without devices.
 std::string rigWithFixedDamping(const Loaded& base);
 
 }  // namespace presa::cost

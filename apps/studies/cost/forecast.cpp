@@ -10,7 +10,8 @@ void Forecast::done(Run run, double seconds) {
   if (seconds >= 0) took_[key] = seconds;
 }
 
-// a kind of which no run has ended yet: a counted run takes fifty times as long as a plain one
+// Expected duration of a run [s]; negative: unknown. Before the first counted run has ended, a counted run is assumed
+// to take fifty times as long as a watched one.
 double Forecast::expected(const Key& key) const {
   if (const auto same = took_.find(key); same != took_.end()) return same->second;
   double sum = 0, watched = 0, all = 0;

@@ -5,11 +5,12 @@
 
 namespace presa::cost {
 
-/// How long the rest of a study will take, from what its runs have taken so far. A timed run is expected to take as long
-/// as the timed run of the same setting before, else as its watched run in the proportion seen so far.
+/// Forecast of the remaining time of a study from the durations of its runs so far. The expected duration of a timed
+/// run is that of the previous timed run of the same setting, or else that of its watched run times the mean ratio so
+/// far.
 class Forecast {
  public:
-  /// What is still to be made: watched and counted runs by `workers` at a time, timed runs one at a time.
+  /// Watched and counted runs run `workers` at a time, timed runs one at a time.
   explicit Forecast(int workers) : workers_(workers) {}
   enum class Kind { kWatched, kTimed, kCounted };
   struct Run {
@@ -17,9 +18,9 @@ class Forecast {
     std::uint64_t setting = 0;
   };
   void add(Run run) { ++left_[{run.setting, run.kind}]; }
-  /// One of the runs added is there; `seconds` < 0: it was there already.
+  /// One of the added runs is finished, after `seconds`; `seconds` < 0: its result existed already.
   void done(Run run, double seconds);
-  /// [s]; negative as long as nothing is known.
+  /// Remaining time [s]; negative while it is unknown.
   double left() const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace presa::cost {
 
-/// Of texts, each ended by a zero so that "ab" "c" is not "a" "bc".
+/// Hash of a sequence of texts. Each text is terminated by a zero so that "ab" "c" and "a" "bc" differ.
 class Hash {
  public:
   void add(const std::string& text) {

@@ -14,7 +14,7 @@ namespace {
 
 struct KnownKnob {
   const char* name;
-  const char* path;  ///< "device/*/…" stands for every device
+  const char* path;  ///< "device/*/…": every device
 };
 
 constexpr KnownKnob kKnobs[] = {
@@ -61,7 +61,7 @@ Checked checkScene(const Inputs& inputs, const std::vector<std::string>& sets) {
   return checked;
 }
 
-/// "1/4" or "0.25": part of the triangles; 0: neither.
+/// Parses a fraction of the triangles, "1/4" or "0.25"; 0: not a fraction in (0, 1].
 double partOf(const std::string& text) {
   char* end = nullptr;
   double part = std::strtod(text.c_str(), &end);
@@ -69,7 +69,7 @@ double partOf(const std::string& text) {
   return *end == '\0' && part > 0 && part <= 1 ? part : 0;
 }
 
-/// Haptic meshes of every body with fewer triangles.
+/// The knob that replaces the haptic meshes of all bodies by decimated ones.
 Knob meshKnob(const std::vector<std::string>& values, const Scene& scene, const std::string& folder,
               const SourceLocation& where, Diagnostics& diagnostics) {
   Knob knob{kMeshKnob, {}};
@@ -98,7 +98,7 @@ Knob meshKnob(const std::vector<std::string>& values, const Scene& scene, const 
   return knob;
 }
 
-/// Index of each knob's value in one combination.
+/// All combinations, each with the index of every knob's value; SIZE_MAX: the scene's own value.
 std::vector<std::vector<std::size_t>> combinations(const std::vector<Knob>& knobs, Combine combine) {
   constexpr std::size_t kNone = SIZE_MAX;
   std::vector<std::vector<std::size_t>> all;
@@ -150,7 +150,7 @@ std::string withSortedAttributes(const std::string& line) {
   return out + (begin == std::string::npos ? "" : line.substr(begin));
 }
 
-/// The parts of the scene in an order that does not depend on which of them the file left out.
+/// The parts of the scene in sorted order, so that it does not matter which defaults the file left out.
 std::vector<std::string> sortedParts(const std::string& resolved_xml) {
   std::vector<std::string> parts{""};
   std::istringstream lines(resolved_xml);
@@ -210,12 +210,12 @@ Knob makeKnob(const std::string& name, const std::vector<std::string>& values, c
 
 void addSettings(Study& study, const std::vector<Knob>& knobs, Combine combine, Diagnostics& diagnostics) {
   const Checked base = checkScene(study.inputs, {});
-  if (base.diagnostics.hasErrors()) return;  // the caller has told
+  if (base.diagnostics.hasErrors()) return;  // reported by the caller
   if (study.settings.empty()) {
     Setting& first = study.settings.emplace_back();
     first.scene_hash = base.hash;
   }
-  // a value is wrong when no combination with it is right
+  // a value is an error only if every combination with it is
   std::map<std::pair<std::size_t, std::size_t>, Diagnostics> why;
   std::set<std::pair<std::size_t, std::size_t>> good;
   for (const std::vector<std::size_t>& combination : combinations(knobs, combine)) {
@@ -279,7 +279,7 @@ void nameSettings(Study& study) {
   for (Setting& setting : study.settings) {
     const std::map<std::string, std::string> chosen(setting.choices.begin(), setting.choices.end());
     setting.choices.clear();
-    std::vector<std::string> needed;  // only what differs from the scene as it stands
+    std::vector<std::string> needed;  // only the sets that differ from the scene
     for (const Knob& knob : study.knobs) {
       const auto found = chosen.find(knob.name);
       const std::string& value = found == chosen.end() ? usual[knob.name] : found->second;
@@ -310,7 +310,7 @@ std::vector<Knob> defaultKnobs(const Loaded& base, const std::string& folder, bo
   std::vector<Knob> knobs;
   const auto add = [&](const char* name, const std::vector<std::string>& values) {
     Knob knob = makeKnob(name, values, scene, folder, {}, ignored);
-    // rates that do not fit the scene's others are none of the user's wishes
+    // skip values incompatible with the scene's other rates; the user did not ask for them
     std::erase_if(knob.values, [&](const KnobValue& value) {
       return checkScene({scene.file, "", {}}, value.sets).diagnostics.hasErrors();
     });

@@ -13,7 +13,7 @@
 namespace presa::cost {
 namespace {
 
-/// What one reading of the clock adds to a measured tick [s].
+/// Min time that reading the clock adds to a measured tick [s].
 double clockCost() {
   std::int64_t least = std::numeric_limits<std::int64_t>::max();
   for (int i = 0; i < 2000; ++i) {
@@ -38,7 +38,7 @@ std::string quotedForShell(const std::string& text) {
   return out + "'";
 }
 
-/// All instructions of one run from start to end.
+/// Number of instructions of one whole run.
 double callgrind(const StudySpec& spec, double duration) {
   const std::string program = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "presa").string();
   std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null " + quotedForShell(program) +
@@ -88,7 +88,7 @@ Timing timeRun(const StudySpec& spec) {
 }
 
 double countInstructions(const StudySpec& spec) {
-  constexpr double kStart = 0.01;  // [s] simulated: all start-up and next to nothing else
+  constexpr double kStart = 0.01;  // simulated [s]: all start-up and almost nothing else
   const double duration = StudyRun(spec).duration();
   return (callgrind(spec, duration) - callgrind(spec, kStart)) / (duration - kStart);
 }

@@ -5,17 +5,17 @@
 
 namespace presa::cost {
 
-/// One run of a setting watched closely: accuracy, not time. Throws InputError for bad input.
+/// Runs a setting and collects its accuracy figures; not for timing. Throws InputError for bad input.
 Evidence watch(const StudySpec& spec, const Study& study);
 
-/// What free bodies that touch nothing do, on the same grid.
+/// The analytic motion of free bodies without contact, on the same time grid.
 Evidence analyticAnswer(const StudySpec& spec);
 
-/// One run of a setting that nobody watches: time and memory.
+/// Runs a setting without observers and measures time and memory.
 Timing timeRun(const StudySpec& spec);
 
-/// Instructions per simulated second of the whole program, start-up taken off, as valgrind counts them: the cost that is the
-/// same on a busy machine. Throws std::runtime_error when valgrind is missing or fails.
+/// Instructions of the whole program per simulated second, without start-up, counted by valgrind: a cost that does not
+/// depend on the load of the machine. Throws std::runtime_error when valgrind is missing or fails.
 double countInstructions(const StudySpec& spec);
 
 }  // namespace presa::cost

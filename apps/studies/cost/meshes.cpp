@@ -20,8 +20,8 @@ std::string objText(const TriMesh& mesh) {
   return text;
 }
 
-/// Writes the coarser mesh. Collapsing edges may leave one with three triangles, which no scene takes; some triangles fewer,
-/// and it is another edge's turn.
+/// Writes the decimated mesh. Edge collapses may leave an edge with three triangles, which the importer rejects; retry
+/// then with slightly fewer triangles.
 TriMesh decimated(const TriMesh& source, const Decimation& wanted) {
   constexpr int kTries = 20;
   const double count = wanted.part * static_cast<double>(source.triangles.size());

@@ -13,7 +13,7 @@ double distance(const double (&a)[3], const double (&b)[3]) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// Calls `use` with the rows of both traces at each instant that both have, inside the setting's compared window.
+/// Calls `use` with the rows of both traces at each common instant inside the setting's compared window.
 void atCommonTimes(const Evidence& setting, const Evidence& reference,
                    const std::function<void(std::size_t, std::size_t)>& use) {
   const auto& a = setting.trace.time_ns;
@@ -31,7 +31,7 @@ void atCommonTimes(const Evidence& setting, const Evidence& reference,
   }
 }
 
-/// Root of the mean square, and the largest.
+/// Accumulates RMS and maximum.
 struct Sum {
   double squares = 0, largest = 0;
   std::size_t count = 0;
@@ -44,7 +44,8 @@ struct Sum {
   Value peak() const { return count > 0 ? Value(largest) : std::nullopt; }
 };
 
-/// The worst finger's.
+/// The largest value over the fingers of `result` of `error`, over the instants at which both touch (`both_touch`) or
+/// at least one touches.
 Value fingers(const Evidence& s, const Evidence& r, double (*error)(const FingerSample&, const FingerSample&),
               bool both_touch, Value (Sum::*result)() const) {
   std::vector<Sum> sums(s.trace.fingers);
@@ -64,7 +65,8 @@ Value fingers(const Evidence& s, const Evidence& r, double (*error)(const Finger
   return worst;
 }
 
-/// The worst finger's difference of what the devices hold, at every tick of the reference: a slow rate holds what is old.
+/// RMS difference of the forces that the devices hold, at every tick of the reference, of the worst finger. A setting
+/// with a slow rate holds old forces.
 Value held(const Evidence& s, const Evidence& r, bool in_steps) {
   const Trace &a = s.trace, &b = r.trace;
   if (a.fingers != b.fingers || a.held_from_ns.empty()) return std::nullopt;
@@ -77,7 +79,7 @@ Value held(const Evidence& s, const Evidence& r, bool in_steps) {
     for (std::size_t f = 0; f < sums.size(); ++f) {
       const auto &x = a.held[i * sums.size() + f], &y = b.held[j * sums.size() + f];
       const double difference = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]), force = std::hypot(y[0], y[1], y[2]);
-      if (difference == 0 && force == 0) continue;  // neither touches
+      if (difference == 0 && force == 0) continue;  // no contact in either run
       sums[f].add(in_steps ? difference / (kForceStep * std::max(force, kLeastForce)) : difference);
     }
   }
@@ -88,7 +90,8 @@ Value held(const Evidence& s, const Evidence& r, bool in_steps) {
   return worst;
 }
 
-/// Over all free bodies and the instants at which a step of the setting's dynamics ends: between them readers interpolate.
+/// RMS over all free bodies and the instants at the end of a dynamics step of the setting; poses between them are
+/// interpolated.
 Value bodies(const Evidence& s, const Evidence& r, double (*error)(const BodySample&, const BodySample&)) {
   Sum sum;
   const std::size_t n = s.trace.bodies;
@@ -108,7 +111,7 @@ double forceSteps(const FingerSample& a, const FingerSample& b) {
 double proxyError(const FingerSample& a, const FingerSample& b) { return 1e3 * distance(a.proxy, b.proxy); }
 double positionError(const BodySample& a, const BodySample& b) { return 1e3 * distance(a.p, b.p); }
 double angleError(const BodySample& a, const BodySample& b) {
-  // |q_a - ± q_b| = 2 sin(angle / 4): exact where the scalar product would round small angles away
+  // |q_a - (± q_b)| = 2 sin(angle / 4): accurate for small angles, which the scalar product would lose to rounding
   double minus = 0, plus = 0;
   for (int k = 0; k < 4; ++k) {
     minus += (a.q[k] - b.q[k]) * (a.q[k] - b.q[k]);
@@ -117,7 +120,7 @@ double angleError(const BodySample& a, const BodySample& b) {
   return 4 * std::asin(std::min(1.0, 0.5 * std::sqrt(std::min(minus, plus)))) * 180 / M_PI;
 }
 
-/// Mean normal force of each finger in the steady window, while it touches; -1: never.
+/// Mean normal force [N] of each finger in the steady window while in contact; -1: no contact.
 std::vector<double> grips(const Evidence& e) {
   std::vector<double> sum(e.trace.fingers, 0), count(e.trace.fingers, 0);
   for (std::size_t i = 0; i < e.trace.time_ns.size(); ++i) {
@@ -147,7 +150,7 @@ Value difference(const Value& a, const Value& b, double unit = 1) {
 }
 Value scaled(const Value& a, double unit) { return a ? Value(unit * *a) : std::nullopt; }
 
-/// A tenth of the force that the reference gives, RMS over contact.
+/// Just-noticeable difference [N]: a tenth of the reference's force, RMS over contact.
 Value forceNoticeable(const Evidence& r) {
   Sum worst;
   for (const FingerSample& sample : r.trace.finger) {
@@ -166,7 +169,7 @@ Value slipNoticeable(const Evidence& r) {
   return r.slip_force ? Value(kForceStep * std::max(*r.slip_force, kLeastForce)) : std::nullopt;
 }
 Value oneStep(const Evidence&) { return 1; }
-// pinch aperture without looking [Ho1996]
+// just-noticeable difference of pinch aperture without vision [mm] [Ho1996]
 Value apertureNoticeable(const Evidence&) { return 0.4; }
 Value none(const Evidence&) { return std::nullopt; }
 

@@ -7,16 +7,17 @@
 
 namespace presa::cost {
 
-/// An error that a person can judge.
+/// An error metric in units that a person can judge.
 struct Metric {
-  std::string name;   ///< as in --metric
-  std::string title;  ///< "Force, RMS error"
+  std::string name;   ///< name for --metric
+  std::string title;  ///< such as "Force, RMS error"
   std::string unit;
   std::string meaning;
-  /// The error of a setting; nothing where the scene has none. Absolute metrics do not look at the reference.
+  /// The error of a setting; no value when the metric does not apply to the scene. Absolute metrics ignore the
+  /// reference.
   std::optional<double> (*error)(const Evidence& setting, const Evidence& reference) = nullptr;
-  bool absolute = false;  ///< zero would be right, whatever the reference says
-  /// Just-noticeable difference in the metric's unit; nothing where none is known.
+  bool absolute = false;  ///< the right value is zero, independent of the reference
+  /// Just-noticeable difference in the metric's unit; no value when it is unknown.
   std::optional<double> (*noticeable)(const Evidence& reference) = nullptr;
 };
 
@@ -24,9 +25,9 @@ const std::vector<Metric>& allMetrics();
 const Metric* findMetric(const std::string& name);
 std::vector<std::string> metricNames();
 
-/// Force that one can just tell from another, as a part of it [Pang1991, Jones1992: 7 to 10 %].
+/// Weber fraction of force [Pang1991, Jones1992: 7 to 10 %].
 inline constexpr double kForceStep = 0.10;
-/// Weber's law ends near the threshold: no step is smaller than that of this force [N].
+/// Below this force [N], near the threshold, Weber's law fails: steps are computed as at this force.
 inline constexpr double kLeastForce = 0.5;
 
 }  // namespace presa::cost

@@ -11,7 +11,7 @@
 namespace presa::cost {
 namespace {
 
-/// NAME=v1,v2
+/// Parses NAME=v1,v2.
 Knob parseKnob(const std::string& text, const Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
   const SourceLocation where{"--knob " + text, 0, 0};
   const std::size_t equals = text.find('=');
@@ -72,7 +72,7 @@ std::vector<SentenceRule> defaultSentences(const Study& study) {
   return rules;
 }
 
-/// One free body and nothing that it could touch: its motion is known.
+/// True for a single free body without any other body or finger to touch: its motion is known analytically.
 bool isAlone(const Loaded& base) {
   const auto& bodies = base.world->scene.bodies;
   const bool solid =
@@ -85,7 +85,7 @@ bool isAlone(const Loaded& base) {
 void chooseFolder(const Request& request, Study& study) {
   const std::string folder = request.out.empty() ? "cost_" + study.name : request.out;
   study.folder = std::filesystem::absolute(folder).lexically_normal().string();
-  input::allowFolder(study.folder);  // for the meshes that the study makes
+  input::allowFolder(study.folder);  // allows reading the meshes that the study writes
 }
 
 Study planStudy(const Request& request, Diagnostics& diagnostics) {
@@ -134,7 +134,7 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
     for (const std::string& text : request.knobs) grid.push_back(parseKnob(text, scene, study.folder, diagnostics));
     std::erase_if(grid, [](const Knob& knob) { return knob.values.empty(); });
   }
-  if (base.world->scene.bodies.empty()) return study;  // not readable: said above
+  if (base.world->scene.bodies.empty()) return study;  // unreadable scene: reported above
   if (grids.empty()) {
     addSettings(study, defaultKnobs(base, study.folder, request.quick), Combine::kOneAtATime, diagnostics);
   } else {

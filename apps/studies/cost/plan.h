@@ -6,28 +6,29 @@
 
 namespace presa::cost {
 
-/// What the command line says.
+/// The command line's request.
 struct Request {
   std::string input{};  ///< a scene, or a study file
   std::string rig{};
   std::vector<std::string> sets{}, knobs{}, metrics{};
   std::string out{};       ///< folder; empty: cost_NAME
-  double duration = 0;     ///< 0: as the study says, else to the end of the script
-  std::uint64_t seed = 0;  ///< 0: as the study says, else 1
+  double duration = 0;     ///< simulated [s]; 0: the study's, or to the end of the script
+  std::uint64_t seed = 0;  ///< 0: the study's, or 1
   bool quick = false;
 };
 
-/// The study asked for, checked: every finding at once. Unusable when `diagnostics` has errors. Runs nothing.
+/// Plans and checks the requested study; all errors go to `diagnostics` at once, and the result is unusable if there
+/// are any. Runs nothing.
 Study planStudy(const Request& request, Diagnostics& diagnostics);
 
-/// Where the results go, from the request and the study's name.
+/// Sets Study::folder, the folder of the results, from the request and the study's name.
 void chooseFolder(const Request& request, Study& study);
 
-/// Reads a study file into `study`: all but settings. Its knob grids are returned.
+/// Reads a study file into `study`, except the settings, and returns its knob grids.
 std::vector<std::vector<Knob>> readStudyFile(const std::string& file, const Request& request, Study& study,
                                              Diagnostics& diagnostics);
 
-/// Whether the file's root element says that it is a study.
+/// True when the file looks like a study file by its root element.
 bool isStudyFile(const std::string& file);
 
 }  // namespace presa::cost

@@ -28,7 +28,7 @@ std::string setOptions(const std::vector<std::string>& sets) {
   return out;
 }
 
-/// The error, or what it is known to be below.
+/// The error, or its upper bound when the reference does not resolve it.
 std::string claimText(const Result& result, const Outcome& outcome, const std::string& metric) {
   return (result.resolved(outcome, metric) ? "" : "≲ ") +
          format("%.3g", result.resolved(outcome, metric) ? outcome.error.at(metric) : result.resolution(metric));
@@ -58,7 +58,7 @@ std::string gains(const Result& result) {
          out;
 }
 
-/// Cost and the line to paste of a chosen setting.
+/// Table cells of a chosen setting: costs, and its --set options to paste.
 std::vector<std::string> chosenCells(const Result& result, std::optional<std::size_t> index) {
   if (!index) return {"none", "", ""};
   const Outcome& best = result.outcomes[*index];

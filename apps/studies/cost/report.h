@@ -5,7 +5,7 @@
 
 namespace presa::cost {
 
-/// The study as one HTML page that stands alone.
+/// The study as one self-contained HTML page.
 std::string reportHtml(const Result& result);
 
 }  // namespace presa::cost

@@ -17,7 +17,7 @@ RestWatch::RestWatch(const World& world, const Evidence& evidence)
   }
 }
 
-// from the poses at both ends of the step: velocities mean different things in different engines
+// Uses the poses at both ends of the step, because engines define velocities differently.
 double RestWatch::kineticEnergy(const ObjectState& objects) const {
   const double span = objects.time_end - objects.time_begin;
   double energy = 0;
@@ -33,7 +33,7 @@ double RestWatch::kineticEnergy(const ObjectState& objects) const {
 }
 
 void RestWatch::observe(const ObjectState& objects) {
-  if (!(objects.time_end > objects.time_begin)) return;  // the state before the first step
+  if (!(objects.time_end > objects.time_begin)) return;  // state before the first step
   last_.clear();
   for (const std::size_t i : free_) last_.push_back(objects.bodies[i].X_WB_end.p);
   const bool compared = objects.time_end >= compared_from_ && objects.time_end < compared_to_;

@@ -7,16 +7,16 @@
 
 namespace presa::cost {
 
-/// What bodies that lie on each other do: overlap, keep moving, stray, fall out. From poses alone, so that every engine is
-/// judged alike. Give it every dynamics step, in order.
+/// Measures resting bodies: overlap of boxes, residual kinetic energy, drift, bodies that fell out of the scene. Uses
+/// poses only, so that all engines are judged alike. Call observe() with every dynamics step, in order.
 class RestWatch {
  public:
-  /// The windows are those of `evidence`.
+  /// `evidence` provides the time windows.
   RestWatch(const World& world, const Evidence& evidence);
   void observe(const ObjectState& objects);
-  /// Writes penetration, rest_energy and rest_drift where the scene has them.
+  /// Writes penetration, rest_energy and rest_drift if they apply to the scene.
   void finish(Evidence& evidence) const;
-  /// First body that lies below everything fixed now; empty: none.
+  /// Name of the first body that is now below all fixed boxes; empty: none.
   std::string lost() const;
 
  private:
@@ -26,7 +26,7 @@ class RestWatch {
   PenetrationCheck check_;
   double compared_from_, compared_to_, steady_from_, steady_to_;
   std::vector<std::size_t> free_;
-  std::vector<Vec3> start_, last_;  ///< positions by free_: where the steady window began, and now
+  std::vector<Vec3> start_, last_;  ///< positions in the order of free_: at the start of the steady window, and now [m]
   double overlap_ = 0, deepest_ = 0, energy_ = 0, drift_ = 0;
   std::size_t pairs_ = 0, steps_ = 0, compared_ = 0;
 };

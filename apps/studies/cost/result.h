@@ -9,20 +9,20 @@
 
 namespace presa::cost {
 
-/// Errors that never exceed this, in whatever unit, are rounding: such a metric has nothing to show in this scene.
+/// Errors up to this value, in any unit, are rounding: a metric without larger errors is dropped.
 inline constexpr double kRounding = 1e-9;
 
-/// A figure from repeated runs.
+/// Median and range of a figure over repeated runs.
 struct Spread {
   double median = 0, low = 0, high = 0;
 };
 
-/// What became of one setting.
+/// Results of one setting.
 struct Outcome {
   Setting setting;
-  std::string failure;                  ///< why there is no error to show; empty: there is
+  std::string failure;                  ///< why the setting has no errors; empty: it has
   std::map<std::string, double> error;  ///< by metric
-  std::vector<Timing> timings;          ///< one per repeat; empty when it could not be run
+  std::vector<Timing> timings;          ///< one per repeat; empty when the setting could not be run
 
   double instructions = 0;  ///< per simulated second; 0: not counted
 
@@ -34,31 +34,31 @@ struct Outcome {
   Spread memory() const;  ///< [B]
 };
 
-/// Everything a report says. `outcomes` are as Study::settings.
+/// All data of a report. `outcomes` are in the order of Study::settings.
 struct Result {
   Study study;
   std::vector<Outcome> outcomes;
   struct Reference {
-    bool fine_enough = false;                ///< residual below a tenth of the smallest error shown, in every metric
-    std::vector<std::string> sets;           ///< of the finest level used
-    std::map<std::string, double> residual;  ///< by metric: difference of the two finest levels
+    bool fine_enough = false;                ///< residual below a tenth of the smallest error, in every metric
+    std::vector<std::string> sets;           ///< sets of the finest level used
+    std::map<std::string, double> residual;  ///< by metric: error of the second finest level against the finest
     std::map<std::string, double> noticeable;
   } reference;
-  /// A decimated mesh and how far its surface is from the original's.
+  /// A decimated mesh and the distance of its surface from the original.
   struct Mesh {
     std::string body, value;
     std::size_t source_triangles = 0, triangles = 0;
     double hausdorff = 0;  ///< [file units]
   };
   std::vector<Mesh> meshes;
-  /// Errors below this, ten residuals of the reference, are not known to a tenth; 0: all are known.
+  /// Ten times the reference's residual: smaller errors are not known to a tenth. 0: all errors are.
   double resolution(const std::string& metric) const;
-  /// True when the outcome's error is known so, or when it has none.
+  /// True when the outcome's error is known to a tenth, or when it has no error.
   bool resolved(const Outcome& outcome, const std::string& metric) const;
-  /// The outcome's error, at least the resolution: what may be claimed.
+  /// The outcome's error, but at least the resolution.
   double claimed(const Outcome& outcome, const std::string& metric) const;
-  std::vector<std::string> metrics;                          ///< those that the scene has, in the study's order
-  std::vector<std::pair<std::string, std::string>> machine;  ///< for the fine print
+  std::vector<std::string> metrics;                          ///< metrics that apply to the scene, in the study's order
+  std::vector<std::pair<std::string, std::string>> machine;  ///< facts about the machine
   std::string command;
   bool interrupted = false;
 };

@@ -8,7 +8,9 @@
 
 namespace presa::cost {
 
-/// Unsteadiness of one finger's force that the dynamics rate leaves in it.
+/// Estimates the disturbance of one finger's force by the dynamics rate: step() is the RMS second difference of the
+/// force [N] at ticks with a new object state (boundaries); hum() is the amplitude [N] at the dynamics rate, from a
+/// Hann-weighted Fourier sum. Only ticks in contact within [from, to) [s] count.
 class Ripple {
  public:
   Ripple(double from, double to, double hum_hz) : from_(from), to_(to), omega_(2 * std::numbers::pi * hum_hz) {}
@@ -26,7 +28,7 @@ class Ripple {
     before_ = last_;
     last_ = force;
     ++run_;
-    // a Hann window keeps the slow part of the force out of the hum
+    // Hann window: keeps the slow part of the force out of the hum
     const double sine = std::sin(std::numbers::pi * (time - from_) / (to_ - from_));
     weight_ += sine * sine;
     sum_ += sine * sine * std::polar(1.0, -omega_ * time) * force;

@@ -37,7 +37,7 @@ bool RunStore::hasTiming(std::uint64_t scene_hash, int repeat) const {
 void RunStore::save(std::uint64_t scene_hash, const Evidence& evidence) const {
   const std::string name = base(scene_hash);
   if (evidence.failure.empty()) evidence.trace.save(name + ".trace");
-  writeFileAtomically(name + ".json", toJson(evidence).dump());  // last: it says that the trace is there
+  writeFileAtomically(name + ".json", toJson(evidence).dump());  // last: this file implies that the trace exists
 }
 
 void RunStore::save(std::uint64_t scene_hash, int repeat, const Timing& timing) const {

@@ -6,11 +6,11 @@
 
 namespace presa::cost {
 
-/// The runs of a study on disk, so that an interrupted one goes on. Every file appears whole or not at all; its name is
-/// a hash of all that decides the run's result.
+/// Stores the runs of a study on disk, so that an interrupted study can continue. Files are written atomically and
+/// named by a hash of everything that determines the run's result.
 class RunStore {
  public:
-  /// `common`: what all runs share (rig, motions, seed, duration, version).
+  /// `common`: hash of the inputs shared by all runs (rig, motions, seed, duration, version).
   RunStore(std::string folder, std::uint64_t common) : folder_(std::move(folder)), common_(common) {}
 
   bool hasEvidence(std::uint64_t scene_hash) const;

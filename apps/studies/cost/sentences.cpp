@@ -16,7 +16,7 @@ bool has(const Outcome& outcome, const std::string& metric) {
   return outcome.failure.empty() && outcome.error.contains(metric);
 }
 
-/// A ratio over several pairs: geometric mean and range.
+/// Ratio over several pairs: geometric mean and range.
 struct Ratio {
   double log_sum = 0, low = INFINITY, high = 0;
   int count = 0;
@@ -40,7 +40,7 @@ std::optional<double> number(const std::string& text) {
   return status == std::errc{} && rest == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-/// The settings by all knobs but one, and there by that knob's value.
+/// Outcomes grouped by the values of all knobs but one, then by that knob's value.
 using Lines = std::map<std::string, std::map<std::string, const Outcome*>>;
 Lines linesAlong(const Result& result, const std::string& knob) {
   Lines lines;
@@ -111,7 +111,7 @@ std::string halving(const Result& result, const SentenceRule& rule) {
     }
     std::sort(values.begin(), values.end());
     for (std::size_t i = 0; i + 1 < values.size(); ++i) {
-      // each pair as if the value had been doubled
+      // scale each pair to a doubling of the value
       const double power = std::log(2.0) / std::log(values[i + 1].first / values[i].first);
       const Outcome &coarse = *values[i].second, &fine = *values[i + 1].second;
       error.add(std::pow(coarse.error.at(rule.metric) / fine.error.at(rule.metric), power));

@@ -6,16 +6,16 @@
 
 #include "framework/session/load_world.h"
 
-/// A study of what accuracy costs in time: one scene, many settings, each compared with a much finer reference.
+/// A study of accuracy against computing time: one scene, many settings, each compared with a much finer reference.
 namespace presa::cost {
 
-/// A mesh with fewer triangles, to be made before the first run.
+/// A decimated mesh, to be written before the first run.
 struct Decimation {
   std::string body, source, file;
-  double part = 1;  ///< of the source's triangles
+  double part = 1;  ///< fraction of the source's triangles
 };
 
-/// One value of a knob: its name and what it sets.
+/// One value of a knob: its name and the overrides that it sets.
 struct KnobValue {
   std::string name;
   std::vector<std::string> sets;  ///< PATH=VALUE
@@ -27,47 +27,49 @@ struct Knob {
   std::vector<KnobValue> values;
 };
 
-/// One way to run the scene.
+/// One combination of knob values for the scene.
 struct Setting {
-  std::string name;                                          ///< "dynamics_rate 500, coupling explicit" or "default"
-  std::vector<std::pair<std::string, std::string>> choices;  ///< value of every knob of the study, in its order
-  std::vector<std::string> sets;                             ///< beyond Study::inputs
-  std::string impossible;                                    ///< why the scene cannot be run so; empty: it can
-  std::uint64_t scene_hash = 0;                              ///< of the scene with these sets and every default
+  std::string name;                                          ///< "dynamics_rate 500, coupling explicit", or "default"
+  std::vector<std::pair<std::string, std::string>> choices;  ///< value of every knob, in the study's order
+  std::vector<std::string> sets;                             ///< overrides in addition to those of Study::inputs
+  std::string impossible;                                    ///< why the scene rejects this setting; empty: it does not
+  std::uint64_t scene_hash = 0;                              ///< hash of the scene with these sets and all defaults
 };
 
-/// A sentence that a report ends with, written from its numbers.
+/// Rule for a sentence at the end of the report, made from its numbers.
 struct SentenceRule {
   enum class Kind { kBelow, kHalving, kCompare, kCheapest, kFront, kFailures };
   Kind kind = Kind::kBelow;
   std::string metric{};  ///< name; empty for kFailures
-  std::string knob{};    ///< of kHalving and kCompare
-  std::string a{}, b{};  ///< values of the knob, of kCompare
-  double limit = 0;      ///< of kBelow and kCheapest, in the metric's unit; 0: the just-noticeable difference
+  std::string knob{};    ///< for kHalving and kCompare
+  std::string a{}, b{};  ///< for kCompare: values of the knob
+  double limit = 0;      ///< for kBelow and kCheapest, in the metric's unit; 0: the just-noticeable difference
 };
 
-/// A stretch of a run; a time [s] or the name of a scripted phase at whose start it begins or ends. Empty: all of it.
+/// Time window of a run. Each bound is a time [s] or the name of a scripted phase, whose start is meant. Empty:
+/// unbounded.
 struct Window {
   std::string from, to;
 };
 
 struct Study {
   std::string name, title, description;
-  std::string file;    ///< of the study; empty: made from a scene
-  std::string folder;  ///< for results, absolute
+  std::string file;    ///< the study file; empty: a sweep of a scene
+  std::string folder;  ///< folder for results, absolute path
   Inputs inputs;
   double duration = 0;  ///< simulated [s]; 0: to the end of the script
   std::uint64_t seed = 1;
   int repeats = 5;  ///< timed runs of each setting
   Window compared{"", "loosen"};
   Window steady{"hold", "loosen"};
-  /// What errors are measured from: finer and finer runs; the known answer of free bodies that touch nothing; or
-  /// nothing, where every metric would be zero in a perfect run (a pile is chaotic: no run is its reference).
+  /// The reference of the errors. kRefined: a sequence of finer runs; kAnalytic: the analytic motion of free bodies
+  /// without contact; kNone: only metrics that are zero in a perfect run (a pile is chaotic: no run can be its
+  /// reference).
   enum class Reference { kRefined, kAnalytic, kNone };
   Reference reference_kind = Reference::kRefined;
-  std::vector<std::vector<std::string>> reference;  ///< of kRefined: sets of each level, coarse to fine; at least two
-  std::vector<Knob> knobs;                          ///< all that vary
-  std::vector<Setting> settings;                    ///< the first is the scene as it stands
+  std::vector<std::vector<std::string>> reference;  ///< for kRefined: sets of each level, coarse to fine; at least two
+  std::vector<Knob> knobs;                          ///< all knobs that vary
+  std::vector<Setting> settings;                    ///< the first is the unmodified scene
   std::vector<std::string> metrics;                 ///< names, see metrics.h
   std::vector<SentenceRule> sentences;
 };

@@ -21,7 +21,7 @@ const xml::Schema& schema() {
   return compiled;
 }
 
-/// The file that an attribute names, if it may.
+/// Path of the file that an attribute names, relative to the study file; checked for permission to read it.
 std::string beside(const Element& root, const std::string& attribute, Diagnostics& diagnostics) {
   const std::filesystem::path folder = std::filesystem::path(root.where().file).parent_path();
   const std::string path = root.attribute(attribute);
@@ -139,7 +139,7 @@ void readHead(const Element& root, const std::string& file, const Request& reque
 }  // namespace
 
 bool isStudyFile(const std::string& file) {
-  input::Refusal refusal;  // who reads it whole says what is wrong
+  input::Refusal refusal;  // ignored: reading the whole file reports the problem
   const auto in = input::open(file, xml::Document::kMaxBytes, refusal);
   std::string start(4096, '\0');
   start.resize(
@@ -163,7 +163,7 @@ std::vector<std::vector<Knob>> readStudyFile(const std::string& file, const Requ
                         "a reference needs at least two levels, found " + std::to_string(study.reference.size()),
                         "what two levels differ by is how well the reference is known");
   }
-  Diagnostics scene_findings;  // told when the study is planned
+  Diagnostics scene_findings;  // ignored: reported by planStudy()
   const Loaded base = loadWorld(study.inputs, {}, scene_findings);
   std::vector<std::vector<Knob>> grids;
   for (const Element& grid : root.children("grid")) {

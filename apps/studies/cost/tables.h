@@ -5,9 +5,9 @@
 
 namespace presa::cost {
 
-/// The whole result for programs.
+/// The whole result as JSON.
 std::string toJsonText(const Result& result);
-/// One row per setting: knobs, errors, costs, failure.
+/// CSV with one row per setting: knobs, errors, costs, failure.
 std::string toCsv(const Result& result);
 
 }  // namespace presa::cost

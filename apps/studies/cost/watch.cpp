@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kGridNs = 1'000'000;
 
-/// Time of a window's edge: a number, a phase of the script, or `fallback`.
+/// Time of a window's bound [s]: a number, or the start of a scripted phase, or `fallback`.
 double edge(StudyRun& run, const std::string& text, double fallback) {
   if (text.empty()) return fallback;
   double value = 0;
@@ -66,9 +66,9 @@ class Watcher {
     addSlip();
     if (!free_.empty()) {
       evidence_.energy_created = ledger_.created();
-      if (ripples_.empty()) evidence_.energy_drift = ledger_.drift();  // friction takes what hands put in
+      if (ripples_.empty()) evidence_.energy_drift = ledger_.drift();  // with fingers, friction dissipates their work
     }
-    const bool hears = rates_.divisor(RateGroup::kDynamics) > 2;  // else the haptic rate is too low to carry it
+    const bool hears = rates_.divisor(RateGroup::kDynamics) > 2;  // otherwise the haptic rate is too low for the hum
     rest_->finish(evidence_);
     for (const Ripple& ripple : ripples_) {
       if (const auto step = ripple.step()) evidence_.force_step = std::max(evidence_.force_step.value_or(0), *step);
@@ -164,7 +164,7 @@ Evidence watch(const StudySpec& spec, const Study& study) {
 }
 
 Evidence analyticAnswer(const StudySpec& spec) {
-  StudyRun run(spec);  // for its world and its length
+  StudyRun run(spec);  // loaded only for its world and duration
   const auto world = std::make_shared<const World>(run.world());
   FreeMotion motion(world);
   Evidence evidence;

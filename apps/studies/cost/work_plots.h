@@ -5,10 +5,10 @@
 
 namespace presa::cost {
 
-/// Error over cost, a pair of plots for every metric, as a section of the page.
+/// A section of the report: plots of error over cost, a pair for every metric.
 std::string workPlots(const Result& result);
 
-/// The plot of the metric that the study's first sentence is about, as an SVG file; empty: there is none.
+/// The plot for the metric of the study's first sentence, as the text of an SVG file; empty: none.
 std::string frontPicture(const Result& result);
 
 }  // namespace presa::cost

@@ -3,7 +3,7 @@
 
 namespace presa {
 
-/// `presa device faults` and `presa device periods`.
+/// Add the commands `presa device faults` and `presa device periods`.
 void addFaults(Command device, int& status);
 void addPeriods(Command device, int& status);
 

@@ -25,10 +25,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<double, 3> kPercentiles{0.5, 0.99, 0.999};
-constexpr std::size_t kDraws = 4000;  // of the bootstrap
+constexpr std::size_t kDraws = 4000;  // bootstrap resamples
 constexpr double kLevel = 0.95;
 
-/// Ticks of the processor's clock that other machines on this one's host took so far.
+/// Steal time so far, in clock ticks of /proc/stat: time that the host gave to other virtual machines.
 std::int64_t stolen() {
   std::ifstream stat("/proc/stat");
   std::string word;
@@ -48,7 +48,7 @@ Loaded load(const std::string& scene, double seconds) {
   return loaded;
 }
 
-/// One run, in a process of its own: percentiles of the haptic period [us].
+/// Does one run and returns the percentiles of its haptic period [us] as JSON. Called in a process of its own.
 std::string oneRun(const std::string& scene, double seconds) {
   Run run(load(scene, seconds), {.quiet = true, .command = "presa device periods"});
   const std::int64_t before = stolen();
@@ -62,9 +62,9 @@ std::string oneRun(const std::string& scene, double seconds) {
   return result.dump();
 }
 
-using Values = std::array<std::vector<double>, 2>;  // by scene
+using Values = std::array<std::vector<double>, 2>;  // one vector per scene
 
-/// Ratio of medians, second over first, of as many runs drawn with replacement.
+/// Bootstrap interval of the ratio of medians, second scene over first.
 std::optional<statistics::Interval> ratioInterval(const Values& values, RandomStream& random) {
   std::vector<double> ratios;
   Values drawn = values;
@@ -123,7 +123,7 @@ std::vector<Json> runInTurn(const PeriodsOptions& options) {
 }  // namespace
 
 int comparePeriods(const PeriodsOptions& options) {
-  for (const std::string& scene : options.scenes) load(scene, options.seconds);  // refused before any run
+  for (const std::string& scene : options.scenes) load(scene, options.seconds);  // a bad scene throws here
   if (const std::string refused = realtimeRights().fifo; !refused.empty())
     refuse(469, "presa device periods", "without SCHED_FIFO a period says nothing of the scene: " + refused,
            "as root, or with rtprio in limits.conf");

@@ -18,9 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kBlock = 50;  // runs of one process
+constexpr int kBlock = 50;  // runs per process
 
-/// A block of runs of one fault, as text through a pipe.
+/// Does a block of runs of one fault; returns the worst figures as JSON, for the pipe to the parent process.
 std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int count) {
   Json block{{"runs", 0},   {"broken", 0}, {"reason", ""},   {"detection", -1.0},
              {"zero", 0.0}, {"step", 0.0}, {"beyond", -1.0}, {"discarded", Json::array()}};
@@ -46,7 +46,7 @@ std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int coun
 
 void add(const JobResult& result, int count, Row& row) {
   if (result.outcome != JobResult::Outcome::kDone) {
-    if (result.outcome == JobResult::Outcome::kCrashed) row.watched = false;  // how the watch ends a run
+    if (result.outcome == JobResult::Outcome::kCrashed) row.watched = false;  // the transport watch crashes the run
     row.runs += count;
     row.broken += count;
     if (row.reason.empty()) row.reason = result.text.empty() ? "did not end" : result.text;
@@ -99,10 +99,10 @@ std::vector<Fault> chosen(const RunnerOptions& options) {
 }  // namespace
 
 int runFaults(const RunnerOptions& options) {
-  experimentFile("faults/hold.xml");  // refused once, not by every run
+  experimentFile("faults/hold.xml");  // throws here if the file is missing, rather than in every run
   const std::vector<Fault> faults = chosen(options);
   const std::vector<Block> blocks = blocksOf(faults, options.runs);
-  ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);  // of every run, and of the supervisors that it starts
+  ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);  // inherited by all runs and by the supervisors that they start
   terminal::JobProgress progress(blocks.size());
   JobOptions job_options;
   job_options.workers = options.jobs;

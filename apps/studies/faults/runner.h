@@ -8,27 +8,27 @@
 namespace presa::faults {
 
 struct RunnerOptions {
-  int runs = 1000;  ///< of each fault
+  int runs = 1000;  ///< per fault
   std::uint64_t seed = 1;
-  std::string only;  ///< part of a fault's name; empty: all
-  std::string out;   ///< folder; empty: nothing is written
-  int jobs = 0;      ///< processes at a time; 0: as many as there are processors
+  std::string only;  ///< substring of fault names; empty: all
+  std::string out;   ///< output folder; empty: none
+  int jobs = 0;      ///< parallel processes; 0: one per processor
 };
 
-/// The worst of all runs of one fault.
+/// The worst figures over all runs of one fault.
 struct Row {
   Fault fault;
   int runs = 0;
-  Outcome worst;             ///< largest of each; `broken` holds the first few reasons
-  double energy_beyond = 0;  ///< most given to the hand beyond what sampling may add [J]
-  int broken = 0;            ///< runs that broke a bound or a requirement
-  std::string reason;        ///< of the first
+  Outcome worst;             ///< largest value of each figure
+  double energy_beyond = 0;  ///< max energy given to the hand beyond the allowance for sampling [J]
+  int broken = 0;            ///< runs that violated a bound or a requirement
+  std::string reason;        ///< reason of the first such run
   std::vector<std::string>
-      discarded;        ///< runs of which nobody could tell when the fault came: why, each with its figure
-  bool watched = true;  ///< no force of any run broke one of the four invariants (device/transport_watch.h)
+      discarded;        ///< runs discarded because the time of the fault is unknown: their reasons, with figures
+  bool watched = true;  ///< no run violated one of the four invariants (device/transport_watch.h)
 };
 
-/// Runs them in processes of their own; returns the exit status. Throws InputError.
+/// Runs the faults in separate processes and returns the exit status. Throws InputError.
 int runFaults(const RunnerOptions& options);
 
 nlohmann::ordered_json toJson(const std::vector<Row>& rows);

@@ -9,7 +9,7 @@ namespace {
 
 using terminal::format;
 
-/// "3.0 (3)": worst and bound in milliseconds; "–" where there is nothing to measure.
+/// Worst value and bound in milliseconds, such as "3.0 (3)"; "–" without a bound.
 std::string milliseconds(double worst, double bound) {
   if (!(bound > 0)) return "–";
   return worst < 0 ? "never" : format("%.1f (%g)", 1e3 * worst, 1e3 * bound);
@@ -37,7 +37,7 @@ std::vector<std::string> cellsOf(const Row& row) {
           row.broken == 0 ? "0" : format("%d: %s", row.broken, row.reason.c_str())};
 }
 
-/// "12 more do not count" with the reason of each; empty where every run did.
+/// Number of discarded runs with their reasons; empty when all runs count.
 std::string discardedText(const Row& row, const char* line_end) {
   if (row.discarded.empty()) return {};
   std::string text = format("row %d: %zu more runs do not count, for nobody knows when their fault came:%s",

@@ -10,8 +10,8 @@
 namespace presa::stability {
 namespace {
 
-constexpr std::size_t kFigures = 2;  // a case
-/// What diverges leaves the picture at this many times the span of Presa's curve.
+constexpr std::size_t kFigures = 2;  // per case
+/// Divergent curves are cut off at this many times the span of Presa's curve.
 constexpr double kSpan = 2.0;
 
 struct Pair {
@@ -41,7 +41,7 @@ std::vector<Pair> pairsOf(const Case& c, const std::vector<Row>& rows) {
   return pairs;
 }
 
-/// The curve at the given places, each by the nearest of its points.
+/// The curve at the given x, by its nearest point; NaN outside of its range.
 std::vector<double> sampledAt(const Curve& curve, const std::vector<double>& x) {
   std::vector<double> y;
   for (const double at : x) {

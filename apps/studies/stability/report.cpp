@@ -42,7 +42,7 @@ std::string cell(const std::string& text, const std::string& css = {}) {
 
 std::string tallyCell(const Tally& t) { return cell(t.text(), t.all == 0 ? "" : t.stable == t.all ? "good" : "bad"); }
 
-/// How near Presa comes to a bound: 1 is at it.
+/// Largest share of a bound that Presa's results reach; 1: at the bound.
 double worstShare(const Case& c, const std::vector<Row>& rows) {
   double worst = 0;
   for (const Row& row : rows) {
@@ -67,7 +67,7 @@ std::string overview(const std::vector<Case>& cases, const std::vector<Row>& row
   return out + "</tbody></table></div>\n";
 }
 
-/// The methods of a case in the order in which they come, Presa's first.
+/// The methods of a case in order of appearance, Presa's first.
 std::vector<std::string> methodsOf(const Case& c, const std::vector<Row>& rows) {
   std::vector<std::string> methods{kPresa};
   for (const Row& row : rows) {
@@ -85,14 +85,14 @@ std::string resultCell(const Row& row) {
   return cell(text, cssOf(row.finding.verdict));
 }
 
-/// A line per parameter set and metric, a column per method.
+/// HTML table with a line per parameter set and metric, a column per method.
 std::string caseTable(const Case& c, const std::vector<Row>& rows) {
   const std::vector<std::string> methods = methodsOf(c, rows);
   std::string out =
       "<div class=\"scroll\"><table><thead><tr><th>parameters</th><th>metric</th><th>held against</th><th>bound</th>";
   for (const std::string& method : methods) out += "<th>" + escape(method) + "</th>";
   out += "</tr></thead><tbody>\n";
-  std::vector<const Row*> heads;  // of each line: its first row
+  std::vector<const Row*> heads;  // first row of each line
   const auto same_line = [](const Row& a, const Row& b) {
     return a.parameters == b.parameters && a.finding.metric == b.finding.metric;
   };

@@ -6,7 +6,7 @@
 
 namespace presa::stability {
 
-/// The rows as one self-contained page: a matrix of verdicts, and for each case its table and curves.
+/// The rows as one self-contained HTML page: a matrix of verdicts, then a table and curves for each case.
 std::string reportHtml(const std::vector<Case>& cases, const std::vector<Row>& rows);
 
 }  // namespace presa::stability

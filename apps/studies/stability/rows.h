@@ -7,7 +7,7 @@
 
 namespace presa::stability {
 
-/// One line of the result: a finding of a trial, with what it belongs to.
+/// One line of the result: a finding of a trial, with its case, parameters and method.
 struct Row {
   std::string case_name;
   Parameters parameters;
@@ -15,16 +15,16 @@ struct Row {
   Finding finding;
   Verdict expected = Verdict::kStable;
   std::string source;
-  double seconds = 0;  ///< wall time of its trial
-  std::string reason;  ///< of a failure
+  double seconds = 0;  ///< wall time of the trial
+  std::string reason;  ///< reason of a failure
   bool worse() const { return finding.verdict > expected; }
 };
 
-/// case, parameters, method, verdict, metric, value, unit, bound, oracle, source, seconds, expected (and reason). A value
-/// that is no number is null.
+/// JSON with the keys case, parameters, method, verdict, metric, value, unit, bound, oracle, source, seconds, expected
+/// (and reason). A value that is not finite is null.
 nlohmann::json toJson(const Row& row);
 
-/// Findings through the pipe between a trial's process and this one.
+/// Serialise findings for the pipe from a trial's process.
 std::string packFindings(const std::vector<Finding>& findings);
 std::vector<Finding> unpackFindings(const std::string& text);
 

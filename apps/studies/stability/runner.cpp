@@ -59,7 +59,7 @@ std::vector<Job> jobsOf(const std::vector<Case>& cases, bool quick) {
   return jobs;
 }
 
-/// A trial that did not come to an end is a row too.
+/// The finding of a trial that did not end.
 Finding failure() {
   Finding finding;
   finding.metric = "trial ends";

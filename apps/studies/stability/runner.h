@@ -6,18 +6,18 @@
 
 namespace presa::stability {
 
-/// What the command line asks for.
+/// Options of the command line.
 struct RunnerOptions {
   std::vector<std::string> cases;  ///< empty: all
   bool list = false;
   bool quick = false;
-  std::string out;  ///< folder; empty: nothing is written
+  std::string out;  ///< output folder; empty: none
   std::string format = "text";
   int jobs = 0;
 };
 
-/// Runs those of `all` that the options choose; returns the exit status. Throws InputError for names and folders that are
-/// wrong, before any work.
+/// Runs the cases of `all` that the options select; returns the exit status. Throws InputError for unknown names and
+/// bad folders, before any work.
 int runCases(const RunnerOptions& options, std::vector<Case> all = allCases());
 
 }  // namespace presa::stability

@@ -3,7 +3,7 @@
 
 namespace presa {
 
-/// `presa stability`.
+/// Adds the command `presa stability`.
 void addStability(Command app, int& status);
 
 }  // namespace presa

@@ -6,12 +6,13 @@
 
 namespace presa::stability {
 
-/// "0.0123 %"; a value that is no number says so.
+/// Value and unit, such as "0.0123 %"; also for values that are not finite.
 std::string valueText(double value, const std::string& unit);
-/// "2 N/mm, 10 g"
+/// The parameters as text, such as "2 N/mm, 10 g".
 std::string parameterText(const Parameters& parameters);
 
-/// The rows by case, Presa's beside what it replaces, and a closing line. `out` may be empty.
+/// Text table of the rows by case, Presa's method beside the baselines, with a closing line. `out`: output folder, may
+/// be empty.
 std::string tableText(const std::vector<Case>& cases, const std::vector<Row>& rows, const std::string& out);
 
 }  // namespace presa::stability

@@ -9,14 +9,14 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kTouch = 1e-3;  // nearer than this one rests on the other, or beside it [m]
+constexpr double kTouch = 1e-3;  // max gap between blocks that touch [m]
 constexpr double kSame = 1e-6;   // [m]
 
 struct Bounds {
   Vec3 low, high;
 };
 
-/// Of the physics shape, where the block belongs.
+/// Axis-aligned bounds in W of the block's physics shape at its goal pose [m].
 Bounds boundsOf(const Block& block) {
   struct Corners {
     const TriMesh& mesh;
@@ -44,7 +44,7 @@ Bounds boundsOf(const Block& block) {
 
 bool alike(const Block& a, const Block& b) {
   if (a.kind != b.kind || a.physics.index() != b.physics.index()) return false;
-  // in its own frame a block's bounds say its shape; wedges of the same bounds may be each other's mirror image
+  // bounds in the own frame identify boxes and cylinders; wedges with equal bounds may be mirror images
   Block at_rest_a = a, at_rest_b = b;
   at_rest_a.X_WB = at_rest_b.X_WB = {};
   const Bounds one = boundsOf(at_rest_a), other = boundsOf(at_rest_b);
@@ -82,7 +82,7 @@ std::vector<std::size_t> fitting(const Building& building, std::size_t i) {
 std::vector<std::size_t> supporting(const Building& building, std::size_t i) {
   std::vector<std::size_t> below;
   const Bounds mine = boundsOf(building.blocks[i]);
-  // on a slope what carries may be higher: square to the face that it rests on it is not
+  // compare along the normal of the bearing face: on a slope the origin of a supporting block may be higher in z
   const Vec3 up = building.blocks[i].X_WB.q * Vec3::UnitZ();
   for (std::size_t j = 0; j < building.blocks.size(); ++j) {
     if (j == i) continue;

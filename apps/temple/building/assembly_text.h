@@ -6,12 +6,12 @@
 
 namespace presa::temple {
 
-/// Blocks that fit where block `i` belongs, itself among them: of the same kind and shape, whatever has broken off.
+/// Blocks that fit into the goal of block `i`, itself included: blocks of the same kind and shape. Chips are ignored.
 std::vector<std::size_t> fitting(const Building& building, std::size_t i);
-/// Blocks on which block `i` rests where it belongs.
+/// Blocks on which block `i` rests in the finished building.
 std::vector<std::size_t> supporting(const Building& building, std::size_t i);
-/// The scene's <assembly>: a goal for every block, named as the block, after those that carry it. `field`: edges of the box on
-/// the ground out of which nothing gets [m].
+/// The scene's <assembly>: a goal for every block, named as the block, to be filled after the blocks that support it.
+/// `field`: edges of the workspace [m], a box on the ground that no block can leave.
 std::string assemblyText(const Building& building, const Vec3& field, const AssemblyWords& words = {},
                          double spent = 0);
 

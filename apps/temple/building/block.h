@@ -19,20 +19,20 @@ enum class BlockKind {
   kTile,
 };
 
-/// One stone of the building, in its own frame B: the centre of its physics shape, z up where it stands.
+/// One stone of the building. Its frame B is at the centre of its physics shape, z up in the finished building.
 struct Block {
   std::string name;
   BlockKind kind = BlockKind::kDrum;
-  Pose X_WB;             ///< where it belongs
-  int fold = 1;          ///< in so many turns about z it fits as well
+  Pose X_WB;             ///< goal pose in the building
+  int fold = 1;          ///< order of rotational symmetry about z
   double mass = 0;       ///< [kg]
-  TriMesh visual;        ///< fine
+  TriMesh visual;        ///< fine mesh
   TriMesh haptic;        ///< flutes, dowel holes and chips, with fewer facets
-  Shape physics;         ///< encloses both, and shares their bearing faces; MeshRef: `physics_mesh`
-  TriMesh physics_mesh;  ///< convex; empty where a primitive serves
+  Shape physics;         ///< encloses both and shares their bearing faces; a MeshRef stands for `physics_mesh`
+  TriMesh physics_mesh;  ///< convex; empty when `physics` is a primitive
 };
 
-/// Something that does not move: the steps the building stands on.
+/// A fixed box: a step that the building stands on.
 struct Footing {
   std::string name;
   Pose X_WB;

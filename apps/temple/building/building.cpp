@@ -10,7 +10,7 @@
 namespace presa::temple {
 namespace {
 
-/// Sets one block on another, from the ground up.
+/// Sets block on block, from the ground up. `level_` is the height reached so far.
 class Builder {
  public:
   Builder(const Proportions& proportions, double behind, std::uint64_t seed)
@@ -75,7 +75,7 @@ class Builder {
 
   void setEntablature() {
     const Proportions::Entablature& e = *p_.entablature;
-    // joints lie over the columns' axes; the ends reach as far as the columns' feet
+    // joints are above the columns' axes; the ends are flush with the columns' feet
     const double joint = p_.stone.joint / 2;
     double left = -span_ / 2 - m(1);
     double axis = -span_ / 2;
@@ -102,7 +102,7 @@ class Builder {
       const double axis = -span_ / 2 + i * spacing, beside = i == 0 ? -half_metope : i == last ? half_metope : 0;
       const std::string name = "triglyph" + std::to_string(i + 1);
       Block block = makeTriglyph(p_, beside, chipsOf(name));
-      // at the corners the box ends with the half metope, and half a joint before its only neighbour
+      // a corner block ends with its half metope on the outside and half a joint before its only neighbour
       const double shift = beside == 0 ? 0 : beside / 2 + std::copysign(p_.stone.joint / 4, beside);
       place(std::move(block), name, {axis + shift, 0, level_ + height / 2});
       if (i == last) break;
@@ -127,7 +127,7 @@ class Builder {
   void setPediment() {
     const Proportions::Pediment& pediment = *p_.pediment;
     const double rise = pediment.height * cornice_, half = cornice_ / 2, slope = std::atan(rise / half);
-    // the thin end of a wedge would be a blade
+    // cut off the thin end of the wedge, which would be a blade
     const double toe = m(0.35), from = toe / std::tan(slope), length = half - from - p_.stone.joint / 2;
     const double end = toe + length * std::tan(slope);
     for (const int side : {-1, 1}) {
@@ -140,7 +140,7 @@ class Builder {
     for (const int side : {-1, 1}) {
       const std::string name = side < 0 ? "left" : "right";
       const Quat q_WB(Eigen::AngleAxisd(side * slope, Vec3::UnitY()));
-      // from the eaves up the slope, and off it
+      // point at distance `up` from the eaves along the slope and `off` normal to it
       const auto at = [&](double up, double off) {
         const Vec3 along(-side * std::cos(slope), 0, std::sin(slope)), out(side * std::sin(slope), 0, std::cos(slope));
         return Vec3(Vec3(side * half, 0, level_) + up * along + off * out);

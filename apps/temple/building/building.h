@@ -6,8 +6,8 @@
 
 namespace presa::temple {
 
-/// All blocks at the places where they belong, on the ground z = 0, the front towards -y, centred at x = 0 and y = `behind` [m].
-/// `seed` chooses where stone has broken off. Every mesh is closed and welded. The same arguments give the same bits.
+/// All blocks at their goal poses, on the ground z = 0, the front towards -y, centred at x = 0 and y = `behind` [m].
+/// `seed` determines the chips. Every mesh is closed and welded. Results are bit-identical for the same arguments.
 /// Thread: loading.
 Building makeBuilding(const Proportions& proportions, double behind, std::uint64_t seed);
 

@@ -8,7 +8,7 @@
 namespace presa::temple {
 namespace {
 
-// points of a flute, and rings of a drum or an echinus
+// number of points of a flute, and of rings of a drum or an echinus
 struct Fineness {
   std::size_t flute, rings;
 };
@@ -16,7 +16,8 @@ constexpr Fineness kVisual{8, 8}, kHaptic{4, 3};
 
 double marginOf(const Proportions& p) { return 1.5 * p.stone.chip_depth; }
 
-/// A hole for the dowel in the middle of a bearing face: from its floor out to the edge of the face, or the other way round.
+/// Appends the rings of a bearing face with a square dowel hole in its middle: from the floor of the hole out to the
+/// inset edge for the lower face (`below`), in the opposite order for the upper face.
 void appendFace(std::vector<Ring>& rings, const Proportions& p, const Ring& inset, double z, bool below) {
   const double half = 0.5 * p.column.dowel_width * p.module, depth = p.column.dowel_depth * p.module;
   const Ring rim = square(half, z, inset.size()), floor = square(half, below ? z + depth : z - depth, inset.size());
@@ -26,7 +27,8 @@ void appendFace(std::vector<Ring>& rings, const Proportions& p, const Ring& inse
     rings.insert(rings.end(), {inset, rim, floor});
 }
 
-/// Breaks in the edges of the lower and the upper face. Drawn as parts of a turn, so that every fineness has the same.
+/// Chips in the edges of the lower and the upper face. Positions are drawn as fractions of a turn, so that the meshes
+/// of every fineness get the same chips.
 class Breaks {
  public:
   Breaks(const Proportions& p, RandomStream random) : depth_(p.stone.chip_depth) {
@@ -79,7 +81,8 @@ TriMesh drumMesh(const Proportions& p, int i, const Breaks& breaks, const Finene
   return stackRings(rings, {0, 0, -floor}, {0, 0, floor});
 }
 
-/// From below: necking with the last of the flutes, echinus, abacus; a third of the height each [Vitruvius IV.3.4].
+/// Capital, from below: necking with the ends of the flutes, echinus, abacus, a third of the height each
+/// [Vitruvius IV.3.4].
 TriMesh capitalMesh(const Proportions& p, const Breaks& breaks, const Fineness& fineness) {
   const std::size_t count = fineness.flute * static_cast<std::size_t>(p.column.flutes);
   const double h = p.column.capital_height * p.module, margin = marginOf(p);
@@ -91,7 +94,7 @@ TriMesh capitalMesh(const Proportions& p, const Breaks& breaks, const Fineness& 
   rings.push_back(foot);
   rings.push_back(moved(foot, {0, 0, 0.8 * third}));
   rings.push_back(circle(neck, bottom + third, count));
-  // a steep curve that bends in under the abacus
+  // echinus: a steep curve that bends inwards under the abacus
   const double reach = std::max(neck, abacus - margin);
   for (std::size_t r = 1; r <= fineness.rings; ++r) {
     const double t = static_cast<double>(r) / static_cast<double>(fineness.rings);

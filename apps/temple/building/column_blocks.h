@@ -5,12 +5,13 @@
 
 namespace presa::temple {
 
-/// Radius of the arrises at a height above the foot of the shaft, both in metres: a straight taper and a parabola on it.
+/// Radius of the arrises at a height above the foot of the shaft, both in metres: a linear taper plus a parabolic
+/// entasis.
 double shaftRadius(const Proportions& proportions, double height);
 /// Height of a drum [m].
 double drumHeight(const Proportions& proportions);
 
-/// Drum `i` from below and the capital, in their own frames, without name and place.
+/// Drum `i`, counted from below from 0, and the capital, in their own frames, without name and pose.
 Block makeDrum(const Proportions& proportions, int i, RandomStream chips);
 Block makeCapital(const Proportions& proportions, RandomStream chips);
 

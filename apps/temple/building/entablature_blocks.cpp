@@ -10,23 +10,23 @@ namespace {
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// A polygon (u, v), counter-clockwise, drawn out along w = u x v.
+/// A counter-clockwise polygon in the plane (u, v), extruded along w = u x v by `length` [m].
 struct Extrusion {
   Vec3 u, v, w;
   Polygon polygon;
-  Eigen::Vector2d center;  ///< sees every point of the polygon
+  Eigen::Vector2d center;  ///< the polygon is star-shaped about it
   double length = 0;
 };
 const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY(), kZ = Vec3::UnitZ();
-constexpr double kInset = 0.85;  // of the end faces, towards their centre: what chips leave as it is
+constexpr double kInset = 0.85;  // scale of the inner part of an end face, which chips leave unchanged
 
 double marginOf(const Proportions& p) { return 1.5 * p.stone.chip_depth; }
-/// Half of the depth of architrave and frieze [m].
+/// Half the depth of architrave and frieze [m].
 double halfDepth(const Proportions& p) { return 0.5 * p.entablature->depth * p.module; }
-/// Likewise of the cornices.
+/// Half the depth of the cornices [m].
 double halfCornice(const Proportions& p) { return halfDepth(p) + p.entablature->cornice_projection * p.module; }
 
-/// Breaks corners of the two rims, each corner of the polygon at most once.
+/// Chips random corners of the two end faces, each corner at most once.
 void breakCorners(const Proportions& p, const Ring& corners, Ring& first, Ring& last, const Vec3& w, const Vec3& center,
                   RandomStream& random) {
   std::vector<std::size_t> free(2 * corners.size());
@@ -68,15 +68,16 @@ Block blockOf(BlockKind kind, TriMesh mesh, const Vec3& size) {
   return block;
 }
 
-/// A T: a bar over a stem, in (y, z) about the middle of the box around it.
+/// A T profile, a bar over a stem, in (y, z) relative to the middle of its bounding box [m].
 Polygon tee(double half_stem, double half_bar, double height, double bar) {
   const double bottom = -height / 2, step = height / 2 - bar, top = height / 2;
   return {{half_stem, bottom}, {half_stem, step}, {half_bar, step},   {half_bar, top},
           {-half_bar, top},    {-half_bar, step}, {-half_stem, step}, {-half_stem, bottom}};
 }
 
-/// Channels of a triglyph from its left to its right edge, as (x, depth): six parts are half a channel, three femora with two channels
-/// between them and half a channel, each cut by the tip of a square [Vitruvius IV.3.5].
+/// Profile of a triglyph's channels from its left to its right edge, as points (x, depth) [m]. Of six parts, three
+/// femora and two channels between them take one each and two half channels at the edges a half each; the channels are
+/// cut with the tip of a square [Vitruvius IV.3.5].
 std::vector<Eigen::Vector2d> channels(double width) {
   const double part = width / 6;
   std::vector<Eigen::Vector2d> line;
@@ -96,12 +97,13 @@ std::vector<Eigen::Vector2d> channels(double width) {
 
 double metopeRecess(const Proportions& p) { return p.entablature->triglyph_width * p.module / 12; }
 
-/// Plan of a triglyph, both faces alike; with `cut` the channels are there, without they are filled up to the band.
+/// Plan of a triglyph, with equal front and rear faces. `cut`: with the channels; otherwise with flat faces, as in the
+/// band above them.
 Ring triglyphPlan(const Proportions& p, double left, double right, double axis, bool cut) {
   const double half = halfDepth(p);
   std::vector<Eigen::Vector2d> face = channels(p.entablature->triglyph_width * p.module);
   for (Eigen::Vector2d& point : face) point.x() += axis;
-  // a half metope lies as deep as the channel at the edge ends
+  // a half metope lies as deep as the edge of the half channel
   if (left < face.front().x() - 1e-9) face.insert(face.begin(), {left, metopeRecess(p)});
   if (right > face.back().x() + 1e-9) face.push_back({right, metopeRecess(p)});
   Ring ring;
@@ -123,7 +125,7 @@ Block makeArchitrave(const Proportions& p, double length, RandomStream chips) {
 Block makeTriglyph(const Proportions& p, double half_metope, RandomStream chips) {
   const double width = p.entablature->triglyph_width * p.module, joint = p.stone.joint / 2;
   const double total = width + std::abs(half_metope), axis = -half_metope / 2;
-  // no joint where there is no neighbour
+  // a corner block has no joint on the side of its half metope
   const double left = -total / 2 + (half_metope < 0 ? 0 : joint), right = total / 2 - (half_metope > 0 ? 0 : joint);
   const double height = (p.entablature->frieze_height + p.entablature->band_height) * p.module;
   const double band = p.entablature->band_height * p.module, margin = marginOf(p);
@@ -140,12 +142,12 @@ Block makeTriglyph(const Proportions& p, double half_metope, RandomStream chips)
   const Ring first_inset = scaled(first, below, kInset), last_inset = scaled(last, above, kInset);
   const double y = halfDepth(p);
   breakCorners(p, {{left, -y, 0}, {right, -y, 0}, {right, y, 0}, {left, y, 0}}, first, last, kZ, {axis, 0, 0}, chips);
-  // channels end in a slope: as steep as their sides
+  // the channels end below the band in a slope as steep as their sides
   const double under_band = height / 2 - band - metopeRecess(p);
   TriMesh mesh = stackRings({first_inset, first, at(true, -height / 2 + margin), at(true, under_band),
                              at(false, under_band + metopeRecess(p)), at(false, height / 2 - margin), last, last_inset},
                             below, above);
-  // the body's frame is in the middle of the box
+  // move the origin to the middle of the physics box
   const Vec3 shift((left + right) / 2, 0, 0);
   for (Vec3& vertex : mesh.vertices) vertex -= shift;
   return blockOf(BlockKind::kTriglyph, std::move(mesh), {right - left, 2 * y, height});
@@ -185,7 +187,7 @@ Block makeTympanum(const Proportions& p, double length, double left, double righ
 
 Block makeRakingCornice(const Proportions& p, double length, RandomStream chips) {
   const double height = p.pediment->raking_height * p.module, half = halfCornice(p);
-  // the gutter leans back
+  // the profile narrows downwards: its sides lean
   const double lean = 0.3 * height;
   const Polygon profile{
       {half - lean, -height / 2}, {half, height / 2}, {-half, height / 2}, {-half + lean, -height / 2}};
@@ -195,7 +197,7 @@ Block makeRakingCornice(const Proportions& p, double length, RandomStream chips)
 
 Block makeTile(const Proportions& p, double length, RandomStream chips) {
   const double height = p.pediment->tile_height * p.module, half = halfCornice(p);
-  // edges upright for most of the height: fingertips on the ground slip upwards from lower ones
+  // side faces are vertical for most of the height: from lower ones fingertips near the ground slip off upwards
   const double edge = 0.3 * height;
   const Polygon profile{{half, -height / 2},       {half, edge},  {0.8 * half, height / 2},
                         {-0.8 * half, height / 2}, {-half, edge}, {-half, -height / 2}};

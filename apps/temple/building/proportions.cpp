@@ -26,7 +26,7 @@ std::string numberText(double value) {
   return text;
 }
 
-/// Values of the children of one part, and where they stand.
+/// Values of the children of one part of the file, and their positions in it.
 class Part {
  public:
   explicit Part(const Element& element) : element_(element) {}
@@ -80,7 +80,7 @@ Proportions::Column readColumn(const Part& part, Diagnostics& diagnostics) {
   if (shaft < 0.5 * column.drums)
     refuse("drums", std::to_string(column.drums) + " drums share a shaft of " + numberText(shaft) + " modules",
            "a drum is at least half a module high");
-  // the diagonal of the hole must leave a rim to stand on
+  // the square hole's diagonal must leave a rim to stand on
   if (std::sqrt(2.0) * column.dowel_width > 0.75 * column.upper_diameter)
     refuse("dowel_width", "a dowel hole of " + numberText(column.dowel_width) + " modules leaves no rim to stand on",
            "at most 0.53 of the upper diameter");
@@ -138,7 +138,7 @@ Proportions read(xml::Document& document, Diagnostics& diagnostics) {
     const std::vector<Element> found = root.children(name);
     return found.empty() ? std::nullopt : std::optional(found.front());
   };
-  // what is wrong by itself has been told; what follows needs every value
+  // schema errors are reported already; the checks below need every value
   if (!valid) return p;
   checkVersion(root, diagnostics);
   p.name = root.attribute("name");

@@ -7,7 +7,7 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kSame = 1e-9;  // [m], points of two rings that are one
+constexpr double kSame = 1e-9;  // points nearer than this become one vertex [m]
 constexpr double kPi = std::numbers::pi;
 
 double angleOf(std::size_t i, std::size_t count) {
@@ -97,7 +97,7 @@ Ring fluted(double size, double z, std::size_t count, int flutes) {
   for (std::size_t i = 0; i < count; ++i) {
     const double middle = 2 * kPi * (static_cast<double>(i / each) + 0.5) / flutes;
     const double along = kPi / 2 * (static_cast<double>(i % each) / static_cast<double>(each) - 0.5);
-    // the compass stands outside, half a chord from the chord
+    // centre of the arc: outside the shaft, half a chord from the chord
     const double out = chord_distance + half_chord - radius * std::cos(along), side = radius * std::sin(along);
     ring[i] = {out * std::cos(middle) - side * std::sin(middle), out * std::sin(middle) + side * std::cos(middle), z};
   }

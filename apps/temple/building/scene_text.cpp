@@ -71,7 +71,7 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene version=\"1.0\" name=\"" + spec.name + "\"" +
                      (spec.rig.empty() ? "" : " rig=\"" + spec.rig + "\"") + " description=\"" + spec.description +
                      "\">\n  <world gravity=\"0 0 -9.81\"/>\n";
-  // nothing is felt while stones fall: the haptic group only keeps time
+  // no haptics while stones fall: the haptic group only provides the time base
   if (spec.physics_only) text += "  <rates haptic=\"200\" collision=\"100\" dynamics=\"200\" view=\"50\"/>\n";
   if (spec.fine_steps) text += "  <dynamics substeps=\"10\" iterations=\"100\"/>\n";
   text +=
@@ -94,7 +94,7 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
       text += format("    <device role=\"%s\" fingertip_radius=\"0.008\"/>\n", role);
     text += "  </devices>\n";
   }
-  // twice as high as the building: what is being carried is inside
+  // the workspace is twice as high as the building and 0.5 m more: room to carry blocks
   if (spec.to_be_built)
     text += assemblyText(building, {1.9 * kGroundX, 1.9 * kGroundY, 2 * building.top + 0.5}, spec.words, spec.spent);
   return text + "</scene>\n";

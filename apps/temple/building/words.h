@@ -8,18 +8,19 @@
 
 namespace presa::temple {
 
-/// Name of a kind of block in words files and scenes: "raking_cornice".
+/// Name of a kind of block in words files and scenes, such as "raking_cornice".
 const char* elementName(BlockKind kind);
 
-/// Languages that words are shipped in: "en", "it".
+/// Languages of the shipped words: "en", "it".
 std::vector<std::string> shippedLanguages();
-/// The shipped words (config/temple/words_LANGUAGE.xml), checked: every kind of block is there. All findings go to `diagnostics`
-/// (E966 format version, E969 unknown language, E968 a kind of block without words, E203, E219). Never throws for bad input.
+/// Reads the shipped words (config/temple/words_LANGUAGE.xml) and checks that every kind of block has an entry. Errors
+/// go to `diagnostics` (E966 format version, E969 unknown language, E968 a kind of block without words, E203, E219).
+/// Never throws for bad input.
 AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics);
-/// Those of a file.
+/// The same from a file.
 AssemblyWords readWordsFile(const std::string& file, Diagnostics& diagnostics);
 
-/// As <words> of a scene.
+/// The <words> element of a scene.
 std::string wordsText(const AssemblyWords& words);
 
 }  // namespace presa::temple

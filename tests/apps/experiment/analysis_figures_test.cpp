@@ -11,7 +11,7 @@
 #include "experiments/runner/statistics/margin.h"
 #include "tests/apps/experiment/grip_study.h"
 
-// The figures of the grip study, each as the research says what it must show.
+// The figures of the grip study, each against the findings of the original research.
 namespace presa::experiment::analysis {
 namespace {
 
@@ -25,14 +25,15 @@ std::size_t countOf(const std::string& text, const std::string& part) {
 
 class FigureTest : public GripStudyTest {
  protected:
-  /// Three times the slip force at 2000 N/m, else twice; every trial of a cell alike but for its repeat: x 0.9, x 1.1.
+  /// Grip over slip force: 3 at 2000 N/m, otherwise 2. Trials of a cell differ by a factor of the repeat only: 0.9 or
+  /// 1.1.
   static double factor(const Experiment& experiment, const PlannedTrial& trial) {
     return (levelOf(experiment, trial, "stiffness") == 2000 ? 3 : 2) * (trial.repeat == 1 ? 0.9 : 1.1);
   }
   Section figure(const std::string& element) { return analysed(element, gripping(factor)).sections.at(0); }
 };
 
-// As figure 14: 27 bars, each the mean of the 6 trials of its cell.
+// As in figure 14: 27 bars, each the mean of the 6 trials of its cell.
 TEST_F(FigureTest, BarsAreTheMeansOfTheirCells) {
   const std::string svg = figure(R"(<bars y="F_grip" rows="mu_s" columns="mass" color="stiffness"/>)").figure;
   const std::regex bar(
@@ -48,7 +49,7 @@ TEST_F(FigureTest, BarsAreTheMeansOfTheirCells) {
   EXPECT_EQ(bars, 27U);
 }
 
-// As figure 15: 27 means with error bars, and the slip line in each of the nine panels.
+// As in figure 15: 27 means with error bars, and the slip line in each of the nine panels.
 TEST_F(FigureTest, MeansWithIntervalsAndSlipLine) {
   const Section section =
       figure(R"(<means y="F_grip" x="mass" rows="mu_s" columns="stiffness" line="F_slip" interval="within_subject"/>)");
@@ -57,7 +58,7 @@ TEST_F(FigureTest, MeansWithIntervalsAndSlipLine) {
   EXPECT_THAT(section.method, HasSubstr("within-subject interval (Cousineau 2005, Morey 2008)"));
 }
 
-// As figure 16: the median of each of nine lines; 100 (2 - 1) / 2 = 50 % soft, 100 (3 - 1) / 3 = 66.7 % hard, whatever the mass.
+// As in figure 16: medians on nine lines; 100 (2 - 1) / 2 = 50 % soft, 100 (3 - 1) / 3 = 66.7 % hard, for every mass.
 TEST_F(FigureTest, MarginsOverMass) {
   const Section section = figure(R"(<margins grip="F_grip" slip="F_slip" x="mass" color="stiffness" shape="mu_s"/>)");
   EXPECT_EQ(countOf(section.figure, "class=\"line s"), 9U + 3U);
@@ -70,7 +71,7 @@ TEST_F(FigureTest, MarginsOverMass) {
   }
 }
 
-// As figure 17: a symbol per trial, none under the diagonal.
+// As in figure 17: a symbol per trial, none below the diagonal.
 TEST_F(FigureTest, GripOverSlipForce) {
   const Section section = figure(R"(<scatter x="F_slip" y="F_grip" color="stiffness"/>)");
   EXPECT_EQ(countOf(section.figure, "class=\"symbol s"), 162U + 3U);
@@ -85,8 +86,8 @@ TEST_F(FigureTest, TimeCourseWithoutRecordingSaysSo) {
   EXPECT_THAT(section.notes[0], HasSubstr("The recording of trial 1 of S01 is not there"));
 }
 
-// As figure 12, from a recording: while a scripted grip holds, the state is 1 and the finger stays within 1 mm on the cube;
-// it slips in the release, and not before.
+// As in figure 12, from a recording: while a scripted grip holds, the state is 1 (stick) and the finger stays within 1
+// mm on the cube; it slips during the release, and not before.
 TEST(TimeCourse, OfAHeldCube) {
   ScratchFolder scratch;
   const std::string tests = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/";
@@ -111,7 +112,7 @@ TEST(TimeCourse, OfAHeldCube) {
   EXPECT_EQ(at(1, 4), 100);
   EXPECT_LT(at(1, 6), 1);
   EXPECT_GT(at(2, 5), 0);
-  EXPECT_NEAR(at(1, 7), result.trials.numbers.at("F_grip")[0], 0.02 * at(1, 7));  // one finger, and both
+  EXPECT_NEAR(at(1, 7), result.trials.numbers.at("F_grip")[0], 0.02 * at(1, 7));  // one finger against the mean of both
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class PsychometricAnalysis : public testing::Test {
   std::optional<Result> result_;
 };
 
-// The surface is flat in the lapse: location and spread are known to 1 %.
+// The likelihood is flat in the lapse rate: location and spread are determined to 1 %.
 TEST_F(PsychometricAnalysis, PointOfSubjectiveEqualityAndWeberFraction) {
   const Section section =
       sectionOf(kHeavier, R"(<psychometric x="x" y="answer" guess="lapse" standard="0.2" bootstrap="200"/>)");
@@ -69,7 +69,7 @@ TEST_F(PsychometricAnalysis, PointOfSubjectiveEqualityAndWeberFraction) {
   EXPECT_GT(interval.halfWidth(), 0.001);
   EXPECT_LT(interval.halfWidth(), 0.01);
   EXPECT_THAT(section.finding, ElementsAre(HasSubstr("Point of subjective equality of answer: 0.199 u")));
-  // one symbol per level, larger ones than the threshold's; a curve and its interval
+  // one symbol per level, larger than the threshold's; a curve and its interval
   for (const char* part : {"class=\"area", "class=\"line", "0.16: 1 of 20", "0.24: 19 of 20"})
     EXPECT_THAT(section.figure, HasSubstr(part));
 }

@@ -6,7 +6,7 @@
 #include "experiments/runner/definition/read.h"
 #include "tests/apps/experiment/grip_study.h"
 
-// What an analysis names is checked when the file is read, all at once.
+// All names in an analysis are checked when the file is read, and all errors are reported at once.
 namespace presa::experiment::analysis {
 namespace {
 

@@ -32,7 +32,7 @@ class AnalysisTest : public GripStudyTest {
   }
 };
 
-// The slip force as the measured value: the three correlations are exact for any number of repeats and subjects.
+// With the slip force as the measured value, the three correlations are exact for any number of repeats and subjects.
 TEST_F(AnalysisTest, CorrelationsOfTheSlipForceAreExact) {
   const Result result =
       analysed(R"(<spearman y="F_grip" x="mass mu_s stiffness" within="subject block" permutations="200"/>)",
@@ -71,7 +71,7 @@ TEST_F(AnalysisTest, CellMeansOfSixTrials) {
   EXPECT_THAT(result.sections[0].method, HasSubstr("Morey 2008"));
 }
 
-// Twice the slip force: 50 % of the grip, 100 % of the slip force; the margin goes where it was put.
+// A grip of twice the slip force has a margin of 50 % of the grip, 100 % of the slip force.
 TEST_F(AnalysisTest, MarginsInBothConventions) {
   const auto factor = [](const Experiment& experiment, const PlannedTrial& trial) {
     return levelOf(experiment, trial, "mass") == 0.1 ? 2 : 1.25;
@@ -86,7 +86,8 @@ TEST_F(AnalysisTest, MarginsInBothConventions) {
   EXPECT_EQ(number(table, 1, "n"), 54);
 }
 
-// Grip as the product of powers: the exponents come back, and the slope of the depth is the exponent of stiffness less 1.
+// Grip as a product of powers: the fit recovers the exponents; the slope of the depth is the exponent of stiffness
+// minus 1.
 TEST_F(AnalysisTest, ExponentsAndControlSlope) {
   const auto factor = [](const Experiment& experiment, const PlannedTrial& trial) {
     return std::pow(levelOf(experiment, trial, "stiffness"), 0.25) *
@@ -96,7 +97,7 @@ TEST_F(AnalysisTest, ExponentsAndControlSlope) {
                                     <depth_control force="F_grip" stiffness="stiffness" x="mass mu_s"/>)",
                                  gripping(factor));
   const Table& exponents = result.sections.at(0).tables.at(0);
-  // noise of 1e-3 in ln y over levels with sd 0.57: standard error 1e-3 / (0.57 sqrt 162) = 1.4e-4, five of them
+  // noise of 1e-3 in ln y over levels with sd 0.57: standard error 1e-3 / (0.57 sqrt 162) = 1.4e-4; tolerance 5 of them
   EXPECT_NEAR(number(exponents, 0, "exponent"), 1, 7e-4);
   EXPECT_NEAR(number(exponents, 1, "exponent"), -1, 8e-4);
   EXPECT_NEAR(number(exponents, 2, "exponent"), 0.25, 7e-4);
@@ -106,7 +107,7 @@ TEST_F(AnalysisTest, ExponentsAndControlSlope) {
   EXPECT_LT(number(control, 0, "p_against_depth"), 1e-6);
 }
 
-// Practice, excluded, aborted and missing trials are counted apart and leave no trace in the numbers.
+// Practice, excluded, aborted and missing trials are counted separately and do not affect the numbers.
 TEST_F(AnalysisTest, SaysWhatIsLeftOut) {
   SyntheticDataset dataset(scratch.file("data"), gripStudy(R"(<cell_means y="F_grip" by="mass"/>)"));
   const auto make = [](const Experiment& experiment, const PlannedTrial& trial) {
@@ -116,7 +117,7 @@ TEST_F(AnalysisTest, SaysWhatIsLeftOut) {
     if (trial.number == 4) made.values["F_grip"] = 1e6, made.outcome = Outcome::kAborted, made.reason = "dropped";
     return made;
   };
-  dataset.addSession(1, make, 12);  // 2 for practice, 10 that count, then the process ends
+  dataset.addSession(1, make, 12);  // 2 practice trials, 10 that count, then the process ends
   const Result result = analyse({dataset.folder(), ""}, [](auto...) { return true; });
   ASSERT_EQ(result.trials.sessions.size(), 1U);
   const SessionCensus& census = result.trials.sessions.front();
@@ -141,7 +142,7 @@ TEST_F(AnalysisTest, SaysWhatIsLeftOut) {
   EXPECT_THAT(reportHtml(result), HasSubstr("1 of 1 sessions are not finished"));
 }
 
-// Below 8 subjects nothing is said about a population; from 8 on there is an interval over subjects.
+// With fewer than 8 subjects there is no statement about a population; from 8 on there is an interval over subjects.
 TEST_F(AnalysisTest, IntervalOverSubjectsFromEightOn) {
   const std::string spearman = R"(<spearman y="F_grip" x="mass" permutations="0"/>)";
   const auto own = [](const Experiment&, const PlannedTrial& trial) {
@@ -169,7 +170,8 @@ TEST_F(AnalysisTest, EveryOutputSaysThatItIsAModel) {
     EXPECT_THAT(contentsOf(out + file), HasSubstr("odel, not a person")) << file;
 }
 
-// Text from the file is text on the page; the same data give the same bytes; what an earlier analysis left goes.
+// Text from the file is escaped on the page; the same data give the same bytes; files of an earlier analysis are
+// deleted.
 TEST_F(AnalysisTest, WritesTheSameAgain) {
   const Result result = analysed(
       R"(<spearman y="F_grip" x="mass" permutations="500" title="A &lt; B"/>)",

@@ -8,14 +8,14 @@
 
 #include "apps/common/file_text.h"
 
-/// A dataset's files taken apart, for the rules.
+/// A dataset's files, parsed for the rules.
 namespace presa::experiment::bids {
 
 using Json = nlohmann::json;
 
-/// sub-S01_ses-1_task-lift_beh.tsv
+/// A parsed file name, such as sub-S01_ses-1_task-lift_beh.tsv.
 struct Name {
-  std::vector<std::pair<std::string, std::string>> entities;  ///< in the order of the name
+  std::vector<std::pair<std::string, std::string>> entities;  ///< in the order of the file name
   std::string suffix, extension;
   std::string value(const std::string& entity) const;
 };
@@ -23,8 +23,8 @@ std::optional<Name> parseName(const std::string& file);
 
 struct File {
   std::filesystem::path path;      ///< absolute
-  std::string relative;            ///< from the dataset
-  std::vector<std::string> parts;  ///< of `relative`
+  std::string relative;            ///< relative to the dataset
+  std::vector<std::string> parts;  ///< parts of `relative`
   std::optional<Name> name;
   const std::string& base() const { return parts.back(); }
 };
@@ -33,12 +33,12 @@ std::vector<File> filesOf(const std::string& dataset);
 struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
-  /// Place of a column; -1: there is none.
+  /// Index of a column; -1: there is none.
   int column(const std::string& name) const;
 };
-/// Without a header every line is a row.
+/// Reads a TSV file; without a header every line is a row.
 Table readTsv(const std::filesystem::path& file, bool header);
-/// null when it is not JSON.
+/// Returns null when the file is not JSON.
 Json readJson(const std::filesystem::path& file);
 bool isNumber(const std::string& cell);
 

@@ -97,7 +97,7 @@ class MotionRules {
     if (json_.value("TrackedPointsCount", 0) != static_cast<int>(points_.size())) find("sidecars: TrackedPointsCount");
     if (std::abs(json_.value("RecordingDuration", -1.0) - duration_) > 1e-6) find("sidecars: RecordingDuration");
     const double effective = json_.value("SamplingFrequencyEffective", 0.0);
-    // from the first sample to the last: virtual time, exact but for the six decimals of a latency
+    // from the first sample to the last: virtual time is exact except for the six decimals of a latency
     const double counted = static_cast<double>(rows_.rows.size() - 1) / duration_;
     if (std::abs(effective / counted - 1) > 1e-5) find("sidecars: SamplingFrequencyEffective");
   }

@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// rules/entities.yaml: the order of entities in a name (those that occur here).
+/// rules/entities.yaml: the order of entities in a name (only those that occur here).
 const std::vector<std::string> kOrder{"sub", "ses", "sample", "task", "tracksys", "acq", "run", "recording"};
 
-/// rules/files/raw and rules/files/common/tables.yaml: which entities a file must have, which it may.
+/// rules/files/raw and rules/files/common/tables.yaml: required and optional entities of a file.
 struct FileRule {
   std::string datatype, suffix;
   std::set<std::string> extensions, required, optional;
@@ -64,7 +64,7 @@ class Rules {
       if (!json.contains(field) || !json[field].is_string() || json[field].get<std::string>().empty())
         find("dataset_description.json", std::string("dataset_metadata.yaml: needs a string ") + field);
     }
-    // objects/metadata.yaml: known releases look so; DatasetType is an enumeration; GeneratedBy holds objects with a Name
+    // objects/metadata.yaml: format of releases; DatasetType is an enumeration; GeneratedBy holds objects with a Name
     if (!std::regex_match(json.value("BIDSVersion", ""), std::regex(R"(1\.\d+\.\d+)")))
       find("dataset_description.json", "dataset.yaml UNKNOWN_BIDS_VERSION");
     if (json.value("DatasetType", "") != "raw") find("dataset_description.json", "DatasetType is not raw");
@@ -85,7 +85,7 @@ class Rules {
     if (file.base().ends_with(".json") && !readJson(file.path).is_object()) find(file.relative, "is not a JSON object");
   }
 
-  /// common-principles "Filesystem structure": sub-<label>/[ses-<label>/]<datatype>/, and names that repeat it.
+  /// common-principles "Filesystem structure": sub-<label>/[ses-<label>/]<datatype>/, repeated in the file names.
   void checkPlace(const File& file) {
     if (!file.name) return find(file.relative, "Filenames: not a chain of entities and a suffix");
     const std::string subject = "sub-" + file.name->value("sub"), session = file.name->value("ses");
@@ -118,7 +118,7 @@ class Rules {
         find(file.relative, "files/raw: may not have " + key);
       if (!std::regex_match(value, key == "run" ? kIndex : kLabel)) find(file.relative, "formats: " + key);
     }
-    // a dictionary above its tables has fewer entities [The Inheritance Principle, rule 2.c]
+    // a dictionary in a folder above its tables has fewer entities [The Inheritance Principle, rule 2.c]
     for (const std::string& key : rule.required) {
       if (!present.contains(key)) find(file.relative, "files/raw: needs " + key);
     }

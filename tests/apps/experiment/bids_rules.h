@@ -2,11 +2,12 @@
 #include <string>
 #include <vector>
 
-/// What the Brain Imaging Data Structure asks of a raw dataset with behaviour and motion, written down from the specification
-/// (version 1.10 and the rules in its src/schema), not from the exporter: each rule names its place there.
+/// Rules of the Brain Imaging Data Structure for a raw dataset with behaviour and motion. They are written from the
+/// specification (version 1.10 and the rules in its src/schema), independently of the exporter; each rule cites its
+/// place.
 namespace presa::experiment::bids {
 
-/// Every violation below a dataset's folder, "path: rule: what".
+/// Every violation below a dataset's folder, as "path: rule: what".
 std::vector<std::string> violations(const std::string& dataset);
 
 }  // namespace presa::experiment::bids

@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// rules/tabular_data: columns that come first.
+/// rules/tabular_data: columns that must come first.
 const std::map<std::string, std::vector<std::string>> kFirst{
     {"events", {"onset", "duration"}},
     {"scans", {"filename"}},
@@ -16,7 +16,7 @@ const std::map<std::string, std::vector<std::string>> kFirst{
     {"participants", {"participant_id"}},
     {"channels", {"name", "component", "type", "tracked_point", "units"}}};
 
-/// objects/columns.yaml: what these tables may hold without a word in a dictionary.
+/// objects/columns.yaml: columns that need no entry in a dictionary.
 const std::set<std::string> kDefined{"onset",       "duration",  "filename", "session_id", "participant_id",
                                      "name",        "component", "type",     "units",      "tracked_point",
                                      "description", "placement", "status",   "species",    "reference_frame"};
@@ -72,7 +72,8 @@ class TableRules {
     checkContent(file, table);
   }
 
-  /// Dictionaries of a table, from its folder up [The Inheritance Principle]: same suffix, no entity that it lacks, one at a level.
+  /// Dictionary of a table, merged from its folder upwards [The Inheritance Principle]: same suffix, a subset of the
+  /// table's entities, one per level.
   Json dictionaryOf(const File& file) {
     Json all = Json::object();
     if (!file.name) return readJson(fs::path(file.path).replace_extension(".json"));
@@ -90,7 +91,7 @@ class TableRules {
     return all;
   }
 
-  /// Columns that nobody else defines are described [tabular_data additional_columns, events.md].
+  /// Columns that the specification does not define must be described [tabular_data additional_columns, events.md].
   void checkDictionary(const File& file, const Table& table) {
     const Json dictionary = dictionaryOf(file);
     for (const std::string& name : table.header) {
@@ -127,7 +128,8 @@ class TableRules {
       find(file, "events.md: needs a corresponding data file");
   }
 
-  /// data-summary-files "Scans file", rules/checks/dataset.yaml SCANS_FILENAME_NOT_MATCH_DATASET, common-principles "Units".
+  /// data-summary-files "Scans file", rules/checks/dataset.yaml SCANS_FILENAME_NOT_MATCH_DATASET, common-principles
+  /// "Units".
   void checkScans(const File& file, const Table& table) {
     static const std::regex kTime(R"((\d{4})-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z?)");
     const int time = table.column("acq_time");

@@ -6,7 +6,7 @@ namespace presa::experiment::bids {
 /// Violations of the rules for tables and their dictionaries.
 std::vector<std::string> tableViolations(const std::string& dataset, const std::vector<File>& files);
 
-/// Of one recording: motion file, channels, sidecar.
+/// Violations of one recording: motion file, channels, sidecar.
 std::vector<std::string> motionViolations(const File& motion);
 
 }  // namespace presa::experiment::bids

@@ -20,7 +20,7 @@ using testing::IsEmpty;
 
 void write(const std::string& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
-/// A session as its log and files tell it, without a run.
+/// A session's folder with a handwritten log and files, without a run.
 class VerdictTest : public testing::Test {
  protected:
   VerdictTest() {
@@ -51,7 +51,7 @@ class VerdictTest : public testing::Test {
   Journal journal = Journal::create(folder.journal());
 };
 
-// A trial that was given up is data: the session is in order, and says so of the trial.
+// A trial that was given up is data: the session is valid, with a note on the trial.
 TEST_F(VerdictTest, TellsOfTrialsGivenUpAndExcluded) {
   trial(1, 1, "done");
   trial(2, 1, "aborted", "dropped");
@@ -73,7 +73,7 @@ TEST_F(VerdictTest, TellsOfTrialsGivenUpAndExcluded) {
 TEST_F(VerdictTest, UnfinishedIsNotAltered) {
   trial(1, 1, "aborted", "dropped");
   EXPECT_THAT(validate(folder).findings, ElementsAre(HasSubstr("not finished")));
-  EXPECT_THAT(validate(folder).notes, IsEmpty());  // it comes again
+  EXPECT_THAT(validate(folder).notes, IsEmpty());  // no note: the trial comes again
   EXPECT_FALSE(validate(folder).altered);
   write(folder.file("notes.txt"), "mine");
   EXPECT_FALSE(validate(folder).altered);
@@ -81,7 +81,7 @@ TEST_F(VerdictTest, UnfinishedIsNotAltered) {
   EXPECT_TRUE(validate(folder).altered);
 }
 
-/// An experiment of its own, whose rig names a motion and whose scene names a mesh at one level.
+/// An experiment whose rig names a motion and whose scene names a mesh per level.
 class InputsTest : public testing::Test {
  protected:
   InputsTest() {

@@ -31,7 +31,7 @@ using testing::IsEmpty;
 const std::string kSource = PRESA_SOURCE_DIR;
 bool goOn(const std::string&) { return true; }
 
-/// Two sessions of scripted fingers, run once, and their exports.
+/// Two sessions of scripted fingers, run once for all tests, and their exports.
 class ExportTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -73,14 +73,14 @@ std::unique_ptr<ScratchFolder> ExportTest::folder_;
 
 TEST_F(ExportTest, BidsPassesTheRules) { EXPECT_THAT(bids::violations(bids()), IsEmpty()); }
 
-// One's own dataset: PRESA_BIDS=folder.
+// Checks any dataset: PRESA_BIDS=folder.
 TEST(Bids, ADatasetThatIsNamedPassesTheRules) {
   const char* folder = std::getenv("PRESA_BIDS");
   if (folder == nullptr) GTEST_SKIP() << "PRESA_BIDS names none";
   EXPECT_THAT(bids::violations(folder), IsEmpty());
 }
 
-// What the rules are worth: each of these breaks one, and is found.
+// The rules are effective: each change violates one of them and is found.
 TEST_F(ExportTest, TheRulesFindWhatIsBroken) {
   const std::string session = "/sub-S01/ses-1/", stem = "sub-S01_ses-1_task-lift",
                     run = stem + "_tracksys-presa_run-001_";
@@ -140,7 +140,7 @@ TEST_F(ExportTest, TheRulesFindWhatIsBroken) {
   }
 }
 
-// The table of behaviour is the log: same runs, same numbers, units in the dictionary.
+// The table of behaviour agrees with the log: same runs, same numbers, units in the dictionary.
 TEST_F(ExportTest, BehaviourIsWhatWasLogged) {
   const SessionLog log = logOf("S02");
   const std::string base = bids() + "/sub-S02/ses-1/beh/sub-S02_ses-1_task-lift_beh";
@@ -164,7 +164,7 @@ TEST_F(ExportTest, BehaviourIsWhatWasLogged) {
   EXPECT_EQ(bids::readJson(base + ".json")["mass"]["Units"], "kg");
 }
 
-// Metres and newtons of the recording, to the last digit of single precision.
+// Positions [m] and forces [N] equal those of the recording in single precision.
 TEST_F(ExportTest, MotionIsWhatWasRecorded) {
   const LoggedRun run = logOf("S01").runs.at(2);
   const RecordedSamples samples = recordPlugin().samples(folderOf(data(), "S01", 1).file(run.files().front()));
@@ -185,7 +185,7 @@ TEST_F(ExportTest, MotionIsWhatWasRecorded) {
   check("cube_quat_w", samples.bodies.at(0).values("q_WB_w"));
 }
 
-// Each phase that was reached, where the log says, against the clock of the motion file.
+// Every phase that was reached is an event at the time in the log, in the time of the motion file.
 TEST_F(ExportTest, EventsAreThePhases) {
   const LoggedRun run = logOf("S01").runs.at(2);
   const bids::Table events =
@@ -209,7 +209,7 @@ TEST_F(ExportTest, AModelIsNoPerson) {
   EXPECT_THAT(contentsOf(bids() + "/README"), HasSubstr("are models, not people"));
 }
 
-// A dataset for others names neither the machine nor the day.
+// An exported dataset names neither the machine nor the date.
 TEST_F(ExportTest, NamesNoMachineAndNoDay) {
   for (const auto& [file, text] : allBytesOf(bids())) {
     EXPECT_EQ(text.find(kSource), std::string::npos) << file;
@@ -258,7 +258,7 @@ TEST_F(ExportTest, NothingAlteredIsExported) {
     EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("altered")));
 }
 
-// Ctrl-C between two recordings.
+// Ctrl-C between two recordings leaves no partial export.
 TEST_F(ExportTest, HalfAnExportIsNotLeftBehind) {
   const std::string out = folder_->file("half");
   int recordings = 0;
@@ -269,7 +269,7 @@ TEST_F(ExportTest, HalfAnExportIsNotLeftBehind) {
     EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("half")));
 }
 
-// A rehearsal that kept no ticks is behaviour alone.
+// A session without recordings is exported as behaviour only.
 TEST_F(ExportTest, ASessionWithoutRecordings) {
   const std::string bare = folder_->file("bare"), out = folder_->file("bare_bids");
   runSession("S03", bare, false);
@@ -293,7 +293,7 @@ TEST_F(ExportTest, OneNameIsNotGivenTwice) {
   EXPECT_THAT(refusalOf([&] { sourceSessions(copy); }), HasSubstr("error[E932]"));
 }
 
-// The lines of the manual, run as they stand there.
+// Runs the Python lines of the manual literally.
 TEST_F(ExportTest, ThePythonOfTheManualReadsIt) {
   if (std::system("python3 -c 'import csv' 2>/dev/null") != 0) GTEST_SKIP() << "python3 is not installed";
   const std::string manual = contentsOf(kSource + "/experiments/README.md"), fence = "```python\n";
@@ -302,7 +302,7 @@ TEST_F(ExportTest, ThePythonOfTheManualReadsIt) {
   fs::create_directory_symlink(csv(), folder_->file("data_csv"));
   const std::string command = "cd " + folder_->path().string() + " && python3 read.py > printed 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << contentsOf(folder_->file("printed"));
-  // what it is to print, from the logs
+  // expected output, computed from the logs
   std::map<std::string, std::vector<double>> grips;
   for (const char* id : {"S01", "S02"}) {
     for (const LoggedRun& run : logOf(id).runs) {
@@ -331,7 +331,7 @@ TEST(StagedFolder, RemovesWhatAKilledProcessLeft) {
   EXPECT_FALSE(fs::exists(scratch.file(".presa-export-out.abcdef")));
   EXPECT_TRUE(fs::exists(scratch.file(".presa-export-other.abcdef")));
   {
-    StagedFolder second(scratch.file("out"));  // leaves the one at work alone
+    StagedFolder second(scratch.file("out"));  // must not remove the folder of the first, which is in use
     second.write("c.txt", "c");
     second.publish();
   }

@@ -45,7 +45,7 @@ TEST(Expression, ComparesAndCombines) {
   EXPECT_EQ(valueOf("a >= 3 and a <= 3 and a ge 3 and a le 3 and a eq 3"), 1);
 }
 
-// A guard on a number that is not there must not end a phase.
+// A guard on a missing number must not end a phase.
 TEST(Expression, NothingHoldsOfNoNumber) {
   Diagnostics diagnostics;
   for (const char* text : {"nan > 0", "nan < 0", "nan == nan", "nan"})
@@ -79,7 +79,7 @@ TEST(Expression, AggregatesNameTheirPhase) {
   const std::vector<double> sample{2.5, 4};
   EXPECT_TRUE(aggregates[0].condition->holds(sample));
   EXPECT_EQ(aggregates[0].value->evaluate(sample), 8);
-  const std::vector<double> values{3, 0.5, 0, 8, 2};  // the names, then the aggregates
+  const std::vector<double> values{3, 0.5, 0, 8, 2};  // values of the names, then of the aggregates
   EXPECT_EQ(expression->evaluate(values), 7);
   EXPECT_FALSE(Expression::compile("mean(hald, fn)", kNames, {}, diagnostics, &aggregates, &samples, &phases));
   EXPECT_THAT(diagnostics.text(), HasSubstr("did you mean 'hold'"));

@@ -50,7 +50,7 @@ TEST_F(ForgetTest, RemovesSessionsExportsAndRows) {
   forget(traces, "S01");
   EXPECT_TRUE(tracesOf(data, "S01").empty());
   EXPECT_EQ(contentsOf(data + "/bids/participants.tsv"), "participant_id\tnumber\nsub-S02\t2\n");
-  // a row is a record, not a line: the reason of S02's first holds a line that begins like one of S01
+  // a row is a record, not a line: the reason in S02's first row contains a line that begins with S01
   EXPECT_EQ(contentsOf(data + "/csv/trials.csv"), "subject,reason\nS02,\"c\nS01,d\"\nS02,end\n");
 }
 

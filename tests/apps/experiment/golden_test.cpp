@@ -10,7 +10,7 @@
 #include "apps/experiment/dataset.h"
 #include "tests/apps/experiment/contents.h"
 
-// The small dataset that ships with each experiment: whole, unaltered, and what was found in it is still found.
+// The small dataset shipped with each experiment is complete and unaltered, and its analysis gives the same findings.
 // Made with `presa experiment run … --lockstep --no-recording`; golden.json is its analysis.json.
 namespace presa::experiment {
 namespace {
@@ -18,10 +18,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::IsEmpty;
 
-// Resampling multiplies the last bits of exp and log, in which systems differ; nothing else may.
+// Systems differ in the last bits of exp and log, which resampling amplifies; nothing else may differ.
 constexpr double kRelative = 1e-6, kAbsolute = 1e-9;
 
-/// Where two documents differ; numbers within the tolerance are equal.
+/// Lists the differences of two documents; numbers within the tolerance are equal.
 void compare(const Json& found, const Json& expected, const std::string& at, std::vector<std::string>& differences) {
   if (found.is_number() && expected.is_number()) {
     const double a = found.get<double>(), b = expected.get<double>();
@@ -67,7 +67,7 @@ TEST_P(GoldenDataset, GivesTheSameNumbers) {
   EXPECT_THAT(differences, IsEmpty());
 }
 
-// The shortest of them once more, from the file that ships: every trial, its order and every value.
+// Runs the shortest of them again from the shipped file: every trial, its order and every value are the same.
 TEST(GoldenSession, MadeAgainHasTheSameRows) {
   const std::string experiment = std::string(PRESA_SOURCE_DIR) + "/experiments/slip_reaction";
   ScratchFolder scratch;
@@ -92,7 +92,7 @@ TEST(GoldenSession, MadeAgainHasTheSameRows) {
       compare(made.runs[i].end[name], golden.runs[i].end[name], at, differences);
   }
   EXPECT_THAT(differences, IsEmpty());
-  // their recordings run again to the bit, the change of friction included
+  // the recordings replay bit-exactly, including the change of friction
   int replayed = 0;
   for (const LoggedRun& run : made.runs) {
     if (run.begin["condition"]["slippery"] != "1" || replayed == 2) continue;

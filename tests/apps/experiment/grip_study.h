@@ -10,7 +10,7 @@
 
 namespace presa::experiment::analysis {
 
-/// The design of the grip study, with the analysis asked for.
+/// The design of the grip study with the given <analysis>.
 inline std::string gripStudy(const std::string& analysis) {
   return R"(<experiment version="1.0" name="grip" scene="scene.xml" title="Grip &amp; slip">
   <factor name="mass"><column name="mass" unit="kg"/><level values="0.1"/><level values="0.2"/><level values="0.4"/></factor>
@@ -28,13 +28,13 @@ inline double levelOf(const Experiment& experiment, const PlannedTrial& trial, c
   return std::stod(experiment.valueOf(name, trial.condition));
 }
 
-/// The slip force computed as two different formulas do, so that levels differ in their last bits.
+/// The slip force, computed by two equivalent formulas so that equal levels differ in their last bits.
 inline double slipForceOf(const Experiment& experiment, const PlannedTrial& trial) {
   const double m = levelOf(experiment, trial, "mass"), mu = levelOf(experiment, trial, "mu_s");
   return trial.number % 2 == 0 ? m * 9.81 / (2 * mu) : m / mu * 0.5 * 9.81;
 }
 
-/// Grip = slip force times a factor of the trial.
+/// Trials with grip = slip force times a factor of the trial.
 inline SyntheticDataset::Make gripping(std::function<double(const Experiment&, const PlannedTrial&)> factor) {
   return [factor = std::move(factor)](const Experiment& experiment, const PlannedTrial& trial) {
     const double slip = slipForceOf(experiment, trial);

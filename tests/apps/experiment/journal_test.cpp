@@ -43,7 +43,7 @@ TEST_F(JournalTest, IsNeverOverwritten) {
   EXPECT_EQ(contentsOf(file), text);
 }
 
-// Cut anywhere, the log holds the records before the cut, and goes on from there.
+// A log cut at any byte holds the complete records before the cut and can be continued from there.
 TEST_F(JournalTest, CutAnywhereItGoesOn) {
   std::size_t whole = 0;
   for (std::size_t cut = 0; cut <= text.size(); ++cut) {
@@ -62,7 +62,7 @@ TEST_F(JournalTest, CutAnywhereItGoesOn) {
   }
 }
 
-// Every byte of every whole line counts, that of the last too, and no line can be taken out.
+// A change of any byte in any complete line is found, including the last line, and so is a removed line.
 TEST_F(JournalTest, AChangeInAWholeLineIsFound) {
   for (std::size_t at = 0; at + 1 < text.size(); ++at) {
     std::string changed = text;
@@ -75,7 +75,7 @@ TEST_F(JournalTest, AChangeInAWholeLineIsFound) {
   EXPECT_THAT(refusalOf([&] { Journal::read(file); }), HasSubstr("error[E923]"));
 }
 
-// Only a line without its end is what a crash leaves: one that was damaged is evidence, and stays.
+// A crash leaves only an incomplete line: a damaged complete line is evidence and must not be cut off.
 TEST_F(JournalTest, ADamagedLastLineIsNotCutOff) {
   std::string changed = text;
   changed[text.size() - 3] = ' ';
@@ -85,7 +85,7 @@ TEST_F(JournalTest, ADamagedLastLineIsNotCutOff) {
   EXPECT_EQ(contentsOf(file), changed);
 }
 
-// The chain by hand: each sum is that of the sum before and the record, as sha256sum would give it.
+// The chain by hand: each sum is the SHA-256 of the previous sum followed by the record.
 TEST_F(JournalTest, IsAChainOfSha256) {
   std::string sum;
   for (int i = 0; i < 5; ++i) {
@@ -107,7 +107,7 @@ TEST_F(JournalTest, OneProcessAtATime) {
   EXPECT_THAT(refusalOf([&] { Journal::reopen(file, contents); }), HasSubstr("error[E921]"));
 }
 
-// A limit on the size of files stops a write half-way, as a full disk does.
+// A file size limit stops a write half-way, as a full disk does.
 TEST_F(JournalTest, AFullDiskLeavesTheRecordsBefore) {
   Journal::Contents contents;
   Journal journal = Journal::reopen(file, contents);
@@ -120,7 +120,7 @@ TEST_F(JournalTest, AFullDiskLeavesTheRecordsBefore) {
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old);
   EXPECT_EQ(contentsOf(file), text);
-  journal.append(record(2));  // there is room again
+  journal.append(record(2));  // with room again
   EXPECT_EQ(Journal::read(file).records.size(), 6U);
 }
 
@@ -134,7 +134,7 @@ TEST(Checksum, IsThatOfTheStandard) {
   sum.add("a", 1);
   sum.add("bc", 2);
   EXPECT_EQ(sum.finish(), sha256OfText("abc"));
-  EXPECT_EQ(sum.finish(), sha256OfText(""));  // begun anew
+  EXPECT_EQ(sum.finish(), sha256OfText(""));  // after finish() it starts over
 }
 
 }  // namespace

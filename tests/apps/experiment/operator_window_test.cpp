@@ -11,7 +11,7 @@
 #include "apps/experiment/session_log.h"
 #include "tests/apps/experiment/contents.h"
 
-// The operator's window under an X server of its own, with keys that come through it.
+// The operator's window under its own X server, with keys sent through the server.
 namespace presa::experiment {
 namespace {
 
@@ -24,12 +24,12 @@ TEST(OperatorWindow, TakesANoteAndStops) {
   std::ofstream(scratch.file("operator.sh"))
       << kProgram << " experiment run " << kLift << " --subject S01 --operator window --data " << data << " &\n"
       << "timeout 60 xdotool search --sync --onlyvisible --name operator\n"
-      // keys that come before the window is on the screen go to nobody: again, until the note is in the log
+      // keys sent before the window is mapped are lost: repeat until the note is in the log
       << "for i in $(seq 40); do xdotool key Escape n; xdotool type --delay 20 'hand was cold'; xdotool key Return\n"
       << "sleep 0.5; grep -q 'hand was cold' " << folderOf(data, "S01", 1).journal() << " && break; done\n"
       << "xdotool key q\n"
       << "wait $!; echo $? > " << scratch.file("status") << "\n";
-  // xvfb-run's own status also tells of what it could not clean up
+  // ignore the status: xvfb-run also fails when it cannot clean up
   std::ignore = std::system(("timeout 120 xvfb-run -a -s '-screen 0 1400x900x24' bash " + scratch.file("operator.sh") +
                              " > " + scratch.file("log") + " 2>&1")
                                 .c_str());

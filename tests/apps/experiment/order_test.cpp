@@ -5,7 +5,7 @@
 
 #include "experiments/runner/definition/order.h"
 
-// What each kind of order promises, for many subjects and seeds.
+// The guarantees of each kind of order, for many subjects and seeds.
 namespace presa::experiment {
 namespace {
 
@@ -68,7 +68,7 @@ TEST(Order, SameArgumentsGiveTheSameOrderAndOthersDoNot) {
   EXPECT_EQ(conditions(1, 1), conditions(1, 1));
   EXPECT_NE(conditions(1, 1), conditions(2, 1));
   EXPECT_NE(conditions(1, 1), conditions(1, 2));
-  // practice draws from its own stream: the order of what counts stays
+  // practice has its own random stream: the order of the other trials does not change
   Experiment practised = experiment;
   practised.design.practice = 5;
   const auto with = planTrials(practised, 1, 1);
@@ -92,7 +92,7 @@ TEST(Order, NoImmediateRepeatHoldsForEverySubject) {
       for (const auto& [condition, count] : countOf(trials)) ASSERT_EQ(count, 8);
     }
   }
-  EXPECT_GT(without, 1000);  // or it would hold by itself
+  EXPECT_GT(without, 1000);  // otherwise the test would be trivial
 }
 
 TEST(Order, BlocksKeepOneLevelTogether) {
@@ -137,7 +137,7 @@ TEST(LatinSquare, EachItemOnceInEachRowAndColumn) {
   }
 }
 
-// Williams: over all rows each item follows each other one equally often, once for even n and twice for odd n.
+// Williams design: over all rows each item follows each other item equally often, once for even n and twice for odd n.
 TEST(LatinSquare, BalancedForWhatComesBefore) {
   for (std::size_t n = 2; n <= 9; ++n) {
     std::map<std::pair<std::size_t, std::size_t>, int> follows;

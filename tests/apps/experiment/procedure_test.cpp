@@ -13,7 +13,7 @@
 #include "experiments/runner/definition/trial_source.h"
 #include "tests/apps/experiment/contents.h"
 
-// A method in the experiment's file: what is presented, what is asked, what comes of the answers.
+// Psychophysical methods in an experiment file: presentations, questions, and the effect of answers.
 namespace presa::experiment {
 namespace {
 
@@ -29,7 +29,7 @@ Experiment fixture(const std::string& name) {
   return std::move(*experiment);
 }
 
-/// What reading says when `from` is replaced; the file lies beside the fixture's own scene.
+/// The findings of reading the file with `from` replaced by `to`; it is written beside the fixture's scene.
 std::string findings(const std::string& name, const std::string& from, const std::string& to) {
   std::string text = contentsOf(kFixtures + name);
   const std::size_t at = text.find(from);
@@ -77,7 +77,7 @@ TEST(Procedure, IsRebuiltFromItsOutcomes) {
     EXPECT_EQ(same->seed, next->seed);
     const Outcome outcome = n % 4 == 1 ? Outcome::kAborted : Outcome::kDone;
     const auto answer = rightTwoTimesInThree(*whole, n);
-    again->finish(Outcome::kInterrupted);  // comes again, the same
+    again->finish(Outcome::kInterrupted);  // the same trial comes again
     EXPECT_EQ(again->next()->seed, next->seed);
     whole->finish(outcome, answer);
     again->finish(outcome, answer);
@@ -88,7 +88,7 @@ TEST(Procedure, IsRebuiltFromItsOutcomes) {
 TEST(Procedure, AnAbortedTrialComesAgainWithAnotherSeed) {
   const Experiment experiment = fixture("rub.xml");
   const auto source = makeTrialSource(experiment, 1, 1);
-  source->finish(Outcome::kDone, source->method()->responseFor(true));  // practice
+  source->finish(Outcome::kDone, source->method()->responseFor(true));  // a practice trial
   const PlannedTrial first = *source->next();
   source->finish(Outcome::kAborted);
   EXPECT_EQ(source->next()->number, first.number);
@@ -114,7 +114,7 @@ TEST(Procedure, RowHoldsBothIntervals) {
   EXPECT_EQ(row[6], 2);
   EXPECT_EQ(row[7], 1);
   EXPECT_EQ(row[9], 1.2);
-  EXPECT_EQ(row[10], 3);  // the worst of both
+  EXPECT_EQ(row[10], 3);  // the larger of both
   EXPECT_EQ(row[13], 7);
 }
 
@@ -133,7 +133,7 @@ TEST(Procedure, TellsWhatIsWrong) {
               HasSubstr("must be one or more numbers, found 'x'"));
 }
 
-/// The simulated observer's answers to percepts that are given, `n` times.
+/// Share of answers "first" of the simulated observer in `n` trials with the given percepts.
 double shareOfFirst(const Experiment& experiment, double first, double second, int n) {
   const auto observer = simulatedRespondent(experiment, 1);
   TrialResult a, b;
@@ -149,14 +149,15 @@ double shareOfFirst(const Experiment& experiment, double first, double second, i
   return static_cast<double>(count) / n;
 }
 
-// Weber 0.2: a ratio of 1.2 is told apart in 75 % (0.745 with 2 % of guesses); "less" is asked for. Binomial sd of 20 000 answers: 0.0031.
+// Weber fraction 0.2: a ratio of 1.2 is discriminated in 75 % (0.745 with 2 % guesses); the question is "less".
+// Binomial sd of 20 000 answers: 0.0031.
 TEST(SimulatedObserver, TellsItsWeberFractionApartInThreeOfFour) {
   const Experiment experiment = fixture("rub.xml");
   const double expected = 0.98 * 0.75 + 0.02 * 0.5;
   EXPECT_NEAR(shareOfFirst(experiment, 0.5, 0.6, 20000), expected, 0.012);
   EXPECT_NEAR(shareOfFirst(experiment, 0.6, 0.5, 20000), 1 - expected, 0.012);
   EXPECT_NEAR(shareOfFirst(experiment, 0.5, 0.5, 20000), 0.5, 0.012);
-  EXPECT_NEAR(shareOfFirst(experiment, std::nan(""), 0.5, 20000), 0.5, 0.012);  // not felt: a guess
+  EXPECT_NEAR(shareOfFirst(experiment, std::nan(""), 0.5, 20000), 0.5, 0.012);  // no percept: a guess
 }
 
 }  // namespace

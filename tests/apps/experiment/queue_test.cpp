@@ -32,7 +32,7 @@ TEST(TrialQueue, AbortedTrialsComeAtTheEndOfTheirBlock) {
   EXPECT_THAT(numbers(queue), ElementsAre(2, 1, 3, 4));
   queue.finish(Outcome::kDone);
   EXPECT_EQ(queue.next()->attempt, 2);
-  EXPECT_NE(queue.next()->seed, 1U);  // or the same subject would do the same again
+  EXPECT_NE(queue.next()->seed, 1U);  // otherwise a simulated subject would repeat its behaviour
 }
 
 TEST(TrialQueue, OrAtOnce) {
@@ -49,7 +49,7 @@ TEST(TrialQueue, AttemptsAreLimited) {
   EXPECT_EQ(queue.missing(), 1U);
 }
 
-// What came from outside is not the trial's fault: same place, same seed, no attempt used up.
+// An external interruption does not count against a trial: same place, same seed, no attempt used up.
 TEST(TrialQueue, InterruptedTrialsComeNextAsTheyWere) {
   TrialQueue queue(planned(), {1, Retry::Place::kEndOfBlock});
   for (int i = 0; i < 5; ++i) queue.finish(Outcome::kInterrupted);

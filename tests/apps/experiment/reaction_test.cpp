@@ -8,7 +8,7 @@
 #include "framework/core/math/random.h"
 #include "tests/support/alloc_lock_guard.h"
 
-// The time of a reaction, in signals whose beginning is known.
+// Reaction times measured in signals with a known onset.
 namespace presa::experiment {
 namespace {
 
@@ -20,7 +20,7 @@ class ReactionTest : public testing::Test {
   Reaction rule(double threshold, double sds) {
     return {*Expression::compile("x", Names({"x"}), {}, diagnostics), kWait, kReact, threshold, sds, 0.2};
   }
-  /// The whole of both phases through the clock.
+  /// Onset found by the clock after all samples of both phases.
   static double onsetOf(const Reaction& rule, const std::vector<double>& wait, const std::vector<double>& react) {
     ReactionClock clock(rule, kPeriod);
     for (const double x : wait) clock.add(kWait, {&x, 1}, 0);
@@ -41,7 +41,7 @@ Lines linesOf(const std::vector<double>& wait, double threshold, double sds) {
   const double sd = std::sqrt(squares / 199), response = mean + std::max(threshold, sds * sd);
   return {std::min(mean + 2 * sd, response), response};
 }
-/// The rule as it is written down, on samples that were all kept.
+/// The documented rule as a backward search in all stored samples.
 double searchedBackwards(const std::vector<double>& react, const Lines& lines) {
   const auto response = std::find_if(react.begin(), react.end(), [&](double x) { return x > lines.response; });
   if (response == react.end()) return std::numeric_limits<double>::quiet_NaN();
@@ -50,9 +50,9 @@ double searchedBackwards(const std::vector<double>& react, const Lines& lines) {
   return static_cast<double>(onset - react.begin()) * kPeriod;
 }
 
-/// A grip of 2 N in white noise, which rises from sample 150 of the reaction on.
+/// A grip of 2 N with white noise, which rises from sample 150 of the reaction phase on.
 struct Rise {
-  static constexpr double kSd = 0.02, kSlope = 4;  // [N], [N/s]: a fifth of the noise in each sample
+  static constexpr double kSd = 0.02, kSlope = 4;  // [N], [N/s]: a rise of a fifth of the noise sd per sample
   static constexpr int kDelay = 150;
   static double height(int n) { return std::max(0, n - kDelay) * kPeriod * kSlope; }
   explicit Rise(std::uint64_t seed) {
@@ -63,7 +63,7 @@ struct Rise {
   std::vector<double> wait, react;
 };
 
-// Online and without keeping samples it is what a search in all of them finds, to the bit.
+// The online rule without stored samples gives the bit-exact result of the search in all samples.
 TEST_F(ReactionTest, IsTheSearchBackwardsWithoutTheSamples) {
   for (const double threshold : {0.0, 0.2}) {
     const Reaction what = rule(threshold, 5);
@@ -74,10 +74,11 @@ TEST_F(ReactionTest, IsTheSearchBackwardsWithoutTheSamples) {
   }
 }
 
-// White noise under a ramp: sample n is below the lower line, m + 2 s, with p(n) = Phi(2 - height / s), and the onset comes after
-// the last such. Its mean is the sum over n of P(onset > n) = 1 - product over k >= n of (1 - p(k)). m and s are known from 200
-// samples only, to s / sqrt(200) and s / sqrt(400): that shifts the line by less than 0.1 s + 0.1 s, half a sample, either way, and
-// on the average of 2000 runs by nothing that counts; 4 standard errors of that average are the tolerance.
+// White noise on a ramp: sample n is below the lower line, m + 2 s, with probability p(n) = Phi(2 - height / s), and
+// the onset follows the last such sample. Its mean is the sum over n of P(onset > n) = 1 - product over k >= n of (1 -
+// p(k)). m and s are estimated from 200 samples, with errors s / sqrt(200) and s / sqrt(400): these shift the line by
+// less than 0.1 s + 0.1 s, half a sample, in either direction, and negligibly in the mean of 2000 runs. Tolerance: 4
+// standard errors of that mean.
 TEST_F(ReactionTest, OnAverageFindsTheBeginningOfARampInNoise) {
   const auto below = [](int n) { return 0.5 * std::erfc((Rise::height(n) / Rise::kSd - 2) / std::sqrt(2)); };
   double expected = Rise::kDelay, never_again = 1;
@@ -94,12 +95,12 @@ TEST_F(ReactionTest, OnAverageFindsTheBeginningOfARampInNoise) {
     squares += change * (onsetOf(what, rise.wait, rise.react) / kPeriod - mean);
   }
   const double error = std::sqrt(squares / (kRuns - 1) / kRuns);
-  EXPECT_LT(error, 0.15);  // samples: or the comparison would say little
+  EXPECT_LT(error, 0.15);  // [samples]: otherwise the comparison would be weak
   EXPECT_NEAR(mean, expected, 4 * error);
-  EXPECT_LT(expected - Rise::kDelay, 25);  // 2 s are 10 samples of the ramp, the noise adds as many again
+  EXPECT_LT(expected - Rise::kDelay, 25);  // 2 s are 10 samples of the ramp, and the noise adds as many
 }
 
-// Without noise: the sample after the ramp began, whatever the threshold.
+// Without noise the onset is the first sample after the start of the ramp, for every threshold.
 TEST_F(ReactionTest, FindsAQuietRampToTheSample) {
   std::vector<double> react(600, 2.0);
   for (int n = 150; n < 600; ++n) react[static_cast<std::size_t>(n)] += 0.004 * (n - 150);
@@ -113,7 +114,7 @@ TEST_F(ReactionTest, IsNothingWhereNothingRises) {
   EXPECT_TRUE(std::isnan(onsetOf(rule(0.2, 5), std::vector<double>(300, 2.0), {}))) << "the phase never came";
 }
 
-// 0.2 N is not enough where the grip is unsteady: sd 0.1 N asks for 0.5 N.
+// With an unsteady grip of sd 0.1 N, five sds (0.5 N) exceed the threshold of 0.2 N.
 TEST_F(ReactionTest, TakesTheLargerOfTheThresholds) {
   std::vector<double> wait;
   for (int n = 0; n < 300; ++n) wait.push_back(n % 2 == 0 ? 1.9 : 2.1);
@@ -121,7 +122,7 @@ TEST_F(ReactionTest, TakesTheLargerOfTheThresholds) {
   EXPECT_EQ(onsetOf(rule(0.2, 4), wait, std::vector<double>(600, 2.45)), 0);
 }
 
-// Only the end of the baseline counts; what rose before the event began at 0, to be thrown out as an anticipation.
+// Only the end of the baseline counts. A rise before the event has its onset at 0, to be discarded as an anticipation.
 TEST_F(ReactionTest, LooksAtTheLastOfTheBaselineAndNotBeforeTheEvent) {
   std::vector<double> wait(1000, 7.0);
   std::fill(wait.end() - 200, wait.end(), 2.0);

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 const std::string kGrip = std::string(PRESA_SOURCE_DIR) + "/experiments/grip_slip/experiment.xml";
 
-/// The shipped experiment with one thing changed, and what is said about it.
+/// The findings on the shipped experiment after a single change.
 class Changed : public testing::Test {
  protected:
   ~Changed() override { fs::remove(file_); }
@@ -32,7 +32,7 @@ class Changed : public testing::Test {
     EXPECT_FALSE(readExperiment(file_, {}, diagnostics));
     return diagnostics.text();
   }
-  // beside the original, whose scene it names
+  // beside the original, so that its scene is found
   const std::string file_ = fs::path(kGrip).parent_path() / ("changed_" + std::to_string(::getpid()) + ".xml");
 };
 
@@ -61,7 +61,7 @@ TEST_F(Changed, UnknownPathOfTheScene) {
   EXPECT_THAT(findings("body/cube/physics/mass", "body/cub/physics/mass"), HasSubstr("did you mean"));
 }
 
-// Friction that cannot be: the scene's own check, told for the level that sets it.
+// Invalid friction: the scene's check reports it for the level that sets it.
 TEST_F(Changed, LevelThatTheSceneRefuses) { EXPECT_THAT(findings("0.8 0.6", "0.8 0.9"), HasSubstr("error[E2")); }
 
 TEST_F(Changed, UnknownNumberInAGuard) {

@@ -5,7 +5,7 @@
 
 namespace presa::experiment {
 
-/// What is said when `act` is refused, "accepted" when it is not.
+/// The error text when `act` is refused, otherwise "accepted".
 template <class Act>
 std::string refusalOf(Act act) {
   try {

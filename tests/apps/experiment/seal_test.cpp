@@ -12,13 +12,13 @@
 #include "framework/record/checksum/plugin.h"
 #include "framework/record/checksum/signature.h"
 
-// What a checksum cannot prove: who sealed a session.
+// Signatures prove the identity of the sealer, which a checksum cannot.
 namespace presa::experiment {
 namespace {
 
 using testing::HasSubstr;
 
-// Test 2 of RFC 8032, section 7.1: key, message and signature made by others.
+// Test 2 of RFC 8032, section 7.1: key, message and signature of the standard.
 TEST(Signature, IsThatOfTheStandard) {
   const std::string secret =
       "presa-secret-key ed25519 4ccd089b28ff96da9db6c346ec114e0f5b8a319f35aba624da8cf6ed4fb8a6fb\n";
@@ -32,7 +32,7 @@ TEST(Signature, IsThatOfTheStandard) {
   EXPECT_TRUE(isSignedBy(open, "\x72", expected));
 }
 
-// Each bit counts: of the message, of the signature, of the key.
+// A change of any bit of message, signature or key is detected.
 TEST(Signature, FitsOneMessageAndOneKey) {
   const KeyPair keys = makeKeys(), others = makeKeys();
   EXPECT_NE(keys.secret, others.secret);

@@ -14,7 +14,7 @@
 #include "framework/core/math/random.h"
 #include "tests/apps/experiment/contents.h"
 
-// Whole sessions through the program: what is on disk after an end of any kind.
+// Whole sessions through the program: the files on disk after every kind of end.
 namespace presa::experiment {
 namespace {
 
@@ -27,7 +27,7 @@ const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experimen
 
 const std::string kRub = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/rub.xml";
 
-/// The program in a process of its own, its output in a file.
+/// The program in a separate process, with its output in a file.
 class Process {
  public:
   Process(std::vector<std::string> arguments, const std::string& output) {
@@ -42,7 +42,7 @@ class Process {
     posix_spawn_file_actions_destroy(&actions);
   }
   void kill(int signal) const { ::kill(id_, signal); }
-  /// Exit status, 128 + signal when one ended it.
+  /// Exit status, or 128 + the signal that ended the process.
   int wait() const {
     int status = 0;
     ::waitpid(id_, &status, 0);
@@ -72,7 +72,7 @@ class SessionTest : public testing::Test {
     const SessionFolder folder = folderOf(data, "S01", 1);
     return readLog(folder.journal(), Journal::read(folder.journal()).records);
   }
-  /// What has to be the same whatever happened in between: every run that was not cut off, without times and file names.
+  /// The part of a log that must not depend on interruptions: every uninterrupted run, without times and file names.
   static std::string essence(const SessionLog& log) {
     std::string text;
     for (const LoggedRun& run : log.runs) {
@@ -96,7 +96,8 @@ TEST_F(SessionTest, LeavesADatasetThatIsComplete) {
   EXPECT_EQ(program({"experiment", "validate", data}), 0) << output;
   const SessionLog log = logOf(data);
   ASSERT_TRUE(log.complete);
-  // the scripted grip of 6 N cannot lift 0.2 kg at 0.1; it slips where m g / (2 mu) says, 0.5 % is the floor of the study
+  // the scripted grip of 6 N cannot lift 0.2 kg at mu = 0.1; it slips at m g / (2 mu); 0.5 % is the accuracy of the
+  // study
   for (const LoggedRun& run : log.runs) {
     const bool heavy_slippery = run.begin["condition"]["mass"] == "0.2" && run.begin["condition"]["mu_s"] == "0.1";
     ASSERT_EQ(run.outcome, heavy_slippery ? Outcome::kAborted : Outcome::kDone);
@@ -117,7 +118,7 @@ TEST_F(SessionTest, IsNeverOverwritten) {
   EXPECT_THAT(output, HasSubstr("no session is left to finish"));
 }
 
-// A folder as the shell completes it, and from another folder than the session was begun in.
+// Resumes with a trailing slash as the shell completes it, and beside sessions that never began.
 TEST_F(SessionTest, ResumesFromAnywhere) {
   const std::string data = scratch.file("data");
   const Process process(runArguments(data), scratch.file("output"));
@@ -126,30 +127,30 @@ TEST_F(SessionTest, ResumesFromAnywhere) {
   process.wait();
   std::ofstream(folderOf(data, "S01", 1).file("trials.csv.backup")) << "mine";
   fs::create_directories(data + "/sub-S02/ses-1");
-  std::ofstream(folderOf(data, "S02", 1).journal());  // one that never began is in nobody's way
+  std::ofstream(folderOf(data, "S02", 1).journal());  // a session that never began must not interfere
   EXPECT_EQ(program({"experiment", "resume", folderOf(data, "S01", 1).path + "/"}), 0) << output;
   EXPECT_TRUE(logOf(data).complete);
   EXPECT_TRUE(fs::exists(folderOf(data, "S01", 1).file("trials.csv.backup")));
   EXPECT_EQ(program({"experiment", "resume", data}), 0) << output;
 }
 
-// Two sessions give the same numbers; and killed at random moments, resumed each time, they still do.
-// PRESA_KILLS: how often (default 12; the figure in the README is of 200).
+// Two sessions give the same numbers, even when they are killed at random moments and resumed each time. PRESA_KILLS:
+// number of kills (default 12; the README cites 200).
 TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
   const std::string whole = scratch.file("whole");
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(program(runArguments(whole)), 0);
-  // the unbroken run measures this machine, so that kills fall into a run on any
+  // the duration of the uninterrupted run scales the times of the kills to the speed of the machine
   const double whole_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
   const std::string expected = essence(logOf(whole));
   const char* wanted = std::getenv("PRESA_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 12;
   RandomStream random(1, "kills");
   int killed = 0, interrupted = 0;
-  // on until a fair share of the kills fell into trials, not into starts of the program, which take longer on a busy machine
+  // continue until enough kills fell into trials rather than into program starts, which take longer on a busy machine
   const auto enough = [&] { return killed >= kills && interrupted > kills / 4; };
   for (int session = 0; !enough() && session < 2 * kills; ++session) {
-    int left = kills;  // for this session
+    int left = kills;  // kills left for this session
     const std::string data = scratch.file("data" + std::to_string(session));
     std::vector<std::string> arguments = runArguments(data);
     for (bool ended = false; !ended;) {
@@ -177,10 +178,10 @@ TEST_F(SessionTest, KilledAtAnyMomentItEndsAsIfItHadNotBeen) {
   }
   RecordProperty("kills", killed);
   RecordProperty("interrupted_trials", interrupted);
-  EXPECT_GT(interrupted, kills / 4);  // or it would have been killed between trials only
+  EXPECT_GT(interrupted, kills / 4);  // otherwise kills fell between trials only
 }
 
-// Staircases, places of the standard and answers come back from the log.
+// Staircases, positions of the standard and answers are restored from the log.
 TEST_F(SessionTest, AMethodGoesOnAsIfItHadNotBeenKilled) {
   const std::string whole = scratch.file("whole"), data = scratch.file("data");
   ASSERT_EQ(program(runArguments(whole, kRub)), 0) << output;
@@ -194,7 +195,7 @@ TEST_F(SessionTest, AMethodGoesOnAsIfItHadNotBeenKilled) {
   EXPECT_THAT(validate(folderOf(data, "S01", 1)).findings, IsEmpty());
 }
 
-// Two studies of two subjects; the same command again finds them all there, another experiment does not mix with them.
+// Two studies of two subjects: the same command finds all of them complete; another experiment is refused.
 TEST_F(SessionTest, SimulatedStudiesGoOnWithWhatIsThere) {
   const std::string out = scratch.file("studies");
   std::vector<std::string> arguments{"experiment", "simulate", kRub, "--subjects", "2", "--seeds", "2", "--out", out};
@@ -223,7 +224,7 @@ TEST_F(SessionTest, ControlCKeepsWhatIsThere) {
   EXPECT_TRUE(logOf(data).complete);
 }
 
-// A finger's device falls silent while it lifts: the trial is marked and comes again, the message says which finger.
+// A finger's device stops sending while lifting: the trial is marked and comes again, and the message names the finger.
 TEST_F(SessionTest, ALostDeviceEndsTheTrial) {
   const std::string rig = scratch.file("rig.xml"), data = scratch.file("data");
   const std::string motion = std::string(PRESA_SOURCE_DIR) + "/config/motions/pinch_cube.xml";
@@ -241,7 +242,7 @@ TEST_F(SessionTest, ALostDeviceEndsTheTrial) {
   EXPECT_EQ(log.runs[0].outcome, Outcome::kInterrupted);
   EXPECT_NEAR(log.runs[0].end["values"]["device_lost_s"].get<double>(), 0.1, 0.002);
   EXPECT_FALSE(log.complete);
-  EXPECT_EQ(program({"experiment", "resume", data}), 1);  // nobody has mended it: the same trial, in a second run
+  EXPECT_EQ(program({"experiment", "resume", data}), 1);  // not repaired: the same trial fails in a second run
   ASSERT_EQ(logOf(data).runs.size(), 2U);
   EXPECT_EQ(logOf(data).runs[0].end, log.runs[0].end);
 }
@@ -284,8 +285,8 @@ TEST_F(SessionTest, ForgetRemovesOneSubjectAndNoOther) {
   EXPECT_EQ(contentsOf(data + "/bids/participants.tsv"), "participant_id\tage\nsub-S011\t40\n");
 }
 
-// A limit on the size of files stops writes as a full disk does: in the log, and in a recording. What was before is whole, and with
-// room again the session goes on to the same end.
+// A file size limit stops writes as a full disk does, in the log and in a recording. Earlier data stay intact, and with
+// room again the session continues to the same end.
 TEST_F(SessionTest, AFullDiskStopsItAndItGoesOn) {
   const std::string whole = scratch.file("whole");
   ASSERT_EQ(program(runArguments(whole)), 0) << output;

@@ -9,7 +9,7 @@
 #include "tests/apps/experiment/contents.h"
 #include "tests/apps/experiment/refusal.h"
 
-// A model that takes part is a person of its own under its number, and nothing that it leaves behind passes for a person's.
+// A simulated subject is the same individual in all its trials, and its data are always labelled as a model's.
 namespace presa::experiment {
 namespace {
 
@@ -59,7 +59,7 @@ TrialResult runTrial(const Experiment& experiment, const PlannedTrial& trial, co
   return present(experiment, presentationsOf(experiment, trial).front(), trial.seed, setting);
 }
 
-// What subjects feel may not be changed by somebody elsewhere: neither the session begins nor a trial.
+// Commands from elsewhere must not change the stimuli: neither a session nor a trial begins with them enabled.
 TEST(Simulated, AnExperimentTakesNoCommands) {
   const ScratchFolder folder;
   std::string rig = contentsOf(kFolder + "rig_simulated.xml");
@@ -71,7 +71,7 @@ TEST(Simulated, AnExperimentTakesNoCommands) {
               HasSubstr("error[E730]"));
 }
 
-// The trial's seed draws what differs from trial to trial; the person stays.
+// The trial's seed changes only the variation between trials, not the subject's parameters.
 TEST(Simulated, IsTheSamePersonInEveryTrialAndAnotherUnderAnotherNumber) {
   const Experiment experiment = gripStudy("L1");
   PlannedTrial trial = planTrials(experiment, 1, 1).front();

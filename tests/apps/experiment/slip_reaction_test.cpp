@@ -9,13 +9,14 @@
 #include "experiments/runner/definition/read.h"
 #include "framework/record/record_plugin.h"
 
-// The shipped experiment with its simulated subject: the reaction that is measured against the one that the model has.
+// The shipped experiment with its simulated subject: the measured reaction time against the model's.
 namespace presa::experiment {
 namespace {
 
 const std::string kFile = std::string(PRESA_SOURCE_DIR) + "/experiments/slip_reaction/experiment.xml";
 
-/// What one recording shows from outside of a subject who feels slip as its fingers springing up (devices/simulated_subject/model).
+/// The observable behaviour in one recording of a subject that detects slip by its fingers springing up
+/// (devices/simulated_subject/model).
 class Fingers {
  public:
   explicit Fingers(const std::string& file) : samples_(recordPlugin().samples(file)) {}
@@ -28,7 +29,7 @@ class Fingers {
     }
     return NAN;
   }
-  /// When the fingers are `threshold` above where they were in the last 0.4 s.
+  /// Time at which the fingers are `threshold` [m] above their average height, filtered with a time constant of 0.4 s.
   double kick(double threshold, double from) const {
     const std::vector<double>&thumb = samples_.fingers[0].values("p_WH_z"),
           &index = samples_.fingers[1].values("p_WH_z");
@@ -65,13 +66,14 @@ Experiment shipped() {
   return experiment.value_or(Experiment{});
 }
 
-// The model notices slip when its fingers have sprung up by its threshold of the trial, and squeezes one voluntary reaction later;
-// both are told with the run and nothing is fitted. The fingers are recorded in steps of at most 130 um each, so the kick is
-// known to half of that. The grip leaves its baseline within a quarter of the slowest oscillation that finger and spring can have,
-// pi/2 sqrt(M / (k + k_h)) with M <= 0.2 kg, k = 1000 N/m, k_h >= 150 N/m: 21 ms. Noise makes a few
-// trials earlier (the grip was above two standard deviations already when the squeeze came; 2.3 % of a normal distribution, more
-// where 0.2 s had to tell its spread) or later (the first squeeze stayed below five, a second one did not): three quarters are
-// to lie where the model says.
+// The model detects slip when its fingers have sprung up by the trial's threshold, and squeezes one voluntary reaction
+// time later. Both figures are reported with the run; nothing is fitted. The fingers are recorded in steps of at most
+// 130 um, so the height of the spring-up is known to half of that. The grip leaves its baseline within a quarter period
+// of the slowest oscillation of finger and spring, pi/2 sqrt(M / (k + k_h)) with M <= 0.2 kg, k = 1000 N/m, k_h >= 150
+// N/m: 21 ms. Noise makes a few trials earlier (the grip was above two standard deviations already when the squeeze
+// came: 2.3 % of a normal
+// distribution, more because its spread is estimated from 0.2 s) or later (the first squeeze stayed below five standard
+// deviations, a second one did not): three quarters must agree with the model.
 TEST(SlipReaction, IsThatOfTheModelThatTakesPart) {
   const Experiment experiment = shipped();
   constexpr int kSubject = 3;
@@ -96,7 +98,7 @@ TEST(SlipReaction, IsThatOfTheModelThatTakesPart) {
       EXPECT_TRUE(std::isnan(RT));
       continue;
     }
-    // it holds with less than the new surface asks for, so it slips in the first tick of the phase
+    // the grip is too weak for the new surface, so it slips in the first tick of the phase
     EXPECT_NEAR(slip, event, 1e-9);
     EXPECT_NEAR(valueOf(experiment, result, "slip_onset"), 0, 1e-9);
     if (std::isnan(rise)) continue;

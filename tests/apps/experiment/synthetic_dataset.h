@@ -12,10 +12,10 @@
 
 namespace presa::experiment {
 
-/// Numbers of one trial by name; NaN: none.
+/// Numbers of one trial by name; NaN: no value.
 using TrialValues = std::map<std::string, double>;
 
-/// A dataset as sessions leave it, its numbers made up: journal and definition, no recordings.
+/// A dataset with invented numbers in the format of real sessions: journal and definition, no recordings.
 class SyntheticDataset {
  public:
   /// `definition`: text of an experiment file.
@@ -29,7 +29,7 @@ class SyntheticDataset {
   };
   using Make = std::function<Made(const Experiment&, const PlannedTrial&)>;
 
-  /// A session of a subject whose trials are those of the plan; `runs`: only so many, the session is not finished then.
+  /// Adds a session of a subject with the trials of the plan; `runs`: only the first ones, which leaves it unfinished.
   void addSession(int subject, const Make& make, std::size_t runs = SIZE_MAX, const std::string& model = {}) {
     const std::string id = "S0" + std::to_string(subject);
     const SessionFolder at = folderOf(folder_, id, 1);

@@ -5,13 +5,14 @@
 #include "experiments/runner/definition/trial.h"
 #include "tests/support/alloc_lock_guard.h"
 
-// The state machine of a trial, fed with samples that are worked out by hand.
+// The state machine of a trial, fed with samples computed by hand.
 namespace presa::experiment {
 namespace {
 
 constexpr double kPeriod = 0.001;
 
-/// lift (until x > mass, held 10 ms, at most 1 s), hold (100 ms, aborted by x < 0), end (until x == 0, next after 50 ms).
+/// lift (until x > mass, held 10 ms, at most 1 s), hold (100 ms, aborted by x < 0), end (until x == 0, next after 50
+/// ms).
 class TrialTest : public testing::Test {
  protected:
   TrialTest() {
@@ -43,7 +44,7 @@ class TrialTest : public testing::Test {
     experiment.measures.push_back(std::move(made));
     experiment.names.add(name);
   }
-  /// Steps until the trial ends or `seconds` are over; x by the tick's number.
+  /// Steps until the trial ends or `seconds` are over; `x` gives the sample by tick number.
   template <class X>
   void run(Trial& trial, X x, int ticks) {
     for (int n = 0; n < ticks && trial.state() == Trial::State::kRunning; ++n) {
@@ -59,7 +60,8 @@ class TrialTest : public testing::Test {
 
 TEST_F(TrialTest, GoesThroughItsPhasesAndMeasures) {
   Trial trial(experiment, {0.2}, kPeriod);
-  // above 0.2 from tick 5: held 10 ms at tick 15; hold is ticks 16 to 115 with x = 1 + 0.0001 (n - 16); end at once, x = 0 in tick 120
+  // above 0.2 from tick 5: held 10 ms at tick 15; hold is ticks 16 to 115 with x = 1 + 0.0001 (n - 16); then end, with
+  // x = 0 in tick 120
   run(
       trial,
       [](int n) {
@@ -99,9 +101,9 @@ TEST_F(TrialTest, AbortsWithItsReason) {
   EXPECT_EQ(trial.reason(), "dropped");
   EXPECT_EQ(trial.phase(), 1U);
   const auto results = trial.results(std::vector<double>{0, 0, 0, 0});
-  EXPECT_TRUE(std::isnan(value(results, "begin")));  // never came to it
+  EXPECT_TRUE(std::isnan(value(results, "begin")));  // the phase was never reached
   trial.abort(2, "operator");
-  EXPECT_EQ(trial.reason(), "dropped");  // what ended it stays
+  EXPECT_EQ(trial.reason(), "dropped");  // the first reason is kept
 }
 
 TEST_F(TrialTest, FromOutside) {
@@ -113,7 +115,7 @@ TEST_F(TrialTest, FromOutside) {
   EXPECT_EQ(trial.reason(), "device lost");
 }
 
-// A level that is a word has no value: a guard on it never holds.
+// A textual level has no numeric value: a guard on it never holds.
 TEST_F(TrialTest, AWordIsNoNumber) {
   Trial trial(experiment, {1}, kPeriod);
   run(
@@ -121,7 +123,7 @@ TEST_F(TrialTest, AWordIsNoNumber) {
   EXPECT_EQ(trial.reason(), "no end of lift");
 }
 
-// From the first tick of its phase on, and only in trials for which its condition holds.
+// The friction changes from the first tick of its phase on, and only in trials that meet its condition.
 TEST_F(TrialTest, ChangesTheFrictionWithItsPhase) {
   experiment.phases[1].changes_friction = true;
   Trial always(experiment, {0.2}, kPeriod);
@@ -130,7 +132,7 @@ TEST_F(TrialTest, ChangesTheFrictionWithItsPhase) {
   EXPECT_EQ(always.phase(), 0U);
   EXPECT_FALSE(always.frictionChanged());
   run(
-      always, [](int) { return 1.0; }, 11);  // held 10 ms in the last of them: the next is the phase's first
+      always, [](int) { return 1.0; }, 11);  // held 10 ms in the last tick: the next one is the first of the phase
   EXPECT_EQ(always.phase(), 1U);
   EXPECT_TRUE(always.frictionChanged());
   Names seen = experiment.samples;

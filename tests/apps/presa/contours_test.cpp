@@ -23,7 +23,8 @@ std::vector<double> over(const Height& height) {
   return z;
 }
 
-// A cone's contour is one closed circle; straight cells of 0.1 leave its radius to 0.1^2 / (8 r).
+// A cone's contour is one closed circle; linear interpolation in cells of 0.1 changes its radius by up to 0.1^2 / (8
+// r).
 TEST(Contours, ACircleIsOneClosedLine) {
   const auto lines = contours(axis(), axis(), over([](double x, double y) { return std::hypot(x, y); }), 1.03);
   ASSERT_EQ(lines.size(), 1u);

@@ -1,4 +1,4 @@
-// `presa device list | check | doctor`, as a user runs them on a computer that need not have a Falcon.
+// `presa device list | check | doctor` as a user runs them, on a computer with or without a Falcon.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -27,7 +27,7 @@ TEST(DeviceList, NamesEveryDriverAndWhatItFinds) {
   const auto reports = nlohmann::json::parse(outcome.out);
   std::size_t drivers = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source("devices"))) {
-    // a plug-in is a driver; what is built into something else is not
+    // only folders that build a plug-in are drivers
     if (!std::filesystem::exists(PRESA_BINARY_DIR "/lib/presa/presa_" + entry.path().filename().string() + ".so"))
       continue;
     ++drivers;
@@ -52,7 +52,7 @@ TEST(DeviceCheck, ASimulatedRigIsReady) {
       << outcome.out;
 }
 
-// Serial number and firmware are those of the rig; a device that it asks for and that is not there is a problem.
+// Serial number and firmware come from the rig; a missing device of the rig is reported as a problem.
 TEST(DeviceCheck, AFalconThatIsNotThereIsAProblem) {
   const std::string rig = scratch("rig.xml");
   std::ofstream(rig)

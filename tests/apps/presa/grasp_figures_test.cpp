@@ -18,7 +18,8 @@ namespace {
 using test::Feed;
 using test::pinchWorld;
 
-/// 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad, then loosening: 4 N falling by 2 N/s, slip below 1.197 N.
+/// A grasp: 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad, then loosening: 4 N falling by 2 N/s, slip below
+/// 1.197 N.
 struct Grasp {
   Feed feed{pinchWorld(6), 4.0, 250};
   RunResult result;
@@ -36,7 +37,7 @@ struct Grasp {
     const Pose X_WB{Vec3(0, 0, up ? 0.135 : 0.035), Quat(Eigen::AngleAxisd(up ? 0.5 : 0.0, Vec3::UnitX()))};
     feed.objects.bodies[1].X_WB_begin = feed.objects.bodies[1].X_WB_end = X_WB;
     ++feed.version;
-    // ripple of exactly 2 % peak to peak over the mean, seen at every trace sample of 4 ms
+    // ripple of exactly 2 % peak to peak over the mean, visible at every trace sample of 4 ms
     const double grip = t < 4 ? 4 * (1 + 0.01 * ((i / 4) % 2 == 0 ? 1 : -1)) : std::max(0.0, 4 - 2 * (t - 4));
     for (std::size_t f = 0; f < 2; ++f) {
       const ContactMode mode = grip <= 0               ? ContactMode::kNone
@@ -50,7 +51,7 @@ struct Grasp {
   }
 };
 
-// Every figure of a grasp whose answer is known in advance, on an object that turns while it is lifted.
+// Every figure of a grasp with known answers, on an object that turns while it is lifted.
 TEST(GraspFigures, MatchAGraspThatIsKnownExactly) {
   const Grasp grasp;
   const auto figures = graspFigures(grasp.result);
@@ -68,19 +69,20 @@ TEST(GraspFigures, MatchAGraspThatIsKnownExactly) {
     ASSERT_TRUE(finger.grip_ripple);
     EXPECT_NEAR(*finger.grip_ripple, 0.02, 1e-12);
     ASSERT_TRUE(finger.slip);
-    // 4 - 2 (t - 4) is below 1.197 N from the tick at 5.402 s on, between two trace samples: the haptic rate is kept
+    // 4 - 2 (t - 4) is below 1.197 N from the tick at 5.402 s on, between two trace samples: resolved at the haptic
+    // rate
     EXPECT_NEAR(finger.slip->time, 5.402, 1e-12);
     EXPECT_NEAR(finger.slip->normal_force, 1.196, 1e-12);
   }
 }
 
-// The offset is measured in the object's coordinates: a finger that creeps on it shows, whatever the object does.
+// The offset is measured in the object's coordinates: creep of a finger shows, whatever the motion of the object.
 TEST(GraspFigures, OffsetRangeShowsCreepOnTheObject) {
   const Grasp grasp(2e-5);
   EXPECT_NEAR(graspFigures(grasp.result)->fingers[0].offset_range, 2e-5, 1e-15);
 }
 
-// Without the phases that give the figures a meaning there are none, and the summary has no such key.
+// Without the phases that define them there are no figures, and the summary has no such key.
 TEST(GraspFigures, NeedTheirPhases) {
   Grasp grasp;
   grasp.result.phases.pop_back();
@@ -88,7 +90,7 @@ TEST(GraspFigures, NeedTheirPhases) {
   EXPECT_FALSE(nlohmann::json::parse(summaryJson(grasp.result)).contains("grasp"));
 }
 
-// Scripts read these keys: names, units and nulls are a promise.
+// Scripts read these keys: names, units and nulls must not change.
 TEST(Summary, KeepsItsKeys) {
   Grasp grasp;
   GroupTiming haptic;
@@ -117,7 +119,7 @@ TEST(Summary, KeepsItsKeys) {
   EXPECT_EQ(json["grasp"]["fingers"].size(), 2u);
 }
 
-// A name from a scene file is text, never markup; and the page names no address it could ask.
+// A name from a scene file is text, never markup, and the page contains no address.
 TEST(Report, EscapesNamesAndAsksNobody) {
   Grasp grasp;
   grasp.result.contact_points[0].name = "<script>alert('x')</script>";
@@ -131,7 +133,7 @@ TEST(Report, EscapesNamesAndAsksNobody) {
   EXPECT_EQ(page.find("https://"), std::string::npos);
 }
 
-// A surface that a finger could not see, or got past, is told wherever a run is told of, with the time; such a run is not good.
+// A surface that a finger missed or passed through is reported with its time in every output; such a run is not good.
 TEST(Losses, AreToldEverywhere) {
   Grasp grasp;
   grasp.feed.contact.coverage_lost = 2;
@@ -165,7 +167,7 @@ TEST(Losses, AreToldEverywhere) {
   EXPECT_NE(statusText(status, 1, 200, false).find("38 lost"), std::string::npos);
 }
 
-// With one finger it is that one.
+// With a single finger the report names it.
 TEST(Losses, NameTheFingerWhereThereIsOne) {
   Grasp grasp;
   grasp.result.coverage_lost = {1, 0.5};
@@ -185,7 +187,7 @@ TEST(Closing, ShowsWhatATerminalWouldObey) {
   EXPECT_NE(closing.find("thumb\\u{9B}2J"), std::string::npos) << closing;
 }
 
-// A run in which nothing was lost says nothing of it.
+// A run without losses does not mention them.
 TEST(Losses, WhichThereAreNotAreNotToldOf) {
   const Grasp grasp;
   EXPECT_TRUE(lossesOf(grasp.result).empty());
@@ -199,7 +201,7 @@ TEST(Losses, WhichThereAreNotAreNotToldOf) {
   EXPECT_EQ(statusText({}, 1, 200, false).find("lost"), std::string::npos);
 }
 
-// Losing the object early or a fault turns the verdict, whatever else went well.
+// An early loss of the object or a fault makes the verdict bad, regardless of all other figures.
 TEST(Verdict, DropOrFaultIsBad) {
   Grasp grasp;
   EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kGood);

@@ -10,8 +10,8 @@ namespace {
 
 using test::runScene;
 
-// The PERCRO cube, figure 12: lifted, held in stick, loosened until it slips, dropped. Bounds: the issue's own; the oracle
-// of the slip is m g / (2 mu_s), of the weight m g / 2 per finger.
+// The PERCRO cube, figure 12: lifted, held in stick, loosened until it slips, dropped. Oracles: slip at m g / (2 mu_s),
+// weight m g / 2 per finger.
 TEST(CubeGrasp, IsLiftedHeldLoosenedAndDroppedAsFrictionSays) {
   const auto run = runScene("config/scenes/cube.xml");
   const RunResult& result = run->result();
@@ -31,14 +31,15 @@ TEST(CubeGrasp, IsLiftedHeldLoosenedAndDroppedAsFrictionSays) {
   }
   const ObjectSummary& cube = result.objects.at(0).summary;
   EXPECT_TRUE(cube.grasped);
-  EXPECT_FALSE(cube.dropped);                 // not before it was let go
-  EXPECT_GT(cube.lost_at, 7.0);               // it was, then
-  EXPECT_NEAR(cube.final.z(), 0.035, 0.001);  // and lies on the table again
+  EXPECT_FALSE(cube.dropped);                 // not before the release
+  EXPECT_GT(cube.lost_at, 7.0);               // but then
+  EXPECT_NEAR(cube.final.z(), 0.035, 0.001);  // at rest on the table again
   EXPECT_TRUE(result.faults.empty());
   for (const auto& point : result.contact_points) EXPECT_EQ(point.summary.pop_through, 0u);
 }
 
-// A mesh of 35 000 triangles through patches of the collision thread behaves as the cube does: same physics, same bounds.
+// A mesh of 35 000 triangles, rendered through local patches from the collision thread, behaves like the cube: same
+// bounds.
 TEST(AmphoraGrasp, IsLiftedByItsMesh) {
   const auto run = runScene("config/scenes/pinch_and_lift.xml");
   const auto grasp = graspFigures(run->result());
@@ -58,8 +59,8 @@ struct Hard {
 };
 class HardGrasp : public testing::TestWithParam<Hard> {};
 
-// Two fingers hold every mass at every stiffness with the dynamics at 200 Hz: no limit cycle. Explicit exchange at this
-// rate would need 38 g at 2 N/mm and 189 g at 10 N/mm. Bound: the 1 % of the mean grip force.
+// Two fingers hold every mass at every stiffness with the dynamics at 200 Hz without a limit cycle. Explicit exchange
+// at this rate would need 38 g at 2 N/mm and 189 g at 10 N/mm. Bound: 1 % of the mean grip force.
 TEST_P(HardGrasp, HoldsWithoutLimitCycle) {
   const auto [mass, stiffness] = GetParam();
   const auto run = runScene("config/scenes/cube.xml", {"body/cube/physics/mass=" + std::to_string(mass),
@@ -86,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(MassTimesStiffness, HardGrasp, testing::ValuesIn(hardCa
          std::to_string(static_cast<int>(hard.param.stiffness)) + "N_m";
 });
 
-// Same scene, same seed: same states, to the bit. And the hash is not blind: another mass gives another.
+// Same scene and seed: bit-identical states. The hash is sensitive: another mass gives another hash.
 TEST(Lockstep, TwoRunsGiveTheSameStateHash) {
   RunOptions options;
   options.duration = 2;
@@ -97,7 +98,7 @@ TEST(Lockstep, TwoRunsGiveTheSameStateHash) {
                    .state_hash);
 }
 
-// The haptic rate is a parameter: at 2 and 4 kHz the grasp is the same within 1 % of force and 0.5 mm.
+// At haptic rates of 2 and 4 kHz the grasp is the same within 1 % of force and 0.5 mm.
 TEST(HapticRate, IsAParameterNotAConstant) {
   for (const char* rate : {"2000", "4000"}) {
     const auto run = runScene("config/scenes/cube.xml", {std::string("rates/haptic=") + rate});

@@ -1,4 +1,4 @@
-// What a window's user asks of time, with a view that only counts.
+// The user's control of time (pause, step, slow motion), with a view that only counts calls.
 #include "apps/common/pacer.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,8 @@ struct Held {
   void step(double time) { pacer.step({static_cast<std::uint64_t>(time * 60), time, 1.0 / 60}); }
 };
 
-// Held, a step waits for the user and draws meanwhile; it goes on with a single step, with the end of the hold, with the window's end.
+// While paused, a step waits for the user and draws meanwhile; it continues on a single step, at the end of the pause,
+// or when the window closes.
 TEST(Pacer, AHeldRunWaitsForItsUser) {
   for (const auto act :
        {+[](TimeWish&wish, CountingView&) { ++wish.steps; }, +[](TimeWish&wish, CountingView&) { wish.paused = false; },
@@ -56,7 +57,7 @@ TEST(Pacer, AHeldRunWaitsForItsUser) {
   }
 }
 
-// Commands are read while it is held, with a window and without: one of them lets it go on.
+// Commands are read while paused, with and without a window: one of them continues the run.
 TEST(Pacer, AHeldRunReadsCommands) {
   for (const bool window : {true, false}) {
     Held held;
@@ -72,7 +73,7 @@ TEST(Pacer, AHeldRunReadsCommands) {
   }
 }
 
-// Two steps asked for are two steps made, and no third.
+// Two requested steps are exactly two steps.
 TEST(Pacer, MakesAsManyStepsAsWereAskedFor) {
   Held held;
   held.wish.paused = true;
@@ -85,7 +86,7 @@ TEST(Pacer, MakesAsManyStepsAsWereAskedFor) {
   EXPECT_EQ(held.counting.refreshed, held.counting.act_at);
 }
 
-// Never faster than asked: 0.1 s at a quarter of the speed are at least 0.4 s of the clock, and the window is drawn meanwhile.
+// Never faster than requested: 0.1 s at a quarter of the speed take at least 0.4 s, and the window is drawn meanwhile.
 TEST(Pacer, SlowMotionTakesItsTime) {
   Held held;
   held.wish.speed = 0.25;
@@ -95,7 +96,7 @@ TEST(Pacer, SlowMotionTakesItsTime) {
   EXPECT_GT(held.counting.refreshed, 5);
 }
 
-// What was late by much is not made up for: afterwards it keeps pace again.
+// After a long delay the run does not catch up, but keeps pace again.
 TEST(Pacer, DoesNotRunAfterAStall) {
   Held held;
   held.step(0);

@@ -1,4 +1,4 @@
-// A recording shown again: its states, and its window under an X server of its own.
+// Playback of a recording: its states, and its window under a separate X server.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace presa {
 namespace {
 
-/// The cube, gripped and on its way up: 2.5 s in lockstep.
+/// Records 2.5 s of the cube, gripped and being lifted, in lockstep.
 std::string recordedCube() {
   RunOptions options;
   options.record = test::scratch("playback.h5");
@@ -23,8 +23,8 @@ std::string recordedCube() {
   return options.record;
 }
 
-// Oracle for the fingers: the samples as the replay reads them, from another table by another reader. For the cube: held between the
-// fingertips, its centre half way between the proxies to 1 mm, as gripped.
+// Oracle for the fingers: the samples as the replay reads them, from another table by another reader. For the cube: it
+// is held between the fingertips, with its centre half way between the proxies to 1 mm.
 TEST(Playback, AMomentIsWhatWasRecorded) {
   const std::string file = recordedCube();
   const Recording recording = recordPlugin().read(file);
@@ -39,7 +39,7 @@ TEST(Playback, AMomentIsWhatWasRecorded) {
   ContactExchange contacts;
   ForceCommand command;
   for (const std::size_t row : {0u, 1000u, 2300u, 2499u}) {
-    moment.fill(recording.time[row] + 0.5e-3, objects, device, contacts, command);  // between two ticks: the one before
+    moment.fill(recording.time[row] + 0.5e-3, objects, device, contacts, command);  // between ticks: the earlier one
     ASSERT_EQ(device.count, 2);
     for (std::size_t f = 0; f < 2; ++f) {
       EXPECT_EQ(device.fingers[f].p_WH, recording.device[row].fingers[f].p_WH);
@@ -59,8 +59,8 @@ TEST(Playback, AMomentIsWhatWasRecorded) {
   EXPECT_EQ(objects.bodies[0].X_WB_end.p, loaded.world->scene.bodies[0].X_WB.p);
 }
 
-// Real keys and a real mouse in the window of `presa replay`: the pictures that the key s saves are named by the recording's time. Held,
-// time stands; Home, End and the middle of the bar are where they say.
+// Real keys and a real mouse in the window of `presa replay`: the key s saves pictures named by the recording's time.
+// Time stands still while paused; Home, End and the middle of the bar go to their times.
 TEST(Playback, ItsWindowMovesAboutInTime) {
   const std::string folder = test::scratch("scrub");
   std::filesystem::create_directories(folder);
@@ -102,7 +102,7 @@ xdotool key Escape; wait $run; echo $? > status
   std::filesystem::remove_all(folder);
 }
 
-/// With a program of that name before the real ffmpeg, or with none at all.
+/// Records a video with `ffmpeg` (the text of a script) in place of the real ffmpeg, or with none at all.
 test::Outcome filmWith(const std::string& ffmpeg, const std::string& file) {
   const std::string folder = test::scratch("path");
   std::filesystem::create_directories(folder);
@@ -117,7 +117,8 @@ test::Outcome filmWith(const std::string& ffmpeg, const std::string& file) {
   return outcome;
 }
 
-// What goes to ffmpeg: 30 pictures of 1280 x 720, three bytes each, for each of the simulated seconds (0.1 s: those at 0, 1/30 and 2/30 s).
+// ffmpeg receives 30 pictures of 1280 x 720 pixels, three bytes each, per simulated second (0.1 s: at 0, 1/30 and 2/30
+// s).
 TEST(Video, GivesFfmpegThirtyPicturesASecond) {
   const std::string file = test::scratch("film.mp4");
   const test::Outcome outcome = filmWith("#!/bin/sh\nfor last; do :; done\n/bin/cat > \"$last\"\n", file);
@@ -132,7 +133,7 @@ TEST(Video, WithoutFfmpegNothingIsRun) {
   EXPECT_NE(outcome.err.find("error[E705]"), std::string::npos) << outcome.err;
 }
 
-// An ffmpeg that dies costs the video and nothing else: the run goes to its end and says so.
+// When ffmpeg dies only the video is lost: the run goes to its end and reports it.
 TEST(Video, OutlivesAnFfmpegThatDies) {
   const test::Outcome outcome = filmWith("#!/bin/sh\nexit 1\n", test::scratch("film.mp4"));
   EXPECT_EQ(outcome.status, 1);

@@ -21,7 +21,7 @@ nlohmann::json readJson(const std::string& file) {
   return nlohmann::json::parse(in);
 }
 
-// The summary has what other work relies on, with the names that the manual gives.
+// The summary has the keys of the manual, on which other programs rely.
 TEST(Run, WritesTheSummaryThatIsPromised) {
   const std::string file = scratch("summary.json");
   const auto outcome = presa("run " + kCube + " --lockstep --for 10 --quiet --summary " + file);
@@ -40,7 +40,7 @@ TEST(Run, WritesTheSummaryThatIsPromised) {
   EXPECT_EQ(summary.at("state_hash").get<std::string>().size(), 18u);
 }
 
-// ./dev run builds these first: the list is right when a run needs no other, and it is had without loading any of them.
+// ./dev run builds the listed plug-ins first: the list is complete, and making it loads none of them.
 TEST(Run, NamesThePlugInsThatItWouldLoad) {
   const auto plain = presa("run " + kCube + " --view none --plug-ins");
   EXPECT_EQ(plain.status, 0) << plain.err;
@@ -50,7 +50,7 @@ TEST(Run, NamesThePlugInsThatItWouldLoad) {
   EXPECT_EQ(presa("run no_such_scene.xml --plug-ins").status, 2);
 }
 
-// Rates that only a reference needs are for virtual time.
+// Very high rates, used for references, are allowed in virtual time only.
 TEST(Run, RefusesRatesThatNoClockKeeps) {
   const std::string fast = "run " + kCube + " --view none --quiet --for 0.01 --set rates/haptic=20000 ";
   const auto refused = presa(fast + "--realtime");
@@ -59,7 +59,7 @@ TEST(Run, RefusesRatesThatNoClockKeeps) {
   EXPECT_EQ(presa(fast + "--lockstep").status, 0);
 }
 
-// A recording of a lockstep run, and one of real threads with their random timing: both give every force again.
+// Recordings of a lockstep run and of real threads with their random timing both reproduce every force.
 TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
   for (const std::string mode : {"--lockstep", "--realtime --view none"}) {
     const std::string file = scratch("replay.h5");
@@ -76,8 +76,8 @@ TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
   }
 }
 
-// ... and verification is not blind: with another object mass in the recorded scene the forces differ. That is damage where the
-// recording has a checksum, and a difference where it is of a format from before there was one.
+// Verification is sensitive: with another object mass in the recorded scene the forces differ. With a checksum the
+// recording is reported as damaged; in a format without checksums, as different.
 TEST(Replay, NoticesADifferenceAndTellsItFromDamage) {
   const std::string file = scratch("different.h5");
   ASSERT_EQ(presa("run " + kCube + " --lockstep --for 2 --quiet --overwrite --record " + file).status, 0);
@@ -102,7 +102,7 @@ TEST(Replay, NoticesADifferenceAndTellsItFromDamage) {
   EXPECT_NE(different.out.find("NOT the same"), std::string::npos) << different.out;
 }
 
-// What a scene does not call for is not in the process: read from the process itself.
+// Libraries that a scene does not need are not mapped, as read from the process itself.
 TEST(Explain, MapsOnlyWhatTheSceneCallsFor) {
   const std::string fixed = scratch("fixed.xml");
   std::ofstream(fixed) << R"(<scene version="1.0" name="fixed" rig=")" << source("config/rigs/hover.xml") << R"(">
@@ -125,7 +125,7 @@ TEST(Explain, MapsOnlyWhatTheSceneCallsFor) {
   EXPECT_NE(mesh.find("libfcl"), std::string::npos);
 }
 
-// Every kind of bad input: exit status 2, a place and a code, and nothing written.
+// Every kind of bad input gives exit status 2, a position and a code, and writes nothing.
 TEST(BadInput, IsRefusedWithAPlaceAndNothingIsWritten) {
   const std::string zeros = scratch("zeros.obj"), bad_mesh = scratch("bad_mesh.xml"), summary = scratch("never.json");
   std::ofstream(zeros) << std::string(4096, '\0');
@@ -170,7 +170,7 @@ TEST(Check, SaysThatEveryShippedSceneIsGood) {
   EXPECT_EQ(outcome.err, "");
 }
 
-// Ctrl-C in the middle of a real-time grasp: status 130, forces faded to nothing in the recording, file whole.
+// Ctrl-C in the middle of a real-time grasp: status 130, forces faded to zero in the recording, file complete.
 TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   const std::string file = scratch("interrupted.h5");
   const auto outcome =

@@ -1,4 +1,5 @@
-// Hardware and a system that refuses real-time scheduling: refused before any force, or half of it; models are not concerned.
+// When the system refuses real-time scheduling, hardware is refused before any force, or runs at half the force if
+// allowed; simulated devices run as usual.
 #include <gtest/gtest.h>
 #include <linux/capability.h>
 #include <sys/prctl.h>
@@ -16,7 +17,7 @@
 namespace presa::test {
 namespace {
 
-/// This process and what it becomes by exec may neither have SCHED_FIFO nor lock memory, also as root.
+/// Denies SCHED_FIFO and locked memory to this process and to programs that it executes, even as root.
 void dropRights() {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_RTPRIO, &none);
@@ -25,7 +26,7 @@ void dropRights() {
   __user_cap_data_struct sets[2]{};
   ::syscall(SYS_capget, &head, sets);
   for (const int cap : {CAP_SYS_NICE, CAP_IPC_LOCK, CAP_SYS_RESOURCE}) {
-    prctl(PR_CAPBSET_DROP, cap);  // only root has to, and may
+    prctl(PR_CAPBSET_DROP, cap);  // needed, and allowed, for root only
     const unsigned bit = 1U << (cap % 32);
     sets[cap / 32].effective &= ~bit;
     sets[cap / 32].permitted &= ~bit;
@@ -34,7 +35,7 @@ void dropRights() {
   ::syscall(SYS_capset, &head, sets);
 }
 
-/// Exit status of what a child without rights does.
+/// Runs `act` in a child process without rights; returns its result as exit status.
 template <class Act>
 int withoutRights(const Act& act) {
   const pid_t child = fork();
@@ -63,8 +64,8 @@ TEST(RealTimeRights, AreSeenToBeRefused) {
             0);
 }
 
-// What holds the motors takes a force away after 5 ms without a command: two have to come in that time, or the force would be gone
-// between any two of them. In virtual time nobody holds anything.
+// The supervisor removes the force after 5 ms without a command: at least two commands must come in that time, or the
+// force would vanish between them. Virtual time has no such limit.
 TEST(CommandRate, BelowTwoCommandsInTheSupervisorsPatienceIsRefused) {
   const std::string rig = falconRig();
   const auto refusals = [&](const char* haptic, bool realtime) {
@@ -105,7 +106,7 @@ TEST(RealTimeRights, HardwareIsRefusedWithoutThem) {
   EXPECT_TRUE(refused.starts_with("2\n")) << refused;
   for (const char* word : {"E463", "SCHED_FIFO", "limits.conf", "ulimit -r", "--allow-no-rt"})
     EXPECT_NE(refused.find(word), std::string::npos) << refused;
-  // allowed, it goes on to where there is no Falcon
+  // when allowed, the run fails later: there is no Falcon
   const std::string allowed = run("--allow-no-rt --rig " + rig);
   EXPECT_EQ(allowed.find("E463"), std::string::npos) << allowed;
   EXPECT_NE(allowed.find("E48"), std::string::npos) << allowed;

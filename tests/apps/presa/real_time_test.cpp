@@ -9,7 +9,7 @@
 namespace presa {
 namespace {
 
-// A session of a shipped scene, stepped by hand as lockstep does.
+// A session of a shipped scene, stepped by hand like the lockstep executor.
 struct Stepped {
   explicit Stepped(const std::string& scene, const std::string& record = {}) {
     Diagnostics diagnostics;
@@ -41,8 +41,8 @@ struct Stepped {
   std::unique_ptr<Session> session;
 };
 
-// Through reach, squeeze, lift, hold, slip and drop: the whole haptic tick of two fingers (devices, rendering, output
-// stages, monitor, recorder) takes no memory, no lock, and makes no call that could wait.
+// Through reach, squeeze, lift, hold, slip and drop the whole haptic tick of two fingers (devices, rendering, output
+// stages, monitor, recorder) allocates no memory, takes no lock, and makes no blocking call.
 TEST(HapticTick, NeitherAllocatesNorLocks) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   for (const char* scene : {"config/scenes/cube.xml", "config/scenes/pinch_and_lift.xml"}) {
@@ -61,7 +61,7 @@ TEST(HapticTick, NeitherAllocatesNorLocks) {
   }
 }
 
-// The same at the kernel's door: in a process that dies at the first system call, a second of held grasp goes through.
+// The same checked by the kernel: one second of held grasp in a process that dies at the first system call.
 TEST(HapticTick, MakesNoSystemCall) {
   if (!syscallTrapWorks()) GTEST_SKIP() << "no system call filters here";
   for (const char* scene : {"config/scenes/cube.xml", "config/scenes/pinch_and_lift.xml"}) {

@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A thumb that is suddenly somewhere else, which no hand can be.
+/// A rig whose thumb jumps faster than any hand can move.
 std::string jumpingRig(const std::string& folder) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder + "/jump.csv") << "time_s,role,x_m,y_m,z_m,phase\n"
@@ -33,7 +33,7 @@ std::string jumpingRig(const std::string& folder) {
   return folder + "/rig.xml";
 }
 
-/// Largest commanded force of the table's ticks in which no output stage had latched anything, from `begin` on [s].
+/// Largest |z component| of the commanded force [N] from `begin` [s] on.
 double forceAfter(const RecordedSamples& samples, const RecordedTable& finger, double begin) {
   double most = 0;
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
@@ -42,7 +42,8 @@ double forceAfter(const RecordedSamples& samples, const RecordedTable& finger, d
   return most;
 }
 
-// What a user sees and does: the force goes, the terminal says why, r brings it back softly, and the run can be replayed to the bit.
+// The user's view of a latched fault: the force vanishes, the terminal gives the reason, the key r brings the force
+// back softly, and the run replays bit-exactly.
 TEST(Rearm, AKeyForgivesALatchedFault) {
   const std::string folder = test::scratch("rearm"), recording = folder + "/run.h5";
   test::OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--rig",
@@ -50,7 +51,7 @@ TEST(Rearm, AKeyForgivesALatchedFault) {
   ASSERT_TRUE(presa.says("Look, then press r to re-arm.")) << presa.seen();
   EXPECT_THAT(presa.seen(), HasSubstr("thumb: its device is gone, or says what cannot be"));
   EXPECT_TRUE(presa.says("index: another finger's device is lost")) << presa.seen();
-  ASSERT_TRUE(presa.says("]  4.")) << presa.seen();  // by its clock the finger has swung out
+  ASSERT_TRUE(presa.says("]  4.")) << presa.seen();  // the motion has ended by then
   presa.press('r');
   EXPECT_TRUE(presa.says("re-armed: forces come back softly")) << presa.seen();
   EXPECT_EQ(presa.status(), 1) << presa.seen();  // there was a fault
@@ -67,8 +68,8 @@ TEST(Rearm, AKeyForgivesALatchedFault) {
   EXPECT_EQ(replayed.status, 0) << replayed.out << replayed.err;
 }
 
-// A program that stands still, as at a breakpoint, in real time by real threads: what it finds afterwards is another world, so its forces
-// wait for somebody to look. A gap begins at one second of the clock, and nothing but the clock tells.
+// A real-time program that was stopped, as at a breakpoint, keeps its forces off until the user re-arms: the situation
+// may have changed. Only the clock reveals such a gap, of Executor::kGap or longer.
 TEST(Rearm, AProgramThatStoodStillWaitsForAKey) {
   test::OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--realtime",
                           "--view", "none", "--for", "6"});
@@ -83,7 +84,7 @@ TEST(Rearm, AProgramThatStoodStillWaitsForAKey) {
   EXPECT_EQ(presa.status(), 1) << presa.seen();
 }
 
-// Nothing was recorded, and yet there is what led to the fault.
+// Without --record the flight record still holds the time before a fault.
 TEST(FlightRecord, IsWrittenAtAFaultAndShown) {
   const std::string folder = test::scratch("flight"), flight = folder + "/flight.h5", page = folder + "/flight.html";
   const test::Outcome run = test::presa("run " + test::source("config/scenes/cube.xml") + " --rig " +

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDuration = 3.5, kStall = 3.0;  // [s] the cube is held in the air
 
-/// The pinched cube, with a haptic loop that sleeps for 50 ms while it holds.
+/// The pinched cube, with a haptic loop that stalls for 50 ms while the cube is held.
 Recording recordStalledRun(const std::string& file, double force_share = 1) {
   Diagnostics diagnostics;
   RunOptions options;
@@ -40,8 +40,8 @@ ReplayResult again(const Recording& recording) {
   return RecordedRun(recording, diagnostics).run();
 }
 
-// Which ticks were made up after a stall is part of the recording: with it every force comes again to the bit, without it
-// the slew limit would act on other ticks and the forces differ.
+// The recording marks the catch-up ticks after a stall: with the marks every force replays bit-exactly; without them
+// the slew limit acts on other ticks and the forces differ.
 TEST(Replay, KnowsTheTicksThatAStallMadeUp) {
   const std::string file = test::scratch("stall.h5");
   Recording recording = recordStalledRun(file);
@@ -49,7 +49,7 @@ TEST(Replay, KnowsTheTicksThatAStallMadeUp) {
   const auto made_up =
       std::count_if(haptic.begin(), haptic.end(), [](const ScheduleRow& row) { return row.made_up != 0; });
   EXPECT_EQ(made_up, 50);
-  // what the device held: nothing moves in the stall, and after it by no more than the slew limit (1000 N/s) at once
+  // held force: constant during the stall, and changing at most at the slew limit (1000 N/s) after it
   for (std::size_t i = 1; i < recording.command.size(); ++i) {
     const double step = (recording.command[i].f_H_W[0] - recording.command[i - 1].f_H_W[0]).norm();
     ASSERT_LE(step, haptic[i].made_up != 0 ? 0.0 : 1 + 1e-9) << recording.time[i];
@@ -64,9 +64,9 @@ TEST(Replay, KnowsTheTicksThatAStallMadeUp) {
   std::filesystem::remove(file);
 }
 
-// Hardware without real-time rights runs with half of its limits: what was held back is part of the recording, too.
+// Hardware without real-time rights runs with half of its force limits: the share is part of the recording.
 TEST(Replay, KnowsTheShareOfTheForceThatWasAllowed) {
-  Recording recording = recordStalledRun(test::scratch("share.h5"), 0.3);  // 3 N, of the 6 N that the grip wants
+  Recording recording = recordStalledRun(test::scratch("share.h5"), 0.3);  // 3 N of the 6 N of the grip
   EXPECT_EQ(recording.force_share, 0.3);
   EXPECT_EQ(again(recording).differing, 0u);
   recording.force_share = 1;

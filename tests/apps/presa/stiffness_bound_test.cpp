@@ -1,4 +1,4 @@
-// What is too stiff for a rig is felt softer, with a word; a recording holds what was felt.
+// A stiffness above the rig's bound is lowered, with a note; a recording holds the lowered value.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -42,7 +42,7 @@ TEST(StiffnessBound, IsHalfOfWhatTheDampingHolds) {
   EXPECT_EQ(above.all()[0].code, 454);
   EXPECT_EQ(above.all()[0].severity, Diagnostic::Severity::kWarning);
   EXPECT_NE(above.all()[0].message.find("K_max = b / ((d + 1/2) T) = 12 N/mm"), std::string::npos) << above.text();
-  // a study of what is beyond the bound asks for no help
+  // a study beyond the bound switches the lowering off
   EXPECT_EQ(rubberOf(rig, 9000, false, study), 9000);
 }
 

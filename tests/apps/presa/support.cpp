@@ -19,7 +19,7 @@ std::string scratch(const std::string& name) {
 std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets, RunOptions options,
                               double trace_rate) {
   Diagnostics diagnostics;
-  if (options.duration == RunOptions{}.duration) options.duration = 0;  // to the end of the script
+  if (options.duration == RunOptions{}.duration) options.duration = 0;  // run to the end of the script
   const Loaded loaded = loadWorld({source(scene), "", sets}, options, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = trace_rate, .quiet = true, .command = ""});

@@ -9,14 +9,14 @@ namespace presa::test {
 
 inline std::string source(const std::string& path) { return std::string(PRESA_SOURCE_DIR) + "/" + path; }
 
-/// A folder of this test's own, removed when the process ends well.
+/// Path in a temporary folder of this process, which is removed when the tests pass.
 std::string scratch(const std::string& name);
 
-/// A lockstep run of a shipped scene without a word on the terminal. Throws InputError.
+/// A lockstep run of a shipped scene without terminal output. Throws InputError.
 std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets = {},
                               RunOptions options = {}, double trace_rate = 1000);
 
-/// The installed program in a process of its own.
+/// Result of the built program in a separate process.
 struct Outcome {
   int status = -1;  ///< exit status
   std::string out, err;

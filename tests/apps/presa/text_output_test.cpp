@@ -24,7 +24,7 @@ TEST(Base64, MatchesTheRfc) {
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-// A single spike among ten thousand samples is what a reader looks for: thinning must not lose it.
+// Thinning must not lose a single spike among ten thousand samples.
 TEST(Plot, DecimationKeepsEveryExtremeAndMovesNoPoint) {
   std::vector<svg::Point> line;
   for (int i = 0; i < 10'000; ++i) line.push_back({i * 1e-3, std::sin(i * 0.01)});
@@ -41,7 +41,7 @@ TEST(Plot, DecimationKeepsEveryExtremeAndMovesNoPoint) {
   for (const svg::Point& k : kept) EXPECT_EQ(k.y, line[static_cast<std::size_t>(std::lround(k.x * 1000))].y);
 }
 
-// Ticks are round numbers inside the axis, printed with just the decimals they need.
+// Ticks are round numbers inside the axis, printed with the fewest decimals.
 TEST(Plot, TicksAreRoundAndInside) {
   const auto ticks = svg::niceTicks(0.031, 0.148, 6);
   ASSERT_EQ(ticks.size(), 6u);
@@ -51,7 +51,7 @@ TEST(Plot, TicksAreRoundAndInside) {
   EXPECT_EQ(svg::niceTicks(2, 2, 5), std::vector<double>{2});
 }
 
-// The line is redrawn in place: were it wider than the terminal, every refresh would leave a line behind.
+// The line is redrawn in place: if it were wider than the terminal, every refresh would leave a line behind.
 TEST(StatusText, FitsTheTerminalAndUsesColourOnlyWhenAsked) {
   LiveStatus status;
   status.time = 2.5;

@@ -51,7 +51,8 @@ TEST(AssemblyText, AFacadeHasAlikesAndLoads) {
   }
 }
 
-/// Blocks that a block overlaps when it is pushed by 1 mm into what it rests on, square to its bed: what is beside it gives way.
+/// Blocks that a block overlaps by more than 0.5 mm when it is pushed by 1 mm into its support, normal to its bearing
+/// face.
 std::set<std::size_t> pushedInto(const Building& building, std::size_t i) {
   Pose pushed = building.blocks[i].X_WB;
   pushed.p -= 1e-3 * (pushed.q * Vec3::UnitZ());
@@ -63,8 +64,8 @@ std::set<std::size_t> pushedInto(const Building& building, std::size_t i) {
   return under;
 }
 
-// Whatever carries a block has to stand first: an oracle of shapes, where a roof's lower tiles lie deeper than the middle of what they
-// rest on. What else is waited for carries that, directly or not, so that it costs nothing.
+// A block is placed after all blocks that support it. Oracle: overlap of the shapes, because a roof's lower tiles are
+// lower than the centre of their support. Further predecessors are harmless if they support the supports.
 TEST(AssemblyText, ABlockWaitsForAllThatCarriesIt) {
   const Building facade = test::shippedBuilding("facade");
   std::vector<std::set<std::size_t>> carriers;
@@ -83,7 +84,7 @@ TEST(AssemblyText, ABlockWaitsForAllThatCarriesIt) {
   }
 }
 
-// What the reader of scenes makes of it: every block has a place, in an order that ends.
+// The scene reader accepts the assembly: every block has a goal, and the order has no cycles.
 TEST(AssemblyText, IsAnAssemblyThatSceneFilesTake) {
   for (const char* name : {"column", "facade"}) {
     const Building building = test::shippedBuilding(name);

@@ -30,7 +30,7 @@ TEST_P(Neighbours, DoNotOverlap) {
   }
 }
 
-// Every block lies on one that comes before it, or on the steps: in this order it can be built.
+// Every block rests on an earlier block or on the steps: the building can be built in this order.
 TEST_P(Neighbours, TouchWhatTheyStandOn) {
   const Building building = shippedBuilding(GetParam());
   double steps = 0;
@@ -70,7 +70,8 @@ TEST(Facade, FitsTheReachOfTwoArms) {
   }
 }
 
-// The systyle front of four columns: 19.5 modules, a triglyph over each column, one between outer and two between inner ones.
+// The systyle front of four columns: 19.5 modules, a triglyph over each column, one between the outer columns and two
+// between the inner ones.
 TEST(Facade, IsDividedAsVitruviusSays) {
   const Building facade = shippedBuilding("facade");
   std::map<BlockKind, int> count;
@@ -89,7 +90,7 @@ TEST(Facade, IsDividedAsVitruviusSays) {
   const Block &first = blockNamed(facade, "triglyph1"), &last = blockNamed(facade, "triglyph8");
   const auto half = [](const Block& block) { return std::get<Box>(block.physics).size.x() / 2; };
   EXPECT_NEAR(last.X_WB.p.x() + half(last) - (first.X_WB.p.x() - half(first)), 19.5 * m, 1e-12);
-  // metopes are as wide as high, but for the joint
+  // metopes are as wide as high, except for the joint
   EXPECT_NEAR(2 * half(blockNamed(facade, "metope1")), 1.5 * m - 0.0002, 1e-12);
   const Block &left = blockNamed(facade, "tympanum_left"), &right = blockNamed(facade, "tympanum_right");
   EXPECT_NEAR(left.X_WB.p.x(), -right.X_WB.p.x(), 1e-12);

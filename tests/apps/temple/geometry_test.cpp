@@ -19,7 +19,7 @@ RandomStream anyChips() { return {1, "chips"}; }
 
 /// Area of a polygon of `flutes` quarter circles, each of `parts` chords, over the arris radius squared.
 double flutedArea(int flutes, int parts) {
-  // the regular polygon of the arrises, less a segment for each flute; its radius is sqrt(2) half chords
+  // the regular polygon of the arrises, minus a segment for each flute, of radius sqrt(2) half chords
   const double half = std::sin(kPi / flutes), polygon = 0.5 * flutes * std::sin(2 * kPi / flutes);
   const double sector = 0.5 * parts * 2 * half * half * std::sin(kPi / 2 / parts), triangle = half * half;
   return polygon - flutes * (sector - triangle);
@@ -47,7 +47,7 @@ TEST_P(EveryBlock, HasClosedMeshesForEveryDrawOfItsChips) {
   }
 }
 
-// What is seen and felt lies inside what moves: nothing shows inside another block.
+// Visual and haptic mesh lie inside the physics shape: no part of a block appears inside another one.
 TEST_P(EveryBlock, IsEnclosedByItsPhysicsShape) {
   constexpr double kRounding = 1e-9;
   for (const Block& block : shippedBuilding(GetParam()).blocks) {
@@ -75,7 +75,8 @@ TEST_P(EveryBlock, IsAsHeavyAsTwoFingersHold) {
 
 INSTANTIATE_TEST_SUITE_P(Buildings, EveryBlock, ::testing::Values("column", "facade"));
 
-// A drum without entasis, holes and chips is a frustum over a polygon of quarter circles: h A (1 + k + k^2) / 3.
+// A drum without entasis, holes and chips is a frustum over a polygon of quarter circles, of volume h A (1 + k + k^2) /
+// 3.
 TEST(Drum, HasTheVolumeOfAFlutedFrustum) {
   Proportions p = shippedWith("column");
   p.column.entasis = 0;
@@ -99,7 +100,8 @@ TEST(Drum, LosesAHoleOnEitherSide) {
   EXPECT_NEAR(without - with, 2 * depth * width * width, 1e-12);
 }
 
-// The compass stands in the middle of a square on the flute's chord: it is (sqrt(2) - 1) / 2 of the chord deep.
+// The centre of the arc is in the middle of a square on the flute's chord: the flute is (sqrt(2) - 1) / 2 of the chord
+// deep.
 TEST(Drum, HasFlutesOfAQuarterCircle) {
   Proportions p = shippedWith("column");
   p.stone.chips = 0;
@@ -133,7 +135,7 @@ TEST(Entablature, BlocksHaveTheVolumesOfTheirProfiles) {
   // a prism over a trapezium
   EXPECT_NEAR(massProperties(makeTympanum(p, 0.15, 0.006, 0.04, anyChips()).haptic).volume, 0.15 * 0.023 * 2 * half,
               1e-12);
-  // two whole channels and two halves on each face, each as deep as half of its width: squares of a part, halved
+  // two whole channels and two halves on each face, each as deep as half its width: halves of squares with edge `part`
   const double part = m / 6, channels = 2 * (2 * part * part / 4 + 2 * part * part / 8);
   const double whole = (m - p.stone.joint) * 2 * half * (1.5 + 0.1667) * m;
   const double triglyph = massProperties(makeTriglyph(p, 0, anyChips()).haptic).volume;

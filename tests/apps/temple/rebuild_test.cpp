@@ -1,4 +1,4 @@
-// The whole demo without a person: ruins, fingers, friction, places.
+// The whole demonstration without a person: ruins, simulated fingers, friction, goals.
 #include "apps/temple/visit.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace presa::temple {
 namespace {
 
-/// The column's ruins of that seed, with two fingers that rebuild it.
+/// The column's ruins with this seed, rebuilt by two simulated fingers.
 Rebuilt rebuildColumn(std::uint64_t seed, double limit) {
   const Building column = test::shippedBuilding("column", seed);
   const std::string folder = test::scratch("rebuild" + std::to_string(seed));
@@ -31,7 +31,7 @@ Rebuilt rebuildColumn(std::uint64_t seed, double limit) {
   return visit(loaded, {.finish = 2, .quiet = true}).rebuilt;
 }
 
-// Seed 8 has drums and the capital on their heads.
+// With seed 8 drums and the capital lie upside down.
 class Rebuild : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Rebuild, AColumnStandsAgain) {
@@ -57,7 +57,7 @@ TEST(RebuildGivenUp, SaysWhatItDidNotGetDone) {
   EXPECT_NE(summaryText(rebuilt, "column", 1).find("\"pieces\": 6"), std::string::npos);
 }
 
-/// A block that belongs in a field 2 m wide and 1 m high, and states of it every 5 ms.
+/// A block in a workspace 2 m wide and 1 m high, with a state every 5 ms.
 struct Watched {
   Watched() {
     auto made = std::make_shared<World>();
@@ -94,8 +94,8 @@ TEST(BlockWatch, CountsWhatIsLostAtTheEndAndHowLongItWasOutside) {
   }
 }
 
-// 20 steps of 3 points 10 um deep, one blow of 1 mm at 9 points, nothing, and sleep: (600 + 9000) / 69 um in the mean. In 0.1 s, 20
-// steps, the blow counts a twentieth.
+// 20 steps of 3 points 10 um deep, one impact of 1 mm at 9 points, then no contact: a mean of (600 + 9000) / 69 um. In
+// a window of 0.1 s, 20 steps, the impact counts a twentieth.
 TEST(BlockWatch, ABlowIsNoRestingDepth) {
   Watched run;
   run.at({0, 0, 0}, 20, {3, 10e-6, 20e-6});

@@ -1,4 +1,4 @@
-// The last six blocks of the façade, which lean: two fingers put them on what stands already.
+// Two simulated fingers place the last six, inclined blocks of the façade on the standing part.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -10,7 +10,7 @@
 namespace presa::temple {
 namespace {
 
-/// All stands but the roof, whose plates lie on the ground before the building, one of them on its head.
+/// The façade without its roof, whose plates lie on the ground in front of it, one of them upside down.
 SceneSpec withoutRoof(const Building& facade) {
   SceneSpec spec = assembled(facade);
   double x = -0.25;

@@ -15,12 +15,12 @@ Ruins ruinsOf(const Building& building, std::uint64_t seed) {
   return strewRuins(building, seed, test::scratch("ruins"), kGoOn);
 }
 
-/// At rest, on the field, on the ground and in no other.
+/// Every block is at rest, on the field, on the ground and inside no other block.
 void expectGoodRuins(const Building& building, const Ruins& ruins) {
-  // what contacts that are all but rigid leave of a heap
+  // penetration of nearly rigid contacts in a heap
   constexpr double kContact = 2e-4;  // [m]
   ASSERT_EQ(ruins.X_WB.size(), building.blocks.size());
-  EXPECT_LT(ruins.still, 2e-4);  // the eye sees nothing, and the dynamics lets it sleep
+  EXPECT_LT(ruins.still, 2e-4);  // invisible, and below the dynamics' sleeping threshold
   const Field field = fieldFor(building);
   for (std::size_t i = 0; i < building.blocks.size(); ++i) {
     const Block& block = building.blocks[i];

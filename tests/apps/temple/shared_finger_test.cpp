@@ -1,4 +1,4 @@
-// Whose finger it is, tick by tick.
+// Ownership of a shared finger, tick by tick.
 #include "apps/temple/shared_finger.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-/// Stands where it is put and remembers what it was told.
+/// Keeps the given position and records the calls.
 struct Puppet {
   Vec3 p_WH = Vec3::Zero();
   Vec3 force = Vec3::Zero();
@@ -40,7 +40,7 @@ class SharedFingerTest : public testing::Test {
     finger.write({0, 0, 1}, tick);
     return input;
   }
-  /// Ticks without a valid sample from here on.
+  /// Number of ticks without a valid sample from now on.
   int gone() {
     int ticks = 0;
     for (; !tick().valid; ++ticks) EXPECT_LT(ticks, 10000);
@@ -74,7 +74,7 @@ TEST_F(SharedFingerTest, IsGoneForAPauseAndThenTheHands) {
   EXPECT_EQ(visitor.force.z(), 1);
 }
 
-// A mouse that moves while the hands have the finger is a visitor.
+// Mouse motion while the hands move the finger counts as a visitor.
 TEST_F(SharedFingerTest, ThePointerIsTheVisitors) {
   ASSERT_TRUE(finger.points());
   finger.give(std::make_unique<PuppetDevice>(hand));

@@ -11,7 +11,7 @@ namespace {
 
 class Standing : public ::testing::TestWithParam<const char*> {};
 
-// What holds by itself is neither pushed apart by its neighbours nor creeps: 0.5 mm and 0.3 degrees are what the eye would see.
+// A free-standing building neither is pushed apart nor creeps: 0.5 mm and 0.3 degrees would be visible.
 TEST_P(Standing, TheBuildingStandsForTenSeconds) {
   const Building building = test::shippedBuilding(GetParam());
   const std::string folder = test::scratch(std::string("standing_") + GetParam());

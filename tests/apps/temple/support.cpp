@@ -13,7 +13,8 @@
 namespace presa::temple::test {
 namespace {
 
-/// Signed distance to a half space or a round wall, of which the shape is the intersection: negative inside. Exact enough for depths.
+/// Signed distance to the half spaces and cylinder whose intersection is the shape; negative inside. Exact inside,
+/// which is sufficient for depths.
 double outside(const Block& block, const Vec3& p) {
   if (const Box* box = std::get_if<Box>(&block.physics)) return (p.cwiseAbs() - box->size / 2).maxCoeff();
   if (const Cylinder* rod = std::get_if<Cylinder>(&block.physics))
@@ -28,7 +29,7 @@ double outside(const Block& block, const Vec3& p) {
   return farthest;
 }
 
-/// Points all over the surface, edges included.
+/// Sample points on the surface, including edges.
 std::vector<Vec3> surface(const Block& block) {
   std::vector<Vec3> points;
   constexpr int kSteps = 12;
@@ -104,7 +105,7 @@ std::string scratch(const std::string& name) {
 
 namespace {
 
-/// Removes every folder of scratch when the tests have passed.
+/// Removes all scratch folders when the tests have passed.
 class Cleaning : public ::testing::Environment {
   void TearDown() override {
     std::error_code ignored;

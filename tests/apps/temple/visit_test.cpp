@@ -1,4 +1,4 @@
-// A visit that is killed goes on with what stood.
+// A killed visit can be continued with the blocks that were placed.
 #include "apps/temple/visit.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(KeptSession, ComesBackToTheBit) {
   }
 }
 
-// Every prefix of the file, and poses that are none.
+// Every truncated file is refused, and so are invalid poses.
 TEST(KeptSession, IsReadWholeOrNotAtAll) {
   const std::string file = test::scratch("broken") + "/session.json", text = keptText(someSession());
   for (std::size_t length = 0; length + 3 < text.size(); length += 7) {
@@ -63,7 +63,7 @@ TEST(KeptSession, IsReadWholeOrNotAtAll) {
   EXPECT_FALSE(readKept(file + ".none", diagnostics));
 }
 
-/// The program in a process of its own.
+/// Starts the program in a separate process.
 pid_t start(const std::vector<std::string>& arguments) {
   const pid_t child = fork();
   if (child != 0) return child;
@@ -83,7 +83,7 @@ int await(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Lines of the log with that event.
+/// Number of lines of the log with this event.
 int count(const std::string& folder, const std::string& event) {
   std::ifstream stream(logFile(folder));
   int lines = 0;
@@ -91,7 +91,7 @@ int count(const std::string& folder, const std::string& event) {
   return lines;
 }
 
-/// Waits for its end, at most so long.
+/// Waits for the end of the process, with a time limit.
 bool endsWithin(pid_t child, int milliseconds) {
   const int process = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
   pollfd end{process, POLLIN, 0};
@@ -100,7 +100,7 @@ bool endsWithin(pid_t child, int milliseconds) {
   return ended;
 }
 
-/// Waits until the kept session has more blocks than `stood`, or has been there for 0.8 s, or the process has ended (true).
+/// Waits until the saved session has more blocks than `stood` or has existed for 0.8 s; true: the process ended before.
 bool endsBeforeMoreStands(pid_t child, const std::string& folder, int stood) {
   for (int looks = 0; looks < 400; looks += fs::exists(sessionFile(folder)) ? 1 : 0) {
     if (endsWithin(child, 2)) return true;
@@ -112,8 +112,8 @@ bool endsBeforeMoreStands(pid_t child, const std::string& folder, int stood) {
   return false;
 }
 
-// Killed whenever another block stands and a random moment later, up to eight times: every process goes on with at least what stood,
-// until all does. A finished visit leaves nothing to go on with, so its session is gone.
+// Killed up to eight times, at a random moment after another block was placed: every process continues with at least
+// the blocks placed before, until all are. A finished visit deletes its session.
 TEST(Visit, KilledAtAnyMomentItGoesOnWithWhatStood) {
   const std::string folder = test::scratch("killed");
   std::vector<std::string> arguments{"temple", "--auto", "--lockstep", "--seed", "7", "--session", folder};

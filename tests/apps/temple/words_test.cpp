@@ -1,4 +1,4 @@
-// What visitors are told: every kind of block, in every language, and the same after a scene has carried it.
+// Texts for visitors: every kind of block in every language, and unchanged after a round trip through a scene.
 #include "apps/temple/building/words.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace presa::temple {
 namespace {
 
-/// Codes that a words file gives after `from` has become `to`.
+/// Error codes of a words file with `from` replaced by `to`.
 std::vector<int> codesOf(const std::string& from, const std::string& to) {
   std::string text = contentsOf(PRESA_SOURCE_DIR "/config/temple/words_en.xml");
   const std::size_t at = text.find(from);

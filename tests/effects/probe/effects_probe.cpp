@@ -10,15 +10,15 @@
 #include "framework/session/session.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
-/// effects_probe SCENE TICKS STAGE SHAPE [PATH=VALUE…]: plays the scene in lockstep with the haptic stages that it calls
-/// for, but for STAGE ("none", "friction", "damping", "shading"; "gravity": ODE's world is one in which none was ever set),
-/// and prints the hash of all states and the sum of all forces. SHAPE: "as_is", or "mesh" or "smooth" to make the first body a ball of 1280 triangles, without the mesh reader,
-/// whose time limits do not hold under a profiler.
+/// effects_probe SCENE TICKS STAGE SHAPE [PATH=VALUE…]: runs the scene in lockstep with the haptic stages that it
+/// needs, except STAGE ("none", "friction", "damping", "shading"; "gravity": gravity is never set in ODE's world), and
+/// prints the hash of all states and the sum of all forces. SHAPE: "as_is", or "mesh" or "smooth" to make the first
+/// body a ball of 1280 triangles, without the mesh reader, whose time limits do not hold under a profiler.
 namespace {
 bool without_gravity = false;
 }
 
-// Stands before the engine's own function: the dynamics plug-in finds the program's first.
+// Interposes the engine's function: the dynamic linker finds the program's first.
 extern "C" void dWorldSetGravity(void* world, double x, double y, double z) {
   if (without_gravity) return;
   void* ode = dlopen("libode.so.8", RTLD_LAZY | RTLD_NOLOAD);

@@ -1,4 +1,4 @@
-// A guard that misses something makes every test that uses it worthless: each trap has to fire here.
+// A guard that misses calls makes every test that uses it worthless: each trap must fire here.
 #include "tests/support/alloc_lock_guard.h"
 
 #include <fcntl.h>
@@ -29,7 +29,7 @@
 namespace presa {
 namespace {
 
-/// Keeps the optimiser from leaving out what a test is about.
+/// Keeps the optimiser from removing the tested call.
 void keep(void* pointer) { asm volatile("" : : "g"(pointer) : "memory"); }
 
 struct Forbidden {
@@ -60,7 +60,7 @@ TEST_P(EachTrap, FiresAndNamesTheFunction) {
 }
 
 void* block = nullptr;
-void* given_back = std::malloc(1);  // each case may run in a process of its own
+void* given_back = std::malloc(1);  // each case may run in a separate process
 pthread_mutex_t posix_mutex = PTHREAD_MUTEX_INITIALIZER;
 pthread_rwlock_t rwlock = PTHREAD_RWLOCK_INITIALIZER;
 std::mutex mutex;
@@ -179,7 +179,7 @@ const std::vector<Forbidden> kForbidden{
 INSTANTIATE_TEST_SUITE_P(Guard, EachTrap, testing::ValuesIn(kForbidden),
                          [](const auto& parameter) { return std::string(parameter.param.title); });
 
-// What the haptic thread does all day must pass, or the guard would be switched off sooner or later.
+// Permitted work of the haptic thread must pass.
 TEST(Guard, LetsArithmeticClockAndAtomicsPass) {
   double sum = 0;
   std::array<double, 64> values{};
@@ -196,7 +196,7 @@ TEST(Guard, LetsArithmeticClockAndAtomicsPass) {
   EXPECT_TRUE(std::isfinite(sum));
 }
 
-// Set-up on the same thread before and after, and work of other threads, are none of the guard's business.
+// The guard ignores work on the same thread before and after its lifetime, and all work of other threads.
 TEST(Guard, CountsOnlyItsOwnThreadAndLifetime) {
   std::vector<int> before(100);
   keep(before.data());
@@ -220,7 +220,7 @@ TEST(Guard, CountsOnlyItsOwnThreadAndLifetime) {
   EXPECT_EQ(violations, 0);
 }
 
-// A helper with a guard of its own must neither hide its findings from the caller's guard nor be blamed for the caller's.
+// A nested guard must neither hide its findings from the outer guard nor count those made before its construction.
 TEST(Guard, Nests) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   int outer_count = 0, inner_count = 0;
@@ -254,7 +254,7 @@ TEST(Guard, Nests) {
   EXPECT_EQ(inner_first, "close");
 }
 
-// Interposing must not change what the functions do: a condition variable hands over between threads as ever.
+// Interposition must not change the functions: a condition variable still works between threads.
 TEST(Guard, LeavesTheFunctionsWorking) {
   bool ready = false;
   std::thread waker([&] {
@@ -301,13 +301,13 @@ TEST_F(SyscallTrap, CatchesEveryOtherCallByNumber) {
             "system call " + std::to_string(SYS_read) + " (read)");
 }
 
-// glibc takes a block this large from the kernel: the allocation that the guard's interposition could not see
+// glibc maps a block this large from the kernel: an internal call that the guard's interposition cannot see
 TEST_F(SyscallTrap, CatchesCallsMadeInsideLibraries) {
   EXPECT_EQ(runUnderSyscallTrap([] { keep(std::malloc(std::size_t{1} << 28)); }),
             "system call " + std::to_string(SYS_mmap) + " (mmap)");
 }
 
-// The first throw of a process sets up the unwinder, which locks: so one goes before.
+// The first throw of a process sets up the unwinder, which locks: throw once beforehand.
 TEST_F(SyscallTrap, TellsHowElseTheFunctionEnded) {
   const auto throws = [] { throw std::logic_error(""); };
   EXPECT_THROW(throws(), std::logic_error);

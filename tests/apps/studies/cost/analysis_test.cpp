@@ -1,4 +1,4 @@
-// Fronts, gains and sentences of made-up numbers.
+// Fronts, gains and sentences of invented numbers.
 #include "apps/studies/cost/analysis.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(Analysis, TheDistanceFromTheFrontIsThatInCostAndThatInError) {
   ASSERT_TRUE(on);
   EXPECT_EQ(on->cost, 1);
   EXPECT_EQ(on->error, 1);
-  // one that is as accurate at 0.8 of the cost, one that is no dearer at a quarter of the error, and better ones that do not count
+  // one as accurate at 0.8 of the cost, one no dearer at a quarter of the error, and better ones that must not count
   result.outcomes.push_back(outcome("150", "soft", 0.008, 0.2));
   result.outcomes.push_back(outcome("170", "soft", 0.010, 0.05));
   result.outcomes.push_back(outcome("500", "soft", 0.011, 0.01));
@@ -54,7 +54,7 @@ TEST(Analysis, TheDistanceFromTheFrontIsThatInCostAndThatInError) {
   EXPECT_NEAR(off->error, 4, 1e-12);
   EXPECT_EQ(off->as_cheap, 7u);
   EXPECT_NEAR(off->least(), 1.25, 1e-12);
-  // an engine without fingers is no default
+  // an engine without fingers cannot be a default
   for (Outcome& each : result.outcomes) each.setting.choices.emplace_back("engine", "ode");
   result.outcomes.push_back(outcome("200", "soft", 0.001, 0.001));
   result.outcomes.back().setting.choices.emplace_back("engine", "bullet");
@@ -62,7 +62,7 @@ TEST(Analysis, TheDistanceFromTheFrontIsThatInCostAndThatInError) {
   EXPECT_FALSE(distanceToFront(result, "hum")) << "the default has no such error";
 }
 
-// What two references differ by is no accuracy: below ten times that all settings are equal, and the cheapest is the front.
+// Errors below ten times the difference of two references count as equal: the cheapest of these settings is the front.
 TEST(Analysis, ErrorsBelowTheResolutionAreEqual) {
   Result result = made();
   result.reference.residual["force_rms"] = 0.03;

@@ -7,7 +7,7 @@ namespace {
 
 using Kind = Forecast::Kind;
 
-// Two settings, one ten times as long as the other: what is left counts by what it takes, not by its number.
+// Two settings, one ten times as long as the other: the forecast depends on durations, not on the number of runs.
 TEST(Forecast, CountsSecondsNotRuns) {
   Forecast forecast(2);
   for (const std::uint64_t setting : {1, 2}) {
@@ -34,7 +34,7 @@ TEST(Forecast, WatchedRunsShareTheProcessors) {
   EXPECT_NEAR(forecast.left(), 4, 1e-12) << "two of 4 s each, two at a time";
 }
 
-// A run that was there already takes no time, and says nothing about the others.
+// A run that existed already takes no time and does not affect the forecast of others.
 TEST(Forecast, ResumedRunsCountNothing) {
   Forecast forecast(1);
   forecast.add({Kind::kWatched, 1});

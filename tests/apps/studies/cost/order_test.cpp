@@ -1,4 +1,4 @@
-// The order of convergence that a study observes is that of the method: scenes whose answer is known.
+// The observed order of convergence equals that of the method, in scenes with known answers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,15 +55,15 @@ TEST(Order, FreeFallIsOfFirstOrder) {
   const auto order = observedOrder(result, "position", "dynamics_rate");
   ASSERT_TRUE(order);
   EXPECT_NEAR(*order, 1, 0.02);
-  // and the size is that of theory: RMS of g t h / 2 over 0.2 … 1 s at h = 5 ms, within the grid's coarseness
+  // the error agrees with theory: RMS of g t h / 2 over 0.2 … 1 s at h = 5 ms, within the resolution of the grid
   const double rms = 1e3 * 9.81 * 0.005 / 2 * std::sqrt((1 - 0.008) / 3 / 0.8);
   EXPECT_NEAR(result.outcomes.front().error.at("position"), rms, 0.02 * rms);
-  // the same scheme loses m g² h t / 2 of energy, to rounding
+  // the same scheme loses an energy of m g² h t / 2, up to rounding
   EXPECT_NEAR(result.outcomes.front().error.at("energy_drift"), 1e3 * 0.2 * 9.81 * 9.81 * 0.005 * 0.995 / 2, 1e-6);
   EXPECT_LT(result.outcomes.front().error.at("energy_created"), 1e-9);
 }
 
-// One Runge–Kutta step of the exact rotation: fourth order, while one step is one step (it is divided from 25 mrad on).
+// One Runge–Kutta step of the exact rotation is of fourth order, as long as it is not subdivided (from 25 mrad on).
 TEST(Order, TheExactRotationIsOfFourthOrder) {
   const Result result = run("spin", study(write("spin_scene.xml", scene("0 0 0", "angular_velocity=\"0.6 1.0 0.3\"",
                                                                         "<box size=\"0.02 0.06 0.12\"/>")),
@@ -73,7 +73,7 @@ TEST(Order, TheExactRotationIsOfFourthOrder) {
   EXPECT_NEAR(*order, 4, 0.2);
 }
 
-// The reference itself, held against the closed form of a symmetric top: spin about its axis, precession about the
+// The analytic reference against the closed form of a symmetric top: spin about its axis, precession about the
 // angular momentum.
 TEST(Order, TheAnalyticRotationFollowsTheSymmetricTop) {
   Diagnostics diagnostics;
@@ -94,7 +94,8 @@ TEST(Order, TheAnalyticRotationFollowsTheSymmetricTop) {
   }
 }
 
-/// A mass m on the spring (k, d) of a finger that moves A (1 − cos ωt) from the equilibrium on: closed form.
+/// Closed form: displacement of a mass m on the spring (k, d) of a finger that moves by A (1 − cos ωt) from
+/// equilibrium.
 double massOnFinger(double m, double k, double d, double amplitude, double w, double t) {
   using Complex = std::complex<double>;
   const Complex gain = Complex(k, w * d) / Complex(k - m * w * w, w * d);
@@ -107,8 +108,8 @@ double massOnFinger(double m, double k, double d, double amplitude, double w, do
 }
 
 struct Ride {
-  double error = 0;    ///< of the cube's height, RMS [m]
-  double created = 0;  ///< energy [J]
+  double error = 0;    ///< RMS error of the cube's height [m]
+  double created = 0;  ///< created energy [J]
 };
 
 Ride ride(const std::string& scene_file, double dynamics_rate, const std::string& coupling) {
@@ -128,7 +129,7 @@ Ride ride(const std::string& scene_file, double dynamics_rate, const std::string
   double squares = 0;
   int count = 0;
   run.observe([&](const StudySample& sample) {
-    if (sample.tick.time > 0.3) ledger.observe(sample);  // the output stage's soft start is no method of the dynamics
+    if (sample.tick.time > 0.3) ledger.observe(sample);  // without the output stage's soft start
     const double time = sample.objects->time_begin;
     if (std::abs(time - sample.tick.time) > 1e-9) return;
     const double error = sample.objects->bodies[0].X_WB_begin.p.z() - 0.03 -
@@ -140,20 +141,20 @@ Ride ride(const std::string& scene_file, double dynamics_rate, const std::string
   return {std::sqrt(squares / count), ledger.created()};
 }
 
-// A cube that rides on a moving fingertip: implicit Euler of the finger's spring is of first order.
+// A cube riding on a moving fingertip: implicit Euler of the finger's spring is of first order.
 TEST(Order, TheFingerSpringIsOfFirstOrder) {
   const std::string file =
       write("ride.xml", R"(<scene version="1.0" name="ride" rig="ride_rig.xml"><world gravity="0 0 -9.81"/>
     <materials><material name="m" stiffness="1000" damping="2"/></materials>
     <body name="cube" pos="0 0 0.03"><haptic><box size="0.06 0.06 0.06"/></haptic><physics mass="0.2"><box size="0.06 0.06 0.06"/></physics></body>
     <devices><device role="thumb"><limits force="50" force_rate="1e6"/></device></devices></scene>)");
-  // the prescribed finger takes the place of this one
+  // placeholder rig: the prescribed finger replaces its finger
   write("ride_rig.xml",
         R"(<rig version="1.0" name="ride"><device role="thumb" driver="scripted"><set key="motion" value=")" +
             test::source("config/motions/hover.csv") + R"("/></device></rig>)");
   const Ride coarse = ride(file, 200, "soft"), fine = ride(file, 800, "soft");
   EXPECT_NEAR(std::log(coarse.error / fine.error) / std::log(4.0), 1, 0.2) << coarse.error << ' ' << fine.error;
-  // an implicit spring makes no energy; an explicit one does, the more the coarser its step
+  // an implicit spring creates no energy; an explicit one does, more with a coarser step
   const double rough = ride(file, 100, "explicit").created, finer = ride(file, 800, "explicit").created;
   RecordProperty("created", std::to_string(coarse.created) + " " + std::to_string(rough) + " " + std::to_string(finer));
   EXPECT_LT(coarse.created, 0.1 * rough);

@@ -22,7 +22,7 @@ const std::string kSmall = "cost " + kCube + " --for 2.5 --knob dynamics_rate=10
 
 nlohmann::json readJson(const std::string& file) { return nlohmann::json::parse(contentsOf(file)); }
 
-// Everything wrong is told at once, with the nearest name, and nothing is run or written.
+// All errors are reported at once, with the nearest valid name, and nothing is run or written.
 TEST(Cost, RefusesBadInputBeforeAnyWork) {
   const std::string out = scratch("never");
   const auto outcome = presa("cost " + kCube +
@@ -36,7 +36,7 @@ TEST(Cost, RefusesBadInputBeforeAnyWork) {
   EXPECT_FALSE(std::filesystem::exists(out + "/cost.json"));
   EXPECT_FALSE(std::filesystem::exists(out + "/runs"));
 
-  EXPECT_EQ(presa("cost " + kCube + " --knob dynamics_rate=200 --out " + out).status, 2);  // only the default
+  EXPECT_EQ(presa("cost " + kCube + " --knob dynamics_rate=200 --out " + out).status, 2);  // no setting but the default
   const std::string file = scratch("a_file");
   std::ofstream(file) << "x";
   const auto unwritable = presa(kSmall + "--out " + file + "/below");
@@ -44,7 +44,7 @@ TEST(Cost, RefusesBadInputBeforeAnyWork) {
   EXPECT_NE(unwritable.err.find("error[E803]"), std::string::npos) << unwritable.err;
 }
 
-// A study file is checked like a scene: with line and column.
+// Errors in a study file have line and column, as in a scene.
 TEST(Cost, RefusesABadStudyFile) {
   const std::string file = scratch("study.xml");
   std::ofstream(file) << "<accuracy_cost version=\"1.0\" name=\"s\" scene=\"" << kCube
@@ -78,11 +78,11 @@ TEST(Cost, WritesWhatItPromises) {
   EXPECT_NE(contentsOf(out + "/report.html").find("In words"), std::string::npos);
 }
 
-// The same study interrupted, resumed, and never interrupted gives the same errors; what was done is kept.
+// An interrupted and resumed study gives the same errors as an uninterrupted one; finished runs are kept.
 TEST(Cost, GoesOnAfterCtrlC) {
   const std::string whole = scratch("whole"), broken = scratch("broken");
   const std::string study = "cost " + kCube + " --for 1.5 --knob dynamics_rate=50,100,200,250,500,1000 --jobs 1";
-  // interrupted as soon as two runs are kept: no clock decides
+  // interrupt as soon as two runs are stored, independent of time
   const auto stopped = shell("sh -c '" + std::string(PRESA_BINARY_DIR) + "/bin/presa " + study + " --out " + broken +
                              " & pid=$!; while kill -0 $pid 2>/dev/null && [ $(ls " + broken +
                              "/runs 2>/dev/null | wc -l) -lt 2 ]; do sleep 0.01; done; kill -INT $pid; wait $pid'");
@@ -104,7 +104,7 @@ TEST(Cost, GoesOnAfterCtrlC) {
     EXPECT_EQ(a.at("settings")[i].at("error"), b.at("settings")[i].at("error"));
 }
 
-// In a real browser: the page asks for nothing, complains of nothing, has its points, and names a setting under the pointer.
+// In a real browser the page loads nothing, logs no errors, shows its points, and names the setting under the pointer.
 TEST(Cost, TheReportWorksInABrowser) {
   if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
   const std::string out = scratch("page");

@@ -1,4 +1,4 @@
-// What lies on what: two cubes on a plate, at poses that say the answer.
+// Two cubes on a plate, at poses with known overlap and energy.
 #include "apps/studies/cost/rest_watch.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ std::shared_ptr<const World> stack() {
   return loaded.world;
 }
 
-/// The step that ends at `end` [s], 5 ms long, with the cubes at these heights before and after.
+/// A step of 5 ms that ends at `end` [s]; the lower cube moves from height `low_from` to `low_to`, the upper is at
+/// `high` [m].
 ObjectState step(double end, double low_from, double low_to, double high) {
   ObjectState state;
   state.bodies.resize(3);
@@ -47,7 +48,7 @@ TEST(RestWatch, MeasuresOverlapMotionAndDrift) {
   Evidence evidence = windows();
   RestWatch watch(*world, evidence);
   watch.observe(step(0.5, 0.04, 0.04, 0.15));       // 10 mm deep, before the steady window
-  watch.observe(step(1.5, 0.048, 0.048, 0.15));     // 2 mm in the plate; the upper one touches nothing
+  watch.observe(step(1.5, 0.048, 0.048, 0.15));     // 2 mm in the plate; no contact of the upper cube
   watch.observe(step(1.505, 0.048, 0.049, 0.146));  // 1 mm in the plate, 3 mm in each other; 0.2 m/s
   watch.observe(step(2.5, 0.01, 0.01, 0.15));       // after both windows
   watch.finish(evidence);
@@ -58,7 +59,7 @@ TEST(RestWatch, MeasuresOverlapMotionAndDrift) {
   EXPECT_EQ(watch.lost(), "");
 }
 
-// A turn of 0.01 rad in 5 ms about z is 2 rad/s; the cube's inertia is m a^2 / 6.
+// A rotation of 0.01 rad in 5 ms about z is 2 rad/s; the cube's inertia is m a^2 / 6.
 TEST(RestWatch, CountsTheEnergyOfTurning) {
   const auto world = stack();
   Evidence evidence = windows();

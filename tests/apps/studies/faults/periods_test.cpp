@@ -1,4 +1,4 @@
-// Two scenes against the clock: what is told of them follows from the runs that are listed.
+// Two scenes in real time: the reported figures follow from the listed runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
