@@ -2,10 +2,7 @@
 #include <array>
 #include <atomic>
 
-#include "framework/core/graph/port.h"
-#include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/device_state.h"
-#include "framework/core/state/object_state.h"
+#include "framework/record/haptic_observer.h"
 
 namespace presa {
 
@@ -20,21 +17,23 @@ struct LiveValues {
   std::atomic<double> object_fault_time{-1};    ///< time of the last new fault [s]
 };
 
-/// Observer module at the haptic rate, for the status line.
-class LiveTap final : public Module {
+/// Copies forces and modes for the status line.
+class LiveTap final : public HapticObserver {
  public:
-  explicit LiveTap(LiveValues& values) : Module("live_tap", RateGroup::kHaptic), values_(values) {}
+  explicit LiveTap(LiveValues& values) : HapticObserver("live_tap"), values_(values) {}
 
-  void step(const Tick& tick) noexcept override {
-    values_.phase.store(device_->fingers[0].phase, std::memory_order_relaxed);
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contact_->count); ++f) {
-      values_.normal_force[f].store(contact_->fingers[f].normal_force, std::memory_order_relaxed);
-      values_.mode[f].store(static_cast<std::int32_t>(contact_->fingers[f].mode), std::memory_order_relaxed);
+  void observe(const HapticSample& sample) noexcept override {
+    const ContactExchange& contact = sample.contact;
+    values_.phase.store(sample.device.fingers[0].phase, std::memory_order_relaxed);
+    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+      values_.normal_force[f].store(contact.fingers[f].normal_force, std::memory_order_relaxed);
+      values_.mode[f].store(static_cast<std::int32_t>(contact.fingers[f].mode), std::memory_order_relaxed);
     }
-    values_.losses.store(contact_->coverage_lost + contact_->pop_through, std::memory_order_relaxed);
-    if (const std::uint32_t faults = object_faults_ | objects_->faults; faults != object_faults_) {
+    values_.losses.store(contact.coverage_lost + contact.pop_through, std::memory_order_relaxed);
+    if (sample.objects == nullptr) return;
+    if (const std::uint32_t faults = object_faults_ | sample.objects->faults; faults != object_faults_) {
       object_faults_ = faults;
-      values_.object_fault_time.store(tick.time, std::memory_order_relaxed);
+      values_.object_fault_time.store(sample.tick.time, std::memory_order_relaxed);
       values_.object_faults.store(faults, std::memory_order_release);
     }
   }
@@ -43,9 +42,6 @@ class LiveTap final : public Module {
  private:
   LiveValues& values_;
   std::uint32_t object_faults_ = 0;
-  In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
-  In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
-  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
 };
 
 }  // namespace presa

@@ -59,9 +59,10 @@ struct RunResult {
     std::uint64_t dropped = 0;
   };
 
-  std::shared_ptr<const World> world;  ///< scene, rig, seed; never null
+  std::shared_ptr<const World> world;  ///< scene and rig; never null
   std::string version;                 ///< of the program
   std::string command;                 ///< command line that repeats the run
+  std::uint64_t seed = 1;
   bool realtime = false;
   bool interrupted = false;  ///< stopped by the user before its end
   double simulated_seconds = 0;

@@ -129,7 +129,7 @@ std::string summaryJson(const RunResult& result) {
   json["version"] = result.version;
   json["scene"] = result.world->scene.name;
   json["rig"] = result.world->rig.name;
-  json["seed"] = result.world->options.seed;
+  json["seed"] = result.seed;
   json["mode"] = result.realtime ? "realtime" : "lockstep";
   json["duration_s"] = result.simulated_seconds;
   json["wall_s"] = result.wall_seconds;

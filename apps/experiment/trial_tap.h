@@ -4,30 +4,29 @@
 
 #include "experiments/runner/definition/sample_names.h"
 #include "experiments/runner/definition/trial.h"
-#include "framework/core/graph/port.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/device/output_stage.h"
+#include "framework/record/haptic_observer.h"
 
 namespace presa::experiment {
 
 /// Last module of the haptic group: passes every tick to the trial's state machine, keeps quality figures, and asks the
 /// run to stop when the trial has ended or a device is lost. Forces then fade, as at every stop. Thread: haptic;
 /// nonblocking.
-class TrialTap final : public Module {
+class TrialTap final : public HapticObserver {
  public:
   TrialTap(Trial& trial, const Experiment& experiment, const Scene& scene, RunControl& control)
-      : Module("trial", RateGroup::kHaptic),
+      : HapticObserver("trial"),
         trial_(trial),
         control_(control),
         reader_(scene, experiment.askedSamples()),
         fingers_(scene.devices.size()) {}
 
-  void step(const Tick& tick) noexcept override {
+  void observe(const HapticSample& sample) noexcept override {
     if (trial_.state() != Trial::State::kRunning || lost_finger_ >= 0) return;
-    reader_.read(tick.time, device_.value(), contact_.value(), command_.value(),
-                 objects_.hasValue() ? &objects_.value() : nullptr, trial_.samples());
-    judge(tick);
-    if (trial_.step(tick.time) != Trial::State::kRunning || lost_finger_ >= 0)
+    reader_.read(sample.tick.time, sample.device, sample.contact, sample.command, sample.objects, trial_.samples());
+    judge(sample);
+    if (trial_.step(sample.tick.time) != Trial::State::kRunning || lost_finger_ >= 0)
       control_.stop_requested.store(true, std::memory_order_relaxed);
   }
   std::vector<std::string> stages() const override { return {"step the trial: guards, measures, quality"}; }
@@ -41,15 +40,16 @@ class TrialTap final : public Module {
   double time() const noexcept { return time_; }
 
  private:
-  void judge(const Tick& tick) noexcept {
+  void judge(const HapticSample& sample) noexcept {
+    const Tick& tick = sample.tick;
     time_ = tick.time;
-    if ((command_->status & kOutputMagnitude) != 0) clipped_ += tick.period;
+    if ((sample.command.status & kOutputMagnitude) != 0) clipped_ += tick.period;
     bool lost = false;
     for (std::size_t f = 0; f < fingers_; ++f) {
-      silent_[f] = device_->fingers[f].valid ? 0 : silent_[f] + tick.period;
+      silent_[f] = sample.device.fingers[f].valid ? 0 : silent_[f] + tick.period;
       lost = lost || silent_[f] > 0;
       if (silent_[f] > kLost && lost_finger_ < 0) lost_finger_ = static_cast<int>(f);
-      most_ = std::max(most_, command_->f_H_W[f].norm());
+      most_ = std::max(most_, sample.command.f_H_W[f].norm());
     }
     if (lost) lost_ += tick.period;
   }
@@ -61,10 +61,6 @@ class TrialTap final : public Module {
   std::array<double, kMaxFingers> silent_{};  // [s] since the last sample
   int lost_finger_ = -1;
   double clipped_ = 0, lost_ = 0, most_ = 0, time_ = 0;
-  In<DeviceState> device_{*this, "device_state"};
-  In<ContactExchange> contact_{*this, "contact_exchange"};
-  In<ForceCommand> command_{*this, "force_command"};
-  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
 };
 
 }  // namespace presa::experiment

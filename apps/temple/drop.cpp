@@ -32,7 +32,7 @@ DropResult drop(const Building& building, const std::vector<SceneSpec::Stone>& s
   StudyRun run(study);
   DropResult result;
   for (const SceneSpec::Stone& stone : stones) result.X_WB.push_back(stone.X_WB);
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.objects == nullptr) return;
     result.sound = sample.objects->faults == 0;
     for (std::size_t i = 0; i < stones.size(); ++i) result.X_WB[i] = sample.objects->bodies[i].X_WB_end;

@@ -11,9 +11,9 @@
 #include "apps/common/options/command_line.h"
 #include "apps/common/options/show_option.h"
 #include "apps/common/options/view_choice.h"
-#include "apps/common/run_session.h"
 #include "apps/common/scratch_folder.h"
 #include "apps/common/terminal/job_progress.h"
+#include "apps/common/terminal_run.h"
 #include "apps/temple/building/building.h"
 #include "apps/temple/building/words.h"
 #include "apps/temple/ruins.h"
@@ -108,11 +108,11 @@ int takePicture(const temple::Building& building, temple::SceneSpec spec, const 
   if (const auto folder = std::filesystem::path(a.screenshot).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder);
   Diagnostics diagnostics;
-  const Loaded loaded =
+  Loaded loaded =
       loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}}, options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
-  Run run(loaded, {.quiet = true, .command = "presa temple"});
+  TerminalRun run(std::move(loaded), {.quiet = true, .command = "presa temple"});
   run.execute();
   for (const auto& fault : run.result().faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
   if (!run.result().faults.empty()) return kExitFault;
@@ -170,8 +170,8 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
     writeFileAtomically(spec.rig, pairOf(a.automatic ? "assembling_hand" : "pointer"));
   }
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}},
-                                  optionsOf(building, a), diagnostics);
+  Loaded loaded = loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}},
+                            optionsOf(building, a), diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
 
@@ -185,7 +185,7 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
                                  .folder = visitFolder(a),
                                  .start = std::move(start),
                                  .language = a.language};
-  if (!a.lockstep) return temple::visit(loaded, settings);
+  if (!a.lockstep) return temple::visit(std::move(loaded), settings);
   terminal::JobProgress progress(building.blocks.size());
   int done = 0;
   settings.progress = [&](int placed, int) {
@@ -193,7 +193,7 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
     progress.show();
     return true;
   };
-  return temple::visit(loaded, settings);
+  return temple::visit(std::move(loaded), settings);
 }
 
 /// The scene with the block poses of a saved visit.

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/common/run_session.h"
+#include "apps/common/terminal_run.h"
 #include "apps/temple/shared_finger.h"
 #include "apps/temple/visit_log.h"
 #include "apps/temple/visit_tap.h"
@@ -20,21 +20,21 @@ constexpr double kShownFinish = 10;  // pause after the hands have finished, bef
 
 class Visit {
  public:
-  Visit(const Loaded& loaded, const VisitSettings& settings)
-      : settings_(settings), world_(loaded.world), assembly_(*world_->scene.assembly) {
-    auto witness = std::make_unique<Witness>(loaded.world);
-    auto tap = std::make_unique<VisitTap>(loaded.world);
+  Visit(Loaded loaded, const VisitSettings& settings)
+      : settings_(settings), world_(loaded.world), options_(loaded.options), assembly_(*world_->scene.assembly) {
+    auto witness = std::make_unique<Witness>(world_);
+    auto tap = std::make_unique<VisitTap>(world_);
     witness_ = witness.get();
     tap_ = tap.get();
-    Run::Settings run{.quiet = settings.quiet, .command = "presa temple"};
+    TerminalRun::Settings run{.quiet = settings.quiet, .command = "presa temple"};
     run.more.push_back(std::move(witness));
     run.more.push_back(std::move(tap));
     run.paced = settings.time_scale > 0;
     if (run.paced) run.speed = settings.time_scale;
     if (settings.attract > 0) run.wrap = [this](DeviceList devices) { return share(std::move(devices)); };
     run.watch = [this](Session& session, char key) { return watch(session, key); };
-    run_ = std::make_unique<Run>(loaded, std::move(run));
-    if (!settings.folder.empty()) log_.emplace(settings.folder, settings.start, loaded.world->scene, settings.language);
+    run_ = std::make_unique<TerminalRun>(std::move(loaded), std::move(run));
+    if (!settings.folder.empty()) log_.emplace(settings.folder, settings.start, world_->scene, settings.language);
   }
 
   VisitEnd go() {
@@ -101,9 +101,9 @@ class Visit {
     DeviceBinding binding;
     binding.role = world_->scene.devices[finger].role;
     binding.driver = "assembling_hand";
-    auto hand = devicePlugin(binding.driver).create(binding, *world_, diagnostics);
-    if (!hand) throw InputError(diagnostics);
-    return hand;
+    DeviceList hand = devicePlugin(binding.driver).create({binding}, world_, options_, diagnostics);
+    if (diagnostics.hasErrors()) throw InputError(diagnostics);
+    return std::move(hand.front());
   }
 
   void undo(Session& session, char key) {
@@ -114,10 +114,11 @@ class Visit {
 
   const VisitSettings& settings_;
   std::shared_ptr<const World> world_;
+  const RunOptions options_;
   const Assembly& assembly_;
   const Witness* witness_ = nullptr;  // this and tap_: owned by the run
   VisitTap* tap_ = nullptr;
-  std::unique_ptr<Run> run_;
+  std::unique_ptr<TerminalRun> run_;
   std::optional<VisitLog> log_;
   std::optional<double> done_at_;  // [s]
   std::uint32_t undone_ = 0, inputs_ = 0;
@@ -128,6 +129,6 @@ class Visit {
 
 }  // namespace
 
-VisitEnd visit(const Loaded& loaded, const VisitSettings& settings) { return Visit(loaded, settings).go(); }
+VisitEnd visit(Loaded loaded, const VisitSettings& settings) { return Visit(std::move(loaded), settings).go(); }
 
 }  // namespace presa::temple

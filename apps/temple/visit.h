@@ -16,9 +16,9 @@ struct VisitSettings {
   /// Idle time after which simulated hands take over, until the visitor's next input [simulated s]; 0: never.
   double attract = 0;
   bool attracting = false;                                    ///< the simulated hands begin
-  std::string folder;                                         ///< folder for saving (VisitLog); empty: not saved
-  KeptSession start;                                          ///< initial state
-  std::string language;                                       ///< language, for the log
+  std::string folder{};                                       ///< folder for saving (VisitLog); empty: not saved
+  KeptSession start{};                                        ///< initial state
+  std::string language{};                                     ///< language, for the log
   std::function<bool(int placed, int pieces)> progress = {};  ///< called regularly; return false to stop
 };
 
@@ -28,6 +28,6 @@ struct VisitEnd {
 };
 /// Runs a scene with an <assembly> and fingers until the visit ends, at most for RunOptions::duration. The key u, in
 /// the window or on the terminal, undoes a placement. Throws InputError, std::system_error. Thread: main.
-VisitEnd visit(const Loaded& loaded, const VisitSettings& settings);
+VisitEnd visit(Loaded loaded, const VisitSettings& settings);
 
 }  // namespace presa::temple

@@ -6,7 +6,9 @@
 namespace presa::assembling {
 namespace {
 
-std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_ptr<const World>& shared_world,
+                               const RunOptions& /*options*/, Diagnostics& diagnostics) {
+  const World& world = *shared_world;
   const std::size_t before = diagnostics.errorCount();
   refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping"}, diagnostics);
   const double side = sideOf(binding, diagnostics);
@@ -16,18 +18,17 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
                       "use another driver, or a scene with an <assembly> (modules/assembly/README.md)");
   }
   if (diagnostics.errorCount() > before) return nullptr;
-  return makePlannedFinger(
-      {.plan = std::make_unique<Planner>(std::make_shared<const World>(world), fingertipOf(binding, world)),
-       .side = side,
-       .settings = std::move(settings),
-       .period = RateTable(world.scene.rates).period(RateGroup::kHaptic),
-       .phases = Planner::phaseNames(),
-       .model = "fingers that assemble by a plan: no person"});
+  return makePlannedFinger({.plan = std::make_unique<Planner>(shared_world, fingertipOf(binding, world)),
+                            .side = side,
+                            .settings = std::move(settings),
+                            .period = RateTable(world.scene.rates).period(RateGroup::kHaptic),
+                            .phases = Planner::phaseNames(),
+                            .model = "fingers that assemble by a plan: no person"});
 }
 
 const DevicePlugin kPlugin{.name = "assembling_hand",
                            .summary = "one of two simulated fingertips that build a scene's assembly on their own",
-                           .create = create,
+                           .create = createEach<create>,
                            .rating = kImaginedRating};
 
 }  // namespace

@@ -8,7 +8,9 @@
 namespace presa::clumsy {
 namespace {
 
-std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_ptr<const World>& shared_world,
+                               const RunOptions& options, Diagnostics& diagnostics) {
+  const World& world = *shared_world;
   const std::size_t before = diagnostics.errorCount();
   refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping"}, diagnostics);
   const double side = sideOf(binding, diagnostics);
@@ -17,18 +19,18 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
     diagnostics.error(447, binding.where, "role '" + binding.role + "': the scene has no free body to grab",
                       "use a scene with a body that is not fixed and has a <physics>");
   if (diagnostics.errorCount() > before) return nullptr;
-  return makePlannedFinger({.plan = std::make_unique<ClumsyPlan>(std::make_shared<const World>(world),
-                                                                 fingertipOf(binding, world), world.options.seed),
-                            .side = side,
-                            .settings = std::move(settings),
-                            .period = RateTable(world.scene.rates).period(RateGroup::kHaptic),
-                            .phases = ClumsyPlan::phaseNames(),
-                            .model = "fingers that grab at random: no person"});
+  return makePlannedFinger(
+      {.plan = std::make_unique<ClumsyPlan>(shared_world, fingertipOf(binding, world), options.seed),
+       .side = side,
+       .settings = std::move(settings),
+       .period = RateTable(world.scene.rates).period(RateGroup::kHaptic),
+       .phases = ClumsyPlan::phaseNames(),
+       .model = "fingers that grab at random: no person"});
 }
 
 const DevicePlugin kPlugin{.name = "clumsy_hand",
                            .summary = "one of two simulated fingertips that grab, throw, press and push at random",
-                           .create = create,
+                           .create = createEach<create>,
                            .rating = kImaginedRating};
 
 }  // namespace

@@ -8,9 +8,10 @@
 namespace presa {
 namespace {
 
-std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_ptr<const World>& /*world*/,
+                               const RunOptions& options, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  falcon::FalconSettings settings = falcon::readSettings(binding, world, diagnostics);
+  falcon::FalconSettings settings = falcon::readSettings(binding, options, diagnostics);
   if (diagnostics.errorCount() > before) return nullptr;
   auto connect = [serial = settings.serial, where = settings.where] { return falcon::connectOverUsb(serial, where); };
   return std::make_unique<falcon::FalconDevice>(std::move(settings), std::move(connect));
@@ -18,7 +19,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 
 const DevicePlugin kPlugin{.name = "novint_falcon",
                            .summary = "Novint Falcon over USB",
-                           .create = create,
+                           .create = createEach<create>,
                            .diagnose = falcon::diagnose,
                            .udev_rule = falcon::kUdevRule,
                            .rating = falcon::kRating,

@@ -68,12 +68,12 @@ Pose readBase(const DeviceBinding& binding, Diagnostics& diagnostics) {
 
 }  // namespace
 
-FalconSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+FalconSettings readSettings(const DeviceBinding& binding, const RunOptions& options, Diagnostics& diagnostics) {
   refuseUnknownSettings(binding, kKeys, diagnostics);
   FalconSettings settings;
   settings.role = binding.role;
   settings.where = binding.where;
-  settings.realtime = world.options.realtime;
+  settings.realtime = options.realtime;
   settings.X_WD = readBase(binding, diagnostics);
   readPositive(binding, "scale", settings.scale, diagnostics);
   readUpTo(binding, "counts_per_torque", {1, 0, "a number above 0, at most 12500", kMostCountsPerTorque},

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/novint_falcon/link.h"
-#include "framework/scene/world.h"
+#include "framework/scene/run_options.h"
 
 namespace presa::falcon {
 
@@ -21,6 +21,6 @@ struct FalconSettings {
 };
 
 /// Reads the settings; findings go to `diagnostics`.
-FalconSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
+FalconSettings readSettings(const DeviceBinding& binding, const RunOptions& options, Diagnostics& diagnostics);
 
 }  // namespace presa::falcon

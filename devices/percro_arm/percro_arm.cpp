@@ -147,7 +147,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 const DevicePlugin kPlugin{
     .name = "percro_arm",
     .summary = "model of an arm of the PERCRO interface, moved by a scripted hand",
-    .create = create,
+    .create = createEach<create>,
     .rating = {.force = 10, .continuous = 4, .heating_time = 30, .behind = DeviceRating::Behind::kModel}};
 
 /// Both arms are switched on and homed, then linked and led through a region of 8 cm around the midpoint between them.

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
-#include <mutex>
 
 #include "devices/hand/hand_settings.h"
 #include "devices/pointer/pair.h"
@@ -103,28 +101,17 @@ PairSettings readPair(const DeviceBinding& binding, const World& world, Diagnost
   return pair;
 }
 
-/// The pair of a world: created by its first finger, joined by its second, owned by the devices alone.
-std::shared_ptr<Pair> join(const World& world, const PairSettings& settings) {
-  static std::mutex mutex;
-  static std::map<const World*, std::weak_ptr<Pair>> pairs;
-  const std::lock_guard lock(mutex);
-  std::erase_if(pairs, [](const auto& entry) { return entry.second.expired(); });
-  std::shared_ptr<Pair> pair = pairs[&world].lock();
-  if (!pair) {
-    pair = std::make_shared<Pair>(settings);
-    pairs[&world] = pair;
-  }
-  return pair;
-}
-
-std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+/// The finger that `binding` names, of `pair`, which the first finger creates and the second joins. Null with a
+/// finding.
+std::unique_ptr<Device> makeFinger(const DeviceBinding& binding, const World& world, bool window,
+                                   std::shared_ptr<Pair>& pair, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping", "grip", "span"}, diagnostics);
   const Pair::Side side = sideOf(binding, diagnostics) < 0 ? Pair::kThumb : Pair::kIndex;
   HandSettings hand = readImpedance(binding, world, 0, {}, diagnostics);
   const PairSettings settings = readPair(binding, world, diagnostics);
   if (diagnostics.errorCount() > before) return nullptr;
-  auto pair = join(world, settings);
+  if (!pair) pair = std::make_shared<Pair>(settings);
   if (!(pair->settings() == settings))
     diagnostics.error(455, binding.where, "role '" + binding.role + "' has other settings than the other finger",
                       "both fingers are one pair: give them the same grip, span, fingertip radius and force limit");
@@ -132,8 +119,16 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
     diagnostics.error(456, binding.where, "role '" + binding.role + "' is a side that another role is already",
                       "one pointer moves one thumb and one index finger; side=\"-1\" is the thumb's");
   if (diagnostics.errorCount() > before) return nullptr;
-  return std::make_unique<PointedFinger>(std::move(pair), side, std::move(hand),
-                                         world.options.view == RunOptions::View::kWindow);
+  return std::make_unique<PointedFinger>(pair, side, std::move(hand), window);
+}
+
+DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
+                  const RunOptions& options, Diagnostics& diagnostics) {
+  std::shared_ptr<Pair> pair;  // one mouse moves all fingers
+  DeviceList fingers;
+  for (const DeviceBinding& binding : bindings)
+    fingers.push_back(makeFinger(binding, *world, options.view == RunOptions::View::kWindow, pair, diagnostics));
+  return fingers;
 }
 
 const DevicePlugin kPlugin{.name = "pointer",

@@ -66,7 +66,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 
 const DevicePlugin kPlugin{.name = "replay",
                            .summary = "repeats the motion of a recorded finger, regardless of forces",
-                           .create = create,
+                           .create = createEach<create>,
                            .rating = kImaginedRating};
 
 }  // namespace

@@ -66,7 +66,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 
 const DevicePlugin kPlugin{.name = "scripted",
                            .summary = "simulated fingertip that follows a motion file through a finger's impedance",
-                           .create = create,
+                           .create = createEach<create>,
                            .rating = kImaginedRating};
 
 }  // namespace

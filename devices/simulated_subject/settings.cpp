@@ -56,7 +56,8 @@ std::int32_t bodyOf(const DeviceBinding& binding, const World& world, Diagnostic
 
 }  // namespace
 
-SubjectSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+SubjectSettings readSettings(const DeviceBinding& binding, const World& world, const RunOptions& options,
+                             Diagnostics& diagnostics) {
   for (const auto& [key, setting] : binding.settings) {
     if (std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end()) continue;
     diagnostics.error(
@@ -74,12 +75,12 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, D
   }
   settings.seed = numberOf<std::uint64_t>(binding, "seed", 1, 0, diagnostics);
   settings.subject = numberOf<std::uint64_t>(binding, "subject", 0, 0, diagnostics);
-  if (const auto& person = world.options.person) {
+  if (const auto& person = options.person) {
     settings.seed = person->seed;
     settings.subject = person->subject;
     settings.level = subject::levelNamed(person->level).value_or(settings.level);
   }
-  settings.trial = world.options.seed;
+  settings.trial = options.seed;
   // grip and load together must stay below the force limit, or the fingers would pass through the object
   for (const DeviceRole& role : world.scene.devices) {
     if (role.role == binding.role) settings.most_grip = 0.9 * role.limits.force;

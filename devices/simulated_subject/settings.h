@@ -1,11 +1,13 @@
 #pragma once
 #include "devices/simulated_subject/shared_subject.h"
 #include "framework/core/diagnostics/diagnostics.h"
+#include "framework/scene/run_options.h"
 
 namespace presa {
 
 /// Reads and checks a role's settings; the findings go to `diagnostics`.
-SubjectSettings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
+SubjectSettings readSettings(const DeviceBinding& binding, const World& world, const RunOptions& options,
+                             Diagnostics& diagnostics);
 /// The gripped body: the one named by `object`, otherwise the only free body with a haptic geometry. The fingertip
 /// radius of a missing role is 0.
 Grasp readGrasp(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);

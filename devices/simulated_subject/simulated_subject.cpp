@@ -1,6 +1,4 @@
 #include <cstdio>
-#include <map>
-#include <mutex>
 
 #include "devices/simulated_subject/settings.h"
 #include "framework/core/schedule/rates.h"
@@ -64,27 +62,17 @@ class SimulatedDigit final : public Device {
   int digit_;
 };
 
-/// The subject of a world: created by its first device, joined by its second, owned by the devices alone.
-std::shared_ptr<SharedSubject> join(const World& world, const Grasp& grasp, const SubjectSettings& settings) {
-  static std::mutex mutex;
-  static std::map<const World*, std::weak_ptr<SharedSubject>> subjects;
-  const std::lock_guard lock(mutex);
-  std::erase_if(subjects, [](const auto& entry) { return entry.second.expired(); });
-  std::shared_ptr<SharedSubject> subject = subjects[&world].lock();
-  if (!subject) {
-    subject = std::make_shared<SharedSubject>(grasp, settings, RateTable(world.scene.rates).period(RateGroup::kHaptic));
-    subjects[&world] = subject;
-  }
-  return subject;
-}
-
-std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+/// The digit that `binding` names, of `subject`, which the first digit creates and the second joins. Null with a
+/// finding.
+std::unique_ptr<Device> makeDigit(const DeviceBinding& binding, const World& world, const RunOptions& options,
+                                  std::shared_ptr<SharedSubject>& subject, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
   const int digit = readDigit(binding, diagnostics);
-  const SubjectSettings settings = readSettings(binding, world, diagnostics);
+  const SubjectSettings settings = readSettings(binding, world, options, diagnostics);
   const Grasp grasp = readGrasp(binding, world, diagnostics);
   if (diagnostics.errorCount() > before) return nullptr;
-  auto subject = join(world, grasp, settings);
+  if (!subject)
+    subject = std::make_shared<SharedSubject>(grasp, settings, RateTable(world.scene.rates).period(RateGroup::kHaptic));
   if (subject->settings() != settings)
     diagnostics.error(
         436, binding.where, "role '" + binding.role + "' has other settings than the other digit",
@@ -93,7 +81,16 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
     diagnostics.error(438, binding.where, "role '" + binding.role + "' is a digit that another role is already",
                       "a simulated subject has one thumb and one index finger");
   if (diagnostics.errorCount() > before) return nullptr;
-  return std::make_unique<SimulatedDigit>(std::move(subject), digit);
+  return std::make_unique<SimulatedDigit>(subject, digit);
+}
+
+DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
+                  const RunOptions& options, Diagnostics& diagnostics) {
+  std::shared_ptr<SharedSubject> subject;  // one person has all digits
+  DeviceList digits;
+  for (const DeviceBinding& binding : bindings)
+    digits.push_back(makeDigit(binding, *world, options, subject, diagnostics));
+  return digits;
 }
 
 const DevicePlugin kPlugin{.name = "simulated_subject",

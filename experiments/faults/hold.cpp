@@ -64,7 +64,7 @@ void runHold(const Hold& hold, HoldDevices devices, const AtTick& at_tick, const
     return hold.held_up && hold.held_up(group, time);
   });
   bool armed = false;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (!armed && devices.clock >= hold.rearm) run.rearm();
     armed = devices.clock >= hold.rearm;
     traffic.slew_energy = 0;

@@ -15,8 +15,7 @@
 
 #include "experiments/study/experiment_file.h"
 #include "framework/core/schedule/clock.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 
 namespace presa::faults {
 namespace {
@@ -56,14 +55,12 @@ std::string sceneText(const std::string& file, const std::string& limits) {
         log + "\"/><set key=\"pos\" value=\"0 0 0.004\"/>" + limitsElement(limits.rig) + "</device></rig>";
     RunOptions options;
     options.realtime = true;
+    options.duration = 3600;
     Diagnostics diagnostics;
-    const Loaded loaded = loadWorldFromText(sceneText(scene, limits.scene), scene, rig, options, diagnostics);
+    Loaded loaded = loadWorldFromText({sceneText(scene, limits.scene), scene, rig}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     RunControl control;
-    Session session(loaded.world, loaded.plan, control, {});
-    const RateTable rates(loaded.world->scene.rates);
-    const auto executor = makeExecutor(true, session.graph(), rates, control);
-    executor->run(3600);
+    Run(std::move(loaded), control).execute();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
   }

@@ -7,7 +7,7 @@
 #include "experiments/faults/temporary_file.h"
 #include "experiments/study/experiment_file.h"
 #include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 
 namespace presa::faults {
 namespace {
@@ -60,22 +60,18 @@ void requireClamped(const Loaded& loaded, const Diagnostics& findings, double as
 }
 
 /// Grasps with the rig's own drivers and a force meter on each.
-void grasp(const Loaded& loaded, Outcome& outcome) {
-  Diagnostics findings;
-  DeviceList devices = createDevices(*loaded.world, loaded.plan, findings);
+void grasp(Loaded loaded, Outcome& outcome) {
   std::array<Meter, 2> meters;
-  for (std::size_t f = 0; f < devices.size(); ++f)
-    devices[f] = std::make_unique<MeteredDevice>(std::move(devices[f]), meters[f]);
+  for (std::size_t f = 0; f < loaded.devices.size(); ++f)
+    loaded.devices[f] = std::make_unique<MeteredDevice>(std::move(loaded.devices[f]), meters[f]);
+  loaded.options.duration = 2;
   RunControl control;
-  Session::Options options;
-  options.devices = std::move(devices);
-  Session session(loaded.world, loaded.plan, control, std::move(options));
-  const RateTable rates(loaded.world->scene.rates);
-  LockstepExecutor(session.graph(), rates, control).run(2);
-  const double slew = loaded.world->scene.devices[0].limits.force_rate * rates.period(RateGroup::kHaptic);
+  Run run(std::move(loaded), control);
+  run.execute();
+  const DeviceLimits& limits = run.world().scene.devices[0].limits;
+  const double slew = limits.force_rate * run.executor().rates().period(RateGroup::kHaptic);
   for (const Meter& meter : meters) {
-    if (!(meter.largest <= loaded.world->scene.devices[0].limits.force * (1 + 1e-9)))
-      outcome.broken.emplace_back("a force above the limit");
+    if (!(meter.largest <= limits.force * (1 + 1e-9))) outcome.broken.emplace_back("a force above the limit");
     if (!(meter.largest > 0)) outcome.broken.emplace_back("nothing was touched");
     outcome.step = std::max(outcome.step, meter.largest_step / slew);  // 1: the full slew limit
   }
@@ -95,14 +91,14 @@ Outcome tooStiff(RandomStream& random) {
   std::snprintf(stiffness.data(), stiffness.size(), "material/rubber/stiffness=%.17g", asked);
   std::snprintf(haptic.data(), haptic.size(), "rates/haptic=%.0f", rate);
   // make the table soft: its own stiffness warning would hide the expected one
-  const Loaded loaded = loadWorld({experimentFile("../config/scenes/cube.xml"),
-                                   rig.path(),
-                                   {stiffness.data(), haptic.data(), "material/wood/stiffness=1"}},
-                                  options, findings);
+  Loaded loaded = loadWorld({experimentFile("../config/scenes/cube.xml"),
+                             rig.path(),
+                             {stiffness.data(), haptic.data(), "material/wood/stiffness=1"}},
+                            options, findings);
   if (findings.hasErrors()) throw InputError(findings);
   Outcome outcome;
   requireClamped(loaded, findings, asked, oracle(damping, 1 / rate), outcome);
-  grasp(loaded, outcome);
+  grasp(std::move(loaded), outcome);
   return outcome;
 }
 

@@ -39,7 +39,7 @@ void touchBriefly(const std::string& scene_file, double seconds, Outcome& outcom
     clock = time;
     return false;
   });
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     for (std::size_t f = 0; f < transports.size(); ++f) {
       const DeviceLimits& limits = scene.devices[f].limits;
       const double force = transports[f].force.norm();

@@ -93,7 +93,7 @@ Outcome watched(RandomStream& random, bool network) {
   Viewers viewers(random, [&] { return network ? bus::openReader(settings) : local.reader(); });
   hold.more = [&](const std::shared_ptr<const World>& world) {
     viewers.come(*world);
-    return std::make_unique<bus::Publisher>(world,
+    return std::make_unique<bus::Publisher>(world, RunOptions{},
                                             [&] { return network ? bus::openWriter(settings) : local.writer(); });
   };
   const Trace with = traceOf(hold, outcome, [&](double time) { viewers.at(time); });

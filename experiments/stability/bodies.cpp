@@ -7,7 +7,7 @@
 
 namespace presa::stability {
 StudyRun::Observer atEachStep(std::function<void(const ObjectState&)> use) {
-  return [use = std::move(use), last = std::uint64_t{0}](const StudySample& sample) mutable {
+  return [use = std::move(use), last = std::uint64_t{0}](const HapticSample& sample) mutable {
     if (sample.objects == nullptr || sample.objects_version == last) return;
     last = sample.objects_version;
     use(*sample.objects);

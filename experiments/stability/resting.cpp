@@ -27,7 +27,7 @@ std::vector<Finding> settle(const Resting& resting, DeviceList fingers) {
   const double judged_from = resting.duration - 1;
   double speed = 0, error = 0;
   Curve shown{"speed of the body", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     const BodyMotion& motion = sample.objects->bodies[body];
     double now = motion.v_WB.norm() + motion.w_WB.norm() * radius;
     if (sample.objects->faults != 0) now = std::numeric_limits<double>::infinity();  // a frozen body is not at rest

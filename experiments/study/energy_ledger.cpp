@@ -45,7 +45,7 @@ void EnergyLedger::close(double energy) noexcept {
   drift_ = std::max(drift_, std::abs(excess - start_));
 }
 
-void EnergyLedger::observe(const StudySample& sample) noexcept {
+void EnergyLedger::observe(const HapticSample& sample) noexcept {
   double springs = 0;
   for (std::size_t f = 0; f < static_cast<std::size_t>(sample.device.count); ++f) {
     const Vec3& p_WH = sample.device.fingers[f].p_WH;

@@ -12,7 +12,7 @@ namespace presa {
 class EnergyLedger {
  public:
   explicit EnergyLedger(std::shared_ptr<const World> world);
-  void observe(const StudySample& sample) noexcept;
+  void observe(const HapticSample& sample) noexcept;
 
   /// Largest rise of (energy - work put in) above any earlier value.
   double created() const noexcept { return created_; }

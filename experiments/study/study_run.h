@@ -1,11 +1,11 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "framework/core/schedule/executor.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 
 namespace presa {
 
@@ -20,29 +20,19 @@ struct StudySpec {
   double force_share = 1;  ///< scale of the force limits
 };
 
-/// The states at one haptic tick, after the output stage. The references are valid during the call only.
-struct StudySample {
-  const Tick& tick;
-  const DeviceState& device;
-  const ContactExchange& contact;
-  const ForceCommand& command;
-  const ObjectState* objects;     ///< newest state, null without dynamics; poseAt(body, tick.time) is the current pose
-  std::uint64_t objects_version;  ///< increases by one per dynamics step
-};
-
 /// One lockstep run of a scene in virtual time, without terminal, view or recording. Bit-identical for the same spec.
 /// Thread: main; one run at a time. Throws InputError with every finding, and nothing else for bad input.
 class StudyRun {
  public:
-  using Observer = std::function<void(const StudySample&)>;
+  using Observer = std::function<void(const HapticSample&)>;
   using MakeModule = std::function<std::unique_ptr<Module>(const std::shared_ptr<const World>&)>;
   /// `devices` replaces the drivers of the rig, in the order of the scene's roles; empty: the rig's drivers. `more`
   /// creates an additional module, for example one that publishes the state.
   explicit StudyRun(const StudySpec& spec, DeviceList devices = {}, const MakeModule& more = {});
   ~StudyRun();
 
-  const World& world() const noexcept { return *world_; }
-  double duration() const noexcept { return duration_; }
+  const World& world() const noexcept { return run_->world(); }
+  double duration() const noexcept { return run_->options().duration; }
   /// See engineVersions().
   const std::vector<std::string>& engines() const noexcept { return engines_; }
   /// `observer` is called in every haptic tick, last in the group. Call before run().
@@ -51,24 +41,21 @@ class StudyRun {
   /// run().
   void delay(std::function<bool(RateGroup, double)> held_up);
   /// Makes timing() report processor time of this thread instead of wall time. Call before run().
-  void timeProcessor() { executor_->timeBy(threadCpuNs); }
+  void timeProcessor() { run_->executor().timeBy(threadCpuNs); }
   /// Clears latched faults; may be called from an observer.
   void rearm() noexcept { ++control_.rearms; }
-  void run();
+  void run() { run_->execute(); }
 
-  const Monitor& monitor() const noexcept { return session_->monitor(); }
-  const GroupTiming& timing(RateGroup group) const noexcept { return executor_->timing(group); }
-  Session& session() noexcept { return *session_; }
+  const Monitor& monitor() const noexcept { return run_->monitor(); }
+  const GroupTiming& timing(RateGroup group) const noexcept { return run_->timing(group); }
+  Session& session() noexcept { return run_->session(); }
 
  private:
   class Probe;
-  std::shared_ptr<const World> world_;
   RunControl control_;
-  double duration_ = 0;
   std::vector<std::string> engines_;
-  Probe* probe_ = nullptr;  // owned by the session's graph
-  std::unique_ptr<Session> session_;
-  std::unique_ptr<LockstepExecutor> executor_;
+  Probe* probe_ = nullptr;  // owned by the run
+  std::optional<Run> run_;
 };
 
 }  // namespace presa

@@ -17,9 +17,13 @@ std::uint64_t newRunId() {
   return id == 0 ? 1 : id;
 }
 
-Publisher::Publisher(std::shared_ptr<const World> world, Open open, CommandDesk::Open open_post)
-    : Module("bus_dds", RateGroup::kBus), world_(std::move(world)), open_(std::move(open)) {
-  if (takesCommands(*world_)) desk_ = std::make_unique<Desk>(*this, world_->scene, std::move(open_post));
+Publisher::Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open,
+                     CommandDesk::Open open_post)
+    : Module("bus_dds", RateGroup::kBus),
+      world_(std::move(world)),
+      realtime_(options.realtime),
+      open_(std::move(open)) {
+  if (options.bus_commands) desk_ = std::make_unique<Desk>(*this, world_->scene, std::move(open_post));
   const auto& bodies = world_->scene.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].fixed) continue;  // its pose is in the scene
@@ -44,8 +48,8 @@ void Publisher::start() {
   writer_ = open_();
   run_ = newRunId();
   const Scene& scene = world_->scene;
-  writer_->announce({run_, sceneHash(*world_), RateTable(scene.rates).period(RateGroup::kBus), world_->options.realtime,
-                     scene.name, scene.resolved_xml, desk_ != nullptr, sumsOfMeshes(scene)});
+  writer_->announce({run_, sceneHash(*world_), RateTable(scene.rates).period(RateGroup::kBus), realtime_, scene.name,
+                     scene.resolved_xml, desk_ != nullptr, sumsOfMeshes(scene)});
   if (desk_) desk_->desk.start(run_);
 }
 

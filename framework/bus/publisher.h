@@ -7,19 +7,20 @@
 #include "framework/bus/state_bus.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 
 namespace presa::bus {
 
 /// Publishes every free body and finger of a run once per tick of the bus group. Only reads its ports, which the haptic
 /// thread fills wait-free. Ports, all optional: device_state, contact_exchange, force_command, object_state; only when
-/// the run takes commands (takesCommands) also the out port surface_settings to the haptic thread.
+/// the run takes commands (RunOptions::bus_commands) also the out port surface_settings to the haptic thread.
 class Publisher final : public Module, public Commandable {
  public:
   using Open = std::function<std::unique_ptr<Writer>()>;
   /// `open` and `open_post` are called in start(), on the thread of the group, and may throw InputError; `open_post`
   /// only when the run takes commands.
-  Publisher(std::shared_ptr<const World> world, Open open, CommandDesk::Open open_post = {});
+  Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open, CommandDesk::Open open_post = {});
   ~Publisher() override;
   void start() override;
   void step(const Tick& tick) noexcept override;
@@ -40,6 +41,7 @@ class Publisher final : public Module, public Commandable {
   void tellEvents(const Stamp& stamp) noexcept;
 
   std::shared_ptr<const World> world_;
+  const bool realtime_;
   Open open_;
   std::unique_ptr<Desk> desk_;
   In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};

@@ -66,4 +66,7 @@ class Device {
   virtual std::vector<std::string> notes() const { return {}; }
 };
 
+/// The devices of a run, in the order of the scene's roles. Opened and closed by the program's main thread.
+using DeviceList = std::vector<std::unique_ptr<Device>>;
+
 }  // namespace presa

@@ -17,9 +17,6 @@
 
 namespace presa {
 
-/// The devices of a run, in the order of the scene's roles. Opened and closed by the program's main thread.
-using DeviceList = std::vector<std::unique_ptr<Device>>;
-
 /// A fault of the output stage during a run. A ring carries it to the main thread.
 struct FaultEvent {
   double time = 0;  ///< [s]

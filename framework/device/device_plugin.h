@@ -2,11 +2,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "framework/core/plugin/plugin_loader.h"
 #include "framework/device/device.h"
 #include "framework/device/device_rating.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 
 /// The table that a driver, a plug-in under devices/, exports with PRESA_DEVICE_PLUGIN (see plugin_loader.h).
@@ -26,9 +28,11 @@ struct DevicePlugin {
   int abi = kPluginAbi;
   const char* name;
   const char* summary;
-  /// Creates the device without touching hardware. Checks binding.settings (all findings to `diagnostics`); null when
-  /// a setting is wrong. Thread: main.
-  std::unique_ptr<Device> (*create)(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);
+  /// Creates a device for each binding, in their order, without touching hardware. Checks their settings (all findings
+  /// to `diagnostics`); null for a binding that has an error. createEach<make> is for a driver whose devices do not
+  /// know each other. Thread: main.
+  DeviceList (*create)(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
+                       const RunOptions& options, Diagnostics& diagnostics);
   /// Looks for its hardware and reports problems; moves nothing. An empty binding means every device of this driver.
   /// Thread: main; may take a second per device. Null: no hardware.
   std::vector<DeviceFinding> (*diagnose)(const DeviceBinding& binding) = nullptr;
@@ -41,6 +45,20 @@ struct DevicePlugin {
   /// What the user has to do while the device opens, in one sentence; null: nothing.
   const char* while_opening = nullptr;
 };
+
+/// DevicePlugin::create with one call of `make` for each binding.
+template <auto make>
+DeviceList createEach(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
+                      const RunOptions& options, Diagnostics& diagnostics) {
+  DeviceList devices;
+  for (const DeviceBinding& binding : bindings) {
+    if constexpr (std::is_invocable_v<decltype(make), const DeviceBinding&, const World&, Diagnostics&>)
+      devices.push_back(make(binding, *world, diagnostics));
+    else
+      devices.push_back(make(binding, world, options, diagnostics));
+  }
+  return devices;
+}
 
 /// The table of a driver. Loads its plug-in. Throws InputError when it cannot be loaded, or when its rating is not
 /// sound (E655).

@@ -12,6 +12,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 
 namespace presa {
@@ -105,11 +106,11 @@ struct RecordedSamples {
 /// The record plug-in (HDF5), loaded when a run is recorded or replayed.
 struct RecordPlugin {
   int abi;
-  /// Creates the file world.options.record, or, when that is empty, keeps the last two seconds in memory; a fault then
-  /// writes them to world.options.flight. Throws InputError: E601 the file exists (and options.overwrite is not set),
+  /// Creates the file options.record, or, when that is empty, keeps the last two seconds in memory; a fault then
+  /// writes them to options.flight. Throws InputError: E601 the file exists (and options.overwrite is not set),
   /// E602 it cannot be written. Call from an ordinary thread, because the writer thread inherits its priority and CPU
   /// set.
-  std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world);
+  std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world, const RunOptions& options);
   /// Checks the whole file before building anything from it. Throws InputError with every finding: E603 cannot be read,
   /// E604 not HDF5, E605 not a recording, E606 newer format, E607 no tick, E608 damaged, E670 storage other than a
   /// recording's, E671 attribute, E672 object or column, E673 rows not stored or tables of different length, E674 index

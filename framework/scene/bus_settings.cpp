@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/scene/run_options.h"
 #include "framework/scene/scene_parts.h"
-#include "framework/scene/world.h"
 
 namespace presa {
 
@@ -21,9 +21,9 @@ std::optional<BusSettings> busOf(const Scene& scene, const Rig& rig, const RunOp
   return bus && bus->network != "none" ? bus : std::nullopt;
 }
 
-bool takesCommands(const World& world) {
-  const std::optional<BusSettings> bus = busOf(world);
-  return world.options.bus_commands || (bus && bus->commands);
+void settleBus(const Scene& scene, const Rig& rig, RunOptions& options) {
+  options.bus = busOf(scene, rig, options);
+  options.bus_commands = options.bus_commands || (options.bus && options.bus->commands);
 }
 
 void checkSceneBus(const xml::Element& root, Diagnostics& diagnostics) {

@@ -60,8 +60,8 @@ class MeshLibrary {
 
 }  // namespace
 
-World buildWorld(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics) {
-  World world{std::move(scene), std::move(rig), std::move(options), {}, {}};
+World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
+  World world{std::move(scene), std::move(rig), {}, {}};
   MeshLibrary library;
   std::vector<std::array<int, 3>> requests;
   for (const Body& body : world.scene.bodies) {

@@ -1,5 +1,6 @@
 #include "framework/session/load_world.h"
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -27,36 +28,51 @@ std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostic
   return overrides;
 }
 
-/// Lowers stiffnesses above the stability bound as --set would, so that a recording holds the rendered values.
-void boundStiffness(Loaded& loaded, const DeviceList& devices, Diagnostics& diagnostics) {
-  World world = *loaded.world;
-  const auto lowered = boundedMaterials(world.scene, stiffnessBound(devices, loaded.plan, world.scene), diagnostics);
+/// Lowers stiffnesses above the stability bound as --set would, so that a recording holds the rendered values. Makes the
+/// devices again if it lowers one, because a simulated hand chooses its damping by the stiffness that it touches.
+void boundStiffness(Loaded& loaded, Diagnostics& diagnostics) {
+  const Scene& scene = loaded.world->scene;
+  const auto lowered = boundedMaterials(scene, stiffnessBound(loaded.devices, loaded.plan, scene), diagnostics);
   if (lowered.empty()) return;
-  const std::string name = world.scene.file;
-  world.scene = parseScene(world.scene.resolved_xml, name, ".", lowered, diagnostics);
+  World world = *loaded.world;
+  world.scene = parseScene(scene.resolved_xml, scene.file, ".", lowered, diagnostics);
   loaded.world = std::make_shared<const World>(std::move(world));
+  loaded.devices = createDevices(loaded.world, loaded.options, loaded.plan, diagnostics);
 }
 
+double scriptEnd(const DeviceList& devices) {
+  double end = 0;
+  for (const auto& device : devices) {
+    const std::vector<double> times = device->phaseTimes();
+    if (!times.empty()) end = std::max(end, times.back());
+  }
+  return end > 0 ? end : kDefaultDuration;
+}
+
+/// Plan, options and world. The devices are missing.
 Loaded finish(Scene scene, Rig rig, RunOptions options, Diagnostics& diagnostics) {
   Loaded loaded;
-  loaded.plan = makePlan(scene, rig, options, diagnostics);
-  if (options.realtime && options.flight.empty() && !options.hardware_flight.empty() && drivesHardware(loaded.plan)) {
-    options.flight = options.hardware_flight;
-    Diagnostics said;  // discarded: the first plan has reported the same findings
-    loaded.plan = makePlan(scene, rig, options, said);
-  }
+  std::vector<PlannedDevice> devices = bindDevices(scene, rig, diagnostics);
+  const bool may_fly = options.realtime && options.flight.empty() && !options.hardware_flight.empty();
+  if (may_fly && drivesHardware(devices)) options.flight = options.hardware_flight;
+  loaded.plan = makePlan(scene, rig, std::move(devices), options, diagnostics);
+  settleBus(scene, rig, options);
   if (options.realtime) checkCommandRate(scene, rig, loaded.plan, diagnostics);
   // meshes are read even if the scene has findings, so that the user sees all findings at once
-  loaded.world =
-      std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
-  if (diagnostics.hasErrors()) return loaded;
-  const DeviceList devices = createDevices(*loaded.world, loaded.plan, diagnostics);
+  loaded.world = std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), diagnostics));
+  loaded.options = std::move(options);
+  return loaded;
+}
+
+void addDevices(Loaded& loaded, Diagnostics& diagnostics) {
+  if (diagnostics.hasErrors()) return;
+  loaded.devices = createDevices(loaded.world, loaded.options, loaded.plan, diagnostics);
   if (!diagnostics.hasErrors()) {
     std::vector<std::string> notes;  // discarded: Session collects them for the run
-    safetyOf(*loaded.world, notes, diagnostics);
+    safetyOf(*loaded.world, loaded.options, notes, diagnostics);
   }
-  if (!diagnostics.hasErrors() && loaded.world->options.bound_stiffness) boundStiffness(loaded, devices, diagnostics);
-  return loaded;
+  if (!diagnostics.hasErrors() && loaded.options.bound_stiffness) boundStiffness(loaded, diagnostics);
+  if (!diagnostics.hasErrors() && !(loaded.options.duration > 0)) loaded.options.duration = scriptEnd(loaded.devices);
 }
 
 struct SceneAndRig {
@@ -86,13 +102,16 @@ std::optional<SceneAndRig> readSceneAndRig(const Inputs& inputs, const RunOption
 Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics) {
   std::optional<SceneAndRig> read = readSceneAndRig(inputs, options, diagnostics);
   if (!read) return {};
-  return finish(std::move(read->scene), std::move(read->rig), std::move(options), diagnostics);
+  Loaded loaded = finish(std::move(read->scene), std::move(read->rig), std::move(options), diagnostics);
+  addDevices(loaded, diagnostics);
+  return loaded;
 }
 
 std::vector<std::string> plugInsFor(const Inputs& inputs, const RunOptions& options, Diagnostics& diagnostics) {
   const std::optional<SceneAndRig> read = readSceneAndRig(inputs, options, diagnostics);
   if (!read || diagnostics.hasErrors()) return {};
-  const Plan plan = makePlan(read->scene, read->rig, options, diagnostics);
+  const Plan plan =
+      makePlan(read->scene, read->rig, bindDevices(read->scene, read->rig, diagnostics), options, diagnostics);
   std::set<std::string> names;
   for (const PlannedModule& module : plan.modules) names.insert(module.plugin);
   for (const PlannedDevice& device : plan.devices) names.insert(device.driver);
@@ -106,16 +125,17 @@ std::vector<std::string> plugInsFor(const Inputs& inputs, const RunOptions& opti
   return {names.begin(), names.end()};
 }
 
-Loaded loadWorldFromText(const std::string& scene_xml, const std::string& scene_name, const std::string& rig_xml,
-                         RunOptions options, Diagnostics& diagnostics) {
-  Scene scene = parseScene(scene_xml, scene_name, ".", {}, diagnostics);
+Loaded loadWithoutDevices(const RunTexts& texts, RunOptions options, Diagnostics& diagnostics) {
+  Scene scene = parseScene(texts.scene_xml, texts.name, ".", {}, diagnostics);
   Rig rig;  // a scene without fingers needs none
-  if (!rig_xml.empty()) rig = parseRig(rig_xml, "rig of " + scene_name, ".", diagnostics);
+  if (!texts.rig_xml.empty()) rig = parseRig(texts.rig_xml, "rig of " + texts.name, ".", diagnostics);
   if (diagnostics.hasErrors()) return {};
-  Loaded loaded;
-  loaded.plan = makePlan(scene, rig, options, diagnostics);
-  loaded.world =
-      std::make_shared<const World>(buildWorld(std::move(scene), std::move(rig), std::move(options), diagnostics));
+  return finish(std::move(scene), std::move(rig), std::move(options), diagnostics);
+}
+
+Loaded loadWorldFromText(const RunTexts& texts, RunOptions options, Diagnostics& diagnostics) {
+  Loaded loaded = loadWithoutDevices(texts, std::move(options), diagnostics);
+  addDevices(loaded, diagnostics);
   return loaded;
 }
 

@@ -4,6 +4,7 @@
 
 #include "framework/core/graph/module.h"
 #include "framework/core/plugin/plugin_loader.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 
 /// A plug-in is a shared object `presa_<folder>.so` built from one folder under modules/ or devices/. It exports one
@@ -14,7 +15,7 @@ struct ModulePlugin {
   int abi = kPluginAbi;
   const char* name;     ///< name of its folder
   const char* summary;  ///< one line for --help and explain
-  std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world);
+  std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world, const RunOptions& options);
   std::string (*library)() = nullptr;  ///< outside library and version: "ODE 0.16.2"; null: none
 };
 

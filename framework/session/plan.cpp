@@ -15,24 +15,6 @@ std::string firstBody(const Scene& scene, const Wanted& wanted) {
   return found == scene.bodies.end() ? std::string{} : found->name;
 }
 
-void bindDevices(Plan& plan, const Scene& scene, const Rig& rig, Diagnostics& diagnostics) {
-  std::vector<std::string> bound;
-  for (const DeviceBinding& binding : rig.devices) bound.push_back(binding.role);
-  for (const DeviceRole& role : scene.devices) {
-    const auto binding = std::find_if(rig.devices.begin(), rig.devices.end(),
-                                      [&](const DeviceBinding& b) { return b.role == role.role; });
-    if (binding == rig.devices.end()) {
-      diagnostics.error(405, role.where,
-                        "role '" + role.role + "' is played by no device of the rig '" + rig.name + "'" +
-                            didYouMean(role.role, bound),
-                        rig.file.empty() ? "name a rig: --rig FILE, or the scene's attribute rig"
-                                         : "add <device role=\"" + role.role + "\" driver=\"…\"/> to " + rig.file);
-      continue;
-    }
-    plan.devices.push_back({role.role, binding->driver});
-  }
-}
-
 const char* dynamicsPlugin(const Scene& scene) {
   switch (scene.dynamics.engine) {
     case DynamicsSettings::Engine::kMujoco:
@@ -46,13 +28,34 @@ const char* dynamicsPlugin(const Scene& scene) {
 
 }  // namespace
 
+std::vector<PlannedDevice> bindDevices(const Scene& scene, const Rig& rig, Diagnostics& diagnostics) {
+  std::vector<PlannedDevice> devices;
+  std::vector<std::string> bound;
+  for (const DeviceBinding& binding : rig.devices) bound.push_back(binding.role);
+  for (const DeviceRole& role : scene.devices) {
+    const auto binding = std::find_if(rig.devices.begin(), rig.devices.end(),
+                                      [&](const DeviceBinding& b) { return b.role == role.role; });
+    if (binding == rig.devices.end()) {
+      diagnostics.error(405, role.where,
+                        "role '" + role.role + "' is played by no device of the rig '" + rig.name + "'" +
+                            didYouMean(role.role, bound),
+                        rig.file.empty() ? "name a rig: --rig FILE, or the scene's attribute rig"
+                                         : "add <device role=\"" + role.role + "\" driver=\"…\"/> to " + rig.file);
+      continue;
+    }
+    devices.push_back({role.role, binding->driver});
+  }
+  return devices;
+}
+
 bool Plan::has(const std::string& plugin) const {
   return std::any_of(modules.begin(), modules.end(), [&](const PlannedModule& m) { return m.plugin == plugin; });
 }
 
-Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Diagnostics& diagnostics) {
+Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> devices, const RunOptions& options,
+              Diagnostics& diagnostics) {
   Plan plan;
-  bindDevices(plan, scene, rig, diagnostics);
+  plan.devices = std::move(devices);
   const auto call = [&](bool wanted, const char* plugin, RateGroup group, std::string why, std::string why_not) {
     if (wanted) {
       plan.modules.push_back({plugin, group, std::move(why)});

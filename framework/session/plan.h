@@ -4,7 +4,7 @@
 
 #include "framework/core/graph/module.h"
 #include "framework/core/schedule/tick.h"
-#include "framework/scene/world.h"
+#include "framework/scene/run_options.h"
 
 namespace presa {
 
@@ -28,7 +28,10 @@ struct Plan {
   bool has(const std::string& plugin) const;
 };
 
-/// Binds every role to a driver of the rig (E4xx when one is missing) and picks the plug-ins.
-Plan makePlan(const Scene& scene, const Rig& rig, const RunOptions& options, Diagnostics& diagnostics);
+/// Binds every role to a driver of the rig; E405 when one is missing.
+std::vector<PlannedDevice> bindDevices(const Scene& scene, const Rig& rig, Diagnostics& diagnostics);
+/// Picks the plug-ins of a run with these devices.
+Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> devices, const RunOptions& options,
+              Diagnostics& diagnostics);
 
 }  // namespace presa

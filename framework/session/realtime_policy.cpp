@@ -20,10 +20,6 @@ std::string refusalOf(const RealtimeRights& rights) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 bool isHardware(const PlannedDevice& device) {
   try {
     return devicePlugin(device.driver).hardware;
@@ -34,7 +30,9 @@ bool isHardware(const PlannedDevice& device) {
 
 }  // namespace
 
-bool drivesHardware(const Plan& plan) { return std::any_of(plan.devices.begin(), plan.devices.end(), isHardware); }
+bool drivesHardware(const std::vector<PlannedDevice>& devices) {
+  return std::any_of(devices.begin(), devices.end(), isHardware);
+}
 
 void checkCommandRate(const Scene& scene, const Rig& rig, const Plan& plan, Diagnostics& diagnostics) {
   const double lowest = ages::kPeriods / CommandKeeper::kHold;

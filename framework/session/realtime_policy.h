@@ -7,9 +7,9 @@
 
 namespace presa {
 
-/// Whether a driver of the plan moves hardware. Loads the plug-ins; skips those that do not load (createDevices reports
+/// Whether one of these drivers moves hardware. Loads the plug-ins; skips those that do not load (createDevices reports
 /// them).
-bool drivesHardware(const Plan& plan);
+bool drivesHardware(const std::vector<PlannedDevice>& devices);
 
 /// Share of the force limits that a run may use. Without SCHED_FIFO and locked memory, other programs could delay the
 /// haptic thread while hardware holds a force. If the system refuses them for hardware in real time, this throws

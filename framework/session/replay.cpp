@@ -249,19 +249,20 @@ RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) :
   options.force_share = recording.force_share;
   options.bus = BusSettings{.network = "none"};  // a replay is not published
   options.bus_commands = !recording.commands.empty();
-  loaded_ = loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
-  if (!diagnostics.hasErrors()) checkBelongs(recording, loaded_.world->scene, diagnostics);
+  Loaded loaded =
+      loadWithoutDevices({recording.scene_xml, recording.scene_file, recording.rig_xml}, options, diagnostics);
+  if (!diagnostics.hasErrors()) checkBelongs(recording, loaded.world->scene, diagnostics);
   if (diagnostics.hasErrors()) return;
   Session::Options session_options;
   session_options.devices = devicesOf(recording);
   session_options.more = changesOf(recording);
-  session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
+  session_ = std::make_unique<Session>(std::move(loaded), control_, std::move(session_options));
   columns_ = columnsOf(recording, session_->graph(), diagnostics);
   if (diagnostics.hasErrors()) session_.reset();
 }
 
 ReplayResult RecordedRun::run() {
-  const RateTable rates(loaded_.world->scene.rates);
+  const RateTable rates(world()->scene.rates);
   return Replayer(recording_, columns_, *session_, rates, control_).run();
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "framework/record/recording.h"
-#include "framework/session/load_world.h"
 #include "framework/session/session.h"
 
 namespace presa {
@@ -43,12 +42,11 @@ class RecordedRun {
   /// Hash of the replayed states.
   std::uint64_t stateHash() const { return session_->monitor().hash(); }
   const Monitor& monitor() const { return session_->monitor(); }
-  const std::shared_ptr<const World>& world() const { return loaded_.world; }
+  const std::shared_ptr<const World>& world() const { return session_->world(); }
 
  private:
   const Recording& recording_;
   RunControl control_;
-  Loaded loaded_;
   std::unique_ptr<Session> session_;
   ScheduleColumns columns_;
 };

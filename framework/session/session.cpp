@@ -1,6 +1,7 @@
 #include "framework/session/session.h"
 
 #include <algorithm>
+#include <set>
 
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/plugin/plugin_loader.h"
@@ -22,23 +23,36 @@ const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
 
 }  // namespace
 
-DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics) {
-  DeviceList devices;
+DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOptions& options, const Plan& plan,
+                         Diagnostics& diagnostics) {
+  DeviceList devices(plan.devices.size());
+  std::set<std::string> done;
   for (const PlannedDevice& planned : plan.devices) {
-    const DeviceBinding* binding = bindingOf(world.rig, planned.role);
+    if (!done.insert(planned.driver).second) continue;
+    // a driver makes all its devices in one call, because two of them may be one hand
+    std::vector<std::size_t> places;
+    std::vector<DeviceBinding> bindings;
+    for (std::size_t f = 0; f < plan.devices.size(); ++f) {
+      if (plan.devices[f].driver != planned.driver) continue;
+      places.push_back(f);
+      bindings.push_back(*bindingOf(world->rig, plan.devices[f].role));
+    }
     try {
-      const DevicePlugin& driver = devicePlugin(planned.driver);
-      if (auto device = driver.create(*binding, world, diagnostics)) devices.push_back(std::move(device));
+      DeviceList made = devicePlugin(planned.driver).create(bindings, world, options, diagnostics);
+      for (std::size_t i = 0; i < std::min(made.size(), places.size()); ++i) devices[places[i]] = std::move(made[i]);
     } catch (const InputError& error) {
-      diagnostics.error(406, binding->where,
-                        "role '" + planned.role + "': driver '" + planned.driver + "' cannot be loaded", error.what());
+      for (const DeviceBinding& binding : bindings)
+        diagnostics.error(406, binding.where,
+                          "role '" + binding.role + "': driver '" + binding.driver + "' cannot be loaded",
+                          error.what());
     }
   }
+  std::erase(devices, nullptr);
   return devices;
 }
 
-std::unique_ptr<View> makeView(std::shared_ptr<const World> world) {
-  auto module = pluginTable<ModulePlugin>("view_osg", "presaModulePlugin").create(std::move(world));
+std::unique_ptr<View> makeView(std::shared_ptr<const World> world, const RunOptions& options) {
+  auto module = pluginTable<ModulePlugin>("view_osg", "presaModulePlugin").create(std::move(world), options);
   return std::unique_ptr<View>(&dynamic_cast<View&>(*module.release()));
 }
 
@@ -71,35 +85,42 @@ const DeviceRating& ratingOf(const DeviceBinding* binding) {
 
 }  // namespace
 
-std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes, Diagnostics& findings) {
+std::vector<FingerSafety> safetyOf(const World& world, const RunOptions& options, std::vector<std::string>& notes,
+                                   Diagnostics& findings) {
   std::vector<FingerSafety> safety;
   for (const DeviceRole& role : world.scene.devices) {
     const DeviceBinding* binding = bindingOf(world.rig, role.role);
     safety.push_back(
         safetyFor(role, binding == nullptr ? DeviceBinding{} : *binding, ratingOf(binding), notes, findings));
-    safety.back().limits.force *= world.options.force_share;
+    safety.back().limits.force *= options.force_share;
   }
   return safety;
 }
 
-Session::Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options)
-    : devices_(std::move(options.devices)) {
+Session::Session(Loaded loaded, RunControl& control, Options options)
+    : world_(std::move(loaded.world)),
+      options_(std::move(loaded.options)),
+      plan_(std::move(loaded.plan)),
+      devices_(std::move(options.devices)) {
   Diagnostics said;  // discarded: reported when the world was loaded
-  const std::vector<FingerSafety> safety = safetyOf(*world, notes_, said);
-  if (devices_.empty()) bringUpDevices(*world, plan, options.open_devices);
+  const std::vector<FingerSafety> safety = safetyOf(*world_, options_, notes_, said);
+  if (devices_.empty()) {
+    devices_ = std::move(loaded.devices);
+    if (options.open_devices) openDevices();
+  }
   if (options.wrap) devices_ = options.wrap(std::move(devices_));
   for (std::size_t f = 0; f < devices_.size(); ++f)
     devices_[f] = watched(std::move(devices_[f]), safety[f].limits,
-                          ratingOf(bindingOf(world->rig, world->scene.devices[f].role)), control);
+                          ratingOf(bindingOf(world_->rig, world_->scene.devices[f].role)), control);
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
-  for (const PlannedModule& planned : plan.modules) builder.add(load(planned, world));
+  for (const PlannedModule& planned : plan_.modules) builder.add(load(planned));
   offerPointer();
   if (!devices_.empty()) {
-    output_ =
-        &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world->scene.rates, world->options.realtime));
+    output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world_->scene.rates, options_.realtime));
   }
-  monitor_ = &builder.add(std::make_unique<Monitor>(world, phaseStart("loosen"), options.trace_rate));
+  monitor_ =
+      &builder.add(std::make_unique<Monitor>(world_, options_.duration, phaseStart("loosen"), options.trace_rate));
   for (auto& module : options.more) builder.add(std::move(module));
   builder.connectByName();
   graph_ = builder.build();
@@ -134,26 +155,22 @@ std::vector<Diagnostic> Session::reopenDevices(const std::atomic<bool>& stop) {
   return findings;
 }
 
-void Session::bringUpDevices(const World& world, const Plan& plan, bool open) {
-  Diagnostics diagnostics;
-  devices_ = createDevices(world, plan, diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  if (!open) return;
-  for (std::size_t f = 0; f < devices_.size() && world.options.realtime; ++f) {
-    const DeviceBinding& binding = *bindingOf(world.rig, plan.devices[f].role);
+void Session::openDevices() {
+  for (std::size_t f = 0; f < devices_.size() && options_.realtime; ++f) {
+    const DeviceBinding& binding = *bindingOf(world_->rig, plan_.devices[f].role);
     if (!devicePlugin(binding.driver).hardware) continue;
-    devices_[f] = std::make_unique<SupervisedDevice>(std::move(devices_[f]), binding, world.rig.file);
+    devices_[f] = std::make_unique<SupervisedDevice>(std::move(devices_[f]), binding, world_->rig.file);
   }
   for (const auto& device : devices_) device->open();
 }
 
-std::unique_ptr<Module> Session::load(const PlannedModule& planned, const std::shared_ptr<const World>& world) {
+std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   if (planned.plugin == "record") {
-    auto recorder = recordPlugin().create(world);
+    auto recorder = recordPlugin().create(world_, options_);
     recorder_ = recorder.get();
     return recorder;
   }
-  auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world);
+  auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world_, options_);
   if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
   if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
   return module;

@@ -8,7 +8,7 @@
 #include "framework/record/monitor/monitor.h"
 #include "framework/record/recording.h"
 #include "framework/session/assembly_control.h"
-#include "framework/session/plan.h"
+#include "framework/session/load_world.h"
 #include "framework/session/view.h"
 
 namespace presa {
@@ -24,18 +24,21 @@ class Session {
  public:
   struct Options {
     double trace_rate = 0;                      ///< samples per second for plots; 0: none
-    DeviceList devices;                         ///< replay: used instead of the rig's drivers
-    bool open_devices = true;                   ///< false (explain): loads the drivers without touching hardware
+    DeviceList devices;                         ///< replay, studies: used instead of the rig's; already open
+    bool open_devices = true;                   ///< false (explain): the rig's devices stay closed
     std::vector<std::unique_ptr<Module>> more;  ///< the program's own observer modules
     /// Wraps the rig's devices once they are open; empty: they stay as they are.
     std::function<DeviceList(DeviceList)> wrap;
   };
   /// Throws InputError with every finding.
-  Session(std::shared_ptr<const World> world, const Plan& plan, RunControl& control, Options options);
+  Session(Loaded loaded, RunControl& control, Options options);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  const std::shared_ptr<const World>& world() const noexcept { return world_; }
+  const RunOptions& options() const noexcept { return options_; }
+  const Plan& plan() const noexcept { return plan_; }
   Graph& graph() noexcept { return graph_; }
   const DeviceList& devices() const noexcept { return devices_; }
   /// Main thread, while the graph runs: reconnects each lost device. Returns the findings about devices that stay lost.
@@ -53,10 +56,13 @@ class Session {
   double phaseStart(const std::string& phase) const;
 
  private:
-  void bringUpDevices(const World& world, const Plan& plan, bool open);
+  void openDevices();
   void offerPointer();
-  std::unique_ptr<Module> load(const PlannedModule& planned, const std::shared_ptr<const World>& world);
+  std::unique_ptr<Module> load(const PlannedModule& planned);
 
+  std::shared_ptr<const World> world_;
+  RunOptions options_;
+  Plan plan_;
   DeviceList devices_;
   std::vector<std::string> notes_;
   std::unique_ptr<ScheduleLog> schedule_;
@@ -69,16 +75,18 @@ class Session {
 };
 
 /// Only the view of a world, for a graph of the caller. Loads its plug-in; throws InputError when that fails.
-std::unique_ptr<View> makeView(std::shared_ptr<const World> world);
+std::unique_ptr<View> makeView(std::shared_ptr<const World> world, const RunOptions& options);
 
 /// Limits of the output stages of a world's fingers, in the order of its roles. Lowered limits are reported to `notes`
 /// and `findings` (safetyFor). Loads the drivers' plug-ins.
-std::vector<FingerSafety> safetyOf(const World& world, std::vector<std::string>& notes, Diagnostics& findings);
+std::vector<FingerSafety> safetyOf(const World& world, const RunOptions& options, std::vector<std::string>& notes,
+                                   Diagnostics& findings);
 
 /// Instructions for the user while the devices of a run open (DevicePlugin::while_opening), one line each.
 std::vector<std::string> whileOpening(const Plan& plan);
 
 /// The drivers of a rig, checked but not opened, in the order of the plan. Findings go to `diagnostics`.
-DeviceList createDevices(const World& world, const Plan& plan, Diagnostics& diagnostics);
+DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOptions& options, const Plan& plan,
+                         Diagnostics& diagnostics);
 
 }  // namespace presa

@@ -31,7 +31,7 @@ std::vector<std::string> AssemblyModule::stages() const {
 
 namespace {
 
-std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
+std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions&) {
   return std::make_unique<AssemblyModule>(std::move(world));
 }
 

@@ -8,10 +8,11 @@
 namespace presa::bus_dds {
 namespace {
 
-std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
-  const BusSettings settings = busOf(*world).value_or(BusSettings{});
+std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
+  const BusSettings settings = options.bus.value_or(BusSettings{});
   return std::make_unique<bus::Publisher>(
-      std::move(world), [settings] { return makeWriter(settings); }, [settings] { return makePost(settings); });
+      std::move(world), options, [settings] { return makeWriter(settings); },
+      [settings] { return makePost(settings); });
 }
 
 std::string library() { return "Cyclone DDS " DDS_VERSION; }

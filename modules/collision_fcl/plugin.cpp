@@ -5,7 +5,7 @@
 
 namespace {
 
-std::unique_ptr<presa::Module> create(std::shared_ptr<const presa::World> world) {
+std::unique_ptr<presa::Module> create(std::shared_ptr<const presa::World> world, const presa::RunOptions&) {
   return std::make_unique<presa::CollisionModule>(std::move(world));
 }
 

@@ -140,16 +140,17 @@ class DynamicsBullet final : public Module {
   Out<ObjectState> objects_{*this, "object_state"};
 };
 
-const ModulePlugin kPlugin{.name = "dynamics_bullet",
-                           .summary = "moves free bodies by Bullet as it comes, to compare with",
-                           .create = [](std::shared_ptr<const World> world) -> std::unique_ptr<Module> {
-                             return std::make_unique<DynamicsBullet>(std::move(world));
-                           },
-                           .library =
-                               [] {
-                                 const int version = btGetVersion();
-                                 return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100);
-                               }};
+const ModulePlugin kPlugin{
+    .name = "dynamics_bullet",
+    .summary = "moves free bodies by Bullet as it comes, to compare with",
+    .create = [](std::shared_ptr<const World> world, const RunOptions&) -> std::unique_ptr<Module> {
+      return std::make_unique<DynamicsBullet>(std::move(world));
+    },
+    .library =
+        [] {
+          const int version = btGetVersion();
+          return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100);
+        }};
 
 }  // namespace
 }  // namespace presa::bullet

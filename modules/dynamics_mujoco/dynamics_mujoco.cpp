@@ -110,12 +110,13 @@ class DynamicsMujoco final : public Module {
   Out<ObjectState> objects_{*this, "object_state"};
 };
 
-const ModulePlugin kPlugin{.name = "dynamics_mujoco",
-                           .summary = "moves free bodies by MuJoCo as it comes, to compare with",
-                           .create = [](std::shared_ptr<const World> world) -> std::unique_ptr<Module> {
-                             return std::make_unique<DynamicsMujoco>(std::move(world));
-                           },
-                           .library = [] { return std::string("MuJoCo ") + mj_versionString(); }};
+const ModulePlugin kPlugin{
+    .name = "dynamics_mujoco",
+    .summary = "moves free bodies by MuJoCo as it comes, to compare with",
+    .create = [](std::shared_ptr<const World> world, const RunOptions&) -> std::unique_ptr<Module> {
+      return std::make_unique<DynamicsMujoco>(std::move(world));
+    },
+    .library = [] { return std::string("MuJoCo ") + mj_versionString(); }};
 
 }  // namespace
 }  // namespace presa::mujoco

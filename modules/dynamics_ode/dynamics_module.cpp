@@ -11,15 +11,15 @@ static_assert(std::uint32_t{Faults::kBodyFrozen} == kFaultBodyFrozen &&
               std::uint32_t{Faults::kEngineFailed} == kFaultEngineFailed &&
               std::uint32_t{Faults::kBadFinger} == kFaultBadFinger);
 
-OdeOptions optionsOf(const World& world) {
+OdeOptions optionsOf(const World& world, std::uint64_t seed) {
   OdeOptions options;
   options.method = world.scene.dynamics;
-  options.seed = world.options.seed;
+  options.seed = seed;
   return options;
 }
 
-std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
-  return std::make_unique<DynamicsModule>(std::move(world));
+std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
+  return std::make_unique<DynamicsModule>(std::move(world), options.seed);
 }
 
 const ModulePlugin kPlugin{
@@ -29,13 +29,13 @@ const ModulePlugin kPlugin{
 
 }  // namespace
 
-DynamicsModule::DynamicsModule(std::shared_ptr<const World> world)
+DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t seed)
     : Module("dynamics_ode", RateGroup::kDynamics),
       fingers_(*this, "contact_exchange", In<ContactExchange>::Optional{}, WhenOld::kFadeToZero,
                ages::fingers(world->scene.rates)),
       objects_(*this, "object_state"),
       world_(std::move(world)),
-      options_(optionsOf(*world_)) {
+      options_(optionsOf(*world_, seed)) {
   objects_.value.bodies.resize(world_->scene.bodies.size());
   if (world_->scene.assembly) attractions_.emplace(*this, "attractions", In<Attractions>::Optional{});
 }

@@ -13,7 +13,8 @@ namespace presa::ode {
 /// Module of the free bodies: contact exchange in, object state out. Thread: dynamics.
 class DynamicsModule final : public Module {
  public:
-  explicit DynamicsModule(std::shared_ptr<const World> world);
+  /// `seed`: of the order in which ODE's iterative solver visits the constraints.
+  DynamicsModule(std::shared_ptr<const World> world, std::uint64_t seed);
 
   void start() override;
   void step(const Tick& tick) noexcept override;

@@ -6,7 +6,7 @@
 
 namespace presa {
 
-HapticEffects effectsOf(const World& world) {
+HapticEffects effectsOf(const World& world, const RunOptions& options) {
   const Scene& scene = world.scene;
   const auto any_touchable = [&](const auto& wanted) {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(),
@@ -23,7 +23,7 @@ HapticEffects effectsOf(const World& world) {
   effects.friction =
       effects.surface_change ||
       (god_object && any_touchable([&](const Body& body) { return scene.materialOf(body).friction_static > 0; }));
-  effects.commanded = takesCommands(world) && !openSurfaces(scene).empty();
+  effects.commanded = options.bus_commands && !openSurfaces(scene).empty();
   effects.shading = god_object && any_touchable([](const Body& body) {
                       return body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape);
                     });

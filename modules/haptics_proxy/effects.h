@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "framework/core/graph/module.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 
 namespace presa {
@@ -20,7 +21,7 @@ struct HapticEffects {
 };
 
 /// The effects that the scene uses: only those that some touchable body needs.
-HapticEffects effectsOf(const World& world);
+HapticEffects effectsOf(const World& world, const RunOptions& options);
 /// The effects that the scene does not use, with the reasons, for `presa explain`.
 std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects);
 

@@ -18,7 +18,8 @@ namespace presa {
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
 class HapticsProxy final : public Module {
  public:
-  explicit HapticsProxy(const std::shared_ptr<const World>& world) : HapticsProxy(world, effectsOf(*world)) {}
+  HapticsProxy(const std::shared_ptr<const World>& world, const RunOptions& options)
+      : HapticsProxy(world, effectsOf(*world, options)) {}
   HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects);
   void step(const Tick& tick) noexcept override;
   std::vector<std::string> stages() const override;

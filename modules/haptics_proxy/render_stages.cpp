@@ -137,12 +137,12 @@ void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
 // A leap: the frictionless point normally follows the HIP closely; it moves much farther when the surface that held it
 // ends.
 bool Spring::leaps(const FingerTick& tick) noexcept {
-  constexpr double kAhead = 8;      // minimum length of a leap relative to the motion of HIP and bodies
+  constexpr double kOfStep = 8;     // minimum length of a leap relative to the motion of HIP and bodies
   constexpr double kOfDepth = 0.1;  // minimum length relative to the depth; shorter ones are imperceptible
   const FingertipState &last = tick.finger.tip, &now = tick.contact.state;
   if (!last.touching || !now.touching || !tick.contact.swept) return false;
   const double way = (now.god - last.god).norm();
-  return way > kAhead * tick.finger.near->step() && way > kOfDepth * (last.god - tick.g).norm();
+  return way > kOfStep * tick.finger.near->step() && way > kOfDepth * (last.god - tick.g).norm();
 }
 
 class Damping final : public FingerStage {

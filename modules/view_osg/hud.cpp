@@ -59,7 +59,7 @@ std::string outputWords(std::uint32_t status) {
 
 }  // namespace
 
-Hud::Hud(const World& world) : world_(world) {
+Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
   camera_->setName("head-up display");
   camera_->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera_->setViewMatrix(osg::Matrixd::identity());
@@ -94,8 +94,8 @@ Hud::Hud(const World& world) : world_(world) {
   for (std::size_t i = 0; i < world.scene.devices.size() && i < kMaxFingers; ++i) addCard(i);
   if (cards_.size() > 1) addGrip();
   for (const DeviceRole& role : world.scene.devices) grip_scale_ = std::min(grip_scale_, role.limits.force);
-  addRates(world);
-  addLegend(world.options.view == RunOptions::View::kWindow);
+  addRates(world, options.bus.has_value());
+  addLegend(options.view == RunOptions::View::kWindow);
   help_->setNodeMask(0);
   setAspect(16.0 / 9.0);
 }
@@ -155,14 +155,14 @@ void Hud::addGrip() {
   grip_bar_.emplace(*left_figures_, Rect{kMargin + 12, top - 34, kCardWidth - 24, 7});
 }
 
-void Hud::addRates(const World& world) {
+void Hud::addRates(const World& world, bool bus) {
   const Rates& rates = world.scene.rates;
   constexpr float kWidth = 268, kTop = kHeight - 18, kRow = 19.5F;
   std::vector<std::pair<RateGroup, double>> groups{{RateGroup::kHaptic, rates.haptic},
                                                    {RateGroup::kCollision, rates.collision},
                                                    {RateGroup::kDynamics, rates.dynamics},
                                                    {RateGroup::kView, rates.view}};
-  if (busOf(world)) groups.emplace_back(RateGroup::kBus, rates.bus);
+  if (bus) groups.emplace_back(RateGroup::kBus, rates.bus);
   const float height = 26 + kRow * static_cast<float>(groups.size());
   right_figures_->addChild(roundedPanel({-kMargin - kWidth, kTop - height, kWidth, height}, 8, kPanel));
   const float left = -kMargin - kWidth + 12, right = -kMargin - 12;

@@ -8,6 +8,7 @@
 
 #include "framework/core/schedule/tick.h"
 #include "framework/core/schedule/timing_stats.h"
+#include "framework/scene/run_options.h"
 #include "modules/view_osg/assembly_panel.h"
 #include "modules/view_osg/finger_view.h"
 #include "modules/view_osg/hud_widgets.h"
@@ -21,7 +22,7 @@ class Hud {
  public:
   static constexpr float kHeight = 720;  ///< height of its coordinate system [lines]
 
-  explicit Hud(const World& world);
+  Hud(const World& world, const RunOptions& options);
   osg::Camera* camera() { return camera_; }
   /// Groups for additional cards: x = 0 at the left edge, at the right edge, and origin in the middle.
   osg::Group& left() { return *left_; }
@@ -52,7 +53,7 @@ class Hud {
   void addTitle(const World& world);
   void addCard(std::size_t index);
   void addGrip();
-  void addRates(const World& world);
+  void addRates(const World& world, bool bus);
   void addLegend(bool interactive);
   void updateCard(Card& card, const FingerView& finger);
   void updateRates(const GroupTimings& timings);

@@ -24,15 +24,15 @@ std::vector<Pose> startPoses(const World& world) {
 
 }  // namespace
 
-Picture::Picture(std::shared_ptr<const World> world)
+Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
     : world_(std::move(world)),
       bodies_(*world_),
       glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
-      parts_(world_->options.show),
+      parts_(options.show),
       overlays_(*world_),
       patches_(*world_),
       lighting_(casters_, space_->getOrCreateStateSet()),
-      hud_(*world_),
+      hud_(*world_, options),
       card_(hud_.right(), *world_),
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
       plots_(hud_.left(), *world_) {

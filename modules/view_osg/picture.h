@@ -2,6 +2,7 @@
 #include <memory>
 #include <osg/Group>
 
+#include "framework/scene/run_options.h"
 #include "modules/view_osg/body_card.h"
 #include "modules/view_osg/camera.h"
 #include "modules/view_osg/contact_glyphs.h"
@@ -19,7 +20,7 @@ namespace presa::view {
 /// The whole scene graph of a run: bodies, light, contact glyphs, head-up display. Independent of where it is shown.
 class Picture {
  public:
-  explicit Picture(std::shared_ptr<const World> world);
+  Picture(std::shared_ptr<const World> world, const RunOptions& options);
   osg::Group* root() { return root_; }
   /// The three-dimensional part; the rest is the head-up display's camera.
   osg::Group* space() { return space_; }

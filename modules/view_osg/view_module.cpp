@@ -21,32 +21,32 @@ std::string timeStamp(double time) {
 
 }  // namespace
 
-ViewModule::ViewModule(std::shared_ptr<const World> world)
-    : View("view_osg", RateGroup::kView), world_(std::move(world)) {
+ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& options)
+    : View("view_osg", RateGroup::kView), world_(std::move(world)), options_(options) {
   // Mesa's software renderer would use all cores, including the haptic thread's. Set before any thread starts.
   setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   frame_.asleep.resize(frame_.X_WB.size());
-  if (!world_->options.video.empty()) video_.emplace(world_->options.video);
-  const ShownParts asked(world_->options.show);
+  if (!options_.video.empty()) video_.emplace(options_.video);
+  const ShownParts asked(options_.show);
   if (windowed() || asked[ShownPart::kPatches])
     patches_.emplace(*this, "contact_patches", In<ContactPatches>::Optional{});
   if (world_->scene.assembly) guide_.emplace(*world_->scene.assembly, world_->scene.bodies.size());
-  if (!world_->options.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
+  if (!options_.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
 }
 
 ViewModule::~ViewModule() = default;
 
 std::vector<std::string> ViewModule::stages() const {
   if (windowed()) return {"take the latest states, poses interpolated to now", "handle keys and mouse, draw a frame"};
-  if (!world_->options.screenshots.empty()) return {"keep the latest state", "draw the pictures that are due"};
+  if (!options_.screenshots.empty()) return {"keep the latest state", "draw the pictures that are due"};
   return {"keep the latest state", "draw the picture once, when it is due"};
 }
 
 void ViewModule::start() {
   osg::setNotifyLevel(osg::FATAL);
   try {
-    picture_ = std::make_unique<Picture>(world_);
+    picture_ = std::make_unique<Picture>(world_, options_);
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
     renderer_ = windowed() ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
                                                 {pointer_ ? &*pointer_ : nullptr, time_, guide_.has_value()})
@@ -142,12 +142,12 @@ void ViewModule::drawWindow() {
 }
 
 bool ViewModule::screenshotDue() const {
-  return screenshot_.outcome == Screenshot::Outcome::kPending && world_->options.screenshot_time >= 0 &&
-         frame_.time >= world_->options.screenshot_time;
+  return screenshot_.outcome == Screenshot::Outcome::kPending && options_.screenshot_time >= 0 &&
+         frame_.time >= options_.screenshot_time;
 }
 
 void ViewModule::saveScreenshot() {
-  const std::string& file = world_->options.screenshot;
+  const std::string& file = options_.screenshot;
   const std::string trouble = savePicture(file);
   if (trouble.empty())
     screenshot_ = {Screenshot::Outcome::kWritten, "wrote " + file + ", t = " + timeStamp(frame_.time) + " s"};
@@ -161,12 +161,11 @@ void ViewModule::film() {
 }
 
 void ViewModule::saveSeries() {
-  const RunOptions& options = world_->options;
-  if (options.screenshots.empty() || frame_.time < next_picture_) return;
-  next_picture_ = frame_.time + options.screenshot_every;
+  if (options_.screenshots.empty() || frame_.time < next_picture_) return;
+  next_picture_ = frame_.time + options_.screenshot_every;
   std::array<char, 32> name;
   std::snprintf(name.data(), name.size(), "/%09.3f.png", frame_.time);
-  const std::string trouble = savePicture(options.screenshots + name.data());
+  const std::string trouble = savePicture(options_.screenshots + name.data());
   if (!trouble.empty()) throw std::runtime_error(trouble);
 }
 
@@ -183,8 +182,8 @@ void ViewModule::giveUp(const std::string& why) noexcept {
 
 namespace {
 
-std::unique_ptr<Module> create(std::shared_ptr<const World> world) {
-  return std::make_unique<ViewModule>(std::move(world));
+std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
+  return std::make_unique<ViewModule>(std::move(world), options);
 }
 
 const ModulePlugin kPlugin{

@@ -7,6 +7,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/core/state/contact_patch.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 #include "framework/session/view.h"
 #include "modules/view_osg/renderer.h"
@@ -19,7 +20,7 @@ namespace presa::view {
 /// Thread: view; may allocate; nothing waits for it.
 class ViewModule final : public View {
  public:
-  explicit ViewModule(std::shared_ptr<const World> world);
+  ViewModule(std::shared_ptr<const World> world, const RunOptions& options);
   ~ViewModule() override;
 
   /// Opens the window or the off-screen context. Throws InputError when that fails.
@@ -41,7 +42,7 @@ class ViewModule final : public View {
   void refresh() noexcept override;
 
  private:
-  bool windowed() const { return world_->options.view == RunOptions::View::kWindow; }
+  bool windowed() const { return options_.view == RunOptions::View::kWindow; }
   void copyPorts(const Tick& tick);
   void drawWindow();
   void followAssembly(const ObjectState& objects, double time);
@@ -53,6 +54,7 @@ class ViewModule final : public View {
   void giveUp(const std::string& why) noexcept;
 
   std::shared_ptr<const World> world_;
+  const RunOptions options_;
   In<DeviceState> device_state_{*this, "device_state", In<DeviceState>::Optional{}};
   In<ContactExchange> contact_exchange_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};

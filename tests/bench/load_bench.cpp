@@ -54,9 +54,9 @@ bool load(const std::string& file) {
   Scene scene = worldOf({{}}, 8e-3)->scene;
   scene.bodies[0].haptic = Geometry{MeshRef{.file = file}, {}, {}};
   Diagnostics diagnostics;
-  const auto world = std::make_shared<const World>(buildWorld(std::move(scene), {}, {}, diagnostics));
+  const auto world = std::make_shared<const World>(buildWorld(std::move(scene), {}, diagnostics));
   if (diagnostics.hasErrors() || !world->meshes[0].haptic) return false;
-  const HapticsProxy haptics(world);
+  const HapticsProxy haptics(world, RunOptions{});
   const CollisionModule collision(world);
   return true;
 }

@@ -18,10 +18,11 @@ namespace {
 struct Timed {
   explicit Timed(const std::string& scene) {
     Diagnostics diagnostics;
-    loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/experiments/faults/" + scene, "", {}}, {}, diagnostics);
+    Loaded loaded =
+        loadWorld({std::string(PRESA_SOURCE_DIR) + "/experiments/faults/" + scene, "", {}}, {}, diagnostics);
     if (diagnostics.hasErrors()) throw std::runtime_error(diagnostics.text());
     rates = std::make_unique<RateTable>(loaded.world->scene.rates);
-    session = std::make_unique<Session>(loaded.world, loaded.plan, control, Session::Options{});
+    session = std::make_unique<Session>(std::move(loaded), control, Session::Options{});
     for (const RateGroup group : kGroups) session->graph().start(group);
   }
   ~Timed() {
@@ -40,7 +41,6 @@ struct Timed {
   }
 
   static constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
-  Loaded loaded;
   RunControl control;
   std::unique_ptr<RateTable> rates;
   std::unique_ptr<Session> session;

@@ -145,7 +145,7 @@ Rig::Rig(std::shared_ptr<const World> world, Motion motion) : world_(std::move(w
   GraphBuilder builder;
   hands_ = &builder.add(std::make_unique<Hands>());
   bodies_ = &builder.add(std::make_unique<Bodies>(world_->scene.bodies.size()));
-  builder.add(std::make_unique<HapticsProxy>(world_));
+  builder.add(std::make_unique<HapticsProxy>(world_, RunOptions{}));
   builder.add(std::make_unique<CollisionModule>(world_));
   watcher_ = &builder.add(std::make_unique<Watcher>());
   builder.connectByName();

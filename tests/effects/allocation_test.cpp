@@ -21,11 +21,11 @@ struct Violations {
 // executor.
 std::array<Violations, kRateGroupCount> violationsOf(const std::string& scene) {
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorld({test::source(scene), "", {}}, {}, diagnostics);
+  Loaded loaded = loadWorld({test::source(scene), "", {}}, {}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   const RateTable rates(loaded.world->scene.rates);
   RunControl control;
-  Session session(loaded.world, loaded.plan, control, {});
+  Session session(std::move(loaded), control, {});
   constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
   for (const RateGroup group : kGroups) session.graph().start(group);
   std::array<Violations, kRateGroupCount> violations;

@@ -116,9 +116,9 @@ TEST(ExplainCost, PrintsATableOfModules) {
 TEST(ExplainCost, MeasuringChangesNoBit) {
   const auto sessionOf = [](RunControl& control, RateTable& rates) {
     Diagnostics diagnostics;
-    const Loaded loaded = loadWorld({source("config/scenes/pinch_and_lift.xml"), "", {}}, {}, diagnostics);
+    Loaded loaded = loadWorld({source("config/scenes/pinch_and_lift.xml"), "", {}}, {}, diagnostics);
     rates = RateTable(loaded.world->scene.rates);
-    return std::make_unique<Session>(loaded.world, loaded.plan, control, Session::Options{});
+    return std::make_unique<Session>(std::move(loaded), control, Session::Options{});
   };
   constexpr double kLength = 2.5;  // [s] the amphora is lifted by then
   RunControl control;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/common/run_session.h"
+#include "apps/common/terminal_run.h"
 #include "framework/device/device_plugin.h"
 #include "tests/support/alloc_lock_guard.h"
 
@@ -14,14 +14,15 @@
 namespace presa::test {
 
 /// Runs the scene in lockstep to the end of its script.
-inline std::unique_ptr<Run> runToTheEnd(const std::string& scene, const std::string& rig,
-                                        const std::vector<std::string>& sets = {}) {
+inline std::unique_ptr<TerminalRun> runToTheEnd(const std::string& scene, const std::string& rig,
+                                                const std::vector<std::string>& sets = {}) {
   Diagnostics diagnostics;
   RunOptions options;
   options.duration = 0;
-  const Loaded loaded = loadWorld({scene, rig, sets}, options, diagnostics);
+  Loaded loaded = loadWorld({scene, rig, sets}, options, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = 1000, .quiet = true, .command = ""});
+  auto run = std::make_unique<TerminalRun>(std::move(loaded),
+                                           TerminalRun::Settings{.trace_rate = 1000, .quiet = true, .command = ""});
   run->execute();
   return run;
 }
@@ -33,7 +34,7 @@ inline std::unique_ptr<Device> firstDevice(
   const Loaded loaded = loadWorld({scene, rig, {}}, {}, diagnostics);
   DeviceBinding binding = loaded.world->rig.devices.at(0);
   change(binding);
-  return devicePlugin(binding.driver).create(binding, *loaded.world, diagnostics);
+  return std::move(devicePlugin(binding.driver).create({binding}, loaded.world, {}, diagnostics).at(0));
 }
 
 /// Expects three seconds of ticks with varying forces to be free of real-time violations.

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "framework/scene/world.h"
+#include "framework/scene/run_options.h"
 
 namespace presa {
 

@@ -150,7 +150,7 @@ std::string provenance(const RunResult& result) {
   };
   std::string rows =
       row({"scene", named(world.scene.name, world.scene.file)}) + row({"rig", named(world.rig.name, world.rig.file)}) +
-      row({"mode", result.realtime ? "real time" : "lockstep"}) + row({"seed", std::to_string(world.options.seed)}) +
+      row({"mode", result.realtime ? "real time" : "lockstep"}) + row({"seed", std::to_string(result.seed)}) +
       row({"simulated",
            fixed(result.simulated_seconds, 3) + " s in " + fixed(result.wall_seconds, 3) + " s of wall time"}) +
       row({"state hash", "<code>" + hashText(result.state_hash) + "</code>"}) +

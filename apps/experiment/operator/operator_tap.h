@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "experiments/runner/definition/trial.h"
-#include "framework/core/graph/port.h"
-#include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/device_state.h"
 #include "framework/device/output_stage.h"
+#include "framework/record/haptic_observer.h"
 
 namespace presa::experiment {
 
@@ -24,25 +22,26 @@ struct TrialLive {
 };
 
 /// Writes TrialLive every tick. In the graph only when there is a display. Thread: haptic; nonblocking.
-class OperatorTap final : public Module {
+class OperatorTap final : public HapticObserver {
  public:
   OperatorTap(const Trial& trial, const Experiment& experiment, TrialLive& live)
-      : Module("operator", RateGroup::kHaptic), trial_(trial), experiment_(experiment), live_(live) {}
+      : HapticObserver("operator"), trial_(trial), experiment_(experiment), live_(live) {}
 
-  void step(const Tick& tick) noexcept override {
+  void observe(const HapticSample& sample) noexcept override {
+    const auto& [tick, device, contact, command, objects, version] = sample;
     constexpr auto kRelaxed = std::memory_order_relaxed;
     live_.time.store(tick.time, kRelaxed);
     live_.phase.store(trial_.phase(), kRelaxed);
     live_.phase_begin.store(trial_.stretches()[trial_.phase()].begin, kRelaxed);
     if (experiment_.watch) live_.watch.store(experiment_.watch->value.evaluate(trial_.samples()), kRelaxed);
     bool lost = false;
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contact_->count); ++f) {
-      lost = lost || !device_->fingers[f].valid;
-      live_.force[f].store(contact_->fingers[f].normal_force, kRelaxed);
-      live_.mode[f].store(static_cast<std::int32_t>(contact_->fingers[f].mode), kRelaxed);
+    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+      lost = lost || !device.fingers[f].valid;
+      live_.force[f].store(contact.fingers[f].normal_force, kRelaxed);
+      live_.mode[f].store(static_cast<std::int32_t>(contact.fingers[f].mode), kRelaxed);
     }
     live_.device_lost.store(lost, kRelaxed);
-    if ((command_->status & kOutputMagnitude) != 0) clipped_ += tick.period;
+    if ((command.status & kOutputMagnitude) != 0) clipped_ += tick.period;
     live_.clipped.store(clipped_, kRelaxed);
   }
   std::vector<std::string> stages() const override { return {"copy what the operator sees"}; }
@@ -52,9 +51,6 @@ class OperatorTap final : public Module {
   const Experiment& experiment_;
   TrialLive& live_;
   double clipped_ = 0;
-  In<DeviceState> device_{*this, "device_state"};
-  In<ContactExchange> contact_{*this, "contact_exchange"};
-  In<ForceCommand> command_{*this, "force_command"};
 };
 
 }  // namespace presa::experiment

@@ -43,15 +43,15 @@ int explain(const Arguments& arguments) {
   const std::set<std::string> before = mappedLibraries();
   const ScratchFolder scratch;
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorld(arguments.inputs, optionsOf(arguments, scratch), diagnostics);
+  Loaded loaded = loadWorld(arguments.inputs, optionsOf(arguments, scratch), diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
   RunControl control;
   Session::Options options;
   options.open_devices = arguments.cost;
-  Session session(loaded.world, loaded.plan, control, std::move(options));
-  nlohmann::json run = describeSession(loaded, session, before);
-  if (arguments.cost) addCost(run, loaded, session);
+  Session session(std::move(loaded), control, std::move(options));
+  nlohmann::json run = describeSession(session, before);
+  if (arguments.cost) addCost(run, session);
   if (arguments.format == "json") {
     std::printf("%s\n", run.dump(2).c_str());
   } else {

@@ -34,9 +34,9 @@ int showRecording(const Arguments& arguments, const Recording& recording, const 
   options.view = viewOf(arguments);
   options.bus = BusSettings{.network = "none"};
   const Loaded loaded =
-      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, options, diagnostics);
+      loadWithoutDevices({recording.scene_xml, recording.scene_file, recording.rig_xml}, options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
-  return diagnostics.hasErrors() ? kExitBadInput : play(samples, loaded.world, arguments.speed);
+  return diagnostics.hasErrors() ? kExitBadInput : play(samples, loaded.world, loaded.options, arguments.speed);
 }
 
 void printFaults(const std::vector<std::string>& faults) {

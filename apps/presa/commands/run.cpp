@@ -8,9 +8,9 @@
 #include "apps/common/options/show_option.h"
 #include "apps/common/options/view_choice.h"
 #include "apps/common/report/report.h"
-#include "apps/common/run_session.h"
 #include "apps/common/summary.h"
 #include "apps/common/terminal/closing.h"
+#include "apps/common/terminal_run.h"
 #include "apps/presa/commands/commands.h"
 #include "framework/bus/bus_keys.h"
 #include "framework/session/load_world.h"
@@ -79,22 +79,22 @@ int run(Arguments arguments) {
 
   Diagnostics diagnostics;
   if (arguments.plug_ins) return printPlugIns(arguments, diagnostics);
-  const Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
+  Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
-  if (!diagnostics.hasErrors() && arguments.options.bus_commands && !busOf(*loaded.world))
+  if (!diagnostics.hasErrors() && arguments.options.bus_commands && !loaded.options.bus)
     diagnostics.error(122, {"--bus-commands", 0, 0}, "the run is on no bus that commands could come by",
                       "add --bus loopback, or --bus lan");
-  if (!diagnostics.hasErrors() && takesCommands(*loaded.world)) bus::requireKeysForCommands(*busOf(*loaded.world));
+  if (!diagnostics.hasErrors() && loaded.options.bus_commands) bus::requireKeysForCommands(*loaded.options.bus);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  Run session(loaded, {.trace_rate = 250,
-                       .quiet = arguments.quiet,
-                       .command = commandLine(arguments),
-                       .speed = arguments.speed > 0 ? arguments.speed : 1,
-                       .paced = arguments.speed > 0});
-  session.execute();
-  const RunResult& result = session.result();
+  TerminalRun run(std::move(loaded), {.trace_rate = 250,
+                                      .quiet = arguments.quiet,
+                                      .command = commandLine(arguments),
+                                      .speed = arguments.speed > 0 ? arguments.speed : 1,
+                                      .paced = arguments.speed > 0});
+  run.execute();
+  const RunResult& result = run.result();
   if (!arguments.summary.empty()) writeSummary(result, arguments.summary);
   if (!arguments.report.empty()) writeReport(result, arguments.report);
   if (!arguments.quiet) printClosing(result, arguments.summary, arguments.report);

@@ -38,11 +38,11 @@ double periodOf(const json& run, const json& module) {
 
 }  // namespace
 
-void addCost(json& run, const Loaded& loaded, Session& session) {
+void addCost(json& run, Session& session) {
   const double length = lengthOf(session);
   const std::string seconds = terminal::format("%.3g s of the scene", length);
   say("measuring time: " + seconds + ", in lockstep");
-  const auto times = measureModuleTimes(session.graph(), RateTable(loaded.world->scene.rates), length);
+  const auto times = measureModuleTimes(session.graph(), RateTable(session.world()->scene.rates), length);
   for (json& module : run["modules"]) {
     const ModuleTime& time = times.at(module["name"].get<std::string>());
     module["median_ns"] = time.median_ns;

@@ -65,13 +65,13 @@ std::set<std::string> mappedLibraries() {
   return libraries;
 }
 
-json describeSession(const Loaded& loaded, Session& session, const std::set<std::string>& before) {
-  const RateTable rates(loaded.world->scene.rates);
+json describeSession(Session& session, const std::set<std::string>& before) {
+  const RateTable rates(session.world()->scene.rates);
   json out;
-  out["scene"] = loaded.world->scene.name;
+  out["scene"] = session.world()->scene.name;
   for (const char* key : {"threads", "modules", "stages", "connections", "devices", "left_out", "libraries"})
     out[key] = json::array();
-  for (const LeftOut& left_out : loaded.plan.left_out)
+  for (const LeftOut& left_out : session.plan().left_out)
     out["left_out"].push_back({{"what", left_out.what}, {"why", left_out.why}});
   for (int g = 0; g < kRateGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);
@@ -82,10 +82,10 @@ json describeSession(const Loaded& loaded, Session& session, const std::set<std:
     }
     out["threads"].push_back(
         {{"name", toString(group)}, {"rate_hz", rates.rate(group)}, {"period_s", rates.period(group)}});
-    for (const Module* module : session.graph().modules(group)) describeModule(*module, loaded.plan, out);
+    for (const Module* module : session.graph().modules(group)) describeModule(*module, session.plan(), out);
   }
   for (const Connection& connection : session.graph().connections()) out["connections"].push_back(describe(connection));
-  for (const PlannedDevice& device : loaded.plan.devices)
+  for (const PlannedDevice& device : session.plan().devices)
     out["devices"].push_back({{"role", device.role}, {"driver", device.driver}});
   for (const std::string& library : mappedLibraries()) {
     out["libraries"].push_back({{"name", library},

@@ -15,6 +15,6 @@ std::set<std::string> mappedLibraries();
 ///   scene; threads[] name rate_hz period_s; modules[] name group reason; stages[] group module stage;
 ///   connections[] from to value across_rates [when_old old_after_s]; devices[] role driver; left_out[] what why;
 ///   libraries[] name plugin needed_by ("the program": one of `before`; "the scene": loaded for it).
-nlohmann::json describeSession(const Loaded& loaded, Session& session, const std::set<std::string>& before);
+nlohmann::json describeSession(Session& session, const std::set<std::string>& before);
 
 }  // namespace presa

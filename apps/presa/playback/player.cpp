@@ -31,12 +31,13 @@ class RecordedSource final : public Module {
 
 class Player {
  public:
-  Player(const RecordedSamples& samples, const std::shared_ptr<const World>& world, double speed)
-      : world_(world), moment_(samples, *world), time_(moment_.begin()) {
+  Player(const RecordedSamples& samples, const std::shared_ptr<const World>& world, const RunOptions& options,
+         double speed)
+      : world_(world), options_(options), moment_(samples, *world), time_(moment_.begin()) {
     wish_.speed = speed;
     GraphBuilder builder;
     builder.add(std::make_unique<RecordedSource>(moment_));
-    auto view = makeView(world);
+    auto view = makeView(world, options);
     view_ = view.get();
     if (windowed()) view_->offerTime(wish_, moment_.end());
     builder.add(std::move(view));
@@ -51,12 +52,12 @@ class Player {
     const View::Screenshot shot = view_->screenshot();
     if (shot.outcome != View::Screenshot::Outcome::kNotAsked) std::fprintf(stderr, "%s\n", shot.message.c_str());
     const std::string trouble = view_->videoTrouble();
-    if (!trouble.empty()) std::fprintf(stderr, "no video %s: %s\n", world_->options.video.c_str(), trouble.c_str());
+    if (!trouble.empty()) std::fprintf(stderr, "no video %s: %s\n", options_.video.c_str(), trouble.c_str());
     return shot.outcome == View::Screenshot::Outcome::kFailed || !trouble.empty() ? kExitFault : kExitOk;
   }
 
  private:
-  bool windowed() const { return world_->options.view == RunOptions::View::kWindow; }
+  bool windowed() const { return options_.view == RunOptions::View::kWindow; }
   double period() const { return 1 / world_->scene.rates.view; }
 
   void step() {
@@ -65,9 +66,8 @@ class Player {
   }
   /// Off-screen: draws the one wanted time, or all times for a video.
   void all() {
-    const RunOptions& options = world_->options;
-    if (options.video.empty()) time_ = options.screenshot_time < 0 ? moment_.end() : options.screenshot_time;
-    for (; time_ < moment_.end() && !options.video.empty() && !terminal::Interruption::came(); time_ += period())
+    if (options_.video.empty()) time_ = options_.screenshot_time < 0 ? moment_.end() : options_.screenshot_time;
+    for (; time_ < moment_.end() && !options_.video.empty() && !terminal::Interruption::came(); time_ += period())
       step();
     time_ = std::min(time_, moment_.end());
     step();
@@ -96,6 +96,7 @@ class Player {
   }
 
   std::shared_ptr<const World> world_;
+  const RunOptions& options_;
   RecordedMoment moment_;
   TimeWish wish_;
   View* view_ = nullptr;  // owned by the graph
@@ -107,9 +108,10 @@ class Player {
 
 }  // namespace
 
-int play(const RecordedSamples& samples, const std::shared_ptr<const World>& world, double speed) {
+int play(const RecordedSamples& samples, const std::shared_ptr<const World>& world, const RunOptions& options,
+         double speed) {
   const terminal::Interruption interruption;
-  return Player(samples, world, speed).run();
+  return Player(samples, world, options, speed).run();
 }
 
 }  // namespace presa

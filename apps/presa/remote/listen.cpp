@@ -21,7 +21,7 @@ Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes
   Scene scene = parseScene(run->scene_xml, "scene '" + printable(run->scene_name) + "'", ".", {}, diagnostics);
   bus::takeFromShelf(scene, *run, meshes, diagnostics);
   World world;
-  if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, {}, diagnostics);
+  if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   if (!quiet) std::fprintf(stderr, "joined the run of scene '%s'\n", printable(run->scene_name).c_str());
   bus::RemotePicture picture(world);

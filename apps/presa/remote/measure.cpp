@@ -48,7 +48,7 @@ class Sender {
   explicit Sender(const MeasureSettings& settings) : writer_(bus::openWriter(settings.bus)) {
     Diagnostics diagnostics;
     const World world =
-        buildWorld(parseScene(ballsXml(settings.objects), "measurement", ".", {}, diagnostics), {}, {}, diagnostics);
+        buildWorld(parseScene(ballsXml(settings.objects), "measurement", ".", {}, diagnostics), {}, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
       bus::ObjectSample sample;

@@ -48,16 +48,20 @@ std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::
   Scene scene = own ? loadScene(settings.scene, {}, diagnostics)
                     : parseScene(run.scene_xml, "scene '" + printable(run.scene_name) + "'", ".", {}, diagnostics);
   if (!own) bus::takeFromShelf(scene, run, settings.meshes, diagnostics);
+  World world;
+  if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  return std::make_shared<const World>(std::move(world));
+}
+
+RunOptions optionsOf(const ViewerSettings& settings) {
   RunOptions options;
   options.view = settings.view;
   options.screenshot = settings.screenshot;
   options.screenshot_time = settings.screenshot_time;
   options.show = settings.show;
   options.bus = settings.bus;
-  World world;
-  if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, std::move(options), diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  return std::make_shared<const World>(std::move(world));
+  return options;
 }
 
 /// The picture follows the run's simulated time, one period behind; the machine's clock only decides when to draw.
@@ -69,7 +73,7 @@ class Viewer {
     if (settings.view == RunOptions::View::kNone) return;
     GraphBuilder builder;
     builder.add(std::make_unique<RemoteSource>(picture_, view_));
-    auto view = makeView(world_);
+    auto view = makeView(world_, optionsOf(settings));
     view_ = view.get();
     builder.add(std::move(view));
     builder.connectByName();

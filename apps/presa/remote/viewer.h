@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/world.h"
+#include "framework/scene/run_options.h"
 
 namespace presa {
 

@@ -1,15 +1,11 @@
 #include "apps/studies/cost/fixed_rig.h"
 
 #include "apps/common/report/svg_plot.h"
-#include "framework/session/session.h"
 
 namespace presa::cost {
 
 std::string rigWithFixedDamping(const Loaded& base) {
   if (base.plan.devices.empty()) return {};
-  Diagnostics diagnostics;
-  const DeviceList devices = createDevices(*base.world, base.plan, diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(diagnostics);
   const auto quoted = [](const std::string& value) { return "\"" + svg::escape(value) + "\""; };
   std::string out =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<rig version=\"1.0\" name=" + quoted(base.world->rig.name) + ">\n";
@@ -17,10 +13,10 @@ std::string rigWithFixedDamping(const Loaded& base) {
     out += "  <device role=" + quoted(binding.role) + " driver=" + quoted(binding.driver) + ">\n";
     for (const auto& [key, setting] : binding.settings)
       out += "    <set key=" + quoted(key) + " value=" + quoted(setting.value) + "/>\n";
-    for (std::size_t i = 0; i < devices.size(); ++i) {
+    for (std::size_t i = 0; i < base.devices.size(); ++i) {
       const bool fixed = binding.settings.contains("damping") || binding.driver != "scripted";
       if (base.plan.devices[i].role != binding.role || fixed) continue;
-      out += "    <set key=\"damping\" value=" + quoted(std::to_string(devices[i]->damping())) + "/>\n";
+      out += "    <set key=\"damping\" value=" + quoted(std::to_string(base.devices[i]->damping())) + "/>\n";
     }
     out += "  </device>\n";
   }

@@ -46,7 +46,7 @@ class Watcher {
                     Ripple(evidence_.compared_from, evidence_.compared_to, rates_.rate(RateGroup::kDynamics)));
   }
 
-  void observe(const StudySample& sample) {
+  void observe(const HapticSample& sample) {
     ledger_.observe(sample);
     const bool boundary = sample.objects != nullptr && sample.objects_version != version_;
     version_ = sample.objects_version;
@@ -79,7 +79,7 @@ class Watcher {
   }
 
  private:
-  void hold(const StudySample& sample, std::int64_t ns) {
+  void hold(const HapticSample& sample, std::int64_t ns) {
     Trace& trace = evidence_.trace;
     trace.held_from_ns.push_back(ns);
     for (std::size_t f = 0; f < trace.fingers; ++f) {
@@ -88,7 +88,7 @@ class Watcher {
     }
   }
 
-  void store(const StudySample& sample, std::int64_t ns) {
+  void store(const HapticSample& sample, std::int64_t ns) {
     Trace& trace = evidence_.trace;
     trace.time_ns.push_back(ns);
     const bool stepped =
@@ -158,7 +158,7 @@ class Watcher {
 Evidence watch(const StudySpec& spec, const Study& study) {
   StudyRun run(spec);
   Watcher watcher(run, study);
-  run.observe([&](const StudySample& sample) { watcher.observe(sample); });
+  run.observe([&](const HapticSample& sample) { watcher.observe(sample); });
   run.run();
   return watcher.finish();
 }

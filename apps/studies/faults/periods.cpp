@@ -10,8 +10,8 @@
 #include "apps/common/atomic_file.h"
 #include "apps/common/exit_status.h"
 #include "apps/common/machine.h"
-#include "apps/common/run_session.h"
 #include "apps/common/terminal/job_progress.h"
+#include "apps/common/terminal_run.h"
 #include "experiments/runner/statistics/means.h"
 #include "experiments/runner/statistics/resampling.h"
 #include "experiments/study/jobs.h"
@@ -50,7 +50,7 @@ Loaded load(const std::string& scene, double seconds) {
 
 /// Does one run and returns the percentiles of its haptic period [us] as JSON. Called in a process of its own.
 std::string oneRun(const std::string& scene, double seconds) {
-  Run run(load(scene, seconds), {.quiet = true, .command = "presa device periods"});
+  TerminalRun run(load(scene, seconds), {.quiet = true, .command = "presa device periods"});
   const std::int64_t before = stolen();
   run.execute();
   Json result{{"scene", scene}, {"stolen", stolen() - before}};

@@ -52,9 +52,8 @@ void readHead(const Element& root, const std::string& file, Experiment& experime
 
 /// The models that move the devices in place of a person, joined when there are several.
 std::string modelOf(const Loaded& loaded) {
-  Diagnostics told_already;
   std::string all;
-  for (const auto& device : createDevices(*loaded.world, loaded.plan, told_already)) {
+  for (const auto& device : loaded.devices) {
     const std::string model = device->model();
     if (all.find(model) == std::string::npos) all += (all.empty() ? "" : "; ") + model;
   }

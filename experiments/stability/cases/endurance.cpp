@@ -43,7 +43,7 @@ double lowestCorner(const Pose& X_WB) {
 }
 
 /// Distance of a touching fingertip centre from its ideal place, one radius off the nearest box [m].
-double offSurface(const StudySample& sample, const World& world, const Vec3& p_WP) {
+double offSurface(const HapticSample& sample, const World& world, const Vec3& p_WP) {
   double off = HUGE_VAL;
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
     const Vec3 p = sample.objects->poseAt(static_cast<std::int32_t>(b), sample.tick.time).inverseTimes(p_WP);
@@ -63,10 +63,10 @@ struct Watch {
   double memory_warm = 0, memory_end = 0;
   Curve energy{"energy of the cube", {}, {}};
 
-  void see(const StudySample& sample, const World& world, std::size_t cube, bool quiet);
+  void see(const HapticSample& sample, const World& world, std::size_t cube, bool quiet);
 };
 
-void Watch::see(const StudySample& sample, const World& world, std::size_t cube, bool quiet) {
+void Watch::see(const HapticSample& sample, const World& world, std::size_t cube, bool quiet) {
   const Scene& scene = world.scene;
   bool bad = sample.objects->faults != 0 || (sample.command.status & (kOutputNotFinite | kOutputWatchdog)) != 0;
   for (std::size_t f = 0; f < static_cast<std::size_t>(sample.contact.count); ++f) {
@@ -125,7 +125,7 @@ std::vector<Finding> play(const Play& game) {
     clock = time;
     return false;
   });
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     watch.see(sample, run.world(), cube, player.quiet(sample.tick.time));
     player.look(sample.tick.time, sample.objects->poseAt(static_cast<std::int32_t>(cube), sample.tick.time));
     watch.passed = sample.contact.pop_through + sample.contact.coverage_lost;

@@ -55,7 +55,7 @@ std::vector<Finding> hold(const Grasp& grasp) {
   const double wanted = grasp.stiffness * pinch.depth;
   double worst = 0, low = HUGE_VAL, high = 0;
   Curve grip{"grip force over k depth", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     double mean = 0;
     for (std::size_t f = 0; f < 2; ++f) {
       const double normal = sample.contact.fingers[f].normal_force;

@@ -31,7 +31,7 @@ std::vector<Finding> hold(const Grasp& grasp) {
   const double wanted = grasp.stiffness * pinch.depth;
   double worst = 0, low = wanted * 1e3, high = 0;
   Curve grip{"grip force", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     double force = 0;
     for (std::size_t f = 0; f < 2; ++f) {
       force += sample.contact.fingers[f].normal_force / 2;

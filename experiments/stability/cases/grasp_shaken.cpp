@@ -45,7 +45,7 @@ Pinch pinchOf(const Shake& shake) {
 }
 
 /// The reference, starting from the body at rest before it is shaken.
-HeldBody referenceOf(const Shake& shake, const Pinch& pinch, const StudySample& sample, std::size_t body) {
+HeldBody referenceOf(const Shake& shake, const Pinch& pinch, const HapticSample& sample, std::size_t body) {
   HeldBody::Parameters parameters;
   parameters.mass = shake.mass;
   parameters.inertia = Vec3::Constant(shake.mass * kEdge * kEdge / 6);
@@ -81,7 +81,7 @@ std::vector<Finding> follow(const Shake& shake) {
   double sum = 0;
   std::size_t count = 0;
   Curve error{"distance from the reference", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.time < kShakeBegin) return;
     if (!reference) reference.emplace(referenceOf(shake, pinch, sample, cube));
     reference->advance(sample.tick.time);

@@ -97,7 +97,7 @@ std::vector<Finding> drag(const Solid& solid, bool penalty) {
   std::uint32_t popped = 0;
   Vec3 last_force = Vec3::Zero(), last_p = way(0);
   Curve rendered{"rendered", {}, {}}, exact{"exact", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     const FingerContact& contact = sample.contact.fingers[0];
     const Vec3 &force = contact.f_H_W, wanted = exactForce(solid, free, contact.p_WH);
     worst = larger(worst, (force - wanted).norm());

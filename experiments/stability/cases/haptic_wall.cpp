@@ -46,7 +46,7 @@ std::vector<Finding> lean(const Wall& wall) {
   StudyRun run(specOf("haptic_wall.xml", {set, "rates/haptic=" + number(1 / wall.plant.period)}, kRelease + time),
                std::move(devices));
   Curve depth{"depth in the wall", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.time < kRelease) return;
     depth.x.push_back(sample.tick.time - kRelease);
     depth.y.push_back(1000 * (sample.device.fingers[0].p_WH.x() + kRadius));

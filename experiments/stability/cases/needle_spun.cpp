@@ -46,7 +46,7 @@ std::vector<Finding> spin(const Spin& trial) {
   bool held = true;
   double tilt = 0, held_rate = 0, last_rate = 0;
   Curve shown{"tilt", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.time < kHeld) return;
     const BodyMotion& motion = sample.objects->bodies[needle];
     const auto& fingers = sample.contact.fingers;

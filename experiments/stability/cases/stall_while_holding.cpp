@@ -76,7 +76,7 @@ Outcome hold(const Stall& stall) {
     clock = time;
     return group == stall.group && time >= stall.begin && time < end;
   });
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     const double energy = transports[0].energy + transports[1].energy;
     if (clock < stall.begin) {
       at_begin = at_end = energy;

@@ -85,7 +85,7 @@ std::vector<Finding> push(const std::string& scene, bool penalty) {
   std::size_t next = 0;
   const double wanted = kStiffness * (kDepth + kRadius);
   Curve force{"force away from the plate", {}, {}};
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     const FingerContact& contact = sample.contact.fingers[0];
     if (sample.tick.time < 1.5) {
       force.x.push_back(sample.tick.time);

@@ -33,21 +33,22 @@ void answer(SupervisorShare& share, const std::string& text, SupervisorShare::St
 }
 
 /// The part of a world that a hardware driver may use: its binding and its role.
-World worldOf(const SupervisorTask& task) {
-  World world;
-  world.rig.file = task.rig_file;
-  world.rig.devices = {task.binding};
-  world.scene.devices.emplace_back().role = task.binding.role;
-  world.options.realtime = true;
+std::shared_ptr<const World> worldOf(const SupervisorTask& task) {
+  auto world = std::make_shared<World>();
+  world->rig.file = task.rig_file;
+  world->rig.devices = {task.binding};
+  world->scene.devices.emplace_back().role = task.binding.role;
   return world;
 }
 
 std::unique_ptr<Device> openDevice(const SupervisorTask& task) {
   Diagnostics diagnostics;
-  auto device = devicePlugin(task.binding.driver).create(task.binding, worldOf(task), diagnostics);
-  if (diagnostics.hasErrors() || !device) throw InputError(diagnostics);
-  device->open();
-  return device;
+  RunOptions options;
+  options.realtime = true;
+  DeviceList made = devicePlugin(task.binding.driver).create({task.binding}, worldOf(task), options, diagnostics);
+  if (diagnostics.hasErrors() || made.size() != 1 || !made.front()) throw InputError(diagnostics);
+  made.front()->open();
+  return std::move(made.front());
 }
 
 std::vector<std::string> becomeRealTime(const std::string& role) {

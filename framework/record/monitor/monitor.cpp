@@ -11,10 +11,10 @@ namespace {
 // a sample has 2.6 kB: limits the trace of a run of any length to about 100 MB
 constexpr double kMaxTraceSamples = 40'000;
 
-std::uint64_t traceStride(const World& world, double trace_rate) {
+std::uint64_t traceStride(const World& world, double duration, double trace_rate) {
   const double haptic = world.scene.rates.haptic;
   const double wanted = std::round(haptic / trace_rate);
-  const double fitting = std::ceil(world.options.duration * haptic / kMaxTraceSamples);
+  const double fitting = std::ceil(duration * haptic / kMaxTraceSamples);
   const double stride = std::max({1.0, wanted, std::isfinite(fitting) ? fitting : wanted});
   return static_cast<std::uint64_t>(stride);
 }
@@ -31,7 +31,7 @@ std::int32_t scriptedPhase(const DeviceState& device) noexcept {
 }  // namespace
 
 struct Monitor::Impl {
-  Impl(std::shared_ptr<const World> shared_world, double loosen, double trace_rate)
+  Impl(std::shared_ptr<const World> shared_world, double duration, double loosen, double trace_rate)
       : world(std::move(shared_world)), loosen_time(loosen), reaction(world->scene) {
     const std::vector<Body>& bodies = world->scene.bodies;
     objects.resize(bodies.size());
@@ -46,16 +46,15 @@ struct Monitor::Impl {
     grasped.reserve(free.size());
     for (auto& list : slip_onsets) list.reserve(kMaxSlipOnsets);
     if (!(trace_rate > 0)) return;
-    stride = traceStride(*world, trace_rate);
-    const double samples = world->options.duration * world->scene.rates.haptic / static_cast<double>(stride) + 2;
+    stride = traceStride(*world, duration, trace_rate);
+    const double samples = duration * world->scene.rates.haptic / static_cast<double>(stride) + 2;
     // touch every page now, so that the haptic loop pays for no page fault
     trace.resize(static_cast<std::size_t>(std::clamp(samples, 1.0, kMaxTraceSamples)));
     trace.clear();
   }
 
   /// Processes one tick, in the stages that Monitor::stages() lists.
-  void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
-               const ObjectState* state, std::uint64_t version) noexcept;
+  void observe(const HapticSample& sample) noexcept;
   void addToHash(const DeviceState& device, const ContactExchange& contact, const ObjectState* fresh) noexcept;
   void sumFingers(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
   void sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept;
@@ -63,8 +62,8 @@ struct Monitor::Impl {
   void sumObjects(const Tick& tick, const ContactExchange& contact, const ObjectState* state, bool fresh) noexcept;
   void follow(std::size_t i, const ObjectState& state, double time) noexcept;
   void noteGrasp(std::size_t i, double time) noexcept;
-  void sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
-              const ObjectState* state) noexcept;
+  void keep(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
+            const ObjectState* state) noexcept;
   Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
     return state && body < state->count() ? state->poseAt(body, time)
                                           : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
@@ -169,8 +168,8 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact,
   for (const std::size_t i : grasped) noteGrasp(i, tick.time);
 }
 
-void Monitor::Impl::sample(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
-                           const ForceCommand& command, const ObjectState* state) noexcept {
+void Monitor::Impl::keep(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
+                         const ForceCommand& command, const ObjectState* state) noexcept {
   if (tick.index % stride != 0 || trace.size() == trace.capacity()) return;
   TraceSample& now = trace.emplace_back();
   now.time = tick.time;
@@ -181,8 +180,8 @@ void Monitor::Impl::sample(const Tick& tick, const DeviceState& device, const Co
   for (std::size_t slot = 0; slot < traced.size(); ++slot) now.bodies[slot] = poseOf(traced[slot], state, tick.time);
 }
 
-Monitor::Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate)
-    : Module("monitor", RateGroup::kHaptic), impl_(std::make_unique<Impl>(std::move(world), loosen_time, trace_rate)) {}
+Monitor::Monitor(std::shared_ptr<const World> world, double duration, double loosen_time, double trace_rate)
+    : HapticObserver("monitor"), impl_(std::make_unique<Impl>(std::move(world), duration, loosen_time, trace_rate)) {}
 
 Monitor::~Monitor() = default;
 
@@ -209,8 +208,8 @@ void Monitor::Impl::sumFingers(const Tick& tick, const ContactExchange& contact,
   coverage_lost = contact.coverage_lost;
 }
 
-void Monitor::Impl::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
-                            const ForceCommand& command, const ObjectState* state, std::uint64_t version) noexcept {
+void Monitor::Impl::observe(const HapticSample& sample) noexcept {
+  const auto& [tick, device, contact, command, state, version] = sample;
   const bool fresh = state != nullptr && version != objects_version;
   objects_version = version;
   addToHash(device, contact, fresh ? state : nullptr);
@@ -222,19 +221,10 @@ void Monitor::Impl::observe(const Tick& tick, const DeviceState& device, const C
   if (fresh) solver_fallbacks = state->fallback_steps;
   sumObjects(tick, contact, state, fresh);
   simulated_time = static_cast<double>(tick.index + 1) * tick.period;
-  if (stride > 0) sample(tick, device, contact, command, state);
+  if (stride > 0) keep(tick, device, contact, command, state);
 }
 
-void Monitor::step(const Tick& tick) noexcept {
-  const bool moving = objects_.connected() && objects_.hasValue();
-  observe(tick, device_.value(), contact_.value(), command_.value(), moving ? &objects_.value() : nullptr,
-          objects_.version());
-}
-
-void Monitor::observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
-                      const ForceCommand& command, const ObjectState* objects, std::uint64_t objects_version) noexcept {
-  impl_->observe(tick, device, contact, command, objects, objects_version);
-}
+void Monitor::observe(const HapticSample& sample) noexcept { impl_->observe(sample); }
 
 std::vector<std::string> Monitor::stages() const {
   std::vector<std::string> stages{"hash of Device, contact and Object State",

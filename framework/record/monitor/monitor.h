@@ -6,11 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/graph/port.h"
 #include "framework/core/schedule/timing_stats.h"
-#include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/device_state.h"
-#include "framework/core/state/object_state.h"
+#include "framework/record/haptic_observer.h"
 #include "framework/record/monitor/action_reaction.h"
 #include "framework/scene/world.h"
 
@@ -60,19 +57,15 @@ struct TraceSample {
   std::array<Pose, 4> bodies;                      ///< poses of the first four free bodies
 };
 
-/// Haptic-rate observer: summaries, state hash and a decimated trace. Allocates all memory at construction.
-/// Thread: haptic (step); read the results after the executor has stopped. In ports, all optional (a scene without
-/// fingers has none): device_state, contact_exchange, force_command, object_state.
-class Monitor final : public Module {
+/// Haptic-rate observer: summaries, state hash and a decimated trace. Allocates all memory at construction. Read the
+/// results after the executor has stopped.
+class Monitor final : public HapticObserver {
  public:
-  /// `loosen_time`: start of the scripted release [s], or infinity. `trace_rate` [Hz]; 0: no trace.
-  Monitor(std::shared_ptr<const World> world, double loosen_time, double trace_rate);
+  /// `duration` of the run [s] bounds the trace. `loosen_time`: start of the scripted release [s], or infinity. `trace_rate` [Hz]; 0: no trace.
+  Monitor(std::shared_ptr<const World> world, double duration, double loosen_time, double trace_rate);
   ~Monitor() override;
-  void step(const Tick& tick) noexcept override;
-  /// As step, for states passed as arguments. `objects` null: no dynamics, bodies keep their start poses.
-  /// An object state is summed and hashed when `objects_version` changes.
-  void observe(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
-               const ObjectState* objects, std::uint64_t objects_version) noexcept;
+  /// Without dynamics, bodies keep their start poses. An object state is summed and hashed when its version changes.
+  void observe(const HapticSample& sample) noexcept override;
   std::vector<std::string> stages() const override;
 
   const std::array<FingerSummary, kMaxFingers>& fingers() const noexcept;
@@ -99,10 +92,6 @@ class Monitor final : public Module {
 
  private:
   struct Impl;
-  In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
-  In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
-  In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
-  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
   std::unique_ptr<Impl> impl_;
 };
 

@@ -28,13 +28,14 @@ void checkFolder(const std::string& file) {
 
 }  // namespace
 
-FlightBuffer::FlightBuffer(std::shared_ptr<const World> world)
+FlightBuffer::FlightBuffer(std::shared_ptr<const World> world, RunOptions options)
     : world_(std::move(world)),
+      options_(std::move(options)),
       layout_(layoutOf(*world_)),
       capacity_(static_cast<std::size_t>(std::ceil(kBefore * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       after_(static_cast<std::size_t>(std::ceil(kAfter * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       kept_(capacity_ * layout_.words()) {
-  checkFolder(world_->options.flight);
+  checkFolder(options_.flight);
   const Sha256 loaded;  // loads the plug-in now rather than at the first fault
 }
 
@@ -73,13 +74,10 @@ void FlightBuffer::addFault(const std::string& what) {
 void FlightBuffer::begin() {
   const std::string name = nextName();
   if (name.empty()) return;
-  World named;
-  named.scene = world_->scene;
-  named.rig = world_->rig;
-  named.options = world_->options;
-  named.options.record = name;
+  RunOptions options = options_;
+  options.record = name;
   try {
-    file_ = std::make_unique<RecordingFile>(named);
+    file_ = std::make_unique<RecordingFile>(*world_, options);
   } catch (const InputError& error) {
     throw h5::Failure(error.what());
   }
@@ -106,7 +104,7 @@ void FlightBuffer::close() {
 }
 
 std::string FlightBuffer::nextName() const {
-  const fs::path first = world_->options.flight;
+  const fs::path first = options_.flight;
   for (int number = 1; number <= kMostFiles; ++number) {
     const std::string tail = number == 1 ? "" : "-" + std::to_string(number);
     const fs::path name = first.parent_path() / (first.stem().string() + tail + first.extension().string());

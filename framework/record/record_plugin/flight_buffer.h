@@ -11,9 +11,9 @@ namespace presa::record {
 /// that follows. A later fault goes to another file.
 class FlightBuffer final : public RowSink {
  public:
-  /// world.options.flight names the first file; further ones are NAME-2.h5 and so on. Existing files are never
+  /// options.flight names the first file; further ones are NAME-2.h5 and so on. Existing files are never
   /// replaced. Throws InputError E602 when the folder is not writable.
-  explicit FlightBuffer(std::shared_ptr<const World> world);
+  FlightBuffer(std::shared_ptr<const World> world, RunOptions options);
 
   const RowLayout& layout() const noexcept override { return layout_; }
   void nameInputs(const ScheduleInputs& inputs) override;
@@ -35,6 +35,7 @@ class FlightBuffer final : public RowSink {
   std::string nextName() const;
 
   std::shared_ptr<const World> world_;
+  const RunOptions options_;
   RowLayout layout_;
   std::size_t capacity_, after_;       // rows
   std::vector<std::uint64_t> kept_;    // circular buffer of `capacity_` rows

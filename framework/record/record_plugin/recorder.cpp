@@ -30,22 +30,22 @@ std::vector<std::int32_t> freeBodies(const Scene& scene) {
   return indices;
 }
 
-std::unique_ptr<RowSink> createSink(const std::shared_ptr<const World>& world) {
+std::unique_ptr<RowSink> createSink(const std::shared_ptr<const World>& world, const RunOptions& options) {
   const h5::Library library;
-  if (world->options.record.empty()) return std::make_unique<FlightBuffer>(world);
-  return std::make_unique<RecordingFile>(*world);
+  if (options.record.empty()) return std::make_unique<FlightBuffer>(world, options);
+  return std::make_unique<RecordingFile>(*world, options);
 }
 
 void copy(const Vec3& from, double (&to)[3]) noexcept { std::copy_n(from.data(), 3, to); }
 
 }  // namespace
 
-FileRecorder::FileRecorder(std::shared_ptr<const World> world, WriterSettings settings)
+FileRecorder::FileRecorder(std::shared_ptr<const World> world, const RunOptions& options, WriterSettings settings)
     : Recorder("record", RateGroup::kHaptic),
       world_(std::move(world)),
       settings_(std::move(settings)),
-      realtime_(world_->options.realtime),
-      file_(createSink(world_)),
+      realtime_(options.realtime),
+      file_(createSink(world_, options)),
       layout_(file_->layout()),
       free_bodies_(freeBodies(world_->scene)),
       capacity_(ringRows(*world_, layout_.bytes())),
@@ -54,7 +54,7 @@ FileRecorder::FileRecorder(std::shared_ptr<const World> world, WriterSettings se
       block_(layout_.words() * std::min(kBlockRows, capacity_)),
       schedule_block_(kBlockRows),
       flushed_at_(std::chrono::steady_clock::now()) {
-  if (takesCommands(*world_)) commanded_.emplace(*this, "surface_settings", In<SurfaceSettings>::Optional{});
+  if (options.bus_commands) commanded_.emplace(*this, "surface_settings", In<SurfaceSettings>::Optional{});
   startWriter();
 }
 

@@ -26,12 +26,12 @@ struct WriterSettings {
   std::function<void(std::uint64_t flushed_ticks)> after_flush;
 };
 
-/// Records into world.options.record, or, when only world.options.flight is set, keeps a flight recording for faults.
+/// Records into options.record, or, when only options.flight is set, keeps a flight recording for faults.
 /// Two threads: step() runs on the haptic thread and puts rows into a ring; the writer, an ordinary thread, drains the
 /// ring and is, between construction and finish(), the only thread that touches the file.
 class FileRecorder final : public Recorder {
  public:
-  explicit FileRecorder(std::shared_ptr<const World> world, WriterSettings settings = {});
+  FileRecorder(std::shared_ptr<const World> world, const RunOptions& options, WriterSettings settings = {});
   ~FileRecorder() override;
 
   void step(const Tick& tick) noexcept override;

@@ -89,11 +89,12 @@ RowLayout layoutOf(const World& world) {
   return layout;
 }
 
-RecordingFile::RecordingFile(const World& world) : name_(world.options.record), layout_(layoutOf(world)) {
+RecordingFile::RecordingFile(const World& world, const RunOptions& options)
+    : name_(options.record), layout_(layoutOf(world)) {
   const std::string& name = name_;
-  claim(name, world.options.overwrite);
+  claim(name, options.overwrite);
   try {
-    create(world);
+    create(world, options);
     flush();
   } catch (const h5::Failure& failure) {
     file_.reset();
@@ -104,8 +105,8 @@ RecordingFile::RecordingFile(const World& world) : name_(world.options.record), 
   }
 }
 
-void RecordingFile::create(const World& world) {
-  file_ = createFile(world.options.record);
+void RecordingFile::create(const World& world, const RunOptions& options) {
+  file_ = createFile(options.record);
   for (const char* group : {"haptic", "haptic/fingers", "haptic/bodies", "schedule"}) h5::group(file_, group);
   tables_.push_back(createTable("haptic", "ticks", tickTable()));
   for (std::size_t f = 0; f < layout_.fingers; ++f) {
@@ -123,10 +124,10 @@ void RecordingFile::create(const World& world) {
     // with room for the names, so that they change no place in the file when they come
     h5::writeAttribute(schedule_.back().dataset, kInputsAttribute, std::string(kInputsBytes, '\0'));
   }
-  describe(world);
+  describe(world, options);
 }
 
-void RecordingFile::describe(const World& world) {
+void RecordingFile::describe(const World& world, const RunOptions& options) {
   const RateTable rates(world.scene.rates);
   h5::writeAttribute(file_, "format", std::string(kFormatName));
   h5::writeAttribute(file_, "format_version", kFormatVersion);
@@ -138,9 +139,9 @@ void RecordingFile::describe(const World& world) {
   h5::writeAttribute(file_, "scene_name", world.scene.name);
   h5::writeAttribute(file_, "scene_file", world.scene.file);
   h5::writeAttribute(file_, "rig_file", world.rig.file);
-  h5::writeAttribute(file_, "seed", world.options.seed);
-  h5::writeAttribute(file_, "force_share", world.options.force_share);
-  h5::writeAttribute(file_, "realtime", std::uint64_t{world.options.realtime});
+  h5::writeAttribute(file_, "seed", options.seed);
+  h5::writeAttribute(file_, "force_share", options.force_share);
+  h5::writeAttribute(file_, "realtime", std::uint64_t{options.realtime});
   h5::writeAttribute(file_, "haptic_period_s", rates.period(RateGroup::kHaptic));
   for (int g = 0; g < kScheduledGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);

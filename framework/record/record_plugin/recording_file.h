@@ -7,6 +7,7 @@
 #include "framework/record/record_plugin/h5.h"
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 
 namespace presa::record {
@@ -29,7 +30,7 @@ inline constexpr const char* kInputsAttribute = "inputs";
 class RecordingFile final : public RowSink {
  public:
   /// Throws InputError E601, E602.
-  explicit RecordingFile(const World& world);
+  RecordingFile(const World& world, const RunOptions& options);
 
   const RowLayout& layout() const noexcept override { return layout_; }
   void nameInputs(const ScheduleInputs& inputs) override;
@@ -55,8 +56,8 @@ class RecordingFile final : public RowSink {
     std::string path;
     Sha256 sum;  ///< of all rows
   };
-  void create(const World& world);
-  void describe(const World& world);
+  void create(const World& world, const RunOptions& options);
+  void describe(const World& world, const RunOptions& options);
   TableFile createTable(const std::string& group, const std::string& name, const Table& table);
   static void appendTo(TableFile& table, const void* rows, std::size_t count);
   /// Reserves disk space for the next flush, so that a full disk is detected before the flush, not half-way through it.

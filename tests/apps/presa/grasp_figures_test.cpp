@@ -21,7 +21,7 @@ using test::pinchWorld;
 /// A grasp: 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad, then loosening: 4 N falling by 2 N/s, slip below
 /// 1.197 N.
 struct Grasp {
-  Feed feed{pinchWorld(6), 4.0, 250};
+  Feed feed{6, 4.0, 250};
   RunResult result;
 
   explicit Grasp(double wobble = 0) {

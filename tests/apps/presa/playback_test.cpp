@@ -31,7 +31,7 @@ TEST(Playback, AMomentIsWhatWasRecorded) {
   const RecordedSamples samples = recordPlugin().samples(file);
   Diagnostics diagnostics;
   const Loaded loaded =
-      loadWorldFromText(recording.scene_xml, recording.scene_file, recording.rig_xml, {}, diagnostics);
+      loadWithoutDevices({recording.scene_xml, recording.scene_file, recording.rig_xml}, {}, diagnostics);
   const RecordedMoment moment(samples, *loaded.world);
   EXPECT_DOUBLE_EQ(moment.end(), recording.time.back());
   ObjectState objects;

@@ -16,12 +16,12 @@ struct Stepped {
     RunOptions options;
     options.record = record;
     options.realtime = true;  // the recorder must not wait
-    const Loaded loaded = loadWorld({test::source(scene), "", {}}, options, diagnostics);
+    Loaded loaded = loadWorld({test::source(scene), "", {}}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     rates = std::make_unique<RateTable>(loaded.world->scene.rates);
-    session =
-        std::make_unique<Session>(loaded.world, loaded.plan, control,
-                                  Session::Options{.trace_rate = 250, .devices = {}, .open_devices = true, .more = {}});
+    session = std::make_unique<Session>(
+        std::move(loaded), control,
+        Session::Options{.trace_rate = 250, .devices = {}, .open_devices = true, .more = {}, .wrap = {}});
     for (const RateGroup group : {RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic})
       session->graph().start(group);
   }

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "framework/core/schedule/executor.h"
 #include "framework/record/record_plugin.h"
-#include "framework/session/load_world.h"
 #include "framework/session/replay.h"
+#include "framework/session/run.h"
 #include "tests/apps/presa/support.h"
 
 namespace presa {
@@ -21,17 +20,15 @@ Recording recordStalledRun(const std::string& file, double force_share = 1) {
   options.force_share = force_share;
   options.record = file;
   options.overwrite = true;
-  const Loaded loaded = loadWorld({test::source("config/scenes/cube.xml"), "", {}}, options, diagnostics);
+  options.duration = kDuration;
+  Loaded loaded = loadWorld({test::source("config/scenes/cube.xml"), "", {}}, options, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   RunControl control;
-  Session session(loaded.world, loaded.plan, control, {});
-  LockstepExecutor executor(session.graph(), RateTable(loaded.world->scene.rates), control);
-  executor.recordTo(session.schedule());
-  executor.delay([](RateGroup group, double time) {
+  Run run(std::move(loaded), control);
+  run.lockstep().delay([](RateGroup group, double time) {
     return group == RateGroup::kHaptic && time >= kStall && time < kStall + 0.05;
   });
-  executor.run(kDuration);
-  session.recorder()->finish();
+  run.execute();
   return recordPlugin().read(file);
 }
 

@@ -16,13 +16,14 @@ std::string scratch(const std::string& name) {
   return (folder / name).string();
 }
 
-std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets, RunOptions options,
-                              double trace_rate) {
+std::unique_ptr<TerminalRun> runScene(const std::string& scene, const std::vector<std::string>& sets,
+                                      RunOptions options, double trace_rate) {
   Diagnostics diagnostics;
   if (options.duration == RunOptions{}.duration) options.duration = 0;  // run to the end of the script
-  const Loaded loaded = loadWorld({source(scene), "", sets}, options, diagnostics);
+  Loaded loaded = loadWorld({source(scene), "", sets}, options, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  auto run = std::make_unique<Run>(loaded, Run::Settings{.trace_rate = trace_rate, .quiet = true, .command = ""});
+  auto run = std::make_unique<TerminalRun>(
+      std::move(loaded), TerminalRun::Settings{.trace_rate = trace_rate, .quiet = true, .command = ""});
   run->execute();
   return run;
 }

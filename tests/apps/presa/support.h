@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/common/run_session.h"
+#include "apps/common/terminal_run.h"
 
 namespace presa::test {
 
@@ -13,8 +13,8 @@ inline std::string source(const std::string& path) { return std::string(PRESA_SO
 std::string scratch(const std::string& name);
 
 /// A lockstep run of a shipped scene without terminal output. Throws InputError.
-std::unique_ptr<Run> runScene(const std::string& scene, const std::vector<std::string>& sets = {},
-                              RunOptions options = {}, double trace_rate = 1000);
+std::unique_ptr<TerminalRun> runScene(const std::string& scene, const std::vector<std::string>& sets = {},
+                                      RunOptions options = {}, double trace_rate = 1000);
 
 /// Result of the built program in a separate process.
 struct Outcome {

@@ -26,9 +26,9 @@ Rebuilt rebuildColumn(std::uint64_t seed, double limit) {
   Diagnostics diagnostics;
   RunOptions options;
   options.duration = limit;
-  const Loaded loaded = loadWorld({writeScene(column, spec, folder), "", {}}, options, diagnostics);
+  Loaded loaded = loadWorld({writeScene(column, spec, folder), "", {}}, options, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
-  return visit(loaded, {.finish = 2, .quiet = true}).rebuilt;
+  return visit(std::move(loaded), {.finish = 2, .quiet = true}).rebuilt;
 }
 
 // With seed 8 drums and the capital lie upside down.

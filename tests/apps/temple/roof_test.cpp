@@ -35,9 +35,9 @@ TEST(Roof, IsPutByTwoFingers) {
   Diagnostics diagnostics;
   RunOptions options;
   options.duration = 600;
-  const Loaded loaded = loadWorld({writeScene(facade, spec, test::scratch("roof")), "", {}}, options, diagnostics);
+  Loaded loaded = loadWorld({writeScene(facade, spec, test::scratch("roof")), "", {}}, options, diagnostics);
   ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
-  const Rebuilt rebuilt = visit(loaded, {.finish = 0.5, .quiet = true}).rebuilt;
+  const Rebuilt rebuilt = visit(std::move(loaded), {.finish = 0.5, .quiet = true}).rebuilt;
   EXPECT_EQ(rebuilt.placed, static_cast<int>(facade.blocks.size()));
   EXPECT_LT(rebuilt.worst_position_error, 1e-3);
   EXPECT_LT(rebuilt.worst_angle_error, std::numbers::pi / 180);

@@ -11,7 +11,7 @@ namespace {
 const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
 const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_admittance.xml";
 
-std::unique_ptr<Run> lift() { return test::runToTheEnd(kScene, kRig); }
+std::unique_ptr<TerminalRun> lift() { return test::runToTheEnd(kScene, kRig); }
 
 // Expected: a grip of 6 N, since the force loop controls the felt force; the weight shared equally by two fingers; slip
 // at m g / (2 mu) = 1.226 N while the grip loosens by 3 N/s. The second finger to slip does so at a lower grip.

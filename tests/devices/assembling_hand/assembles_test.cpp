@@ -3,8 +3,7 @@
 
 #include "framework/assembly/assembly_state.h"
 #include "framework/core/schedule/executor.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 
 namespace presa {
 namespace {
@@ -46,15 +45,15 @@ std::string scene(const std::vector<std::string>& poses, const std::string& goal
 struct Ended {
   Ended(const std::string& text, double seconds) {
     Diagnostics diagnostics;
-    const Loaded loaded = loadWorldFromText(text, "blocks.xml", kRig, {}, diagnostics);
+    Loaded loaded = loadWorldFromText({text, "blocks.xml", kRig}, {.duration = seconds}, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     RunControl control;
     Session::Options options;
     auto made = std::make_unique<Probe>();
     Probe& probe = *made;
     options.more.push_back(std::move(made));
-    Session session(loaded.world, loaded.plan, control, std::move(options));
-    makeExecutor(false, session.graph(), RateTable(loaded.world->scene.rates), control)->run(seconds);
+    Run run(std::move(loaded), control, std::move(options));
+    run.execute();
     objects = probe.objects;
     filled = probe.filled;
     at = probe.last_filled_at;

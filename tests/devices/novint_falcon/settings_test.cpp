@@ -31,11 +31,7 @@ Rig rigWith(const std::string& settings) {
 }
 
 FalconSettings settingsOf(const std::string& xml, Diagnostics& diagnostics) {
-  World world;
-  world.options.realtime = true;
-  world.scene.devices.emplace_back().role = "thumb";
-  world.scene.devices[0].limits = {.force = 1e9, .force_rate = 1e9, .watchdog_ms = 1e9};  // a scene with absurd limits
-  return readSettings(rigWith(xml).devices.at(0), world, diagnostics);
+  return readSettings(rigWith(xml).devices.at(0), {.realtime = true}, diagnostics);
 }
 
 std::string set(const std::string& key, const std::string& value) {
@@ -151,7 +147,7 @@ TEST(FalconPlugin, MakesADeviceFromARig) {
   Plan plan;
   plan.devices.push_back({.role = "thumb", .driver = "novint_falcon"});
   Diagnostics diagnostics;
-  const DeviceList devices = createDevices(*world, plan, diagnostics);
+  const DeviceList devices = createDevices(world, {}, plan, diagnostics);
   EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
   ASSERT_EQ(devices.size(), 1U);
   EXPECT_TRUE(devices[0]->model().empty());  // a person

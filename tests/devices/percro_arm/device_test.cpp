@@ -14,7 +14,9 @@ namespace {
 const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
 const std::string kRig = PRESA_SOURCE_DIR "/config/rigs/pinch_cube_percro.xml";
 
-std::unique_ptr<Run> lift(const std::vector<std::string>& sets = {}) { return test::runToTheEnd(kScene, kRig, sets); }
+std::unique_ptr<TerminalRun> lift(const std::vector<std::string>& sets = {}) {
+  return test::runToTheEnd(kScene, kRig, sets);
+}
 
 // Tolerances: rendered forces change in steps of the stiffness times the barrel's 60 um (0.06 N), the joints' friction
 // adds 0.2 N at the hand, and the grip loosens by 3 N/s.

@@ -7,6 +7,7 @@
 #include "apps/common/scratch_folder.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/replay.h"
+#include "framework/session/run.h"
 #include "tests/apps/presa/support.h"
 #include "tests/support/shipped_rig.h"
 
@@ -35,35 +36,26 @@ class Hand final : public Module {
 struct Lockstep {
   explicit Lockstep(const RunOptions& options = {}) {
     Diagnostics diagnostics;
-    const Loaded loaded = loadWorld({kScene, kRig, {}}, options, diagnostics);
+    Loaded loaded = loadWorld({kScene, kRig, {}}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
-    world = loaded.world;
     Session::Options session_options;
     session_options.open_devices = false;  // avoids the check for a window
     session_options.more.push_back(std::make_unique<Hand>());
-    session = std::make_unique<Session>(loaded.world, loaded.plan, control, std::move(session_options));
-    executor = makeExecutor(false, session->graph(), RateTable(loaded.world->scene.rates), control);
-    executor->recordTo(session->schedule());
+    run.emplace(std::move(loaded), control, std::move(session_options));
   }
-  void run(double seconds) {
-    executor->run(seconds);
-    if (session->recorder() != nullptr) session->recorder()->finish();
-  }
-  std::shared_ptr<const World> world;
   RunControl control;
-  std::unique_ptr<Session> session;
-  std::unique_ptr<Executor> executor;
+  std::optional<Run> run;
 };
 
 // The lift is the distance of the hand minus the compliance of the hand and contact springs (1 N/mm, also laterally)
 // under half the weight each. A fingertip that arrives with the speed of the grip overshoots the grip force by at most
 // v sqrt(k m).
 TEST(PointerScene, GraspsAndLiftsTheCube) {
-  Lockstep lockstep;
-  lockstep.run(8);
+  Lockstep lockstep({.duration = 8});
+  lockstep.run->execute();
   RunResult result;
-  result.world = lockstep.world;
-  takeMonitor(lockstep.session->monitor(), result);
+  result.world = lockstep.run->session().world();
+  takeMonitor(lockstep.run->monitor(), result);
   const ObjectSummary& cube = result.objects.at(0).summary;
   EXPECT_TRUE(cube.grasped);
   EXPECT_FALSE(cube.dropped);
@@ -79,10 +71,8 @@ TEST(PointerScene, ARecordingNeedsNoPointer) {
   const ScratchFolder scratch;
   RunOptions options;
   options.record = scratch.file("pointer.h5");
-  {
-    Lockstep lockstep(options);
-    lockstep.run(5);
-  }
+  options.duration = 5;
+  Lockstep(options).run->execute();
   const Recording recording = recordPlugin().read(options.record);
   Diagnostics diagnostics;
   const ReplayResult result = RecordedRun(recording, diagnostics).run();
@@ -99,13 +89,12 @@ bool hasPointer(Session& session) {
 
 // A rig without this driver has no pointer port, even when a pointer state is written.
 TEST(PointerScene, IsNotInTheGraphOfOtherRigs) {
-  EXPECT_TRUE(hasPointer(*Lockstep().session));
+  EXPECT_TRUE(hasPointer(Lockstep().run->session()));
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorld({kScene, "", {}}, {}, diagnostics);
   RunControl control;
   Session::Options options;
   options.more.push_back(std::make_unique<Hand>());
-  Session session(loaded.world, loaded.plan, control, std::move(options));
+  Session session(loadWorld({kScene, "", {}}, {}, diagnostics), control, std::move(options));
   EXPECT_FALSE(hasPointer(session));
 }
 
@@ -120,12 +109,10 @@ TEST(PointerScene, WithoutAWindowItSaysWhatToDo) {
 TEST(PointerScene, TwoFingersOnOneSideOrWithTwoGripsAreNoPair) {
   const auto codes = [](const std::string& thumb, const std::string& index) {
     Diagnostics diagnostics;
-    const Loaded loaded =
-        loadWorldFromText(loadWorld({kScene, kRig, {}}, {}, diagnostics).world->scene.resolved_xml, "cube.xml",
-                          "<rig version=\"1.0\" name=\"r\"><device role=\"thumb\" driver=\"pointer\">" + thumb +
-                              "</device><device role=\"index\" driver=\"pointer\">" + index + "</device></rig>",
-                          {}, diagnostics);
-    createDevices(*loaded.world, loaded.plan, diagnostics);
+    loadWorldFromText({loadWorld({kScene, kRig, {}}, {}, diagnostics).world->scene.resolved_xml, "cube.xml",
+                       "<rig version=\"1.0\" name=\"r\"><device role=\"thumb\" driver=\"pointer\">" + thumb +
+                           "</device><device role=\"index\" driver=\"pointer\">" + index + "</device></rig>"},
+                      {}, diagnostics);
     std::vector<int> all;
     for (const Diagnostic& finding : diagnostics.all()) all.push_back(finding.code);
     return all;

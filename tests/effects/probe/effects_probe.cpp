@@ -6,8 +6,7 @@
 #include <string>
 
 #include "framework/core/schedule/executor.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 /// effects_probe SCENE TICKS STAGE SHAPE [PATH=VALUE…]: runs the scene in lockstep with the haptic stages that it
@@ -59,7 +58,7 @@ int probe(int count, char** arguments) {
   }
   const std::string shape = arguments[4];
   if (shape != "as_is") makeBall(loaded, shape == "smooth");
-  HapticEffects effects = effectsOf(*loaded.world);
+  HapticEffects effects = effectsOf(*loaded.world, loaded.options);
   const std::string without = arguments[3];
   effects.friction = effects.friction && without != "friction";
   effects.damping = effects.damping && without != "damping";
@@ -73,11 +72,11 @@ int probe(int count, char** arguments) {
   const ForceSum& forces = *sum;
   options.more.push_back(std::move(sum));
   RunControl control;
-  Session session(loaded.world, loaded.plan, control, std::move(options));
-  LockstepExecutor executor(session.graph(), RateTable(loaded.world->scene.rates), control);
-  executor.run(std::atof(arguments[2]) / loaded.world->scene.rates.haptic);
-  std::printf("hash %016llx forces %a %a %a\n", static_cast<unsigned long long>(session.monitor().hash()),
-              forces.sum.x(), forces.sum.y(), forces.sum.z());
+  loaded.options.duration = std::atof(arguments[2]) / loaded.world->scene.rates.haptic;
+  Run run(std::move(loaded), control, std::move(options));
+  run.execute();
+  std::printf("hash %016llx forces %a %a %a\n", static_cast<unsigned long long>(run.monitor().hash()), forces.sum.x(),
+              forces.sum.y(), forces.sum.z());
   return 0;
 }
 

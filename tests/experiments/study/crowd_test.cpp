@@ -50,8 +50,8 @@ TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
   Diagnostics diagnostics;
   RunOptions options;
   options.bus = BusSettings{.network = "none"};
-  const Loaded loaded = loadWorldFromText(
-      crowdXml(), "crowd.xml", R"(<rig version="1.0" name="desk"><device role="index" driver="scripted"/></rig>)",
+  Loaded loaded = loadWithoutDevices(
+      {crowdXml(), "crowd.xml", R"(<rig version="1.0" name="desk"><device role="index" driver="scripted"/></rig>)"},
       options, diagnostics);
   ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
   ASSERT_EQ(loaded.world->scene.bodies.size(), static_cast<std::size_t>(kBodies));
@@ -66,9 +66,9 @@ TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
   const Eye& eye = *made;
   session_options.more.push_back(std::move(made));
   RunControl control;
-  Session session(loaded.world, loaded.plan, control, std::move(session_options));
-  Graph& graph = session.graph();
   const RateTable rates(loaded.world->scene.rates);
+  Session session(std::move(loaded), control, std::move(session_options));
+  Graph& graph = session.graph();
   const std::array groups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
   for (const RateGroup group : groups) graph.start(group);
   int forbidden = 0;

@@ -26,7 +26,7 @@ TEST_P(Engines, FallRestAndSlideAsTheTextbookSays) {
   std::ofstream(file) << kScene;
   StudyRun run({.scene = file.string(), .sets = {std::string("dynamics/engine=") + GetParam()}, .duration = 2});
   double fall_speed = 0, height = 0, slide = 0;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.objects == nullptr) return;
     if (sample.objects->time_end < 0.4 + 1e-9) fall_speed = -sample.objects->bodies[1].v_WB.z();
     height = sample.objects->bodies[1].X_WB_end.p.z();

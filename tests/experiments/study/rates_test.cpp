@@ -17,7 +17,7 @@ struct Grasp {
 Grasp graspOf(const std::string& scene, const std::vector<std::string>& sets) {
   StudyRun run({.scene = std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene + ".xml", .sets = sets});
   Grasp grasp;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.time > 2.5 && sample.tick.time < 7) grasp.held_status |= sample.command.status;
   });
   run.run();

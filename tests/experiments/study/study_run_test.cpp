@@ -17,7 +17,7 @@ TEST(StudyRun, EndsWithTheScriptAndGivesTheSameBitsTwice) {
     StudyRun run({.scene = kCube, .sets = {"body/cube/physics/mass=0.1"}});
     double last = -1;
     std::uint64_t ticks = 0;
-    run.observe([&](const StudySample& sample) {
+    run.observe([&](const HapticSample& sample) {
       last = sample.tick.time;
       ++ticks;
     });
@@ -41,7 +41,7 @@ TEST(StudyRun, APrescribedFingerFeelsTheSpringOfTheSurface) {
   }
   StudyRun run({.scene = kCube, .duration = 1}, std::move(devices));
   double force = 0;
-  run.observe([&](const StudySample& sample) { force = sample.command.f_H_W[0].z(); });
+  run.observe([&](const HapticSample& sample) { force = sample.command.f_H_W[0].z(); });
   run.run();
   EXPECT_NEAR(force, 2000 * 0.002, 1e-9);
 }
@@ -55,7 +55,7 @@ TEST(StudyRun, AStalledGroupCatchesUpAndALongStallIsGivenUp) {
       return group == RateGroup::kDynamics && time >= 1 && time < 1 + stall;
     });
     double oldest = 0, end = 0;
-    run.observe([&](const StudySample& sample) {
+    run.observe([&](const HapticSample& sample) {
       oldest = std::max(oldest, sample.tick.time - sample.objects->time_end);
       end = sample.objects->time_end;
     });

@@ -134,7 +134,7 @@ TEST(BusSettings, OfTheCommandLineGoBeforeTheRigs) {
   RunOptions options;
   const auto planned = [&] {
     Diagnostics diagnostics;
-    const Plan plan = makePlan(scene, rig, options, diagnostics);
+    const Plan plan = makePlan(scene, rig, bindDevices(scene, rig, diagnostics), options, diagnostics);
     for (const PlannedModule& module : plan.modules) {
       if (module.plugin == "bus_dds") return module.reason;
     }

@@ -11,8 +11,7 @@
 #include "framework/bus/publisher.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/core/schedule/rates.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 #include "tests/framework/bus/troubled_post.h"
 
 namespace presa::bus {
@@ -113,7 +112,9 @@ TEST(CommandDesk, ActsOnce) {
 TEST(CommandDesk, OneForgedNumberLocksNoParameter) {
   for (const bool before : {true, false}) {  // the true sender's first command comes before the forged one, or after
     Desk d;
-    if (before) EXPECT_EQ(d.say({kRun, 7, 1, kStiffness, 500}).verdict, Verdict::kAccepted);
+    if (before) {
+      EXPECT_EQ(d.say({kRun, 7, 1, kStiffness, 500}).verdict, Verdict::kAccepted);
+    }
     for (const std::uint64_t forged : {~std::uint64_t{0}, std::uint64_t{1} << 62U, std::uint64_t{5000}})
       EXPECT_EQ(d.say({kRun, 7, forged, kStiffness, 1}).verdict, Verdict::kOutOfOrder) << forged;
     EXPECT_EQ(d.say({kRun, 7, 2, kStiffness, 600}).verdict, Verdict::kAccepted);
@@ -244,20 +245,19 @@ Ran runCube(bool commands, LocalBus& bus, std::function<void(std::uint64_t)> at_
   options.duration = 4;
   options.bus = BusSettings{.network = "none"};
   options.bus_commands = commands;
-  const Loaded loaded = loadWorld({kCube, {}, {}}, options, diagnostics);
+  Loaded loaded = loadWorld({kCube, {}, {}}, options, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
   RunControl control;
   Session::Options session_options;
   session_options.more.push_back(std::make_unique<Publisher>(
-      loaded.world, [&] { return bus.writer(); }, [&] { return bus.post(); }));
+      loaded.world, loaded.options, [&] { return bus.writer(); }, [&] { return bus.post(); }));
   auto watch = std::make_unique<Watch>(std::move(at_tick));
   Watch& seen = *watch;
   session_options.more.push_back(std::move(watch));
-  Session session(loaded.world, loaded.plan, control, std::move(session_options));
-  LockstepExecutor executor(session.graph(), RateTable(loaded.world->scene.rates), control);
-  executor.run(options.duration);
-  Ran ran{seen.forces, session.monitor().hash(), seen.stiffness};
-  for (const Connection& connection : session.graph().connections())
+  Run run(std::move(loaded), control, std::move(session_options));
+  run.execute();
+  Ran ran{seen.forces, run.monitor().hash(), seen.stiffness};
+  for (const Connection& connection : run.session().graph().connections())
     ran.has_port = ran.has_port || connection.to->name() == "surface_settings";
   return ran;
 }

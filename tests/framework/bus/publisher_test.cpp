@@ -26,7 +26,7 @@ StudySpec cube() {
 
 StudyRun::MakeModule publisherOf(LocalBus& bus) {
   return [&bus](const std::shared_ptr<const World>& world) {
-    return std::make_unique<Publisher>(world, [&bus] { return bus.writer(); });
+    return std::make_unique<Publisher>(world, RunOptions{}, [&bus] { return bus.writer(); });
   };
 }
 
@@ -45,7 +45,7 @@ TEST(Publisher, LeavesEveryBitOfTheRunAsItWas) {
   std::unique_ptr<Reader> comes_and_goes;
   RemotePicture picture(run.world());
   int came = 0;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.index % 150 == 0) {
       comes_and_goes = bus.reader();
       ++came;
@@ -71,7 +71,7 @@ TEST(Publisher, CarriesTheStatesOfTheRun) {
   ContactExchange contact;
   ForceCommand command;
   double time = -1;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     // published after this tick, so the current picture is that of five ticks ago
     if (sample.tick.index % 5 == 4) {
       reader->take(picture);
@@ -112,7 +112,7 @@ TEST(Publisher, GivesTheStaticPartToWhoComesLate) {
   LocalBus bus;
   StudyRun run(cube(), {}, publisherOf(bus));
   std::unique_ptr<Reader> late;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.index == 1500) late = bus.reader();
   });
   run.run();
@@ -128,15 +128,15 @@ TEST(Publisher, GivesTheStaticPartToWhoComesLate) {
 TEST(Publisher, CostsTheHapticGroupNoAllocationAndNoLock) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorld({kCube, "", {}}, {}, diagnostics);
+  Loaded loaded = loadWorld({kCube, "", {}}, {}, diagnostics);
   ASSERT_FALSE(diagnostics.hasErrors());
   LocalBus bus;
   const auto never_takes = bus.reader();
   RunControl control;
   Session::Options options;
-  options.more.push_back(std::make_unique<Publisher>(loaded.world, [&] { return bus.writer(); }));
-  Session session(loaded.world, loaded.plan, control, std::move(options));
+  options.more.push_back(std::make_unique<Publisher>(loaded.world, loaded.options, [&] { return bus.writer(); }));
   const RateTable rates(loaded.world->scene.rates);
+  Session session(std::move(loaded), control, std::move(options));
   constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kHaptic, RateGroup::kBus};
   for (const RateGroup group : kGroups) session.graph().start(group);
   int violations = 0, elsewhere = 0;

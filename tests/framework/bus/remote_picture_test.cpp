@@ -24,7 +24,7 @@ World worldOf(const std::string& size = "0.1") {
     <body name="a"><physics mass="1"><sphere radius="0.1"/></physics></body>
     <devices><device role="thumb"/></devices></scene>)";
   Scene scene = parseScene(xml, "test", ".", {}, diagnostics);
-  World world = buildWorld(std::move(scene), {}, {}, diagnostics);
+  World world = buildWorld(std::move(scene), {}, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
   return world;
 }

@@ -165,7 +165,7 @@ class AnyFiles {
     reached.refused += findings.hasErrors() ? 1 : 0;
     if (findings.hasErrors()) return {};
     std::vector<std::string> notes;
-    const FingerSafety safety = safetyOf(world, notes, findings).at(0);
+    const FingerSafety safety = safetyOf(world, {}, notes, findings).at(0);
     reached.lowered += findings.all().empty() ? 0 : 1;
     rates = world.scene.rates;
     return safety;

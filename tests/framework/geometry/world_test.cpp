@@ -73,7 +73,7 @@ TEST(BuildWorld, ReadsEachFileOncePerScale) {
   scene.bodies = {body, body};
   scene.bodies[1].haptic->shape = MeshRef{kAmphora, Vec3::Constant(2)};
   Diagnostics diagnostics;
-  const World world = buildWorld(scene, {}, {}, diagnostics);
+  const World world = buildWorld(scene, {}, diagnostics);
   EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
   EXPECT_EQ(world.meshes[0].visual, world.meshes[0].haptic);
   EXPECT_EQ(world.meshes[0].visual, world.meshes[1].visual);
@@ -89,7 +89,7 @@ TEST(BuildWorld, ReportsAMissingMeshOnce) {
   body.haptic = body.physics;
   scene.bodies = {body};
   Diagnostics diagnostics;
-  buildWorld(scene, {}, {}, diagnostics);
+  buildWorld(scene, {}, diagnostics);
   EXPECT_EQ(diagnostics.errorCount(), 1u) << diagnostics.text();
 }
 

@@ -94,8 +94,8 @@ TEST(Streams, ClosedStandardErrorIsNoRecording) {
 
 TEST(FullDisk, OfStandardOutputIsAnError) {
   const Bench bench;
-  for (const std::string command : {"check " + kCube, "check --format json " + kCube, "explain " + kCube,
-                                    "experiment dry-run " + kLift, "experiment dry-run --format json " + kLift}) {
+  for (const std::string& command : {"check " + kCube, "check --format json " + kCube, "explain " + kCube,
+                                     "experiment dry-run " + kLift, "experiment dry-run --format json " + kLift}) {
     const Outcome outcome = bench.presa(command + " > /dev/full");
     EXPECT_EQ(outcome.status, 1) << command;
     EXPECT_NE(outcome.text.find("standard output could not be written: No space left on device"), std::string::npos)

@@ -21,7 +21,7 @@ constexpr std::uint64_t kTicks = 2500;  // three blocks
 class Believed : public testing::Test {
  protected:
   void SetUp() override {
-    RecordedRun run(recordedWorld(file_, false));
+    RecordedRun run(recordedSetup(file_, false));
     run.step(kTicks);
     run.recorder->finish();
   }

@@ -14,10 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 
-std::shared_ptr<World> flownWorld(const std::string& flight) {
-  auto world = recordedWorld("", false);
-  world->options.flight = flight;
-  return world;
+RecordedSetup flownSetup(const std::string& flight) {
+  auto setup = recordedSetup("", false);
+  setup.options.flight = flight;
+  return setup;
 }
 
 /// Waits until the writer has created the file, at most five seconds.
@@ -33,7 +33,7 @@ class Flight : public testing::Test {
 };
 
 TEST_F(Flight, WithoutAFaultNothingIsWritten) {
-  RecordedRun run(flownWorld(file_));
+  RecordedRun run(flownSetup(file_));
   run.step(3000);
   run.recorder->finish();
   EXPECT_THAT(run.recorder->files(), ElementsAre());
@@ -41,7 +41,7 @@ TEST_F(Flight, WithoutAFaultNothingIsWritten) {
 }
 
 TEST_F(Flight, AFaultWritesTwoSecondsBeforeItAndHalfASecondAfter) {
-  RecordedRun run(flownWorld(file_));
+  RecordedRun run(flownSetup(file_));
   run.step(3000);
   run.recorder->fault(3.0, "thumb: its device is gone");
   ASSERT_TRUE(appears(file_));
@@ -64,7 +64,7 @@ TEST_F(Flight, AFaultWritesTwoSecondsBeforeItAndHalfASecondAfter) {
 }
 
 TEST_F(Flight, AnEarlyFaultHasWhatThereIs) {
-  RecordedRun run(flownWorld(file_));
+  RecordedRun run(flownSetup(file_));
   run.step(700);
   run.recorder->fault(0.7, "one");
   ASSERT_TRUE(appears(file_));
@@ -76,7 +76,7 @@ TEST_F(Flight, AnEarlyFaultHasWhatThereIs) {
 }
 
 TEST_F(Flight, FaultsInARowShareAFileALaterOneGetsItsOwn) {
-  RecordedRun run(flownWorld(file_));
+  RecordedRun run(flownSetup(file_));
   run.step(1000);
   run.recorder->fault(1.0, "one");
   run.recorder->fault(1.0, "two");
@@ -92,9 +92,9 @@ TEST_F(Flight, FaultsInARowShareAFileALaterOneGetsItsOwn) {
 }
 
 TEST_F(Flight, NeverReplacesAFile) {
-  { RecordedRun(recordedWorld(file_, false)).step(10); }
+  { RecordedRun(recordedSetup(file_, false)).step(10); }
   const auto size = fs::file_size(file_);
-  RecordedRun run(flownWorld(file_));
+  RecordedRun run(flownSetup(file_));
   run.step(100);
   run.recorder->fault(0.1, "one");
   ASSERT_TRUE(appears(second_));
@@ -104,7 +104,8 @@ TEST_F(Flight, NeverReplacesAFile) {
 
 TEST_F(Flight, AFolderThatIsNotThereIsSaidAtTheStart) {
   try {
-    FileRecorder recorder(flownWorld(folder_.file("none/flight.h5")));
+    const RecordedSetup setup = flownSetup(folder_.file("none/flight.h5"));
+    FileRecorder recorder(setup.world, setup.options);
     FAIL() << "it started";
   } catch (const InputError& error) {
     EXPECT_EQ(error.diagnostics().all().front().code, 602);

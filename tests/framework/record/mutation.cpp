@@ -232,11 +232,12 @@ void writeSpecimen(const std::string& file, std::uint64_t ticks) {
   world.scene.devices[0].role = "thumb";
   world.scene.devices[1].role = "index";
   world.scene.resolved_xml = "<scene/>";
-  world.options.seed = 7;
-  world.options.record = file;
-  world.options.overwrite = true;
+  RunOptions options;
+  options.seed = 7;
+  options.record = file;
+  options.overwrite = true;
   const h5::Library library;
-  RecordingFile out(world);
+  RecordingFile out(world, options);
   out.nameInputs({{{"contact_patches", "object_state"}, {}, {"contact_exchange"}, {}}});
   std::vector<std::uint64_t> words(out.layout().words());
   auto* const row = reinterpret_cast<std::byte*>(words.data());

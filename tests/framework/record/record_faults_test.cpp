@@ -81,7 +81,7 @@ std::string bytesOf(const std::string& file) {
 void writeBytes(const std::string& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
 
 void recordTicks(const std::string& file, std::uint64_t ticks) {
-  RecordedRun run(recordedWorld(file, false));
+  RecordedRun run(recordedSetup(file, false));
   run.step(ticks);
   run.recorder->finish();
 }
@@ -98,7 +98,7 @@ TEST(KilledRun, IsReadableUpToItsLastFlush) {
       settings.look_every = std::chrono::milliseconds(0);
       settings.flush_every = std::chrono::milliseconds(0);
       settings.after_flush = [&](std::uint64_t ticks) { send(to_parent, ticks); };
-      RecordedRun run(recordedWorld(file, false), settings);
+      RecordedRun run(recordedSetup(file, false), settings);
       run.step(1'000'000);
     });
     std::uint64_t flushed = 0;
@@ -119,7 +119,7 @@ TEST(KilledRun, IsReadableUpToItsLastFlush) {
 void recordUntilFull(const std::string& file, int to_parent) {
   WriterSettings settings;
   settings.flush_every = std::chrono::milliseconds(0);
-  RecordedRun run(recordedWorld(file, false), settings);
+  RecordedRun run(recordedSetup(file, false), settings);
   run.step(30'000);  // about 25 MB
   run.recorder->finish();
   const RecorderStatus status = run.recorder->status();
@@ -186,12 +186,12 @@ TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
   recordTicks(file, 10);
-  const auto world = recordedWorld(file, false);
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(world); }), 601);
+  auto setup = recordedSetup(file, false);
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, setup.options); }), 601);
   EXPECT_EQ(readRecording(file).time.size(), 10u);
-  world->options.overwrite = true;
+  setup.options.overwrite = true;
   {
-    RecordedRun run(world);
+    RecordedRun run(setup);
     run.step(20);
     run.recorder->finish();
   }
@@ -201,21 +201,22 @@ TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
 // Every refusal gives its reason before the run starts.
 TEST(Recorder, RefusesWhatCannotBeWritten) {
   const ScratchFolder folder;
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(recordedWorld(folder.file("none/run.h5"), false)); }), 602);
-  const auto world = recordedWorld(folder.path().string(), false);
-  world->options.overwrite = true;
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(world); }), 602);
+  const auto nowhere = recordedSetup(folder.file("none/run.h5"), false);
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(nowhere.world, nowhere.options); }), 602);
+  auto setup = recordedSetup(folder.path().string(), false);
+  setup.options.overwrite = true;
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, setup.options); }), 602);
 }
 
 // While a run writes a file, no reader and no other run may open it.
 TEST(Recorder, KeepsOthersAwayWhileItWrites) {
   const ScratchFolder folder;
-  const auto world = recordedWorld(folder.file("run.h5"), true);
-  RecordedRun run(world);
+  auto setup = recordedSetup(folder.file("run.h5"), true);
+  RecordedRun run(setup);
   EXPECT_EQ(readCode(folder.file("run.h5")), 603);
-  auto second = std::make_shared<World>(*world);
-  second->options.overwrite = true;
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(second); }), 602);
+  RunOptions second = setup.options;
+  second.overwrite = true;
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, second); }), 602);
   run.step(5);
   run.recorder->finish();
   EXPECT_EQ(readRecording(folder.file("run.h5")).time.size(), 5u);

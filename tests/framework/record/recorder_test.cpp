@@ -16,7 +16,7 @@ namespace {
 TEST(Recording, RestoresEveryBitOfInputsForcesAndSchedule) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
-  RecordedRun run(recordedWorld(file, false));
+  RecordedRun run(recordedSetup(file, false));
   run.step(5000);  // several blocks, the last one not full
   run.recorder->finish();
 
@@ -31,16 +31,16 @@ TEST(Recording, RestoresEveryBitOfInputsForcesAndSchedule) {
 TEST(Recording, CarriesSceneRigSeedAndMode) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
-  const auto world = recordedWorld(file, true);
-  RecordedRun run(world);
+  auto setup = recordedSetup(file, true);
+  RecordedRun run(setup);
   run.step(10);
   run.recorder->finish();
 
   const Recording recording = readRecording(file);
-  EXPECT_EQ(recording.scene_xml, world->scene.resolved_xml);
+  EXPECT_EQ(recording.scene_xml, setup.world->scene.resolved_xml);
   EXPECT_EQ(recording.rig_xml, "<rig/>");
   EXPECT_EQ(recording.scene_file, "scenes/cube.xml");
-  EXPECT_EQ(recording.seed, world->options.seed);
+  EXPECT_EQ(recording.seed, setup.options.seed);
   EXPECT_TRUE(recording.realtime);
   EXPECT_TRUE(recording.complete);
   EXPECT_EQ(recording.dropped, 0u);
@@ -59,7 +59,7 @@ TEST(Recorder, LosesNothingInLockstepWhenTheDiskIsBehind) {
     while (recorder == nullptr) std::this_thread::yield();
     while (recorder.load()->status().rows < recorder.load()->capacity()) std::this_thread::yield();
   };
-  RecordedRun run(recordedWorld(file, false), settings);
+  RecordedRun run(recordedSetup(file, false), settings);
   recorder = run.recorder;
   const std::uint64_t ticks = 5 * run.recorder->capacity() + 17;
   run.step(ticks);
@@ -83,7 +83,7 @@ TEST(Recorder, DropsAndCountsInRealTimeWhenTheRingIsFull) {
     go.acquire();
     go.release();
   };
-  RecordedRun run(recordedWorld(file, true), settings);
+  RecordedRun run(recordedSetup(file, true), settings);
   const std::size_t capacity = run.recorder->capacity();
   EXPECT_EQ(capacity, 4000u);  // 4 s at 1 kHz
   run.step(capacity + 37);
@@ -107,7 +107,7 @@ TEST(Recorder, StepNeitherAllocatesNorLocksNorCallsTheSystem) {
     go.acquire();
     go.release();
   };
-  RecordedRun run(recordedWorld(folder.file("run.h5"), true), settings);
+  RecordedRun run(recordedSetup(folder.file("run.h5"), true), settings);
   if (!RealTimeGuard::active()) {
     go.release();
     GTEST_SKIP() << "the sanitizers own these functions";
@@ -128,7 +128,7 @@ TEST(Recorder, LeavesAReadableFileWhenItIsDestroyedWithoutFinish) {
   const ScratchFolder folder;
   const std::string file = folder.file("run.h5");
   {
-    RecordedRun run(recordedWorld(file, true));
+    RecordedRun run(recordedSetup(file, true));
     run.step(300);
   }
   const Recording recording = readRecording(file);
@@ -150,9 +150,9 @@ TEST(ScheduleLog, HoldsFourSecondsOfTheFastestRun) {
 TEST(RecordPlugin, LoadsBesideTheFrameworkAndMakesRecorders) {
   const ScratchFolder folder;
   EXPECT_EQ(recordPlugin().abi, kPluginAbi);
-  const auto world = recordedWorld(folder.file("run.h5"), false);
-  world->scene.devices.clear();  // ports stay unconnected
-  const auto recorder = recordPlugin().create(world);
+  auto setup = recordedSetup(folder.file("run.h5"), false);
+  setup.world->scene.devices.clear();  // ports stay unconnected
+  const auto recorder = recordPlugin().create(setup.world, setup.options);
   EXPECT_EQ(recorder->group(), RateGroup::kHaptic);
   ScheduleLog schedule;
   recorder->attach(schedule);

@@ -74,7 +74,7 @@ void Source::step(const Tick& tick) noexcept {
   contact.value.fingers[0].depth = 0.25;
 }
 
-std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime) {
+RecordedSetup recordedSetup(const std::string& file, bool realtime) {
   auto world = std::make_shared<World>();
   Scene& scene = world->scene;
   scene.name = "cube";
@@ -88,10 +88,11 @@ std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime) {
   scene.devices[0].role = "thumb";  // not in alphabetical order
   scene.devices[1].role = "index";
   world->rig.resolved_xml = "<rig/>";
-  world->options.realtime = realtime;
-  world->options.seed = 0xFEDCBA9876543210ull;
-  world->options.record = file;
-  return world;
+  RunOptions options;
+  options.realtime = realtime;
+  options.seed = 0xFEDCBA9876543210ull;
+  options.record = file;
+  return {std::move(world), std::move(options)};
 }
 
 ScheduleInputs inputsOfAll() {
@@ -103,11 +104,11 @@ ScheduleInputs inputsOfAll() {
   return inputs;
 }
 
-RecordedRun::RecordedRun(std::shared_ptr<const World> world, WriterSettings settings)
-    : rates(world->scene.rates), recorder(nullptr), graph([&] {
+RecordedRun::RecordedRun(const RecordedSetup& setup, WriterSettings settings)
+    : rates(setup.world->scene.rates), recorder(nullptr), graph([&] {
         GraphBuilder builder;
         builder.add(std::make_unique<Source>());
-        recorder = &builder.add(std::make_unique<FileRecorder>(std::move(world), std::move(settings)));
+        recorder = &builder.add(std::make_unique<FileRecorder>(setup.world, setup.options, std::move(settings)));
         schedule.inputs = inputsOfAll();
         recorder->attach(schedule);
         builder.connectByName();

@@ -45,14 +45,18 @@ class Source final : public Module {
 };
 
 /// Two fingers, a fixed table and a free cube.
-std::shared_ptr<World> recordedWorld(const std::string& file, bool realtime);
+struct RecordedSetup {
+  std::shared_ptr<World> world;
+  RunOptions options;
+};
+RecordedSetup recordedSetup(const std::string& file, bool realtime);
 
 /// Names of the inputs of a RecordedRun's schedule: one for every version column.
 ScheduleInputs inputsOfAll();
 
 /// A recorder connected to a Source in one graph.
 struct RecordedRun {
-  explicit RecordedRun(std::shared_ptr<const World> world, WriterSettings settings = {});
+  explicit RecordedRun(const RecordedSetup& setup, WriterSettings settings = {});
   ~RecordedRun();
   void step(std::uint64_t ticks);
 

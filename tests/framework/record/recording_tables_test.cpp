@@ -42,7 +42,7 @@ class RecordingTables : public testing::Test {
  protected:
   void SetUp() override {
     if (outputOf("h5dump --version").empty()) GTEST_SKIP() << "h5dump (hdf5-tools) is not installed";
-    RecordedRun run(recordedWorld(folder_.file("run.h5"), false));
+    RecordedRun run(recordedSetup(folder_.file("run.h5"), false));
     run.step(20);
     run.recorder->finish();
   }
@@ -95,7 +95,7 @@ TEST_F(RecordingTables, ComeBackByColumn) {
   ASSERT_EQ(samples.bodies.size(), 1U);
   EXPECT_TRUE(samples.complete);
   for (std::size_t f = 0; f < 2; ++f) {
-    EXPECT_EQ(samples.fingers[f].name, recordedWorld("", false)->scene.devices[f].role);
+    EXPECT_EQ(samples.fingers[f].name, recordedSetup("", false).world->scene.devices[f].role);
     const auto& x = samples.fingers[f].values("p_WH_x");
     const auto& force_z = samples.fingers[f].values("f_command_W_z");
     for (std::size_t i = 0; i < 20; ++i) {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "apps/common/report/recording_page.h"
-#include "apps/common/run_session.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/common/terminal_run.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/replay.h"
 
@@ -17,8 +17,8 @@ class Belief : public testing::Test {
     RunOptions options;
     options.duration = 1;
     options.record = folder_.file("run.h5");
-    const Loaded loaded = loadWorld({PRESA_SOURCE_DIR "/config/scenes/cube.xml", "", {}}, options, diagnostics);
-    presa::Run(loaded, presa::Run::Settings{.trace_rate = 0, .quiet = true, .command = ""}).execute();
+    Loaded loaded = loadWorld({PRESA_SOURCE_DIR "/config/scenes/cube.xml", "", {}}, options, diagnostics);
+    TerminalRun(std::move(loaded), TerminalRun::Settings{.trace_rate = 0, .quiet = true, .command = ""}).execute();
     recording_ = recordPlugin().read(options.record);
   }
   /// Codes of the findings that prevent a replay.

@@ -6,11 +6,10 @@
 
 #include "apps/common/scratch_folder.h"
 #include "framework/core/graph/port.h"
-#include "framework/core/schedule/executor.h"
 #include "framework/core/state/surface_change.h"
 #include "framework/record/record_plugin.h"
-#include "framework/session/load_world.h"
 #include "framework/session/replay.h"
+#include "framework/session/run.h"
 
 namespace presa {
 namespace {
@@ -42,16 +41,13 @@ class RecordedInputs : public testing::Test {
     Diagnostics diagnostics;
     RunOptions options;
     options.record = file_;
-    const Loaded loaded = loadWorld({PRESA_SOURCE_DIR "/config/scenes/cube.xml", "", sets}, options, diagnostics);
+    options.duration = kDuration;
+    Loaded loaded = loadWorld({PRESA_SOURCE_DIR "/config/scenes/cube.xml", "", sets}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     RunControl control;
     Session::Options session_options;
     session_options.more = std::move(more);
-    Session session(loaded.world, loaded.plan, control, std::move(session_options));
-    LockstepExecutor executor(session.graph(), RateTable(loaded.world->scene.rates), control);
-    executor.recordTo(session.schedule());
-    executor.run(kDuration);
-    session.recorder()->finish();
+    presa::Run(std::move(loaded), control, std::move(session_options)).execute();
     return recordPlugin().read(file_);
   }
   Recording recordWithBrake() {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "apps/common/run_session.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/common/terminal_run.h"
 #include "devices/replay/recorded_path.h"
 #include "framework/device/device_modules.h"
 #include "framework/record/record_plugin.h"
@@ -19,16 +19,16 @@ const std::string kScene = PRESA_SOURCE_DIR "/config/scenes/cube.xml";
 class Replay : public testing::Test {
  protected:
   /// Runs the cube, recorded as `name`; returns the result's faults.
-  std::unique_ptr<presa::Run> run(const std::string& rig, const std::string& name,
-                                  const std::vector<std::string>& sets = {}) {
+  std::unique_ptr<TerminalRun> run(const std::string& rig, const std::string& name,
+                                   const std::vector<std::string>& sets = {}) {
     Diagnostics diagnostics;
     RunOptions options;
     options.duration = 0;
     options.record = file(name);
-    const Loaded loaded = loadWorld({kScene, rig, sets}, options, diagnostics);
+    Loaded loaded = loadWorld({kScene, rig, sets}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
-    auto done =
-        std::make_unique<presa::Run>(loaded, presa::Run::Settings{.trace_rate = 0, .quiet = true, .command = ""});
+    auto done = std::make_unique<TerminalRun>(std::move(loaded),
+                                              TerminalRun::Settings{.trace_rate = 0, .quiet = true, .command = ""});
     done->execute();
     return done;
   }
@@ -114,7 +114,7 @@ TEST_F(Replay, AtTheEndAFingerStaysOrIsLost) {
     Diagnostics diagnostics;
     const Loaded loaded = loadWorld({kScene, rig(end, end), {}}, {}, diagnostics);
     ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
-    const DeviceList fingers = createDevices(*loaded.world, loaded.plan, diagnostics);
+    const DeviceList& fingers = loaded.devices;
     const double over = fingers[0]->phaseTimes().back();
     const auto at = [&](double time) {
       return fingers[0]->read({static_cast<std::uint64_t>(std::lround(time * 1000)), time, 1e-3});

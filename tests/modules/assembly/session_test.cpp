@@ -3,8 +3,7 @@
 
 #include "framework/assembly/assembly_state.h"
 #include "framework/core/schedule/executor.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 
 namespace presa {
 namespace {
@@ -43,7 +42,7 @@ std::string scene(const std::string& lid_pose, const std::string& box_pose, cons
 struct Ended {
   explicit Ended(const std::string& text, double seconds) {
     Diagnostics diagnostics;
-    const Loaded loaded = loadWorldFromText(text, "lid.xml", "", {}, diagnostics);
+    Loaded loaded = loadWorldFromText({text, "lid.xml", ""}, {.duration = seconds}, diagnostics);
     EXPECT_FALSE(diagnostics.hasErrors());
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     RunControl control;
@@ -51,8 +50,8 @@ struct Ended {
     auto made = std::make_unique<Probe>();
     Probe& probe = *made;
     options.more.push_back(std::move(made));
-    Session session(loaded.world, loaded.plan, control, std::move(options));
-    makeExecutor(false, session.graph(), RateTable(loaded.world->scene.rates), control)->run(seconds);
+    Run run(std::move(loaded), control, std::move(options));
+    run.execute();
     objects = probe.objects;
     assembly = probe.assembly;
   }
@@ -117,7 +116,7 @@ std::string findingsOf(const std::string& assembly) {
   std::string text = scene(kLidNear, kBoxNear);
   const auto begin = text.find("<assembly>"), end = text.find("</scene>");
   text.replace(begin, end - begin, assembly);
-  loadWorldFromText(text, "lid.xml", "", {}, diagnostics);
+  loadWorldFromText({text, "lid.xml", ""}, {}, diagnostics);
   std::string codes;
   for (const Diagnostic& finding : diagnostics.all()) codes += std::to_string(finding.code) + " ";
   return codes;

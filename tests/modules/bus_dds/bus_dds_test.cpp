@@ -26,7 +26,7 @@ StudySpec cube(double duration) {
 
 StudyRun::MakeModule publisherOn(const BusSettings& bus) {
   return [bus](const std::shared_ptr<const World>& world) {
-    return std::make_unique<Publisher>(world, [bus] { return openWriter(bus); });
+    return std::make_unique<Publisher>(world, RunOptions{}, [bus] { return openWriter(bus); });
   };
 }
 
@@ -150,7 +150,7 @@ TEST(BusDds, ViewersMayBeKilledAndRestarted) {
   StudyRun run(cube(2.1), {}, publisherOn(bus));
   std::unique_ptr<ViewerProcess> viewer, stopped;
   int joined = 0;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.index == 0) {
       stopped = std::make_unique<ViewerProcess>(std::vector<std::string>{"bus", "listen", "--for", "600"}, bus);
       EXPECT_TRUE(stopped->says("joined"));
@@ -171,7 +171,7 @@ TEST(BusDds, ReachesAnotherProcess) {
   const BusSettings bus = ownDomain();
   StudyRun run(cube(2), {}, publisherOn(bus));
   std::unique_ptr<ViewerProcess> viewer;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.index == 100) {
       viewer = std::make_unique<ViewerProcess>(std::vector<std::string>{"bus", "listen", "--json", "--for", "60"}, bus);
       EXPECT_TRUE(viewer->says("joined"));
@@ -204,7 +204,7 @@ TEST(BusDds, DrawsARunElsewhere) {
   }
   StudyRun run(cube(1), {}, publisherOn(bus));
   std::unique_ptr<ViewerProcess> viewer, wrong;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.index != 100) return;
     viewer = std::make_unique<ViewerProcess>(
         std::vector<std::string>{"view", "--join", "--view", "offscreen", "--screenshot", picture}, bus);

@@ -144,7 +144,7 @@ TEST(Methods, ModuleObeysTheScene) {
                        .world();
     world.scene.bodies[0].w_WB = {5, 5, 5};
     world.scene.dynamics.rotation = rotation;
-    DynamicsModule module(std::make_shared<World>(world));
+    DynamicsModule module(std::make_shared<World>(world), 1);
     module.start();
     for (std::uint64_t n = 0; n < 20; ++n) module.step({n, static_cast<double>(n) * kStep, kStep});
     const Vec3 w_WB = static_cast<const Out<ObjectState>&>(*module.outputs().at(0)).value.bodies[0].w_WB;

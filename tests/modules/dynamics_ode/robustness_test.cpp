@@ -162,7 +162,7 @@ TEST(Faults, DirectSolverInTroubleFallsBack) {
 TEST(Module, PublishesTheStateOfItsWorld) {
   const auto world = WorldMaker().table().box(kCube, 0.1, {{0, 0, 0.3}, Quat::Identity()}).world();
   GraphBuilder builder;
-  auto& module = builder.add(std::make_unique<DynamicsModule>(world));
+  auto& module = builder.add(std::make_unique<DynamicsModule>(world, 1));
   const Graph graph = builder.build();
   const auto& out = static_cast<const Out<ObjectState>&>(*module.outputs().at(0));
   module.start();

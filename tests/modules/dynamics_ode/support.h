@@ -55,7 +55,7 @@ class WorldMaker {
     body.material = world_.scene.materials.size() - 1;
     body.physics = Geometry{shape, X_BG, {}};
     world_.scene.bodies.push_back(body);
-    world_.meshes.push_back({mesh, mesh, mesh});
+    world_.meshes.push_back({mesh, mesh, mesh, nullptr});
     world_.inertias.push_back(inertia);
     return *this;
   }

@@ -20,13 +20,14 @@ using testing::Not;
 constexpr double kR = 0.008, kStiffness = 1000, kHeight = 0.05 + kR, kPeriod = 1e-3;
 constexpr double kSlewLimit = 1000 * kPeriod;  // slew limit of a finger per tick [N] (DeviceLimits)
 
+const RunOptions kTakesCommands{.bus_commands = true};
+
 /// A box of 1000 N/m with friction; slots: stiffness, static, dynamic.
 World openBox(double mu_static = 0.8, double mu_dynamic = 0.8) {
   World world = test::worldOf(Box{{0.1, 0.1, 0.1}});
   world.scene.materials[0].name = "rubber";
   world.scene.materials[0].friction_static = mu_static;
   world.scene.materials[0].friction_dynamic = mu_dynamic;
-  world.options.bus_commands = true;
   return world;
 }
 
@@ -37,8 +38,7 @@ void set(OneFinger& finger, std::size_t slot, double value) {
 
 TEST(CommandedSurfaces, AreThereOnlyWhereTheRunTakesCommands) {
   World world = openBox();
-  EXPECT_THAT(OneFinger(world).stages(), Contains(HasSubstr("what commands have set")));
-  world.options.bus_commands = false;
+  EXPECT_THAT(OneFinger(world, kTakesCommands).stages(), Contains(HasSubstr("what commands have set")));
   EXPECT_THAT(OneFinger(world).stages(), Not(Contains(HasSubstr("what commands have set"))));
   OneFinger closed(world);
   set(closed, 0, 100);  // without effect
@@ -51,8 +51,7 @@ TEST(CommandedSurfaces, AreThereOnlyWhereTheRunTakesCommands) {
 TEST(CommandedSurfaces, LeaveEveryBitWhereNothingIsSet) {
   World world = openBox(0.8, 0.6);
   world.scene.materials[0].damping = 1;
-  OneFinger open(world), same(world);
-  world.options.bus_commands = false;
+  OneFinger open(world, kTakesCommands), same(world, kTakesCommands);
   OneFinger closed(world);
   int touched = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -72,7 +71,7 @@ TEST(CommandedSurfaces, LeaveEveryBitWhereNothingIsSet) {
 // Under a still finger k(t) = k1 + (k0 - k1) exp(-t / tau): the force is k depth, changes per tick by at most F period
 // / tau, here 1/100 of the slew limit, and the energy of the spring changes as slowly. Down and up again.
 TEST(CommandedSurfaces, ChangeStiffnessWithoutAStep) {
-  OneFinger finger(openBox());
+  OneFinger finger(openBox(), kTakesCommands);
   const double depth = 0.002, tau = CommandedSurfaces::kTimeConstant;
   finger.tick({0, 0, kHeight + 0.001});
   double last = finger.tick({0, 0, kHeight - depth}).normal_force;
@@ -100,7 +99,7 @@ TEST(CommandedSurfaces, ChangeStiffnessWithoutAStep) {
 // A slipping finger feels mu(t) N; a finger sticking well within both cones feels nothing. Static friction is never
 // below dynamic, in whichever order they are commanded.
 TEST(CommandedSurfaces, ChangeFrictionWithoutAStep) {
-  OneFinger slipping(openBox(0.8, 0.8)), sticking(openBox(0.8, 0.8));
+  OneFinger slipping(openBox(0.8, 0.8), kTakesCommands), sticking(openBox(0.8, 0.8), kTakesCommands);
   const double depth = 0.002, normal = kStiffness * depth, tau = CommandedSurfaces::kTimeConstant;
   for (OneFinger* finger : {&slipping, &sticking}) {
     finger->tick({0, 0, kHeight + 0.001});
@@ -130,7 +129,7 @@ TEST(CommandedSurfaces, ChangeFrictionWithoutAStep) {
 
 TEST(CommandedSurfaces, NeitherAllocateNorWait) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
-  OneFinger finger(openBox());
+  OneFinger finger(openBox(), kTakesCommands);
   finger.tick({0, 0, kHeight + 0.001});
   finger.tick({0, 0, kHeight - 0.002});
   const RealTimeGuard guard;

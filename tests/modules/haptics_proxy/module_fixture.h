@@ -23,7 +23,9 @@ struct Sink final : Module {
 /// One finger in a world, rendered by the module in a graph.
 class OneFinger {
  public:
-  explicit OneFinger(World world) : world_(indexed(std::move(world))) { build(effectsOf(*world_)); }
+  explicit OneFinger(World world, const RunOptions& options = {}) : world_(indexed(std::move(world))) {
+    build(effectsOf(*world_, options));
+  }
   OneFinger(World world, const HapticEffects& effects) : world_(indexed(std::move(world))) { build(effects); }
 
   const FingerContact& tick(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero(), double time = 0) {

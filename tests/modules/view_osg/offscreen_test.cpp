@@ -61,8 +61,8 @@ Blob redBlob(const PngPicture& picture) {
 }
 
 /// Runs an off-screen view for one tick and returns the outcome of the picture.
-View::Screenshot drawOnce(const std::shared_ptr<World>& world, const PinchStates& states) {
-  view::ViewModule module(world);
+View::Screenshot drawOnce(const PinchRun& run, const PinchStates& states) {
+  view::ViewModule module(run.world, run.options);
   Feed feed(module);
   module.start();
   feed.publish(states, 0.5);
@@ -81,8 +81,8 @@ class Offscreen : public testing::Test {
 // the cube in its middle and the head-up display.
 TEST_F(Offscreen, PictureHasTheSizeTheCubeAndTheDisplay) {
   const std::string file = tempFile("pinch.png");
-  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
-  const View::Screenshot made = drawOnce(world, makePinchStates(*world, {0, 0, 0.08}));
+  auto run = makePinchRun(RunOptions::View::kOffscreen, file);
+  const View::Screenshot made = drawOnce(run, makePinchStates(*run.world, {0, 0, 0.08}));
   ASSERT_EQ(made.outcome, View::Screenshot::Outcome::kWritten) << made.message;
 
   // PNG: signature, then the IHDR chunk with big-endian width and height
@@ -116,18 +116,18 @@ TEST_F(Offscreen, MovingTheObjectMovesItsPixels) {
   std::array<Blob, 2> blobs;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string file = tempFile("moved_" + std::to_string(i) + ".png");
-    const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
+    auto run = makePinchRun(RunOptions::View::kOffscreen, file);
     // a free anchor of another colour on either side keeps the framing constant
     for (const double x : {-0.15, 0.15}) {
-      Body anchor = world->scene.bodies[1];
+      Body anchor = run.world->scene.bodies[1];
       anchor.material = 0;
       anchor.X_WB.p = {x, 0, kCubeEdge / 2};
-      world->scene.bodies.push_back(anchor);
+      run.world->scene.bodies.push_back(anchor);
     }
-    world->meshes.resize(4);
-    PinchStates states = makePinchStates(*world, {i == 0 ? -0.03 : 0.03, 0, kCubeEdge / 2});
+    run.world->meshes.resize(4);
+    PinchStates states = makePinchStates(*run.world, {i == 0 ? -0.03 : 0.03, 0, kCubeEdge / 2});
     states.device.count = states.contacts.count = 0;
-    ASSERT_EQ(drawOnce(world, states).outcome, View::Screenshot::Outcome::kWritten);
+    ASSERT_EQ(drawOnce(run, states).outcome, View::Screenshot::Outcome::kWritten);
     blobs[i] = redBlob(PngPicture(file));
     ASSERT_GT(blobs[i].pixels, 500);
   }
@@ -137,8 +137,8 @@ TEST_F(Offscreen, MovingTheObjectMovesItsPixels) {
 // Without dynamics (a fixed world, or before the first step) there is no object state: bodies have their start poses.
 TEST_F(Offscreen, WithoutObjectStateBodiesStandAtTheirStart) {
   const std::string file = tempFile("start.png");
-  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
-  view::ViewModule module(world);
+  auto run = makePinchRun(RunOptions::View::kOffscreen, file);
+  view::ViewModule module(run.world, run.options);
   module.start();
   module.step({0, 0, 1.0 / 60});
   module.stop();
@@ -150,12 +150,12 @@ TEST_F(Offscreen, WithoutObjectStateBodiesStandAtTheirStart) {
 // change it.
 TEST_F(Offscreen, PictureIsTakenAtItsTime) {
   const std::string file = tempFile("timed.png");
-  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
-  world->options.screenshot_time = 0.1;
-  view::ViewModule module(world);
+  auto run = makePinchRun(RunOptions::View::kOffscreen, file);
+  run.options.screenshot_time = 0.1;
+  view::ViewModule module(run.world, run.options);
   Feed feed(module);
   module.start();
-  const PinchStates states = makePinchStates(*world, {0, 0, 0.08});
+  const PinchStates states = makePinchStates(*run.world, {0, 0, 0.08});
   for (std::uint64_t i = 0; i < 12; ++i) {
     const double time = static_cast<double>(i) / 60;
     feed.publish(states, time);
@@ -168,15 +168,16 @@ TEST_F(Offscreen, PictureIsTakenAtItsTime) {
 
 // An unwritable path is a user error that is found late: the run must report the reason and not crash.
 TEST_F(Offscreen, UnwritablePathIsReported) {
-  const auto world = makePinchWorld(RunOptions::View::kOffscreen, "/nowhere/at/all/picture.png");
-  const View::Screenshot made = drawOnce(world, makePinchStates(*world, {0, 0, 0.08}));
+  auto run = makePinchRun(RunOptions::View::kOffscreen, "/nowhere/at/all/picture.png");
+  const View::Screenshot made = drawOnce(run, makePinchStates(*run.world, {0, 0, 0.08}));
   EXPECT_EQ(made.outcome, View::Screenshot::Outcome::kFailed);
   EXPECT_NE(made.message.find("/nowhere/at/all/picture.png"), std::string::npos);
 }
 
 // A window without a display is refused before the run starts, with a suggestion.
 TEST_F(Offscreen, WindowWithoutDisplayIsAnInputError) {
-  view::ViewModule module(makePinchWorld(RunOptions::View::kWindow, ""));
+  const PinchRun run = makePinchRun(RunOptions::View::kWindow, "");
+  view::ViewModule module(run.world, run.options);
   try {
     module.start();
     FAIL() << "opened a window without a display";
@@ -200,11 +201,11 @@ int wires(const PngPicture& picture, Strong strong, Weak weak) {
 TEST_F(Offscreen, ShowsWhatIsAskedFor) {
   const auto draw = [](std::vector<std::string> show) {
     const std::string file = tempFile("show.png");
-    auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
-    world->options.show = std::move(show);
-    PinchStates states = makePinchStates(*world, {0, 0, 0.08});
+    auto run = makePinchRun(RunOptions::View::kOffscreen, file);
+    run.options.show = std::move(show);
+    PinchStates states = makePinchStates(*run.world, {0, 0, 0.08});
     states.device.count = states.contacts.count = 0;
-    EXPECT_EQ(drawOnce(world, states).outcome, View::Screenshot::Outcome::kWritten);
+    EXPECT_EQ(drawOnce(run, states).outcome, View::Screenshot::Outcome::kWritten);
     return PngPicture(file);
   };
   const auto blue = [](const PngPicture& p) { return wires(p, &Color::b, &Color::r); };
@@ -214,9 +215,9 @@ TEST_F(Offscreen, ShowsWhatIsAskedFor) {
   EXPECT_GT(redBlob(plain).pixels, 5000);
   EXPECT_GT(wires(physics, &Color::b, &Color::g), 300);
   EXPECT_LT(redBlob(physics).pixels, 1000);
-  auto world = makePinchWorld(RunOptions::View::kOffscreen, "");
-  world->options.show = {"hiptic"};
-  EXPECT_THROW(view::ViewModule module(world), InputError);
+  auto run = makePinchRun(RunOptions::View::kOffscreen, "");
+  run.options.show = {"hiptic"};
+  EXPECT_THROW(view::ViewModule module(run.world, run.options), InputError);
 }
 
 // During the last of five seconds thumb and index press with a constant force each. The larger force is the end of the
@@ -224,14 +225,14 @@ TEST_F(Offscreen, ShowsWhatIsAskedFor) {
 // the rest is empty.
 TEST_F(Offscreen, PlotsTheLastSeconds) {
   const std::string file = tempFile("plots.png");
-  const auto world = makePinchWorld(RunOptions::View::kOffscreen, file);
-  world->options.show = {"plots"};
+  auto run = makePinchRun(RunOptions::View::kOffscreen, file);
+  run.options.show = {"plots"};
   {
-    view::ViewModule module(world);
+    view::ViewModule module(run.world, run.options);
     Feed feed(module);
     module.start();
     for (std::uint64_t i = 0; i <= 60; ++i) {
-      feed.publish(makePinchStates(*world, {0, 0, 0.08}), static_cast<double>(i) / 60);
+      feed.publish(makePinchStates(*run.world, {0, 0, 0.08}), static_cast<double>(i) / 60);
       module.step({i, static_cast<double>(i) / 60, 1.0 / 60});
     }
     module.stop();

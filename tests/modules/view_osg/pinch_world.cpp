@@ -24,7 +24,7 @@ In<T>& port(Module& module, const std::string& name) {
 
 }  // namespace
 
-std::shared_ptr<World> makePinchWorld(RunOptions::View view, const std::string& screenshot) {
+PinchRun makePinchRun(RunOptions::View view, const std::string& screenshot) {
   auto world = std::make_shared<World>();
   Scene& scene = world->scene;
   scene.name = "cube";
@@ -36,9 +36,10 @@ std::shared_ptr<World> makePinchWorld(RunOptions::View view, const std::string& 
   for (const char* role : {"thumb", "index"}) scene.devices.push_back({role, 0.008, {10, 1000, 20}, {}});
   world->meshes.resize(2);
   world->inertias.resize(2);
-  world->options.view = view;
-  world->options.screenshot = screenshot;
-  return world;
+  RunOptions options;
+  options.view = view;
+  options.screenshot = screenshot;
+  return {std::move(world), std::move(options)};
 }
 
 PinchStates makePinchStates(const World& world, const Vec3& p_WO, double yaw) {

@@ -5,6 +5,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 #include "framework/session/view.h"
 
@@ -13,7 +14,11 @@ namespace presa::view_test {
 
 inline constexpr double kCubeEdge = 0.07;  ///< [m]
 
-std::shared_ptr<World> makePinchWorld(RunOptions::View view, const std::string& screenshot);
+struct PinchRun {
+  std::shared_ptr<World> world;
+  RunOptions options;
+};
+PinchRun makePinchRun(RunOptions::View view, const std::string& screenshot);
 
 /// The states that other modules would publish.
 struct PinchStates {

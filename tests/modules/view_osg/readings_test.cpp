@@ -34,14 +34,14 @@ TEST(Readings, GripForceIsWhatTheNormalsCancel) {
 // Fingertips are placed relative to the body as drawn: when the cube has moved and rotated since the contact was
 // computed, the proxy stays one fingertip radius off the touched point, along the rotated normal.
 TEST(Readings, ProxyRidesOnTheBodyAsDrawn) {
-  const auto world = view_test::makePinchWorld(RunOptions::View::kOffscreen, "");
-  const auto states = view_test::makePinchStates(*world, {0, 0, 0.08});
+  auto run = view_test::makePinchRun(RunOptions::View::kOffscreen, "");
+  const auto states = view_test::makePinchStates(*run.world, {0, 0, 0.08});
   ViewFrame frame;
   frame.device = states.device;
   frame.contacts = states.contacts;
   const double turn = std::numbers::pi / 2;
   frame.X_WB = {Pose{}, Pose{{0.1, 0.2, 0.3}, Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()))}};
-  const std::vector<FingerView> fingers = fingerViews(*world, frame);
+  const std::vector<FingerView> fingers = fingerViews(*run.world, frame);
   ASSERT_EQ(fingers.size(), 2U);
   // the thumb is at -x of the cube, which a quarter turn moves to -y
   const Vec3 touched(0.1, 0.2 - view_test::kCubeEdge / 2, 0.304);

@@ -18,13 +18,13 @@ namespace {
 // Opens a real window on the current display; run by the test below under its own X server.
 TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
   const std::string file = testing::TempDir() + "presa_window_" + std::to_string(getpid()) + ".png";
-  const auto world = makePinchWorld(RunOptions::View::kWindow, file);
-  view::ViewModule module(world);
+  auto run = makePinchRun(RunOptions::View::kWindow, file);
+  view::ViewModule module(run.world, run.options);
   Feed feed(module);
   module.start();
   for (std::uint64_t i = 0; i < 5; ++i) {
     const double time = static_cast<double>(i) / 60;
-    feed.publish(makePinchStates(*world, {0, 0, 0.08}), time);
+    feed.publish(makePinchStates(*run.world, {0, 0, 0.08}), time);
     module.step({i, time, 1.0 / 60});
     EXPECT_FALSE(module.wantsStop());
   }
@@ -37,7 +37,7 @@ TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
 /// A window driven through OSG's event queue, like X events. The scene does not move.
 class Driven {
  public:
-  explicit Driven(bool pointer = false) : module_(world_), feed_(module_) {
+  explicit Driven(bool pointer = false) : module_(run_.world, run_.options), feed_(module_) {
     if (pointer) module_.offerPointer({0, 1});
     // a private folder for pictures saved by key
     const std::string folder = testing::TempDir() + "presa_view_" + std::to_string(getpid());
@@ -127,12 +127,12 @@ class Driven {
 
  private:
   osgGA::EventQueue& events() { return *window_->getEventQueue(); }
-  std::string picture() const { return "presa-" + world_->scene.name + "-0.000s.png"; }
+  std::string picture() const { return "presa-" + run_.world->scene.name + "-0.000s.png"; }
 
-  std::shared_ptr<const World> world_ = makePinchWorld(RunOptions::View::kWindow, "");
+  PinchRun run_ = makePinchRun(RunOptions::View::kWindow, "");
   view::ViewModule module_;
   Feed feed_;
-  PinchStates states_ = makePinchStates(*world_, {0, 0, 0.08});
+  PinchStates states_ = makePinchStates(*run_.world, {0, 0, 0.08});
   osgViewer::GraphicsWindow* window_ = nullptr;
 };
 

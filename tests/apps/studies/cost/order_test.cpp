@@ -128,7 +128,7 @@ Ride ride(const std::string& scene_file, double dynamics_rate, const std::string
   EnergyLedger ledger(std::make_shared<const World>(run.world()));
   double squares = 0;
   int count = 0;
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     if (sample.tick.time > 0.3) ledger.observe(sample);  // without the output stage's soft start
     const double time = sample.objects->time_begin;
     if (std::abs(time - sample.tick.time) > 1e-9) return;

@@ -12,12 +12,13 @@ std::shared_ptr<const World> stack() {
   const std::string cube = "<physics mass=\"0.2\"><box size=\"0.1 0.1 0.1\"/></physics></body>";
   Diagnostics diagnostics;
   const Loaded loaded = loadWorldFromText(
-      "<scene version=\"1.0\" name=\"stack\"><world gravity=\"0 0 -9.81\"/>"
-      "<materials><material name=\"m\" stiffness=\"1000\"/></materials>"
-      "<body name=\"plate\" fixed=\"true\" pos=\"0 0 -0.05\"><physics><box size=\"1 1 0.1\"/></physics></body>"
-      "<body name=\"low\" pos=\"0 0 0.05\">" +
-          cube + "<body name=\"high\" pos=\"0 0 0.15\">" + cube + "</scene>",
-      "stack", "", {}, diagnostics);
+      {"<scene version=\"1.0\" name=\"stack\"><world gravity=\"0 0 -9.81\"/>"
+       "<materials><material name=\"m\" stiffness=\"1000\"/></materials>"
+       "<body name=\"plate\" fixed=\"true\" pos=\"0 0 -0.05\"><physics><box size=\"1 1 0.1\"/></physics></body>"
+       "<body name=\"low\" pos=\"0 0 0.05\">" +
+           cube + "<body name=\"high\" pos=\"0 0 0.15\">" + cube + "</scene>",
+       "stack", ""},
+      {}, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
   return loaded.world;
 }

@@ -46,10 +46,9 @@ class Supervised : public testing::Test {
   }
   void open() {
     Diagnostics findings;
-    World world;
-    auto driver = devicePlugin("fault_probe").create(binding_, world, findings);
-    ASSERT_TRUE(driver);
-    device_ = std::make_unique<SupervisedDevice>(std::move(driver), binding_, "rig.xml");
+    DeviceList made = devicePlugin("fault_probe").create({binding_}, std::make_shared<const World>(), {}, findings);
+    ASSERT_FALSE(findings.hasErrors());
+    device_ = std::make_unique<SupervisedDevice>(std::move(made.at(0)), binding_, "rig.xml");
     device_->open();
   }
   FingerInput tick(const Vec3& force) {

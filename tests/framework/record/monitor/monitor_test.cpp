@@ -30,7 +30,7 @@ using test::pinchWorld;
 
 // step runs a thousand times a second on the haptic thread, so all its memory is allocated before.
 TEST(Monitor, TickNeverAllocates) {
-  Feed feed(pinchWorld(0.5), 0.2, 1000);
+  Feed feed(0.5, 0.2, 1000);
   const std::uint64_t before = allocations.load();
   // slip onsets and trace both run past their capacity here
   for (int i = 0; i < 600; ++i) {
@@ -45,7 +45,7 @@ TEST(Monitor, TickNeverAllocates) {
 
 // Faults are kept with the time of their first tick, per finger where the contact state allows it.
 TEST(Monitor, KeepsWhenASurfaceWasFirstLostAndFirstPassed) {
-  Feed feed(pinchWorld(1));
+  Feed feed(1);
   feed.ticks(100);
   EXPECT_EQ(feed.monitor.coverageLost(), 0u);
   EXPECT_EQ(feed.monitor.firstCoverageLost(), -1);
@@ -65,7 +65,7 @@ TEST(Monitor, KeepsWhenASurfaceWasFirstLostAndFirstPassed) {
 
 // The times in the three modes add up to the run. 1e-12 s is the rounding of 400 additions of 1 ms.
 TEST(Monitor, SecondsByModeAddUpAndForcesAreOverTheTicksInContact) {
-  Feed feed(pinchWorld(1));
+  Feed feed(1);
   feed.ticks(100);
   feed.touch(0, ContactMode::kStick, 2);
   feed.ticks(150);
@@ -84,7 +84,7 @@ TEST(Monitor, SecondsByModeAddUpAndForcesAreOverTheTicksInContact) {
 
 // A grasp requires two fingers in the same tick, not one after the other.
 TEST(Monitor, GraspNeedsTwoFingersAtOnce) {
-  Feed feed(pinchWorld(1));
+  Feed feed(1);
   feed.touch(0, ContactMode::kStick);
   feed.ticks(10);
   feed.touch(0, ContactMode::kNone);
@@ -98,7 +98,7 @@ TEST(Monitor, GraspNeedsTwoFingersAtOnce) {
 
 // Two fingers on two different bodies grasp neither.
 TEST(Monitor, FingersOnDifferentBodiesGraspNothing) {
-  Feed feed(pinchWorld(1));
+  Feed feed(1);
   feed.touch(0, ContactMode::kStick);
   feed.touch(1, ContactMode::kStick);
   feed.contact.fingers[1].body = 0;
@@ -110,7 +110,7 @@ TEST(Monitor, FingersOnDifferentBodiesGraspNothing) {
 // A loss after the scripted release is intended; a loss before it is a failure of the grasp.
 TEST(Monitor, LossCountsAsADropOnlyBeforeTheLoosening) {
   for (const bool early : {true, false}) {
-    Feed feed(pinchWorld(1), 0.100);
+    Feed feed(1, 0.100);
     feed.touch(0, ContactMode::kStick);
     feed.touch(1, ContactMode::kStick);
     feed.ticks(early ? 99 : 100);
@@ -129,7 +129,7 @@ TEST(Monitor, LossCountsAsADropOnlyBeforeTheLoosening) {
 // A short bounce after closing is no loss; a longer interruption is one, from its first tick.
 TEST(Monitor, ABounceIsNoLoss) {
   for (const int away : {20, 80}) {
-    Feed feed(pinchWorld(1), 10);
+    Feed feed(1, 10);
     const auto both = [&](ContactMode mode, int ticks) {
       feed.touch(0, mode);
       feed.touch(1, mode);
@@ -146,7 +146,7 @@ TEST(Monitor, ABounceIsNoLoss) {
 
 // Between two dynamics steps the object's pose is interpolated to the time of the tick.
 TEST(Monitor, ObjectIsTakenAtTheTimeOfTheTick) {
-  Feed feed(pinchWorld(1), 1, 1000);
+  Feed feed(1, 1, 1000);
   feed.ticks(2);
   feed.objects.time_begin = 0.000;
   feed.objects.time_end = 0.005;
@@ -168,7 +168,7 @@ TEST(Monitor, ObjectIsTakenAtTheTimeOfTheTick) {
 
 // Without moving bodies there is no dynamics, and bodies keep their start poses.
 TEST(Monitor, WithoutDynamicsObjectsRest) {
-  Feed feed(pinchWorld(1), 1, 1000);
+  Feed feed(1, 1, 1000);
   for (int i = 0; i < 5; ++i) feed.tick(false);
   const ObjectSummary& cube = feed.monitor.objects()[kCube];
   EXPECT_EQ(cube.final, Vec3(0, 0, 0.035));
@@ -179,7 +179,7 @@ TEST(Monitor, WithoutDynamicsObjectsRest) {
 
 // The trace is decimated, slip detection is not: the onset carries the forces of its tick and of the tick before.
 TEST(Monitor, SlipOnsetIsLatchedAtHapticRate) {
-  Feed feed(pinchWorld(1), 0.020, 10);
+  Feed feed(1, 0.020, 10);
   feed.touch(1, ContactMode::kStick, 3.0, 0.9);
   feed.ticks(7);
   feed.touch(1, ContactMode::kSlip, 2.9, 1.7);
@@ -206,7 +206,7 @@ TEST(Monitor, SlipOnsetIsLatchedAtHapticRate) {
 
 // Early chatter fills the list of onsets; the first slip after the loosening is kept all the same.
 TEST(Monitor, LooseningSlipSurvivesAFullList) {
-  Feed feed(pinchWorld(1), 0.300);
+  Feed feed(1, 0.300);
   for (int i = 0; i < 300; ++i) {
     feed.touch(0, i % 2 == 0 ? ContactMode::kStick : ContactMode::kSlip);
     feed.tick();
@@ -222,13 +222,13 @@ TEST(Monitor, LooseningSlipSurvivesAFullList) {
 
 // The trace rate is approximate: samples lie on ticks, and a very long run is sampled more sparsely.
 TEST(Monitor, TraceIsDecimatedEvenlyAndBounded) {
-  Feed feed(pinchWorld(0.5), 1, 250);
+  Feed feed(0.5, 1, 250);
   feed.ticks(500);
   const auto& trace = feed.monitor.trace();
   ASSERT_EQ(trace.size(), 125u);
   for (std::size_t i = 0; i < trace.size(); ++i) EXPECT_DOUBLE_EQ(trace[i].time, 0.004 * static_cast<double>(i));
-  EXPECT_TRUE(Feed(pinchWorld(0.5), 1, 0).monitor.trace().empty());
-  EXPECT_LE(Feed(pinchWorld(86'400), 1, 1000).monitor.trace().capacity(), 40'000u);
+  EXPECT_TRUE(Feed(0.5, 1, 0).monitor.trace().empty());
+  EXPECT_LE(Feed(86'400, 1, 1000).monitor.trace().capacity(), 40'000u);
 }
 
 }  // namespace

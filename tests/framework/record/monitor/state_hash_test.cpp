@@ -126,7 +126,7 @@ TEST(StateHash, PaddingAndUnusedEntriesDoNotCount) {
 // The same states in another order give another hash.
 TEST(StateHash, MonitorHashFollowsTheWholePath) {
   const auto run = [](double first, double second) {
-    test::Feed feed(test::pinchWorld(1));
+    test::Feed feed(1);
     feed.place(Vec3(0, 0, first));
     feed.ticks(5);
     feed.place(Vec3(0, 0, second));
@@ -140,7 +140,7 @@ TEST(StateHash, MonitorHashFollowsTheWholePath) {
 // An object state is hashed once, at the tick of its arrival, however many ticks read it.
 TEST(StateHash, ObjectStateCountsWhenItArrives) {
   const auto run = [](int arrival) {
-    test::Feed feed(test::pinchWorld(1));
+    test::Feed feed(1);
     feed.ticks(arrival);
     feed.place(Vec3(0, 0, 0.1));
     feed.ticks(10 - arrival);

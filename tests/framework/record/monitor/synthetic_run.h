@@ -9,7 +9,7 @@
 namespace presa::test {
 
 /// A table, a 0.2 kg cube with friction 0.8 / 0.6, and two fingers.
-inline std::shared_ptr<World> pinchWorld(double duration) {
+inline std::shared_ptr<World> pinchWorld() {
   auto world = std::make_shared<World>();
   Scene& scene = world->scene;
   scene.name = "pinch";
@@ -34,16 +34,17 @@ inline std::shared_ptr<World> pinchWorld(double duration) {
   world->rig.name = "desk";
   world->inertias.resize(2);
   world->inertias[1].mass = 0.2;
-  world->options.duration = duration;
   return world;
 }
 inline constexpr std::int32_t kCube = 1;
 
 /// The states of one tick, which a test changes and feeds to a monitor.
 struct Feed {
-  explicit Feed(std::shared_ptr<const World> shared_world, double loosen_time = std::numeric_limits<double>::infinity(),
-                double trace_rate = 0)
-      : world(std::move(shared_world)), monitor(world, loosen_time, trace_rate) {
+  explicit Feed(double duration, double loosen_time = std::numeric_limits<double>::infinity(), double trace_rate = 0)
+      : Feed(pinchWorld(), duration, loosen_time, trace_rate) {}
+  Feed(std::shared_ptr<const World> shared_world, double duration,
+       double loosen_time = std::numeric_limits<double>::infinity(), double trace_rate = 0)
+      : world(std::move(shared_world)), monitor(world, duration, loosen_time, trace_rate) {
     device.count = contact.count = command.count = 2;
     for (auto& force : command.f_H_W) force.setZero();
     objects.bodies.resize(2);
@@ -66,7 +67,7 @@ struct Feed {
     const double period = 1 / world->scene.rates.haptic;
     const Tick now{index, static_cast<double>(index) * period, period};
     device.time = contact.time = command.time = now.time;
-    monitor.observe(now, device, contact, command, with_objects ? &objects : nullptr, version);
+    monitor.observe({now, device, contact, command, with_objects ? &objects : nullptr, version});
     ++index;
   }
   void ticks(int count) {

@@ -54,7 +54,7 @@ Way follow(const std::string& motion) {
   InsideWatch watch(oracle);
   Way way;
   StudyRun run({.scene = (folder / "man.xml").string()});
-  run.observe([&](const StudySample& sample) {
+  run.observe([&](const HapticSample& sample) {
     const FingerContact& finger = sample.contact.fingers[0];
     if (sample.contact.count == 0) return;
     way.least_distance = std::min(way.least_distance, oracle.nearest(finger.p_WP, 0.01).distance);

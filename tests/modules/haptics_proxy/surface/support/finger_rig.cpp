@@ -63,7 +63,7 @@ FingerRig::FingerRig(std::shared_ptr<const TriMesh> mesh, const Touch& touch)
   device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
   objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));
   objects_->out.value.bodies.resize(1);
-  builder.add(std::make_unique<HapticsProxy>(world_));
+  builder.add(std::make_unique<HapticsProxy>(world_, RunOptions{}));
   builder.add(std::make_unique<CollisionModule>(world_));
   sink_ = &builder.add(std::make_unique<Sink>());
   builder.connectByName();

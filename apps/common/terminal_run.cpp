@@ -1,4 +1,4 @@
-#include "apps/common/run_session.h"
+#include "apps/common/terminal_run.h"
 
 #include <algorithm>
 #include <array>
@@ -54,11 +54,25 @@ class SignalGuard {
 
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
 constexpr int kTripsTold = 6;                         // trips reported by a note each; further ones are counted
-constexpr double kDefaultDuration = 10;               // [s], for scenes without a script
+
+/// The phases of the first scripted device. Unless the user chose the time of the picture, it is the middle of the hold.
+void followScript(Loaded& loaded, std::vector<RunResult::Phase>& phases) {
+  RunOptions& options = loaded.options;
+  for (const auto& device : loaded.devices) {
+    const auto names = device->phases();
+    const auto times = device->phaseTimes();
+    if (times.empty()) continue;
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      if (device == loaded.devices.front()) phases.push_back({names[p], times[p], times[p + 1]});
+      if (names[p] == "hold" && options.screenshot_time < 0) options.screenshot_time = (times[p] + times[p + 1]) / 2;
+    }
+  }
+  if (options.screenshot_time > options.duration) options.screenshot_time = -1;
+}
 
 }  // namespace
 
-struct Run::Live {
+struct TerminalRun::Live {
   LiveValues values;
   StatusLine line;
   std::optional<terminal::Keys> keys;   // present while a re-arm by key is possible
@@ -67,74 +81,61 @@ struct Run::Live {
   explicit Live(bool quiet) : line(quiet) {}
 };
 
-Run::Run(const Loaded& loaded, Settings settings)
-    : loaded_(loaded), settings_(std::move(settings)), live_(std::make_unique<Live>(settings_.quiet)) {
-  // duration and time of the picture follow the script unless the user gave them
-  Diagnostics diagnostics;
-  const DeviceList devices = createDevices(*loaded_.world, loaded_.plan, diagnostics);
-  RunOptions options = loaded_.world->options;
-  double end = 0;
-  for (const auto& device : devices) {
-    const auto names = device->phases();
-    const auto times = device->phaseTimes();
-    if (times.empty()) continue;
-    end = std::max(end, times.back());
-    for (std::size_t p = 0; p < names.size(); ++p) {
-      if (device == devices.front()) result_.phases.push_back({names[p], times[p], times[p + 1]});
-      if (names[p] == "hold" && options.screenshot_time < 0) options.screenshot_time = (times[p] + times[p + 1]) / 2;
-    }
-  }
-  if (!(options.duration > 0)) options.duration = end > 0 ? end : kDefaultDuration;
-  if (options.screenshot_time > options.duration) options.screenshot_time = -1;
-  options.force_share = forceShare(drivesHardware(loaded_.plan), options, settings_.rights, result_.notes);
-  World world = *loaded_.world;
-  world.options = options;
-  loaded_.world = std::make_shared<const World>(std::move(world));
-
-  Session::Options session_options;
-  session_options.trace_rate = settings_.trace_rate;
-  session_options.more = std::move(settings_.more);
-  session_options.more.push_back(std::make_unique<LiveTap>(live_->values));
-  session_options.wrap = settings_.wrap;
-  if (loaded_.world->scene.assembly) session_options.more.push_back(std::make_unique<AssemblyTap>(live_->filled));
-  const bool window = options.view == RunOptions::View::kWindow;
-  const bool paced = !options.realtime && (window || settings_.paced) && !drivesHardware(loaded_.plan);
-  if (paced) session_options.more.push_back(std::make_unique<Pacer>(time_wish_, view_, control_, while_held_));
+TerminalRun::TerminalRun(Loaded loaded, Settings settings)
+    : settings_(std::move(settings)), live_(std::make_unique<Live>(settings_.quiet)) {
+  followScript(loaded, result_.phases);
+  RunOptions& options = loaded.options;
+  const bool hardware = drivesHardware(loaded.plan.devices);
+  options.force_share = forceShare(hardware, options, settings_.rights, result_.notes);
+  paced_ = !options.realtime && (options.view == RunOptions::View::kWindow || settings_.paced) && !hardware;
   if (options.realtime)
-    for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
-  session_ = std::make_unique<Session>(loaded_.world, loaded_.plan, control_, std::move(session_options));
-  const RateTable rates(loaded_.world->scene.rates);
-  executor_ = makeExecutor(options.realtime, session_->graph(), rates, control_);
-  executor_->onPoll([this] { poll(); });
-  executor_->recordTo(session_->schedule());
-  view_ = session_->view();
-  time_wish_.speed = settings_.speed;
-  if (paced && view_ != nullptr) view_->offerTime(time_wish_, 0);
-  offerToCommands(paced);
-  if (View* view = session_->view()) {
-    std::array<const GroupTiming*, kRateGroupCount> timings{};
-    for (int g = 0; g < kRateGroupCount; ++g) {
-      const auto group = static_cast<RateGroup>(g);
-      timings[static_cast<std::size_t>(g)] = session_->graph().runs(group) ? &executor_->timing(group) : nullptr;
-    }
-    view->setTimings(timings);
-  }
-  for (const std::string& note : session_->notes()) result_.notes.push_back(note);
-  for (const auto& device : session_->devices()) {
+    for (const std::string& line : whileOpening(loaded.plan)) live_->line.note(line);
+  Session::Options session;
+  session.trace_rate = settings_.trace_rate;
+  session.wrap = settings_.wrap;
+  session.more = observers(loaded);
+  run_ = std::make_unique<Run>(std::move(loaded), control_, std::move(session));
+  run_->onPoll([this] { poll(); });
+  offerToView();
+  offerToCommands();
+  for (const std::string& note : run_->session().notes()) result_.notes.push_back(note);
+  for (const auto& device : run_->session().devices()) {
     for (const std::string& note : device->notes()) result_.notes.push_back(note);
   }
 }
 
-Run::~Run() = default;
+TerminalRun::~TerminalRun() = default;
+
+std::vector<std::unique_ptr<Module>> TerminalRun::observers(const Loaded& loaded) {
+  std::vector<std::unique_ptr<Module>> modules = std::move(settings_.more);
+  modules.push_back(std::make_unique<LiveTap>(live_->values));
+  if (loaded.world->scene.assembly) modules.push_back(std::make_unique<AssemblyTap>(live_->filled));
+  if (paced_) modules.push_back(std::make_unique<Pacer>(time_wish_, view_, control_, while_held_));
+  return modules;
+}
+
+void TerminalRun::offerToView() {
+  time_wish_.speed = settings_.speed;
+  view_ = run_->session().view();
+  if (view_ == nullptr) return;
+  if (paced_) view_->offerTime(time_wish_, 0);
+  std::array<const GroupTiming*, kRateGroupCount> timings{};
+  for (int g = 0; g < kRateGroupCount; ++g) {
+    const auto group = static_cast<RateGroup>(g);
+    timings[static_cast<std::size_t>(g)] =
+        run_->session().graph().runs(group) ? &run_->executor().timing(group) : nullptr;
+  }
+  view_->setTimings(timings);
+}
 
 // Parameters that commands may set besides the surfaces: those that the user at the window may set. No force, no limit
 // and no re-arm: a remote user does not see the finger.
-void Run::offerToCommands(bool paced) {
-  auto* commandable = dynamic_cast<bus::Commandable*>(session_->graph().find("bus_dds"));
+void TerminalRun::offerToCommands() {
+  auto* commandable = dynamic_cast<bus::Commandable*>(run_->session().graph().find("bus_dds"));
   desk_ = commandable != nullptr ? commandable->desk() : nullptr;
   if (desk_ == nullptr) return;
   const auto always = [](double value) { return [value] { return value; }; };
-  if (paced) {
+  if (paced_) {
     while_held_ = [this](double time) { desk_->serve(time); };
     desk_->offer({"time/held", [this] { return time_wish_.paused ? 1.0 : 0.0; }, always(0), always(1),
                   [this](double held) { time_wish_.paused = held >= 0.5; }});
@@ -142,7 +143,7 @@ void Run::offerToCommands(bool paced) {
                   [this](double speed) { time_wish_.speed = speed; }});
   }
   // an undo is not recorded, and a replay without it would differ
-  if (AssemblyControl* assembly = session_->assembly(); assembly != nullptr && loaded_.world->options.record.empty()) {
+  if (AssemblyControl* assembly = run_->session().assembly(); assembly != nullptr && run_->options().record.empty()) {
     desk_->offer({"assembly/undone", [this] { return undone_; }, [this] { return undone_; },
                   [this] { return undone_ + 1; },
                   [this, assembly](double undone) {
@@ -153,7 +154,7 @@ void Run::offerToCommands(bool paced) {
   }
 }
 
-void Run::noteCommands() {
+void TerminalRun::noteCommands() {
   if (desk_ == nullptr) return;
   for (const bus::CommandDesk::Done& done : desk_->done()) {
     std::array<char, 240> text;
@@ -164,14 +165,14 @@ void Run::noteCommands() {
     result_.notes.push_back("… and " + std::to_string(more) + " more commands");
 }
 
-void Run::execute() {
+void TerminalRun::execute() {
   const SignalGuard guard(control_);
   live_->start_ns = monotonicNs();
   for (const std::string& note : result_.notes) live_->line.note(note);
-  if (settings_.watch || (loaded_.world->options.realtime && session_->output() != nullptr)) live_->keys.emplace();
+  if (settings_.watch || (run_->options().realtime && run_->session().output() != nullptr)) live_->keys.emplace();
   {
-    const terminal::PromptEnd prompt(control_, loaded_.world->options.realtime);
-    executor_->run(loaded_.world->options.duration);
+    const terminal::PromptEnd prompt(control_, run_->options().realtime);
+    run_->execute();
   }
   live_->keys.reset();
   live_->line.finish();
@@ -179,10 +180,10 @@ void Run::execute() {
 }
 
 // Called regularly on the main thread: faults, a closed window, the status line.
-void Run::poll() {
+void TerminalRun::poll() {
   FaultEvent event;
-  while (session_->output() != nullptr && session_->output()->nextEvent(event)) {
-    const std::string role = loaded_.world->scene.devices[static_cast<std::size_t>(event.finger)].role;
+  while (run_->session().output() != nullptr && run_->session().output()->nextEvent(event)) {
+    const std::string role = run_->world().scene.devices[static_cast<std::size_t>(event.finger)].role;
     if (const char* fault = latchedFault(event.status)) {
       device_lost_ = device_lost_ || (event.status & kOutputLost) != 0;
       fail(event.time, role + ": " + fault + "; the force went to zero and stays there");
@@ -198,18 +199,18 @@ void Run::poll() {
       result_.notes.emplace_back(text.data());
     }
   }
-  if (session_->view() != nullptr && session_->view()->wantsStop()) control_.stop_requested = true;
+  if (run_->session().view() != nullptr && run_->session().view()->wantsStop()) control_.stop_requested = true;
   noteObjectFaults();
   const char key = live_->keys ? live_->keys->next(0) : '\0';
   if (key == 'r') rearm();
-  if (settings_.watch && !settings_.watch(*session_, key)) control_.stop_requested = true;
+  if (settings_.watch && !settings_.watch(run_->session(), key)) control_.stop_requested = true;
   showStatus();
 }
 
-void Run::rearm() {
+void TerminalRun::rearm() {
   if (std::exchange(device_lost_, false)) {
-    for (const std::string& line : whileOpening(loaded_.plan)) live_->line.note(line);
-    for (const Diagnostic& finding : session_->reopenDevices(control_.stop_requested)) {
+    for (const std::string& line : whileOpening(run_->session().plan())) live_->line.note(line);
+    for (const Diagnostic& finding : run_->session().reopenDevices(control_.stop_requested)) {
       live_->line.note(format(finding));
       device_lost_ = true;
     }
@@ -219,34 +220,34 @@ void Run::rearm() {
   live_->line.note("re-armed: forces come back softly where the cause is gone");
 }
 
-void Run::fail(double time, std::string what) {
-  if (Recorder* recorder = session_->recorder()) recorder->fault(time, what);
+void TerminalRun::fail(double time, std::string what) {
+  if (Recorder* recorder = run_->session().recorder()) recorder->fault(time, what);
   result_.faults.push_back({time, std::move(what)});
 }
 
-void Run::showStatus() {
+void TerminalRun::showStatus() {
   if (!live_->line.due()) return;
   LiveStatus status;
   status.time = control_.time.load(std::memory_order_relaxed);
-  status.duration = loaded_.world->options.duration;
-  status.realtime = loaded_.world->options.realtime;
+  status.duration = run_->options().duration;
+  status.realtime = run_->options().realtime;
   status.wall_seconds = static_cast<double>(monotonicNs() - live_->start_ns) * 1e-9;
-  status.haptic_ticks = executor_->timing(RateGroup::kHaptic).ticks;
-  status.haptic_missed = executor_->timing(RateGroup::kHaptic).missed;
+  status.haptic_ticks = run_->executor().timing(RateGroup::kHaptic).ticks;
+  status.haptic_missed = run_->executor().timing(RateGroup::kHaptic).missed;
   status.losses = live_->values.losses.load(std::memory_order_relaxed);
   const auto phase = live_->values.phase.load(std::memory_order_relaxed);
   if (phase >= 0 && static_cast<std::size_t>(phase) < result_.phases.size()) {
     status.phase = result_.phases[static_cast<std::size_t>(phase)].name;
   }
-  for (std::size_t f = 0; f < loaded_.world->scene.devices.size(); ++f) {
-    status.fingers.push_back({loaded_.world->scene.devices[f].role,
+  for (std::size_t f = 0; f < run_->world().scene.devices.size(); ++f) {
+    status.fingers.push_back({run_->world().scene.devices[f].role,
                               static_cast<ContactMode>(live_->values.mode[f].load(std::memory_order_relaxed)),
                               live_->values.normal_force[f].load(std::memory_order_relaxed)});
   }
   live_->line.show(status);
 }
 
-void Run::noteObjectFaults() {
+void TerminalRun::noteObjectFaults() {
   const std::uint32_t all = live_->values.object_faults.load(std::memory_order_acquire);
   const std::uint32_t faults = all & ~object_faults_told_;
   const double time = live_->values.object_fault_time.load(std::memory_order_relaxed);
@@ -259,44 +260,41 @@ void Run::noteObjectFaults() {
     fail(time, "a finger contact made no sense to the dynamics, forces faded to zero");
 }
 
-void Run::finish() {
-  poll();
-  const RunOptions& options = loaded_.world->options;
+void TerminalRun::finish() {
+  const RunOptions& options = run_->options();
   if (watchdog_trips_ > kTripsTold) {
     result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kTripsTold) + " more of these");
   }
   noteCommands();
-  result_.world = loaded_.world;
+  result_.world = run_->session().world();
   result_.version = kVersion;
   result_.command = settings_.command;
+  result_.seed = options.seed;
   result_.realtime = options.realtime;
   result_.interrupted = interrupted;
-  result_.wall_seconds = executor_->wallSeconds();
-  result_.realtime_missing = executor_->notes();
+  result_.wall_seconds = run_->executor().wallSeconds();
+  result_.realtime_missing = run_->executor().notes();
   for (int g = 0; g < kRateGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);
-    if (session_->graph().runs(group))
-      result_.rates.push_back({group, executor_->rates().rate(group), &executor_->timing(group)});
+    if (run_->session().graph().runs(group))
+      result_.rates.push_back({group, run_->executor().rates().rate(group), &run_->executor().timing(group)});
   }
-  takeMonitor(session_->monitor(), result_);
-  if (const auto& assembly = loaded_.world->scene.assembly)
+  takeMonitor(run_->session().monitor(), result_);
+  if (const auto& assembly = run_->world().scene.assembly)
     result_.assembly = {static_cast<int>(assembly->goals.size()), live_->filled.load(std::memory_order_relaxed)};
-  if (Recorder* recorder = session_->recorder()) {
-    recorder->finish();
+  if (Recorder* recorder = run_->session().recorder()) {
     const RecorderStatus status = recorder->status();
     if (!options.record.empty())
       result_.recording = {options.record, status.rows, status.dropped};
     else
       result_.flight_records = recorder->files();
-    if (status.failed)
-      result_.faults.push_back(
-          {result_.simulated_seconds,
-           "the recording could not be written: " + (options.record.empty() ? options.flight : options.record)});
+    for (std::string& fault : run_->recordingFaults())
+      result_.faults.push_back({result_.simulated_seconds, std::move(fault)});
     if (status.dropped > 0)
       result_.notes.push_back(std::to_string(status.dropped) +
                               " rows of the recording were dropped: the disk was too slow");
   }
-  if (View* view = session_->view()) {
+  if (View* view = run_->session().view()) {
     if (options.view == RunOptions::View::kWindow) result_.sharpness = view->sharpness();
     const View::Screenshot shot = view->screenshot();
     if (shot.outcome == View::Screenshot::Outcome::kWritten) result_.screenshot = options.screenshot;

@@ -6,16 +6,14 @@
 
 #include "apps/common/run_result.h"
 #include "framework/bus/command_desk.h"
-#include "framework/core/schedule/executor.h"
 #include "framework/core/schedule/realtime_rights.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
 
 namespace presa {
 
-/// One run from start to end: session, executor, status line. Used by every command that runs a scene.
-/// Thread: main.
-class Run {
+/// A run that a user attends at a terminal: status line, Ctrl-C, re-arming by key, faults and notes, result. Thread:
+/// main.
+class TerminalRun {
  public:
   struct Settings {
     double trace_rate = 0;  ///< samples per second kept for plots
@@ -30,8 +28,8 @@ class Run {
     std::function<bool(Session& session, char key)> watch = {};
   };
   /// Builds the session. Throws InputError before anything is written.
-  Run(const Loaded& loaded, Settings settings);
-  ~Run();
+  TerminalRun(Loaded loaded, Settings settings);
+  ~TerminalRun();
 
   /// Runs to the end, or until Ctrl-C (forces fade first). Rethrows exceptions of Module::start().
   void execute();
@@ -45,21 +43,23 @@ class Run {
   void noteObjectFaults();
   void fail(double time, std::string what);
   void rearm();
-  void offerToCommands(bool paced);
+  void offerToCommands();
   void noteCommands();
 
-  Loaded loaded_;
+  std::vector<std::unique_ptr<Module>> observers(const Loaded& loaded);
+  void offerToView();
+
   Settings settings_;
   RunControl control_;
   TimeWish time_wish_;
+  bool paced_ = false;
   View* view_ = nullptr;
   bus::CommandDesk* desk_ = nullptr;        // receives commands from the bus; null: none
   std::function<void(double)> while_held_;  // lockstep: reads commands while the run is paused
   double undone_ = 0;                       // number of undos by commands
   struct Live;
   std::unique_ptr<Live> live_;
-  std::unique_ptr<Session> session_;
-  std::unique_ptr<Executor> executor_;
+  std::unique_ptr<Run> run_;
   RunResult result_;
   int watchdog_trips_ = 0;
   bool device_lost_ = false;  // since the last re-arm

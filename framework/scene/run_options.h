@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/scene/scene.h"
+
+namespace presa {
+
+/// The simulated person who holds the simulated fingers. Takes precedence over the settings of the rig.
+struct SimulatedPerson {
+  std::uint64_t seed = 1, subject = 0;  ///< the same pair gives the same person in every run
+  std::string level;                    ///< detail level of the model; empty: the rig's
+};
+
+/// Settings of one run beyond the scene, from the command line or an experiment.
+struct RunOptions {
+  enum class View { kNone, kOffscreen, kWindow };
+  bool realtime = false;
+  double duration = 10;  ///< simulated seconds
+  std::uint64_t seed = 1;
+  View view = View::kNone;
+  std::string screenshot{};         ///< PNG path, may be empty
+  double screenshot_time = -1;    ///< simulated time [s]; -1: at the end
+  std::string screenshots{};        ///< folder for a series of pictures, one per `screenshot_every`; may be empty
+  double screenshot_every = 0;    ///< interval in simulated time [s]
+  std::string record{};             ///< HDF5 path, may be empty
+  bool overwrite = false;         ///< `record` may replace an existing file
+  std::vector<std::string> show{};  ///< overlays to show or hide in the picture: "haptic", "no-cones"
+  std::string video{};              ///< MP4 path, may be empty
+  std::string flight{};  ///< HDF5 path for the last seconds before a fault, when `record` is empty; may be empty
+  /// As `flight`, for a run that drives real hardware in real time.
+  std::string hardware_flight{};
+  bool allow_no_rt = false;  ///< hardware may run without real-time scheduling, at half the force
+  double force_share = 1;    ///< fraction of the force limits that this run may use [-]
+  bool bound_stiffness =
+      false;  ///< reduce materials that are too stiff for the devices; otherwise the scene's stiffness is used
+  std::optional<SimulatedPerson> person{};
+  std::optional<BusSettings> bus{};  ///< takes precedence over rig and scene; network "none": no bus
+  bool bus_commands = false;         ///< accept commands even if rig and scene do not
+};
+
+/// The bus on which the run publishes, or none. Precedence: run options, rig, scene.
+std::optional<BusSettings> busOf(const Scene& scene, const Rig& rig, const RunOptions& options);
+/// Sets `bus` and `bus_commands` to what holds for the run: the bus on which it publishes, or none; and whether
+/// commands may change surfaces, over its bus or in a replay that repeats recorded commands.
+void settleBus(const Scene& scene, const Rig& rig, RunOptions& options);
+
+}  // namespace presa
