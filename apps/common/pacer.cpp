@@ -19,20 +19,20 @@ void Pacer::step(const Tick& tick) noexcept {
       if (view_->wantsStop()) return;
       view_->refresh();
     }
-    if (wish_.paused) sleepUntilNs(next);
+    if (time_control_.paused) sleepUntilNs(next);
   }
 }
 
 bool Pacer::due(double time) noexcept {
-  if (wish_.paused) {
+  if (time_control_.paused) {
     speed_ = 0;
-    if (steps_ == wish_.steps) return false;
+    if (steps_ == time_control_.steps) return false;
     ++steps_;
     return true;
   }
-  steps_ = wish_.steps;
+  steps_ = time_control_.steps;
   const std::int64_t now = monotonicNs();
-  const double speed = wish_.speed;
+  const double speed = time_control_.speed;
   if (speed != speed_) {
     speed_ = speed;
     anchor_time_ = time;

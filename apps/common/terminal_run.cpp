@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/common/assembly_tap.h"
-#include "apps/common/live_tap.h"
+#include "apps/common/assembly_observer.h"
+#include "apps/common/live_observer.h"
 #include "apps/common/pacer.h"
 #include "apps/common/terminal/interruption.h"
 #include "apps/common/terminal/keys.h"
@@ -53,7 +53,7 @@ class SignalGuard {
 };
 
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
-constexpr int kTripsTold = 6;                         // trips reported by a note each; further ones are counted
+constexpr int kMaxReportedTrips = 6;                         // trips reported by a note each; further ones are counted
 
 /// The phases of the first scripted device. Unless the user chose the time of the picture, it is the middle of the hold.
 void followScript(Loaded& loaded, std::vector<RunResult::Phase>& phases) {
@@ -108,17 +108,17 @@ TerminalRun::~TerminalRun() = default;
 
 std::vector<std::unique_ptr<Module>> TerminalRun::observers(const Loaded& loaded) {
   std::vector<std::unique_ptr<Module>> modules = std::move(settings_.more);
-  modules.push_back(std::make_unique<LiveTap>(live_->values));
-  if (loaded.world->scene.assembly) modules.push_back(std::make_unique<AssemblyTap>(live_->filled));
-  if (paced_) modules.push_back(std::make_unique<Pacer>(time_wish_, view_, control_, while_held_));
+  modules.push_back(std::make_unique<LiveObserver>(live_->values));
+  if (loaded.world->scene.assembly) modules.push_back(std::make_unique<AssemblyObserver>(live_->filled));
+  if (paced_) modules.push_back(std::make_unique<Pacer>(time_control_, view_, control_, while_held_));
   return modules;
 }
 
 void TerminalRun::offerToView() {
-  time_wish_.speed = settings_.speed;
+  time_control_.speed = settings_.speed;
   view_ = run_->session().view();
   if (view_ == nullptr) return;
-  if (paced_) view_->offerTime(time_wish_, 0);
+  if (paced_) view_->offerTime(time_control_, 0);
   std::array<const GroupTiming*, kRateGroupCount> timings{};
   for (int g = 0; g < kRateGroupCount; ++g) {
     const auto group = static_cast<RateGroup>(g);
@@ -132,19 +132,19 @@ void TerminalRun::offerToView() {
 // and no re-arm: a remote user does not see the finger.
 void TerminalRun::offerToCommands() {
   auto* commandable = dynamic_cast<bus::Commandable*>(run_->session().graph().find("bus_dds"));
-  desk_ = commandable != nullptr ? commandable->desk() : nullptr;
-  if (desk_ == nullptr) return;
+  server_ = commandable != nullptr ? commandable->parameterServer() : nullptr;
+  if (server_ == nullptr) return;
   const auto always = [](double value) { return [value] { return value; }; };
   if (paced_) {
-    while_held_ = [this](double time) { desk_->serve(time); };
-    desk_->offer({"time/held", [this] { return time_wish_.paused ? 1.0 : 0.0; }, always(0), always(1),
-                  [this](double held) { time_wish_.paused = held >= 0.5; }});
-    desk_->offer({"time/speed", [this] { return time_wish_.speed.load(); }, always(kSlowest), always(kFastest),
-                  [this](double speed) { time_wish_.speed = speed; }});
+    while_held_ = [this](double time) { server_->serve(time); };
+    server_->offer({"time/held", [this] { return time_control_.paused ? 1.0 : 0.0; }, always(0), always(1),
+                  [this](double held) { time_control_.paused = held >= 0.5; }});
+    server_->offer({"time/speed", [this] { return time_control_.speed.load(); }, always(kSlowest), always(kFastest),
+                  [this](double speed) { time_control_.speed = speed; }});
   }
   // an undo is not recorded, and a replay without it would differ
   if (AssemblyControl* assembly = run_->session().assembly(); assembly != nullptr && run_->options().record.empty()) {
-    desk_->offer({"assembly/undone", [this] { return undone_; }, [this] { return undone_; },
+    server_->offer({"assembly/undone", [this] { return undone_; }, [this] { return undone_; },
                   [this] { return undone_ + 1; },
                   [this, assembly](double undone) {
                     if (undone < undone_ + 1) return;
@@ -155,13 +155,13 @@ void TerminalRun::offerToCommands() {
 }
 
 void TerminalRun::noteCommands() {
-  if (desk_ == nullptr) return;
-  for (const bus::CommandDesk::Done& done : desk_->done()) {
+  if (server_ == nullptr) return;
+  for (const bus::ParameterServer::Done& done : server_->done()) {
     std::array<char, 240> text;
     std::snprintf(text.data(), text.size(), "%.3f s: a command set %s to %g", done.time, done.name.c_str(), done.value);
     result_.notes.emplace_back(text.data());
   }
-  if (const std::size_t more = desk_->doneCount() - desk_->done().size(); more > 0)
+  if (const std::size_t more = server_->doneCount() - server_->done().size(); more > 0)
     result_.notes.push_back("… and " + std::to_string(more) + " more commands");
 }
 
@@ -191,7 +191,7 @@ void TerminalRun::poll() {
         live_->line.note(role + ": " + fault + ". Look, then press r to re-arm.");
     }
     if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
-      if (++watchdog_trips_ > kTripsTold) continue;
+      if (++watchdog_trips_ > kMaxReportedTrips) continue;
       std::array<char, 160> text;
       std::snprintf(text.data(), text.size(),
                     "%.3f s: %s: no sample, or contact information too old: force off until it came back", event.time,
@@ -249,9 +249,9 @@ void TerminalRun::showStatus() {
 
 void TerminalRun::noteObjectFaults() {
   const std::uint32_t all = live_->values.object_faults.load(std::memory_order_acquire);
-  const std::uint32_t faults = all & ~object_faults_told_;
+  const std::uint32_t faults = all & ~reported_object_faults_;
   const double time = live_->values.object_fault_time.load(std::memory_order_relaxed);
-  object_faults_told_ = all;
+  reported_object_faults_ = all;
   if ((faults & kFaultBodyFrozen) != 0)
     fail(time, "a body's motion went beyond reason: it was frozen, forces faded to zero");
   if ((faults & kFaultEngineFailed) != 0)
@@ -262,8 +262,8 @@ void TerminalRun::noteObjectFaults() {
 
 void TerminalRun::finish() {
   const RunOptions& options = run_->options();
-  if (watchdog_trips_ > kTripsTold) {
-    result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kTripsTold) + " more of these");
+  if (watchdog_trips_ > kMaxReportedTrips) {
+    result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kMaxReportedTrips) + " more of these");
   }
   noteCommands();
   result_.world = run_->session().world();

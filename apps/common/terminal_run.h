@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/common/run_result.h"
-#include "framework/bus/command_desk.h"
+#include "framework/bus/parameter_server.h"
 #include "framework/core/schedule/realtime_rights.h"
 #include "framework/session/run.h"
 
@@ -51,10 +51,10 @@ class TerminalRun {
 
   Settings settings_;
   RunControl control_;
-  TimeWish time_wish_;
+  TimeControl time_control_;
   bool paced_ = false;
   View* view_ = nullptr;
-  bus::CommandDesk* desk_ = nullptr;        // receives commands from the bus; null: none
+  bus::ParameterServer* server_ = nullptr;        // receives commands from the bus; null: none
   std::function<void(double)> while_held_;  // lockstep: reads commands while the run is paused
   double undone_ = 0;                       // number of undos by commands
   struct Live;
@@ -63,7 +63,7 @@ class TerminalRun {
   RunResult result_;
   int watchdog_trips_ = 0;
   bool device_lost_ = false;  // since the last re-arm
-  std::uint32_t object_faults_told_ = 0;
+  std::uint32_t reported_object_faults_ = 0;
 };
 
 }  // namespace presa

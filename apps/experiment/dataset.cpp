@@ -79,15 +79,15 @@ class Validation {
     for (const LoggedRun& run : log_.runs) {
       if (!run.practice) last[run.number] = &run;
     }
-    std::map<std::string, std::vector<int>> told;
+    std::map<std::string, std::vector<int>> trials_of;
     for (const auto& [number, run] : last) {
       const std::string excluded = run->end.is_object() ? run->end.value("excluded", "") : "";
-      if (!excluded.empty()) told["excluded, " + excluded].push_back(number);
-      if (run->outcome == Outcome::kSkipped) told["skipped"].push_back(number);
+      if (!excluded.empty()) trials_of["excluded, " + excluded].push_back(number);
+      if (run->outcome == Outcome::kSkipped) trials_of["skipped"].push_back(number);
       if (run->outcome == Outcome::kAborted && log_.complete)
-        told["given up, " + run->end.value("reason", "")].push_back(number);
+        trials_of["given up, " + run->end.value("reason", "")].push_back(number);
     }
-    for (const auto& [what, numbers] : told) {
+    for (const auto& [what, numbers] : trials_of) {
       std::string note = what + ": trial";
       for (const int number : numbers) note += " " + std::to_string(number);
       verdict_.notes.push_back(note);

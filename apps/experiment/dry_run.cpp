@@ -72,7 +72,7 @@ std::string headOf(const Experiment& experiment, const Subject& subject, int ses
   const std::size_t counted = trials.size() - static_cast<std::size_t>(practice);
   if (experiment.procedure)
     text += format("the method chooses: %zu trials here, %zu at most, after %zu for practice, in %d block%s; ", counted,
-                   mostTrials(*experiment.procedure) * static_cast<std::size_t>(blocks),
+                   maxTrials(*experiment.procedure) * static_cast<std::size_t>(blocks),
                    static_cast<std::size_t>(practice), blocks, blocks == 1 ? "" : "s");
   else
     text += format("%zu conditions, %d times each: %zu trials after %zu for practice, in %d block%s; ",
@@ -85,7 +85,7 @@ std::string headOf(const Experiment& experiment, const Subject& subject, int ses
   for (const Phase& phase : experiment.phases)
     text += format(" %s (%s%s)", phase.name.c_str(), phase.until ? "at most " : "", minutes(phase.seconds).c_str());
   text += format("\nduration: %s when every awaited thing happens at once, %s at most\n",
-                 minutes(n * trial.least + pause).c_str(), minutes(n * trial.most + pause).c_str());
+                 minutes(n * trial.min + pause).c_str(), minutes(n * trial.max + pause).c_str());
   return text;
 }
 
@@ -94,12 +94,12 @@ std::string headOf(const Experiment& experiment, const Subject& subject, int ses
 Span durationOf(const Experiment& experiment) {
   Span span;
   for (const Phase& phase : experiment.phases) {
-    span.least += phase.until ? phase.hold : phase.seconds;
-    span.most += phase.seconds;
+    span.min += phase.until ? phase.hold : phase.seconds;
+    span.max += phase.seconds;
   }
   const double times = experiment.procedure ? static_cast<double>(experiment.procedure->presentations()) : 1;
-  span.least *= experiment.procedure && experiment.procedure->task == Task::kAdjust ? 2 : times;
-  span.most *= times;
+  span.min *= experiment.procedure && experiment.procedure->task == Task::kAdjust ? 2 : times;
+  span.max *= times;
   return span;
 }
 
@@ -166,8 +166,8 @@ std::string dryRunJson(const Experiment& experiment, const Subject& subject, int
                                    {"session", session},
                                    {"model", experiment.model},
                                    {"seed", experiment.seed},
-                                   {"seconds_least", n * trial.least + pause},
-                                   {"seconds_most", n * trial.most + pause},
+                                   {"seconds_least", n * trial.min + pause},
+                                   {"seconds_most", n * trial.max + pause},
                                    {"trials", list}};
   return all.dump(2) + "\n";
 }

@@ -8,9 +8,9 @@
 
 namespace presa::experiment {
 
-/// Duration of a trial [s]: `least` when every awaited event happens at once, `most` when none happens.
+/// Duration of a trial [s]: `min` when every awaited event happens at once, `max` when none happens.
 struct Span {
-  double least = 0, most = 0;
+  double min = 0, max = 0;
 };
 Span durationOf(const Experiment& experiment);
 

@@ -13,7 +13,7 @@
 #include "apps/common/terminal/text.h"
 #include "apps/common/version.h"
 #include "apps/experiment/inputs.h"
-#include "apps/experiment/operator/desk.h"
+#include "apps/experiment/operator/operator_console.h"
 #include "apps/experiment/session_records.h"
 #include "apps/experiment/trial_table.h"
 #include "framework/core/diagnostics/refuse.h"
@@ -159,62 +159,62 @@ void SubjectSession::writeTable() const {
   writeFileAtomically(folder_.file("trials.json"), tableColumnsJson(experiment_));
 }
 
-std::unique_ptr<Respondent> SubjectSession::respondentFor(Desk& desk) const {
+std::unique_ptr<Respondent> SubjectSession::respondentFor(OperatorConsole& console) const {
   if (!experiment_.procedure) return nullptr;
   if (!log_.start.model.empty() && experiment_.procedure->observer)
     return simulatedRespondent(experiment_, log_.start.subject.number);
-  if (desk.person().silent())
+  if (console.person().silent())
     refuse(928, experiment_.file, "its trials ask a question, and nobody is there to answer",
            log_.start.model.empty() ? "--operator terminal" : "a <simulated_observer> in its <procedure>");
-  return keyboardRespondent(experiment_, desk.person(), desk.language());
+  return keyboardRespondent(experiment_, console.person(), console.language());
 }
 
-Conducted SubjectSession::conductOne(const PlannedTrial& trial, const LoggedRun& run, Desk& desk,
+Conducted SubjectSession::conductOne(const PlannedTrial& trial, const LoggedRun& run, OperatorConsole& console,
                                      Respondent* respondent) const {
   std::vector<std::string> files;
   for (const std::string& name : run.files()) files.push_back(folder_.file(name));
   TrialSetting setting;
   setting.realtime = log_.start.realtime;
   setting.subject = log_.start.subject.number;
-  setting.live = desk.live();
+  setting.live = console.live();
   setting.window = log_.start.window;
-  setting.stop = [&] { return desk.ending() != Operator::Wish::kNone; };
-  setting.on_time = [&](double time) { desk.look(time); };
+  setting.stop = [&] { return console.ending() != Operator::Request::kNone; };
+  setting.on_time = [&](double time) { console.look(time); };
   Conducted result = conduct(experiment_, trial, files, setting, respondent);
   if (const auto* method = trials_->method(); method != nullptr && result.response)
     result.response->positive = result.response->chosen == method->responseFor(true).chosen;
-  if (result.outcome == Outcome::kInterrupted && desk.ending() == Operator::Wish::kSkip) {
+  if (result.outcome == Outcome::kInterrupted && console.ending() == Operator::Request::kSkip) {
     result.outcome = Outcome::kSkipped;
     result.reason = "skipped by the operator";
   }
-  if (result.outcome == Outcome::kInterrupted && desk.ending() == Operator::Wish::kRepeat)
+  if (result.outcome == Outcome::kInterrupted && console.ending() == Operator::Request::kRepeat)
     result.reason = "the operator repeats it";
   return result;
 }
 
 SubjectSession::End SubjectSession::run(Operator& person, const std::string& language) {
-  Desk desk(experiment_, log_.start, language, person, [&](const std::string& text) {
+  OperatorConsole console(experiment_, log_.start, language, person, [&](const std::string& text) {
     journal_.append({{"event", "note"}, {"text", text}, {"utc", utcNow()}});
   });
-  const std::unique_ptr<Respondent> respondent = respondentFor(desk);
-  if (trials_->next() != nullptr && !desk.welcome()) return End::kStopped;
+  const std::unique_ptr<Respondent> respondent = respondentFor(console);
+  if (trials_->next() != nullptr && !console.welcome()) return End::kStopped;
   int in_vain = 0;  // consecutive aborts
   while (const PlannedTrial* next = trials_->next()) {
     const PlannedTrial trial = *next;
-    desk.begin(trial, *trials_);
+    console.begin(trial, *trials_);
     LoggedRun& run = beginRun(trial);
-    const Conducted result = conductOne(trial, run, desk, respondent.get());
+    const Conducted result = conductOne(trial, run, console, respondent.get());
     endRun(run, trial, result);
     writeTable();
     if (!result.presented.back().faults.empty()) return End::kFault;
-    const bool again = result.outcome == Outcome::kInterrupted && desk.ending() == Operator::Wish::kRepeat;
+    const bool again = result.outcome == Outcome::kInterrupted && console.ending() == Operator::Request::kRepeat;
     if (result.outcome == Outcome::kInterrupted && !again) return End::kStopped;
     in_vain = result.outcome == Outcome::kAborted ? in_vain + 1 : 0;
     // a psychophysical method needs an answer to continue
     if (experiment_.procedure && in_vain >= experiment_.retry.attempts) return End::kFault;
     const std::string what =
         terminal::format("trial %d", trial.number) + (result.reason.empty() ? "" : ": " + result.reason);
-    if (!desk.between(what, *trials_)) return End::kStopped;
+    if (!console.between(what, *trials_)) return End::kStopped;
   }
   if (!log_.complete) {
     Json record{{"event", "end"}, {"utc", utcNow()}};

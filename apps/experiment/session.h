@@ -3,7 +3,7 @@
 #include <string>
 
 #include "apps/experiment/conduct.h"
-#include "apps/experiment/operator/desk.h"
+#include "apps/experiment/operator/operator_console.h"
 #include "apps/experiment/session_log.h"
 
 namespace presa::experiment {
@@ -37,8 +37,8 @@ class SubjectSession {
  private:
   SubjectSession(const Experiment& experiment, SessionFolder folder, SessionLog log, Journal journal);
   /// Null without a procedure.
-  std::unique_ptr<Respondent> respondentFor(Desk& desk) const;
-  Conducted conductOne(const PlannedTrial& trial, const LoggedRun& run, Desk& desk, Respondent* respondent) const;
+  std::unique_ptr<Respondent> respondentFor(OperatorConsole& console) const;
+  Conducted conductOne(const PlannedTrial& trial, const LoggedRun& run, OperatorConsole& console, Respondent* respondent) const;
   LoggedRun& beginRun(const PlannedTrial& trial);
   void endRun(LoggedRun& run, const PlannedTrial& trial, const Conducted& result);
   void writeTable() const;

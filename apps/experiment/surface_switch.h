@@ -6,9 +6,9 @@
 namespace presa::experiment {
 
 /// Tells the renderer that a phase of the trial has changed the friction of surfaces. It reads the trial's decision of
-/// the previous tick, not data of this one, so it runs before the renderer while TrialTap runs after it; the change
-/// applies in the first tick of its phase. In the graph only when an experiment has such a phase. Thread: haptic;
-/// nonblocking.
+/// the previous tick, not data of this one, so it runs before the renderer while TrialObserver runs after it; the
+/// change applies in the first tick of its phase. In the graph only when an experiment has such a phase. Thread:
+/// haptic; nonblocking.
 class SurfaceSwitch final : public Module {
  public:
   /// `trial` must outlive this object.

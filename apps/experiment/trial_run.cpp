@@ -6,7 +6,7 @@
 
 #include "apps/common/terminal/prompt_end.h"
 #include "apps/experiment/surface_switch.h"
-#include "apps/experiment/trial_tap.h"
+#include "apps/experiment/trial_observer.h"
 #include "framework/session/realtime_policy.h"
 #include "framework/session/run.h"
 
@@ -72,13 +72,13 @@ class TrialRun {
     forceShare(drivesHardware(loaded.plan.devices), loaded.options, realtimeRights, notes);
     const Scene& scene = loaded.world->scene;
     Session::Options options;
-    auto tap = std::make_unique<TrialTap>(trial_, experiment, scene, control_);
-    tap_ = tap.get();
-    options.more.push_back(std::move(tap));
+    auto observer = std::make_unique<TrialObserver>(trial_, experiment, scene, control_);
+    observer_ = observer.get();
+    options.more.push_back(std::move(observer));
     if (setting.live != nullptr) {
       setting.live->roles.clear();
       for (const DeviceRole& role : scene.devices) setting.live->roles.push_back(role.role);
-      options.more.push_back(std::make_unique<OperatorTap>(trial_, experiment, *setting.live));
+      options.more.push_back(std::make_unique<OperatorObserver>(trial_, experiment, *setting.live));
     }
     if (experiment.changesFriction()) options.more.push_back(std::make_unique<SurfaceSwitch>(trial_));
     run_.emplace(std::move(loaded), control_, std::move(options));
@@ -106,24 +106,24 @@ class TrialRun {
   TrialResult result() {
     TrialResult result;
     result.stopped = stopped_ && trial_.state() == Trial::State::kRunning;
-    if (result.stopped) trial_.abort(tap_->time(), "stopped by the operator");
-    if (const int finger = tap_->lostFinger(); finger >= 0 && trial_.state() == Trial::State::kRunning) {
+    if (result.stopped) trial_.abort(observer_->time(), "stopped by the operator");
+    if (const int finger = observer_->lostFinger(); finger >= 0 && trial_.state() == Trial::State::kRunning) {
       result.faults.push_back("the device of '" + run_->world().scene.devices[static_cast<std::size_t>(finger)].role +
                               "' gave no sample any more");
-      trial_.abort(tap_->time(), result.faults.back());
+      trial_.abort(observer_->time(), result.faults.back());
     }
-    trial_.abort(tap_->time(), "the run ended before the trial");
+    trial_.abort(observer_->time(), "the run ended before the trial");
     const GroupTiming& haptic = run_->executor().timing(RateGroup::kHaptic);
     result.ticks = haptic.ticks;
     result.missed = haptic.missed;
-    const std::vector<double> quality{static_cast<double>(result.missed), tap_->clippedSeconds(), tap_->lostSeconds(),
-                                      tap_->mostForce()};
+    const std::vector<double> quality{static_cast<double>(result.missed), observer_->clippedSeconds(), observer_->lostSeconds(),
+                                      observer_->maxForce()};
     result.state = trial_.state();
     result.reason = trial_.reason();
     result.phases = trial_.stretches();
     result.values = trial_.results(quality);
     if (result.state == Trial::State::kDone) result.excluded = trial_.exclusion(result.values);
-    result.simulated_seconds = tap_->time();
+    result.simulated_seconds = observer_->time();
     result.wall_seconds = run_->executor().wallSeconds();
     result.facts = factsOf(run_->session().devices(), true);
     if (run_->monitor().objectFaults() != 0) result.faults.emplace_back("fault in the dynamics");
@@ -136,7 +136,7 @@ class TrialRun {
   const TrialSetting& setting_;
   Trial trial_;
   RunControl control_;
-  TrialTap* tap_ = nullptr;  // owned by the run
+  TrialObserver* observer_ = nullptr;  // owned by the run
   std::optional<Run> run_;
   bool stopped_ = false;
 };

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/experiment/operator/operator_tap.h"
+#include "apps/experiment/operator/operator_observer.h"
 #include "experiments/runner/definition/presentation.h"
 #include "experiments/runner/definition/trial.h"
 #include "framework/device/device.h"

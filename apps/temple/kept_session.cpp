@@ -42,7 +42,7 @@ std::string keptText(const KeptSession& kept) {
   Json blocks = Json::array();
   for (const Pose& X : kept.X_WB) blocks.push_back(poseJson(X));
   return Json{{"presa_temple", kFormat}, {"size", kept.size},     {"parameters", kept.parameters},
-              {"seed", kept.seed},       {"spent_s", kept.spent}, {"placed", kept.placed},
+              {"seed", kept.seed},       {"spent_s", kept.elapsed}, {"placed", kept.placed},
               {"blocks", blocks}}
              .dump(1) +
          "\n";

@@ -52,9 +52,9 @@ void BlockWatch::notePenetration(const ObjectState& objects, double period) noex
 
 // The workspace box begins at the ground, so a block below the ground is outside too.
 bool BlockWatch::isOutside(const Vec3& p_WB) const noexcept {
-  const auto& field = world_->scene.assembly->field;
+  const auto& workspace = world_->scene.assembly->workspace;
   if (!p_WB.allFinite()) return true;
-  return field && !((p_WB - field->centre).array().abs() <= field->size.array() / 2).all();
+  return workspace && !((p_WB - workspace->centre).array().abs() <= workspace->size.array() / 2).all();
 }
 
 double BlockWatch::meanPenetration() const noexcept {
@@ -66,10 +66,10 @@ int BlockWatch::lost() const noexcept {
   return static_cast<int>(std::ranges::count_if(outside_, [](double since) { return since > 0; }));
 }
 
-Witness::Witness(std::shared_ptr<const World> world)
+RebuildObserver::RebuildObserver(std::shared_ptr<const World> world)
     : Module("witness", RateGroup::kHaptic), blocks_(world), taken_(world->scene.bodies.size(), kNotTaken) {}
 
-void Witness::step(const Tick&) noexcept {
+void RebuildObserver::step(const Tick&) noexcept {
   if (!objects_.hasValue() || !assembly_.hasValue()) return;
   blocks_.see(objects_.value());
   for (std::size_t f = 0; f < static_cast<std::size_t>(contact_->count); ++f) {
@@ -84,7 +84,7 @@ void Witness::step(const Tick&) noexcept {
 }
 
 // A lifted block that moves down fast was dropped.
-void Witness::noteFall(std::size_t i) noexcept {
+void RebuildObserver::noteFall(std::size_t i) noexcept {
   if (taken_[i] == kNotTaken) return;
   const BodyMotion& body = objects_->bodies[i];
   if (body.v_WB.z() > -kFalls || body.X_WB_end.p.z() < taken_[i] + kLifted) return;
@@ -92,25 +92,25 @@ void Witness::noteFall(std::size_t i) noexcept {
   taken_[i] = kNotTaken;
 }
 
-Rebuilt measure(const Assembly& assembly, const Witness& witness) {
+Rebuilt measure(const Assembly& assembly, const RebuildObserver& rebuild_observer) {
   Rebuilt rebuilt;
   rebuilt.pieces = static_cast<int>(assembly.goals.size());
-  rebuilt.placed = witness.assembly().filled;
-  for (std::size_t g = 0; g < witness.assembly().goals.size(); ++g) {  // empty before the first step
-    const GoalState& state = witness.assembly().goals[g];
+  rebuilt.placed = rebuild_observer.assembly().filled;
+  for (std::size_t g = 0; g < rebuild_observer.assembly().goals.size(); ++g) {  // empty before the first step
+    const GoalState& state = rebuild_observer.assembly().goals[g];
     if (state.status != GoalState::Status::kFilled) continue;
-    const Pose& X_WB = witness.objects().bodies[static_cast<std::size_t>(state.body)].X_WB_end;
-    const Way way = wayBetween(nearestTurn(assembly.goals[g].X_WB, assembly.goals[g].fold, X_WB.q), X_WB);
+    const Pose& X_WB = rebuild_observer.objects().bodies[static_cast<std::size_t>(state.body)].X_WB_end;
+    const PoseDifference way = poseDifference(nearestTurn(assembly.goals[g].X_WB, assembly.goals[g].fold, X_WB.q), X_WB);
     rebuilt.worst_position_error = std::max(rebuilt.worst_position_error, way.distance);
     rebuilt.worst_angle_error = std::max(rebuilt.worst_angle_error, way.angle);
   }
-  rebuilt.drops = witness.drops();
-  rebuilt.mean_fingertip_depth = witness.meanFingertipDepth();
-  rebuilt.mean_penetration = witness.blocks().meanPenetration();
-  rebuilt.worst_penetration = witness.blocks().worstPenetration();
-  rebuilt.lost = witness.blocks().lost();
-  rebuilt.longest_outside = witness.blocks().longestOutside();
-  rebuilt.faults = witness.objects().faults;
+  rebuilt.drops = rebuild_observer.drops();
+  rebuilt.mean_fingertip_depth = rebuild_observer.meanFingertipDepth();
+  rebuilt.mean_penetration = rebuild_observer.blocks().meanPenetration();
+  rebuilt.worst_penetration = rebuild_observer.blocks().worstPenetration();
+  rebuilt.lost = rebuild_observer.blocks().lost();
+  rebuilt.longest_outside = rebuild_observer.blocks().longestOutside();
+  rebuilt.faults = rebuild_observer.objects().faults;
   return rebuilt;
 }
 

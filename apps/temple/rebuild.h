@@ -61,9 +61,9 @@ class BlockWatch {
 };
 
 /// Observes a run tick by tick; read the results after the run. Thread: haptic.
-class Witness final : public Module {
+class RebuildObserver final : public Module {
  public:
-  explicit Witness(std::shared_ptr<const World> world);
+  explicit RebuildObserver(std::shared_ptr<const World> world);
   void step(const Tick& tick) noexcept override;
 
   const AssemblyState& assembly() const noexcept { return assembly_.value(); }
@@ -87,7 +87,7 @@ class Witness final : public Module {
 };
 
 /// The results of a run, except the times.
-Rebuilt measure(const Assembly& assembly, const Witness& witness);
+Rebuilt measure(const Assembly& assembly, const RebuildObserver& rebuild_observer);
 
 /// JSON with the keys size seed pieces placed worst_position_error_m worst_angle_error_deg drops mean_fingertip_depth_m
 /// mean_penetration_m worst_penetration_m (null: not known) lost longest_outside_s simulated_s wall_s faults.

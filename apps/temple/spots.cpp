@@ -42,8 +42,8 @@ Quat drawTurn(const Vec3& extent, RandomStream& random) {
   const int down = axes[random.below(axes.size())];
   const double side = random.uniform() < 0.5 ? 1 : -1;
   const Quat face = Quat::FromTwoVectors(Vec3(side * Vec3::Unit(down)), Vec3::UnitZ());
-  const double most = axes.size() == 3 ? kTilt : kTiltOfSlab;
-  const double towards = random.uniform(0, 2 * kPi), tilt = random.uniform(0, most), turn = random.uniform(0, 2 * kPi);
+  const double max = axes.size() == 3 ? kTilt : kTiltOfSlab;
+  const double towards = random.uniform(0, 2 * kPi), tilt = random.uniform(0, max), turn = random.uniform(0, 2 * kPi);
   return Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) *
          Quat(Eigen::AngleAxisd(tilt, Vec3(std::cos(towards), std::sin(towards), 0))) * face;
 }

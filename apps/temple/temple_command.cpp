@@ -82,9 +82,9 @@ std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::
   const ScratchFolder scratch;
   // one job per block, and a last one: all settle together
   terminal::JobProgress progress(building.blocks.size() + 1);
-  std::size_t told = 0;
+  std::size_t reported = 0;
   const auto tell = [&](std::size_t lying, std::size_t, const std::string& what) {
-    for (; told < lying; ++told) progress.done(what);
+    for (; reported < lying; ++reported) progress.done(what);
     progress.show();
     return !terminal::JobProgress::interrupted();
   };
@@ -149,7 +149,7 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   return options;
 }
 
-int told(const temple::Rebuilt& rebuilt, const Arguments& a) {
+int reportRebuild(const temple::Rebuilt& rebuilt, const Arguments& a) {
   if (!a.summary.empty()) writeFileAtomically(a.summary, temple::summaryText(rebuilt, a.size, a.seed));
   std::printf(
       "%d of %d blocks in their places, at most %.3f mm and %.2f degrees off; %d dropped, %d lost; %.0f s simulated in "
@@ -208,7 +208,7 @@ std::optional<temple::SceneSpec> specOf(const temple::Building& building, const 
   }
   temple::SceneSpec spec = temple::assembled(building);
   for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = kept.X_WB[stone.block];
-  spec.spent = kept.spent;
+  spec.elapsed = kept.elapsed;
   return spec;
 }
 
@@ -254,7 +254,7 @@ int runOnce(Arguments a, bool& again) {
     }
     const temple::VisitEnd end = runVisit(*building, std::move(*spec), a, std::move(*kept));
     again = end.again;
-    return again ? kExitOk : told(end.rebuilt, a);
+    return again ? kExitOk : reportRebuild(end.rebuilt, a);
   }
   return a.screenshot.empty() ? kExitOk : takePicture(*building, *spec, a);
 }

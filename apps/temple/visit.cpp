@@ -9,7 +9,7 @@
 #include "apps/common/terminal_run.h"
 #include "apps/temple/shared_finger.h"
 #include "apps/temple/visit_log.h"
-#include "apps/temple/visit_tap.h"
+#include "apps/temple/visit_observer.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/device/device_plugin.h"
 
@@ -22,13 +22,13 @@ class Visit {
  public:
   Visit(Loaded loaded, const VisitSettings& settings)
       : settings_(settings), world_(loaded.world), options_(loaded.options), assembly_(*world_->scene.assembly) {
-    auto witness = std::make_unique<Witness>(world_);
-    auto tap = std::make_unique<VisitTap>(world_);
-    witness_ = witness.get();
-    tap_ = tap.get();
+    auto rebuild_observer = std::make_unique<RebuildObserver>(world_);
+    auto observer = std::make_unique<VisitObserver>(world_);
+    rebuild_observer_ = rebuild_observer.get();
+    observer_ = observer.get();
     TerminalRun::Settings run{.quiet = settings.quiet, .command = "presa temple"};
-    run.more.push_back(std::move(witness));
-    run.more.push_back(std::move(tap));
+    run.more.push_back(std::move(rebuild_observer));
+    run.more.push_back(std::move(observer));
     run.paced = settings.time_scale > 0;
     if (run.paced) run.speed = settings.time_scale;
     if (settings.attract > 0) run.wrap = [this](DeviceList devices) { return share(std::move(devices)); };
@@ -41,7 +41,7 @@ class Visit {
     run_->execute();
     const RunResult& result = run_->result();
     for (const auto& fault : result.faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
-    Rebuilt rebuilt = measure(assembly_, *witness_);
+    Rebuilt rebuilt = measure(assembly_, *rebuild_observer_);
     rebuilt.wall_seconds = result.wall_seconds;
     rebuilt.simulated_seconds = result.simulated_seconds;
     rebuilt.interrupted = result.interrupted;
@@ -60,40 +60,40 @@ class Visit {
   }
 
   bool watch(Session& session, char key) {
-    tap_->showOn(session.view());
-    const VisitTap::Look look = tap_->look();
-    if (log_) log_->note(tap_->takeEvents(), look);
+    observer_->showOn(session.view());
+    const VisitObserver::Snapshot snapshot = observer_->snapshot();
+    if (log_) log_->note(observer_->takeEvents(), snapshot);
     const std::uint32_t inputs = session.view() != nullptr ? session.view()->inputs() : 0;
     const bool touched = std::exchange(inputs_, inputs) != inputs || key != '\0';
-    if (settings_.attract > 0) takeTurns(look, touched);
+    if (settings_.attract > 0) takeTurns(snapshot, touched);
     undo(session, key);
-    if (settings_.progress && !settings_.progress(look.now.placed, look.now.all)) return false;
-    if (look.now.placed < look.now.all)
+    if (settings_.progress && !settings_.progress(snapshot.now.placed, snapshot.now.all)) return false;
+    if (snapshot.now.placed < snapshot.now.all)
       done_at_.reset();
     else if (!done_at_)
-      done_at_ = look.time;
-    again_ = done_at_ && attracting_ && look.time > *done_at_ + kShownFinish;
-    return !again_ && (settings_.finish < 0 || !done_at_ || look.time < *done_at_ + settings_.finish);
+      done_at_ = snapshot.time;
+    again_ = done_at_ && attracting_ && snapshot.time > *done_at_ + kShownFinish;
+    return !again_ && (settings_.finish < 0 || !done_at_ || snapshot.time < *done_at_ + settings_.finish);
   }
 
   // The visitor takes over by moving the device or pressing a key or button; the hands take over after a pause.
-  void takeTurns(const VisitTap::Look& look, bool touched) {
+  void takeTurns(const VisitObserver::Snapshot& snapshot, bool touched) {
     if (attracting_) {
       for (const SharedFinger* finger : fingers_) touched = touched || finger->visitorMoved();
-      if (touched) give(look, false);
+      if (touched) give(snapshot, false);
       return;
     }
-    if (touched) touched_at_ = look.time;
+    if (touched) touched_at_ = snapshot.time;
     const bool at_once = std::exchange(at_once_, false);
-    if (at_once || look.time - std::max(touched_at_, look.touched) > settings_.attract) give(look, true);
+    if (at_once || snapshot.time - std::max(touched_at_, snapshot.touched) > settings_.attract) give(snapshot, true);
   }
 
-  void give(const VisitTap::Look& look, bool to_hands) {
+  void give(const VisitObserver::Snapshot& snapshot, bool to_hands) {
     attracting_ = to_hands;
-    touched_at_ = look.time;
+    touched_at_ = snapshot.time;
     for (std::size_t f = 0; f < fingers_.size(); ++f) fingers_[f]->give(to_hands ? makeHand(f) : nullptr);
-    tap_->setBanner(to_hands ? assembly_.words.invitation : "");
-    if (log_) log_->note(to_hands ? "attract" : "takeover", look.time);
+    observer_->setBanner(to_hands ? assembly_.words.invitation : "");
+    if (log_) log_->note(to_hands ? "attract" : "takeover", snapshot.time);
   }
 
   std::unique_ptr<Device> makeHand(std::size_t finger) const {
@@ -116,8 +116,8 @@ class Visit {
   std::shared_ptr<const World> world_;
   const RunOptions options_;
   const Assembly& assembly_;
-  const Witness* witness_ = nullptr;  // this and tap_: owned by the run
-  VisitTap* tap_ = nullptr;
+  const RebuildObserver* rebuild_observer_ = nullptr;  // this and observer_: owned by the run
+  VisitObserver* observer_ = nullptr;
   std::unique_ptr<TerminalRun> run_;
   std::optional<VisitLog> log_;
   std::optional<double> done_at_;  // [s]

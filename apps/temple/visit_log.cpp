@@ -49,7 +49,7 @@ VisitLog::VisitLog(const std::string& folder, KeptSession base, const Scene& sce
              {"seed", kept_.seed},
              {"language", language},
              {"placed", kept_.placed},
-             {"spent_s", rounded(kept_.spent)}}
+             {"spent_s", rounded(kept_.elapsed)}}
             .dump());
 }
 
@@ -59,26 +59,26 @@ void VisitLog::note(const std::string& event, double time) {
   write(Json{{"event", event}, {"time_s", rounded(time)}, {"placed", kept_.placed}}.dump());
 }
 
-void VisitLog::note(const std::vector<GuideEvent>& events, const VisitTap::Look& look) {
+void VisitLog::note(const std::vector<GuideEvent>& events, const VisitObserver::Snapshot& snapshot) {
   bool changed = false;
   for (const GuideEvent& event : events) {
     Json line{{"event", wordOf(event.kind)}, {"time_s", rounded(event.time)}};
     if (event.goal != kNoGoal) line["goal"] = scene_.assembly->goals[static_cast<std::size_t>(event.goal)].name;
     if (event.body != kNoBody) line["body"] = scene_.bodies[static_cast<std::size_t>(event.body)].name;
-    if (event.kind == Kind::kFinished) line["spent_s"] = rounded(look.now.spent);
-    line["placed"] = look.now.placed;
+    if (event.kind == Kind::kFinished) line["spent_s"] = rounded(snapshot.now.elapsed);
+    line["placed"] = snapshot.now.placed;
     write(line.dump());
     changed = changed || event.kind == Kind::kPlaced || event.kind == Kind::kUndone;
   }
-  if (changed) keep(look);
+  if (changed) keep(snapshot);
 }
 
-void VisitLog::keep(const VisitTap::Look& look) {
-  kept_.spent = look.now.spent;
-  kept_.placed = look.now.placed;
+void VisitLog::keep(const VisitObserver::Snapshot& snapshot) {
+  kept_.elapsed = snapshot.now.elapsed;
+  kept_.placed = snapshot.now.placed;
   // the blocks are the scene's first bodies
-  std::copy_n(look.X_WB.begin(), kept_.X_WB.size(), kept_.X_WB.begin());
-  if (look.now.finished) {
+  std::copy_n(snapshot.X_WB.begin(), kept_.X_WB.size(), kept_.X_WB.begin());
+  if (snapshot.now.finished) {
     std::filesystem::remove(file_);  // finished: nothing to continue
     return;
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/temple/kept_session.h"
-#include "apps/temple/visit_tap.h"
+#include "apps/temple/visit_observer.h"
 
 namespace presa::temple {
 
@@ -15,13 +15,13 @@ class VisitLog {
   /// Creates the folder. `base`: initial state of the visit. Throws std::system_error.
   VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language);
 
-  void note(const std::vector<GuideEvent>& events, const VisitTap::Look& look);
+  void note(const std::vector<GuideEvent>& events, const VisitObserver::Snapshot& snapshot);
   /// Events that do not come from the guide: "attract", "takeover", "end".
   void note(const std::string& event, double time);
 
  private:
   void write(const std::string& line);
-  void keep(const VisitTap::Look& look);
+  void keep(const VisitObserver::Snapshot& snapshot);
 
   const Scene& scene_;
   std::string file_;

@@ -62,7 +62,7 @@ void Drive::place(const Vec3& x) noexcept {
 }
 
 void Drive::advance(const Hold& hold) noexcept {
-  const double servo = servoRate(parameters_), range = parameters_.most_force;
+  const double servo = servoRate(parameters_), range = parameters_.max_force;
   for (int i = 0; i < samples_; ++i) {
     hand_force_ = hold.hand.stiffness * (hold.target - x_) + hold.hand.damping * (hold.target_velocity - v_) +
                   hold.force - hold.hand.mass * servo * (r_ - v_);
@@ -80,7 +80,7 @@ void Drive::step(const Vec3& force) noexcept {
     x_[axis] = next[0], v_[axis] = next[1], r_[axis] = next[2];
   }
   for (Vec3* speed : {&r_, &v_}) {
-    if (const double norm = speed->norm(); norm > parameters_.most_speed) *speed *= parameters_.most_speed / norm;
+    if (const double norm = speed->norm(); norm > parameters_.max_speed) *speed *= parameters_.max_speed / norm;
   }
   stopAtEnds();
 }

@@ -86,8 +86,8 @@ Settings readSettings(const DeviceBinding& binding, const World& world, Diagnost
   readNumber(binding, "viscosity", true, p.viscosity, diagnostics);
   readNumber(binding, "bandwidth", false, p.bandwidth, diagnostics);
   readNumber(binding, "noise", true, p.noise, diagnostics);
-  readNumber(binding, "most_force", false, p.most_force, diagnostics);
-  readNumber(binding, "most_speed", false, p.most_speed, diagnostics);
+  readNumber(binding, "most_force", false, p.max_force, diagnostics);
+  readNumber(binding, "most_speed", false, p.max_speed, diagnostics);
   readPlace(binding, "centre", false, p.centre, diagnostics);
   readPlace(binding, "half_travel", true, p.half_travel, diagnostics);
   double seed = 1;

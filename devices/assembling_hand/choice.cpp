@@ -77,7 +77,7 @@ void Chooser::pressHarder(Grasp& grasp, std::size_t body, const Pose& X_WB) cons
   if (over <= 0) return;
   const double mu = std::max(0.1, world_.scene.materialOf(world_.scene.bodies[body]).friction_dynamic);
   const double holds = mu * std::sqrt(std::max(0.0, 1 - over * over)) - over;
-  grasp.force = holds > 0 ? std::min(kMostGrip, grasp.force * mu / holds) : kMostGrip;
+  grasp.force = holds > 0 ? std::min(kMaxGrip, grasp.force * mu / holds) : kMaxGrip;
 }
 
 void Chooser::weighCarrying(Choice& best, std::size_t& in_the_way, const ObjectState& objects, double effort,

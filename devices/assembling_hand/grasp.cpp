@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTowardsTop = 0.75;  // share of the half height: a body grasped there hangs with its top up
 constexpr double kSafety = 2.5;       // grip over the min grip that carries the body
-constexpr double kLeastGrip = 0.5;    // [N]
+constexpr double kMinGrip = 0.5;    // [N]
 constexpr double kLevel = 0.6;        // sine: axes closer to horizontal than this count as level
 
 Vec3 level(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }
@@ -29,12 +29,12 @@ double halfWidth(const Shape& shape, const TriMesh* mesh, const Vec3& n_G) {
     double operator()(const Capsule& rod) const { return rod.radius + rod.length / 2 * std::abs(n.z()); }
     double operator()(const MeshRef&) const {
       if (mesh == nullptr || mesh->vertices.empty()) return 0;
-      double least = mesh->vertices[0].dot(n), most = least;
+      double min = mesh->vertices[0].dot(n), max = min;
       for (const Vec3& v : mesh->vertices) {
-        least = std::min(least, v.dot(n));
-        most = std::max(most, v.dot(n));
+        min = std::min(min, v.dot(n));
+        max = std::max(max, v.dot(n));
       }
-      return (most - least) / 2;
+      return (max - min) / 2;
     }
   };
   return std::visit(Measure{mesh, n_G}, shape);
@@ -73,8 +73,8 @@ Lines linesToHang(const World& world, std::size_t i, const Pose& X_WB, const Vec
   if (std::abs(up_W.z()) < kStands) {
     lines.add(Vec3::UnitZ().cross(up_W));
   } else if (std::holds_alternative<Cylinder>(world.scene.bodies[i].physics->shape)) {
-    for (std::size_t n = 0; n < Lines::kMost; ++n)
-      lines.add(level(yaw + std::numbers::pi * static_cast<double>(n) / Lines::kMost));
+    for (std::size_t n = 0; n < Lines::kCapacity; ++n)
+      lines.add(level(yaw + std::numbers::pi * static_cast<double>(n) / Lines::kCapacity));
   } else {
     lines = linesToMove(world, i, X_WB);
   }
@@ -98,7 +98,7 @@ Grasp graspAlong(const World& world, std::size_t i, const Pose& X_WB, const Vec3
   grasp.p_BC = world.inertias[i].p_BCm + kTowardsTop * outTo(world, i, top_B) * top_B;
   grasp.half = halfWidth(world, i, grasp.a_B);
   const double mu = std::max(0.1, world.scene.materialOf(world.scene.bodies[i]).friction_dynamic);
-  grasp.force = std::clamp(kSafety * world.inertias[i].mass * 9.81 / (2 * mu), kLeastGrip, kMostGrip);
+  grasp.force = std::clamp(kSafety * world.inertias[i].mass * 9.81 / (2 * mu), kMinGrip, kMaxGrip);
   return grasp;
 }
 

@@ -14,7 +14,7 @@ struct Grasp {
   double force = 0;          ///< of each finger [N]
 };
 
-inline constexpr double kMostGrip = 6;  ///< max force of each finger [N]
+inline constexpr double kMaxGrip = 6;  ///< max force of each finger [N]
 
 /// Half the extent of a physics geometry along the unit direction `n_G`, in the geometry's frame [m].
 double halfWidth(const Shape& shape, const TriMesh* mesh, const Vec3& n_G);
@@ -29,17 +29,17 @@ double outTo(const World& world, std::size_t i, const Vec3& n_B);
 /// its head.
 inline constexpr double kStands = 0.9;
 
-/// Up to kMost level unit directions.
+/// Up to kCapacity level unit directions.
 struct Lines {
-  static constexpr std::size_t kMost = 4;
-  std::array<Vec3, kMost> a_W;
+  static constexpr std::size_t kCapacity = 4;
+  std::array<Vec3, kCapacity> a_W;
   std::size_t count = 0;
   void add(const Vec3& n_W) { a_W[count++] = Vec3(n_W.x(), n_W.y(), 0).normalized(); }
 };
 
 /// Grasp lines for body `i` at X_WB with top direction `up_B`, such that it hangs with its top up. A lying body swings
-/// upright about the line, which leaves one; a standing body is grasped across its sides, a cylinder along any of kMost
-/// directions (the first along `yaw` [rad]).
+/// upright about the line, which leaves one; a standing body is grasped across its sides, a cylinder along any of
+/// kCapacity directions (the first along `yaw` [rad]).
 Lines linesToHang(const World& world, std::size_t i, const Pose& X_WB, const Vec3& up_B, double yaw);
 /// Grasp lines for moving body `i` without turning it, narrowest first.
 Lines linesToMove(const World& world, std::size_t i, const Pose& X_WB);

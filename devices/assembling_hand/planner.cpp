@@ -17,7 +17,7 @@ constexpr double kFirm = 1.6;   // share of the grip while a body on its head is
 constexpr double kHangs = 0.3;  // max tilt for putting a body down [rad]
 constexpr double kHangsWell = 0.25;  // max tilt that a goal corrects without shaking [rad]
 constexpr double kUpright = 0.12;    // max tilt after a failed attempt, in which it may have hit its neighbours [rad]
-constexpr int kMostShakes = 8;
+constexpr int kMaxShakes = 8;
 constexpr int kHardest = 3;                           // max number of extra grips added for a stuck body
 constexpr int kTips = 4;                              // steps of a quarter turn when tipping over
 constexpr double kShakeBy = 0.05, kShakeTime = 0.25;  // [m, s]: 4.6 m/s^2
@@ -61,7 +61,7 @@ bool Planner::isFilled(std::size_t goal, const ObjectState& objects) const noexc
   return std::ranges::any_of(place.bodies, [&](std::size_t body) {
     const BodyMotion& motion = objects.bodies[body];
     const Pose& X_WB = motion.X_WB_end;
-    const Way way = wayBetween(nearestTurn(place.X_WB, place.fold, X_WB.q), X_WB);
+    const PoseDifference way = poseDifference(nearestTurn(place.X_WB, place.fold, X_WB.q), X_WB);
     return way.distance < assembly.tolerance && way.angle < assembly.tolerance_angle_deg * kPi / 180 &&
            motion.v_WB.norm() < 1e-6;
   });
@@ -147,7 +147,7 @@ void Planner::takeAim(const ObjectState& objects) noexcept {
   tips_ = 0;
   Trial& trial = trials_[body_];
   trial = {trial.count + 1, grasp_.a_B, only_moves_, false, trial.stuck};
-  grasp_.force = std::min(kMostGrip, (1 + trial.stuck) * grasp_.force);
+  grasp_.force = std::min(kMaxGrip, (1 + trial.stuck) * grasp_.force);
   X_WB_taken_ = objects.bodies[body_].X_WB_end;
   lay_ = tilt(objects) > kHangs;
   const AssemblyGoal& goal = world_->scene.assembly->goals[goal_];
@@ -175,7 +175,7 @@ bool Planner::holds(const ObjectState& objects) const noexcept {
 }
 
 // Opens after a failed grasp, for another attempt.
-void Planner::letGo() noexcept {
+void Planner::release() noexcept {
   PairTarget to = target();
   to.grip = 0;
   to.gap = openGap();
@@ -212,7 +212,7 @@ bool Planner::isOnItsHead(const ObjectState& objects) const noexcept { return ti
 void Planner::shake(const ObjectState& objects) noexcept {
   double by = isOnItsHead(objects) ? kJerkBy : kShakeBy;
   PairTarget to = target();
-  if (tilt(objects) < kHangs) by *= 1 - static_cast<double>(shakes_) / (kMostShakes + 1);
+  if (tilt(objects) < kHangs) by *= 1 - static_cast<double>(shakes_) / (kMaxShakes + 1);
   to.centre += (shakes_++ % 2 == 0 ? by : -by) * Vec3(-std::sin(target().yaw), std::cos(target().yaw), 0);
   go(kShake, to, kShakeTime);
 }
@@ -283,7 +283,7 @@ void Planner::next(const ObjectState& objects) noexcept {
         // help
         const bool stayed = (objects.bodies[body_].X_WB_end.p - X_WB_taken_.p).norm() < kMoved;
         trials_[body_].stuck = stayed ? std::min(trials_[body_].stuck + 1, kHardest) : 0;
-        return letGo();
+        return release();
       }
       grasp_.force /= 1 + trials_[body_].stuck;  // no longer stuck
       trials_[body_].stuck = 0;
@@ -296,9 +296,9 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kShake:
       return go(kSwing, to, kPause);
     case kSwing:
-      if (!holds(objects)) return letGo();
+      if (!holds(objects)) return release();
       if (only_moves_) return moveAside(objects);
-      if (tilt(objects) > mayHang() && shakes_ < kMostShakes) {
+      if (tilt(objects) > mayHang() && shakes_ < kMaxShakes) {
         if (const double grip = swingingGrip(objects); grip != target().grip) {
           to.grip = grip;
           return go(kLoosen, to, 0.3);
@@ -311,7 +311,7 @@ void Planner::next(const ObjectState& objects) noexcept {
     case kCarry:
       return go(kSettle, to, kPause);
     case kSettle:
-      if (!holds(objects)) return letGo();
+      if (!holds(objects)) return release();
       return lower(objects);
     case kApproach:
       return go(kHover, to, kHoverTime);

@@ -44,7 +44,7 @@ class Planner final : public PairPlan {
   bool leavesGap(std::size_t goal, const ObjectState& objects) const noexcept;
   void takeAim(const ObjectState& objects) noexcept;
   void moveAside(const ObjectState& objects) noexcept;
-  void letGo() noexcept;
+  void release() noexcept;
   bool holds(const ObjectState& objects) const noexcept;
   void carry(const ObjectState& objects) noexcept;
   void lower(const ObjectState& objects) noexcept;

@@ -37,7 +37,7 @@ Surroundings::Bounds Surroundings::boundsOf(const Body& body, const TriMesh* mes
 Surroundings::Surroundings(const World& world) {
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i)
     bounds_.push_back(boundsOf(world.scene.bodies[i], world.meshes[i].physics.get()));
-  if (world.scene.assembly) field_ = world.scene.assembly->field;
+  if (world.scene.assembly) workspace_ = world.scene.assembly->workspace;
 }
 
 std::size_t Surroundings::bodyAt(const ObjectState& objects, const Vec3& p_W, double radius,
@@ -55,8 +55,8 @@ std::size_t Surroundings::bodyAt(const ObjectState& objects, const Vec3& p_W, do
 }
 
 bool Surroundings::isOutOfReach(const ObjectState& objects, std::size_t body) const noexcept {
-  if (!field_) return false;
-  const Vec3 outside = (objects.bodies[body].X_WB_end.p - field_->centre).cwiseAbs() - field_->size / 2;
+  if (!workspace_) return false;
+  const Vec3 outside = (objects.bodies[body].X_WB_end.p - workspace_->centre).cwiseAbs() - workspace_->size / 2;
   return outside.maxCoeff() > 0;
 }
 
@@ -89,8 +89,8 @@ Vec3 Surroundings::awayFromNeighbours(const ObjectState& objects, std::size_t bo
 
 // Seen from above, free bodies count as discs; a ball of this radius on the ground must not touch a fixed body.
 bool Surroundings::isRoom(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept {
-  if (field_) {
-    const Vec3 inside = (p_W - field_->centre).cwiseAbs() - kWellInside * field_->size / 2;
+  if (workspace_) {
+    const Vec3 inside = (p_W - workspace_->centre).cwiseAbs() - kWellInside * workspace_->size / 2;
     if (inside.x() > 0 || inside.y() > 0) return false;
   }
   const Vec3 centre(p_W.x(), p_W.y(), 1.02 * radius);

@@ -38,7 +38,7 @@ class Surroundings {
   static Bounds boundsOf(const Body& body, const TriMesh* mesh);
 
   std::vector<Bounds> bounds_;  // by body
-  std::optional<Assembly::Field> field_;
+  std::optional<Assembly::Workspace> workspace_;
 };
 
 }  // namespace presa::assembling

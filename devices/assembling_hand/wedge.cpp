@@ -7,7 +7,7 @@
 namespace presa::assembling {
 namespace {
 
-constexpr double kMostAskew = 0.25, kAskewStep = 0.05;              // angle of the line to level across the top [rad]
+constexpr double kMaxAskew = 0.25, kAskewStep = 0.05;              // angle of the line to level across the top [rad]
 constexpr double kLowest = 0.002, kHighest = 0.02, kStep = 0.0015;  // height of the line above the centre of mass [m]
 constexpr double kAskewCosts = 0.02;                                // [m/rad]
 constexpr double kOfCone = 0.7;                                     // usable share of the friction angle
@@ -40,10 +40,10 @@ std::optional<Grasp> graspOfLyingMesh(const World& world, std::size_t i, const P
   if (!std::holds_alternative<MeshRef>(body.physics->shape) || mesh == nullptr) return std::nullopt;
   const Vec3 level_W = Vec3::UnitZ().cross(X_WB.q * up_B).normalized();
   const double friction = std::max(0.1, world.scene.materialOf(body).friction_dynamic);
-  const double least_steep = std::cos(kOfCone * std::atan(friction));
+  const double min_steep = std::cos(kOfCone * std::atan(friction));
   std::optional<Grasp> best;
   double best_score = 0;
-  for (double askew = -kMostAskew; askew <= kMostAskew + kAskewStep / 2; askew += kAskewStep) {
+  for (double askew = -kMaxAskew; askew <= kMaxAskew + kAskewStep / 2; askew += kAskewStep) {
     const Vec3 a_W = Quat(Eigen::AngleAxisd(askew, Vec3::UnitZ())) * level_W;
     for (double above = kLowest; above < kHighest; above += kStep) {
       const double score = above - kAskewCosts * std::abs(askew);
@@ -52,7 +52,7 @@ std::optional<Grasp> graspOfLyingMesh(const World& world, std::size_t i, const P
       const Vec3 p_B = world.inertias[i].p_BCm + above * up_B;
       const Exit on = exitOf(*mesh, body.physics->X_BG, p_B, grasp.a_B),
                  back = exitOf(*mesh, body.physics->X_BG, p_B, -grasp.a_B);
-      if (on.along < 0 || back.along < 0 || std::min(on.steep, back.steep) < least_steep) continue;
+      if (on.along < 0 || back.along < 0 || std::min(on.steep, back.steep) < min_steep) continue;
       grasp.p_BC = p_B + (on.along - back.along) / 2 * grasp.a_B;
       grasp.half = (on.along + back.along) / 2;
       best = grasp;

@@ -58,9 +58,9 @@ void ClumsyPlan::next(const ObjectState& objects) noexcept {
   goAt(step.phase, step.to, step.speed);
 }
 
-/// A random horizontal vector of length `least` to `most` [m].
-Vec3 ClumsyPlan::across(double least, double most) noexcept {
-  const double angle = uniform(0, 2 * std::numbers::pi), length = uniform(least, most);
+/// A random horizontal vector of length `min` to `max` [m].
+Vec3 ClumsyPlan::across(double min, double max) noexcept {
+  const double angle = uniform(0, 2 * std::numbers::pi), length = uniform(min, max);
   return {length * std::cos(angle), length * std::sin(angle), 0};
 }
 
@@ -100,7 +100,7 @@ void ClumsyPlan::grab(const ObjectState& objects) noexcept {
   to.centre.z() = there;
   add(kReach, to, uniform(0.1, 0.8));
   to.gap = uniform(0.1, 1) * size + fingertip_;
-  to.grip = uniform(0.3, kMostGrip);
+  to.grip = uniform(0.3, kMaxGrip);
   add(kGrab, to, 0.5);
   withWhatIsHeld(to);
 }

@@ -17,7 +17,7 @@ class ClumsyPlan final : public PairPlan {
   enum Phase : int { kStray, kReach, kGrab, kLift, kShake, kThrow, kDrag, kPress, kPush, kOpen };
   static const std::vector<std::string>& phaseNames();
   static constexpr double kFastest = 1.2;  ///< max speed of a movement [m/s]
-  static constexpr double kMostGrip = 8;   ///< max grip force [N]
+  static constexpr double kMaxGrip = 8;   ///< max grip force [N]
 
   /// `fingertip`: radius [m]. Precondition: the scene has a free body with a physics geometry.
   ClumsyPlan(std::shared_ptr<const World> world, double fingertip, std::uint64_t seed);
@@ -36,7 +36,7 @@ class ClumsyPlan final : public PairPlan {
   void push(const ObjectState& objects) noexcept;
   void stray() noexcept;
   void add(Phase phase, const PairTarget& to, double speed) noexcept;
-  Vec3 across(double least, double most) noexcept;
+  Vec3 across(double min, double max) noexcept;
   double uniform(double low, double high) noexcept { return random_.uniform(low, high); }
   std::size_t anyBody() noexcept { return movable_[random_.below(movable_.size())]; }
 

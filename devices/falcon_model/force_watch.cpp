@@ -10,7 +10,7 @@
 namespace presa::falcon_model {
 namespace {
 
-constexpr std::size_t kMostViolations = 20;
+constexpr std::size_t kMaxViolations = 20;
 constexpr double kSlack = 1e-9;  // rounding error [N]
 
 bool zero(const Received& request) { return request.counts == std::array<int, 3>{}; }
@@ -26,7 +26,7 @@ Vec3 forceOf(const std::array<int, 3>& counts, const Mat3& rates) {
 double roundingOf(const Mat3& rates) { return 0.5 * std::abs(kTorquePerCount) * rates.rowwise().norm().sum(); }
 
 void ForceWatch::judge(bool broken, const char* what, const Received& request) {
-  if (!broken || violations_.size() >= kMostViolations) return;
+  if (!broken || violations_.size() >= kMaxViolations) return;
   char line[200];
   std::snprintf(line, sizeof line, "%s at %.6f s: (%d, %d, %d) counts", what, request.time, request.counts[0],
                 request.counts[1], request.counts[2]);
@@ -34,18 +34,18 @@ void ForceWatch::judge(bool broken, const char* what, const Received& request) {
 }
 
 void ForceWatch::see(const Received& request, const Knowledge& knowledge) {
-  const int most = std::ranges::max(request.counts, {}, [](int c) { return std::abs(c); });
-  judge(std::abs(most) > kMostCounts, "more counts than a motor has", request);
+  const int max = std::ranges::max(request.counts, {}, [](int c) { return std::abs(c); });
+  judge(std::abs(max) > kMaxCounts, "more counts than a motor has", request);
   judge(!zero(request) && !knowledge.lost_homed && knowledge.homed_replies < kHomedReplies,
         "force before all references were reported", request);
   // the host computes from one of the poses it has read; use the most favourable one
-  double least = zero(request) ? 0 : std::numeric_limits<double>::infinity();
+  double min = zero(request) ? 0 : std::numeric_limits<double>::infinity();
   for (const Mat3& rates : posesOf(knowledge)) {
-    least = std::min(least, forceOf(request.counts, rates).norm() - roundingOf(rates));
+    min = std::min(min, forceOf(request.counts, rates).norm() - roundingOf(rates));
   }
-  judge(!zero(request) && least > limits_.force + kSlack, "more force than the limit", request);
-  if (std::isfinite(least)) largest_force_ = std::max(largest_force_, least);
-  judgeRelease(request, knowledge, least);
+  judge(!zero(request) && min > limits_.force + kSlack, "more force than the limit", request);
+  if (std::isfinite(min)) largest_force_ = std::max(largest_force_, min);
+  judgeRelease(request, knowledge, min);
   if (last_.time >= 0) judgeStep(request, knowledge);
   last_ = request;
   last_knowledge_ = knowledge;
@@ -66,7 +66,7 @@ void ForceWatch::judgeStep(const Received& request, const Knowledge& knowledge) 
         request);
 }
 
-void ForceWatch::judgeRelease(const Received& request, const Knowledge& knowledge, double least) {
+void ForceWatch::judgeRelease(const Received& request, const Knowledge& knowledge, double min) {
   if (!knowledge.lost_homed) {
     released_from_ = -1;
     return;
@@ -83,7 +83,7 @@ void ForceWatch::judgeRelease(const Received& request, const Knowledge& knowledg
     return;
   }
   const double fallen = limits_.force_rate * (request.time - knowledge.lost_at - limits_.jitter);
-  judge(!(least <= released_from_ - std::max(0.0, fallen) + kSlack), "force after a reference was lost", request);
+  judge(!(min <= released_from_ - std::max(0.0, fallen) + kSlack), "force after a reference was lost", request);
 }
 
 }  // namespace presa::falcon_model

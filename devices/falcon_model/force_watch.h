@@ -53,13 +53,13 @@ class ForceWatch {
   double largestStep() const { return largest_step_; }    ///< [N]
   double largestForce() const { return largest_force_; }  ///< [N]
 
-  static constexpr int kMostCounts = 4095;
+  static constexpr int kMaxCounts = 4095;
   static constexpr int kHomedReplies = 10;
 
  private:
   void judge(bool broken, const char* what, const Received& request);
   void judgeStep(const Received& request, const Knowledge& knowledge);
-  void judgeRelease(const Received& request, const Knowledge& knowledge, double least);
+  void judgeRelease(const Received& request, const Knowledge& knowledge, double min);
 
   WatchLimits limits_;
   Received last_;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTurn = 1;            // [rad/s]
 constexpr double kPeakOfMean = 1.875;  // peak over mean speed of a minimum-jerk movement
-constexpr double kLeast = 0.2;         // min duration of a movement [s]
+constexpr double kMinDuration = 0.2;         // min duration of a movement [s]
 
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
@@ -34,7 +34,7 @@ void PairPlan::go(int phase, const PairTarget& to, double duration) noexcept {
 
 void PairPlan::goAt(int phase, const PairTarget& to, double speed) noexcept {
   const double way = (to.centre - to_.centre).norm(), turn = std::abs(wrapped(to.yaw - to_.yaw));
-  go(phase, to, kLeast + kPeakOfMean * std::max(way / speed, turn / kTurn));
+  go(phase, to, kMinDuration + kPeakOfMean * std::max(way / speed, turn / kTurn));
 }
 
 PairTarget PairPlan::at(double time) const noexcept {

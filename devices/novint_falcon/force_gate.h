@@ -11,7 +11,7 @@ namespace presa::falcon {
 /// vanishing force would jump. Thread: the link's; nonblocking.
 class ForceGate {
  public:
-  explicit ForceGate(const DeviceRating& rating) : most_(rating.force), rate_(rating.force_rate) {}
+  explicit ForceGate(const DeviceRating& rating) : max_force_(rating.force), rate_(rating.force_rate) {}
 
   /// Sets the force to zero at once: at the start, and where no force can be computed any more.
   void cut() noexcept {
@@ -44,8 +44,8 @@ class ForceGate {
  private:
   /// Scales by the largest component first: the square of 1e308 would overflow.
   Vec3 bounded(Vec3 force) const noexcept {
-    if (const double largest = force.cwiseAbs().maxCoeff(); largest > most_) force *= most_ / largest;
-    if (const double norm = force.norm(); norm > most_) force *= most_ / norm;
+    if (const double largest = force.cwiseAbs().maxCoeff(); largest > max_force_) force *= max_force_ / largest;
+    if (const double norm = force.norm(); norm > max_force_) force *= max_force_ / norm;
     return force;
   }
   void go(const Vec3& where, double elapsed) noexcept {
@@ -58,7 +58,7 @@ class ForceGate {
     }
   }
 
-  double most_, rate_;  // [N], [N/s]
+  double max_force_, rate_;  // [N], [N/s]
   double gain_ = 0, gap_ = 0;
   Vec3 out_ = Vec3::Zero();
 };

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kWake = 250'000;  // [ns]
 constexpr int kPriority = 82;            // above the haptic thread (80), so that it does not delay this thread
-constexpr double kFarewell = 20e-3;      // [s] of zero force at the end
+constexpr double kZeroForceTime = 20e-3;      // [s] of zero force at the end
 constexpr double kPatience = 1;          // [s] max wait at the end for a device that accepts no requests
 
 }  // namespace
@@ -32,7 +32,7 @@ LinkSample FalconIo::latest(const Tick& tick) noexcept {
   // catch-up ticks after a late wake-up come all at once: no time has passed between them
   if (sample_.update()) {
     silence_ = 0;
-  } else if (!tick.made_up) {
+  } else if (!tick.catch_up) {
     silence_ += tick.period;
   }
   LinkSample sample = sample_.value();
@@ -59,7 +59,7 @@ void FalconIo::run() noexcept {
     if (now - wake > kWake) wake = now;  // more than a period late: skip the missed wake-ups
     if (end == 0 && stop_.load(std::memory_order_relaxed)) {
       link_.release();
-      end = seconds(now) + kFarewell;
+      end = seconds(now) + kZeroForceTime;
     }
     step(seconds(now));
     if (end > 0 && link_.status().state == LinkState::kDead) return;

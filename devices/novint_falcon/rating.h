@@ -9,7 +9,7 @@ inline constexpr DeviceRating kRating{.force = 8};  // its continuous rating is 
 
 /// Upper bound for a rig's setting, 1.25 times the nominal value: the motor constant is uncertain by 10 to 20 %, and a
 /// larger value would give forces above the rating.
-inline constexpr double kMostCountsPerTorque = 1.25 * kCountsPerTorque;
+inline constexpr double kMaxCountsPerTorque = 1.25 * kCountsPerTorque;
 /// Max speed of a grip in a hand [m/s]; a faster one is a fault.
 inline constexpr double kFastestGrip = 3;
 

@@ -18,9 +18,9 @@ const std::vector<std::string> kKeys{"serial", "firmware",          "pos",      
 
 struct NumberRule {
   std::size_t count = 1;
-  double least = 0;  ///< each number must be greater
+  double min = 0;  ///< each number must be greater
   const char* words = "";
-  double most = std::numeric_limits<double>::max();
+  double max = std::numeric_limits<double>::max();
 };
 
 /// The setting as numbers that satisfy the rule; nullopt when it is missing, or invalid (reported).
@@ -33,7 +33,7 @@ std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const
   for (const std::string& word : xml::splitWords(found->second.value)) {
     double& number = numbers.emplace_back();
     good =
-        good && xml::readNumber(word, number) == xml::NumberKind::kFinite && number > rule.least && number <= rule.most;
+        good && xml::readNumber(word, number) == xml::NumberKind::kFinite && number > rule.min && number <= rule.max;
   }
   if (good && numbers.size() == rule.count) return numbers;
   diagnostics.error(kBadNumber, found->second.where,
@@ -76,7 +76,7 @@ FalconSettings readSettings(const DeviceBinding& binding, const RunOptions& opti
   settings.realtime = options.realtime;
   settings.X_WD = readBase(binding, diagnostics);
   readPositive(binding, "scale", settings.scale, diagnostics);
-  readUpTo(binding, "counts_per_torque", {1, 0, "a number above 0, at most 12500", kMostCountsPerTorque},
+  readUpTo(binding, "counts_per_torque", {1, 0, "a number above 0, at most 12500", kMaxCountsPerTorque},
            settings.link.counts_per_torque, diagnostics);
   readUpTo(binding, "max_speed", {1, 0, "a number above 0, at most 3", kFastestGrip}, settings.link.max_speed,
            diagnostics);

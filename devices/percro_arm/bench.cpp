@@ -58,7 +58,7 @@ double linearGain(const Parameters& p, double frequency) {
   return 20 * std::log10(std::abs(arm * current));
 }
 
-Push push(const Parameters& parameters, double length, const Vec3& direction, double most_force) {
+Push push(const Parameters& parameters, double length, const Vec3& direction, double max_force) {
   constexpr int kLevels = 40;
   constexpr double kSettle = 1.0;  // [s] per level
   SimulatedArm arm(parameters, Vec3::Zero(), kPeriod);
@@ -68,7 +68,7 @@ Push push(const Parameters& parameters, double length, const Vec3& direction, do
   for (int level = 0; level <= kLevels; ++level) {
     const double part = 1 - std::abs(2.0 * level / kLevels - 1);
     for (int i = 0; i < kSettle / kPeriod; ++i) {
-      arm.command(part * most_force * direction);
+      arm.command(part * max_force * direction);
       arm.advance(kBolted);
     }
     push.displacement.push_back((arm.reportedPosition() - start).dot(direction));

@@ -24,7 +24,7 @@ struct Push {
   double r_squared = 0;
 };
 /// `direction`: in D, unit length.
-Push push(const Parameters& parameters, double length, const Vec3& direction, double most_force);
+Push push(const Parameters& parameters, double length, const Vec3& direction, double max_force);
 
 /// A hand (0.1 kg, 300 N/m) leans with 3 N on a virtual wall of this stiffness [N/m], rendered from the encoders at 1
 /// kHz. Returns the peak-to-peak motion of the tip after 3 s [m]; 0: the wall is steady.

@@ -29,15 +29,15 @@ Vec3 beyond(const Geometry& g, const Joints& q) {
 Vec6 stepUnderFriction(const Mat6& a, const Vec6& r, const Vec6& w, const Vec6& friction, int size) {
   Vec6 d = Vec6::Zero();
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    double most = 0;
+    double max = 0;
     for (int i = 0; i < size; ++i) {
       const double free = w[i] + d[i] + (r[i] - a.row(i).dot(d)) / a(i, i);
       const double held = friction[i] / a(i, i);
       const double next = (free > held ? free - held : free < -held ? free + held : 0) - w[i];
-      most = std::max(most, std::abs(next - d[i]));
+      max = std::max(max, std::abs(next - d[i]));
       d[i] = next;
     }
-    if (most <= 0.1 * kClose * (d + w).cwiseAbs().maxCoeff()) break;
+    if (max <= 0.1 * kClose * (d + w).cwiseAbs().maxCoeff()) break;
   }
   return d;
 }

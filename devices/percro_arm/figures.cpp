@@ -22,8 +22,8 @@ Characteristic printedAs(const std::string& name, const std::string& unit, doubl
 }
 
 /// A dimensionless figure with a lower bound, based on assumptions.
-Characteristic atLeast(const std::string& name, double least, double here, const std::string& note) {
-  return {name, "1", least, std::numeric_limits<double>::infinity(), here, 0, Basis::kAssumed, note};
+Characteristic atLeast(const std::string& name, double min, double here, const std::string& note) {
+  return {name, "1", min, std::numeric_limits<double>::infinity(), here, 0, Basis::kAssumed, note};
 }
 
 Characteristic unprinted(const std::string& name, const std::string& unit, double here, Basis basis,
@@ -70,10 +70,10 @@ void addWorkspace(const Parameters& p, Figures& out) {
 void addForces(const Parameters& p, Figures& out) {
   const ReachBox box{{largestScale(p.geometry, {0.6, 0.3, 0.4}) * 0.6, 0.3, 0.4}, p.geometry.length_min};
   out.push_back(printedAs("continuous force, worst place and direction", "N", printed::kContinuousForce,
-                          leastForce(p, box, p.motors.continuous_torque), 0.02, Basis::kFitted,
+                          minForce(p, box, p.motors.continuous_torque), 0.02, Basis::kFitted,
                           "2.1; over the box, while carrying the arm"));
   out.push_back(printedAs("peak force, worst place and direction", "N", printed::kPeakForce,
-                          leastForce(p, box, p.motors.peak_torque), 0.02, Basis::kFitted, "2.1"));
+                          minForce(p, box, p.motors.peak_torque), 0.02, Basis::kFitted, "2.1"));
   const double ratio = p.motors.peak_torque / p.motors.continuous_torque;
   out.push_back(unprinted("peak force lasts, from cold", "s",
                           -p.motors.thermal_time * std::log(1 - 0.9 / (ratio * ratio)), Basis::kAssumed,
@@ -119,16 +119,16 @@ double measuredStep(const Parameters& p, double length) {
   Encoders encoders(p);
   const Mat3 to_joints = transmissionInverse(p.geometry);
   const Joints middle = {0, 0, length - p.geometry.length_min};
-  double most = 0;
+  double max = 0;
   Vec3 before = Vec3::Zero();
   for (int i = 0; i <= 300; ++i) {
     const double turn = 0.01 * i * p.motors.count();
     encoders.sample(middle + to_joints * Vec3(-turn, turn, 0));
     const Vec3 now = tipPosition(p.geometry, encoders.joints());
-    if (i > 0) most = std::max(most, (now - before).norm());
+    if (i > 0) max = std::max(max, (now - before).norm());
     before = now;
   }
-  return most;
+  return max;
 }
 
 std::vector<Characteristic> figures(const Parameters& parameters) {

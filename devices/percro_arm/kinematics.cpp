@@ -66,8 +66,8 @@ Vec3 gains(const Geometry& g, const Joints& q) {
 
 double conditionNumber(const Geometry& g, const Joints& q) {
   const Vec3 values = gains(g, q);
-  const double least = values.minCoeff();
-  return least > 0 ? values.maxCoeff() / least : std::numeric_limits<double>::infinity();
+  const double min = values.minCoeff();
+  return min > 0 ? values.maxCoeff() / min : std::numeric_limits<double>::infinity();
 }
 
 double transverseStep(const Parameters& p, double length) { return length * p.motors.count() / p.geometry.tilt_ratio; }

@@ -19,13 +19,13 @@ Vec3 MotorDrive::limits() const noexcept {
 }
 
 double MotorDrive::command(const Vec3& carried, const Vec3& wanted) noexcept {
-  const Vec3 most = limits();
+  const Vec3 max = limits();
   double share = 1;
   for (int i = 0; i < 3; ++i) {
-    const double room = wanted[i] > 0 ? most[i] - carried[i] : most[i] + carried[i];
+    const double room = wanted[i] > 0 ? max[i] - carried[i] : max[i] + carried[i];
     if (std::abs(wanted[i]) > room) share = std::min(share, std::max(0.0, room) / std::abs(wanted[i]));
   }
-  command_ = (carried + share * wanted).cwiseMax(-most).cwiseMin(most);
+  command_ = (carried + share * wanted).cwiseMax(-max).cwiseMin(max);
   return share;
 }
 

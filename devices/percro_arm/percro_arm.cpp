@@ -47,7 +47,7 @@ class PercroArm final : public Device {
   std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
   std::string model() const override { return "simulated PERCRO arms, scripted fingers: no device, no person"; }
   std::vector<DeviceFact> facts() const override {
-    return {{"motor_heat", "1", arm_.mostHeat(), true}, {"least_force_share", "1", arm_.leastShare(), true}};
+    return {{"motor_heat", "1", arm_.maxHeat(), true}, {"least_force_share", "1", arm_.minShare(), true}};
   }
   double damping() const override { return impedance_.damping; }
   std::vector<std::string> notes() const override { return notes_; }

@@ -65,7 +65,7 @@ double forceInAllDirections(const Parameters& parameters, const Joints& q, doubl
   return force;
 }
 
-double leastForce(const Parameters& parameters, const ReachBox& box, double torque) {
+double minForce(const Parameters& parameters, const ReachBox& box, double torque) {
   double force = std::numeric_limits<double>::infinity();
   overBox(box, [&](const Vec3& p) {
     force = std::min(force, forceInAllDirections(parameters, jointsAt(parameters.geometry, p), torque));

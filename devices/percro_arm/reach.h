@@ -20,6 +20,6 @@ double largestCommonScale(const Geometry& geometry, const Vec3& size, double apa
 /// Force [N] that motors of this torque produce in every direction, while they also carry the arm (y up).
 double forceInAllDirections(const Parameters& parameters, const Joints& q, double torque);
 /// Its min over a box [N].
-double leastForce(const Parameters& parameters, const ReachBox& box, double torque);
+double minForce(const Parameters& parameters, const ReachBox& box, double torque);
 
 }  // namespace presa::percro

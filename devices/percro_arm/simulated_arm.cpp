@@ -25,13 +25,13 @@ void SimulatedArm::command(const Vec3& f_D) noexcept {
   const Joints q = encoders_.joints();
   const Vec3 carried = to_motor_torque_ * dynamics_.weight(q);
   const Vec3 wanted = to_motor_torque_ * (jacobian(parameters_.geometry, q).transpose() * f_D);
-  least_share_ = std::min(least_share_, drive_.command(carried, wanted));
+  min_share_ = std::min(min_share_, drive_.command(carried, wanted));
 }
 
 void SimulatedArm::advance(const TipLoad& load) noexcept {
   const double h = period_ / substeps_;
   for (int i = 0; i < substeps_; ++i) dynamics_.step(state_, to_joint_torque_ * drive_.step(h), load, h);
-  most_heat_ = std::max(most_heat_, drive_.heat().maxCoeff());
+  max_heat_ = std::max(max_heat_, drive_.heat().maxCoeff());
   encoders_.sample(state_.q);
 }
 

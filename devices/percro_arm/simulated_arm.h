@@ -33,8 +33,8 @@ class SimulatedArm {
   const ArmDynamics& dynamics() const noexcept { return dynamics_; }
 
   /// Max heat of a winding so far (1: at its limit); min share of a wanted force that the motors delivered.
-  double mostHeat() const noexcept { return most_heat_; }
-  double leastShare() const noexcept { return least_share_; }
+  double maxHeat() const noexcept { return max_heat_; }
+  double minShare() const noexcept { return min_share_; }
 
   static constexpr double kSubstep = 0.25e-3;  ///< max substep [s]: modes at 90 Hz have a frequency error of 0.2 %
 
@@ -47,7 +47,7 @@ class SimulatedArm {
   double period_;
   int substeps_;
   ArmState state_;
-  double most_heat_ = 0, least_share_ = 1;
+  double max_heat_ = 0, min_share_ = 1;
 };
 
 }  // namespace presa::percro

@@ -21,7 +21,7 @@ Pair::Pair(const PairSettings& settings)
 
 bool Pair::add(Side side, const FingerImpedance& impedance, double period) {
   if (fingers_[side]) return false;
-  fingers_[side].emplace(Finger{FingerPlant(impedance, period), impedance.stiffness});
+  fingers_[side].emplace(DrivenFinger{FingerPlant(impedance, period), impedance.stiffness});
   fingers_[side]->plant.reset(settings_.start + signOf(side) * openHalf() * Vec3::UnitX());
   stiffness_ = stiffness_ > 0 ? std::min(stiffness_, impedance.stiffness) : impedance.stiffness;
   return true;
@@ -77,13 +77,13 @@ void Pair::live(double period) noexcept {
   double half = openHalf() - closing_ * (openHalf() + deepest);
   if (!holds(along)) half = std::max(half, settings_.fingertip);  // fingertips stop at each other
   half_.step(half, period);
-  const double least = halfWidth(along) - deepest;
-  const bool bounded = half_.value() < least;
-  const double reach = bounded ? least : half_.value(), closing = bounded ? 0 : half_.rate();
+  const double min = halfWidth(along) - deepest;
+  const bool bounded = half_.value() < min;
+  const double reach = bounded ? min : half_.value(), closing = bounded ? 0 : half_.rate();
   // against a fixed obstacle, bound the pull of the springs
   Vec3 lead = centre_.value() - middle(along), rate = centre_.rate();
-  if (const double most = settings_.push / stiffness_, length = lead.norm(); length > most) {
-    lead *= most / length;
+  if (const double max = settings_.push / stiffness_, length = lead.norm(); length > max) {
+    lead *= max / length;
     rate.setZero();
   }
   const Vec3 centre = middle(along) + lead;

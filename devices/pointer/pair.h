@@ -43,7 +43,7 @@ class Pair {
   const FingerPlant& finger(Side side) const noexcept { return fingers_[side]->plant; }
 
  private:
-  struct Finger {
+  struct DrivenFinger {
     FingerPlant plant;
     double stiffness;
     Vec3 felt = Vec3::Zero();
@@ -55,7 +55,7 @@ class Pair {
   double openHalf() const noexcept { return settings_.span / 2 + settings_.fingertip; }
 
   const PairSettings settings_;
-  std::array<std::optional<Finger>, 2> fingers_;
+  std::array<std::optional<DrivenFinger>, 2> fingers_;
   double stiffness_ = 0;  // of the softer finger [N/m]
   Vec3 wanted_;
   double wanted_yaw_ = 0, closing_ = 0;

@@ -11,7 +11,7 @@
 namespace presa::pointer {
 namespace {
 
-constexpr double kMostGrip = 6;        // [N], unless the rig or the scene sets less
+constexpr double kMaxGrip = 6;        // [N], unless the rig or the scene sets less
 constexpr double kShareOfLimit = 0.6;  // of the force limit; the rest is for weight and obstacles
 constexpr double kSpan = 0.12;         // [m]
 constexpr double kAbove = 0.05;        // [m] initial height above all free bodies
@@ -88,7 +88,7 @@ Vec3 startOf(const World& world) {
 
 PairSettings readPair(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   PairSettings pair;
-  double force = kMostGrip;
+  double force = kMaxGrip;
   for (const DeviceRole& role : world.scene.devices) {
     if (role.role != binding.role) continue;
     force = std::min(force, kShareOfLimit * role.limits.force);

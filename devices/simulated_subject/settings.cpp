@@ -16,16 +16,16 @@ const DeviceBinding::Setting* settingOf(const DeviceBinding& binding, const std:
   return found == binding.settings.end() ? nullptr : &found->second;
 }
 
-/// The setting as a number >= `least`; `fallback` when it is not given.
+/// The setting as a number >= `min`; `fallback` when it is not given.
 template <class Number>
-Number numberOf(const DeviceBinding& binding, const std::string& key, Number fallback, Number least,
+Number numberOf(const DeviceBinding& binding, const std::string& key, Number fallback, Number min,
                 Diagnostics& diagnostics) {
   const DeviceBinding::Setting* setting = settingOf(binding, key);
   if (setting == nullptr) return fallback;
   Number value{};
   const char* end = setting->value.data() + setting->value.size();
   const auto [rest, status] = std::from_chars(setting->value.data(), end, value);
-  if (status == std::errc{} && rest == end && std::isfinite(static_cast<double>(value)) && value >= least) return value;
+  if (status == std::errc{} && rest == end && std::isfinite(static_cast<double>(value)) && value >= min) return value;
   const std::string kind = std::is_integral_v<Number> ? "a non-negative whole number" : "a non-negative number";
   diagnostics.error(431, setting->where, key + " must be " + kind + ", found '" + setting->value + "'");
   return fallback;
@@ -83,7 +83,7 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, c
   settings.trial = options.seed;
   // grip and load together must stay below the force limit, or the fingers would pass through the object
   for (const DeviceRole& role : world.scene.devices) {
-    if (role.role == binding.role) settings.most_grip = 0.9 * role.limits.force;
+    if (role.role == binding.role) settings.max_grip = 0.9 * role.limits.force;
   }
   settings.reach = numberOf(binding, "reach", settings.reach, 1e-3, diagnostics);
   settings.hold = numberOf(binding, "hold", settings.hold, 0.0, diagnostics);
@@ -103,7 +103,7 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, c
   }
   if (settingOf(binding, "loosening") != nullptr)
     population.set("loosening", subject::constant(numberOf(binding, "loosening", 0.4, 1e-3, diagnostics)));
-  settings.traits = population.draw(settings.seed, settings.subject);
+  settings.parameters = population.draw(settings.seed, settings.subject);
   return settings;
 }
 

@@ -19,12 +19,12 @@ RandomStream streamOf(const SubjectSettings& settings, const char* name) {
 SharedSubject::SharedSubject(const Grasp& grasp, const SubjectSettings& settings, double period)
     : grasp_(grasp),
       settings_(settings),
-      hand_(settings.traits, streamOf(settings, "motor noise"), period, -settings.reach),
-      brain_(settings.traits,
+      hand_(settings.parameters, streamOf(settings, "motor noise"), period, -settings.reach),
+      brain_(settings.parameters,
              {.reach = settings.reach,
               .from_table = true,
               .hold = settings.hold,
-              .most_grip = settings.most_grip,
+              .max_grip = settings.max_grip,
               .device_resolution = settings.resolution},
              streamOf(settings, "perception"), period) {}
 
@@ -32,8 +32,8 @@ void SharedSubject::see(const ObjectState& objects, const Tick& tick) noexcept {
   if (grasp_.body >= objects.count()) return;
   const Vec3 moved = objects.poseAt(grasp_.body, tick.time).p - grasp_.p_WB;
   seen_height_ = moved.z();
-  senses_.sight.aside = moved.dot(grasp_.inward_W);
-  senses_.sight.object = !(settings_.eyes_closed && brain_.phase() == subject::Phase::kHold);
+  afferents_.sight.aside = moved.dot(grasp_.inward_W);
+  afferents_.sight.object = !(settings_.eyes_closed && brain_.phase() == subject::Phase::kHold);
 }
 
 FingerInput SharedSubject::read(int digit, const Tick& tick) noexcept {
@@ -52,7 +52,7 @@ FingerInput SharedSubject::read(int digit, const Tick& tick) noexcept {
 
 void SharedSubject::write(int digit, const Vec3& f_H_W, const Tick& tick) noexcept {
   advance(tick);
-  subject::DigitSenses& felt = senses_.digits[static_cast<std::size_t>(digit)];
+  subject::DigitAfferents& felt = afferents_.digits[static_cast<std::size_t>(digit)];
   felt.normal = std::max(0.0, -f_H_W.dot(inwardOf(digit)));
   felt.load = -f_H_W.z();
 }
@@ -63,20 +63,20 @@ void SharedSubject::advance(const Tick& tick) noexcept {
 }
 
 void SharedSubject::live(double period) noexcept {
-  hand_.step(brain_.intent(), senses_.digits);
+  hand_.step(brain_.command(), afferents_.digits);
   for (int i = 0; i < kDigits; ++i) {
-    subject::DigitSenses& digit = senses_.digits[static_cast<std::size_t>(i)];
+    subject::DigitAfferents& digit = afferents_.digits[static_cast<std::size_t>(i)];
     digit.q = hand_.q(i);
     digit.y = hand_.y(i);
     digit.v_y = hand_.vY(i);
   }
-  senses_.effort = hand_.effort(brain_.intent());
-  senses_.sight.height = seen_height_ - hand_.meanHeight();
-  const double rate = (senses_.sight.height - seen_before_) / period;
-  seen_before_ = senses_.sight.height;
+  afferents_.effort = hand_.effort(brain_.command());
+  afferents_.sight.height = seen_height_ - hand_.meanHeight();
+  const double rate = (afferents_.sight.height - seen_before_) / period;
+  seen_before_ = afferents_.sight.height;
   staying_behind_ += period * (rate - staying_behind_) / kSeeingTime;
-  senses_.sight.sliding = std::abs(staying_behind_) > kSeenSliding;
-  brain_.step(senses_);
+  afferents_.sight.sliding = std::abs(staying_behind_) > kSeenSliding;
+  brain_.step(afferents_);
 }
 
 }  // namespace presa

@@ -28,9 +28,9 @@ struct SubjectSettings {
   double resolution = 0;                ///< of the device [m]
   double hold = 11;                     ///< [s]; longer than a trial's 10 s, which start when the object is still
   bool eyes_closed = false;             ///< no sight while holding
-  double most_grip = 9;                 ///< max grip, below the device's force limit [N]
+  double max_grip = 9;                 ///< max grip, below the device's force limit [N]
   double reach = 0.02;                  ///< distance to the object at the start, and when the hand opens [m]
-  subject::Traits traits{};
+  subject::SubjectParameters parameters{};
 
   bool operator==(const SubjectSettings&) const = default;
 };
@@ -60,7 +60,7 @@ class SharedSubject {
   const SubjectSettings settings_;
   subject::Hand hand_;
   subject::Brain brain_;
-  subject::Senses senses_;
+  subject::Afferents afferents_;
   Tick at_;
   std::array<bool, subject::kDigits> taken_{};
   double seen_height_ = 0, staying_behind_ = 0;  // height of the object above the fingers [m]; its filtered rate [m/s]

@@ -11,8 +11,8 @@ namespace {
 std::vector<DeviceFact> factsOf(const SharedSubject& subject) {
   const SubjectSettings& settings = subject.settings();
   std::vector<DeviceFact> facts;
-  for (const subject::Trait& trait : subject::Population(settings.level).traits())
-    facts.push_back({std::string(trait.name), std::string(trait.unit), settings.traits.*trait.value});
+  for (const subject::SubjectParameter& parameter : subject::Population(settings.level).parameters())
+    facts.push_back({std::string(parameter.name), std::string(parameter.unit), settings.parameters.*parameter.value});
   const subject::Brain& brain = subject.brain();
   facts.push_back({"device_resolution", "m", settings.resolution, true});
   facts.push_back({"slip_threshold_of_trial", "m", brain.slipThreshold(), true});
@@ -38,7 +38,7 @@ class SimulatedDigit final : public Device {
   std::vector<std::string> phases() const override {
     return {subject::kPhaseNames.begin(), subject::kPhaseNames.end()};
   }
-  double damping() const override { return subject_->settings().traits.grip_damping; }
+  double damping() const override { return subject_->settings().parameters.grip_damping; }
   std::string model() const override {
     return "simulated subject, level " + std::string(subject::nameOf(subject_->settings().level)) +
            ": a model, not a person";

@@ -95,8 +95,8 @@ class Damage {
   /// To be called for every reply, damaged or not.
   void sent(const ReplyFate& reply) {
     before_.insert(before_.end(), reply.bytes.begin(), reply.bytes.end());
-    constexpr std::size_t kMost = falcon_model::kFrame - 1;
-    if (before_.size() > kMost) before_.erase(before_.begin(), before_.end() - kMost);
+    constexpr std::size_t kMaxKept = falcon_model::kFrame - 1;
+    if (before_.size() > kMaxKept) before_.erase(before_.begin(), before_.end() - kMaxKept);
   }
 
  private:

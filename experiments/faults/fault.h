@@ -34,7 +34,7 @@ struct Fault {
   std::string name, required;
   Bounds bounds;
   std::function<Outcome(RandomStream&)> run;
-  int most_runs = std::numeric_limits<int>::max();  ///< limit for runs that take wall time or do not vary
+  int max_runs = std::numeric_limits<int>::max();  ///< limit for runs that take wall time or do not vary
   /// Runs real processes in real time; meaningless when the system refuses SCHED_FIFO (see realtimeRights).
   bool real_time = false;
 };

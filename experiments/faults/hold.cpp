@@ -41,7 +41,7 @@ void runHold(const Hold& hold, const AtTick& at_tick, const AfterRun& after) {
   DeviceList fingers;
   for (const std::size_t f : {0UL, 1UL}) {
     const double side = f == 0 ? -1 : 1;
-    auto finger = std::make_unique<YieldingFinger>(
+    auto finger = std::make_unique<CompliantFinger>(
         hand, [&hold, hand, side](double time) { return handAt(hold, hand, side, time); }, clock, transports[f]);
     fingers.push_back(
         std::make_unique<FailingDevice>(std::move(finger), f == 0 ? hold.thumb : FailingDevice::Failure{}));
@@ -92,11 +92,11 @@ void requireBounded(const Traffic& traffic, double limit, Outcome& outcome) {
 }
 
 double Judge::force(const Traffic& traffic) const {
-  double most = 0;
+  double max = 0;
   for (const std::size_t f : {0UL, 1UL}) {
-    if ((fingers_ >> f & 1U) != 0) most = std::max(most, traffic.force[f].norm());
+    if ((fingers_ >> f & 1U) != 0) max = std::max(max, traffic.force[f].norm());
   }
-  return most;
+  return max;
 }
 
 void Judge::see(double time, const Traffic& traffic) {

@@ -6,7 +6,7 @@
 
 #include "experiments/faults/fault.h"
 #include "experiments/study/study_run.h"
-#include "experiments/study/yielding_finger.h"
+#include "experiments/study/compliant_finger.h"
 #include "framework/device/wrapped_device.h"
 
 namespace presa::faults {

@@ -107,11 +107,11 @@ Outcome startsInside(RandomStream& random) {
   hold.deep = random.uniform(0.001, 0.06);
   hold.end = 1.0;
   hold.closed = 5;
-  double most_rise = 0, before = 0, first = -1;
+  double max_rise = 0, before = 0, first = -1;
   Outcome outcome;
   runHold(hold, [&](double time, const Traffic& traffic) {
     const double now = std::max(traffic.force[0].norm(), traffic.force[1].norm());
-    most_rise = std::max(most_rise, now - before);
+    max_rise = std::max(max_rise, now - before);
     if (first < 0) first = now;
     // 8 N over half a second: the soft start
     if (now > 8 * (time + 2e-3) / 0.5 + 1e-9) outcome.broken.emplace_back("the force was not ramped up");

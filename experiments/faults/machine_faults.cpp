@@ -104,14 +104,14 @@ Outcome realTimeRefused(RandomStream& random) {
     return outcome;  // before any device: no force
   }
   if (notes.empty() == concerned) outcome.broken.emplace_back("the halved forces were not reported");
-  double most = 0;
+  double max = 0;
   const double limit = concerned ? kLimit / 2 : kLimit;
   runHold(hold, [&](double, const Traffic& traffic) {
     requireBounded(traffic, limit, outcome);
-    most = std::max(most, traffic.force[0].norm());
+    max = std::max(max, traffic.force[0].norm());
     outcome.step = traffic.step;
   });
-  if (most < 0.99 * limit) outcome.broken.emplace_back("the force limit was not reached");
+  if (max < 0.99 * limit) outcome.broken.emplace_back("the force limit was not reached");
   return outcome;
 }
 

@@ -90,12 +90,12 @@ Try notPressing(const PressingProgram& program) {
 
 /// Max change of the force per tick at the probe [N].
 double steepest(const ProbeLog& log, std::uint64_t end) {
-  double most = 0;
+  double max = 0;
   for (std::uint64_t i = 1; i < end; ++i) {
     const double elapsed = secondsBetween(log.entries[i - 1].time_ns, log.entries[i].time_ns);
-    most = std::max(most, log.entries[i].step * kTick / std::min(elapsed, kTick));
+    max = std::max(max, log.entries[i].step * kTick / std::min(elapsed, kTick));
   }
-  return most;
+  return max;
 }
 
 /// Judges the forces at the probe from `begin` up to the entry `end`.

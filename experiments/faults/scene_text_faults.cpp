@@ -11,7 +11,7 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kMostSeconds = 1;  // limit of processor time for reading
+constexpr double kMaxSeconds = 1;  // limit of processor time for reading
 constexpr double kTouch = 0.02;     // [s] of touching, for an accepted scene
 
 std::string contentsOf(const std::string& file) {
@@ -122,7 +122,7 @@ Outcome judge(const std::string& text, const std::string& directory, bool must_r
   Diagnostics findings;
   const std::int64_t begin = threadCpuNs();
   const Scene scene = parseScene(text, name, directory, {}, findings);
-  if (static_cast<double>(threadCpuNs() - begin) * 1e-9 > kMostSeconds) outcome.broken.emplace_back("took too long");
+  if (static_cast<double>(threadCpuNs() - begin) * 1e-9 > kMaxSeconds) outcome.broken.emplace_back("took too long");
   if (findings.hasErrors() != scene.resolved_xml.empty()) outcome.broken.emplace_back("partly loaded");
   requirePlaces(findings, name, outcome);
   if (must_refuse && !findings.hasErrors()) outcome.broken.emplace_back("accepted");

@@ -46,16 +46,16 @@ std::string rigWith(double damping) {
   return rig + "</rig>\n";
 }
 
-void requireClamped(const Loaded& loaded, const Diagnostics& findings, double asked, double most, Outcome& outcome) {
+void requireClamped(const Loaded& loaded, const Diagnostics& findings, double asked, double max, Outcome& outcome) {
   bool warned = false;
   for (const Diagnostic& finding : findings.all())
     warned = warned || (finding.code == 454 && finding.message.find("K_max") != std::string::npos);
   for (const Body& body : loaded.world->scene.bodies) {
     const Material& material = loaded.world->scene.materialOf(body);
     if (material.name != "rubber") continue;
-    if (material.stiffness > 0.5 * most) outcome.broken.emplace_back("stiffer than half of the stable stiffness");
-    if (asked < 0.49 * most && (material.stiffness != asked)) outcome.broken.emplace_back("changed without need");
-    if (asked > 0.5 * most && !warned) outcome.broken.emplace_back("no warning that names the bound");
+    if (material.stiffness > 0.5 * max) outcome.broken.emplace_back("stiffer than half of the stable stiffness");
+    if (asked < 0.49 * max && (material.stiffness != asked)) outcome.broken.emplace_back("changed without need");
+    if (asked > 0.5 * max && !warned) outcome.broken.emplace_back("no warning that names the bound");
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "experiments/faults/scene_faults.h"
 #include "experiments/study/study_run.h"
-#include "experiments/study/yielding_finger.h"
+#include "experiments/study/compliant_finger.h"
 #include "framework/scene/load.h"
 
 namespace presa::faults {
@@ -28,7 +28,7 @@ void touchBriefly(const std::string& scene_file, double seconds, Outcome& outcom
   std::vector<Transport> transports(scene.devices.size());
   DeviceList fingers;
   for (std::size_t f = 0; f < transports.size(); ++f) {
-    fingers.push_back(std::make_unique<YieldingFinger>(
+    fingers.push_back(std::make_unique<CompliantFinger>(
         HandImpedance{}, [=](double time) { return handAt(f, time, seconds); }, clock, transports[f]));
   }
   StudySpec spec;

@@ -89,7 +89,7 @@ Outcome watched(RandomStream& random, bool network) {
   const Trace alone = traceOf(hold, outcome);
   // a small buffer, so that a viewer that does not read is flooded at once
   bus::LocalBus local(64);
-  const BusSettings settings{.network = "loopback", .domain = 1 + static_cast<int>(random.below(kMostBusDomain))};
+  const BusSettings settings{.network = "loopback", .domain = 1 + static_cast<int>(random.below(kMaxBusDomain))};
   Viewers viewers(random, [&] { return network ? bus::openReader(settings) : local.reader(); });
   hold.more = [&](const std::shared_ptr<const World>& world) {
     viewers.come(*world);

@@ -31,12 +31,12 @@ Finding finding(std::string metric, double value, std::string unit, double bound
   return {std::move(metric), value, std::move(unit), bound, std::move(oracle), judge(value, bound), {}, {}, {}};
 }
 
-Curve decimated(Curve curve, std::size_t most) {
+Curve decimated(Curve curve, std::size_t max) {
   const std::size_t count = curve.x.size();
-  if (count <= most) return curve;
+  if (count <= max) return curve;
   Curve kept{std::move(curve.label), {}, {}};
-  for (std::size_t i = 0; i < most; ++i) {
-    const std::size_t from = i * (count - 1) / (most - 1);
+  for (std::size_t i = 0; i < max; ++i) {
+    const std::size_t from = i * (count - 1) / (max - 1);
     kept.x.push_back(curve.x[from]);
     kept.y.push_back(curve.y[from]);
   }

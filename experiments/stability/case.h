@@ -18,8 +18,8 @@ struct Curve {
   std::vector<double> x, y;
 };
 
-/// At most `most` points of the curve, evenly spaced, the last point included.
-Curve decimated(Curve curve, std::size_t most = 2000);
+/// At most `max` points of the curve, evenly spaced, the last point included.
+Curve decimated(Curve curve, std::size_t max = 2000);
 
 /// One measured quantity of a trial with its reference.
 struct Finding {

@@ -57,11 +57,11 @@ Vec3 onRing(int i, int count, double inradius, double z) {
 Vec3 nearestInAll(const std::vector<Plane>& half_spaces, const Vec3& p) {
   if (inAll(half_spaces, p)) return p;
   Vec3 best = p;
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   const auto consider = [&](const std::vector<const Plane*>& planes) {
     const Vec3 candidate = ontoAll(planes, p);
     const double distance = (candidate - p).norm();
-    if (candidate.allFinite() && distance < least && inAll(half_spaces, candidate)) best = candidate, least = distance;
+    if (candidate.allFinite() && distance < min && inAll(half_spaces, candidate)) best = candidate, min = distance;
   };
   for (std::size_t i = 0; i < half_spaces.size(); ++i) {
     consider({&half_spaces[i]});
@@ -70,7 +70,7 @@ Vec3 nearestInAll(const std::vector<Plane>& half_spaces, const Vec3& p) {
       for (std::size_t k = 0; k < j; ++k) consider({&half_spaces[i], &half_spaces[j], &half_spaces[k]});
     }
   }
-  if (!std::isfinite(least)) throw std::logic_error("the half-spaces have no common point");
+  if (!std::isfinite(min)) throw std::logic_error("the half-spaces have no common point");
   return best;
 }
 

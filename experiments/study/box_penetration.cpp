@@ -19,13 +19,13 @@ double extentAlong(const Vec3& half, const Mat3& R, const Vec3& axis) {
 double boxPenetration(const Vec3& size_A, const Pose& X_WA, const Vec3& size_B, const Pose& X_WB) {
   const Vec3 half_A = size_A / 2, half_B = size_B / 2, between = X_WB.p - X_WA.p;
   const Mat3 A = X_WA.q.toRotationMatrix(), B = X_WB.q.toRotationMatrix();
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   const auto parted_along = [&](Vec3 axis) {
     const double length = axis.norm();
     if (length < kParallel) return false;
     axis /= length;
     const double overlap = extentAlong(half_A, A, axis) + extentAlong(half_B, B, axis) - std::abs(between.dot(axis));
-    least = std::min(least, overlap);
+    min = std::min(min, overlap);
     return overlap <= 0;
   };
   for (int i = 0; i < 3; ++i) {
@@ -36,7 +36,7 @@ double boxPenetration(const Vec3& size_A, const Pose& X_WA, const Vec3& size_B, 
       if (parted_along(A.col(i).cross(B.col(j)))) return 0;
     }
   }
-  return least;
+  return min;
 }
 
 PenetrationCheck::PenetrationCheck(const World& world) {

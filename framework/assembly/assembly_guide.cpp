@@ -24,7 +24,7 @@ AssemblyGuide::AssemblyGuide(const Assembly& assembly, std::size_t bodies)
       touching_(bodies),
       taken_at_(bodies, kNotTaken) {
   now_.all = static_cast<std::int32_t>(assembly.goals.size());
-  now_.spent = assembly.spent;
+  now_.elapsed = assembly.elapsed;
 }
 
 void AssemblyGuide::step(double time, const ObjectState& objects, const AssemblyState& assembly,
@@ -36,7 +36,7 @@ void AssemblyGuide::step(double time, const ObjectState& objects, const Assembly
   choosePlace(objects, assembly);
   chooseHint(objects, assembly);
   if (now_.news && time_ - now_.news->time > kNews) now_.news.reset();
-  if (begun_ && !now_.finished) now_.spent = assembly_.spent + time_ - *begun_;
+  if (begun_ && !now_.finished) now_.elapsed = assembly_.elapsed + time_ - *begun_;
 }
 
 void AssemblyGuide::tell(Kind kind, std::int32_t goal, std::int32_t body) {
@@ -46,7 +46,7 @@ void AssemblyGuide::tell(Kind kind, std::int32_t goal, std::int32_t body) {
 
 void AssemblyGuide::noteFingers(const ObjectState& objects, const ContactExchange& contacts) {
   std::ranges::fill(touching_, 0);
-  std::int32_t most = kNoBody;
+  std::int32_t grasped = kNoBody;
   for (std::size_t f = 0; f < index(contacts.count); ++f) {
     const FingerContact& finger = contacts.fingers[f];
     if (finger.mode == ContactMode::kNone || finger.body < 0 || index(finger.body) >= touching_.size()) continue;
@@ -54,12 +54,12 @@ void AssemblyGuide::noteFingers(const ObjectState& objects, const ContactExchang
     char& fingers = touching_[index(finger.body)];
     touched_[index(finger.body)] = 1;
     ++fingers;
-    if (most == kNoBody || fingers > touching_[index(most)]) most = finger.body;
+    if (grasped == kNoBody || fingers > touching_[index(grasped)]) grasped = finger.body;
   }
-  if (most != kNoBody) {
+  if (grasped != kNoBody) {
     if (!begun_) begun_ = time_;
-    now_.body = most;
-    now_.held = touching_[index(most)] >= std::min(2, contacts.count);
+    now_.body = grasped;
+    now_.held = touching_[index(grasped)] >= std::min(2, contacts.count);
     let_go_ = time_;
   } else {
     now_.held = false;
@@ -102,7 +102,7 @@ void AssemblyGuide::noteGoals(const AssemblyState& assembly) {
   const bool all = now_.placed == now_.all && begun_.has_value();
   if (all && !now_.finished) {
     now_.finished_at = time_;
-    now_.spent = assembly_.spent + time_ - *begun_;
+    now_.elapsed = assembly_.elapsed + time_ - *begun_;
     tell(Kind::kFinished, kNoGoal, kNoBody);
   }
   now_.finished = all;
@@ -119,14 +119,14 @@ std::int32_t AssemblyGuide::missing(std::size_t goal, const AssemblyState& assem
 std::int32_t AssemblyGuide::nearestPlace(std::int32_t body, bool free, const ObjectState& objects,
                                          const AssemblyState& assembly) const {
   std::int32_t nearest = kNoGoal;
-  double least = 1e300;
+  double min = 1e300;
   for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
     const AssemblyGoal& goal = assembly_.goals[g];
     if (filled(assembly, g) || std::ranges::find(goal.bodies, index(body)) == goal.bodies.end()) continue;
     if (free && missing(g, assembly) != kNoGoal) continue;
     const double distance = (goal.X_WB.p - objects.bodies[index(body)].X_WB_end.p).norm();
-    if (distance >= least) continue;
-    least = distance;
+    if (distance >= min) continue;
+    min = distance;
     nearest = static_cast<std::int32_t>(g);
   }
   return nearest;
@@ -166,12 +166,12 @@ void AssemblyGuide::chooseHint(const ObjectState& objects, const AssemblyState& 
     }
     if (now_.hint_goal == kNoGoal) return;
     const AssemblyGoal& goal = assembly_.goals[index(now_.hint_goal)];
-    double least = 1e300;
+    double min = 1e300;
     for (const std::size_t body : goal.bodies) {
       if (std::ranges::find(stands_, static_cast<std::int32_t>(body)) != stands_.end()) continue;
       const double distance = (goal.X_WB.p - objects.bodies[body].X_WB_end.p).norm();
-      if (distance >= least) continue;
-      least = distance;
+      if (distance >= min) continue;
+      min = distance;
       now_.hint_body = static_cast<std::int32_t>(body);
     }
   }

@@ -58,7 +58,7 @@ Captions captionsOf(const Scene& scene, const Guidance& guidance) {
   captions.good = guidance.news && guidance.news->kind == Kind::kPlaced;
   if (guidance.finished) {
     captions.finish = words.finished;
-    captions.took = fillIn(words.took, "time", durationText(guidance.spent));
+    captions.took = fillIn(words.took, "time", durationText(guidance.elapsed));
     return captions;
   }
   // bodies without a goal, such as the ground, get no title

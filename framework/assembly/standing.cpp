@@ -15,8 +15,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSlow = 0.02;  // [m/s]
 constexpr double kSlack = 2;    // multiple of the tolerances [-]: a viewer's picture is a period old and interpolated
 
-Way wayTo(const AssemblyGoal& goal, const Pose& X_WB) {
-  return wayBetween(nearestTurn(goal.X_WB, goal.fold, X_WB.q), X_WB);
+PoseDifference differenceTo(const AssemblyGoal& goal, const Pose& X_WB) {
+  return poseDifference(nearestTurn(goal.X_WB, goal.fold, X_WB.q), X_WB);
 }
 
 }  // namespace
@@ -29,9 +29,9 @@ AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
   for (std::size_t g = 0; g < assembly.goals.size(); ++g) {
     for (const std::size_t body : assembly.goals[g].bodies) {
       const BodyMotion& motion = objects.bodies[body];
-      const Way way = wayTo(assembly.goals[g], motion.X_WB_end);
-      if (taken[body] != 0 || motion.v_WB.norm() > kSlow || way.distance > kSlack * assembly.tolerance ||
-          way.angle > kSlack * assembly.tolerance_angle_deg * kDegree)
+      const PoseDifference difference = differenceTo(assembly.goals[g], motion.X_WB_end);
+      if (taken[body] != 0 || motion.v_WB.norm() > kSlow || difference.distance > kSlack * assembly.tolerance ||
+          difference.angle > kSlack * assembly.tolerance_angle_deg * kDegree)
         continue;
       taken[body] = 1;
       state.goals[g] = {Status::kFilled, static_cast<std::int32_t>(body), kNoGoal};
@@ -44,8 +44,8 @@ AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
     const auto waits = std::ranges::find_if(
         assembly.goals[g].after, [&](std::size_t before) { return state.goals[before].status != Status::kFilled; });
     for (const std::size_t body : assembly.goals[g].bodies) {
-      const Way way = wayTo(assembly.goals[g], objects.bodies[body].X_WB_end);
-      if (taken[body] != 0 || way.distance > assembly.reach || way.angle > assembly.reach_angle_deg * kDegree) continue;
+      const PoseDifference difference = differenceTo(assembly.goals[g], objects.bodies[body].X_WB_end);
+      if (taken[body] != 0 || difference.distance > assembly.snap_distance || difference.angle > assembly.snap_angle_deg * kDegree) continue;
       const bool blocked = waits != assembly.goals[g].after.end();
       state.goals[g] = {blocked ? Status::kBlocked : Status::kDrawing, static_cast<std::int32_t>(body),
                         blocked ? static_cast<std::int32_t>(*waits) : kNoGoal};

@@ -5,13 +5,13 @@
 namespace presa::bus {
 namespace {
 
-struct Tell {
+struct Deliver {
   Listener& listener;
   std::int64_t at_ns;
   void operator()(const RunInfo& run) const { listener.onRun(run, at_ns); }
   void operator()(const ObjectSample& sample) const { listener.onObject(sample, at_ns); }
   void operator()(const FingerSample& sample) const { listener.onFinger(sample, at_ns); }
-  void operator()(const Beat& beat) const { listener.onBeat(beat, at_ns); }
+  void operator()(const Heartbeat& heartbeat) const { listener.onHeartbeat(heartbeat, at_ns); }
   void operator()(const Event& event) const { listener.onEvent(event, at_ns); }
 };
 
@@ -35,7 +35,7 @@ void Inbox::take(Listener& listener) {
     const std::lock_guard lock(mutex_);
     taken_.swap(items_);
   }
-  for (const Received& received : taken_) std::visit(Tell{listener, received.at_ns}, received.item);
+  for (const Received& received : taken_) std::visit(Deliver{listener, received.at_ns}, received.item);
 }
 
 void Inbox::wait(double seconds) {

@@ -13,7 +13,7 @@
 namespace presa::bus {
 
 struct LocalBus::Hub {
-  explicit Hub(std::size_t most) : capacity(most) {}
+  explicit Hub(std::size_t max) : capacity(max) {}
   void send(const Inbox::Item& item) {
     const std::int64_t now = monotonicNs();
     for (Inbox* inbox : inboxes) inbox->put(item, now);
@@ -24,7 +24,7 @@ struct LocalBus::Hub {
   std::vector<Inbox*> inboxes;
   std::optional<RunInfo> run;  // kept for late readers
   std::vector<std::vector<Command>*> posts;
-  std::vector<Commander::Heard*> commanders;
+  std::vector<Commander::Replies*> commanders;
   std::map<std::pair<std::uint64_t, std::string>, OpenParameter> parameters;  // kept for late commanders
 };
 
@@ -40,7 +40,7 @@ class LocalBus::LocalWriter final : public Writer {
     const std::lock_guard lock(hub_->mutex);
     for (const ObjectSample& sample : snapshot.objects) hub_->send(sample);
     for (const FingerSample& sample : snapshot.fingers) hub_->send(sample);
-    hub_->send(snapshot.beat);
+    hub_->send(snapshot.heartbeat);
     return 0;
   }
   void publish(const Event& event) noexcept override {
@@ -86,7 +86,7 @@ class LocalBus::LocalPost final : public CommandPost {
   void show(const OpenParameter& parameter) noexcept override {
     const std::lock_guard lock(hub_->mutex);
     hub_->parameters[{parameter.run, parameter.name}] = parameter;
-    for (Commander::Heard* heard : hub_->commanders) heard->parameters.push_back(parameter);
+    for (Commander::Replies* replies : hub_->commanders) replies->parameters.push_back(parameter);
   }
   std::vector<Command> take() override {
     const std::lock_guard lock(hub_->mutex);
@@ -94,7 +94,7 @@ class LocalBus::LocalPost final : public CommandPost {
   }
   void answer(const Answer& answer) noexcept override {
     const std::lock_guard lock(hub_->mutex);
-    for (Commander::Heard* heard : hub_->commanders) heard->answers.push_back(answer);
+    for (Commander::Replies* replies : hub_->commanders) replies->answers.push_back(answer);
   }
 
  private:
@@ -106,25 +106,25 @@ class LocalBus::LocalCommander final : public Commander {
  public:
   explicit LocalCommander(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
     const std::lock_guard lock(hub_->mutex);
-    hub_->commanders.push_back(&heard_);
-    for (const auto& [key, parameter] : hub_->parameters) heard_.parameters.push_back(parameter);
+    hub_->commanders.push_back(&replies_);
+    for (const auto& [key, parameter] : hub_->parameters) replies_.parameters.push_back(parameter);
   }
   ~LocalCommander() override {
     const std::lock_guard lock(hub_->mutex);
-    std::erase(hub_->commanders, &heard_);
+    std::erase(hub_->commanders, &replies_);
   }
   void send(const Command& command) override {
     const std::lock_guard lock(hub_->mutex);
     for (std::vector<Command>* post : hub_->posts) post->push_back(command);
   }
-  Heard take() override {
+  Replies take() override {
     const std::lock_guard lock(hub_->mutex);
-    return std::exchange(heard_, {});
+    return std::exchange(replies_, {});
   }
 
  private:
   std::shared_ptr<Hub> hub_;
-  Heard heard_;
+  Replies replies_;
 };
 
 LocalBus::LocalBus(std::size_t capacity) : hub_(std::make_shared<Hub>(capacity)) {}

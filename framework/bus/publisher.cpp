@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "framework/bus/mesh_shelf.h"
+#include "framework/bus/mesh_store.h"
 #include "framework/bus/scene_hash.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/core/schedule/rates.h"
@@ -18,12 +18,12 @@ std::uint64_t newRunId() {
 }
 
 Publisher::Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open,
-                     CommandDesk::Open open_post)
+                     ParameterServer::Open open_post)
     : Module("bus_dds", RateGroup::kBus),
       world_(std::move(world)),
       realtime_(options.realtime),
       open_(std::move(open)) {
-  if (options.bus_commands) desk_ = std::make_unique<Desk>(*this, world_->scene, std::move(open_post));
+  if (options.bus_commands) server_ = std::make_unique<Server>(*this, world_->scene, std::move(open_post));
   const auto& bodies = world_->scene.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].fixed) continue;  // its pose is in the scene
@@ -40,7 +40,7 @@ Publisher::~Publisher() = default;
 std::vector<std::string> Publisher::stages() const {
   std::vector<std::string> stages{"take the latest states, poses interpolated to now",
                                   "hand every object and finger to the network"};
-  if (desk_) stages.emplace_back("judge the commands that have come, and answer");
+  if (server_) stages.emplace_back("judge the commands that have come, and answer");
   return stages;
 }
 
@@ -49,36 +49,36 @@ void Publisher::start() {
   run_ = newRunId();
   const Scene& scene = world_->scene;
   writer_->announce({run_, sceneHash(*world_), RateTable(scene.rates).period(RateGroup::kBus), realtime_, scene.name,
-                     scene.resolved_xml, desk_ != nullptr, sumsOfMeshes(scene)});
-  if (desk_) desk_->desk.start(run_);
+                     scene.resolved_xml, server_ != nullptr, sumsOfMeshes(scene)});
+  if (server_) server_->server.start(run_);
 }
 
 void Publisher::step(const Tick& tick) noexcept {
-  const Stamp stamp{run_, beat_.stamp.sequence + 1, tick.time, monotonicNs()};
-  beat_.stamp = stamp;
+  const Stamp stamp{run_, heartbeat_.stamp.sequence + 1, tick.time, monotonicNs()};
+  heartbeat_.stamp = stamp;
   fillObjects(stamp);
   fillFingers(stamp);
-  beat_.objects = static_cast<std::int32_t>(object_samples_.size());
-  beat_.fingers = static_cast<std::int32_t>(finger_samples_.size());
-  beat_.output_status = command_->status;
-  beat_.object_faults = objects_->faults;
-  beat_.refused += writer_->publish({object_samples_, finger_samples_, beat_});
-  tellEvents(stamp);
-  if (!desk_) return;
-  desk_->desk.serve(tick.time);
-  desk_->settings.value = desk_->desk.surfaces();
+  heartbeat_.objects = static_cast<std::int32_t>(object_samples_.size());
+  heartbeat_.fingers = static_cast<std::int32_t>(finger_samples_.size());
+  heartbeat_.output_status = command_->status;
+  heartbeat_.object_faults = objects_->faults;
+  heartbeat_.refused += writer_->publish({object_samples_, finger_samples_, heartbeat_});
+  publishEvents(stamp);
+  if (!server_) return;
+  server_->server.serve(tick.time);
+  server_->settings.value = server_->server.surfaces();
 }
 
 void Publisher::stop() {
   if (!writer_) return;
-  if (desk_) desk_->desk.stop();
+  if (server_) server_->server.stop();
   // publish the last states once more, so that the end does not look like a loss
-  const Stamp stamp{run_, beat_.stamp.sequence + 1, beat_.stamp.time, monotonicNs()};
-  beat_.stamp = stamp;
-  beat_.last = true;
+  const Stamp stamp{run_, heartbeat_.stamp.sequence + 1, heartbeat_.stamp.time, monotonicNs()};
+  heartbeat_.stamp = stamp;
+  heartbeat_.last = true;
   for (ObjectSample& sample : object_samples_) sample.stamp = stamp;
   for (FingerSample& sample : finger_samples_) sample.stamp = stamp;
-  writer_->publish({object_samples_, finger_samples_, beat_});
+  writer_->publish({object_samples_, finger_samples_, heartbeat_});
   writer_->finish();
   writer_.reset();
 }
@@ -112,14 +112,14 @@ void Publisher::fillFingers(const Stamp& stamp) noexcept {
 }
 
 // Publishes newly latched output faults and newly frozen bodies.
-void Publisher::tellEvents(const Stamp& stamp) noexcept {
+void Publisher::publishEvents(const Stamp& stamp) noexcept {
   const std::uint32_t status = command_->status & kOutputLatches;
-  if (const std::uint32_t fresh = status & ~told_status_; fresh != 0)
+  if (const std::uint32_t fresh = status & ~reported_status_; fresh != 0)
     writer_->publish({stamp, Event::Kind::kFingerStatus, fresh});
-  told_status_ = status;
-  if (const std::uint32_t fresh = objects_->faults & ~told_faults_; fresh != 0)
+  reported_status_ = status;
+  if (const std::uint32_t fresh = objects_->faults & ~reported_faults_; fresh != 0)
     writer_->publish({stamp, Event::Kind::kObjectFault, fresh});
-  told_faults_ = objects_->faults;
+  reported_faults_ = objects_->faults;
 }
 
 }  // namespace presa::bus

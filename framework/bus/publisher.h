@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "framework/bus/command_desk.h"
+#include "framework/bus/parameter_server.h"
 #include "framework/bus/state_bus.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/state/object_state.h"
@@ -20,30 +20,30 @@ class Publisher final : public Module, public Commandable {
   using Open = std::function<std::unique_ptr<Writer>()>;
   /// `open` and `open_post` are called in start(), on the thread of the group, and may throw InputError; `open_post`
   /// only when the run takes commands.
-  Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open, CommandDesk::Open open_post = {});
+  Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open, ParameterServer::Open open_post = {});
   ~Publisher() override;
   void start() override;
   void step(const Tick& tick) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
-  CommandDesk* desk() noexcept override { return desk_ ? &desk_->desk : nullptr; }
+  ParameterServer* parameterServer() noexcept override { return server_ ? &server_->server : nullptr; }
 
  private:
-  struct Desk {
-    Desk(Module& owner, const Scene& scene, CommandDesk::Open open)
-        : settings(owner, "surface_settings"), desk(scene, std::move(open)) {}
+  struct Server {
+    Server(Module& owner, const Scene& scene, ParameterServer::Open open)
+        : settings(owner, "surface_settings"), server(scene, std::move(open)) {}
     Out<SurfaceSettings> settings;
-    CommandDesk desk;
+    ParameterServer server;
   };
 
   void fillObjects(const Stamp& stamp) noexcept;
   void fillFingers(const Stamp& stamp) noexcept;
-  void tellEvents(const Stamp& stamp) noexcept;
+  void publishEvents(const Stamp& stamp) noexcept;
 
   std::shared_ptr<const World> world_;
   const bool realtime_;
   Open open_;
-  std::unique_ptr<Desk> desk_;
+  std::unique_ptr<Server> server_;
   In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
   In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
@@ -51,10 +51,10 @@ class Publisher final : public Module, public Commandable {
 
   std::unique_ptr<Writer> writer_;
   std::uint64_t run_ = 0;
-  Beat beat_;
+  Heartbeat heartbeat_;
   std::vector<ObjectSample> object_samples_;
   std::vector<FingerSample> finger_samples_;
-  std::uint32_t told_status_ = 0, told_faults_ = 0;
+  std::uint32_t reported_status_ = 0, reported_faults_ = 0;
 };
 
 /// Random id of a run, never 0.

@@ -72,7 +72,7 @@ void RemotePicture::beginRun(const RunInfo& run) noexcept {
   wrong_scene_ = run.scene_hash != hash_;
   objects_.assign(start_.size(), {});
   fingers_ = {};
-  beats_ = {};
+  heartbeats_ = {};
   clock_known_ = false;
   time_ = newest_ = 0;
   last_event_.clear();
@@ -156,15 +156,15 @@ void RemotePicture::onFinger(const FingerSample& sample, std::int64_t received_n
   if (finger < fingers_.size()) keep(fingers_[finger], sample, received_ns);
 }
 
-void RemotePicture::onBeat(const Beat& beat, std::int64_t received_ns) {
-  if (!follows(beat.stamp, received_ns)) {
-    if (wrong_scene_ && beat.last && beat.stamp.run == run_.run) state_ = State::kEnded;
+void RemotePicture::onHeartbeat(const Heartbeat& heartbeat, std::int64_t received_ns) {
+  if (!follows(heartbeat.stamp, received_ns)) {
+    if (wrong_scene_ && heartbeat.last && heartbeat.stamp.run == run_.run) state_ = State::kEnded;
     return;
   }
-  if (!keep(beats_, beat, received_ns)) return;
-  if (beat.stamp.sequence != beats_.watch.highest()) return;
-  counted_.refused = beat.refused;
-  if (beat.last) state_ = State::kEnded;
+  if (!keep(heartbeats_, heartbeat, received_ns)) return;
+  if (heartbeat.stamp.sequence != heartbeats_.watch.highest()) return;
+  counted_.refused = heartbeat.refused;
+  if (heartbeat.last) state_ = State::kEnded;
 }
 
 void RemotePicture::onEvent(const Event& event, std::int64_t received_ns) {
@@ -223,9 +223,9 @@ void RemotePicture::fill(ObjectState& objects, DeviceState& device, ContactExcha
     const Vec3 p_WH = before->p_WH + share * (after->p_WH - before->p_WH);
     device.fingers[f].p_WH = contact.fingers[f].p_WH = p_WH;
   }
-  const Beat* beat = beats_.around(time_).first;
-  command.status = beat != nullptr ? beat->output_status : 0;
-  objects.faults = beat != nullptr ? beat->object_faults : 0;
+  const Heartbeat* heartbeat = heartbeats_.around(time_).first;
+  command.status = heartbeat != nullptr ? heartbeat->output_status : 0;
+  objects.faults = heartbeat != nullptr ? heartbeat->object_faults : 0;
 }
 
 RemotePicture::Health RemotePicture::health() const noexcept {

@@ -33,7 +33,7 @@ class RemotePicture final : public Listener {
   void onRun(const RunInfo& run, std::int64_t received_ns) override;
   void onObject(const ObjectSample& sample, std::int64_t received_ns) override;
   void onFinger(const FingerSample& sample, std::int64_t received_ns) override;
-  void onBeat(const Beat& beat, std::int64_t received_ns) override;
+  void onHeartbeat(const Heartbeat& heartbeat, std::int64_t received_ns) override;
   void onEvent(const Event& event, std::int64_t received_ns) override;
 
   /// Advances the picture to `now_ns` (CLOCK_MONOTONIC). Call it after delivering everything that arrived before that
@@ -48,7 +48,7 @@ class RemotePicture final : public Listener {
   void fill(ObjectState& objects, DeviceState& device, ContactExchange& contact, ForceCommand& command) const noexcept;
 
   struct Health {
-    std::uint64_t received = 0;  ///< samples of objects, fingers and beats, without duplicates
+    std::uint64_t received = 0;  ///< samples of objects, fingers and heartbeats, without duplicates
     std::uint64_t lost = 0, doubled = 0, late = 0;
     std::uint64_t refused = 0;      ///< discarded by the sender
     std::uint64_t resumed = 0;      ///< number of times that the bus came back
@@ -93,7 +93,7 @@ class RemotePicture final : public Listener {
   RunInfo waiting_;  // announced while another run is followed
   std::vector<Track<ObjectSample>> objects_;
   std::array<Track<FingerSample>, kMaxFingers> fingers_;
-  Track<Beat> beats_;
+  Track<Heartbeat> heartbeats_;
   Health counted_;
   DurationHistogram latency_;
   std::int64_t last_arrival_ns_ = 0, now_ns_ = 0;

@@ -41,7 +41,7 @@ struct FingerSample {
 };
 
 /// Heartbeat: ends each publication and carries the values that belong to no object or finger.
-struct Beat {
+struct Heartbeat {
   Stamp stamp;
   std::int32_t objects = 0, fingers = 0;  ///< number of samples in this publication
   std::uint32_t output_status = 0;        ///< OutputStatus bits of any finger
@@ -81,14 +81,14 @@ struct Answer {
   std::uint64_t run = 0, sender = 0, number = 0;
   Verdict verdict = Verdict::kAccepted;
   double value = 0;            ///< value in force
-  double least = 0, most = 0;  ///< allowed range
+  double min = 0, max = 0;  ///< allowed range
 };
 
 /// An open parameter with its current value and range; kept for late subscribers. Key: run and name.
 struct OpenParameter {
   std::uint64_t run = 0;
   std::string name;
-  double value = 0, least = 0, most = 0;
+  double value = 0, min = 0, max = 0;
   std::int32_t of = 0;  ///< number of open parameters of this run
 };
 
@@ -102,8 +102,8 @@ struct RunInfo {
   std::string scene_xml;  ///< resolved scene; meshes are given by their file names
   bool commands = false;  ///< the run takes commands
   /// SHA-256 of every file of filesNamedBy(scene), in that order, 64 digits each, separated by spaces. A viewer looks
-  /// up the files among its own (takeFromShelf) and opens no path received over the bus. Empty when the scene has no
-  /// meshes.
+  /// up the files among its own (takeFromMeshStore) and opens no path received over the bus. Empty when the scene has
+  /// no meshes.
   std::string mesh_sums{};
 };
 
@@ -111,7 +111,7 @@ struct RunInfo {
 struct Snapshot {
   std::span<const ObjectSample> objects;
   std::span<const FingerSample> fingers;
-  Beat beat;
+  Heartbeat heartbeat;
 };
 
 }  // namespace presa::bus

@@ -32,7 +32,7 @@ class Listener {
   virtual void onRun(const RunInfo& run, std::int64_t received_ns) = 0;
   virtual void onObject(const ObjectSample& sample, std::int64_t received_ns) = 0;
   virtual void onFinger(const FingerSample& sample, std::int64_t received_ns) = 0;
-  virtual void onBeat(const Beat& beat, std::int64_t received_ns) = 0;
+  virtual void onHeartbeat(const Heartbeat& heartbeat, std::int64_t received_ns) = 0;
   virtual void onEvent(const Event& event, std::int64_t received_ns) = 0;
 };
 
@@ -65,12 +65,12 @@ class Commander {
  public:
   virtual ~Commander() = default;
   virtual void send(const Command& command) = 0;
-  struct Heard {
+  struct Replies {
     std::vector<OpenParameter> parameters;
     std::vector<Answer> answers;  ///< to any sender
   };
   /// Everything that has arrived since the last call; does not wait.
-  virtual Heard take() = 0;
+  virtual Replies take() = 0;
 };
 
 /// Open the network bus through the plug-in bus_dds, which is loaded at the first call. Throw InputError: E590 plug-in

@@ -15,8 +15,8 @@ class TroubledReader::Filter final : public Listener {
   void onFinger(const FingerSample& sample, std::int64_t at) override {
     pass([=](Listener& to) { to.onFinger(sample, at); });
   }
-  void onBeat(const Beat& beat, std::int64_t at) override {
-    pass([=](Listener& to) { to.onBeat(beat, at); });
+  void onHeartbeat(const Heartbeat& heartbeat, std::int64_t at) override {
+    pass([=](Listener& to) { to.onHeartbeat(heartbeat, at); });
   }
 
  private:

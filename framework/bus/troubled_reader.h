@@ -8,8 +8,8 @@
 
 namespace presa::bus {
 
-/// A reader that simulates a bad network, for tests: loses, duplicates and delays samples of objects, fingers and beats
-/// at random, because loopback itself is reliable.
+/// A reader that simulates a bad network, for tests: loses, duplicates and delays samples of objects, fingers and
+/// heartbeats at random, because loopback itself is reliable.
 class TroubledReader final : public Reader {
  public:
   /// Fractions of samples in [0, 1]; delayed samples are delivered by the next take().

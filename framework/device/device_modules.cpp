@@ -58,7 +58,7 @@ DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>&
       devices_(devices),
       reported_(safety.size(), 0),
       realtime_(realtime),
-      patch_age_(ages::patches(rates)),
+      neighbourhood_age_(ages::neighbourhoods(rates)),
       objects_(*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kFadeToZero, firstWatchdog(safety)) {
   for (const FingerSafety& finger : safety) {
     stages_.emplace_back(finger.limits);
@@ -69,7 +69,7 @@ DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>&
 OutputStage::Trust DeviceOutput::trust(std::size_t finger, const Tick& tick) const noexcept {
   using Trust = OutputStage::Trust;
   if (!device_->fingers[finger].valid || contact_->time < tick.time) return Trust::kDropped;
-  if (patches_.connected() && patches_.age(tick) > patch_age_) return Trust::kDropped;
+  if (neighbourhoods_.connected() && neighbourhoods_.age(tick) > neighbourhood_age_) return Trust::kDropped;
   if (objects_.hasValue() && objects_->faults != 0) return Trust::kFading;
   return objects_.connected() && objects_.age(tick) > watchdog_[finger] ? Trust::kFading : Trust::kGood;
 }
@@ -90,7 +90,7 @@ void DeviceOutput::step(const Tick& tick) noexcept {
     const OutputStage::Input input{.command = contact_->fingers[f].f_H_W,
                                    .trust = trust(f, tick),
                                    .stop = device_->stop_requested,
-                                   .held = tick.made_up,
+                                   .catch_up = tick.catch_up,
                                    .lost = finger.lost,
                                    .other_lost = lost > (finger.lost ? 1 : 0),
                                    .resumed = tick.resumed,
@@ -108,7 +108,7 @@ void DeviceOutput::step(const Tick& tick) noexcept {
 // Catch-up ticks are not written: the device would receive many forces at one instant, in effect one step past the slew
 // limit.
 void DeviceOutput::send(std::size_t finger, const Tick& tick) noexcept {
-  if (!tick.made_up) devices_[finger]->write(command_.value.f_H_W[finger], tick);
+  if (!tick.catch_up) devices_[finger]->write(command_.value.f_H_W[finger], tick);
 }
 
 // One event when a bit is newly set, not one per tick.
@@ -119,7 +119,7 @@ void DeviceOutput::report(std::size_t finger, std::uint32_t before, std::uint32_
 
 void DeviceOutput::stop() {
   Tick tick = last_tick_;
-  tick.made_up = false;  // the ticks of this fade are written
+  tick.catch_up = false;  // the ticks of this fade are written
   for (bool moving = true; moving;) {
     moving = false;
     ++tick.index;

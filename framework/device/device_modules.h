@@ -8,7 +8,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
 #include "framework/device/device.h"
 #include "framework/device/output_stage.h"
@@ -41,7 +41,7 @@ class DeviceInput final : public Module {
 };
 
 /// Last module of the haptic group: passes each finger's force through its OutputStage and writes it to the device. The
-/// ages of the sample, the contact patches and the Object State decide how far the stage trusts the command.
+/// ages of the sample, the neighbourhoods and the Object State decide how far the stage trusts the command.
 class DeviceOutput final : public Module {
  public:
   /// `safety`: one entry per device. `rates`: the scene's. `realtime`: stop() paces its last fade by the clock.
@@ -68,13 +68,13 @@ class DeviceOutput final : public Module {
   std::vector<double> watchdog_;  ///< [s] per finger
   std::vector<std::uint32_t> reported_;
   bool realtime_;
-  const double patch_age_;  ///< a contact patch older than this is dropped [s]
+  const double neighbourhood_age_;  ///< a neighbourhood older than this is dropped [s]
   Tick last_tick_;
   EventRing<FaultEvent> events_{256};
   In<DeviceState> device_{*this, "device_state"};
   In<ContactExchange> contact_{*this, "contact_exchange"};
-  In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}, WhenOld::kFadeToZero,
-                              patch_age_};
+  In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}, WhenOld::kFadeToZero,
+                              neighbourhood_age_};
   In<ObjectState> objects_;
   Out<ForceCommand> command_{*this, "force_command"};
 };

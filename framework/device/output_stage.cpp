@@ -17,15 +17,15 @@ OutputStage::OutputStage(const OutputLimits& limits)
 Vec3 OutputStage::step(const Input& input, double period) noexcept {
   status_ = kOutputClean;
   budget_.step(last_.norm(), period);
-  judge(input);
-  Vec3 force = bounded(good_, limits_.force, kOutputMagnitude);
+  latchFaults(input);
+  Vec3 force = clampMagnitude(good_, limits_.force, kOutputMagnitude);
   if (limits_.passivity && plausible(input.p_WH) && plausible(input.v_WH)) {
     force = energy_.step(force, input.p_WH, input.v_WH, period);
     if (energy_.acting()) status_ |= kOutputDamped;
-    force = bounded(force, limits_.force, kOutputMagnitude);
+    force = clampMagnitude(force, limits_.force, kOutputMagnitude);
   }
-  force = cooled(force) * fade(input, period);
-  last_ = slewed(force, input.held ? 0 : limits_.force_rate * period);
+  force = thermalLimit(force) * fade(input, period);
+  last_ = slewLimit(force, input.catch_up ? 0 : limits_.force_rate * period);
   if (limits_.passivity) energy_.sent(last_);
   return last_;
 }
@@ -34,37 +34,37 @@ void OutputStage::rearm() noexcept {
   latches_ = 0;
   good_.setZero();
   gain_ = 0;
-  hurrying_ = false;
+  over_speed_ = false;
 }
 
 // Latches faults. Over-speed needs two ticks in a row and a force along the motion: a hand may be fast on its own.
-void OutputStage::judge(const Input& input) noexcept {
+void OutputStage::latchFaults(const Input& input) noexcept {
   if (!input.command.allFinite()) latches_ |= kOutputNotFinite;
   if (input.lost) latches_ |= kOutputLost;
   if (input.other_lost) latches_ |= kOutputOther;
   if (input.resumed) latches_ |= kOutputGap;
-  const bool hurries = input.v_WH.norm() > limits_.speed && last_.dot(input.v_WH) > 0;
-  if (hurries && hurrying_) latches_ |= kOutputSpeed;
-  hurrying_ = hurries;
+  const bool over_speed = input.v_WH.norm() > limits_.speed && last_.dot(input.v_WH) > 0;
+  if (over_speed && over_speed_) latches_ |= kOutputSpeed;
+  over_speed_ = over_speed;
   if (latches_ == 0) good_ = input.command;
   status_ |= latches_;
 }
 
 // Scales by the largest component first: the square of 1e308 would overflow.
-Vec3 OutputStage::bounded(Vec3 force, double most, OutputStatus sign) noexcept {
-  if (const double largest = force.cwiseAbs().maxCoeff(); largest > most) {
-    force *= most / largest;
+Vec3 OutputStage::clampMagnitude(Vec3 force, double max, OutputStatus sign) noexcept {
+  if (const double largest = force.cwiseAbs().maxCoeff(); largest > max) {
+    force *= max / largest;
     status_ |= sign;
   }
-  if (const double norm = force.norm(); norm > most) {
-    force *= most / norm;
+  if (const double norm = force.norm(); norm > max) {
+    force *= max / norm;
     status_ |= sign;
   }
   return force;
 }
 
-Vec3 OutputStage::cooled(const Vec3& force) noexcept {
-  if (!limits_.records_overload) return bounded(force, budget_.most(limits_.force), kOutputWarm);
+Vec3 OutputStage::thermalLimit(const Vec3& force) noexcept {
+  if (!limits_.records_overload) return clampMagnitude(force, budget_.maxForce(limits_.force), kOutputWarm);
   if (last_.norm() > limits_.continuous) status_ |= kOutputOverload;
   return force;
 }
@@ -83,12 +83,12 @@ double OutputStage::fade(const Input& input, double period) noexcept {
   return dropped ? 0 : gain_;
 }
 
-Vec3 OutputStage::slewed(const Vec3& force, double most) noexcept {
+Vec3 OutputStage::slewLimit(const Vec3& force, double max) noexcept {
   const Vec3 change = force - last_;
   const double length = change.norm();
-  if (!(length > most)) return force;
+  if (!(length > max)) return force;
   status_ |= kOutputSlew;
-  return last_ + change * (most / length);
+  return last_ + change * (max / length);
 }
 
 }  // namespace presa

@@ -58,7 +58,7 @@ class OutputStage {
     Vec3 command = Vec3::Zero();  ///< wanted force on the finger, in W [N]
     Trust trust = Trust::kGood;
     bool stop = false;         ///< the run is ending: the force fades
-    bool held = false;         ///< catch-up tick, nothing is sent: the fade goes on, the force stays
+    bool catch_up = false;         ///< catch-up tick, nothing is sent: the fade goes on, the force stays
     bool lost = false;         ///< the device is disconnected or its samples are implausible
     bool other_lost = false;   ///< another finger's device is lost: the remaining ones must not push the hand
     bool resumed = false;      ///< the first tick after a gap (Tick::resumed)
@@ -80,11 +80,11 @@ class OutputStage {
   double heat() const noexcept { return budget_.heat(); }  ///< share of the heat that the continuous rating allows
 
  private:
-  void judge(const Input& input) noexcept;
-  Vec3 bounded(Vec3 force, double most, OutputStatus sign) noexcept;
-  Vec3 cooled(const Vec3& force) noexcept;
+  void latchFaults(const Input& input) noexcept;
+  Vec3 clampMagnitude(Vec3 force, double max, OutputStatus sign) noexcept;
+  Vec3 thermalLimit(const Vec3& force) noexcept;
   double fade(const Input& input, double period) noexcept;
-  Vec3 slewed(const Vec3& force, double most) noexcept;
+  Vec3 slewLimit(const Vec3& force, double max) noexcept;
 
   OutputLimits limits_;
   ThermalBudget budget_;
@@ -94,7 +94,7 @@ class OutputStage {
   double gain_ = 0;
   double gap_ = 0;  // time for which the command has been dropped [s]
   std::uint32_t latches_ = 0, status_ = 0;
-  bool hurrying_ = false;  // over-speed at the last tick
+  bool over_speed_ = false;  // over-speed at the last tick
 };
 
 }  // namespace presa

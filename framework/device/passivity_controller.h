@@ -20,7 +20,7 @@ class PassivityController {
     const double speed2 = v.squaredNorm();
     // damps in advance the energy that `wanted` will give until the next sample
     const double excess = given_ + wanted.dot(v) * period;
-    damping_ = excess > 0 && speed2 > 0 ? std::min(excess / (speed2 * period), kMostDamping) : 0;
+    damping_ = excess > 0 && speed2 > 0 ? std::min(excess / (speed2 * period), kMaxDamping) : 0;
     return wanted - damping_ * v;
   }
   /// The force that the later stages really sent [N]; call after every step().
@@ -30,7 +30,7 @@ class PassivityController {
   bool acting() const noexcept { return damping_ > 0; }
 
   /// Upper bound of the damping [N s/m]: a stronger damper would make the device's inertia oscillate within a period.
-  static constexpr double kMostDamping = 20;
+  static constexpr double kMaxDamping = 20;
 
  private:
   Vec3 x_ = Vec3::Zero(), sent_ = Vec3::Zero();

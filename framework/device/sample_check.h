@@ -18,8 +18,8 @@ class SampleCheck {
   FingerInput take(FingerInput input, double period) noexcept {
     since_ += period;
     const bool rejected = input.valid && !possible(input);
-    latched_ = latched_ || input.lost || (rejected && doubted_);
-    doubted_ = rejected;
+    latched_ = latched_ || input.lost || (rejected && suspect_);
+    suspect_ = rejected;
     input.lost = latched_;
     if (input.valid && !rejected && input.age <= kHold) {
       since_ = input.age;
@@ -35,7 +35,7 @@ class SampleCheck {
   bool latched() const noexcept { return latched_; }
   /// Clears the latch and accepts the next finite position, wherever it is.
   void rearm() noexcept {
-    latched_ = doubted_ = false;
+    latched_ = suspect_ = false;
     good_.valid = false;
   }
 
@@ -46,7 +46,7 @@ class SampleCheck {
   }
   FingerInput good_;
   double since_ = 0;  // age of the last good sample [s]
-  bool doubted_ = false, latched_ = false;
+  bool suspect_ = false, latched_ = false;
 };
 
 }  // namespace presa

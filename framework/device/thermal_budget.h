@@ -19,7 +19,7 @@ class ThermalBudget {
   }
   double heat() const noexcept { return heat_; }
   /// The largest force allowed now [N]: `peak` up to a heat of 0.9, then falling, `continuous` at a heat of 1.
-  double most(double peak) const noexcept {
+  double maxForce(double peak) const noexcept {
     if (!(peak > continuous_)) return peak;
     const double room = std::clamp((1 - heat_) / kFold, 0.0, 1.0);
     return std::sqrt(continuous_ * continuous_ + room * (peak * peak - continuous_ * continuous_));

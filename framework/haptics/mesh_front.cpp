@@ -83,13 +83,13 @@ double MeshFront::firstTouch(const Vec3& x, const Vec3& move, double reach, doub
   };
   // start with the nearest item: if it is hit, the others are usually out of reach
   std::size_t first = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
-    if (here_[n] >= least || marks_[static_cast<std::size_t>(near_[n])] == mark_) continue;
-    least = here_[n];
+    if (here_[n] >= min || marks_[static_cast<std::size_t>(near_[n])] == mark_) continue;
+    min = here_[n];
     first = n;
   }
-  if (least > r + reach * length) return reach;
+  if (min > r + reach * length) return reach;
   look(first);
   for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
     if (here_[n] <= r + reach * length && n != first) look(n);
@@ -101,7 +101,7 @@ namespace {
 
 /// Lower bound on [0, limit] of the maximum of two lines, given by value and slope at 0 and at `limit`: a lower bound
 /// of every convex function that lies above both lines.
-double leastOfTangents(double at_begin, double falls, double at_end, double rises, double limit) noexcept {
+double minOfTangents(double at_begin, double falls, double at_end, double rises, double limit) noexcept {
   if (falls >= 0) return std::max(at_begin, at_end - std::max(rises, 0.0) * limit);
   if (rises <= 0) return std::max(at_end, at_begin + falls * limit);
   const double s = (at_end - at_begin - rises * limit) / (falls - rises);  // their intersection
@@ -127,7 +127,7 @@ bool MeshFront::staysClear(int item, const Vec3& x, const Vec3& move, double rea
     bound = tree_->bound(ref, end, distance);
   }
   bind(item, bound);
-  return leastOfTangents(here, falls, distance, bound.nhat.dot(move), reach) >= r;
+  return minOfTangents(here, falls, distance, bound.nhat.dot(move), reach) >= r;
 }
 
 void MeshFront::sweep(int item, const Vec3& x, const Vec3& move, double& reach, double r,
@@ -162,9 +162,9 @@ void MeshFront::sweep(int item, const Vec3& x, const Vec3& move, double& reach, 
 }
 
 double MeshFront::clearance(const Vec3& p) const noexcept {
-  double least = std::numeric_limits<double>::infinity();
-  for (int item = 0; item < count_; ++item) least = std::min(least, boundAt(item, p));
-  return least;
+  double min = std::numeric_limits<double>::infinity();
+  for (int item = 0; item < count_; ++item) min = std::min(min, boundAt(item, p));
+  return min;
 }
 
 bool MeshFront::crosses(std::span<const Vec3> way, bool focused) noexcept {

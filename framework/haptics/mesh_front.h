@@ -118,9 +118,9 @@ class MeshFront {
              const SweepTolerance& tolerance) noexcept;
   /// Necessary condition for a crossing: the item's bound is zero or less at some point of the path.
   bool comesNear(int item, std::span<const Vec3> way, double rounding) const noexcept {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vec3& p : way) least = std::min(least, boundAt(item, p));
-    return least <= rounding;
+    double min = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : way) min = std::min(min, boundAt(item, p));
+    return min <= rounding;
   }
   bool crossesItem(int item, std::span<const Vec3> way, double rounding) noexcept;
   bool crossesFacet(const MeshTree::Facet& facet, const Vec3& a, const Vec3& b) const noexcept;

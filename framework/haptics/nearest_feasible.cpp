@@ -20,7 +20,7 @@ class Search {
  public:
   Search(const HalfSpaces& all, const Vec3& g) : all_(all), g_(g) {
     double scale = 0;
-    for (int i = 0; i < all_.count; ++i) scale = std::max(scale, std::abs(lack(i, g_)));
+    for (int i = 0; i < all_.count; ++i) scale = std::max(scale, std::abs(violation(i, g_)));
     tolerance_ = 1e-9 * scale;  // relative to the depth, so that the result does not depend on the unit
   }
 
@@ -49,10 +49,10 @@ class Search {
  private:
   const Vec3& normal(int i) const { return all_.item[static_cast<std::size_t>(i)].nhat; }
   // violation of constraint i at y
-  double lack(int i, const Vec3& y) const { return all_.item[static_cast<std::size_t>(i)].offset - normal(i).dot(y); }
+  double violation(int i, const Vec3& y) const { return all_.item[static_cast<std::size_t>(i)].offset - normal(i).dot(y); }
 
   bool one(int i) {
-    const double lambda = lack(i, g_);
+    const double lambda = violation(i, g_);
     return lambda >= 0 && consider({i, -1, -1}, {lambda, 0, 0}, 1, g_ + lambda * normal(i));
   }
 
@@ -60,7 +60,7 @@ class Search {
     const double c = normal(i).dot(normal(j));
     const double det = 1 - c * c;
     if (det < kDependent) return false;
-    const double ri = lack(i, g_), rj = lack(j, g_);
+    const double ri = violation(i, g_), rj = violation(j, g_);
     const double li = (ri - c * rj) / det, lj = (rj - c * ri) / det;
     return li >= 0 && lj >= 0 && consider({i, j, -1}, {li, lj, 0}, 2, g_ + li * normal(i) + lj * normal(j));
   }
@@ -70,7 +70,7 @@ class Search {
     const std::array<int, 3> set{i, j, k};
     Vec3 r;
     for (int a = 0; a < 3; ++a) {
-      r[a] = lack(set[static_cast<std::size_t>(a)], g_);
+      r[a] = violation(set[static_cast<std::size_t>(a)], g_);
       for (int b = 0; b < 3; ++b) {
         gram(a, b) = normal(set[static_cast<std::size_t>(a)]).dot(normal(set[static_cast<std::size_t>(b)]));
       }
@@ -86,9 +86,9 @@ class Search {
   // Keeps the least violated candidate; true when no constraint is violated.
   bool consider(const std::array<int, 3>& active, const std::array<double, 3>& weight, int count, const Vec3& y) {
     double worst = 0;
-    for (int i = 0; i < all_.count; ++i) worst = std::max(worst, lack(i, y));
-    if (worst < least_) {
-      least_ = worst;
+    for (int i = 0; i < all_.count; ++i) worst = std::max(worst, violation(i, y));
+    if (worst < min_violation_) {
+      min_violation_ = worst;
       best_ = {y, active, weight, count};
     }
     return worst <= tolerance_;
@@ -97,7 +97,7 @@ class Search {
   const HalfSpaces& all_;
   const Vec3& g_;
   double tolerance_ = 0;
-  double least_ = std::numeric_limits<double>::infinity();
+  double min_violation_ = std::numeric_limits<double>::infinity();
   Feasible best_;
 };
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/haptics/convex_piece.h"
 #include "framework/haptics/mesh_front.h"
 

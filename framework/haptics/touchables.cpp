@@ -100,44 +100,44 @@ Vec3 Touchables::velocityAt(std::int32_t body, const Vec3& p_W) const noexcept {
 }
 
 double Touchables::surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved,
-                            double period, const FingerPatch* patch) const noexcept {
+                            double period, const FingerNeighbourhood* neighbourhood) const noexcept {
   near.begin();
-  const Look look{near, frame, frameOf(frame).inverse(), p_WH, reach, moved, period};
+  const Query query{near, frame, frameOf(frame).inverse(), p_WH, reach, moved, period};
   double approach = 0;
-  if (patch != nullptr && (p_WH - patch->center_W).norm() + reach <= patch->radius) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(patch->body_count); ++i) {
-      const NearBody& body = patch->bodies[i];
+  if (neighbourhood != nullptr && (p_WH - neighbourhood->center_W).norm() + reach <= neighbourhood->radius) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(neighbourhood->body_count); ++i) {
+      const NearBody& body = neighbourhood->bodies[i];
       const std::int32_t t = touchable_of_[static_cast<std::size_t>(body.body)];
-      if (t >= 0) approach = std::max(approach, meet(touchables_[static_cast<std::size_t>(t)], look, &body));
+      if (t >= 0) approach = std::max(approach, meet(touchables_[static_cast<std::size_t>(t)], query, &body));
     }
   } else {
-    for (const Touchable& touchable : touchables_) approach = std::max(approach, meet(touchable, look, nullptr));
+    for (const Touchable& touchable : touchables_) approach = std::max(approach, meet(touchable, query, nullptr));
   }
   return approach;
 }
 
-double Touchables::meet(const Touchable& touchable, const Look& look, const NearBody* near) const noexcept {
+double Touchables::meet(const Touchable& touchable, const Query& query, const NearBody* near) const noexcept {
   constexpr double kTicksAhead = 3;  // a moving body is included this many ticks before it can arrive
   const Pose& X_WB = placed(touchable.body);
   double approach = 0;
   if (moves_[static_cast<std::size_t>(touchable.body)] != 0 && objects_ != nullptr &&
       touchable.body < objects_->count()) {
     const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(touchable.body)];
-    const double speed = motion.v_WB.norm() + motion.w_WB.norm() * (look.p_WH - X_WB.p).norm();
-    if (speed > 0) approach = look.moved + look.period * speed;
+    const double speed = motion.v_WB.norm() + motion.w_WB.norm() * (query.p_WH - X_WB.p).norm();
+    if (speed > 0) approach = query.moved + query.period * speed;
   }
-  const double reach = look.reach + kTicksAhead * approach;
-  if ((X_WB * touchable.center_B - look.p_WH).norm() > touchable.radius + reach) return 0;
-  const bool own = touchable.body == look.frame;
+  const double reach = query.reach + kTicksAhead * approach;
+  if ((X_WB * touchable.center_B - query.p_WH).norm() > touchable.radius + reach) return 0;
+  const bool own = touchable.body == query.frame;
   if (touchable.tree == nullptr) {
     ConvexPiece piece = touchable.primitive;
-    if (!own) std::get_if<Primitive>(&piece.shape)->X_AG = look.X_AW * (X_WB * touchable.X_BG);
-    look.near.add(piece);
+    if (!own) std::get_if<Primitive>(&piece.shape)->X_AG = query.X_AW * (X_WB * touchable.X_BG);
+    query.near.add(piece);
   } else {
-    const Pose X_AG = own ? touchable.X_BG : look.X_AW * (X_WB * touchable.X_BG);
+    const Pose X_AG = own ? touchable.X_BG : query.X_AW * (X_WB * touchable.X_BG);
     const bool same = own && isIdentity(touchable.X_BG);
-    look.near.addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near,
-                      look.X_AW * look.p_WH, reach);
+    query.near.addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near,
+                      query.X_AW * query.p_WH, reach);
   }
   return approach;
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
 #include "framework/haptics/surroundings.h"
 #include "framework/scene/world.h"
@@ -29,10 +29,10 @@ class Touchables {
   /// Velocity of the material point of the body at p_W [m/s].
   Vec3 velocityAt(std::int32_t body, const Vec3& p_W) const noexcept;
   /// Fills `near`, in the coordinates of the body `frame`, with everything that a fingertip can meet while its centre stays within `reach` of the HIP,
-  /// which moved by `moved` since the last tick. When `patch` is null or does not cover this, all bodies are examined.
-  /// Returns the distance by which a surface may have approached the HIP in a tick of `period` [m].
+  /// which moved by `moved` since the last tick. When `neighbourhood` is null or does not cover this, all bodies are
+  /// examined. Returns the distance by which a surface may have approached the HIP in a tick of `period` [m].
   double surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved, double period,
-                  const FingerPatch* patch) const noexcept;
+                  const FingerNeighbourhood* neighbourhood) const noexcept;
 
  private:
   struct Touchable {
@@ -46,7 +46,7 @@ class Touchables {
   static Touchable touchableOf(const World& world, std::size_t body);
   const Pose& placed(std::int32_t body) const noexcept;
   /// Query of one finger in one tick.
-  struct Look {
+  struct Query {
     Surroundings& near;
     std::int32_t frame;
     Pose X_AW;
@@ -54,7 +54,7 @@ class Touchables {
     double reach, moved, period;
   };
   /// Adds the body if it is within reach; returns the distance by which it may have approached in a tick [m].
-  double meet(const Touchable& touchable, const Look& look, const NearBody* near) const noexcept;
+  double meet(const Touchable& touchable, const Query& query, const NearBody* near) const noexcept;
 
   std::vector<Touchable> touchables_;
   std::vector<std::int32_t> touchable_of_;  // by body; -1: not touchable

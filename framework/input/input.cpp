@@ -35,8 +35,8 @@ Refusal notRegular(mode_t mode) {
           "only regular files are read, because others may block or never end"};
 }
 
-Refusal tooLarge(const std::string& bytes, std::uint64_t most) {
-  return {Trouble::kTooLarge, 0, "has " + bytes + " bytes, at most " + std::to_string(most) + " are read", {}};
+Refusal tooLarge(const std::string& bytes, std::uint64_t max) {
+  return {Trouble::kTooLarge, 0, "has " + bytes + " bytes, at most " + std::to_string(max) + " are read", {}};
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ File::~File() {
 }
 File::File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
 
-std::optional<File> open(const std::string& file, std::uint64_t most, Refusal& refusal) {
+std::optional<File> open(const std::string& file, std::uint64_t max, Refusal& refusal) {
   // O_NONBLOCK: do not wait for a writer of a FIFO; O_NOCTTY: do not acquire a controlling terminal
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0) {
@@ -81,8 +81,8 @@ std::optional<File> open(const std::string& file, std::uint64_t most, Refusal& r
     refusal = unreadable(error);
   else if (!S_ISREG(info.st_mode))
     refusal = notRegular(info.st_mode);
-  else if (opened.size() > most)
-    refusal = tooLarge(std::to_string(opened.size()), most);
+  else if (opened.size() > max)
+    refusal = tooLarge(std::to_string(opened.size()), max);
   else
     return opened;
   return std::nullopt;
@@ -95,9 +95,9 @@ std::ptrdiff_t readSome(const File& file, void* to, std::size_t count) {
   return got;
 }
 
-std::optional<std::string> read(const std::string& file, std::uint64_t most, Refusal& refusal) {
+std::optional<std::string> read(const std::string& file, std::uint64_t max, Refusal& refusal) {
   using Clock = std::chrono::steady_clock;
-  const auto opened = open(file, most, refusal);
+  const auto opened = open(file, max, refusal);
   if (!opened) return std::nullopt;
   const double seconds = 10 + static_cast<double>(opened->size()) / kSlowest;
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -113,8 +113,8 @@ std::optional<std::string> read(const std::string& file, std::uint64_t most, Ref
     }
     text.append(block.data(), static_cast<std::size_t>(got));
     // count the bytes actually read: a file may grow meanwhile, and files of /proc report size 0
-    if (text.size() > most) {
-      refusal = tooLarge("more than " + std::to_string(most), most);
+    if (text.size() > max) {
+      refusal = tooLarge("more than " + std::to_string(max), max);
       return std::nullopt;
     }
     if (Clock::now() > end) {
@@ -128,9 +128,9 @@ std::optional<std::string> read(const std::string& file, std::uint64_t most, Ref
   }
 }
 
-std::string readOrRefuse(const std::string& file, std::uint64_t most, int code) {
+std::string readOrRefuse(const std::string& file, std::uint64_t max, int code) {
   Refusal refusal;
-  auto text = read(file, most, refusal);
+  auto text = read(file, max, refusal);
   if (text) return std::move(*text);
   Diagnostics diagnostics;
   refusal.report(code, {file, 0, 0}, "", diagnostics);

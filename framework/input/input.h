@@ -43,17 +43,17 @@ class File {
   std::uint64_t size_;
 };
 
-/// Opens `file` if it is regular and not larger than `most` bytes, holes included. Never waits for another process.
-std::optional<File> open(const std::string& file, std::uint64_t most, Refusal& refusal);
+/// Opens `file` if it is regular and not larger than `max` bytes, holes included. Never waits for another process.
+std::optional<File> open(const std::string& file, std::uint64_t max, Refusal& refusal);
 
 /// Reads up to `count` bytes; 0 at the end, -1 with errno on failure.
 std::ptrdiff_t readSome(const File& file, void* to, std::size_t count);
 
-/// Reads all bytes of `file`. Refuses a file that grows past `most` bytes, or that takes longer than 10 s plus 1 s per
+/// Reads all bytes of `file`. Refuses a file that grows past `max` bytes, or that takes longer than 10 s plus 1 s per
 /// 10 MB.
-std::optional<std::string> read(const std::string& file, std::uint64_t most, Refusal& refusal);
+std::optional<std::string> read(const std::string& file, std::uint64_t max, Refusal& refusal);
 
 /// As read, but throws InputError; `code` is used when the file cannot be opened.
-std::string readOrRefuse(const std::string& file, std::uint64_t most, int code);
+std::string readOrRefuse(const std::string& file, std::uint64_t max, int code);
 
 }  // namespace presa::input

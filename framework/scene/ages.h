@@ -17,8 +17,8 @@ inline constexpr double kFloor = 0.020;  ///< smallest limit [s]
 
 inline double oldAfter(double rate) noexcept { return std::max(kFloor, kPeriods / rate); }
 
-/// Limit for the contact patches, written by the collision thread [s].
-inline double patches(const Rates& rates) noexcept { return oldAfter(rates.collision); }
+/// Limit for the neighbourhoods, written by the collision thread [s].
+inline double neighbourhoods(const Rates& rates) noexcept { return oldAfter(rates.collision); }
 /// Limit for the object states, written by the dynamics, for a finger without its own `watchdog_ms` [s].
 inline double objects(const Rates& rates) noexcept { return oldAfter(rates.dynamics); }
 /// Smallest permitted `watchdog_ms` [s]: a shorter one would fade the force in normal operation.

@@ -5,7 +5,7 @@
 
 namespace presa {
 
-Way wayBetween(const Pose& a, const Pose& b) {
+PoseDifference poseDifference(const Pose& a, const Pose& b) {
   const Quat turn = a.q.conjugate() * b.q;
   return {(b.p - a.p).norm(), 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()))};
 }

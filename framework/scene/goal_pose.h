@@ -6,11 +6,11 @@
 namespace presa {
 
 /// Distance between two poses of a body: translation and rotation angle.
-struct Way {
+struct PoseDifference {
   double distance = 0;  ///< [m]
   double angle = 0;     ///< [rad], 0 to pi
 };
-Way wayBetween(const Pose& a, const Pose& b);
+PoseDifference poseDifference(const Pose& a, const Pose& b);
 
 /// The goal pose nearest to the orientation `q_WB`, among the poses that look the same as `X_WB`: turned about the
 /// body's own z axis by multiples of 2 pi / fold, or by any angle when `fold` is 0. The position is that of `X_WB`.

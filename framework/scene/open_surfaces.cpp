@@ -7,8 +7,8 @@
 namespace presa {
 namespace {
 
-constexpr double kLeastStiffness = 1;  // [N/m]; the surface must not vanish
-constexpr double kMostFriction = 2;    // multiple of the loaded coefficient [-]
+constexpr double kMinStiffness = 1;  // [N/m]; the surface must not vanish
+constexpr double kMaxFriction = 2;    // multiple of the loaded coefficient [-]
 
 }  // namespace
 
@@ -21,16 +21,16 @@ std::vector<OpenSurface> openSurfaces(const Scene& scene) {
                                      [&](const Body& body) { return body.haptic && body.material == m; });
     if (!touched || scene.devices.empty()) continue;
     const std::string path = "material/" + material.name + "/";
-    open.push_back({m, &Material::stiffness, path + "stiffness", std::min(kLeastStiffness, material.stiffness),
+    open.push_back({m, &Material::stiffness, path + "stiffness", std::min(kMinStiffness, material.stiffness),
                     material.stiffness});
     if (!friction || !(material.friction_static > 0)) continue;
     open.push_back(
-        {m, &Material::friction_static, path + "friction/static", 0, kMostFriction * material.friction_static});
+        {m, &Material::friction_static, path + "friction/static", 0, kMaxFriction * material.friction_static});
     if (!(material.friction_dynamic > 0)) continue;
     open.push_back(
-        {m, &Material::friction_dynamic, path + "friction/dynamic", 0, kMostFriction * material.friction_dynamic});
+        {m, &Material::friction_dynamic, path + "friction/dynamic", 0, kMaxFriction * material.friction_dynamic});
   }
-  if (open.size() > SurfaceSettings::kMost) open.resize(SurfaceSettings::kMost);
+  if (open.size() > SurfaceSettings::kCapacity) open.resize(SurfaceSettings::kCapacity);
   return open;
 }
 

@@ -11,7 +11,7 @@ struct OpenSurface {
   std::size_t material = 0;           ///< index into Scene::materials
   double Material::*value = nullptr;  ///< the parameter
   std::string name;                   ///< its path, as for --set: material/steel/stiffness
-  double least = 0, most = 0;         ///< minimum and maximum, both included
+  double min = 0, max = 0;         ///< minimum and maximum, both included
 };
 
 /// The open parameters of every material that fingers can touch, in the order of the scene:
@@ -22,7 +22,7 @@ struct OpenSurface {
 ///   cone stays the same; the factor two limits how much a surface may change. A material without friction stays
 ///   without,
 ///   and friction that an experiment changes (<changed>) is closed to commands.
-/// At most the first SurfaceSettings::kMost parameters.
+/// At most the first SurfaceSettings::kCapacity parameters.
 std::vector<OpenSurface> openSurfaces(const Scene& scene);
 
 }  // namespace presa

@@ -89,7 +89,7 @@ Material readMaterial(const Element& element) {
   for (const Element& friction : element.children("friction")) {
     material.friction_static = friction.number("static", 0);
     material.friction_dynamic = friction.number("dynamic", 0);
-    material.torsion = friction.number("torsion", 0);
+    material.torsional_radius = friction.number("torsion", 0);
     for (const Element& changed : friction.children("changed"))
       material.changed_friction = {changed.number("static", 0), changed.number("dynamic", 0)};
   }
@@ -98,22 +98,22 @@ Material readMaterial(const Element& element) {
 }
 
 /// Index of each name: avoids a linear search per reference in scenes with thousands of bodies.
-using Places = std::map<std::string, std::size_t>;
+using IndexByName = std::map<std::string, std::size_t>;
 
 template <class Named>
-Places placesOf(const std::vector<Named>& all) {
-  Places places;
-  for (std::size_t i = 0; i < all.size(); ++i) places.try_emplace(all[i].name, i);
-  return places;
+IndexByName indexByName(const std::vector<Named>& all) {
+  IndexByName index_of;
+  for (std::size_t i = 0; i < all.size(); ++i) index_of.try_emplace(all[i].name, i);
+  return index_of;
 }
 
-std::vector<std::size_t> indicesOf(const std::vector<std::string>& names, const Places& places) {
+std::vector<std::size_t> indicesOf(const std::vector<std::string>& names, const IndexByName& index_of) {
   std::vector<std::size_t> indices;
-  for (const std::string& name : names) indices.push_back(places.at(name));
+  for (const std::string& name : names) indices.push_back(index_of.at(name));
   return indices;
 }
 
-Body readBody(const Element& element, const Places& materials, const std::string& directory) {
+Body readBody(const Element& element, const IndexByName& materials, const std::string& directory) {
   Body body;
   body.name = element.attribute("name");
   body.fixed = element.boolean("fixed", false);
@@ -138,29 +138,29 @@ Body readBody(const Element& element, const Places& materials, const std::string
 
 Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
   Assembly assembly;
-  assembly.reach = element.number("reach", assembly.reach);
-  assembly.reach_angle_deg = element.number("reach_angle_deg", assembly.reach_angle_deg);
+  assembly.snap_distance = element.number("reach", assembly.snap_distance);
+  assembly.snap_angle_deg = element.number("reach_angle_deg", assembly.snap_angle_deg);
   assembly.tolerance = element.number("tolerance", assembly.tolerance);
   assembly.tolerance_angle_deg = element.number("tolerance_angle_deg", assembly.tolerance_angle_deg);
-  assembly.pull = element.number("pull", assembly.pull);
+  assembly.snap_force = element.number("pull", assembly.snap_force);
   for (const Element& field : element.children("field"))
-    assembly.field = {readVec3(field, "pos", Vec3::Zero()), readVec3(field, "size", Vec3::Zero())};
-  assembly.spent = element.number("spent", assembly.spent);
+    assembly.workspace = {readVec3(field, "pos", Vec3::Zero()), readVec3(field, "size", Vec3::Zero())};
+  assembly.elapsed = element.number("spent", assembly.elapsed);
   for (const Element& words : element.children("words")) assembly.words = readWords(words);
-  const Places elements = placesOf(assembly.words.elements), body_places = placesOf(bodies);
+  const IndexByName elements = indexByName(assembly.words.elements), body_indices = indexByName(bodies);
   const std::vector<Element> goals = element.children("goal");
   for (const Element& goal : goals) {
     assembly.goals.push_back({.name = goal.attribute("name"),
-                              .bodies = indicesOf(xml::splitWords(goal.attribute("bodies")), body_places),
+                              .bodies = indicesOf(xml::splitWords(goal.attribute("bodies")), body_indices),
                               .X_WB = readPose(goal),
                               .fold = static_cast<std::size_t>(goal.number("fold", 1)),
                               .after = {}});
     if (const std::string name = goal.attribute("element"); !name.empty())
       assembly.goals.back().element = indicesOf({name}, elements).front();
   }
-  const Places goal_places = placesOf(assembly.goals);
+  const IndexByName goal_indices = indexByName(assembly.goals);
   for (std::size_t g = 0; g < goals.size(); ++g)
-    assembly.goals[g].after = indicesOf(xml::splitWords(goals[g].attribute("after")), goal_places);
+    assembly.goals[g].after = indicesOf(xml::splitWords(goals[g].attribute("after")), goal_indices);
   return assembly;
 }
 
@@ -244,7 +244,7 @@ Scene readScene(const Element& root, const std::string& file, const std::string&
   for (const Element& collision : root.children("collision")) scene.collision = readCollision(collision);
   for (const Element& dynamics : root.children("dynamics")) scene.dynamics = readDynamics(dynamics);
   for (const Element& material : materialElements(root)) scene.materials.push_back(readMaterial(material));
-  const Places materials = placesOf(scene.materials);
+  const IndexByName materials = indexByName(scene.materials);
   for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, materials, directory));
   for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));
   for (const Element& assembly : root.children("assembly")) scene.assembly = readAssembly(assembly, scene.bodies);

@@ -8,19 +8,19 @@ namespace presa {
 /// What commands have asked the surfaces to be: of each open parameter (openSurfaces) the last value, none before the first. Whole
 /// state, so that a reader who misses one sees the next. Only where a run takes commands.
 struct SurfaceSettings {
-  static constexpr std::size_t kMost = 96;
+  static constexpr std::size_t kCapacity = 96;
   struct Slot {
     std::uint64_t number = 0;  ///< of the change, counted over all slots from 1; 0: as loaded
     double value = 0;
   };
   std::uint64_t newest = 0;  ///< the highest number
-  std::array<Slot, kMost> slots{};
+  std::array<Slot, kCapacity> slots{};
 };
 
 /// Takes the changes one after another, one a tick: every reader that steps in the same ticks takes the same.
 class SettingsTaker {
  public:
-  static constexpr std::size_t kNone = SurfaceSettings::kMost;
+  static constexpr std::size_t kNone = SurfaceSettings::kCapacity;
   /// The slot whose change is next, or kNone. Nonblocking.
   std::size_t next(const SurfaceSettings& settings) noexcept {
     if (settings.newest == taken_) return kNone;

@@ -125,8 +125,8 @@ class Replayer {
       control_.rearms = recording_.device[next_[g]].rearms;
     }
     Tick tick = rates_.tick(group, row.index);
-    tick.made_up = (row.made_up & 1U) != 0;
-    tick.resumed = (row.made_up & 2U) != 0;
+    tick.catch_up = (row.catch_up & 1U) != 0;
+    tick.resumed = (row.catch_up & 2U) != 0;
     if (!session_.graph().replayStep(group, tick, row)) return false;
     if (group == RateGroup::kHaptic) compare(next_[g]);
     ++next_[g];

@@ -34,17 +34,17 @@ std::string inWords(const Material& material, double allowed, const StiffnessBou
 }  // namespace
 
 StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
-  StiffnessBound least;
+  StiffnessBound min;
   const double period = RateTable(scene.rates).period(RateGroup::kHaptic);
   for (std::size_t f = 0; f < devices.size(); ++f) {
     const double damping = devices[f]->damping();
     if (!(damping > 0)) continue;
     const int delay = devicePlugin(plan.devices[f].driver).hardware ? 1 : 0;
     const double stiffness = damping / ((delay + 0.5) * period);
-    if (least.stiffness > 0 && least.stiffness <= stiffness) continue;
-    least = {stiffness, damping, delay, period, plan.devices[f].role};
+    if (min.stiffness > 0 && min.stiffness <= stiffness) continue;
+    min = {stiffness, damping, delay, period, plan.devices[f].role};
   }
-  return least;
+  return min;
 }
 
 std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics) {

@@ -12,7 +12,7 @@ namespace presa {
 
 /// Pause, speed and jumps of simulated time that the user asks for at the window. Written by the view, read by the
 /// module or loop that advances time; any thread.
-struct TimeWish {
+struct TimeControl {
   std::atomic<bool> paused{false};
   std::atomic<double> speed{1};         ///< simulated seconds per wall-clock second
   std::atomic<std::uint32_t> steps{0};  ///< number of single steps asked for while paused, since the start
@@ -60,9 +60,9 @@ class View : public Module {
   /// PointerState. Call before the graph is built.
   virtual void offerPointer(const std::vector<std::size_t>& fingers) = 0;
 
-  /// Lets keys of the window pause and slow time through `wish`, which must outlive the view; a length above 0 [s] adds
-  /// a bar for jumping within a recording. Call before start().
-  virtual void offerTime(TimeWish& wish, double length) noexcept = 0;
+  /// Lets keys of the window pause and slow time through `time_control`, which must outlive the view; a length above 0
+  /// [s] adds a bar for jumping within a recording. Call before start().
+  virtual void offerTime(TimeControl& time_control, double length) noexcept = 0;
 
   /// Handles input and draws the last state again while time is paused. On the thread of the view.
   virtual void refresh() noexcept = 0;

@@ -5,27 +5,27 @@ namespace presa::assembly {
 AssemblyModule::AssemblyModule(std::shared_ptr<const World> world)
     : Module("assembly", RateGroup::kCollision),
       objects_(*this, "object_state"),
-      attractions_(*this, "attractions"),
+      snap_constraints_(*this, "attractions"),
       state_(*this, "assembly_state"),
       world_(std::move(world)),
-      places_(*world_->scene.assembly, world_->scene.bodies.size()) {
-  attractions_.value = places_.attractions();
-  state_.value = places_.state();
+      regions_(*world_->scene.assembly, world_->scene.bodies.size()) {
+  snap_constraints_.value = regions_.snapConstraints();
+  state_.value = regions_.state();
 }
 
 void AssemblyModule::step(const Tick& tick) noexcept {
   if (!objects_.hasValue()) return;
-  for (const std::uint32_t undos = undos_.load(std::memory_order_relaxed); undone_ != undos; ++undone_) places_.undo();
-  places_.step(objects_.value(), tick.period);
-  attractions_.value = places_.attractions();
-  attractions_.value.time = tick.time;
-  state_.value = places_.state();
+  for (const std::uint32_t undos = undos_.load(std::memory_order_relaxed); undone_ != undos; ++undone_) regions_.undo();
+  regions_.step(objects_.value(), tick.period);
+  snap_constraints_.value = regions_.snapConstraints();
+  snap_constraints_.value.time = tick.time;
+  state_.value = regions_.state();
   state_.value.time = tick.time;
 }
 
 std::vector<std::string> AssemblyModule::stages() const {
   std::vector<std::string> all{"which body is near a place that is for it, what has to wait, what has arrived"};
-  if (world_->scene.assembly->field) all.emplace_back("bring back what has left the field");
+  if (world_->scene.assembly->workspace) all.emplace_back("bring back what has left the field");
   return all;
 }
 

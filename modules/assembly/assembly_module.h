@@ -5,7 +5,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/session/assembly_control.h"
 #include "framework/session/module_plugin.h"
-#include "modules/assembly/places.h"
+#include "modules/assembly/goal_regions.h"
 
 namespace presa::assembly {
 
@@ -20,10 +20,10 @@ class AssemblyModule final : public Module, public AssemblyControl {
 
  private:
   In<ObjectState> objects_;
-  Out<Attractions> attractions_;
+  Out<SnapConstraints> snap_constraints_;
   Out<AssemblyState> state_;
   std::shared_ptr<const World> world_;
-  Places places_;
+  GoalRegions regions_;
   std::atomic<std::uint32_t> undos_{0};
   std::uint32_t undone_ = 0;
 };

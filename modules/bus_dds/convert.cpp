@@ -89,13 +89,13 @@ bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept {
   return out;
 }
 
-presa_dds_Beat toTopic(const bus::Beat& beat) noexcept {
-  return {toTopic(beat.stamp), beat.objects, beat.fingers, beat.output_status,
-          beat.object_faults,  beat.refused, beat.last};
+presa_dds_Beat toTopic(const bus::Heartbeat& heartbeat) noexcept {
+  return {toTopic(heartbeat.stamp), heartbeat.objects, heartbeat.fingers, heartbeat.output_status,
+          heartbeat.object_faults,  heartbeat.refused, heartbeat.last};
 }
-bus::Beat fromTopic(const presa_dds_Beat& beat) noexcept {
-  return {fromTopic(beat.stamp), beat.objects, beat.fingers, beat.output_status,
-          beat.object_faults,    beat.refused, beat.last};
+bus::Heartbeat fromTopic(const presa_dds_Beat& heartbeat) noexcept {
+  return {fromTopic(heartbeat.stamp), heartbeat.objects, heartbeat.fingers, heartbeat.output_status,
+          heartbeat.object_faults,    heartbeat.refused, heartbeat.last};
 }
 
 presa_dds_Event toTopic(const bus::Event& event) noexcept {
@@ -133,7 +133,7 @@ bus::Command fromTopic(const presa_dds_Command& command) {
 
 presa_dds_Answer toTopic(const bus::Answer& answer) noexcept {
   return {answer.run,   answer.sender, answer.number, static_cast<std::int32_t>(answer.verdict),
-          answer.value, answer.least,  answer.most};
+          answer.value, answer.min,  answer.max};
 }
 bus::Answer fromTopic(const presa_dds_Answer& answer) noexcept {
   return {answer.run,   answer.sender, answer.number, static_cast<bus::Answer::Verdict>(answer.verdict),
@@ -141,7 +141,7 @@ bus::Answer fromTopic(const presa_dds_Answer& answer) noexcept {
 }
 
 presa_dds_Parameter toTopic(const bus::OpenParameter& parameter) noexcept {
-  presa_dds_Parameter out{parameter.run, {}, parameter.value, parameter.least, parameter.most, parameter.of};
+  presa_dds_Parameter out{parameter.run, {}, parameter.value, parameter.min, parameter.max, parameter.of};
   put(parameter.name, out.name);
   return out;
 }

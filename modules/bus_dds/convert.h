@@ -8,7 +8,7 @@ namespace presa::bus_dds {
 
 presa_dds_ObjectState toTopic(const bus::ObjectSample& sample) noexcept;
 presa_dds_DeviceState toTopic(const bus::FingerSample& sample) noexcept;
-presa_dds_Beat toTopic(const bus::Beat& beat) noexcept;
+presa_dds_Beat toTopic(const bus::Heartbeat& heartbeat) noexcept;
 presa_dds_Event toTopic(const bus::Event& event) noexcept;
 /// Parameter names longer than bus::kLongestParameter are truncated.
 presa_dds_Command toTopic(const bus::Command& command) noexcept;
@@ -19,7 +19,7 @@ presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept;
 
 bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept;
 bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept;
-bus::Beat fromTopic(const presa_dds_Beat& beat) noexcept;
+bus::Heartbeat fromTopic(const presa_dds_Beat& heartbeat) noexcept;
 bus::Event fromTopic(const presa_dds_Event& event) noexcept;
 bus::Command fromTopic(const presa_dds_Command& command);
 bus::Answer fromTopic(const presa_dds_Answer& answer) noexcept;

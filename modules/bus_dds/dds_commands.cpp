@@ -78,11 +78,11 @@ class DdsCommander final : public bus::Commander {
         parameters_(readerOf(*joined_, topics_.parameters, sceneQos())) {}
 
   void send(const bus::Command& command) override { bus_dds::send(commands_, toTopic(command)); }
-  Heard take() override {
-    Heard heard;
-    takeAll<presa_dds_Parameter>(parameters_, heard.parameters);
-    takeAll<presa_dds_Answer>(answers_, heard.answers);
-    return heard;
+  Replies take() override {
+    Replies replies;
+    takeAll<presa_dds_Parameter>(parameters_, replies.parameters);
+    takeAll<presa_dds_Answer>(answers_, replies.answers);
+    return replies;
   }
 
  private:

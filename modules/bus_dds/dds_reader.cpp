@@ -44,7 +44,7 @@ class DdsReader final : public bus::Reader {
     scenes_ = reader(joined_->scenes, sceneQos(), collect<presa_dds_SceneInfo>);
     objects_ = reader(joined_->objects, stateQos(), collect<presa_dds_ObjectState>);
     fingers_ = reader(joined_->fingers, stateQos(), collect<presa_dds_DeviceState>);
-    beats_ = reader(joined_->beats, stateQos(), collect<presa_dds_Beat>);
+    heartbeats_ = reader(joined_->heartbeats, stateQos(), collect<presa_dds_Beat>);
     events_ = reader(joined_->events, stateQos(), collect<presa_dds_Event>);
   }
 
@@ -55,7 +55,7 @@ class DdsReader final : public bus::Reader {
  private:
   std::shared_ptr<Participant> joined_;
   bus::Inbox inbox_{kRoom};  // declared before the readers, so it outlives their listeners
-  Entity scenes_, objects_, fingers_, beats_, events_;
+  Entity scenes_, objects_, fingers_, heartbeats_, events_;
 };
 
 }  // namespace

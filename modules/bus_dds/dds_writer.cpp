@@ -20,7 +20,7 @@ class DdsWriter final : public bus::Writer {
     };
     objects_ = writer(joined_->objects, stateQos());
     fingers_ = writer(joined_->fingers, stateQos());
-    beats_ = writer(joined_->beats, stateQos());
+    heartbeats_ = writer(joined_->heartbeats, stateQos());
     events_ = writer(joined_->events, stateQos());
     scenes_ = writer(joined_->scenes, sceneQos());
   }
@@ -37,8 +37,8 @@ class DdsWriter final : public bus::Writer {
     dds_write_flush(objects_);
     for (const bus::FingerSample& sample : snapshot.fingers) refused += write(fingers_, toTopic(sample));
     dds_write_flush(fingers_);
-    refused += write(beats_, toTopic(snapshot.beat));
-    dds_write_flush(beats_);
+    refused += write(heartbeats_, toTopic(snapshot.heartbeat));
+    dds_write_flush(heartbeats_);
     return refused;
   }
 
@@ -49,7 +49,7 @@ class DdsWriter final : public bus::Writer {
 
   void finish() noexcept override {
     const dds_time_t end = monotonicNs() + kPatience;
-    for (const Entity* writer : {&objects_, &fingers_, &beats_, &events_})
+    for (const Entity* writer : {&objects_, &fingers_, &heartbeats_, &events_})
       dds_wait_for_acks(*writer, std::max<dds_duration_t>(0, end - monotonicNs()));
   }
 
@@ -60,7 +60,7 @@ class DdsWriter final : public bus::Writer {
   }
 
   std::shared_ptr<Participant> joined_;
-  Entity objects_, fingers_, beats_, events_, scenes_;
+  Entity objects_, fingers_, heartbeats_, events_, scenes_;
 };
 
 }  // namespace

@@ -46,9 +46,9 @@ std::string configuration(const std::string& network) {
 
 /// Cyclone's last log message, which is appended to error messages. It is not printed directly, because an unplugged
 /// cable would cause hundreds of lines per second; viewers report the silence.
-class Complaint {
+class LastDdsError {
  public:
-  static void listen() { dds_set_log_sink(&Complaint::note, nullptr); }
+  static void listen() { dds_set_log_sink(&LastDdsError::note, nullptr); }
   static std::string last() {
     const std::lock_guard lock(mutex());
     return text();
@@ -84,7 +84,7 @@ Entity openDomain(dds_domainid_t id, const std::string& network, const std::stri
 }
 
 std::shared_ptr<Participant> open(const BusSettings& settings) {
-  Complaint::listen();
+  LastDdsError::listen();
   auto joined = std::make_shared<Participant>();
   const std::string network = "the network '" + settings.network + "'";
   const auto id = static_cast<dds_domainid_t>(settings.domain);
@@ -101,7 +101,7 @@ std::shared_ptr<Participant> open(const BusSettings& settings) {
   };
   joined->objects = topic(presa_dds_ObjectState_desc, "presa_object_state");
   joined->fingers = topic(presa_dds_DeviceState_desc, "presa_device_state");
-  joined->beats = topic(presa_dds_Beat_desc, "presa_beat");
+  joined->heartbeats = topic(presa_dds_Beat_desc, "presa_beat");
   joined->events = topic(presa_dds_Event_desc, "presa_event");
   joined->scenes = topic(presa_dds_SceneInfo_desc, "presa_scene");
   return joined;
@@ -118,16 +118,16 @@ Qos reliable() {
 
 Entity checked(dds_entity_t handle, const char* what) {
   if (handle > 0) return Entity(handle);
-  const std::string complaint = Complaint::last();
+  const std::string dds_error = LastDdsError::last();
   if (handle == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
     refuse(
         720, "bus",
-        std::string("these keys do not allow the use of ") + what + (complaint.empty() ? "" : " (" + complaint + ")"),
+        std::string("these keys do not allow the use of ") + what + (dds_error.empty() ? "" : " (" + dds_error + ")"),
         "a run needs DIR/run, a viewer DIR/viewer, presa bus list and set DIR/commander, all made by one presa bus "
         "keys DIR");
   refuse(720, "bus",
          std::string("cannot use ") + what + ": " + dds_strretcode(-handle) +
-             (complaint.empty() ? "" : " (" + complaint + ")"),
+             (dds_error.empty() ? "" : " (" + dds_error + ")"),
          "ip link shows the interfaces; --bus loopback needs none but lo");
 }
 

@@ -32,7 +32,7 @@ Entity checked(dds_entity_t handle, const char* what);
 /// This process on one network and domain, shared by its writers and readers.
 struct Participant {
   Entity domain, participant;
-  Entity objects, fingers, beats, events, scenes;  // topics
+  Entity objects, fingers, heartbeats, events, scenes;  // topics
 };
 
 /// Throws InputError E720 when the network cannot be used, E721 when this process already uses the domain on another

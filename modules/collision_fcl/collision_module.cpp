@@ -9,7 +9,7 @@
 namespace presa {
 namespace {
 
-/// A patch is made larger than needed by this factor, so that it serves for several queries.
+/// A neighbourhood is made larger than needed by this factor, so that it serves for several queries.
 constexpr double kFarther = 1.5;
 
 std::size_t touchableCount(const World& world) {
@@ -55,18 +55,18 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
 }
 
 void CollisionModule::step(const Tick& tick) noexcept {
-  ContactPatches& patches = contact_patches.value;
-  patches.time = tick.time;
-  patches.count = device_state->count;
+  FingerNeighbourhoods& neighbourhoods = finger_neighbourhoods.value;
+  neighbourhoods.time = tick.time;
+  neighbourhoods.count = device_state->count;
   if (any_moves_) placeBodies(tick);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(patches.count); ++f) {
+  for (std::size_t f = 0; f < static_cast<std::size_t>(neighbourhoods.count); ++f) {
     const Ball needed = ballOf(f, tick);
-    if (!lastPatchServes(f, needed)) makePatch(needed, patches.fingers[f]);
+    if (!lastNeighbourhoodServes(f, needed)) makeNeighbourhood(needed, neighbourhoods.fingers[f]);
   }
 }
 
-// A patch is made from poses at the start of a collision period, published at the latest at its end, and used until the
-// next one.
+// A neighbourhood is made from poses at the start of a collision period, published at the latest at its end, and used
+// until the next one.
 double CollisionModule::horizon(const Tick& tick) const noexcept {
   return reach::kCollisionPeriods * tick.period + reach::kDynamicsPeriods * dynamics_period_ +
          std::max(device_state.age(tick), 0.0);
@@ -100,55 +100,55 @@ CollisionModule::Ball CollisionModule::ballOf(std::size_t finger, const Tick& ti
     const double length = (contact_exchange->fingers[finger].p_WP - input.p_WH).norm();
     if (std::isfinite(length)) stretch = length;
   }
-  const double least = stretch + reach::kFingertips * world_->scene.devices[finger].fingertip_radius;
-  if (world_->scene.collision.margin > 0) return {input.p_WH, least + world_->scene.collision.margin};
-  return {input.p_WH, least + reach::kMargin + reach::travel(input.v_WH.norm(), horizon(tick))};
+  const double min = stretch + reach::kFingertips * world_->scene.devices[finger].fingertip_radius;
+  if (world_->scene.collision.margin > 0) return {input.p_WH, min + world_->scene.collision.margin};
+  return {input.p_WH, min + reach::kMargin + reach::travel(input.v_WH.norm(), horizon(tick))};
 }
 
-bool CollisionModule::lastPatchServes(std::size_t finger, const Ball& needed) noexcept {
-  const FingerPatch& patch = contact_patches.value.fingers[finger];
+bool CollisionModule::lastNeighbourhoodServes(std::size_t finger, const Ball& needed) noexcept {
+  const FingerNeighbourhood& neighbourhood = finger_neighbourhoods.value.fingers[finger];
   // written so that a position with NaN is never served
-  if (patch.serial == 0 || !((needed.center_W - patch.center_W).norm() + needed.radius <= patch.radius)) return false;
+  if (neighbourhood.serial == 0 || !((needed.center_W - neighbourhood.center_W).norm() + needed.radius <= neighbourhood.radius)) return false;
   if (!any_moves_) return true;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(patch.body_count); ++i) {
-    const NearBody& near = patch.bodies[i];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(neighbourhood.body_count); ++i) {
+    const NearBody& near = neighbourhood.bodies[i];
     if (near.cut_count == 0) continue;
     const Touchable& touchable =
         touchables_[static_cast<std::size_t>(touchable_of_[static_cast<std::size_t>(near.body)])];
     const Vec3 center_B = touchable.X_WB.inverseTimes(needed.center_W);
     if ((center_B - near.center_B).norm() + needed.radius > near.radius) return false;
   }
-  broad_phase_.near(patch.center_W, patch.radius, found_);
-  const auto* end = patch.bodies.data() + patch.body_count;
+  broad_phase_.near(neighbourhood.center_W, neighbourhood.radius, found_);
+  const auto* end = neighbourhood.bodies.data() + neighbourhood.body_count;
   return std::ranges::all_of(found_, [&](std::int32_t t) {
     const std::int32_t body = touchables_[static_cast<std::size_t>(t)].body;
-    return std::find_if(patch.bodies.data(), end, [&](const NearBody& near) { return near.body == body; }) != end;
+    return std::find_if(neighbourhood.bodies.data(), end, [&](const NearBody& near) { return near.body == body; }) != end;
   });
 }
 
-void CollisionModule::makePatch(const Ball& needed, FingerPatch& patch) noexcept {
+void CollisionModule::makeNeighbourhood(const Ball& needed, FingerNeighbourhood& neighbourhood) noexcept {
   const bool fixed = world_->scene.collision.margin > 0;
-  patch.serial = ++serial_;
-  patch.center_W = needed.center_W;
-  patch.radius = fixed ? needed.radius : kFarther * needed.radius;
-  patch.body_count = 0;
-  if (!patch.center_W.allFinite()) {
-    patch.radius = -1;
+  neighbourhood.serial = ++serial_;
+  neighbourhood.center_W = needed.center_W;
+  neighbourhood.radius = fixed ? needed.radius : kFarther * needed.radius;
+  neighbourhood.body_count = 0;
+  if (!neighbourhood.center_W.allFinite()) {
+    neighbourhood.radius = -1;
     return;
   }
-  broad_phase_.near(patch.center_W, patch.radius, found_);
-  if (found_.size() > patch.bodies.size()) {  // too many: the haptic tick examines all bodies itself
-    patch.radius = -1;
+  broad_phase_.near(neighbourhood.center_W, neighbourhood.radius, found_);
+  if (found_.size() > neighbourhood.bodies.size()) {  // too many: the haptic tick examines all bodies itself
+    neighbourhood.radius = -1;
     return;
   }
   for (const std::int32_t t : found_) {
     const Touchable& touchable = touchables_[static_cast<std::size_t>(t)];
-    NearBody& near = patch.bodies[static_cast<std::size_t>(patch.body_count++)];
+    NearBody& near = neighbourhood.bodies[static_cast<std::size_t>(neighbourhood.body_count++)];
     near.body = touchable.body;
     near.cut_count = 0;
     if (touchable.tree == nullptr) continue;
-    near.center_B = touchable.X_WB.inverseTimes(patch.center_W);
-    near.radius = patch.radius + std::max(touchable.travel, 0.0);
+    near.center_B = touchable.X_WB.inverseTimes(neighbourhood.center_W);
+    near.radius = neighbourhood.radius + std::max(touchable.travel, 0.0);
     near.cut_count = static_cast<std::int32_t>(
         touchable.tree->cut(touchable.X_BG.inverseTimes(near.center_B), near.radius, near.cut));
   }

@@ -4,7 +4,7 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
@@ -13,10 +13,11 @@
 namespace presa {
 
 /// Collision query: the bodies that every finger can reach before the next query, and for each mesh among them a cut of
-/// its hierarchy, from which the haptic tick continues. A patch is kept as long as it covers the finger's reach;
-/// nothing is then searched or copied. A late or too small patch costs time but no accuracy: the tick then examines all
-/// bodies and starts from the roots. In: contact_exchange, device_state, object_state (optional; absent: bodies stay at
-/// their start pose). Out: contact_patches. Thread: collision; allocates at construction only.
+/// its hierarchy, from which the haptic tick continues. A neighbourhood is kept as long as it covers the finger's
+/// reach; nothing is then searched or copied. A late or too small neighbourhood costs time but no accuracy: the tick
+/// then examines all bodies and starts from the roots. In: contact_exchange, device_state, object_state (optional;
+/// absent: bodies stay at their start pose). Out: finger_neighbourhoods. Thread: collision; allocates at construction
+/// only.
 class CollisionModule final : public Module {
  public:
   explicit CollisionModule(std::shared_ptr<const World> world);
@@ -27,7 +28,7 @@ class CollisionModule final : public Module {
   In<ContactExchange> contact_exchange{*this, "contact_exchange"};
   In<DeviceState> device_state{*this, "device_state"};
   In<ObjectState> object_state{*this, "object_state", In<ObjectState>::Optional{}};
-  Out<ContactPatches> contact_patches{*this, "contact_patches"};
+  Out<FingerNeighbourhoods> finger_neighbourhoods{*this, "contact_patches"};
 
  private:
   /// A touchable body with its bounding sphere.
@@ -39,9 +40,9 @@ class CollisionModule final : public Module {
     double radius = 0;  ///< [m]
     bool moves = false;
     Pose X_WB;           ///< pose last placed
-    double travel = -1;  ///< distance that it may move until the next patch, as last placed [m]
+    double travel = -1;  ///< distance that it may move until the next neighbourhood, as last placed [m]
   };
-  /// Sphere around a finger's HIP that covers all queries of the haptic tick until the next patch.
+  /// Sphere around a finger's HIP that covers all queries of the haptic tick until the next neighbourhood.
   struct Ball {
     Vec3 center_W = Vec3::Zero();
     double radius = 0;  ///< [m]
@@ -51,9 +52,9 @@ class CollisionModule final : public Module {
   /// Updates the broad phase for bodies that have moved.
   void placeBodies(const Tick& tick) noexcept;
   Ball ballOf(std::size_t finger, const Tick& tick) const noexcept;
-  /// Whether the finger's last patch still covers everything it needs.
-  bool lastPatchServes(std::size_t finger, const Ball& needed) noexcept;
-  void makePatch(const Ball& needed, FingerPatch& patch) noexcept;
+  /// Whether the finger's last neighbourhood still covers everything it needs.
+  bool lastNeighbourhoodServes(std::size_t finger, const Ball& needed) noexcept;
+  void makeNeighbourhood(const Ball& needed, FingerNeighbourhood& neighbourhood) noexcept;
 
   std::shared_ptr<const World> world_;
   std::vector<Touchable> touchables_;

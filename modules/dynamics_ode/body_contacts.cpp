@@ -16,7 +16,7 @@ constexpr double kSameNormal = 0.999;
 // number of contacts that support a body against tipping in any direction
 constexpr std::size_t kSupported = 4;
 // maximum growth relative to the smaller body: a larger shape would touch the other body on a wrong side
-constexpr double kMostGrowth = 0.2;
+constexpr double kMaxGrowth = 0.2;
 // the far end of a tipping body falls faster than g (a rod: 1.5 g)
 constexpr double kRim = 2;
 constexpr double kSameCorner = 0.01;
@@ -108,7 +108,7 @@ void BodyContacts::reportNearing(const BodySet& bodies, std::size_t A, std::size
   if (!GrownGeom::possible(bodies.geom(grown))) return;
   const double extent = std::min(bodies.extent(A), bodies.extent(B));
   const double margin =
-      std::min(bodies.reach(A, h) + bodies.reach(B, h) + kRim * h * h * gravity_.norm(), kMostGrowth * extent);
+      std::min(bodies.reach(A, h) + bodies.reach(B, h) + kRim * h * h * gravity_.norm(), kMaxGrowth * extent);
   const std::size_t touching = contacts.size();
   const GrownGeom geom(bodies.geom(grown), margin);
   report(bodies, A, B, kSamePoint * extent, contacts);

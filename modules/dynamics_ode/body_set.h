@@ -6,7 +6,7 @@
 
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
-#include "modules/dynamics_ode/finger_row.h"
+#include "modules/dynamics_ode/finger_constraint.h"
 
 namespace presa::ode {
 

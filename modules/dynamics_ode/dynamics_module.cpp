@@ -37,7 +37,7 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
       world_(std::move(world)),
       options_(optionsOf(*world_, seed)) {
   objects_.value.bodies.resize(world_->scene.bodies.size());
-  if (world_->scene.assembly) attractions_.emplace(*this, "attractions", In<Attractions>::Optional{});
+  if (world_->scene.assembly) snap_constraints_.emplace(*this, "attractions", In<SnapConstraints>::Optional{});
 }
 
 void DynamicsModule::start() {
@@ -46,14 +46,14 @@ void DynamicsModule::start() {
   bodies_->write(0, objects_.value);
 }
 
-void DynamicsModule::attract() noexcept {
-  if (!attractions_ || attractions_->version() == attractions_seen_) return;
-  attractions_seen_ = attractions_->version();
-  bodies_->attract(attractions_->value());
+void DynamicsModule::setSnapConstraints() noexcept {
+  if (!snap_constraints_ || snap_constraints_->version() == snap_constraints_seen_) return;
+  snap_constraints_seen_ = snap_constraints_->version();
+  bodies_->setSnapConstraints(snap_constraints_->value());
 }
 
 void DynamicsModule::step(const Tick& tick) noexcept {
-  attract();
+  setSnapConstraints();
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value);
 }
 

@@ -24,12 +24,12 @@ class DynamicsModule final : public Module {
   const Faults& faults() const noexcept { return bodies_->faults(); }  ///< valid between start and stop
 
  private:
-  void attract() noexcept;
+  void setSnapConstraints() noexcept;
 
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
-  std::optional<In<Attractions>> attractions_;  // only in scenes with an assembly
-  std::uint64_t attractions_seen_ = 0;
+  std::optional<In<SnapConstraints>> snap_constraints_;  // only in scenes with an assembly
+  std::uint64_t snap_constraints_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;
   std::unique_ptr<OdeWorld> bodies_;

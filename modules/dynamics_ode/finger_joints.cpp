@@ -8,7 +8,7 @@
 namespace presa::ode {
 namespace {
 
-dContact jointOf(const FingerRow& row) {
+dContact jointOf(const FingerConstraint& row) {
   dContact contact{};
   dSurfaceParameters& surface = contact.surface;
   surface.mode = dContactSoftERP | dContactSoftCFM | dContactMotionN | dContactFDir1 | dContactMotion1 |
@@ -37,10 +37,10 @@ constexpr double kTorsionCfm = 1;  // [rad/s / (N m)]
 FingerJoints::FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world)
     : coupling_(coupling), old_after_(ages::fingers(scene.rates)) {
   active_.reserve(kMaxFingers * kMaxContactParts);
-  const auto soft = [](const Material& material) { return material.torsion > 0; };
+  const auto soft = [](const Material& material) { return material.torsional_radius > 0; };
   if (coupling == DynamicsSettings::Coupling::kExplicit || scene.devices.empty()) return;
   if (std::ranges::none_of(scene.materials, soft)) return;
-  for (const Body& body : scene.bodies) torsion_.push_back(scene.materialOf(body).torsion);
+  for (const Body& body : scene.bodies) torsional_radius_.push_back(scene.materialOf(body).torsional_radius);
   for (int finger = 0; finger < kMaxFingers; ++finger) {
     motors_.push_back(dJointCreateAMotor(ode_world, nullptr));
     dJointSetAMotorMode(motors_.back(), dAMotorUser);
@@ -54,19 +54,19 @@ FingerJoints::~FingerJoints() {
 }
 
 // Torsional friction of a fingertip that does not rotate, bounded by the normal force at the start of the step.
-void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const FingerRow& row, const BodySet& bodies) {
+void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies) {
   const double normal = std::max(0.0, row.expected_force_W.dot(row.n_in));
   dJointAttach(motors_[finger], bodies.body(body), nullptr);
   dJointSetAMotorAxis(motors_[finger], 0, 0, row.n_in.x(), row.n_in.y(), row.n_in.z());
   dJointSetAMotorParam(motors_[finger], dParamVel, 0);
-  dJointSetAMotorParam(motors_[finger], dParamFMax, torsion_[body] * row.mu * normal);
+  dJointSetAMotorParam(motors_[finger], dParamFMax, torsional_radius_[body] * row.mu * normal);
 }
 
 std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
   active_.clear();
   for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
   return forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
-    const auto row = makeFingerRow(contact, bodies.inertiaState(body), time - exchange.time, old_after_, h);
+    const auto row = makeFingerConstraint(contact, bodies.inertiaState(body), time - exchange.time, old_after_, h);
     if (!row) return;
     const bool first = active_.empty() || active_.back().finger != f;
     feedback_[active_.size()] = {};
@@ -86,13 +86,13 @@ void FingerJoints::addTo(Engine& engine, BodySet& bodies, Islands& islands, cons
   }
 }
 
-bool FingerJoints::letGo(Islands& islands, std::vector<char>& wanted) {
+bool FingerJoints::stickToSlip(Islands& islands, std::vector<char>& wanted) {
   constexpr double kAtBound = 1 - 1e-6;
   std::fill(wanted.begin(), wanted.end(), 0);
   if (coupling_ == DynamicsSettings::Coupling::kExplicit) return false;
   bool any = false;
   for (std::size_t i = 0; i < active_.size(); ++i) {
-    FingerRow& row = active_[i].row;
+    FingerConstraint& row = active_[i].row;
     const Vec3 force = toVec3(feedback_[i].f1);
     const double f_n = force.dot(row.n_in);
     const bool at_bound = f_n > 0 && force.dot(row.t1) >= kAtBound * row.mu * f_n;

@@ -5,7 +5,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/engine.h"
-#include "modules/dynamics_ode/finger_row.h"
+#include "modules/dynamics_ode/finger_constraint.h"
 #include "modules/dynamics_ode/islands.h"
 
 namespace presa::ode {
@@ -29,22 +29,22 @@ class FingerJoints {
   /// Stick-to-slip transition, after the solve: fingers that reached their static friction bound within the step get
   /// their dynamic coefficient, as on the haptic side, and their islands are marked in `wanted`. False when there are
   /// none.
-  bool letGo(Islands& islands, std::vector<char>& wanted);
+  bool stickToSlip(Islands& islands, std::vector<char>& wanted);
   /// After the solve: mean force of finger `f` on all its bodies over the step [N]; zero without contact.
   Vec3 force(std::size_t f) const;
 
  private:
-  void resistTurning(std::size_t finger, std::size_t body, const FingerRow& row, const BodySet& bodies);
+  void resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies);
 
   struct Active {
     std::size_t finger = 0, body = 0;
-    FingerRow row;
+    FingerConstraint row;
   };
   const DynamicsSettings::Coupling coupling_;
   const double old_after_;  ///< maximum age of a finger sample before it fades [s]
   std::vector<Active> active_;
   std::array<dJointFeedback, kMaxFingers * kMaxContactParts> feedback_{};  // as active_
-  std::vector<double> torsion_;   // torsional friction radius by body [m]; empty if no material has torsion
+  std::vector<double> torsional_radius_;   // torsional friction radius by body [m]; empty if no material has torsion
   std::vector<dJointID> motors_;  // by finger: torsional friction
 };
 
@@ -52,11 +52,11 @@ class FingerJoints {
 /// several bodies share the finger. Returns the number of invalid contacts.
 template <class Use>
 std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies, Use use) {
-  std::size_t nonsense = 0;
+  std::size_t invalid = 0;
   const auto judge = [&](std::size_t finger, const FingerContact& contact) {
     const auto body = static_cast<std::size_t>(contact.body);
     if (contact.body < 0 || body >= bodies.size() || !isUsable(contact)) {
-      ++nonsense;
+      ++invalid;
     } else if (bodies.moves(body)) {
       use(finger, contact, body);
     }
@@ -70,7 +70,7 @@ std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies,
       judge(f, contactOf(contact, contact.parts[static_cast<std::size_t>(p)]));
     }
   }
-  return nonsense;
+  return invalid;
 }
 
 }  // namespace presa::ode

@@ -31,8 +31,8 @@ bool IslandSolver::isDirect(const Islands::Island& island) const noexcept {
 int IslandSolver::iterations(std::size_t contacts, int layers, int substeps) const noexcept {
   if (options_.method.iterations > 0) return static_cast<int>(options_.method.iterations);
   const int affordable = options_.iteration_budget / (substeps * std::max(1, static_cast<int>(contacts)));
-  const int most = std::min({affordable, options_.most_iterations, layers * layers});
-  return std::max(substeps > 1 ? options_.least_iterations_of_substep : options_.least_iterations, most);
+  const int max = std::min({affordable, options_.max_iterations, layers * layers});
+  return std::max(substeps > 1 ? options_.min_iterations_of_substep : options_.min_iterations, max);
 }
 
 // Enables exactly the awake bodies that `choose` selects. True when there is at least one.

@@ -15,18 +15,18 @@ struct OdeOptions {
   std::uint32_t direct_limit = 48;
   /// The same for an untouched island beside a larger one, because it must share all sub-steps of that one.
   std::uint32_t crowded_limit = 16;
-  /// Iterations for larger islands unless the scene sets them: `most_iterations`, reduced so that contacts * iterations
-  /// stays within the budget (2 ms), but at least `least_iterations`. In sub-steps at least
-  /// `least_iterations_of_substep`, and for islands without finger contact at most the square of the layers (`Layers`).
-  int most_iterations = 200;
+  /// Iterations for larger islands unless the scene sets them: `max_iterations`, reduced so that contacts * iterations
+  /// stays within the budget (2 ms), but at least `min_iterations`. In sub-steps at least
+  /// `min_iterations_of_substep`, and for islands without finger contact at most the square of the layers (`Layers`).
+  int max_iterations = 200;
   int iteration_budget = 40000;
   double visits_of_direct = 0.09;  ///< cost of a direct solution per contacts^3, in contacts * iterations
-  int least_iterations = 50;
+  int min_iterations = 50;
   /// With an island too large for the direct solver the period is divided into this many sub-steps with fewer
   /// iterations each: a finger's spring converges with h^2 / iterations, and a heap overlaps less for less time
   /// (config/README.md).
   int large_substeps = 5;
-  int least_iterations_of_substep = 20;
+  int min_iterations_of_substep = 20;
   /// Body-body contacts: fraction of the penetration removed per step (erp), and compliance cfm = h * softness /
   /// reduced mass, at most max_contact_cfm [m/(N s)]. A body on a table sinks g h^2 softness / (contacts * erp), below
   /// 1 um, whatever its mass. With a lower softness the iterative solver does not come to rest.

@@ -5,7 +5,7 @@
 #include <exception>
 #include <optional>
 
-#include "modules/dynamics_ode/attractor.h"
+#include "modules/dynamics_ode/snap_drive.h"
 #include "modules/dynamics_ode/body_contacts.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/engine.h"
@@ -70,7 +70,7 @@ struct OdeWorld::Impl {
   BodyContacts collider;
   StepSolver solver;
   std::optional<Sleep> sleep;          // empty when the scene turns sleeping off
-  std::optional<Attractor> attractor;  // empty without an assembly
+  std::optional<SnapDrive> snap_drive_;  // empty without an assembly
   Islands islands;
   Layers layers;
   std::vector<BodyContact> contacts;
@@ -152,14 +152,14 @@ int OdeWorld::Impl::substepsNow() {
   }
   if (!anyLarge()) return 1;
   // a heap without finger contact gets as many sub-steps as fit, including the direct solutions beside it
-  const int iterations = std::max(options.least_iterations_of_substep, static_cast<int>(options.method.iterations));
+  const int iterations = std::max(options.min_iterations_of_substep, static_cast<int>(options.method.iterations));
   const double visits = static_cast<double>(contacts.size()) * iterations + options.visits_of_direct * direct;
   return static_cast<int>(std::clamp(options.iteration_budget / visits, 1.0, double(options.large_substeps)));
 }
 
 void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps) {
   bodies.resetForces();
-  if (attractor) attractor->drive(bodies, h);
+  if (snap_drive_) snap_drive_->drive(bodies, h);
   fingers.read(exchange, time, h, bodies);
   if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) ++fallback_steps;
   for (std::size_t f = 0; f < kMaxFingers; ++f) {
@@ -172,16 +172,16 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
 }
 
 void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
-  const std::size_t nonsense = forEachTouch(exchange, bodies, [&](std::size_t, const FingerContact&, std::size_t body) {
+  const std::size_t invalid = forEachTouch(exchange, bodies, [&](std::size_t, const FingerContact&, std::size_t body) {
     if (bodies.asleep(body)) sleep->wake(bodies, body);
   });
-  if (nonsense > 0) fault(Faults::kBadFinger, nonsense);
+  if (invalid > 0) fault(Faults::kBadFinger, invalid);
 }
 
 void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period) {
   finger_force.fill(Vec3::Zero());
   wakeTouched(exchange);
-  if (attractor) attractor->carry(bodies, sleep ? &*sleep : nullptr, period);
+  if (snap_drive_) snap_drive_->carry(bodies, sleep ? &*sleep : nullptr, period);
   if (!bodies.anyAwake()) {
     contacts.clear();
     return;
@@ -217,10 +217,10 @@ void OdeWorld::step(const ContactExchange& fingers, double time, double period, 
   out.time_end = time + period;
 }
 
-void OdeWorld::attract(const Attractions& attractions) {
+void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
   if (impl_->failed) return;
-  if (!impl_->attractor) impl_->attractor.emplace(impl_->bodies, impl_->engine.world());
-  impl_->attractor->read(attractions, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);
+  if (!impl_->snap_drive_) impl_->snap_drive_.emplace(impl_->bodies, impl_->engine.world());
+  impl_->snap_drive_->read(snap_constraints, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);
 }
 
 void OdeWorld::write(double time, ObjectState& out) noexcept {

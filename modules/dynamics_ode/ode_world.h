@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "framework/assembly/attraction.h"
+#include "framework/assembly/snap_constraint.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
@@ -25,7 +25,7 @@ struct Faults {
 
 /// The rigid bodies of a scene, stepped by ODE. Must be created, stepped and destroyed on one thread.
 ///
-/// Body-body contacts are nearly rigid (ode_options.h); fingers are implicit spring-dampers (finger_row.h).
+/// Body-body contacts are nearly rigid (ode_options.h); fingers are implicit spring-dampers (finger_constraint.h).
 /// Semi-implicit Euler for translation, Runge-Kutta at constant angular momentum for rotation (rotation.h), a solver
 /// per island (island_solver.h), Coulomb friction (step_solver.h). Deterministic: the same calls give the same bits.
 class OdeWorld {
@@ -37,7 +37,7 @@ class OdeWorld {
   /// extrapolated to `time` and fades when older than ages::fingers. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
   /// Sets the snap constraints from the next step on. Never called: none.
-  void attract(const Attractions& attractions);
+  void setSnapConstraints(const SnapConstraints& snap_constraints);
   /// Writes the current poses as a state valid from `time` on [s].
   void write(double time, ObjectState& out) noexcept;
 

@@ -8,11 +8,11 @@ namespace {
 constexpr double kWindow = 0.5;  // [s]
 
 /// Motion within a window that still counts as rest [m].
-struct Unrest {
+struct MotionLimits {
   double mean_moves = 0;  // change of the mean pose from window to window
   double trembles = 0;    // distance from the pose at the start of the window
 };
-constexpr Unrest kFew{1e-5, 2e-4}, kInAHeap{4e-4, 8e-4};
+constexpr MotionLimits kFew{1e-5, 2e-4}, kInAHeap{4e-4, 8e-4};
 constexpr std::uint32_t kHeap = 16;  // an island with more contacts counts as a heap
 
 Eigen::Matrix<double, 6, 1> displacement(const Pose& from, const Pose& to, double extent) {
@@ -34,7 +34,7 @@ void Sleep::watch(const BodySet& bodies, std::size_t i) {
 
 // Ends the window of body i and starts the next one.
 void Sleep::closeWindow(const BodySet& bodies, std::size_t i, bool in_a_heap) {
-  const Unrest& allowed = in_a_heap ? kInAHeap : kFew;
+  const MotionLimits& allowed = in_a_heap ? kInAHeap : kFew;
   Stillness& body = stillness_[i];
   const Displacement mean = body.sum / std::max(1, window_steps_);
   body.still = body.farthest < allowed.trembles && (mean - body.last_mean).norm() < allowed.mean_moves;

@@ -6,7 +6,7 @@ std::vector<std::string> listStages(const OdeOptions& options) {
   using D = DynamicsSettings;
   const D& method = options.method;
   const std::string iterations =
-      method.iterations > 0 ? std::to_string(method.iterations) : "up to " + std::to_string(options.most_iterations);
+      method.iterations > 0 ? std::to_string(method.iterations) : "up to " + std::to_string(options.max_iterations);
   std::vector<std::string> all;
   if (method.sleeping) all.emplace_back("wake what a finger or a moving body touches; what lies still sleeps");
   all.emplace_back(

@@ -12,7 +12,7 @@ namespace {
 
 // enough for a direction only
 constexpr int kPredictionIterations = 20;
-constexpr int kMostRepeats = 1;
+constexpr int kMaxRepeats = 1;
 constexpr double kSlides = 1e-5;       // slip that counts as sliding in the direct solver [m/s]; iterative: kRestSpeed
 constexpr double kSlidesFast = 0.01;   // slip that cannot stop within a step [m/s]
 constexpr double kSlidingShare = 0.2;  // share of the friction limits of an island at which a prediction pays
@@ -47,13 +47,13 @@ bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& f
   if (isotropic) startFromLastStep(islands);
   if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h);
   pass(fingers, islands, all_, h, true);
-  if (fingers.letGo(islands, wrong_)) {
+  if (fingers.stickToSlip(islands, wrong_)) {
     putBack(islands, wrong_);
     pass(fingers, islands, wrong_, h, true);
   }
   if (!isotropic) return any(fell_back_);
   joints_.readForces(islands, all_);
-  for (int repeat = 0; repeat < kMostRepeats && judge(islands); ++repeat) {
+  for (int repeat = 0; repeat < kMaxRepeats && judge(islands); ++repeat) {
     putBack(islands, wrong_);
     boundByNormalForce(islands);
     predict(fingers, islands, wrong_, h);

@@ -6,25 +6,25 @@
 namespace presa {
 namespace {
 
-constexpr double kThere = 1e-6;  // difference at which the target counts as reached, relative to the maximum [-]
+constexpr double kArrived = 1e-6;  // difference at which the target counts as reached, relative to the maximum [-]
 
 }  // namespace
 
 CommandedSurfaces::CommandedSurfaces(const Scene& scene) : materials_(scene.materials) {
   for (const OpenSurface& open : openSurfaces(scene)) {
     double& value = materials_[open.material].*open.value;
-    ways_.push_back({&value, value, kThere * open.most});
+    transitions_.push_back({&value, value, kArrived * open.max});
   }
 }
 
 void CommandedSurfaces::step(const SurfaceSettings& settings, double period) noexcept {
-  if (const std::size_t slot = taker_.next(settings); slot < ways_.size()) {
-    ways_[slot].target = settings.slots[slot].value;
+  if (const std::size_t slot = taker_.next(settings); slot < transitions_.size()) {
+    transitions_[slot].target = settings.slots[slot].value;
   }
-  for (Way& way : ways_) {
-    if (*way.value == way.target) continue;
-    const double rest = way.target - *way.value;
-    *way.value = std::abs(rest) <= way.near ? way.target : *way.value - rest * std::expm1(-period / kTimeConstant);
+  for (Transition& transition : transitions_) {
+    if (*transition.value == transition.target) continue;
+    const double rest = transition.target - *transition.value;
+    *transition.value = std::abs(rest) <= transition.near ? transition.target : *transition.value - rest * std::expm1(-period / kTimeConstant);
   }
 }
 

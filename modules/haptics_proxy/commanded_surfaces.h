@@ -21,13 +21,13 @@ class CommandedSurfaces {
   void step(const SurfaceSettings& settings, double period) noexcept;
 
  private:
-  struct Way {
+  struct Transition {
     double* value;
     double target, near;  // near: difference at which the target counts as reached
   };
   SettingsTaker taker_;
   std::vector<Material> materials_;
-  std::vector<Way> ways_;
+  std::vector<Transition> transitions_;
 };
 
 }  // namespace presa

@@ -13,7 +13,7 @@
 namespace presa {
 
 /// State of one finger, kept from tick to tick.
-struct Finger {
+struct RenderedFinger {
   bool alive = false;
   std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
   FingertipState tip;
@@ -25,7 +25,7 @@ struct Finger {
 };
 
 /// Transforms the finger's state and `point` into the coordinates of `body`.
-void moveToFrame(Finger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept;
+void moveToFrame(RenderedFinger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept;
 
 /// The surface parameters in force. Both references must outlive the stages.
 struct SurfacesInForce {
@@ -40,7 +40,7 @@ struct SurfacesInForce {
 struct FingerTick {
   std::size_t index = 0;
   const FingerInput& input;
-  Finger& finger;
+  RenderedFinger& finger;
   FingerContact& out;
   ContactExchange& all;
   const Touchables& touchables;

@@ -1,8 +1,8 @@
 // Two-state Coulomb friction on the god-object (PERCRO paper, section 3.3, figure 10). Cone: base at the frictionless
 // god-object, apex at the HIP, radius mu * depth, with mu static while sticking and dynamic while slipping. A sticking
 // proxy is not moved at all; a slipping one is moved to the border of the cone. The tangential displacement is stored
-// at the HIP (state.hold), not recomputed from the proxy, which would drift on curved surfaces. Invariants: a touching
-// proxy lies on a surface, and every motion of it is swept (moveProxy).
+// at the HIP (state.stick_anchor), not recomputed from the proxy, which would drift on curved surfaces. Invariants: a
+// touching proxy lies on a surface, and every motion of it is swept (moveProxy).
 #include <array>
 #include <cmath>
 #include <vector>
@@ -19,7 +19,7 @@ namespace {
 void startAgainFrom(const Vec3& x, const Vec3& g, double r, ProxyContact& contact,
                     Surroundings& surroundings) noexcept {
   const ProxyMove free = moveProxy(x, g, r, surroundings);
-  contact.state.x = contact.state.god = contact.state.hold = free.x;
+  contact.state.x = contact.state.god_object = contact.state.stick_anchor = free.x;
   contact.state.touching = contact.state.slipping = free.touching;
   contact.depth = free.touching ? (free.x - g).norm() : 0;
   contact.body = free.body;
@@ -44,19 +44,19 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   surroundings.use(Point::kHeld);
   if (!contact.state.touching) {
     // no contact: the fingertip follows the frictionless point, if a path leads there
-    const ProxyMove back = moveProxy(last.x, contact.state.god, r, surroundings);
-    if (!meets(back.x, contact.state.god, r)) startAgainFrom(back.x, g, r, contact, surroundings);
+    const ProxyMove back = moveProxy(last.x, contact.state.god_object, r, surroundings);
+    if (!meets(back.x, contact.state.god_object, r)) startAgainFrom(back.x, g, r, contact, surroundings);
     contact.x = contact.state.x;
     return;
   }
   const Vec3 held = last.touching ? last.x : contact.first_touch;
-  contact.state.hold = last.touching ? last.hold : contact.first_touch;
-  Vec3 stretch = contact.state.hold - contact.state.god;
-  stretch -= stretch.dot(contact.nhat) * contact.nhat;
-  const double length = stretch.norm();
+  contact.state.stick_anchor = last.touching ? last.stick_anchor : contact.first_touch;
+  Vec3 displacement = contact.state.stick_anchor - contact.state.god_object;
+  displacement -= displacement.dot(contact.nhat) * contact.nhat;
+  const double length = displacement.norm();
   const double mu = last.touching && last.slipping ? cone.mu_dynamic : cone.mu_static;
   contact.state.slipping = length > mu * contact.depth;
-  if (contact.state.slipping) stretch *= cone.mu_dynamic * contact.depth / length;
+  if (contact.state.slipping) displacement *= cone.mu_dynamic * contact.depth / length;
 
   // a sticking proxy stays fixed in the body's coordinates, so there is no drift to correct
   if (!contact.state.slipping && isSupported(held, r, surroundings)) {
@@ -64,17 +64,17 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   } else {
     // move the goal sideways to the border of the cone and move the proxy there; also when the body that friction held
     // on to is gone
-    contact.state.hold = g + stretch;
-    const ProxyMove moved = moveProxy(held, contact.state.hold, r, surroundings);
+    contact.state.stick_anchor = g + displacement;
+    const ProxyMove moved = moveProxy(held, contact.state.stick_anchor, r, surroundings);
     contact.state.x = moved.x;
-    const Vec3 normal = moved.x - contact.state.hold;
+    const Vec3 normal = moved.x - contact.state.stick_anchor;
     if (!moved.touching) {
       // no surface on the path, hence no normal force and no friction
       contact.state.slipping = true;
-      contact.state.hold = contact.state.god;
-      const ProxyMove back = moveProxy(moved.x, contact.state.god, r, surroundings);
-      contact.state.x = contact.state.god;
-      if (!meets(back.x, contact.state.god, r)) startAgainFrom(back.x, g, r, contact, surroundings);
+      contact.state.stick_anchor = contact.state.god_object;
+      const ProxyMove back = moveProxy(moved.x, contact.state.god_object, r, surroundings);
+      contact.state.x = contact.state.god_object;
+      if (!meets(back.x, contact.state.god_object, r)) startAgainFrom(back.x, g, r, contact, surroundings);
     } else if (normal.dot(contact.nhat) < kSameSide * normal.norm()) {
       startAgainFrom(moved.x, g, r, contact, surroundings);
     }
@@ -82,7 +82,7 @@ void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   contact.x = contact.state.x;
   const Vec3 away = contact.x - g;
   contact.depth = away.dot(contact.nhat);
-  contact.stretch = away - contact.depth * contact.nhat;
+  contact.tangential_displacement = away - contact.depth * contact.nhat;
 }
 
 namespace {

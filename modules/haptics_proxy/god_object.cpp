@@ -75,7 +75,7 @@ void findConstraints(const Vec3& x, double r, double ahead, const Tolerance& tol
 }
 
 // Violation of a constraint at y [m].
-double lack(const Holds::Hold& hold, const Vec3& y) noexcept { return hold.offset - hold.piece.at.nhat.dot(y); }
+double violation(const Holds::Hold& hold, const Vec3& y) noexcept { return hold.offset - hold.piece.at.nhat.dot(y); }
 
 // Solves the programme over all constraints. If they exceed the capacity of HalfSpaces, the binding ones are found
 // iteratively: each round replaces an inactive constraint by the most violated one.
@@ -91,11 +91,11 @@ void solve(const Vec3& x, const Vec3& g, Leg& leg) noexcept {
   leg.target = nearestFeasible(set, g);
   for (int round = 0; !all && round < kMaxRounds; ++round) {
     int worst = -1;
-    double most = 1e-9 * (leg.target.y - g).norm();
+    double max = 1e-9 * (leg.target.y - g).norm();
     for (int i = 0; i < leg.holds.count; ++i) {
-      const double l = lack(leg.holds.item[static_cast<std::size_t>(i)], leg.target.y);
-      if (l > most) {
-        most = l;
+      const double l = violation(leg.holds.item[static_cast<std::size_t>(i)], leg.target.y);
+      if (l > max) {
+        max = l;
         worst = i;
       }
     }
@@ -125,12 +125,12 @@ ActiveSet activeSet(const Leg& leg) noexcept {
 // The body of the constraint that is violated most at g.
 std::int32_t holdingBody(const Leg& leg, const Vec3& g) noexcept {
   std::int32_t body = kNoBody;
-  double most = 0;
+  double max = 0;
   for (int a = 0; a < leg.target.active_count; ++a) {
     const HalfSpace& active =
         leg.half_spaces.item[static_cast<std::size_t>(leg.target.active[static_cast<std::size_t>(a)])];
-    if (const double l = active.offset - active.nhat.dot(g); body == kNoBody || l > most) {
-      most = l;
+    if (const double l = active.offset - active.nhat.dot(g); body == kNoBody || l > max) {
+      max = l;
       body = leg.holds.item[static_cast<std::size_t>(active.tag)].piece.body;
     }
   }
@@ -139,7 +139,7 @@ std::int32_t holdingBody(const Leg& leg, const Vec3& g) noexcept {
 
 // The region queried by a motion: while the centre stays within `margin` of `center`, the focus holds everything it can
 // touch.
-struct Look {
+struct NearQuery {
   Vec3 center;
   double margin;
 
@@ -191,10 +191,10 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   result.x = start;
   const Tolerance tolerance(start, g, r);
   Leg leg;
-  Look look{start, surroundings.meshCount() == 0
+  NearQuery query{start, surroundings.meshCount() == 0
                        ? kMargin * r
                        : kFarther * surroundings.step() + 0.1 * kMargin * r + 10 * tolerance.still};
-  look.at(start, r, surroundings);
+  query.at(start, r, surroundings);
   bool met = false, arrived = false;
   double ahead = 0;
   int renewals = 0;
@@ -202,11 +202,11 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     if (surroundings.full() && renewals < kMaxRenewals) {
       surroundings.renew(result.x);
       ++renewals;
-      look.at(result.x, r, surroundings);
+      query.at(result.x, r, surroundings);
     }
-    if (look.room(result.x) < 0.1 * look.margin) {
-      look.margin *= 2;  // a long motion is queried in ever larger parts
-      look.at(result.x, r, surroundings);
+    if (query.room(result.x) < 0.1 * query.margin) {
+      query.margin *= 2;  // a long motion is queried in ever larger parts
+      query.at(result.x, r, surroundings);
     }
     findConstraints(result.x, r, ahead, tolerance, surroundings, leg);
     if (leg.holds.count > 0 && !met) {
@@ -228,7 +228,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
       if (leg.ahead) result.x = leg.target.y;
       break;
     }
-    const double limit = look.room(result.x) / length;
+    const double limit = query.room(result.x) / length;
     const double fraction = freeFraction(result.x, move, limit, r, tolerance, surroundings, leg);
     result.x += fraction * move;
     surroundings.leaveTrail(result.x);
@@ -249,8 +249,8 @@ ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Sur
   surroundings.use(Point::kGodObject);
   // the frictionless point continues from its own last position, so its way is short even when friction holds the proxy
   // back
-  const ProxyMove bare = moveProxy(last.god, g, r, surroundings);
-  contact.x = contact.state.x = contact.state.god = bare.x;
+  const ProxyMove bare = moveProxy(last.god_object, g, r, surroundings);
+  contact.x = contact.state.x = contact.state.god_object = bare.x;
   contact.depth = (bare.x - g).norm();
   if (!bare.touching || !(contact.depth > 0)) {
     contact.depth = 0;

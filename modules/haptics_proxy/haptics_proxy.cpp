@@ -17,7 +17,7 @@ void holdBodies(Touchables& touchables, const ObjectState& objects, double) noex
 HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects)
     : Module("haptics_proxy", RateGroup::kHaptic), world_(std::move(world)), effects_(effects), touchables_(*world_) {
   for (const DeviceRole& role : world_->scene.devices) {
-    Finger finger;
+    RenderedFinger finger;
     finger.radius = std::max(role.fingertip_radius, touchables_.lift());
     finger.lift = finger.radius - role.fingertip_radius;
     finger.near = std::make_unique<Surroundings>(touchables_.meshCount());
@@ -61,26 +61,26 @@ void HapticsProxy::step(const Tick& tick) noexcept {
 void HapticsProxy::stepFinger(std::size_t f, double period) noexcept {
   const FingerInput& input = device_->fingers[f];
   FingerContact& out = contact_.value.fingers[f];
-  Finger& finger = fingers_[f];
+  RenderedFinger& finger = fingers_[f];
   out = {};
   out.p_WH = out.p_WP = out.p_BP = input.p_WH;
   out.v_WH = input.v_WH;
   if (!input.valid) return;
   if (!finger.alive) {
     finger.alive = true;
-    finger.tip.x = finger.tip.god = finger.p_WH = input.p_WH;
+    finger.tip.x = finger.tip.god_object = finger.p_WH = input.p_WH;
   }
 
   FingerTick tick{f, input, finger, out, contact_.value, touchables_, finger.radius, 0, {}, Vec3::Zero(), {}};
   tick.X_WA = touchables_.frameOf(finger.frame);
   tick.g = tick.X_WA.inverseTimes(input.p_WH);
-  const double way = std::max((finger.tip.x - tick.g).norm(), (finger.tip.god - tick.g).norm());
+  const double way = std::max((finger.tip.x - tick.g).norm(), (finger.tip.god_object - tick.g).norm());
   const double moved = (input.p_WH - finger.p_WH).norm();
   finger.p_WH = input.p_WH;
-  const bool patched = patches_.hasValue() && f < static_cast<std::size_t>(patches_->count);
+  const bool patched = neighbourhoods_.hasValue() && f < static_cast<std::size_t>(neighbourhoods_->count);
   // 10 %: room for being pushed out of a moving body
   tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved, period,
-                                       patched ? &patches_->fingers[f] : nullptr);
+                                       patched ? &neighbourhoods_->fingers[f] : nullptr);
   finger.near->setStep(moved + tick.approach);
   for (const auto& stage : finger_stages_) stage->apply(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;

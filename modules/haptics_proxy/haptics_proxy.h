@@ -14,7 +14,7 @@ namespace presa {
 /// Haptic rendering of all fingers: device state in, contact exchange out. A proxy is stored in the coordinates of the
 /// body next to it, so it moves with that body. Force on the finger, with the touched body's material:
 ///   f = k (p_WP - p_WH), modified by the effects that the scene uses.
-/// The collision thread's patches limit the bodies to examine; without a patch all bodies are examined.
+/// The collision thread's neighbourhoods limit the bodies to examine; without a neighbourhood all bodies are examined.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
 class HapticsProxy final : public Module {
  public:
@@ -45,12 +45,12 @@ class HapticsProxy final : public Module {
   std::shared_ptr<const World> world_;
   HapticEffects effects_;
   Touchables touchables_;
-  std::vector<Finger> fingers_;
+  std::vector<RenderedFinger> fingers_;
   std::vector<PlaceBodies> place_bodies_;  ///< none or one
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;
 
   In<DeviceState> device_{*this, "device_state"};
-  In<ContactPatches> patches_{*this, "contact_patches", In<ContactPatches>::Optional{}};
+  In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kHold};
   std::optional<In<SurfaceChange>> surface_change_;    // only if friction can change
   std::vector<std::unique_ptr<Commanded>> commanded_;  // none or one

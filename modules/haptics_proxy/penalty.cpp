@@ -34,7 +34,7 @@ NearestSurface surfaceOf(const NearPiece& piece, const Surroundings::Triangle& t
 class Penalty final : public FingerStage {
  public:
   void apply(FingerTick& tick) noexcept override {
-    tick.contact.x = tick.contact.state.x = tick.contact.state.god = tick.g;
+    tick.contact.x = tick.contact.state.x = tick.contact.state.god_object = tick.g;
     tick.contact.swept = false;
     const NearestSurface deepest = deepestUnder(tick.g, tick.r, *tick.finger.near);
     if (deepest.body == kNoBody) {
@@ -46,7 +46,7 @@ class Penalty final : public FingerStage {
     contact.body = deepest.body;
     contact.nhat = deepest.nhat;
     contact.depth = tick.r - deepest.signed_distance;
-    contact.x = contact.state.x = contact.state.god = tick.g + contact.depth * contact.nhat;
+    contact.x = contact.state.x = contact.state.god_object = tick.g + contact.depth * contact.nhat;
     countFlip(tick);
   }
   const char* what() const override { return "push towards the nearest surface (penalty, no memory)"; }

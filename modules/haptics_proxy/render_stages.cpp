@@ -36,7 +36,7 @@ class Spring final : public FingerStage {
 
 void Spring::apply(FingerTick& tick) noexcept {
   ProxyContact& contact = tick.contact;
-  Finger& finger = tick.finger;
+  RenderedFinger& finger = tick.finger;
   FingerContact& out = tick.out;
   countWhatWentWrong(tick);
   if (leaps(tick)) ++tick.all.leaps_by_finger[tick.index];
@@ -64,7 +64,7 @@ void Spring::apply(FingerTick& tick) noexcept {
   out.depth = contact.depth;
   out.stiffness = material.stiffness;
   out.normal_force = std::max(0.0, material.stiffness * contact.depth);
-  out.tangential_force_W = material.stiffness * (tick.X_WA.q * contact.stretch);
+  out.tangential_force_W = material.stiffness * (tick.X_WA.q * contact.tangential_displacement);
 }
 
 // Divides the contact among the bodies that hold the finger: the multipliers of each body's constraints, and a share of
@@ -115,11 +115,11 @@ std::int32_t Spring::nearestBody(const FingerTick& tick) noexcept {
   Surroundings& near = *tick.finger.near;
   near.use(Point::kGodObject);
   std::int32_t body = kNoBody;
-  double least = tick.approach > kFast * tick.r ? tick.r + kTicksAhead * tick.approach : kNear * tick.r;
-  near.focus(tick.contact.state.x, least);
-  near.forEachWithin(tick.contact.state.x, least, [&](const NearPiece& piece) {
-    if (piece.at.distance >= least) return;
-    least = piece.at.distance;
+  double min = tick.approach > kFast * tick.r ? tick.r + kTicksAhead * tick.approach : kNear * tick.r;
+  near.focus(tick.contact.state.x, min);
+  near.forEachWithin(tick.contact.state.x, min, [&](const NearPiece& piece) {
+    if (piece.at.distance >= min) return;
+    min = piece.at.distance;
     body = piece.body;
   });
   return body;
@@ -141,8 +141,8 @@ bool Spring::leaps(const FingerTick& tick) noexcept {
   constexpr double kOfDepth = 0.1;  // minimum length relative to the depth; shorter ones are imperceptible
   const FingertipState &last = tick.finger.tip, &now = tick.contact.state;
   if (!last.touching || !now.touching || !tick.contact.swept) return false;
-  const double way = (now.god - last.god).norm();
-  return way > kOfStep * tick.finger.near->step() && way > kOfDepth * (last.god - tick.g).norm();
+  const double way = (now.god_object - last.god_object).norm();
+  return way > kOfStep * tick.finger.near->step() && way > kOfDepth * (last.god_object - tick.g).norm();
 }
 
 class Damping final : public FingerStage {
@@ -166,12 +166,12 @@ class Damping final : public FingerStage {
 
 std::unique_ptr<FingerStage> makeGodObject() { return std::make_unique<GodObject>(); }
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces) { return std::make_unique<Spring>(surfaces); }
-void moveToFrame(Finger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept {
+void moveToFrame(RenderedFinger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept {
   if (finger.frame == body) return;
   const Pose X_BA = touchables.frameOf(body).inverse() * touchables.frameOf(finger.frame);
   finger.tip.x = X_BA * finger.tip.x;
-  finger.tip.god = X_BA * finger.tip.god;
-  finger.tip.hold = X_BA * finger.tip.hold;
+  finger.tip.god_object = X_BA * finger.tip.god_object;
+  finger.tip.stick_anchor = X_BA * finger.tip.stick_anchor;
   point = X_BA * point;
   finger.frame = body;
 }

@@ -57,14 +57,14 @@ class Shading final : public FingerStage {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.active.count); ++i) {
       const ActiveSet::Member& member = contact.active.member[i];
-      sum += member.weight * normalOf(member, near.triangleOf(member.piece, contact.state.god), tick);
+      sum += member.weight * normalOf(member, near.triangleOf(member.piece, contact.state.god_object), tick);
     }
     const double length = sum.norm();
-    if (!(length > 0) || !(sum.dot(contact.nhat) > kLeastCosine * length)) return;
+    if (!(length > 0) || !(sum.dot(contact.nhat) > kMinCosine * length)) return;
     const Quat turn = Quat::FromTwoVectors(contact.nhat, sum);
     contact.nhat = sum / length;
-    contact.stretch = turn * contact.stretch;
-    contact.x = tick.g + contact.depth * contact.nhat + contact.stretch;
+    contact.tangential_displacement = turn * contact.tangential_displacement;
+    contact.x = tick.g + contact.depth * contact.nhat + contact.tangential_displacement;
   }
   const char* what() const override { return "force shading: normals interpolated over the facets"; }
 
@@ -95,7 +95,7 @@ class Shading final : public FingerStage {
     return length > 0 && normal.dot(member.nhat) > 0 ? Vec3(normal / length) : member.nhat;
   }
 
-  static constexpr double kLeastCosine = 0.5;  // the force rotates by less than 60 degrees, else shading is skipped
+  static constexpr double kMinCosine = 0.5;  // the force rotates by less than 60 degrees, else shading is skipped
   std::vector<Smooth> bodies_;                 // as Scene::bodies
 };
 

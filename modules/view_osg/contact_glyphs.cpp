@@ -84,8 +84,8 @@ ContactGlyphs::ContactGlyphs(std::size_t fingers) {
   for (std::size_t i = 0; i < fingers; ++i) fingers_.push_back(makeFinger());
 }
 
-ContactGlyphs::Finger ContactGlyphs::makeFinger() {
-  Finger finger;
+ContactGlyphs::FingerGlyph ContactGlyphs::makeFinger() {
+  FingerGlyph finger;
   finger.hip = placed(sphereGeometry(kHipRadius, kHipColor), *solid_);
   finger.link = placed(unitShaft(kHipColor), *solid_);
   finger.tip = placed(sphereGeometry(1, kSkinColor), *tips_);
@@ -112,7 +112,7 @@ ContactGlyphs::Finger ContactGlyphs::makeFinger() {
 void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
   for (std::size_t i = 0; i < fingers_.size() && i < fingers.size(); ++i) {
     const FingerView& view = fingers[i];
-    Finger& finger = fingers_[i];
+    FingerGlyph& finger = fingers_[i];
     setShown(*finger.hip, view.valid);
     setShown(*finger.tip, view.valid);
     finger.hip->setMatrix(osg::Matrixd::translate(toOsg(view.p_WH)));
@@ -122,8 +122,8 @@ void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
     finger.tip->setMatrix(toOsg(Pose{view.p_WP, Quat::Identity()}));
     finger.tip->preMult(osg::Matrixd::scale(view.radius, view.radius, view.radius));
     finger.tip_color->set(osg::Vec3(toOsg(stateColor(view.mode))));
-    const double most = std::min(view.force_limit, kGlowsWith);
-    finger.pressure->set(static_cast<float>(view.touches() ? std::min(1.0, view.normal_force / most) : 0.0));
+    const double max = std::min(view.force_limit, kGlowsWith);
+    finger.pressure->set(static_cast<float>(view.touches() ? std::min(1.0, view.normal_force / max) : 0.0));
     updateForce(view, finger);
   }
 }
@@ -135,7 +135,7 @@ void ContactGlyphs::show(const ShownParts& parts) {
   setShown(*arrows_, parts[ShownPart::kForces]);
 }
 
-void ContactGlyphs::updateForce(const FingerView& view, Finger& finger) {
+void ContactGlyphs::updateForce(const FingerView& view, FingerGlyph& finger) {
   const double length = kArrowLengthPerNewton * view.f_H_W.norm();
   const bool pulled = view.touches() && length > 1e-4;
   setShown(*finger.shaft, pulled);

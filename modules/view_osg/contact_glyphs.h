@@ -26,19 +26,19 @@ class ContactGlyphs {
   void show(const ShownParts& parts);
 
  private:
-  struct Finger {
+  struct FingerGlyph {
     osg::ref_ptr<osg::MatrixTransform> hip, link, tip, shaft, head, cone;
     osg::ref_ptr<osg::Uniform> tip_color, pressure, cone_color;
   };
-  Finger makeFinger();
-  void updateForce(const FingerView& view, Finger& finger);
+  FingerGlyph makeFinger();
+  void updateForce(const FingerView& view, FingerGlyph& finger);
 
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
   osg::ref_ptr<osg::Group> solid_ = new osg::Group;  ///< HIPs and links
   osg::ref_ptr<osg::Group> arrows_ = new osg::Group;
   osg::ref_ptr<osg::Group> cones_ = new osg::Group;
   osg::ref_ptr<osg::Group> tips_ = new osg::Group;
-  std::vector<Finger> fingers_;
+  std::vector<FingerGlyph> fingers_;
 };
 
 }  // namespace presa::view

@@ -8,14 +8,14 @@ namespace presa::view {
 class FrameBudget {
  public:
   static constexpr double kLongest = 0.030;  ///< maximum frame time [s]
-  static constexpr double kLeast = 0.625;    ///< minimum share; below it texts on stones and edges are lost
+  static constexpr double kMinShare = 0.625;    ///< minimum share; below it texts on stones and edges are lost
 
   double share() const { return kShares[at_]; }
   /// Adds a frame time [s]. True: the share has changed.
   bool add(double seconds);
 
  private:
-  static constexpr std::array kShares{1.0, 0.75, kLeast};  ///< between 0.75 and 1 scaling costs more than it saves
+  static constexpr std::array kShares{1.0, 0.75, kMinShare};  ///< between 0.75 and 1 scaling costs more than it saves
   static constexpr std::size_t kJudged =
       9;  ///< frames per decision, by their median, so that single delayed frames do not count
   bool changeTo(std::size_t at);

@@ -16,12 +16,12 @@ namespace {
 
 const Vec3 kPlaceColor(0.30, 0.85, 0.45), kMissingColor(1.0, 0.52, 0.08), kArrow(1.0, 0.62, 0.05);
 constexpr float kFaint = 0.16F, kStrong = 0.30F;
-constexpr double kBeat = 1.4;                                     // period of pulsation [s]
+constexpr double kPulsePeriod = 1.4;                                     // period of pulsation [s]
 constexpr double kHead = 0.016, kShaft = 0.006, kLength = 0.036;  // sizes of the arrow [m]
 constexpr double kAbove = 0.008, kBob = 0.005;                    // mean height over the block, and its variation [m]
 
 /// Pulsation between 0 and 1.
-float beat(double time) { return static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kBeat)); }
+float pulse(double time) { return static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kPulsePeriod)); }
 
 }  // namespace
 
@@ -82,7 +82,7 @@ void Guides::showArrow(std::int32_t body, const std::vector<Pose>& X_WB, double 
   arrow_->setNodeMask(body != kNoBody ? ~0U : 0U);
   if (body == kNoBody) return;
   const auto i = static_cast<std::size_t>(body);
-  const Vec3 above(0, 0, bodies_.radius(i) + kAbove + kBob * beat(time));
+  const Vec3 above(0, 0, bodies_.radius(i) + kAbove + kBob * pulse(time));
   arrow_->setMatrix(toOsg(Pose{X_WB[i].p + above, Quat::Identity()}));
 }
 
@@ -90,14 +90,14 @@ void Guides::update(const Guidance& guidance, const std::vector<Pose>& X_WB, dou
   const bool hint = guidance.hint_goal != kNoGoal;
   const std::int32_t goal = hint ? guidance.hint_goal : guidance.held ? guidance.goal : kNoGoal;
   const std::int32_t body = hint ? guidance.hint_body : guidance.body;
-  show(place_, goal, body, X_WB, hint ? kFaint + (kStrong - kFaint) * beat(time) : kFaint);
+  show(place_, goal, body, X_WB, hint ? kFaint + (kStrong - kFaint) * pulse(time) : kFaint);
   // any of the bodies that fit has the right shape
   const std::int32_t missing = guidance.missing;
   const std::int32_t like =
       missing == kNoGoal
           ? kNoBody
           : static_cast<std::int32_t>(scene_.assembly->goals[static_cast<std::size_t>(missing)].bodies.front());
-  show(missing_, missing, like, X_WB, kFaint + (kStrong - kFaint) * beat(time));
+  show(missing_, missing, like, X_WB, kFaint + (kStrong - kFaint) * pulse(time));
   showArrow(hint && !(guidance.held && guidance.body == guidance.hint_body) ? guidance.hint_body : kNoBody, X_WB, time);
 }
 

@@ -30,7 +30,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
       parts_(options.show),
       overlays_(*world_),
-      patches_(*world_),
+      neighbourhoods_(*world_),
       lighting_(casters_, space_->getOrCreateStateSet()),
       hud_(*world_, options),
       card_(hud_.right(), *world_),
@@ -46,7 +46,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
   const double reach = std::max(kFloorRadius, kFloorReach * enclose(subject_).radius);
   for (osg::Node* part :
        {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
-        static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()), patches_.root()})
+        static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()), neighbourhoods_.root()})
     space_->addChild(part);
   if (guides_) space_->addChild(guides_->root());
   space_->addChild(makeBackground());
@@ -100,9 +100,9 @@ bool Picture::moved(const ViewFrame& frame, const std::vector<FingerView>& finge
     now.push_back(X_WB.p + kArm * (X_WB.q * Vec3(0.6, 0.64, 0.48)));
   }
   for (const FingerView& finger : fingers) now.push_back(finger.p_WP);
-  double most = now.size() == shadowed_.size() ? 0 : kMoves;
-  for (std::size_t i = 0; i < now.size() && most < kMoves; ++i) most = std::max(most, (now[i] - shadowed_[i]).norm());
-  if (most < kMoves) return false;
+  double max = now.size() == shadowed_.size() ? 0 : kMoves;
+  for (std::size_t i = 0; i < now.size() && max < kMoves; ++i) max = std::max(max, (now[i] - shadowed_[i]).norm());
+  if (max < kMoves) return false;
   shadowed_ = std::move(now);
   return true;
 }
@@ -119,7 +119,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   }
   glyphs_.show(parts_);
   overlays_.update(parts_, frame.X_WB, frame.asleep);
-  patches_.update(parts_[ShownPart::kPatches], frame.patches, frame.X_WB);
+  neighbourhoods_.update(parts_[ShownPart::kPatches], frame.neighbourhoods, frame.X_WB);
   hud_.update(frame, fingers, timings);
   card_.update(frame.X_WB);
   time_bar_.update(frame.time);

@@ -10,7 +10,7 @@
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
 #include "modules/view_osg/overlays.h"
-#include "modules/view_osg/patch_lines.h"
+#include "modules/view_osg/neighbourhood_lines.h"
 #include "modules/view_osg/plots.h"
 #include "modules/view_osg/scene_nodes.h"
 #include "modules/view_osg/time_bar.h"
@@ -56,7 +56,7 @@ class Picture {
   ContactGlyphs glyphs_;
   ShownParts parts_;
   Overlays overlays_;
-  PatchLines patches_;
+  NeighbourhoodLines neighbourhoods_;
   std::unique_ptr<Guides> guides_;  // only in scenes with an assembly
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;

@@ -78,8 +78,8 @@ void Plots::update(bool shown) {
 void Plots::draw(Quantity quantity) {
   static constexpr std::array<const char*, kQuantities> kNames{"normal force", "penetration", "haptic rate"};
   static constexpr std::array<const char*, kQuantities> kUnits{"N", "mm", "Hz"};
-  const double least_top = quantity == kForce ? 1 : quantity == kDepth ? 1 : nominal_rate_;
-  double top = least_top;
+  const double min_top = quantity == kForce ? 1 : quantity == kDepth ? 1 : nominal_rate_;
+  double top = min_top;
   for (const Moment& moment : moments_) {
     for (std::size_t f = 0; f < panels_[quantity].curves.size(); ++f) top = std::max(top, moment.values[quantity][f]);
   }

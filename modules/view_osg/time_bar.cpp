@@ -13,8 +13,8 @@ const osg::Vec4 kInk(0.95F, 0.96F, 0.98F, 1), kFilled(0.38F, 0.70F, 1.0F, 1);
 
 }  // namespace
 
-void TimeBar::offer(const TimeWish& wish, double length) {
-  wish_ = &wish;
+void TimeBar::offer(const TimeControl& time_control, double length) {
+  time_control_ = &time_control;
   length_ = length;
   pace_.emplace(center_, 0, bottom_ + 18, 14, kInk, Typeface::kBold, Label::Align::kCenter);
   if (length > 0) bar_.emplace(center_, Rect{-kHalfWidth, bottom_, 2 * kHalfWidth, kThick});
@@ -22,12 +22,12 @@ void TimeBar::offer(const TimeWish& wish, double length) {
 
 void TimeBar::update(double time) {
   time_ = time;
-  if (wish_ == nullptr) return;
+  if (time_control_ == nullptr) return;
   if (bar_) bar_->set(time / length_, kFilled);
   std::array<char, 64> text{};
-  if (wish_->paused)
+  if (time_control_->paused)
     std::snprintf(text.data(), text.size(), "held");
-  else if (const double speed = wish_->speed; speed != 1)
+  else if (const double speed = time_control_->speed; speed != 1)
     std::snprintf(text.data(), text.size(), "%.4g times real time", speed);
   pace_->set(text.data());
 }

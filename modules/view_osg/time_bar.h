@@ -12,8 +12,8 @@ class TimeBar {
  public:
   /// `center`: origin in the middle of a picture of 720 lines, `bottom` in its coordinates.
   TimeBar(osg::Group& center, float bottom) : center_(center), bottom_(bottom) {}
-  /// `length`: duration of the recording [s]; 0: no bar. `wish` must outlive this.
-  void offer(const TimeWish& wish, double length);
+  /// `length`: duration of the recording [s]; 0: no bar. `time_control` must outlive this.
+  void offer(const TimeControl& time_control, double length);
   void update(double time);
   /// The moment at a point of the picture, in halves of its height from the middle; none: the point is off the bar.
   std::optional<double> momentAt(double right, double up, bool wherever_up = false) const;
@@ -23,7 +23,7 @@ class TimeBar {
  private:
   osg::Group& center_;
   const float bottom_;
-  const TimeWish* wish_ = nullptr;
+  const TimeControl* time_control_ = nullptr;
   double length_ = 0, time_ = 0;
   std::optional<Bar> bar_;
   std::optional<Label> pace_;

@@ -4,7 +4,7 @@
 
 #include "framework/assembly/assembly_guide.h"
 #include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/device_state.h"
 
 namespace presa::view {
@@ -14,7 +14,7 @@ struct ViewFrame {
   double time = 0;                          ///< [s]
   std::vector<Pose> X_WB;                   ///< in the order of Scene::bodies
   std::vector<bool> asleep;                 ///< in the order of Scene::bodies
-  const ContactPatches* patches = nullptr;  ///< value of the port; null: not connected
+  const FingerNeighbourhoods* neighbourhoods = nullptr;  ///< value of the port; null: not connected
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;

@@ -30,7 +30,7 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
   if (!options_.video.empty()) video_.emplace(options_.video);
   const ShownParts asked(options_.show);
   if (windowed() || asked[ShownPart::kPatches])
-    patches_.emplace(*this, "contact_patches", In<ContactPatches>::Optional{});
+    neighbourhoods_.emplace(*this, "contact_patches", In<FingerNeighbourhoods>::Optional{});
   if (world_->scene.assembly) guide_.emplace(*world_->scene.assembly, world_->scene.bodies.size());
   if (!options_.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
 }
@@ -90,7 +90,7 @@ void ViewModule::offerPointer(const std::vector<std::size_t>& fingers) {
   pointer_.emplace(fingers);
 }
 
-void ViewModule::offerTime(TimeWish& wish, double length) noexcept { time_ = &wish, length_ = length; }
+void ViewModule::offerTime(TimeControl& time_control, double length) noexcept { time_ = &time_control, length_ = length; }
 
 void ViewModule::refresh() noexcept {
   if (!renderer_ || broken_ || !windowed()) return;
@@ -106,7 +106,7 @@ void ViewModule::copyPorts(const Tick& tick) {
   frame_.device = device_state_.value();
   frame_.contacts = contact_exchange_.value();
   frame_.forces = force_command_.value();
-  if (patches_ && patches_->hasValue()) frame_.patches = &patches_->value();
+  if (neighbourhoods_ && neighbourhoods_->hasValue()) frame_.neighbourhoods = &neighbourhoods_->value();
   if (!object_state_.hasValue()) return;
   const ObjectState& objects = object_state_.value();
   const std::size_t count = std::min(frame_.X_WB.size(), objects.bodies.size());

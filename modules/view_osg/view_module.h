@@ -5,7 +5,7 @@
 
 #include "framework/assembly/assembly_guide.h"
 #include "framework/core/graph/port.h"
-#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
 #include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
@@ -38,7 +38,7 @@ class ViewModule final : public View {
   void setBanner(const std::string& text, bool alarm) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
   void offerPointer(const std::vector<std::size_t>& fingers) override;
-  void offerTime(TimeWish& wish, double length) noexcept override;
+  void offerTime(TimeControl& time_control, double length) noexcept override;
   void refresh() noexcept override;
 
  private:
@@ -60,10 +60,10 @@ class ViewModule final : public View {
   In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
-  std::optional<In<ContactPatches>> patches_;     ///< only if patches may be shown
+  std::optional<In<FingerNeighbourhoods>> neighbourhoods_;     ///< only if neighbourhoods may be shown
   std::optional<Out<PointerState>> pointer_out_;  ///< only with a pointer device
   std::optional<PointerControl> pointer_;
-  TimeWish* time_ = nullptr;
+  TimeControl* time_ = nullptr;
   double length_ = 0;  ///< length of the recording [s]; 0: a run
   In<AssemblyState> assembly_state_{*this, "assembly_state", In<AssemblyState>::Optional{}};
 

@@ -217,7 +217,7 @@ bool WindowInput::pairKey(int key, bool fine) {
 bool WindowInput::timeKey(int key) {
   if (key == Event::KEY_Space && controls_.time == nullptr) return true;  // reserved
   if (controls_.time == nullptr) return false;
-  TimeWish& time = *controls_.time;
+  TimeControl& time = *controls_.time;
   const auto faster = [&](double factor) {
     time.speed = std::clamp(time.speed.load() * factor, kSlowest, kFastest);
     return true;

@@ -12,7 +12,7 @@ namespace presa::view {
 /// Objects controlled from a window besides the camera; null: not available.
 struct Controls {
   PointerControl* pointer = nullptr;
-  TimeWish* time = nullptr;
+  TimeControl* time = nullptr;
   bool undo = false;  ///< undo is available
 };
 

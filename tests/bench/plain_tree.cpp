@@ -132,10 +132,10 @@ void PlainTree::query(const Vec3& p, double radius, Found& found) const {
   std::array<Waiting, 64> waiting;
   std::size_t count = 0;
   // search distance and its square; the rounding error of float distances is below one part in 10^5 here
-  float farthest = std::numeric_limits<float>::infinity(), most = farthest;
+  float farthest = std::numeric_limits<float>::infinity(), max = farthest;
   const auto look = [&] {
-    most = static_cast<float>(std::max(best, within)) * (1 + 2e-5F);
-    farthest = std::sqrt(most);
+    max = static_cast<float>(std::max(best, within)) * (1 + 2e-5F);
+    farthest = std::sqrt(max);
   };
   const auto leaf = [&](std::size_t at) {
     const Spheres& spheres = spheres_[at];
@@ -172,8 +172,8 @@ void PlainTree::query(const Vec3& p, double radius, Found& found) const {
         std::swap(near, far);
         std::swap(first, second);
       }
-      if (far <= most) waiting[count++] = {second, far};
-      if (near > most) goto next;
+      if (far <= max) waiting[count++] = {second, far};
+      if (near > max) goto next;
       at = first;
     }
     at = ~at;
@@ -186,7 +186,7 @@ void PlainTree::query(const Vec3& p, double radius, Found& found) const {
         return;
       }
       --count;
-    } while (waiting[count].squared > most);
+    } while (waiting[count].squared > max);
     at = waiting[count].node;
   }
 }

@@ -13,7 +13,7 @@ namespace presa {
 namespace {
 
 struct Violations {
-  int most_in_a_tick = 0;
+  int max_in_a_tick = 0;
   std::string first;
 };
 
@@ -37,9 +37,9 @@ std::array<Violations, kRateGroupCount> violationsOf(const std::string& scene) {
       session.graph().step(group, rates.tick(group, i / divisor));
       const int count = guard.violations();
       Violations& own = violations[static_cast<std::size_t>(group)];
-      if (count > 0 && own.most_in_a_tick == 0)
+      if (count > 0 && own.max_in_a_tick == 0)
         own.first = guard.first() + (" at " + std::to_string(rates.tick(RateGroup::kHaptic, i).time));
-      own.most_in_a_tick = std::max(own.most_in_a_tick, count);
+      own.max_in_a_tick = std::max(own.max_in_a_tick, count);
     }
   }
   for (auto group = kGroups.rbegin(); group != kGroups.rend(); ++group) session.graph().stop(*group);
@@ -52,7 +52,7 @@ TEST(Allocation, NoTickAllocates) {
     const auto violations = violationsOf(scene);
     const auto of = [&](RateGroup group) { return violations[static_cast<std::size_t>(group)]; };
     for (const RateGroup group : {RateGroup::kHaptic, RateGroup::kCollision, RateGroup::kDynamics}) {
-      EXPECT_EQ(of(group).most_in_a_tick, 0) << scene << ' ' << toString(group) << ": " << of(group).first;
+      EXPECT_EQ(of(group).max_in_a_tick, 0) << scene << ' ' << toString(group) << ": " << of(group).first;
     }
   }
 }

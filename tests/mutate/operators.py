@@ -29,26 +29,26 @@ SUPERVISED = "framework/device/supervision/supervised_device.cpp"
 
 SAFETY = [
     # the output stage
-    (STAGE, "bounded(good_, limits_.force, kOutputMagnitude)", "bounded(good_, 1e9, kOutputMagnitude)"),
-    (STAGE, "if (const double norm = force.norm(); norm > most) {", "if (const double norm = force.norm(); norm > 1e9) {"),
-    (STAGE, "largest > most) {\n    force *= most / largest;", "largest > 1e9) {\n    force *= most / largest;"),
+    (STAGE, "clampMagnitude(good_, limits_.force, kOutputMagnitude)", "clampMagnitude(good_, 1e9, kOutputMagnitude)"),
+    (STAGE, "if (const double norm = force.norm(); norm > max) {", "if (const double norm = force.norm(); norm > 1e9) {"),
+    (STAGE, "largest > max) {\n    force *= max / largest;", "largest > 1e9) {\n    force *= max / largest;"),
     (STAGE, "if (!input.command.allFinite()) latches_ |= kOutputNotFinite;", ""),
     (STAGE, "if (input.lost) latches_ |= kOutputLost;", ""),
     (STAGE, "if (input.other_lost) latches_ |= kOutputOther;", ""),
     (STAGE, "if (input.resumed) latches_ |= kOutputGap;", ""),
-    (STAGE, "if (hurries && hurrying_) latches_", "if (hurrying_ && false) latches_"),
+    (STAGE, "if (over_speed && over_speed_) latches_", "if (over_speed_ && false) latches_"),
     (STAGE, "&& last_.dot(input.v_WH) > 0;", "&& last_.dot(input.v_WH) < 0;"),
     (STAGE, "if (latches_ == 0) good_ = input.command;", "good_ = input.command;"),
-    (STAGE, "  gain_ = 0;\n  hurrying_ = false;", "  gain_ = 1;\n  hurrying_ = false;"),
+    (STAGE, "  gain_ = 0;\n  over_speed_ = false;", "  gain_ = 1;\n  over_speed_ = false;"),
     (STAGE, "dropped ? gap_ + period : 0;", "dropped ? period : 0;"),
     (STAGE, "fading ? -period / limits_.fade_out", "fading ? period / limits_.fade_out"),
     (STAGE, "period / limits_.soft_start), 0.0, 1.0)", "10 * period / limits_.soft_start), 0.0, 1.0)"),
     (STAGE, "return dropped ? 0 : gain_;", "return gain_;"),
-    (STAGE, "input.held ? 0 : limits_.force_rate * period", "input.held ? 0 : 2 * limits_.force_rate * period"),
-    (STAGE, "input.held ? 0 : limits_", "limits_"),
-    (STAGE, "if (!(length > most)) return force;", "if (!(length > 1e9)) return force;"),
+    (STAGE, "input.catch_up ? 0 : limits_.force_rate * period", "input.catch_up ? 0 : 2 * limits_.force_rate * period"),
+    (STAGE, "input.catch_up ? 0 : limits_", "limits_"),
+    (STAGE, "if (!(length > max)) return force;", "if (!(length > 1e9)) return force;"),
     (STAGE, "budget_.step(last_.norm(), period);", ""),
-    (STAGE, "return bounded(force, budget_.most(limits_.force), kOutputWarm);", "return force;"),
+    (STAGE, "return clampMagnitude(force, budget_.maxForce(limits_.force), kOutputWarm);", "return force;"),
     (STAGE, "if (limits_.passivity) energy_.sent(last_);", ""),
     # what a rig and a scene may ask for
     (LIMITS, "if (!allowed || *allowed <= rated) return", "if (true) return"),
@@ -61,16 +61,16 @@ SAFETY = [
     (LIMITS, "allowedUpTo(\"continuous\", allowed.continuous, rating_.continuous, \"N\")", "rating_.continuous"),
     (LIMITS, "if (asked <= rating_.watchdog) return asked;", "if (true) return asked;"),
     # which samples are believed, and what a finger's age does
-    (SAMPLE, "(rejected && doubted_)", "false"),
+    (SAMPLE, "(rejected && suspect_)", "false"),
     (SAMPLE, "<= kFastest * since_", "<= 1e9 * since_"),
     (SAMPLE, "good_.valid && since_ <= kHold && input.age <= kHold", "good_.valid"),
     (SAMPLE, "input.v_WH.setZero();", ""),
     (MODULES, "contact_->time < tick.time) return Trust::kDropped", "false) return Trust::kDropped"),
     (MODULES, "objects_->faults != 0", "false"),
     (MODULES, "objects_.age(tick) > watchdog_[finger]", "false"),
-    (MODULES, "patches_.age(tick) > patch_age_", "false"),
+    (MODULES, "neighbourhoods_.age(tick) > neighbourhood_age_", "false"),
     (MODULES, ".other_lost = lost > (finger.lost ? 1 : 0)", ".other_lost = false"),
-    (MODULES, "if (!tick.made_up) devices_", "devices_"),
+    (MODULES, "if (!tick.catch_up) devices_", "devices_"),
     (MODULES, "if (device_->rearms != rearms_) stages_[f].rearm();", ""),
     # motors and energy
     (HEAT, "load * load - heat_", "load - heat_"),
@@ -100,7 +100,7 @@ CLOSEST = "framework/geometry/closest_point.h"
 SLIVER = "framework/geometry/closest_point.cpp"
 MASS = "framework/geometry/tri_mesh.cpp"
 ROTATION = "modules/dynamics_ode/rotation.cpp"
-ROW = "modules/dynamics_ode/finger_row.cpp"
+ROW = "modules/dynamics_ode/finger_constraint.cpp"
 FINGERS = "modules/dynamics_ode/finger_joints.cpp"
 PAIR = "modules/dynamics_ode/friction.cpp"
 CONTACTS = "modules/dynamics_ode/contact_joints.cpp"
@@ -113,7 +113,7 @@ CORE = [
     (GOD, "piece.at.nhat.dot(x) + r - piece.at.distance}", "piece.at.nhat.dot(x) + 0.99 * r - piece.at.distance}"),
     (GOD, "if (slope < 0) reach =", "if (slope < -1e9) reach ="),
     (GOD, "overlapping = overlapping || piece.at.distance < r - tolerance.contact_gap;", ""),
-    (GOD, "if (l > most) {\n        most = l;\n        worst = i;", "if (l > 1e9) {\n        most = l;\n        worst = i;"),
+    (GOD, "if (l > max) {\n        max = l;\n        worst = i;", "if (l > 1e9) {\n        max = l;\n        worst = i;"),
     (GOD, "contact.nhat = (bare.x - g) / contact.depth;", "contact.nhat = bare.x - g;"),
     (NEAREST, "const double det = 1 - c * c;", "const double det = 1 + c * c;"),
     (NEAREST, "(ri - c * rj) / det", "(ri + c * rj) / det"),
@@ -122,14 +122,14 @@ CORE = [
     (NEAREST, "if (slack(half_space) < slack(other)) other = half_space;", ""),
     # friction of a fingertip
     (FRICTION, "last.slipping ? cone.mu_dynamic : cone.mu_static", "last.slipping ? cone.mu_static : cone.mu_static"),
-    (FRICTION, "stretch *= cone.mu_dynamic * contact.depth / length", "stretch *= cone.mu_static * contact.depth / length"),
+    (FRICTION, "displacement *= cone.mu_dynamic * contact.depth / length", "displacement *= cone.mu_static * contact.depth / length"),
     (FRICTION, "length > mu * contact.depth", "length > 1.05 * mu * contact.depth"),
-    (FRICTION, "stretch -= stretch.dot(contact.nhat) * contact.nhat;", ""),
+    (FRICTION, "displacement -= displacement.dot(contact.nhat) * contact.nhat;", ""),
     (FRICTION, "const Vec3 held = last.touching ? last.x : contact.first_touch;", "const Vec3 held = last.x;"),
-    (FRICTION, "contact.stretch = away - contact.depth * contact.nhat;", "contact.stretch = away;"),
+    (FRICTION, "contact.tangential_displacement = away - contact.depth * contact.nhat;", "contact.tangential_displacement = away;"),
     # smooth meshes
     (SHADING, "std::atan2(u.cross(v).norm(), u.dot(v)) * cross.normalized()", "cross.normalized()"),
-    (SHADING, "contact.stretch = turn * contact.stretch;", ""),
+    (SHADING, "contact.tangential_displacement = turn * contact.tangential_displacement;", ""),
     (SHADING, "return {1 - w1 - w2, w1, w2};", "return {1 - w1 - w2, w2, w1};"),
     # geometry
     (CLOSEST, "if (d3 >= 0 && d4 <= d3) return t.b;", ""),
@@ -150,8 +150,8 @@ CORE = [
     (ROW, "std::clamp(age, 0.0, old_after) * contact.v_WH", "0.0 * contact.v_WH"),
     (ROW, "1 - (age - old_after) / kFingerFade", "1 - 0 * (age - old_after) / kFingerFade"),
     (ROW, "own.p_WH = contact.p_WP - part.stretch_W;", "own.p_WH = contact.p_WH;"),
-    (FINGERS, "torsion_[body] * row.mu * normal", "torsion_[body] * normal"),
-    (FINGERS, "torsion_[body] * row.mu * normal", "torsion_[body] * row.mu"),
+    (FINGERS, "torsional_radius_[body] * row.mu * normal", "torsional_radius_[body] * normal"),
+    (FINGERS, "torsional_radius_[body] * row.mu * normal", "torsional_radius_[body] * row.mu"),
     (FINGERS, "row.mu = row.mu_dynamic;\n    wanted", "wanted"),
     (PAIR, "std::sqrt(a.friction_dynamic * b.friction_dynamic)", "std::sqrt(a.friction_static * b.friction_static)"),
     (PAIR, "slip_speed < kRestSpeed ? std::sqrt(a.friction_static * b.friction_static)", "slip_speed < kRestSpeed ? a.friction_static"),

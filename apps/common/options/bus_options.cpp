@@ -23,7 +23,7 @@ void addBusOptions(Command command, std::optional<BusSettings>& bus, const std::
       .eachNumber(
           "--domain", [settings](const int& domain) { settings().domain = domain; },
           "number of the bus, where several are in use (default 0)")
-      .withinCount(kLeastBusDomain, kMostBusDomain);
+      .withinCount(kMinBusDomain, kMaxBusDomain);
   command.each(
       "--bus-keys", [settings](const std::string& folder) { settings().keys = folder; },
       "folder of this process's certificate, one of DIR/run, DIR/viewer and DIR/commander that presa bus keys makes");

@@ -56,7 +56,7 @@ Axes axesOf(const FacetFigure& figure, double width, double height) {
   }
   if (figure.y_from_zero) axes.y.add(0);
   if (figure.x_from_zero) axes.x.add(0);
-  axes.y.add(figure.y_most);
+  axes.y.add(figure.y_max);
   if (!(axes.x.low <= axes.x.high)) axes.x = {0, 1};
   if (!(axes.y.low <= axes.y.high)) axes.y = {0, 1};
   const Range wide = axes.y.widened(0.06);

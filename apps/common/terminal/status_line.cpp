@@ -80,7 +80,7 @@ std::string statusText(const LiveStatus& status, double rate, std::size_t column
   Line line(columns, color);
   addProgress(line, status);
   if (!status.phase.empty()) line.add(status.phase, Style::kStrong);
-  for (const LiveStatus::Finger& finger : status.fingers) {
+  for (const LiveStatus::FingerStatus& finger : status.fingers) {
     line.add(terminal::format("%s %5.2f N %s", finger.name.c_str(), finger.normal_force, nameOf(finger.mode)),
              styleOf(finger.mode));
   }

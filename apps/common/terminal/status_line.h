@@ -10,7 +10,7 @@ namespace presa {
 
 /// The current state of a run, as plain values.
 struct LiveStatus {
-  struct Finger {
+  struct FingerStatus {
     std::string name;
     ContactMode mode = ContactMode::kNone;
     double normal_force = 0;  ///< [N]
@@ -23,7 +23,7 @@ struct LiveStatus {
   std::uint64_t haptic_missed = 0;
   std::uint32_t losses = 0;  ///< coverage_lost and pop_through together (losses.h)
   std::string phase;         ///< of a scripted motion, may be empty
-  std::vector<Finger> fingers;
+  std::vector<FingerStatus> fingers;
 };
 
 /// The status as one line of at most `columns` characters: bar, times, phase, fingers, rate. Parts that do not fit

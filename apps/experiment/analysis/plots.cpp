@@ -195,9 +195,9 @@ Section section(const wanted::Scatter& what, const Context& context) {
   FacetFigure figure{what.y + " over " + what.x, context.heading(what.x), context.heading(what.y)};
   figure.x_from_zero = true;
   figure.facets.resize(1);
-  double most = 0;
-  for (const std::size_t row : rows) most = std::max(most, trials.numbers.at(what.x)[row]);
-  if (what.diagonal) figure.facets[0].layers.push_back({Kind::kLine, -1, true, {{0, 0}, {most, most}}});
+  double max = 0;
+  for (const std::size_t row : rows) max = std::max(max, trials.numbers.at(what.x)[row]);
+  if (what.diagonal) figure.facets[0].layers.push_back({Kind::kLine, -1, true, {{0, 0}, {max, max}}});
   const std::vector<Group> groups = groupsBy(context.experiment, trials, {what.color}, rows);
   std::size_t under = 0;
   for (const Group& group : groups) {

@@ -15,16 +15,16 @@ using svg::FacetPoint;
 using svg::Layer;
 using terminal::format;
 
-constexpr std::size_t kMostFacetRows = 6;  ///< with more subjects only all together are drawn
+constexpr std::size_t kMaxFacetRows = 6;  ///< with more subjects only all together are drawn
 
 std::vector<Layer> layersOf(const wanted::Psychometric& what, const Fit& fit, int color) {
   Layer data{Layer::Kind::kSymbols, color, false, {}}, curve{Layer::Kind::kLine, color, false, {}},
       band{Layer::Kind::kArea, color, false, {}};
-  double most = 1;
-  for (const StimulusLevel& level : fit.levels) most = std::max(most, static_cast<double>(level.trials));
+  double max = 1;
+  for (const StimulusLevel& level : fit.levels) max = std::max(max, static_cast<double>(level.trials));
   for (const StimulusLevel& level : fit.levels) {
     FacetPoint point{level.x, static_cast<double>(level.hits) / level.trials};
-    point.size = 0.5 + std::sqrt(level.trials / most);
+    point.size = 0.5 + std::sqrt(level.trials / max);
     point.label = format("%s %.4g: %d of %d", what.x.c_str(), level.x, level.hits, level.trials);
     data.points.push_back(std::move(point));
   }
@@ -72,7 +72,7 @@ std::size_t placeOf(const std::string& name, std::vector<std::string>& names) {
 
 std::string figureOf(const wanted::Psychometric& what, const Context& context, const std::vector<Fit>& fits) {
   const std::size_t subjects = context.trials.subjects.size();
-  const bool pooled = subjects > kMostFacetRows;
+  const bool pooled = subjects > kMaxFacetRows;
   svg::FacetFigure figure{"Psychometric functions", context.heading(what.x), "proportion of " + what.y, {}, {}};
   struct Placed {
     const Fit* fit;
@@ -89,7 +89,7 @@ std::string figureOf(const wanted::Psychometric& what, const Context& context, c
   figure.facets.resize(figure.rows.size() * figure.columns.size());
   for (const Placed& one : drawn)
     figure.facets[one.row * figure.columns.size() + one.column].layers = layersOf(what, *one.fit, 1);
-  figure.y_most = 1;
+  figure.y_max = 1;
   figure.legend = {{"answers, larger: more trials", Layer::Kind::kSymbols, 1}, {"fit", Layer::Kind::kLine, 1}};
   if (what.draws > 0) figure.legend.push_back({context.percent() + " interval", Layer::Kind::kArea, 1});
   return svg::render(figure);

@@ -27,7 +27,7 @@ std::size_t recordingsOf(const std::vector<SourceSession>& sessions) {
 }
 
 /// Prints the caveats that a reader of the numbers must know.
-void sayWhatItIs(const std::vector<SourceSession>& sessions, const std::string& out) {
+void printCaveats(const std::vector<SourceSession>& sessions, const std::string& out) {
   std::printf("%zu sessions: %s\n", sessions.size(), out.c_str());
   for (const SourceSession& session : sessions) {
     if (!session.log.complete) std::printf("  %s is not finished\n", session.folder.path.c_str());
@@ -49,10 +49,10 @@ int exportDataset(const ExportArguments& a) {
     return !terminal::JobProgress::interrupted();
   };
   bool whole = a.bids.empty() || exportBids(sessions, a.bids, a.options, more);
-  if (whole && !a.bids.empty()) sayWhatItIs(sessions, a.bids);
+  if (whole && !a.bids.empty()) printCaveats(sessions, a.bids);
   whole = whole && (a.csv.empty() || exportCsv(sessions, a.csv, a.rate, more));
   progress.finish();
-  if (whole && !a.csv.empty()) sayWhatItIs(sessions, a.csv);
+  if (whole && !a.csv.empty()) printCaveats(sessions, a.csv);
   if (!whole) std::fputs("stopped: nothing is left of the export that was going on\n", stderr);
   return whole ? kExitOk : kExitInterrupted;
 }

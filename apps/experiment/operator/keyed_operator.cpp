@@ -20,14 +20,14 @@ class KeyedOperator final : public Operator {
     draw();
   }
 
-  Wish wish() override {
-    if (gone()) return Wish::kStop;
-    return std::exchange(wish_, Wish::kNone);
+  Request request() override {
+    if (gone()) return Request::kStop;
+    return std::exchange(request_, Request::kNone);
   }
 
   std::optional<std::string> takeNote() override { return std::exchange(note_, std::nullopt); }
 
-  Wish await(const std::string& why, double seconds) override {
+  Request await(const std::string& why, double seconds) override {
     const std::int64_t until = monotonicNs() + static_cast<std::int64_t>(seconds * 1e9);
     for (;;) {
       const double left = static_cast<double>(until - monotonicNs()) * 1e-9;
@@ -35,16 +35,16 @@ class KeyedOperator final : public Operator {
                          : why + "   space goes on   n note   q stop";
       draw();
       const char key = face_->key(100);
-      if (gone()) return Wish::kStop;
+      if (gone()) return Request::kStop;
       if (key == 'n' || writing_)
         take(key);
       else if (key == 'q')
-        return Wish::kStop;
+        return Request::kStop;
       else if (left <= 0 && (key == ' ' || key == '\n'))
         break;
     }
     prompt_.clear();
-    return Wish::kNone;
+    return Request::kNone;
   }
 
   std::optional<int> ask(const std::string& question) override {
@@ -97,16 +97,16 @@ class KeyedOperator final : public Operator {
     if (writing_) return write(key);
     switch (key) {
       case 'p':
-        wish_ = Wish::kPause;
+        request_ = Request::kPause;
         break;
       case 'r':
-        wish_ = Wish::kRepeat;
+        request_ = Request::kRepeat;
         break;
       case 's':
-        wish_ = Wish::kSkip;
+        request_ = Request::kSkip;
         break;
       case 'q':
-        wish_ = Wish::kStop;
+        request_ = Request::kStop;
         break;
       case 'n':
         writing_ = true;
@@ -134,12 +134,12 @@ class KeyedOperator final : public Operator {
     SessionView view = view_;
     if (!prompt_.empty()) view.asked = prompt_;
     if (writing_) view.asked = "note: " + text_ + "_   (Enter keeps it, Esc drops it)";
-    face_->draw(boardOf(view, face_->columns(), face_->rows()));
+    face_->draw(consoleViewOf(view, face_->columns(), face_->rows()));
   }
 
   std::unique_ptr<Face> face_;
   SessionView view_;
-  Wish wish_ = Wish::kNone;
+  Request request_ = Request::kNone;
   std::optional<std::string> note_;
   std::string prompt_, text_;
   bool writing_ = false;

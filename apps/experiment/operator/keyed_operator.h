@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "apps/common/terminal/interruption.h"
-#include "apps/experiment/operator/board.h"
+#include "apps/experiment/operator/console_view.h"
 #include "apps/experiment/operator/operator.h"
 
 namespace presa::experiment {
@@ -11,7 +11,7 @@ namespace presa::experiment {
 class Face {
  public:
   virtual ~Face() = default;
-  virtual void draw(const Board& board) = 0;
+  virtual void draw(const ConsoleView& console_view) = 0;
   /// The next key within `ms` milliseconds; 0: no key.
   virtual char key(int ms) = 0;
   virtual std::size_t columns() const = 0;
@@ -23,7 +23,7 @@ class Face {
   terminal::Interruption interruption_;  // Ctrl-C is heard before a terminal changes and until it is back
 };
 
-/// An operator who reads the board and answers with keys.
+/// An operator who reads the console and answers with keys.
 std::unique_ptr<Operator> keyedOperator(std::unique_ptr<Face> face);
 
 }  // namespace presa::experiment

@@ -12,18 +12,18 @@ namespace presa::experiment {
 /// the scene. Thread: main.
 class Operator {
  public:
-  enum class Wish { kNone, kPause, kRepeat, kSkip, kStop };
+  enum class Request { kNone, kPause, kRepeat, kSkip, kStop };
 
   virtual ~Operator() = default;
 
   /// Updates the display when it is due. Cheap: call it often.
   virtual void show(const SessionView& view) = 0;
   /// The request made since the last call. kPause takes effect after the trial.
-  virtual Wish wish() = 0;
+  virtual Request request() = 0;
   /// The note written since the last call; it goes into the log.
   virtual std::optional<std::string> takeNote() { return std::nullopt; }
   /// Waits between trials, for at least `seconds`, until the operator continues. Returns kNone or kStop.
-  virtual Wish await(const std::string& why, double seconds) = 0;
+  virtual Request await(const std::string& why, double seconds) = 0;
   /// The participant's answer, 1 or 2; no value: the operator stops the session.
   virtual std::optional<int> ask(const std::string& question) = 0;
   virtual std::optional<psychophysics::AdjustmentKey> askAdjust(const std::string& question) = 0;

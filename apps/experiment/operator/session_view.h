@@ -11,14 +11,14 @@ namespace presa::experiment {
 
 /// The state of a session as shown to the operator, as plain values.
 struct SessionView {
-  struct Finger {
+  struct FingerStatus {
     std::string role;
     ContactMode mode = ContactMode::kNone;
     double force = 0;  ///< normal [N]
   };
   struct Watch {  ///< the quantity that the experiment displays, with its reference line
     std::string name, unit;
-    double value = std::numeric_limits<double>::quiet_NaN(), line = std::numeric_limits<double>::quiet_NaN(), most = 0;
+    double value = std::numeric_limits<double>::quiet_NaN(), line = std::numeric_limits<double>::quiet_NaN(), max = 0;
   };
 
   std::string title, subject, model;  ///< model: not empty for a simulated subject
@@ -30,7 +30,7 @@ struct SessionView {
   std::string condition;                   ///< as text
   std::string phase, instruction;          ///< instruction: text for the participant in this phase
   double phase_time = 0, phase_limit = 0;  ///< [s]
-  std::vector<Finger> fingers;
+  std::vector<FingerStatus> fingers;
   Watch watch;
   bool device_lost = false;
   double clipped = 0;                         ///< time at the force limit in this trial [s]

@@ -14,8 +14,8 @@ class SilentOperator final : public Operator {
     if (view.seconds_left >= 0) progress_.expect(view.seconds_left);
     progress_.show();
   }
-  Wish wish() override { return terminal::JobProgress::interrupted() ? Wish::kStop : Wish::kNone; }
-  Wish await(const std::string&, double) override { return wish(); }
+  Request request() override { return terminal::JobProgress::interrupted() ? Request::kStop : Request::kNone; }
+  Request await(const std::string&, double) override { return request(); }
   std::optional<int> ask(const std::string&) override { return std::nullopt; }
   std::optional<psychophysics::AdjustmentKey> askAdjust(const std::string&) override { return std::nullopt; }
   void ended(const std::string& what) override {

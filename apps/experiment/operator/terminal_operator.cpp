@@ -25,9 +25,9 @@ class Screen final : public Face {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  void draw(const Board& board) override {
+  void draw(const ConsoleView& console_view) override {
     std::string text = "\033[H";
-    for (const BoardLine& line : board) text += terminal::styled(line.text, line.style, color_) + "\033[K\r\n";
+    for (const ConsoleLine& line : console_view) text += terminal::styled(line.text, line.style, color_) + "\033[K\r\n";
     std::fputs((text + "\033[J").c_str(), stderr);
     std::fflush(stderr);
   }

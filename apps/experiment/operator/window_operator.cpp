@@ -28,10 +28,10 @@ std::array<float, 3> colorOf(Style style) {
 
 class WindowFace final : public Face {
  public:
-  void draw(const Board& board) override {
+  void draw(const ConsoleView& console_view) override {
     std::vector<TextWindow::Line> lines;
-    lines.reserve(board.size());
-    for (const BoardLine& line : board) lines.push_back({line.text, colorOf(line.style)});
+    lines.reserve(console_view.size());
+    for (const ConsoleLine& line : console_view) lines.push_back({line.text, colorOf(line.style)});
     window_->show(lines);
   }
   char key(int ms) override { return window_->key(ms); }

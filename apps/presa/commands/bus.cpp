@@ -13,22 +13,22 @@
 namespace presa {
 namespace {
 
-void print(const Heard& heard, const char* who) {
-  if (!heard.joined) {
+void print(const ViewerStatistics& statistics, const char* who) {
+  if (!statistics.joined) {
     std::printf("%s: joined no run\n", who);
     return;
   }
   std::printf("%s: %.1f s, lost %llu of %llu samples, %llu twice, %llu late; thrown away here %llu, never sent %llu\n",
-              who, heard.seconds, static_cast<unsigned long long>(heard.lost),
-              static_cast<unsigned long long>(heard.received + heard.lost),
-              static_cast<unsigned long long>(heard.doubled), static_cast<unsigned long long>(heard.late),
-              static_cast<unsigned long long>(heard.overrun), static_cast<unsigned long long>(heard.refused));
-  std::printf("    latency p50 %.3f ms, p99 %.3f ms, longest %.3f ms\n", 1e3 * heard.latency_p50,
-              1e3 * heard.latency_p99, 1e3 * heard.latency_max);
+              who, statistics.seconds, static_cast<unsigned long long>(statistics.lost),
+              static_cast<unsigned long long>(statistics.received + statistics.lost),
+              static_cast<unsigned long long>(statistics.doubled), static_cast<unsigned long long>(statistics.late),
+              static_cast<unsigned long long>(statistics.overrun), static_cast<unsigned long long>(statistics.refused));
+  std::printf("    latency p50 %.3f ms, p99 %.3f ms, longest %.3f ms\n", 1e3 * statistics.latency_p50,
+              1e3 * statistics.latency_p99, 1e3 * statistics.latency_max);
 }
 
-bool clean(const Heard& heard) {
-  return heard.joined && heard.received > 0 && heard.lost == 0 && heard.overrun == 0 && heard.refused == 0;
+bool clean(const ViewerStatistics& statistics) {
+  return statistics.joined && statistics.received > 0 && statistics.lost == 0 && statistics.overrun == 0 && statistics.refused == 0;
 }
 
 void addListen(Command app, int& status) {
@@ -50,12 +50,12 @@ void addListen(Command app, int& status) {
       "Latencies mean something on the machine of the run only. Exit status: 0 nothing lost, 1 something, 3 no run.");
   command.action([=, &status] {
     const terminal::Interruption interruption;
-    const Heard heard = listen(bus->value_or(BusSettings{}), a->meshes, a->wait, a->duration, a->quiet);
+    const ViewerStatistics statistics = listen(bus->value_or(BusSettings{}), a->meshes, a->wait, a->duration, a->quiet);
     if (a->json)
-      std::printf("%s\n", toJson(heard).dump(2).c_str());
+      std::printf("%s\n", toJson(statistics).dump(2).c_str());
     else
-      print(heard, "listened");
-    status = !heard.joined ? kExitNoRun : clean(heard) ? kExitOk : kExitFault;
+      print(statistics, "listened");
+    status = !statistics.joined ? kExitNoRun : clean(statistics) ? kExitOk : kExitFault;
   });
 }
 
@@ -76,15 +76,15 @@ void addMeasure(Command app, int& status) {
     if (*bus)
       settings->bus = **bus;
     else
-      settings->bus.domain = 1 + static_cast<int>(std::random_device{}() % kMostBusDomain);  // away from other runs
+      settings->bus.domain = 1 + static_cast<int>(std::random_device{}() % kMaxBusDomain);  // away from other runs
     const terminal::Interruption interruption;
-    const std::vector<Heard> heard = measureBus(*settings);
+    const std::vector<ViewerStatistics> statistics = measureBus(*settings);
     auto json = nlohmann::ordered_json::array();
     status = kExitOk;
-    for (std::size_t v = 0; v < heard.size(); ++v) {
-      print(heard[v], ("viewer " + std::to_string(v + 1)).c_str());
-      json.push_back(toJson(heard[v]));
-      if (!clean(heard[v])) status = kExitFault;
+    for (std::size_t v = 0; v < statistics.size(); ++v) {
+      print(statistics[v], ("viewer " + std::to_string(v + 1)).c_str());
+      json.push_back(toJson(statistics[v]));
+      if (!clean(statistics[v])) status = kExitFault;
     }
     if (!out->empty()) writeFileAtomically(*out, json.dump(2) + "\n");
     if (terminal::Interruption::came()) status = kExitInterrupted;

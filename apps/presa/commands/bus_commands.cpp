@@ -25,7 +25,7 @@ std::string text(double value) {
   return digits.data();
 }
 
-std::string rangeOf(double least, double most) { return text(least) + " to " + text(most); }
+std::string rangeOf(double min, double max) { return text(min) + " to " + text(max); }
 std::string nameOf(const FoundRun& run) {
   return "run " + textOfRun(run.info.run) + " of scene '" + printable(run.info.scene_name) + "'";
 }
@@ -87,7 +87,7 @@ bool tell(const FoundRun& run, const Setting& setting, const bus::Answer& answer
   using Verdict = bus::Answer::Verdict;
   if (answer.verdict == Verdict::kAccepted) {
     std::printf("%s = %s (%s)\n", setting.parameter.c_str(), text(answer.value).c_str(),
-                rangeOf(answer.least, answer.most).c_str());
+                rangeOf(answer.min, answer.max).c_str());
     return true;
   }
   const std::string found = setting.parameter + "=" + text(setting.value);
@@ -102,9 +102,9 @@ bool tell(const FoundRun& run, const Setting& setting, const bus::Answer& answer
   }
   const std::string keeps = "; it stays " + text(answer.value);
   if (answer.verdict == Verdict::kOutOfRange)
-    fail(727, 0, "refused: " + found + " is outside of " + rangeOf(answer.least, answer.most) + keeps, {});
+    fail(727, 0, "refused: " + found + " is outside of " + rangeOf(answer.min, answer.max) + keeps, {});
   else if (answer.verdict == Verdict::kNotANumber)
-    fail(728, 0, "refused: " + found + " is not a number" + keeps, rangeOf(answer.least, answer.most) + " is allowed");
+    fail(728, 0, "refused: " + found + " is not a number" + keeps, rangeOf(answer.min, answer.max) + " is allowed");
   else if (answer.verdict == Verdict::kOutOfOrder)
     fail(757, 0, "refused: " + found + " has a number that does not follow; somebody sends commands in this name", {});
   else
@@ -153,14 +153,14 @@ void print(const FoundRun& run) {
               run.info.commands ? "" : ", takes no commands");
   for (const bus::OpenParameter& parameter : run.parameters)
     std::printf("  %-44s %10s   %s\n", printable(parameter.name).c_str(), text(parameter.value).c_str(),
-                rangeOf(parameter.least, parameter.most).c_str());
+                rangeOf(parameter.min, parameter.max).c_str());
 }
 
 nlohmann::ordered_json toJson(const FoundRun& run) {
   auto parameters = nlohmann::ordered_json::array();
   for (const bus::OpenParameter& parameter : run.parameters)
     parameters.push_back(
-        {{"name", parameter.name}, {"value", parameter.value}, {"least", parameter.least}, {"most", parameter.most}});
+        {{"name", parameter.name}, {"value", parameter.value}, {"least", parameter.min}, {"most", parameter.max}});
   return {{"run", textOfRun(run.info.run)},
           {"scene", run.info.scene_name},
           {"realtime", run.info.realtime},

@@ -17,7 +17,7 @@ namespace presa::device {
 namespace {
 
 constexpr const char* kWhere = "presa device calibrate";
-constexpr double kAstray = 0.1, kTwist = 0.15;  // how far a rehearsal misplaces the second device [m], [rad]
+constexpr double kMisplacement = 0.1, kTwist = 0.15;  // how far a rehearsal misplaces the second device [m], [rad]
 
 double distance(const Pose& a, const Pose& b) { return (a.p - b.p).norm(); }
 double degrees(const Pose& a, const Pose& b) {
@@ -26,15 +26,15 @@ double degrees(const Pose& a, const Pose& b) {
 }
 
 /// A random pose near the given one: a device that was placed by hand.
-Pose astray(const Pose& X_AB, std::uint64_t seed) {
+Pose misplaced(const Pose& X_AB, std::uint64_t seed) {
   RandomStream stream(seed, "where the second device stands");
-  const auto any = [&](double most) {
-    const double x = stream.uniform(-most, most), y = stream.uniform(-most, most);
-    return Vec3(x, y, stream.uniform(-most, most));
+  const auto any = [&](double max) {
+    const double x = stream.uniform(-max, max), y = stream.uniform(-max, max);
+    return Vec3(x, y, stream.uniform(-max, max));
   };
   const Vec3 turn = any(kTwist);
   const Quat twist(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
-  return {X_AB.p + any(kAstray), (twist * X_AB.q).normalized()};
+  return {X_AB.p + any(kMisplacement), (twist * X_AB.q).normalized()};
 }
 
 void tell(const RigBases& rig, const LinkedBases& fit, std::size_t samples) {
@@ -54,7 +54,7 @@ int calibrate(const CalibrateOptions& options) {
   const auto& driver =
       driverTable<CalibrationPlugin>(kWhere, rig.driver(), kCalibrationSymbol, "cannot be calibrated by a link");
   const bool rehearsal = options.samples.empty();
-  const Pose truth = astray(rig.base(0).inverse() * rig.base(1), options.seed);
+  const Pose truth = misplaced(rig.base(0).inverse() * rig.base(1), options.seed);
   std::vector<LinkedSample> samples;
   if (rehearsal) {
     if (driver.rehearse == nullptr)

@@ -34,12 +34,12 @@ class Player {
   Player(const RecordedSamples& samples, const std::shared_ptr<const World>& world, const RunOptions& options,
          double speed)
       : world_(world), options_(options), moment_(samples, *world), time_(moment_.begin()) {
-    wish_.speed = speed;
+    time_control_.speed = speed;
     GraphBuilder builder;
     builder.add(std::make_unique<RecordedSource>(moment_));
     auto view = makeView(world, options);
     view_ = view.get();
-    if (windowed()) view_->offerTime(wish_, moment_.end());
+    if (windowed()) view_->offerTime(time_control_, moment_.end());
     builder.add(std::move(view));
     builder.connectByName();
     graph_ = builder.build();
@@ -83,22 +83,22 @@ class Player {
     }
   }
   void advance(double seconds) {
-    if (const double moment = wish_.jump_to.exchange(-1); moment >= 0)
+    if (const double moment = time_control_.jump_to.exchange(-1); moment >= 0)
       time_ = moment;
-    else if (!wish_.paused)
-      time_ += wish_.speed * seconds;
-    if (const std::uint32_t steps = wish_.steps; steps != steps_) {
+    else if (!time_control_.paused)
+      time_ += time_control_.speed * seconds;
+    if (const std::uint32_t steps = time_control_.steps; steps != steps_) {
       time_ += period() * (steps - steps_);
       steps_ = steps;
     }
-    if (time_ >= moment_.end()) wish_.paused = true;
+    if (time_ >= moment_.end()) time_control_.paused = true;
     time_ = std::clamp(time_, moment_.begin(), moment_.end());
   }
 
   std::shared_ptr<const World> world_;
   const RunOptions& options_;
   RecordedMoment moment_;
-  TimeWish wish_;
+  TimeControl time_control_;
   View* view_ = nullptr;  // owned by the graph
   Graph graph_;
   double time_;

@@ -49,7 +49,7 @@ void RecordedMoment::fill(double time, ObjectState& objects, DeviceState& device
   objects.bodies.resize(world_.scene.bodies.size());
   for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i)
     objects.bodies[i].X_WB_begin = objects.bodies[i].X_WB_end = world_.scene.bodies[i].X_WB;
-  for (const Moved& moved : moved_) {
+  for (const BodyColumns& moved : moved_) {
     BodyMotion& body = objects.bodies[moved.body];
     const auto q = [&](std::size_t i) { return (*moved.q_WB[i])[row]; };
     body.X_WB_begin = body.X_WB_end = {at(moved.p_WB, row), Quat(q(0), q(1), q(2), q(3)).normalized()};
@@ -64,7 +64,7 @@ void RecordedMoment::fill(double time, ObjectState& objects, DeviceState& device
   }
 }
 
-void RecordedMoment::fillFinger(const Finger& finger, std::size_t row, const ObjectState& objects, FingerInput& input,
+void RecordedMoment::fillFinger(const FingerColumns& finger, std::size_t row, const ObjectState& objects, FingerInput& input,
                                 FingerContact& contact) const {
   input.p_WH = contact.p_WH = at(finger.p_WH, row);
   input.v_WH = contact.v_WH = at(finger.v_WH, row);

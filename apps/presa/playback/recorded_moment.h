@@ -25,22 +25,22 @@ class RecordedMoment {
   /// Column indices of one table, looked up once.
   using Column = const std::vector<double>*;
   using Vector = std::array<Column, 3>;
-  struct Finger {
+  struct FingerColumns {
     Vector p_WH, v_WH, p_WP, p_BP, p_BC, nhat_W, tangential, rendered, command;
     Column depth, normal, phase, valid, mode, body;
   };
-  struct Moved {
+  struct BodyColumns {
     std::size_t body;
     Vector p_WB, v_WB, w_WB;
     std::array<Column, 4> q_WB;
   };
-  void fillFinger(const Finger& finger, std::size_t row, const ObjectState& objects, FingerInput& input,
+  void fillFinger(const FingerColumns& finger, std::size_t row, const ObjectState& objects, FingerInput& input,
                   FingerContact& contact) const;
 
   const RecordedSamples& samples_;
   const World& world_;
-  std::vector<Finger> fingers_;
-  std::vector<Moved> moved_;
+  std::vector<FingerColumns> fingers_;
+  std::vector<BodyColumns> moved_;
 };
 
 }  // namespace presa

@@ -22,7 +22,7 @@ class RunsOnly final : public bus::Listener {
   void onRun(const bus::RunInfo& announced, std::int64_t) override { runs.push_back(announced); }
   void onObject(const bus::ObjectSample&, std::int64_t) override {}
   void onFinger(const bus::FingerSample&, std::int64_t) override {}
-  void onBeat(const bus::Beat&, std::int64_t) override {}
+  void onHeartbeat(const bus::Heartbeat&, std::int64_t) override {}
   void onEvent(const bus::Event&, std::int64_t) override {}
   std::vector<bus::RunInfo> runs;
 };
@@ -40,17 +40,17 @@ Commanding::Commanding(const BusSettings& settings)
     : reader_(bus::openReader(settings)), commander_(bus::openCommander(settings)), sender_(bus::newRunId()) {}
 
 void Commanding::hear() {
-  RunsOnly heard;
-  reader_->take(heard);
-  for (const bus::RunInfo& info : heard.runs) {
+  RunsOnly found;
+  reader_->take(found);
+  for (const bus::RunInfo& info : found.runs) {
     const auto at = std::ranges::lower_bound(runs_, info.run, {}, [](const FoundRun& run) { return run.info.run; });
     if (at != runs_.end() && at->info.run == info.run) continue;
     runs_.insert(at, {info, {}});
-    news_ns_ = monotonicNs();
+    last_run_found_ns_ = monotonicNs();
   }
-  const bus::Commander::Heard said = commander_->take();
-  answers_.insert(answers_.end(), said.answers.begin(), said.answers.end());
-  parameters_.insert(parameters_.end(), said.parameters.begin(), said.parameters.end());
+  const bus::Commander::Replies replies = commander_->take();
+  answers_.insert(answers_.end(), replies.answers.begin(), replies.answers.end());
+  parameters_.insert(parameters_.end(), replies.parameters.begin(), replies.parameters.end());
   for (FoundRun& run : runs_) {
     for (const bus::OpenParameter& parameter : parameters_) {
       if (parameter.run != run.info.run) continue;
@@ -69,7 +69,7 @@ const std::vector<FoundRun>& Commanding::look(double wait, std::uint64_t id) {
   const auto there = [&](const FoundRun& run) { return id == 0 || run.info.run == id; };
   for (;;) {
     hear();
-    const bool settled = id != 0 || monotonicNs() - news_ns_ > kSettled;
+    const bool settled = id != 0 || monotonicNs() - last_run_found_ns_ > kSettled;
     if (std::ranges::any_of(runs_, there) && std::ranges::all_of(runs_, complete) && settled) break;
     if (monotonicNs() >= end || terminal::Interruption::came()) break;
     sleepUntilNs(monotonicNs() + kLookEvery);

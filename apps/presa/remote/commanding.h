@@ -33,7 +33,7 @@ class Commanding {
   std::vector<FoundRun> runs_;
   std::vector<bus::OpenParameter> parameters_;
   std::vector<bus::Answer> answers_;
-  std::int64_t news_ns_ = 0;
+  std::int64_t last_run_found_ns_ = 0;
   std::uint64_t sender_, sent_ = 0;
 };
 

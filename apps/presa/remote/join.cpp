@@ -12,7 +12,7 @@ class AwaitRun final : public bus::Listener {
   void onRun(const bus::RunInfo& announced, std::int64_t) override { run = announced; }
   void onObject(const bus::ObjectSample&, std::int64_t) override {}
   void onFinger(const bus::FingerSample&, std::int64_t) override {}
-  void onBeat(const bus::Beat&, std::int64_t) override {}
+  void onHeartbeat(const bus::Heartbeat&, std::int64_t) override {}
   void onEvent(const bus::Event&, std::int64_t) override {}
   std::optional<bus::RunInfo> run;
 };

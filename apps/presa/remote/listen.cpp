@@ -4,7 +4,7 @@
 
 #include "apps/common/terminal/interruption.h"
 #include "apps/presa/remote/join.h"
-#include "framework/bus/mesh_shelf.h"
+#include "framework/bus/mesh_store.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/core/schedule/clock.h"
@@ -12,14 +12,14 @@
 
 namespace presa {
 
-Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
+ViewerStatistics listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
              bool quiet) {
   const auto reader = bus::openReader(settings);
   const auto run = awaitRun(*reader, wait);
   if (!run) return {};
   Diagnostics diagnostics;
   Scene scene = parseScene(run->scene_xml, "scene '" + printable(run->scene_name) + "'", ".", {}, diagnostics);
-  bus::takeFromShelf(scene, *run, meshes, diagnostics);
+  bus::takeFromMeshStore(scene, *run, meshes, diagnostics);
   World world;
   if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
@@ -53,36 +53,36 @@ Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes
           picture.state() == bus::RemotePicture::State::kEnded};
 }
 
-nlohmann::ordered_json toJson(const Heard& heard) {
-  return {{"joined", heard.joined},
-          {"ended", heard.ended},
-          {"seconds", heard.seconds},
-          {"received", heard.received},
-          {"lost", heard.lost},
-          {"doubled", heard.doubled},
-          {"late", heard.late},
-          {"never_sent", heard.refused},
-          {"overrun", heard.overrun},
-          {"latency_p50_s", heard.latency_p50},
-          {"latency_p99_s", heard.latency_p99},
-          {"latency_max_s", heard.latency_max}};
+nlohmann::ordered_json toJson(const ViewerStatistics& statistics) {
+  return {{"joined", statistics.joined},
+          {"ended", statistics.ended},
+          {"seconds", statistics.seconds},
+          {"received", statistics.received},
+          {"lost", statistics.lost},
+          {"doubled", statistics.doubled},
+          {"late", statistics.late},
+          {"never_sent", statistics.refused},
+          {"overrun", statistics.overrun},
+          {"latency_p50_s", statistics.latency_p50},
+          {"latency_p99_s", statistics.latency_p99},
+          {"latency_max_s", statistics.latency_max}};
 }
 
-Heard heardFrom(const nlohmann::json& json) {
-  Heard heard;
-  heard.joined = json.at("joined");
-  heard.ended = json.at("ended");
-  heard.seconds = json.at("seconds");
-  heard.received = json.at("received");
-  heard.lost = json.at("lost");
-  heard.doubled = json.at("doubled");
-  heard.late = json.at("late");
-  heard.refused = json.at("never_sent");
-  heard.overrun = json.at("overrun");
-  heard.latency_p50 = json.at("latency_p50_s");
-  heard.latency_p99 = json.at("latency_p99_s");
-  heard.latency_max = json.at("latency_max_s");
-  return heard;
+ViewerStatistics statisticsFrom(const nlohmann::json& json) {
+  ViewerStatistics statistics;
+  statistics.joined = json.at("joined");
+  statistics.ended = json.at("ended");
+  statistics.seconds = json.at("seconds");
+  statistics.received = json.at("received");
+  statistics.lost = json.at("lost");
+  statistics.doubled = json.at("doubled");
+  statistics.late = json.at("late");
+  statistics.refused = json.at("never_sent");
+  statistics.overrun = json.at("overrun");
+  statistics.latency_p50 = json.at("latency_p50_s");
+  statistics.latency_p99 = json.at("latency_p99_s");
+  statistics.latency_max = json.at("latency_max_s");
+  return statistics;
 }
 
 }  // namespace presa

@@ -7,7 +7,7 @@
 namespace presa {
 
 /// Statistics of one viewer without a picture.
-struct Heard {
+struct ViewerStatistics {
   std::uint64_t received = 0, lost = 0, doubled = 0, late = 0;
   std::uint64_t refused = 0;  ///< samples refused on the sender's side
   std::uint64_t overrun = 0;  ///< samples dropped on this side
@@ -17,11 +17,11 @@ struct Heard {
 };
 
 /// Joins a run and listens for the duration, or to the end of the run; waits up to `wait` for a run [s]. Unless quiet,
-/// reports on stderr when it has joined. `meshes`: folders as in bus::takeFromShelf.
-Heard listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
+/// reports on stderr when it has joined. `meshes`: folders as in bus::takeFromMeshStore.
+ViewerStatistics listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
              bool quiet);
 
-nlohmann::ordered_json toJson(const Heard& heard);
-Heard heardFrom(const nlohmann::json& json);
+nlohmann::ordered_json toJson(const ViewerStatistics& statistics);
+ViewerStatistics statisticsFrom(const nlohmann::json& json);
 
 }  // namespace presa

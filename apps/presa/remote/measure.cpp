@@ -61,19 +61,19 @@ class Sender {
         {run_, bus::sceneHash(world), 1e-9 * kPeriodNs, true, world.scene.name, world.scene.resolved_xml});
   }
   void publishUntil(const std::atomic<bool>& end) {
-    bus::Beat beat;
-    beat.objects = static_cast<std::int32_t>(objects_.size());
+    bus::Heartbeat heartbeat;
+    heartbeat.objects = static_cast<std::int32_t>(objects_.size());
     const std::int64_t begin = monotonicNs();
-    for (std::uint64_t n = 1; !beat.last; ++n) {
+    for (std::uint64_t n = 1; !heartbeat.last; ++n) {
       sleepUntilNs(begin + static_cast<std::int64_t>(n) * kPeriodNs);
       const double time = static_cast<double>(n) * 1e-9 * kPeriodNs;
-      beat.last = end;
-      beat.stamp = {run_, n, time, monotonicNs()};
+      heartbeat.last = end;
+      heartbeat.stamp = {run_, n, time, monotonicNs()};
       for (std::size_t b = 0; b < objects_.size(); ++b) {
-        objects_[b].stamp = beat.stamp;
+        objects_[b].stamp = heartbeat.stamp;
         objects_[b].X_WB.p.z() = height_[b] + 0.02 * std::sin(3 * time + 0.2 * static_cast<double>(b));
       }
-      beat.refused += writer_->publish({objects_, {}, beat});
+      heartbeat.refused += writer_->publish({objects_, {}, heartbeat});
     }
     writer_->finish();
   }
@@ -126,13 +126,13 @@ class Listener {
   Listener& operator=(const Listener&) = delete;
   ~Listener() { close(answer_); }
 
-  Heard result() {
+  ViewerStatistics result() {
     std::string text;
     std::array<char, 4096> part;
-    bool told = false;
+    bool signalled = false;
     for (ssize_t count = 1; count != 0;) {
       // a signal may reach only this process: end the viewer, too
-      if (!told && terminal::Interruption::came()) told = ::kill(process_, SIGINT) == 0;
+      if (!signalled && terminal::Interruption::came()) signalled = ::kill(process_, SIGINT) == 0;
       pollfd waiting{answer_, POLLIN, 0};
       if (::poll(&waiting, 1, 20) <= 0) continue;
       count = read(answer_, part.data(), part.size());
@@ -141,7 +141,7 @@ class Listener {
     int status = 0;
     waitpid(process_, &status, 0);
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    return json.is_discarded() ? Heard{} : heardFrom(json);
+    return json.is_discarded() ? ViewerStatistics{} : statisticsFrom(json);
   }
 
  private:
@@ -151,7 +151,7 @@ class Listener {
 
 }  // namespace
 
-std::vector<Heard> measureBus(const MeasureSettings& settings) {
+std::vector<ViewerStatistics> measureBus(const MeasureSettings& settings) {
   std::atomic<bool> over{false};
   Sender sending(settings);
   std::thread sender([&] { sending.publishUntil(over); });
@@ -164,16 +164,16 @@ std::vector<Heard> measureBus(const MeasureSettings& settings) {
                      settings.viewers);
     }
   });
-  std::vector<Heard> heard;
+  std::vector<ViewerStatistics> statistics;
   {
     std::vector<std::unique_ptr<Listener>> listeners;
     for (int v = 0; v < settings.viewers; ++v) listeners.push_back(std::make_unique<Listener>(settings));
-    for (const auto& listener : listeners) heard.push_back(listener->result());
+    for (const auto& listener : listeners) statistics.push_back(listener->result());
   }
   over = true;
   progress.join();
   sender.join();
-  return heard;
+  return statistics;
 }
 
 }  // namespace presa

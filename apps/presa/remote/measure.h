@@ -15,6 +15,6 @@ struct MeasureSettings {
 
 /// Returns one result per viewer. Each viewer is a process of its own; this process sends. On Ctrl-C, returns the
 /// results so far.
-std::vector<Heard> measureBus(const MeasureSettings& settings);
+std::vector<ViewerStatistics> measureBus(const MeasureSettings& settings);
 
 }  // namespace presa

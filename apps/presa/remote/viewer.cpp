@@ -8,7 +8,7 @@
 #include "apps/common/exit_status.h"
 #include "apps/common/terminal/interruption.h"
 #include "apps/presa/remote/join.h"
-#include "framework/bus/mesh_shelf.h"
+#include "framework/bus/mesh_store.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/core/graph/graph_builder.h"
@@ -47,7 +47,7 @@ std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::
   const bool own = !settings.scene.empty();
   Scene scene = own ? loadScene(settings.scene, {}, diagnostics)
                     : parseScene(run.scene_xml, "scene '" + printable(run.scene_name) + "'", ".", {}, diagnostics);
-  if (!own) bus::takeFromShelf(scene, run, settings.meshes, diagnostics);
+  if (!own) bus::takeFromMeshStore(scene, run, settings.meshes, diagnostics);
   World world;
   if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);

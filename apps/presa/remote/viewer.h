@@ -9,7 +9,7 @@ namespace presa {
 /// Options of `presa view --join`.
 struct ViewerSettings {
   std::string scene;                ///< the viewer's own scene file; empty: the run's scene
-  std::vector<std::string> meshes;  ///< folders, as of bus::takeFromShelf
+  std::vector<std::string> meshes;  ///< folders, as of bus::takeFromMeshStore
   BusSettings bus;
   double wait = 10;     ///< longest wait for a run [s]
   double duration = 0;  ///< wall-clock time [s]; 0: to the end of the run

@@ -10,7 +10,7 @@ namespace presa::cost {
 namespace {
 
 // other engines serve only for comparison: they do not support fingers, so none can be a default
-constexpr const char* kEngineKnob = "engine";
+constexpr const char* kEngineFactor = "engine";
 
 /// True when the outcome has an error in this metric and a cost.
 bool shown(const Outcome& outcome, const std::string& metric) {
@@ -24,7 +24,7 @@ std::optional<double> numeric(const std::string& text) {
   return value;
 }
 
-/// The only knob in which two settings differ; null when they differ in none or several.
+/// The only factor in which two settings differ; null when they differ in none or several.
 const std::string* onlyDifference(const Setting& a, const Setting& b) {
   const std::string* found = nullptr;
   for (std::size_t k = 0; k < a.choices.size() && k < b.choices.size(); ++k) {
@@ -35,9 +35,9 @@ const std::string* onlyDifference(const Setting& a, const Setting& b) {
   return found;
 }
 
-std::string valueOf(const Setting& setting, const std::string& knob) {
+std::string valueOf(const Setting& setting, const std::string& factor) {
   for (const auto& [name, value] : setting.choices) {
-    if (name == knob) return value;
+    if (name == factor) return value;
   }
   return {};
 }
@@ -71,7 +71,7 @@ std::optional<FrontDistance> distanceToFront(const Result& result, const std::st
   FrontDistance found;
   for (std::size_t i = 1; i < result.outcomes.size(); ++i) {
     const Setting& setting = result.outcomes[i].setting;
-    const bool eligible = valueOf(setting, kEngineKnob) == valueOf(result.outcomes.front().setting, kEngineKnob);
+    const bool eligible = valueOf(setting, kEngineFactor) == valueOf(result.outcomes.front().setting, kEngineFactor);
     if (!shown(result.outcomes[i], metric) || !eligible) continue;
     if (error(i) <= error(0) && cost(i) < cost(found.as_accurate)) found.as_accurate = i;
     if (cost(i) <= cost(0) && error(i) < error(found.as_cheap)) found.as_cheap = i;
@@ -82,8 +82,8 @@ std::optional<FrontDistance> distanceToFront(const Result& result, const std::st
   return found;
 }
 
-std::vector<KnobGain> knobGains(const Result& result, const std::string& metric) {
-  std::vector<KnobGain> gains;
+std::vector<FactorGain> factorGains(const Result& result, const std::string& metric) {
+  std::vector<FactorGain> gains;
   if (result.outcomes.empty() || !shown(result.outcomes.front(), metric)) return gains;
   const Outcome& usual = result.outcomes.front();
   // an error ratio is meaningless when the error is below the uncertainty of the reference
@@ -91,12 +91,12 @@ std::vector<KnobGain> knobGains(const Result& result, const std::string& metric)
   const Spread cost = usual.perSecond();
   for (const Outcome& other : result.outcomes) {
     if (!shown(other, metric)) continue;
-    const std::string* knob = onlyDifference(usual.setting, other.setting);
-    if (knob == nullptr || !(usual.error.at(metric) > known) || !(cost.median > 0)) continue;
+    const std::string* factor = onlyDifference(usual.setting, other.setting);
+    if (factor == nullptr || !(usual.error.at(metric) > known) || !(cost.median > 0)) continue;
     const Spread changed = other.perSecond();
-    KnobGain gain{*knob,
-                  valueOf(usual.setting, *knob),
-                  valueOf(other.setting, *knob),
+    FactorGain gain{*factor,
+                  valueOf(usual.setting, *factor),
+                  valueOf(other.setting, *factor),
                   changed.median / cost.median,
                   other.error.at(metric) / usual.error.at(metric),
                   std::nullopt};
@@ -106,13 +106,13 @@ std::vector<KnobGain> knobGains(const Result& result, const std::string& metric)
       gain.per_double_cost = std::pow(gain.error_ratio, std::log(2.0) / std::log(gain.cost_ratio));
     gains.push_back(gain);
   }
-  std::stable_sort(gains.begin(), gains.end(), [&](const KnobGain& a, const KnobGain& b) {
+  std::stable_sort(gains.begin(), gains.end(), [&](const FactorGain& a, const FactorGain& b) {
     const auto place = [&](const std::string& name) {
-      return std::find_if(result.study.knobs.begin(), result.study.knobs.end(),
-                          [&](const Knob& knob) { return knob.name == name; }) -
-             result.study.knobs.begin();
+      return std::find_if(result.study.factors.begin(), result.study.factors.end(),
+                          [&](const Factor& factor) { return factor.name == name; }) -
+             result.study.factors.begin();
     };
-    return place(a.knob) < place(b.knob);
+    return place(a.factor) < place(b.factor);
   });
   return gains;
 }
@@ -139,12 +139,12 @@ std::optional<std::size_t> cheapestUnfelt(const Result& result) {
   return best;
 }
 
-std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& knob) {
+std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& factor) {
   double n = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
   for (const Outcome& outcome : result.outcomes) {
     const std::string* difference = onlyDifference(result.outcomes.front().setting, outcome.setting);
-    const bool along = &outcome == &result.outcomes.front() || (difference != nullptr && *difference == knob);
-    const std::optional<double> value = numeric(valueOf(outcome.setting, knob));
+    const bool along = &outcome == &result.outcomes.front() || (difference != nullptr && *difference == factor);
+    const std::optional<double> value = numeric(valueOf(outcome.setting, factor));
     const auto error = outcome.error.find(metric);
     if (!along || !value || !(*value > 0) || !outcome.failure.empty() || error == outcome.error.end()) continue;
     if (!(error->second > 0)) continue;

@@ -26,7 +26,7 @@ std::string commandLine(const Arguments& a) {
     for (const std::string& value : values) line += std::string(" ") + option + " '" + value + "'";
   };
   if (!a.request.rig.empty()) line += " --rig " + a.request.rig;
-  add("--knob", a.request.knobs);
+  add("--knob", a.request.factors);
   add("--metric", a.request.metrics);
   add("--set", a.request.sets);
   if (a.request.duration > 0) line += " --for " + std::to_string(a.request.duration);
@@ -68,7 +68,7 @@ void addCost(Command app, int& status) {
   command.option("SCENE", a->request.input, "scene file, or a study such as experiments/accuracy_cost/cube_grasp.xml")
       .required();
   command
-      .option("--knob", a->request.knobs,
+      .option("--knob", a->request.factors,
               "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, coupling, …\n"
               "or a path as after --set (default: a sweep of what the scene uses)")
       .oneValueEach();

@@ -16,7 +16,7 @@
 #include "apps/studies/cost/fixed_rig.h"
 #include "apps/studies/cost/forecast.h"
 #include "apps/studies/cost/hash.h"
-#include "apps/studies/cost/knobs.h"
+#include "apps/studies/cost/factors.h"
 #include "apps/studies/cost/measure.h"
 #include "apps/studies/cost/meshes.h"
 #include "apps/studies/cost/metrics.h"

@@ -15,12 +15,12 @@ namespace {
 
 /// Min time that reading the clock adds to a measured tick [s].
 double clockCost() {
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  std::int64_t min = std::numeric_limits<std::int64_t>::max();
   for (int i = 0; i < 2000; ++i) {
     const std::int64_t begin = threadCpuNs();
-    least = std::min(least, threadCpuNs() - begin);
+    min = std::min(min, threadCpuNs() - begin);
   }
-  return static_cast<double>(least) * 1e-9;
+  return static_cast<double>(min) * 1e-9;
 }
 
 double residentBytes() {

@@ -39,8 +39,8 @@ TriMesh decimated(const TriMesh& source, const Decimation& wanted) {
 std::vector<Result::Mesh> makeMeshes(const Study& study) {
   std::vector<Result::Mesh> made;
   std::map<std::string, TriMesh> sources;
-  for (const Knob& knob : study.knobs) {
-    for (const KnobValue& value : knob.values) {
+  for (const Factor& factor : study.factors) {
+    for (const FactorValue& value : factor.values) {
       for (const Decimation& wanted : value.meshes) {
         Diagnostics diagnostics;
         if (!sources.contains(wanted.source))

@@ -5,7 +5,7 @@
 
 namespace presa::cost {
 
-/// Writes every decimated mesh that the study's knobs need. Throws InputError when a source mesh cannot be read.
+/// Writes every decimated mesh that the study's factors need. Throws InputError when a source mesh cannot be read.
 std::vector<Result::Mesh> makeMeshes(const Study& study);
 
 }  // namespace presa::cost

@@ -80,7 +80,7 @@ Value held(const Evidence& s, const Evidence& r, bool in_steps) {
       const auto &x = a.held[i * sums.size() + f], &y = b.held[j * sums.size() + f];
       const double difference = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]), force = std::hypot(y[0], y[1], y[2]);
       if (difference == 0 && force == 0) continue;  // no contact in either run
-      sums[f].add(in_steps ? difference / (kForceStep * std::max(force, kLeastForce)) : difference);
+      sums[f].add(in_steps ? difference / (kForceStep * std::max(force, kMinForce)) : difference);
     }
   }
   Value worst;
@@ -106,7 +106,7 @@ Value bodies(const Evidence& s, const Evidence& r, double (*error)(const BodySam
 double forceError(const FingerSample& a, const FingerSample& b) { return distance(a.force, b.force); }
 double forceSteps(const FingerSample& a, const FingerSample& b) {
   const double force = std::hypot(b.force[0], b.force[1], b.force[2]);
-  return forceError(a, b) / (kForceStep * std::max(force, kLeastForce));
+  return forceError(a, b) / (kForceStep * std::max(force, kMinForce));
 }
 double proxyError(const FingerSample& a, const FingerSample& b) { return 1e3 * distance(a.proxy, b.proxy); }
 double positionError(const BodySample& a, const BodySample& b) { return 1e3 * distance(a.p, b.p); }
@@ -159,14 +159,14 @@ Value forceNoticeable(const Evidence& r) {
   return scaled(worst.rms(), kForceStep);
 }
 Value gripNoticeable(const Evidence& r) {
-  double least = -1;
+  double min = -1;
   for (const double grip : grips(r)) {
-    if (grip > 0) least = least < 0 ? grip : std::min(least, grip);
+    if (grip > 0) min = min < 0 ? grip : std::min(min, grip);
   }
-  return least > 0 ? Value(kForceStep * std::max(least, kLeastForce)) : std::nullopt;
+  return min > 0 ? Value(kForceStep * std::max(min, kMinForce)) : std::nullopt;
 }
 Value slipNoticeable(const Evidence& r) {
-  return r.slip_force ? Value(kForceStep * std::max(*r.slip_force, kLeastForce)) : std::nullopt;
+  return r.slip_force ? Value(kForceStep * std::max(*r.slip_force, kMinForce)) : std::nullopt;
 }
 Value oneStep(const Evidence&) { return 1; }
 // just-noticeable difference of pinch aperture without vision [mm] [Ho1996]

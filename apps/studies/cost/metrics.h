@@ -28,6 +28,6 @@ std::vector<std::string> metricNames();
 /// Weber fraction of force [Pang1991, Jones1992: 7 to 10 %].
 inline constexpr double kForceStep = 0.10;
 /// Below this force [N], near the threshold, Weber's law fails: steps are computed as at this force.
-inline constexpr double kLeastForce = 0.5;
+inline constexpr double kMinForce = 0.5;
 
 }  // namespace presa::cost

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "apps/studies/cost/knobs.h"
+#include "apps/studies/cost/factors.h"
 #include "apps/studies/cost/metrics.h"
 #include "framework/input/folders.h"
 
@@ -12,7 +12,7 @@ namespace presa::cost {
 namespace {
 
 /// Parses NAME=v1,v2.
-Knob parseKnob(const std::string& text, const Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
+Factor parseFactor(const std::string& text, const Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
   const SourceLocation where{"--knob " + text, 0, 0};
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -27,7 +27,7 @@ Knob parseKnob(const std::string& text, const Scene& scene, const std::string& f
     else
       values.back() += c;
   }
-  return makeKnob(text.substr(0, equals), values, scene, folder, where, diagnostics);
+  return makeFactor(text.substr(0, equals), values, scene, folder, where, diagnostics);
 }
 
 std::vector<std::vector<std::string>> defaultReference(const Plan& plan) {
@@ -64,9 +64,9 @@ std::vector<SentenceRule> defaultSentences(const Study& study) {
   for (const char* metric : {"force_rms", "position", "penetration"}) {
     if (has(metric)) rules.push_back({.kind = SentenceRule::Kind::kFront, .metric = metric});
   }
-  for (const Knob& knob : study.knobs) {
-    if (knob.name == "dynamics_rate" && has("force_rms"))
-      rules.push_back({.kind = SentenceRule::Kind::kHalving, .metric = "force_rms", .knob = knob.name});
+  for (const Factor& factor : study.factors) {
+    if (factor.name == "dynamics_rate" && has("force_rms"))
+      rules.push_back({.kind = SentenceRule::Kind::kHalving, .metric = "force_rms", .factor = factor.name});
   }
   rules.push_back({.kind = SentenceRule::Kind::kFailures});
   return rules;
@@ -90,7 +90,7 @@ void chooseFolder(const Request& request, Study& study) {
 
 Study planStudy(const Request& request, Diagnostics& diagnostics) {
   Study study;
-  std::vector<std::vector<Knob>> grids;
+  std::vector<std::vector<Factor>> grids;
   if (isStudyFile(request.input)) {
     grids = readStudyFile(request.input, request, study, diagnostics);
     if (study.inputs.scene.empty()) return study;
@@ -128,17 +128,17 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   if (study.reference_kind == Reference::kAnalytic && !hands_off)
     diagnostics.error(808, {study.file, 0, 0}, "an analytic reference is for scenes of free bodies without fingers",
                       "leave the reference out, or give its levels");
-  if (!request.knobs.empty()) {
+  if (!request.factors.empty()) {
     grids.clear();
-    std::vector<Knob>& grid = grids.emplace_back();
-    for (const std::string& text : request.knobs) grid.push_back(parseKnob(text, scene, study.folder, diagnostics));
-    std::erase_if(grid, [](const Knob& knob) { return knob.values.empty(); });
+    std::vector<Factor>& grid = grids.emplace_back();
+    for (const std::string& text : request.factors) grid.push_back(parseFactor(text, scene, study.folder, diagnostics));
+    std::erase_if(grid, [](const Factor& factor) { return factor.values.empty(); });
   }
   if (base.world->scene.bodies.empty()) return study;  // unreadable scene: reported above
   if (grids.empty()) {
-    addSettings(study, defaultKnobs(base, study.folder, request.quick), Combine::kOneAtATime, diagnostics);
+    addSettings(study, defaultFactors(base, study.folder, request.quick), Combine::kOneAtATime, diagnostics);
   } else {
-    for (const std::vector<Knob>& grid : grids) {
+    for (const std::vector<Factor>& grid : grids) {
       if (!grid.empty()) addSettings(study, grid, Combine::kGrid, diagnostics);
     }
   }

@@ -10,7 +10,7 @@ namespace presa::cost {
 struct Request {
   std::string input{};  ///< a scene, or a study file
   std::string rig{};
-  std::vector<std::string> sets{}, knobs{}, metrics{};
+  std::vector<std::string> sets{}, factors{}, metrics{};
   std::string out{};       ///< folder; empty: cost_NAME
   double duration = 0;     ///< simulated [s]; 0: the study's, or to the end of the script
   std::uint64_t seed = 0;  ///< 0: the study's, or 1
@@ -24,8 +24,8 @@ Study planStudy(const Request& request, Diagnostics& diagnostics);
 /// Sets Study::folder, the folder of the results, from the request and the study's name.
 void chooseFolder(const Request& request, Study& study);
 
-/// Reads a study file into `study`, except the settings, and returns its knob grids.
-std::vector<std::vector<Knob>> readStudyFile(const std::string& file, const Request& request, Study& study,
+/// Reads a study file into `study`, except the settings, and returns its factor grids.
+std::vector<std::vector<Factor>> readStudyFile(const std::string& file, const Request& request, Study& study,
                                              Diagnostics& diagnostics);
 
 /// True when the file looks like a study file by its root element.

@@ -36,10 +36,10 @@ std::string claimText(const Result& result, const Outcome& outcome, const std::s
 
 std::string gainTable(const Result& result, const std::string& metric) {
   std::string rows;
-  for (const KnobGain& gain : knobGains(result, metric)) {
+  for (const FactorGain& gain : factorGains(result, metric)) {
     const std::string per =
         gain.per_double_cost ? format("%.3g", *gain.per_double_cost) : std::string("no measurable cost");
-    rows += row({escape(gain.knob), escape(gain.from + " → " + gain.to), format("%.3g", gain.cost_ratio),
+    rows += row({escape(gain.factor), escape(gain.from + " → " + gain.to), format("%.3g", gain.cost_ratio),
                  format("%.3g", gain.error_ratio), per});
   }
   if (rows.empty()) return {};
@@ -101,8 +101,8 @@ std::string frontDistances(const Result& result) {
     rows += row({escape(findMetric(name)->title), format("%.3g", distance->cost),
                  named(distance->cost, distance->as_accurate), format("%.3g", distance->error),
                  named(distance->error, distance->as_cheap),
-                 distance->least() <= 1            ? "on the front"
-                 : distance->least() <= kNearFront ? "within 1.3 ×"
+                 distance->ratio() <= 1            ? "on the front"
+                 : distance->ratio() <= kNearFront ? "within 1.3 ×"
                                                    : "<span class=\"fault\">beyond 1.3 ×</span>"});
   }
   if (rows.empty()) return {};

@@ -40,14 +40,14 @@ std::optional<double> number(const std::string& text) {
   return status == std::errc{} && rest == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-/// Outcomes grouped by the values of all knobs but one, then by that knob's value.
+/// Outcomes grouped by the values of all factors but one, then by that factor's value.
 using Lines = std::map<std::string, std::map<std::string, const Outcome*>>;
-Lines linesAlong(const Result& result, const std::string& knob) {
+Lines linesAlong(const Result& result, const std::string& factor) {
   Lines lines;
   for (const Outcome& outcome : result.outcomes) {
     std::string rest, value;
     for (const auto& [name, choice] : outcome.setting.choices) {
-      if (name == knob)
+      if (name == factor)
         value = choice;
       else
         rest += name + "=" + choice + ";";
@@ -91,18 +91,18 @@ std::string below(const Result& result, const SentenceRule& rule) {
   }
   if (best == nullptr) return {};
   const Metric& metric = *findMetric(rule.metric);
-  const auto told = [&](const Outcome& outcome) {
+  const auto valueText = [&](const Outcome& outcome) {
     return (result.resolved(outcome, rule.metric) ? "" : "at most ") +
            withUnit(result.claimed(outcome, rule.metric), metric.unit) + " (" + outcome.setting.name + ")";
   };
   return format("%zu of %zu settings stay below %s in %s: from ", good, result.outcomes.size(), limit->words.c_str(),
                 lowered(metric.title).c_str()) +
-         told(*best) + " to " + told(*worst) + ".";
+         valueText(*best) + " to " + valueText(*worst) + ".";
 }
 
 std::string halving(const Result& result, const SentenceRule& rule) {
   Ratio error, cost;
-  for (const auto& [rest, line] : linesAlong(result, rule.knob)) {
+  for (const auto& [rest, line] : linesAlong(result, rule.factor)) {
     std::vector<std::pair<double, const Outcome*>> values;
     for (const auto& [value, outcome] : line) {
       const auto x = number(value);
@@ -119,8 +119,8 @@ std::string halving(const Result& result, const SentenceRule& rule) {
     }
   }
   if (error.count == 0) return {};
-  const bool rate = rule.knob.ends_with("_rate") || rule.knob.starts_with("rates/");
-  const std::string what = rate ? "Halving the step (doubling " + rule.knob + ")" : "Doubling " + rule.knob;
+  const bool rate = rule.factor.ends_with("_rate") || rule.factor.starts_with("rates/");
+  const std::string what = rate ? "Halving the step (doubling " + rule.factor + ")" : "Doubling " + rule.factor;
   return what + " divides the error (" + lowered(findMetric(rule.metric)->title) + ") by " + asFactor(error) +
          " and multiplies the processor time by " + format("%.3g.", cost.mean());
 }
@@ -128,7 +128,7 @@ std::string halving(const Result& result, const SentenceRule& rule) {
 std::string compare(const Result& result, const SentenceRule& rule) {
   Ratio error, cost;
   int b_fails = 0, a_fails = 0, pairs = 0;
-  for (const auto& [rest, line] : linesAlong(result, rule.knob)) {
+  for (const auto& [rest, line] : linesAlong(result, rule.factor)) {
     const auto a = line.find(rule.a), b = line.find(rule.b);
     if (a == line.end() || b == line.end()) continue;
     ++pairs;
@@ -141,7 +141,7 @@ std::string compare(const Result& result, const SentenceRule& rule) {
       cost.add(b->second->perSecond().median / a->second->perSecond().median);
   }
   if (pairs == 0) return {};
-  std::string text = rule.knob + " " + rule.b + " against " + rule.a + ": ";
+  std::string text = rule.factor + " " + rule.b + " against " + rule.a + ": ";
   if (error.count > 0)
     text += "error (" + lowered(findMetric(rule.metric)->title) + ") times " + asFactor(error) +
             ", processor time times " + format("%.3g", cost.mean());
@@ -170,11 +170,11 @@ std::string front(const Result& result, const SentenceRule& rule) {
   const auto distance = distanceToFront(result, rule.metric);
   if (!distance) return {};
   const std::string title = lowered(findMetric(rule.metric)->title);
-  if (distance->least() <= 1) return "The default lies on the front of " + title + ".";
+  if (distance->ratio() <= 1) return "The default lies on the front of " + title + ".";
   const std::string cheaper = result.outcomes[distance->as_accurate].setting.name;
   const std::string better = result.outcomes[distance->as_cheap].setting.name;
   return format("The default lies %s 1.3 times of the front of ",
-                distance->least() <= kNearFront ? "within" : "beyond") +
+                distance->ratio() <= kNearFront ? "within" : "beyond") +
          title +
          format(": as accurate at 1/%.3g of the processor time is %s, and no dearer at 1/%.3g of the error is %s.",
                 distance->cost, cheaper.c_str(), distance->error, better.c_str());

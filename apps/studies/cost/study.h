@@ -15,22 +15,22 @@ struct Decimation {
   double part = 1;  ///< fraction of the source's triangles
 };
 
-/// One value of a knob: its name and the overrides that it sets.
-struct KnobValue {
+/// One value of a factor: its name and the overrides that it sets.
+struct FactorValue {
   std::string name;
   std::vector<std::string> sets;  ///< PATH=VALUE
   std::vector<Decimation> meshes{};
 };
 
-struct Knob {
+struct Factor {
   std::string name;
-  std::vector<KnobValue> values;
+  std::vector<FactorValue> values;
 };
 
-/// One combination of knob values for the scene.
+/// One combination of factor values for the scene.
 struct Setting {
   std::string name;                                          ///< "dynamics_rate 500, coupling explicit", or "default"
-  std::vector<std::pair<std::string, std::string>> choices;  ///< value of every knob, in the study's order
+  std::vector<std::pair<std::string, std::string>> choices;  ///< value of every factor, in the study's order
   std::vector<std::string> sets;                             ///< overrides in addition to those of Study::inputs
   std::string impossible;                                    ///< why the scene rejects this setting; empty: it does not
   std::uint64_t scene_hash = 0;                              ///< hash of the scene with these sets and all defaults
@@ -41,8 +41,8 @@ struct SentenceRule {
   enum class Kind { kBelow, kHalving, kCompare, kCheapest, kFront, kFailures };
   Kind kind = Kind::kBelow;
   std::string metric{};  ///< name; empty for kFailures
-  std::string knob{};    ///< for kHalving and kCompare
-  std::string a{}, b{};  ///< for kCompare: values of the knob
+  std::string factor{};    ///< for kHalving and kCompare
+  std::string a{}, b{};  ///< for kCompare: values of the factor
   double limit = 0;      ///< for kBelow and kCheapest, in the metric's unit; 0: the just-noticeable difference
 };
 
@@ -68,7 +68,7 @@ struct Study {
   enum class Reference { kRefined, kAnalytic, kNone };
   Reference reference_kind = Reference::kRefined;
   std::vector<std::vector<std::string>> reference;  ///< for kRefined: sets of each level, coarse to fine; at least two
-  std::vector<Knob> knobs;                          ///< all knobs that vary
+  std::vector<Factor> factors;                          ///< all factors that vary
   std::vector<Setting> settings;                    ///< the first is the unmodified scene
   std::vector<std::string> metrics;                 ///< names, see metrics.h
   std::vector<SentenceRule> sentences;

@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "apps/studies/cost/knobs.h"
+#include "apps/studies/cost/factors.h"
 #include "apps/studies/cost/metrics.h"
 #include "apps/studies/cost/plan.h"
 #include "apps/studies/cost/study_schema.h"
@@ -49,15 +49,15 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
   return parts;
 }
 
-Knob readKnob(const Element& element, const Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
+Factor readFactor(const Element& element, const Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
   const std::string name = element.attribute("name");
   if (element.children("value").empty())
-    return makeKnob(name, splitAtCommas(element.attribute("values")), scene, folder, element.where("name"),
+    return makeFactor(name, splitAtCommas(element.attribute("values")), scene, folder, element.where("name"),
                     diagnostics);
-  Knob knob{name, {}};
+  Factor factor{name, {}};
   for (const Element& value : element.children("value"))
-    knob.values.push_back({value.attribute("name"), setsIn(value)});
-  return knob;
+    factor.values.push_back({value.attribute("name"), setsIn(value)});
+  return factor;
 }
 
 std::optional<SentenceRule> readRule(const Element& element) {
@@ -91,14 +91,14 @@ void checkMetric(const Element& element, const std::string& attribute, Diagnosti
                       "there is no metric " + quote(name) + didYouMean(name, metricNames()));
 }
 
-void checkRule(const Element& element, const std::vector<std::vector<Knob>>& grids, Diagnostics& diagnostics) {
+void checkRule(const Element& element, const std::vector<std::vector<Factor>>& grids, Diagnostics& diagnostics) {
   checkMetric(element, "metric", diagnostics);
   std::vector<std::string> names;
-  const Knob* found = nullptr;
-  for (const std::vector<Knob>& grid : grids) {
-    for (const Knob& knob : grid) {
-      names.push_back(knob.name);
-      if (knob.name == element.attribute("knob")) found = &knob;
+  const Factor* found = nullptr;
+  for (const std::vector<Factor>& grid : grids) {
+    for (const Factor& factor : grid) {
+      names.push_back(factor.name);
+      if (factor.name == element.attribute("knob")) found = &factor;
     }
   }
   if (!element.hasAttribute("knob")) return;
@@ -110,7 +110,7 @@ void checkRule(const Element& element, const std::vector<std::vector<Knob>>& gri
   }
   for (const char* side : {"a", "b"}) {
     std::vector<std::string> values;
-    for (const KnobValue& value : found->values) values.push_back(value.name);
+    for (const FactorValue& value : found->values) values.push_back(value.name);
     const std::string wanted = element.attribute(side);
     if (element.hasAttribute(side) && std::find(values.begin(), values.end(), wanted) == values.end())
       diagnostics.error(806, element.where(side),
@@ -147,7 +147,7 @@ bool isStudyFile(const std::string& file) {
   return start.find(std::string("<") + kRoot) != std::string::npos;
 }
 
-std::vector<std::vector<Knob>> readStudyFile(const std::string& file, const Request& request, Study& study,
+std::vector<std::vector<Factor>> readStudyFile(const std::string& file, const Request& request, Study& study,
                                              Diagnostics& diagnostics) {
   const auto document = xml::Document::load(file, diagnostics);
   if (!document || !document->validate(schema(), diagnostics)) return {};
@@ -165,13 +165,13 @@ std::vector<std::vector<Knob>> readStudyFile(const std::string& file, const Requ
   }
   Diagnostics scene_findings;  // ignored: reported by planStudy()
   const Loaded base = loadWorld(study.inputs, {}, scene_findings);
-  std::vector<std::vector<Knob>> grids;
+  std::vector<std::vector<Factor>> grids;
   for (const Element& grid : root.children("grid")) {
-    std::vector<Knob>& knobs = grids.emplace_back();
-    for (const Element& knob : grid.children("knob")) {
-      if (base.world) knobs.push_back(readKnob(knob, base.world->scene, study.folder, diagnostics));
+    std::vector<Factor>& factors = grids.emplace_back();
+    for (const Element& factor : grid.children("knob")) {
+      if (base.world) factors.push_back(readFactor(factor, base.world->scene, study.folder, diagnostics));
     }
-    std::erase_if(knobs, [](const Knob& knob) { return knob.values.empty(); });
+    std::erase_if(factors, [](const Factor& factor) { return factor.values.empty(); });
   }
   for (const Element& element : root.children()) {
     if (element.name() == "metric") {

@@ -17,15 +17,15 @@ json toJson(const Spread& spread) { return {{"median", spread.median}, {"low", s
 json toJson(const FrontDistance& distance, const Result& result) {
   return {{"cost", distance.cost},
           {"error", distance.error},
-          {"near", distance.least() <= kNearFront},
+          {"near", distance.ratio() <= kNearFront},
           {"as_accurate", result.outcomes[distance.as_accurate].setting.name},
           {"as_cheap", result.outcomes[distance.as_cheap].setting.name}};
 }
 
 json toJson(const Outcome& outcome, const Result& result) {
-  json knobs = json::object();
-  for (const auto& [knob, value] : outcome.setting.choices) knobs[knob] = value;
-  json row{{"name", outcome.setting.name}, {"knobs", knobs}, {"set", outcome.setting.sets}, {"error", outcome.error}};
+  json factors = json::object();
+  for (const auto& [factor, value] : outcome.setting.choices) factors[factor] = value;
+  json row{{"name", outcome.setting.name}, {"knobs", factors}, {"set", outcome.setting.sets}, {"error", outcome.error}};
   json unresolved = json::array();
   for (const std::string& name : result.metrics) {
     if (!result.resolved(outcome, name)) unresolved.push_back(name);
@@ -99,14 +99,14 @@ std::string toJsonText(const Result& result) {
 
 std::string toCsv(const Result& result) {
   std::string out = "setting";
-  for (const Knob& knob : result.study.knobs) out += "," + csvText(knob.name);
+  for (const Factor& factor : result.study.factors) out += "," + csvText(factor.name);
   for (const std::string& name : result.metrics) out += "," + name + "_" + findMetric(name)->unit;
   out +=
       ",cpu_ms_per_s,cpu_ms_per_s_low,cpu_ms_per_s_high,busiest_tick_of_period,load_ms,memory_MB,instructions_per_s,"
       "below_resolution,failure,set\n";
   for (const Outcome& outcome : result.outcomes) {
     out += csvText(outcome.setting.name);
-    for (const auto& [knob, value] : outcome.setting.choices) out += "," + csvText(value);
+    for (const auto& [factor, value] : outcome.setting.choices) out += "," + csvText(value);
     for (const std::string& name : result.metrics) {
       const auto error = outcome.error.find(name);
       out += "," + (error == outcome.error.end() ? "" : number(error->second));

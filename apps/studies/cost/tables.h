@@ -7,7 +7,7 @@ namespace presa::cost {
 
 /// The whole result as JSON.
 std::string toJsonText(const Result& result);
-/// CSV with one row per setting: knobs, errors, costs, failure.
+/// CSV with one row per setting: factors, errors, costs, failure.
 std::string toCsv(const Result& result);
 
 }  // namespace presa::cost

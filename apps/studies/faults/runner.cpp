@@ -24,7 +24,7 @@ constexpr int kBlock = 50;  // runs per process
 std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int count) {
   Json block{{"runs", 0},   {"broken", 0}, {"reason", ""},   {"detection", -1.0},
              {"zero", 0.0}, {"step", 0.0}, {"beyond", -1.0}, {"discarded", Json::array()}};
-  const auto keepMost = [&](const char* name, double value) {
+  const auto keepMax = [&](const char* name, double value) {
     block[name] = std::max(block[name].get<double>(), value);
   };
   for (int i = first; i < first + count; ++i) {
@@ -32,10 +32,10 @@ std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int coun
     const Outcome outcome = fault.run(random);
     block["runs"] = block["runs"].get<int>() + 1;
     for (const std::string& why : outcome.discarded) block["discarded"].push_back(why);
-    keepMost("detection", outcome.detection);
-    keepMost("zero", outcome.zero);
-    keepMost("step", outcome.step);
-    keepMost("beyond", outcome.energy - outcome.energy_allowed);
+    keepMax("detection", outcome.detection);
+    keepMax("zero", outcome.zero);
+    keepMax("step", outcome.step);
+    keepMax("beyond", outcome.energy - outcome.energy_allowed);
     const std::string reason = brokenBy(fault, outcome);
     if (reason.empty()) continue;
     if (block["broken"] == 0) block["reason"] = reason + " (run " + std::to_string(i) + ")";
@@ -71,7 +71,7 @@ struct Block {
 std::vector<Block> blocksOf(const std::vector<Fault>& faults, int runs) {
   std::vector<Block> blocks;
   for (std::size_t f = 0; f < faults.size(); ++f) {
-    const int wanted = std::min(runs, faults[f].most_runs);
+    const int wanted = std::min(runs, faults[f].max_runs);
     for (int first = 0; first < wanted; first += kBlock) blocks.push_back({f, first, std::min(kBlock, wanted - first)});
   }
   return blocks;

@@ -96,11 +96,11 @@ std::vector<std::size_t> supporting(const Building& building, std::size_t i) {
   return below;
 }
 
-std::string assemblyText(const Building& building, const Vec3& field, const AssemblyWords& words, double spent) {
-  std::string text = spent > 0 ? "  <assembly spent=\"" + numbers({spent}) + "\">\n" : "  <assembly>\n";
+std::string assemblyText(const Building& building, const Vec3& workspace, const AssemblyWords& words, double elapsed) {
+  std::string text = elapsed > 0 ? "  <assembly spent=\"" + numbers({elapsed}) + "\">\n" : "  <assembly>\n";
   if (!words.elements.empty()) text += wordsText(words);
-  text += "    <field pos=\"" + numbers({0.0, 0.0, field.z() / 2}) + "\" size=\"" +
-          numbers({field.x(), field.y(), field.z()}) + "\"/>\n";
+  text += "    <field pos=\"" + numbers({0.0, 0.0, workspace.z() / 2}) + "\" size=\"" +
+          numbers({workspace.x(), workspace.y(), workspace.z()}) + "\"/>\n";
   for (std::size_t i = 0; i < building.blocks.size(); ++i) {
     const Block& block = building.blocks[i];
     const Pose& X = block.X_WB;

@@ -96,7 +96,7 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
   }
   // the workspace is twice as high as the building and 0.5 m more: room to carry blocks
   if (spec.to_be_built)
-    text += assemblyText(building, {1.9 * kGroundX, 1.9 * kGroundY, 2 * building.top + 0.5}, spec.words, spec.spent);
+    text += assemblyText(building, {1.9 * kGroundX, 1.9 * kGroundY, 2 * building.top + 0.5}, spec.words, spec.elapsed);
   return text + "</scene>\n";
 }
 

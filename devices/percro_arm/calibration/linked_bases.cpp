@@ -24,21 +24,21 @@ std::string format(const char* pattern, Numbers... numbers) {
 }
 
 std::string refusalOf(const LinkedBases& fit) {
-  if (!(fit.condition <= kMostCondition)) {
+  if (!(fit.condition <= kMaxCondition)) {
     const double across = std::hypot(fit.spread[1], fit.spread[2]);
     return format(
         "the motion is too poor to tell how the bases are turned: its points spread by %.1f mm along one line and by "
         "%.1f mm "
         "beside it (condition of the normal equations %.3g, at most %.3g): move at least 30 mm to either side of that "
         "line",
-        fit.spread[0] * 1e3, across * 1e3, fit.condition, kMostCondition);
+        fit.spread[0] * 1e3, across * 1e3, fit.condition, kMaxCondition);
   }
-  if (!(fit.residual <= kMostResidual))
+  if (!(fit.residual <= kMaxResidual))
     return format(
         "the two did not hold one point: %.2f mm remain between them (at most %.1f mm): the link was loose, the arms "
         "were "
         "not homed, or the samples are not of the same moments",
-        fit.residual * 1e3, kMostResidual * 1e3);
+        fit.residual * 1e3, kMaxResidual * 1e3);
   return {};
 }
 
@@ -47,8 +47,8 @@ std::string refusalOf(const LinkedBases& fit) {
 LinkedBases fitBases(std::span<const LinkedSample> samples) {
   LinkedBases fit;
   fit.condition = std::numeric_limits<double>::infinity();
-  if (samples.size() < kLeastSamples) {
-    fit.refusal = format("%zu samples are too few, at least %zu are needed", samples.size(), kLeastSamples);
+  if (samples.size() < kMinSamples) {
+    fit.refusal = format("%zu samples are too few, at least %zu are needed", samples.size(), kMinSamples);
     return fit;
   }
   const auto count = static_cast<double>(samples.size());

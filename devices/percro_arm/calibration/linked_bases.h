@@ -27,8 +27,8 @@ struct LinkedBases {
 /// point to determine all six parameters, and points that do not fit a rigid motion.
 LinkedBases fitBases(std::span<const LinkedSample> samples);
 
-inline constexpr std::size_t kLeastSamples = 30;
-inline constexpr double kMostCondition = 25;   ///< points spread by at least 20 mm across their longest axis
-inline constexpr double kMostResidual = 1e-3;  ///< [m]
+inline constexpr std::size_t kMinSamples = 30;
+inline constexpr double kMaxCondition = 25;   ///< points spread by at least 20 mm across their longest axis
+inline constexpr double kMaxResidual = 1e-3;  ///< [m]
 
 }  // namespace presa

@@ -28,30 +28,30 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Brain::Brain(const Traits& traits, const Task& task, RandomStream perception, double period)
-    : traits_(traits),
+Brain::Brain(const SubjectParameters& parameters, const Task& task, RandomStream perception, double period)
+    : parameters_(parameters),
       task_(task),
       period_(period),
-      loosen_per_tick_(std::exp(-traits.loosening * period)),
-      adjust_per_tick_(std::exp(-2 * traits.loosening * period)),
+      loosen_per_tick_(std::exp(-parameters.loosening * period)),
+      adjust_per_tick_(std::exp(-2 * parameters.loosening * period)),
       perception_(period),
       reaction_(kNever) {
-  misjudgement_ = 1 + traits.force_weber * perception.normal();
-  scatter_ = std::exp(traits.trial_sd * perception.normal());
-  slip_threshold_ = traits.slip_threshold * std::exp(traits.slip_threshold_sd * perception.normal());
-  intent_.height_rate = kPostureRate;
+  misjudgement_ = 1 + parameters.force_weber * perception.normal();
+  scatter_ = std::exp(parameters.trial_sd * perception.normal());
+  slip_threshold_ = parameters.slip_threshold * std::exp(parameters.slip_threshold_sd * perception.normal());
+  command_.height_rate = kPostureRate;
   if (task.reach > 0) {
     phase_ = Phase::kReach;
-    intent_.reaching = true;
-    intent_.reach = -task.reach;
+    command_.reaching = true;
+    command_.reach = -task.reach;
   }
 }
 
-const Intent& Brain::step(const Senses& senses) noexcept {
-  perception_.step(senses);
-  effort_ = senses.effort;
+const MotorCommand& Brain::step(const Afferents& afferents) noexcept {
+  perception_.step(afferents);
+  effort_ = afferents.effort;
   time_ += period_;
-  intent_.take_up_again = false;
+  command_.take_up_again = false;
   switch (phase_) {
     case Phase::kReach:
       reach();
@@ -83,35 +83,35 @@ const Intent& Brain::step(const Senses& senses) noexcept {
     case Phase::kDone:
       break;
   }
-  intent_.grip = std::min(intent_.grip, task_.most_grip);
-  if (traits_.muscle_time <= 0) intent_.gain = 1 + traits_.grip_stiffness / perception_.stiffness();
-  return intent_;
+  command_.grip = std::min(command_.grip, task_.max_grip);
+  if (parameters_.muscle_time <= 0) command_.gain = 1 + parameters_.grip_stiffness / perception_.stiffness();
+  return command_;
 }
 
 void Brain::enter(Phase phase) noexcept {
   phase_ = phase;
   time_ = 0;
   const bool loosening = phase == Phase::kLoosen || phase == Phase::kRelease;
-  intent_.height_rate = loosening ? 0 : phase == Phase::kLoad ? kLiftRate : kPostureRate;
+  command_.height_rate = loosening ? 0 : phase == Phase::kLoad ? kLiftRate : kPostureRate;
 }
 
 void Brain::reach() noexcept {
-  intent_.reach = task_.reach * (minimumJerk(time_ / kReachTime) - 1);
+  command_.reach = task_.reach * (minimumJerk(time_ / kReachTime) - 1);
   if (time_ < kReachTime) return;
-  intent_.reaching = false;
+  command_.reaching = false;
   enter(Phase::kPreload);
 }
 
 void Brain::preload() noexcept {
-  intent_.grip = std::min(kFirstGrip, time_ / kPreloadTime);
+  command_.grip = std::min(kFirstGrip, time_ / kPreloadTime);
   if (time_ >= kPreloadTime) enter(Phase::kLoad);
 }
 
 void Brain::load() noexcept {
-  intent_.height = task_.height * minimumJerk(time_ / kLiftTime);
+  command_.height = task_.height * minimumJerk(time_ / kLiftTime);
   // the grip leads, following the commanded lift force; the felt load would be too late at friction 0.4
   const double safe = kFirstGrip + kSafeRatio * std::max(effort_, 0.0);
-  intent_.grip += period_ * std::max(safe - intent_.grip, 0.0) / kCouplingTime;
+  command_.grip += period_ * std::max(safe - command_.grip, 0.0) / kCouplingTime;
   if (squeezeWhenSliding() && waited_ < kWaitLimit) {
     waited_ += period_;
     time_ -= period_;  // pause the lift, or the fingers would leave the object on the table
@@ -130,7 +130,7 @@ void Brain::settle() noexcept {
 }
 
 void Brain::loosen() noexcept {
-  intent_.grip *= loosen_per_tick_;
+  command_.grip *= loosen_per_tick_;
   if (!slipFelt() && !slipSeen() && !perception_.lost()) return;
   slip_grip_ = perception_.grip() * misjudgement_;
   wanted_ = gripFromMemory();
@@ -150,19 +150,19 @@ void Brain::regraspFromTable() noexcept {
   const double open = time_ / kReachTime, down = (time_ - kFallTime) / kReachTime, close = down - 1;
   const double squeeze = (time_ - kFallTime - 2 * kReachTime) / kSqueezeTime;
   const double lift = (time_ - kFallTime - 2 * kReachTime - kSqueezeTime) / kLiftTime;
-  intent_.reaching = squeeze <= 0;
-  intent_.reach = task_.reach * (minimumJerk(close) - minimumJerk(open));
+  command_.reaching = squeeze <= 0;
+  command_.reach = task_.reach * (minimumJerk(close) - minimumJerk(open));
   if (down <= 0) {
     low_ = perception_.seenHeight().value_or(0);
     aside_ = perception_.seenAside().value_or(0);
   }
-  intent_.aside += (aside_ - intent_.aside) * minimumJerk(down);
-  intent_.height = task_.height + (low_ - task_.height) * (minimumJerk(down) - minimumJerk(lift));
-  intent_.grip = firm_ * std::clamp(squeeze, 0.0, 1.0);
-  if (squeeze > 0) intent_.height_rate = lift < 1 ? kLiftRate : kPostureRate;
+  command_.aside += (aside_ - command_.aside) * minimumJerk(down);
+  command_.height = task_.height + (low_ - task_.height) * (minimumJerk(down) - minimumJerk(lift));
+  command_.grip = firm_ * std::clamp(squeeze, 0.0, 1.0);
+  if (squeeze > 0) command_.height_rate = lift < 1 ? kLiftRate : kPostureRate;
   const bool slides = lift > 0 && perception_.seenSliding() && perception_.load() > kSlightLoad;
   if (slides) firm_ += period_ * kSqueezeRate;
-  if ((slides || (intent_.grip > kTouch && lift < 0 && !perception_.touchesBoth())) && waited_ < kWaitLimit) {
+  if ((slides || (command_.grip > kTouch && lift < 0 && !perception_.touchesBoth())) && waited_ < kWaitLimit) {
     waited_ += period_;
     time_ -= period_;
   }
@@ -176,9 +176,9 @@ void Brain::regraspFromTable() noexcept {
 }
 
 void Brain::adjust() noexcept {
-  intent_.grip = std::max(wanted_, intent_.grip * adjust_per_tick_);
+  command_.grip = std::max(wanted_, command_.grip * adjust_per_tick_);
   if (keepHold()) return;
-  if (intent_.grip <= wanted_ && time_ > kAdjustTime) enter(Phase::kHold);
+  if (command_.grip <= wanted_ && time_ > kAdjustTime) enter(Phase::kHold);
 }
 
 void Brain::hold() noexcept {
@@ -187,45 +187,45 @@ void Brain::hold() noexcept {
 }
 
 void Brain::release() noexcept {
-  intent_.grip *= loosen_per_tick_;
+  command_.grip *= loosen_per_tick_;
   if (!perception_.lost()) return;
-  intent_.grip = 0;
+  command_.grip = 0;
   enter(Phase::kDone);
 }
 
 void Brain::open() noexcept {
   if (!task_.from_table) return;
-  intent_.reaching = true;
-  intent_.reach = -task_.reach * minimumJerk(time_ / kReachTime);
+  command_.reaching = true;
+  command_.reach = -task_.reach * minimumJerk(time_ / kReachTime);
 }
 
 bool Brain::slipFelt() const noexcept { return perception_.kick() > slip_threshold_ && time_ > kBlindTime; }
 
-bool Brain::slipSeen() const noexcept { return traits_.seen_slip > 0 && perception_.fallen() > traits_.seen_slip; }
+bool Brain::slipSeen() const noexcept { return parameters_.seen_slip > 0 && perception_.fallen() > parameters_.seen_slip; }
 
 bool Brain::squeezeWhenSliding() noexcept {
   if (!perception_.seenSliding() || perception_.load() < kSlightLoad) return false;
-  intent_.grip += period_ * kSqueezeRate;
+  command_.grip += period_ * kSqueezeRate;
   return true;
 }
 
 double Brain::gripFromMemory() const noexcept {
-  const double base = std::max(slip_grip_, 0.05) / (1 - traits_.safety_margin);
+  const double base = std::max(slip_grip_, 0.05) / (1 - parameters_.safety_margin);
   const double stiffness = perception_.stiffness();
-  const double device = stiffness * task_.device_resolution, finger = stiffness * traits_.finger_resolution;
-  const double noise = traits_.force_cv * base;
-  const double uncertainty = std::sqrt(noise * noise + traits_.force_noise * traits_.force_noise +
-                                       traits_.counts_device * device * device / 12 + finger * finger);
-  return (base + traits_.clearance * uncertainty + traits_.extra_grip) * scatter_;
+  const double device = stiffness * task_.device_resolution, finger = stiffness * parameters_.finger_resolution;
+  const double noise = parameters_.force_cv * base;
+  const double uncertainty = std::sqrt(noise * noise + parameters_.force_noise * parameters_.force_noise +
+                                       parameters_.counts_device * device * device / 12 + finger * finger);
+  return (base + parameters_.clearance * uncertainty + parameters_.extra_grip) * scatter_;
 }
 
 void Brain::takeUpAgain() noexcept {
   firm_ = task_.from_table ? firmness_ * (kFirmly * wanted_ + kTouch)
                            : std::max(1.5 * wanted_, kSafeRatio * felt_weight_) + kFirstGrip;
-  intent_.grip = task_.from_table ? 0 : firm_;
+  command_.grip = task_.from_table ? 0 : firm_;
   waited_ = 0;
-  intent_.take_up_again = true;
-  if (task_.from_table) perception_.letGo();
+  command_.take_up_again = true;
+  if (task_.from_table) perception_.release();
   reaction_ = kNever;
   enter(Phase::kRegrasp);
 }
@@ -238,12 +238,12 @@ bool Brain::keepHold() noexcept {
     return true;
   }
   if (reaction_ == kNever && (slipFelt() || slipSeen()))
-    reaction_ = slipFelt() ? traits_.reaction : traits_.seen_reaction;
+    reaction_ = slipFelt() ? parameters_.reaction : parameters_.seen_reaction;
   reaction_ -= period_;
   if (reaction_ > 0) return false;
   ++regrips_;
   wanted_ *= kHarder;
-  intent_.grip = std::max(intent_.grip, wanted_);  // the grip may still be decreasing
+  command_.grip = std::max(command_.grip, wanted_);  // the grip may still be decreasing
   reaction_ = kNever;
   perception_.rest();
   return false;

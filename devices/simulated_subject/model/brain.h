@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "devices/simulated_subject/model/perception.h"
-#include "devices/simulated_subject/model/traits.h"
+#include "devices/simulated_subject/model/subject_parameters.h"
 #include "framework/core/math/random.h"
 
 namespace presa::subject {
@@ -15,12 +15,12 @@ struct Task {
   bool from_table = false;
   double height = 0.04;  ///< lift height [m]
   double hold = 10;      ///< duration of holding still with the min grip that the subject considers necessary [s]
-  double most_grip = std::numeric_limits<double>::infinity();  ///< force limit of the device [N]
+  double max_grip = std::numeric_limits<double>::infinity();  ///< force limit of the device [N]
   double device_resolution = 0;  ///< position steps of the device, which the subject has learnt [m]
 };
 
 /// Grips, lifts, loosens until the object slips (to learn the necessary grip), holds, releases. Its knowledge of the
-/// world is `Senses` (it feels the stiffness and weight of the object and sees sliding while it lifts) and
+/// world is `Afferents` (it feels the stiffness and weight of the object and sees sliding while it lifts) and
 /// Task::device_resolution. The wanted grip is
 ///   S / (1 - margin) + clearance sqrt((cv S / (1 - margin))^2 + s0^2 + (k dX)^2 / 12 + (k dq)^2) + extra,
 /// where S is the grip at which slip was noticed. The clearance of the force uncertainty from position implements the
@@ -28,11 +28,11 @@ struct Task {
 /// Thread: any, haptic included (nothing allocates).
 class Brain {
  public:
-  Brain(const Traits& traits, const Task& task, RandomStream perception, double period);
+  Brain(const SubjectParameters& parameters, const Task& task, RandomStream perception, double period);
   /// Advances one period with the senses of that period.
-  const Intent& step(const Senses& senses) noexcept;
+  const MotorCommand& step(const Afferents& afferents) noexcept;
 
-  const Intent& intent() const noexcept { return intent_; }
+  const MotorCommand& command() const noexcept { return command_; }
   Phase phase() const noexcept { return phase_; }
   double timeInPhase() const noexcept { return time_; }    ///< [s]
   double slipGrip() const noexcept { return slip_grip_; }  ///< remembered grip at the slip [N]; 0: none yet
@@ -69,12 +69,12 @@ class Brain {
   /// reaction time is over.
   bool keepHold() noexcept;
 
-  const Traits traits_;
+  const SubjectParameters parameters_;
   const Task task_;
   const double period_, loosen_per_tick_, adjust_per_tick_;
   double slip_threshold_, misjudgement_, scatter_;  // drawn for this trial
   Perception perception_;
-  Intent intent_;
+  MotorCommand command_;
   double effort_ = 0;
   Phase phase_ = Phase::kPreload;
   double time_ = 0, waited_ = 0;

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "devices/simulated_subject/model/senses.h"
-#include "devices/simulated_subject/model/traits.h"
+#include "devices/simulated_subject/model/afferents.h"
+#include "devices/simulated_subject/model/subject_parameters.h"
 #include "framework/core/math/random.h"
 
 namespace presa::subject {
@@ -14,7 +14,7 @@ inline double quantised(double x, double step) noexcept { return step > 0 ? step
 /// Force noise of the two digits: slow noise (partly common) and 10 Hz tremor; and noise of the muscle springs' length.
 class MotorNoise {
  public:
-  MotorNoise(const Traits& traits, RandomStream stream, double period);
+  MotorNoise(const SubjectParameters& parameters, RandomStream stream, double period);
   /// Call once per tick; new values are drawn every 5 ms.
   void step(double grip) noexcept;
   double force(int digit) const noexcept { return force_[digit]; }        ///< [N]
@@ -27,7 +27,7 @@ class MotorNoise {
   };
   void renew(double grip) noexcept;
 
-  const Traits traits_;
+  const SubjectParameters parameters_;
   RandomStream stream_;
   int ticks_per_value_, tick_ = 0;
   double keep_, add_;  // Ornstein-Uhlenbeck: x' = keep x + add e
@@ -46,9 +46,9 @@ class MotorNoise {
 class Hand {
  public:
   /// The digits start at rest at q, with y = 0.
-  Hand(const Traits& traits, RandomStream noise, double period, double q = 0);
+  Hand(const SubjectParameters& parameters, RandomStream noise, double period, double q = 0);
   /// One period under the forces in `felt` (only normal and load are used).
-  void step(const Intent& intent, const std::array<DigitSenses, kDigits>& felt) noexcept;
+  void step(const MotorCommand& command, const std::array<DigitAfferents, kDigits>& felt) noexcept;
 
   double q(int digit) const noexcept { return digits_[digit].q; }
   double y(int digit) const noexcept { return digits_[digit].y; }
@@ -58,8 +58,8 @@ class Hand {
   /// Common motion of both digits along the grip, in the thumb's direction [m].
   double sway() const noexcept { return 0.5 * (digits_[0].q - digits_[1].q); }
   /// Lift force commanded per digit [N].
-  double effort(const Intent& intent) const noexcept {
-    return traits_.posture_stiffness * (intent.height - meanHeight()) + lift_;
+  double effort(const MotorCommand& command) const noexcept {
+    return parameters_.posture_stiffness * (command.height - meanHeight()) + lift_;
   }
   /// Places both digits at rest with squeeze depth `depth` [m], keeping the current sway.
   void place(double depth) noexcept;
@@ -68,7 +68,7 @@ class Hand {
   struct Digit {
     double q = 0, v_q = 0, anchor = 0, y = 0, v_y = 0;
   };
-  const Traits traits_;
+  const SubjectParameters parameters_;
   const double period_, mass_;
   MotorNoise noise_;
   std::array<Digit, kDigits> digits_{};

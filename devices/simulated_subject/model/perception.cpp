@@ -14,9 +14,9 @@ constexpr double kClosing = 0.3e-3;  // [m] standard deviation of the closing ne
 
 }  // namespace
 
-void Perception::step(const Senses& senses) noexcept {
-  senses_ = senses;
-  const DigitSenses &thumb = senses.digits[0], &index = senses.digits[1];
+void Perception::step(const Afferents& afferents) noexcept {
+  afferents_ = afferents;
+  const DigitAfferents &thumb = afferents.digits[0], &index = afferents.digits[1];
   grip_ += period_ * (0.5 * (thumb.normal + index.normal) - grip_) / kFeelingTime;
   load_ += period_ * (0.5 * (thumb.load + index.load) - load_) / kFeelingTime;
   height_ = 0.5 * (thumb.y + index.y);
@@ -26,13 +26,13 @@ void Perception::step(const Senses& senses) noexcept {
   opening_ = opening_ && (touching(0) || touching(1));
   if (touchesBoth()) {
     if (learning_ && std::max(thumb.normal, index.normal) < kLightGrip) learnStiffness();
-    if (std::isnan(place_) && !opening_ && senses.sight.object) place_ = senses.sight.height;
+    if (std::isnan(place_) && !opening_ && afferents.sight.object) place_ = afferents.sight.height;
   }
 }
 
 void Perception::learnStiffness() noexcept {
-  const double q = senses_.digits[0].q + senses_.digits[1].q;
-  const double n = senses_.digits[0].normal + senses_.digits[1].normal;
+  const double q = afferents_.digits[0].q + afferents_.digits[1].q;
+  const double n = afferents_.digits[0].normal + afferents_.digits[1].normal;
   count_ += 1;
   const double beside = q - mean_q_;
   mean_q_ += beside / count_;
@@ -48,18 +48,18 @@ double Perception::stiffness() const noexcept {
 bool Perception::still() const noexcept { return std::abs(drift_) < kStill && !seenSliding(); }
 
 std::optional<double> Perception::seenHeight() const noexcept {
-  if (!senses_.sight.object) return std::nullopt;
-  return height_ + senses_.sight.height;
+  if (!afferents_.sight.object) return std::nullopt;
+  return height_ + afferents_.sight.height;
 }
 
 std::optional<double> Perception::seenAside() const noexcept {
-  if (!senses_.sight.object) return std::nullopt;
-  return senses_.sight.aside;
+  if (!afferents_.sight.object) return std::nullopt;
+  return afferents_.sight.aside;
 }
 
 double Perception::fallen() const noexcept {
-  if (!senses_.sight.object || std::isnan(place_)) return 0;
-  return place_ - senses_.sight.height - load_ / stiffness();
+  if (!afferents_.sight.object || std::isnan(place_)) return 0;
+  return place_ - afferents_.sight.height - load_ / stiffness();
 }
 
 }  // namespace presa::subject

@@ -2,7 +2,7 @@
 #include <limits>
 #include <optional>
 
-#include "devices/simulated_subject/model/senses.h"
+#include "devices/simulated_subject/model/afferents.h"
 
 namespace presa::subject {
 
@@ -10,7 +10,7 @@ namespace presa::subject {
 class Perception {
  public:
   explicit Perception(double period) : period_(period) {}
-  void step(const Senses& senses) noexcept;
+  void step(const Afferents& afferents) noexcept;
 
   /// Mean grip and load of the digits over the last 50 ms [N].
   double grip() const noexcept { return grip_; }
@@ -26,13 +26,13 @@ class Perception {
   void rest() noexcept { usual_height_ = height_; }
   /// Neither rising nor sinking, and no sliding seen.
   bool still() const noexcept;
-  bool seenSliding() const noexcept { return senses_.sight.object && senses_.sight.sliding; }
+  bool seenSliding() const noexcept { return afferents_.sight.object && afferents_.sight.sliding; }
   /// Seen height loss of the object since the first touch, minus the compliance of the fingers [m].
   double fallen() const noexcept;
   /// Height of the object in the hand's coordinates [m].
   std::optional<double> seenHeight() const noexcept;
   /// Prepares for another grasp: forgets the height at the first touch.
-  void letGo() noexcept {
+  void release() noexcept {
     place_ = std::numeric_limits<double>::quiet_NaN();
     opening_ = true;
   }
@@ -44,11 +44,11 @@ class Perception {
 
  private:
   static constexpr double kGone = 0.03;  // [m]
-  bool touching(int digit) const noexcept { return senses_.digits[digit].normal > 0; }
+  bool touching(int digit) const noexcept { return afferents_.digits[digit].normal > 0; }
   void learnStiffness() noexcept;
 
   double period_;
-  Senses senses_;
+  Afferents afferents_;
   double grip_ = 0, load_ = 0, height_ = 0, usual_height_ = 0, kick_ = 0, drift_ = 0;
   double place_ = std::numeric_limits<double>::quiet_NaN();  // seen height of the object at the first touch
   bool learning_ = true, opening_ = false;                   // opening: contact still belongs to the previous grasp

@@ -42,23 +42,23 @@ void StandAlone::Hold::add(double normal, double load_now) noexcept {
   load += (load_now - load) / count;
 }
 
-StandAlone::StandAlone(const Traits& traits, const Trial& trial)
+StandAlone::StandAlone(const SubjectParameters& parameters, const Trial& trial)
     : trial_(trial),
-      hand_(traits, RandomStream(trial.seed, "motor noise", itemOf(trial.subject, trial.trial)), kPeriod, -trial.reach),
-      brain_(traits, taskOf(trial), RandomStream(trial.seed, "perception", itemOf(trial.subject, trial.trial)),
+      hand_(parameters, RandomStream(trial.seed, "motor noise", itemOf(trial.subject, trial.trial)), kPeriod, -trial.reach),
+      brain_(parameters, taskOf(trial), RandomStream(trial.seed, "perception", itemOf(trial.subject, trial.trial)),
              kPeriod) {}
 
 bool StandAlone::step() noexcept {
   if (brain_.phase() == Phase::kDone || time_ >= trial_.time_limit) return false;
   time_ += kPeriod;
   render();
-  const Senses felt = sense();
+  const Afferents felt = sense();
   moveCube();
-  hand_.step(brain_.intent(), felt.digits);
+  hand_.step(brain_.command(), felt.digits);
   const Phase before = brain_.phase();
   brain_.step(sense());
   measure(before);
-  if (brain_.intent().take_up_again) handBack();
+  if (brain_.command().take_up_again) handBack();
   return true;
 }
 
@@ -85,16 +85,16 @@ void StandAlone::moveCube() noexcept {
   if (brain_.phase() <= Phase::kLoad && y_ < 0) y_ = v_y_ = 0;
 }
 
-Senses StandAlone::sense() const noexcept {
-  Senses senses;
+Afferents StandAlone::sense() const noexcept {
+  Afferents afferents;
   for (int i = 0; i < kDigits; ++i) {
-    senses.digits[i] = {hand_.q(i), hand_.y(i), hand_.vY(i), contacts_[i].normal(), contacts_[i].load()};
-    senses.sight.sliding |= contacts_[i].state() == DigitContact::State::kSlip;
+    afferents.digits[i] = {hand_.q(i), hand_.y(i), hand_.vY(i), contacts_[i].normal(), contacts_[i].load()};
+    afferents.sight.sliding |= contacts_[i].state() == DigitContact::State::kSlip;
   }
-  senses.effort = hand_.effort(brain_.intent());
-  senses.sight.object = true;
-  senses.sight.height = y_ - hand_.meanHeight();
-  return senses;
+  afferents.effort = hand_.effort(brain_.command());
+  afferents.sight.object = true;
+  afferents.sight.height = y_ - hand_.meanHeight();
+  return afferents;
 }
 
 void StandAlone::handBack() noexcept {
@@ -102,7 +102,7 @@ void StandAlone::handBack() noexcept {
   x_ = hand_.sway();
   y_ = hand_.meanHeight() - stretch;
   v_x_ = v_y_ = 0;
-  hand_.place(brain_.intent().grip / trial_.cube.stiffness);
+  hand_.place(brain_.command().grip / trial_.cube.stiffness);
   for (int i = 0; i < kDigits; ++i) contacts_[i].stick(hand_.y(i) - stretch - y_);
 }
 

@@ -76,7 +76,7 @@ class StandAlone {
  public:
   static constexpr double kPeriod = 1e-3;
 
-  StandAlone(const Traits& traits, const Trial& trial);
+  StandAlone(const SubjectParameters& parameters, const Trial& trial);
   /// Advances one period; false when the trial is over.
   bool step() noexcept;
   /// Runs the trial to its end.
@@ -98,7 +98,7 @@ class StandAlone {
   };
   void render() noexcept;
   void moveCube() noexcept;
-  Senses sense() const noexcept;
+  Afferents sense() const noexcept;
   void handBack() noexcept;
   void measure(Phase before) noexcept;
 

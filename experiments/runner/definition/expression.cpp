@@ -10,17 +10,17 @@ bool truth(double x) noexcept { return x == x && x != 0; }
 
 }  // namespace
 
-Names::Names(std::vector<std::string> names) : names_(std::move(names)) {
+SymbolTable::SymbolTable(std::vector<std::string> names) : names_(std::move(names)) {
   for (std::size_t slot = 0; slot < names_.size(); ++slot) slots_.try_emplace(names_[slot], slot);
 }
 
-std::size_t Names::add(const std::string& name) {
+std::size_t SymbolTable::add(const std::string& name) {
   const auto [known, is_new] = slots_.try_emplace(name, names_.size());
   if (is_new) names_.push_back(name);
   return known->second;
 }
 
-std::optional<std::size_t> Names::find(const std::string& name) const {
+std::optional<std::size_t> SymbolTable::find(const std::string& name) const {
   const auto found = slots_.find(name);
   if (found == slots_.end()) return std::nullopt;
   return found->second;

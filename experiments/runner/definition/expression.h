@@ -12,10 +12,10 @@
 namespace presa::experiment {
 
 /// Names of the variables of an expression: "thumb.fn", "cube.z", "mass". The index of a name is its slot.
-class Names {
+class SymbolTable {
  public:
-  Names() = default;
-  explicit Names(std::vector<std::string> names);
+  SymbolTable() = default;
+  explicit SymbolTable(std::vector<std::string> names);
   /// The slot of `name`; appends the name when it is new.
   std::size_t add(const std::string& name);
   std::optional<std::size_t> find(const std::string& name) const;
@@ -39,9 +39,9 @@ class Expression {
   /// Nullopt with a finding at `where` on errors: E901 (syntax, with the character position) or E902 (unknown name).
   /// With `aggregates`, calls such as mean(PHASE, …) are allowed; each takes a slot after those of `names`, its
   /// arguments are over `samples`, and PHASE is one of `phases`.
-  static std::optional<Expression> compile(const std::string& text, const Names& names, const SourceLocation& where,
+  static std::optional<Expression> compile(const std::string& text, const SymbolTable& names, const SourceLocation& where,
                                            Diagnostics& diagnostics, std::vector<Aggregate>* aggregates = nullptr,
-                                           const Names* samples = nullptr,
+                                           const SymbolTable* samples = nullptr,
                                            const std::vector<std::string>* phases = nullptr);
 
   /// `values` by slot. A division by zero gives infinity or NaN. In holds() NaN is false.
@@ -92,7 +92,7 @@ class Expression {
 };
 
 struct Aggregate {
-  enum class Kind { kMean, kSd, kLeast, kMost, kFirst, kLast, kSeconds, kStart };
+  enum class Kind { kMean, kSd, kMin, kMax, kFirst, kLast, kSeconds, kStart };
   Kind kind = Kind::kMean;
   std::size_t phase = 0;                ///< index of the phase whose samples are used
   std::optional<Expression> condition;  ///< for kFirst, kLast and kSeconds: only samples for which it holds; none: all

@@ -22,13 +22,13 @@ struct Unknown {
 class ExpressionParser {
  public:
   using Code = Expression::Code;
-  ExpressionParser(const std::string& text, const Names& names, std::vector<Aggregate>* aggregates,
-                   const Names* samples, const std::vector<std::string>* phases)
+  ExpressionParser(const std::string& text, const SymbolTable& names, std::vector<Aggregate>* aggregates,
+                   const SymbolTable* samples, const std::vector<std::string>* phases)
       : text_(text), names_(&names), aggregates_(aggregates), samples_(samples), phases_(phases) {}
 
   Expression parse() {
     advance();
-    either();
+    orExpression();
     if (!token_.empty()) throw Syntax{start_, "expected the end or an operator, found " + quote(token_), {}};
     return std::move(out_);
   }
@@ -95,18 +95,18 @@ class ExpressionParser {
     ExpressionParser& parser_;
   };
 
-  void either() {
+  void orExpression() {
     const Nesting nesting(*this);
-    both();
-    while (take("or")) both(), emit(Code::kOr);
+    andExpression();
+    while (take("or")) andExpression(), emit(Code::kOr);
   }
-  void both() {
-    negated();
-    while (take("and")) negated(), emit(Code::kAnd);
+  void andExpression() {
+    notExpression();
+    while (take("and")) notExpression(), emit(Code::kAnd);
   }
-  void negated() {
+  void notExpression() {
     const Nesting nesting(*this);
-    if (take("not")) return negated(), emit(Code::kNot);
+    if (take("not")) return notExpression(), emit(Code::kNot);
     comparison();
   }
   void comparison() {
@@ -148,7 +148,7 @@ class ExpressionParser {
     term();
   }
   void term() {
-    if (take("(")) return either(), expect(")");
+    if (take("(")) return orExpression(), expect(")");
     if (token_.empty() || !isWord(token_[0]))
       throw Syntax{start_, "expected a number, a name, a function or '(', found " + found(), {}};
     if (std::isdigit(static_cast<unsigned char>(token_[0])) != 0 || token_[0] == '.') return number();
@@ -175,8 +175,8 @@ class ExpressionParser {
     expect("(");
     for (const auto& [function, code] : kFunctions) {
       if (name != function) continue;
-      either();
-      if (code.second == 2) expect(","), either();
+      orExpression();
+      if (code.second == 2) expect(","), orExpression();
       expect(")");
       return emit(code.first);
     }
@@ -188,7 +188,7 @@ class ExpressionParser {
   void aggregate(const std::string& name, std::size_t start) {
     using Kind = Aggregate::Kind;
     static const std::pair<const char*, Kind> kKinds[] = {
-        {"mean", Kind::kMean},   {"sd", Kind::kSd},     {"least", Kind::kLeast},     {"most", Kind::kMost},
+        {"mean", Kind::kMean},   {"sd", Kind::kSd},     {"least", Kind::kMin},     {"most", Kind::kMax},
         {"first", Kind::kFirst}, {"last", Kind::kLast}, {"seconds", Kind::kSeconds}, {"start", Kind::kStart}};
     const auto* kind =
         std::find_if(std::begin(kKinds), std::end(kKinds), [&](const auto& k) { return name == k.first; });
@@ -225,17 +225,17 @@ class ExpressionParser {
   Expression inner() {
     Expression outer = std::exchange(out_, {});
     const std::size_t depth = std::exchange(depth_, 0);
-    const Names* names = std::exchange(names_, samples_);
+    const SymbolTable* names = std::exchange(names_, samples_);
     std::vector<Aggregate>* aggregates = std::exchange(aggregates_, nullptr);
-    either();
+    orExpression();
     names_ = names, aggregates_ = aggregates, depth_ = depth;
     return std::exchange(out_, std::move(outer));
   }
 
   const std::string& text_;
-  const Names* names_;
+  const SymbolTable* names_;
   std::vector<Aggregate>* aggregates_;
-  const Names* samples_;
+  const SymbolTable* samples_;
   const std::vector<std::string>* phases_;
   std::size_t at_ = 0, start_ = 0, depth_ = 0;
   int nesting_ = 0;
@@ -243,9 +243,9 @@ class ExpressionParser {
   Expression out_;
 };
 
-std::optional<Expression> Expression::compile(const std::string& text, const Names& names, const SourceLocation& where,
+std::optional<Expression> Expression::compile(const std::string& text, const SymbolTable& names, const SourceLocation& where,
                                               Diagnostics& diagnostics, std::vector<Aggregate>* aggregates,
-                                              const Names* samples, const std::vector<std::string>* phases) {
+                                              const SymbolTable* samples, const std::vector<std::string>* phases) {
   try {
     return ExpressionParser(text, names, aggregates, samples, phases).parse();
   } catch (const Syntax& error) {

@@ -49,7 +49,7 @@ void MethodSource::finish(Outcome outcome, const std::optional<psychophysics::Re
 std::size_t MethodSource::left() const {
   if (!next_) return 0;
   std::size_t left = 0;
-  for (const PlannedTrial& block : blocks_) left += block.practice ? 1 : mostTrials(*experiment_.procedure);
+  for (const PlannedTrial& block : blocks_) left += block.practice ? 1 : maxTrials(*experiment_.procedure);
   if (next_->practice) return left;
   std::size_t answered = 0;
   for (const psychophysics::Trial& trial : method_->trials()) answered += trial.response ? 1 : 0;

@@ -72,12 +72,12 @@ class Orderer {
 
   /// Orders `from` … `to` so that no condition follows itself, the one before `from` included.
   void part(std::vector<Condition>& all, std::size_t from, std::size_t to) {
-    for (int tries = 0; tries < kMostTries && !partNeighbours(all, from, to); ++tries)
+    for (int tries = 0; tries < kMaxTries && !partNeighbours(all, from, to); ++tries)
       random_.shuffle(std::span<Condition>(all).subspan(from, to - from));
   }
 
  private:
-  static constexpr int kMostTries = 1000;  // with three conditions one shuffle is not always enough
+  static constexpr int kMaxTries = 1000;  // with three conditions one shuffle is not always enough
 
   std::vector<std::size_t> fromRow(const Square& square) const { return square[row_ % square.size()]; }
 

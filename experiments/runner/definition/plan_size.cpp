@@ -35,24 +35,24 @@ PlanSize planSize(const Experiment& experiment) {
     size.conditions *= levels;
     if (!factor.between) of_subject *= levels;
   }
-  const double each = experiment.procedure ? static_cast<double>(mostTrials(*experiment.procedure)) : 1;
+  const double each = experiment.procedure ? static_cast<double>(maxTrials(*experiment.procedure)) : 1;
   size.trials = of_subject * experiment.design.repeats * each + experiment.design.practice;
   return size;
 }
 
 bool checkPlanSize(const Experiment& experiment, const SourceLocation& where, Diagnostics& diagnostics) {
   const PlanSize size = planSize(experiment);
-  if (size.conditions > kMostConditions) {
+  if (size.conditions > kMaxConditions) {
     diagnostics.error(kTooLarge, where,
                       "the factors make " + numberText(size.conditions) + " conditions (" + productText(experiment) +
-                          "), at most " + numberText(kMostConditions) + " are possible",
+                          "), at most " + numberText(kMaxConditions) + " are possible",
                       "let the method choose among many values (<constant_stimuli>, <vary>), or take fewer levels");
     return false;
   }
-  if (size.trials <= kMostTrialsOfSession) return true;
+  if (size.trials <= kMaxTrialsOfSession) return true;
   diagnostics.error(kTooLarge, where,
                     "a session would have " + numberText(size.trials) + " trials, at most " +
-                        numberText(kMostTrialsOfSession) + " are possible",
+                        numberText(kMaxTrialsOfSession) + " are possible",
                     "several sessions, each with fewer repeats, fit people better");
   return false;
 }

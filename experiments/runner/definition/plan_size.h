@@ -12,8 +12,8 @@ struct PlanSize {
 };
 PlanSize planSize(const Experiment& experiment);
 
-inline constexpr double kMostConditions = 1000;
-inline constexpr double kMostTrialsOfSession = 10000;
+inline constexpr double kMaxConditions = 1000;
+inline constexpr double kMaxTrialsOfSession = 10000;
 
 /// Reports E694 at `where` and returns false when the design exceeds these limits.
 bool checkPlanSize(const Experiment& experiment, const SourceLocation& where, Diagnostics& diagnostics);

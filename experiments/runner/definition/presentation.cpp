@@ -59,7 +59,7 @@ Presentation withValue(const Experiment& experiment, const PlannedTrial& trial, 
 std::vector<double> variedOf(const Experiment& experiment, const PlannedTrial& trial) {
   std::vector<double> drawn;
   for (const Vary& vary : experiment.varied)
-    drawn.push_back(RandomStream(trial.seed, "vary " + vary.column.name).uniform(vary.least, vary.most));
+    drawn.push_back(RandomStream(trial.seed, "vary " + vary.column.name).uniform(vary.min, vary.max));
   return drawn;
 }
 

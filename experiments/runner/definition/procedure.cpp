@@ -52,7 +52,7 @@ std::unique_ptr<Method> makeMethod(const Procedure& procedure, std::uint64_t see
   return std::make_unique<ForcedChoice>(std::move(method), planOf(procedure), places);
 }
 
-std::size_t mostTrials(const Procedure& procedure) {
+std::size_t maxTrials(const Procedure& procedure) {
   return std::visit(Overloaded{[](const QuestPlusPlan& plan) { return plan.stop_trials; },
                                [](const InterleavedPlan& plan) {
                                  std::size_t trials = 0;

@@ -27,7 +27,7 @@ struct Column {
 /// A number drawn anew for every trial, uniformly between its bounds.
 struct Vary {
   Column column;
-  double least = 0, most = 0;
+  double min = 0, max = 0;
 };
 
 /// The value chosen by the method, with further scene values coupled to it. With two alternatives side by side,
@@ -76,7 +76,7 @@ struct Procedure {
 /// The method wrapped in its task, at its first trial. Throws std::invalid_argument that lists every mistake.
 std::unique_ptr<psychophysics::Method> makeMethod(const Procedure& procedure, std::uint64_t seed);
 /// Upper bound on the trials until the method has finished.
-std::size_t mostTrials(const Procedure& procedure);
+std::size_t maxTrials(const Procedure& procedure);
 std::vector<std::string> mistakes(const Procedure& procedure);
 
 }  // namespace presa::experiment

@@ -34,7 +34,7 @@ class OneEach {
   std::map<std::string, SourceLocation> first_;
 };
 
-std::optional<Expression> readExpression(const Element& element, const std::string& attribute, const Names& names,
+std::optional<Expression> readExpression(const Element& element, const std::string& attribute, const SymbolTable& names,
                                          Diagnostics& diagnostics) {
   if (!element.hasAttribute(attribute)) return std::nullopt;
   return Expression::compile(element.attribute(attribute), names, element.where(attribute), diagnostics);
@@ -133,7 +133,7 @@ void readDesign(const Element& root, Experiment& experiment, Diagnostics& diagno
 
 void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   OneEach names("phase", diagnostics);
-  Names seen = experiment.samples;  // guards may use the condition too
+  SymbolTable seen = experiment.samples;  // guards may use the condition too
   for (const Column& column : experiment.columns()) seen.add(column.name);
   for (const Element& element : root.children("phase")) {
     names.add(element);
@@ -166,7 +166,7 @@ void readTexts(const Element& root, Experiment& experiment, Diagnostics& diagnos
 }
 
 void readWatch(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
-  Names columns;
+  SymbolTable columns;
   for (const Column& column : experiment.columns()) columns.add(column.name);
   for (const Element& element : root.children("watch")) {
     auto value = readExpression(element, "value", experiment.samples, diagnostics);

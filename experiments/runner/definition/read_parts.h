@@ -19,7 +19,7 @@ void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& di
 void readWatch(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 /// Reads the event at the start of a phase, over the names its guards may use; E916 when no material can change
 /// friction.
-void readEvent(const xml::Element& element, const Names& seen, const Experiment& experiment, Phase& phase,
+void readEvent(const xml::Element& element, const SymbolTable& seen, const Experiment& experiment, Phase& phase,
                Diagnostics& diagnostics);
 /// Reads reactions as measures, before all others.
 void readReactions(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);

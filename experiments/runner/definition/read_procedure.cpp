@@ -119,7 +119,7 @@ void readStimulus(const Element& element, Procedure& procedure, Diagnostics& dia
   checkPlaces(element, stimulus.second_paths.size());
   for (const Element& with : element.children("with")) {
     auto value =
-        Expression::compile(with.attribute("value"), Names({stimulus.column.name}), with.where("value"), diagnostics);
+        Expression::compile(with.attribute("value"), SymbolTable({stimulus.column.name}), with.where("value"), diagnostics);
     checkPlaces(with, xml::splitWords(with.attribute("second_path")).size());
     if (value)
       stimulus.coupled.push_back(
@@ -141,7 +141,7 @@ void readVaried(const Element& root, Experiment& experiment, Diagnostics& diagno
     Vary vary{{element.attribute("name"), element.attribute("unit"), xml::splitWords(element.attribute("path"))},
               element.number("least", 0),
               element.number("most", 0)};
-    if (!(vary.most > vary.least))
+    if (!(vary.max > vary.min))
       diagnostics.error(kImpossibleMethod, element.where("most"), "most must be above least");
     claimName(element, experiment, diagnostics);
     experiment.varied.push_back(std::move(vary));

@@ -23,7 +23,7 @@ std::optional<std::size_t> phaseOf(const Element& element, const std::string& at
 
 }  // namespace
 
-void readEvent(const Element& element, const Names& seen, const Experiment& experiment, Phase& phase,
+void readEvent(const Element& element, const SymbolTable& seen, const Experiment& experiment, Phase& phase,
                Diagnostics& diagnostics) {
   phase.changes_friction = element.attribute("event") == "change_friction";
   if (element.hasAttribute("event_when"))

@@ -58,9 +58,9 @@ double answerOf(const std::string& name, const psychophysics::Stimulus& stimulus
 
 /// The largest value over all presentations.
 double worst(const std::vector<std::vector<double>>& presented, std::size_t slot) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (const std::vector<double>& values : presented) most = std::max(most, values[slot]);
-  return most;
+  double max = -std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& values : presented) max = std::max(max, values[slot]);
+  return max;
 }
 
 }  // namespace

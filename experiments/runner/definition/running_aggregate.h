@@ -23,10 +23,10 @@ class RunningAggregate {
     const double x = what_->value->evaluate(samples);
     if (!(std::abs(x) <= std::numeric_limits<double>::max())) return;  // ignore values that are not finite
     ++count_;
-    if (count_ == 1) first_ = least_ = most_ = x;
+    if (count_ == 1) first_ = min_ = max_ = x;
     last_ = x;
-    least_ = std::fmin(least_, x);
-    most_ = std::fmax(most_, x);
+    min_ = std::fmin(min_, x);
+    max_ = std::fmax(max_, x);
     const double change = x - mean_;
     mean_ += change / static_cast<double>(count_);
     squares_ += change * (x - mean_);
@@ -44,10 +44,10 @@ class RunningAggregate {
         return mean_;
       case Kind::kSd:
         return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : kNothing;
-      case Kind::kLeast:
-        return least_;
-      case Kind::kMost:
-        return most_;
+      case Kind::kMin:
+        return min_;
+      case Kind::kMax:
+        return max_;
       case Kind::kFirst:
         return first_;
       default:
@@ -59,7 +59,7 @@ class RunningAggregate {
   const Aggregate* what_;
   std::size_t count_ = 0;
   double begin_ = std::numeric_limits<double>::quiet_NaN();
-  double first_ = 0, last_ = 0, least_ = 0, most_ = 0, mean_ = 0, squares_ = 0;
+  double first_ = 0, last_ = 0, min_ = 0, max_ = 0, mean_ = 0, squares_ = 0;
 };
 
 }  // namespace presa::experiment

@@ -9,8 +9,8 @@ constexpr std::size_t kPerRole = 13, kPerBody = 8;  // slots, as sampleNames() l
 
 }  // namespace
 
-Names sampleNames(const Scene& scene) {
-  Names names({"t", "t_phase", "signal"});
+SymbolTable sampleNames(const Scene& scene) {
+  SymbolTable names({"t", "t_phase", "signal"});
   for (const DeviceRole& role : scene.devices) {
     for (const char* what : {"x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz", "fn", "ft", "depth", "state"})
       names.add(role.role + "." + what);

@@ -16,7 +16,7 @@ namespace presa::experiment {
 ///   ROLE.x .y .z .vx .vy .vz (fingertip) .fx .fy .fz (force sent to the device) .fn .ft (normal and tangential
 ///   contact force) .depth .state (0 none, 1 stick, 2 slip);
 ///   BODY.x .y .z .vx .vy .vz .speed of every free body, and .lift, its height above its start position.
-Names sampleNames(const Scene& scene);
+SymbolTable sampleNames(const Scene& scene);
 
 /// Fills one sample. `values` has the size of sampleNames(scene). Thread: haptic; nonblocking.
 class SampleReader {

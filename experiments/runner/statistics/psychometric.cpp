@@ -20,11 +20,11 @@ using detail::Likelihood;
 PsychometricFunction bestOfAllStarts(const Likelihood& likelihood) {
   constexpr double kQuarterOfLargestLapse = std::numbers::pi / 6;  // the lapse is lapse_max sin^2 of it
   PsychometricFunction best;
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (const double location : {-0.3, -0.1, 0.1, 0.3}) {
     for (const double spread : {0.05, 0.2, 0.8}) {
       const PsychometricFunction found = likelihood.minimise({location, std::log(spread), kQuarterOfLargestLapse});
-      if (const double value = likelihood.negativeLog(found); value < least) least = value, best = found;
+      if (const double value = likelihood.negativeLog(found); value < min) min = value, best = found;
     }
   }
   return best;

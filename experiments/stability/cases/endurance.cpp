@@ -9,7 +9,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/methods.h"
 #include "experiments/stability/random_hand.h"
-#include "experiments/study/yielding_finger.h"
+#include "experiments/study/compliant_finger.h"
 
 namespace presa::stability {
 namespace {
@@ -115,7 +115,7 @@ std::vector<Finding> play(const Play& game) {
   DeviceList fingers;
   for (const std::size_t f : {0UL, 1UL}) {
     const auto target = [&player, f](double time) { return player.state(f, time); };
-    fingers.push_back(std::make_unique<YieldingFinger>(hand, target, clock, transports[f]));
+    fingers.push_back(std::make_unique<CompliantFinger>(hand, target, clock, transports[f]));
   }
   StudyRun run(specOf("endurance.xml", game.method.sets, kDuration), std::move(fingers));
   const std::size_t cube = bodyNamed(run.world(), "cube");

@@ -57,7 +57,7 @@ std::vector<Finding> hold(const Grasp& grasp) {
 
 /// Gauss-Seidel on two opposed contact rows converges by a factor m / (m + h^2 K) per sweep: stable from a mass of 0.85
 /// h^2 K / 20 on, quiet from four times that mass on.
-double leastMassOfIterations(double stiffness) { return 4 * 0.85 * 0.005 * 0.005 * stiffness / 20; }
+double minMassOfIterations(double stiffness) { return 4 * 0.85 * 0.005 * 0.005 * stiffness / 20; }
 
 }  // namespace
 
@@ -81,7 +81,7 @@ Case graspInAir() {
         if (method.name == explicitCoupling().name) trial.expected = Verdict::kUnstable;
         // where the sweeps converge, a heavy body on soft springs keeps some ringing
         if (method.name == twentyIterations().name) {
-          trial.expected = mass < 4 * leastMassOfIterations(stiffness) ? Verdict::kUnstable : Verdict::kDrift;
+          trial.expected = mass < 4 * minMassOfIterations(stiffness) ? Verdict::kUnstable : Verdict::kDrift;
         }
         trial.run = [grasp] { return hold(grasp); };
         trial.quick = stiffness > 5000 && mass < 0.02;

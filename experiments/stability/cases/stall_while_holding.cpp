@@ -6,7 +6,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/methods.h"
-#include "experiments/study/yielding_finger.h"
+#include "experiments/study/compliant_finger.h"
 
 namespace presa::stability {
 namespace {
@@ -63,7 +63,7 @@ Outcome hold(const Stall& stall) {
   DeviceList fingers;
   for (const std::size_t f : {0UL, 1UL}) {
     const auto target = [pinch, side = f == 0 ? -1.0 : 1.0](double time) { return pinchState(pinch, side, time); };
-    fingers.push_back(std::make_unique<YieldingFinger>(hand, target, clock, transports[f]));
+    fingers.push_back(std::make_unique<CompliantFinger>(hand, target, clock, transports[f]));
   }
   const double end = stall.begin + stall.length;
   StudyRun run(specOf("stall_while_holding.xml", stall.method.sets, end + kAfter), std::move(fingers));

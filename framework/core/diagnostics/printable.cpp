@@ -48,11 +48,11 @@ std::string print(const char* format, Values... values) {
 
 std::string printable(std::string_view text) { return printable(text, text.size()); }
 
-std::string printable(std::string_view text, std::size_t most) {
+std::string printable(std::string_view text, std::size_t max) {
   std::string shown;
   std::size_t count = 0;
   for (std::size_t at = 0; at < text.size(); ++count) {
-    if (count == most) return shown + "...";
+    if (count == max) return shown + "...";
     const Character character = characterAt(text, at);
     if (character.bytes == 0 || (character.bytes == 1 && obeyed(character.point)))
       shown += print("\\x%02X", static_cast<unsigned>(static_cast<unsigned char>(text[at])));

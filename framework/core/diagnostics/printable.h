@@ -9,8 +9,8 @@ namespace presa {
 /// or have no width are written as \xNN or \u{NNNN}. All other characters stay as they are.
 std::string printable(std::string_view text);
 
-/// The same, cut after `most` characters; "..." marks the cut.
-std::string printable(std::string_view text, std::size_t most);
+/// The same, cut after `max` characters; "..." marks the cut.
+std::string printable(std::string_view text, std::size_t max);
 
 /// The same for text of several lines: newlines stay. HTML pages use svg::escape instead.
 std::string printableLines(std::string_view text);

@@ -122,27 +122,27 @@ class Bridge final : public BridgeBase {
   }
   void push(double time) noexcept override {
     if (history_.empty()) return latest_.publish(source_, time);
-    Kept& kept = history_[++pushed_ % history_.size()];
-    kept.value = source_;
-    kept.version = pushed_;
-    kept.time = time;
+    HistoryEntry& entry = history_[++pushed_ % history_.size()];
+    entry.value = source_;
+    entry.version = pushed_;
+    entry.time = time;
   }
   void keepHistory(std::size_t bytes) override {
-    std::size_t each = sizeof(Kept);
+    std::size_t each = sizeof(HistoryEntry);
     if constexpr (SizedAtLoad<T>) each += source_.roomBytes();
     history_.resize(bytes / each + 64);
-    for (Kept& kept : history_) kept.value = source_;
+    for (HistoryEntry& entry : history_) entry.value = source_;
   }
   bool pullVersion(std::uint64_t version) noexcept override {
     if (version == 0) return true;
-    const Kept& kept = history_[version % history_.size()];
-    if (kept.version != version) return false;
-    show(kept.value, kept.version, kept.time);
+    const HistoryEntry& entry = history_[version % history_.size()];
+    if (entry.version != version) return false;
+    show(entry.value, entry.version, entry.time);
     return true;
   }
 
  private:
-  struct Kept {
+  struct HistoryEntry {
     T value{};
     std::uint64_t version = 0;
     double time = 0;
@@ -157,7 +157,7 @@ class Bridge final : public BridgeBase {
   const T& source_;
   std::vector<In<T>*> readers_;
   LatestValue<T> latest_;
-  std::vector<Kept> history_;
+  std::vector<HistoryEntry> history_;
   std::uint64_t pushed_ = 0;
 };
 

@@ -3,7 +3,7 @@
 
 namespace presa {
 
-/// Decides which ticks of a late group are catch-up ticks (Tick::made_up). After a stall the missed ticks run at one
+/// Decides which ticks of a late group are catch-up ticks (Tick::catch_up). After a stall the missed ticks run at one
 /// instant, and only the newest may write to the world outside. A group that never catches up, because its ticks take
 /// as long as its period, still writes once per period: the force at a device must not freeze meanwhile.
 /// Thread: the group's; nonblocking.
@@ -12,7 +12,7 @@ class CatchUp {
   explicit CatchUp(std::int64_t period_ns) : period_(period_ns) {}
 
   /// Whether the tick that begins at `now`, `late` after it was due [ns], is a catch-up tick. Call once per tick.
-  bool madeUp(std::int64_t now, std::int64_t late) noexcept {
+  bool isCatchUp(std::int64_t now, std::int64_t late) noexcept {
     const bool newest = late < period_, begins = !newest && !late_;
     late_ = !newest;
     if (!newest && (begins || now - since_ < period_)) {

@@ -2,10 +2,10 @@
 
 namespace presa {
 
-void Executor::stepTimed(RateGroup group, std::uint64_t index, bool made_up, bool resumed) noexcept {
+void Executor::stepTimed(RateGroup group, std::uint64_t index, bool catch_up, bool resumed) noexcept {
   GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
   Tick tick = rates_.tick(group, index);
-  tick.made_up = made_up;
+  tick.catch_up = catch_up;
   tick.resumed = resumed;
   const std::int64_t begin = clock_();
   if (schedule_ == nullptr || !isScheduled(group)) {

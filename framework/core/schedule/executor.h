@@ -50,7 +50,7 @@ class Executor {
 
   /// Simulated time from a stop request to the end: the output stage fades within it.
   static constexpr double kFadeTime = 0.15;
-  /// A late group runs its missed ticks at once (Tick::made_up for all but the newest), so that simulated time follows
+  /// A late group runs its missed ticks at once (Tick::catch_up for all but the newest), so that simulated time follows
   /// the clock; after a stall longer than this it skips and counts them [s].
   static constexpr double kCatchUpLimit = 0.1;
   /// After a gap longer than this, Tick::resumed is set in the group's first tick [s].
@@ -58,7 +58,7 @@ class Executor {
 
  protected:
   /// One tick of one group with its timing and its row in the schedule.
-  void stepTimed(RateGroup group, std::uint64_t index, bool made_up = false, bool resumed = false) noexcept;
+  void stepTimed(RateGroup group, std::uint64_t index, bool catch_up = false, bool resumed = false) noexcept;
 
   Graph& graph_;
   RateTable rates_;

@@ -16,7 +16,7 @@ struct Tick {
   double period = 0;  ///< [s]
   /// Catch-up tick: it runs late, when a newer tick of its group is already due. Modules advance their state but send
   /// nothing to the world outside, which would receive all catch-up ticks at one instant.
-  bool made_up = false;
+  bool catch_up = false;
   /// First tick after a gap longer than Executor::kGap: the process was stopped or the machine was suspended, and the
   /// devices held their last forces meanwhile.
   bool resumed = false;

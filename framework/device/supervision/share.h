@@ -20,7 +20,7 @@ struct SupervisorReport {
   Vec3 sent = Vec3::Zero();      ///< force that the device holds from now on [N]
   std::uint64_t cycles = 0;      ///< since the start
   std::uint64_t allocated = 0;   ///< allocations since the start; must stay 0
-  std::uint32_t rearms_met = 0;  ///< value of SupervisorShare::rearms that it has carried out
+  std::uint32_t rearms_done = 0;  ///< value of SupervisorShare::rearms that it has carried out
 };
 
 /// Memory that the program and the supervisor of one device share. The program makes it; both are of the same build.

@@ -145,11 +145,11 @@ FingerInput SupervisedDevice::read(const Tick& tick) noexcept {
   // catch-up ticks come all at once: no time has passed between them
   if (share.report.update() || std::exchange(seen_, &share) != &share)
     silence_ = 0;
-  else if (!tick.made_up)
+  else if (!tick.catch_up)
     silence_ += tick.period;
   const SupervisorReport& report = share.report.value();
   FingerInput finger = report.finger;
-  if (report.rearms_met != share.rearms.load(std::memory_order_relaxed)) finger.lost = false;  // from before the re-arm
+  if (report.rearms_done != share.rearms.load(std::memory_order_relaxed)) finger.lost = false;  // from before the re-arm
   finger.valid = finger.valid && !report.dropped && silence_ <= kSilent;
   finger.lost = finger.lost || silence_ > kDead;
   finger.age += silence_;

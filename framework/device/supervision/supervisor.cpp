@@ -102,11 +102,11 @@ Supervisor::Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, c
 bool Supervisor::cycle(bool alone, double elapsed) noexcept {
   time_ += elapsed;
   const Tick tick{.index = report_.cycles, .time = time_, .period = elapsed};
-  if (const std::uint32_t rearms = share_.rearms.load(std::memory_order_relaxed); rearms != report_.rearms_met) {
+  if (const std::uint32_t rearms = share_.rearms.load(std::memory_order_relaxed); rearms != report_.rearms_done) {
     control_.rearms.store(rearms, std::memory_order_relaxed);
     device_->rearm();
     keeper_.rearm();
-    report_.rearms_met = rearms;
+    report_.rearms_done = rearms;
   }
   const bool ending = alone || share_.close.load(std::memory_order_relaxed);
   report_.finger = device_->read(tick);
@@ -118,8 +118,8 @@ bool Supervisor::cycle(bool alone, double elapsed) noexcept {
   ++report_.cycles;
   report_.allocated = count_() - allocated_before_;
   share_.report.publish(report_, tick.time);
-  farewell_ = ending && report_.sent == Vec3::Zero() ? farewell_ + elapsed : 0;
-  return farewell_ < kFarewell;
+  zero_force_time_ = ending && report_.sent == Vec3::Zero() ? zero_force_time_ + elapsed : 0;
+  return zero_force_time_ < kZeroForceTime;
 }
 
 int superviseDevice(int share_fd, int life_fd, CountAllocations count) {

@@ -26,7 +26,7 @@ class Supervisor {
   void close() noexcept { device_->close(); }
 
   /// Zero force is sent for this long before the device is closed [s].
-  static constexpr double kFarewell = 0.05;
+  static constexpr double kZeroForceTime = 0.05;
 
  private:
   SupervisorShare& share_;
@@ -37,7 +37,7 @@ class Supervisor {
   std::uint64_t allocated_before_;
   SupervisorReport report_;
   double time_ = 0;      // since the start [s]
-  double farewell_ = 0;  // time at zero force since the program left [s]
+  double zero_force_time_ = 0;  // time at zero force since the program left [s]
 };
 
 /// Main function of the process: opens the device of the share's task and runs cycles until the program dies or closes

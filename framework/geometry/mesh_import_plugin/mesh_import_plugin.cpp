@@ -13,7 +13,7 @@ namespace {
 /// its own tables. A header that claims more is wrong.
 constexpr std::size_t kBaseMemory = 64u << 20;
 constexpr std::size_t kMemoryPerByte = 100;
-constexpr std::size_t kMostMemory = std::size_t{6} << 30;
+constexpr std::size_t kMaxMemory = std::size_t{6} << 30;
 /// Processor time limit: a megabyte of text takes less than 1 s, several seconds under valgrind (`presa cost
 /// --instructions`).
 constexpr unsigned kBaseSeconds = 2;
@@ -43,7 +43,7 @@ extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* pre
   const std::uintmax_t found = std::filesystem::file_size(file, unknown);
   const std::uintmax_t size = unknown ? 0 : found;
   const presa::IsolationLimits limits{
-      std::min(presa::kBaseMemory + presa::kMemoryPerByte * size, presa::kMostMemory),
+      std::min(presa::kBaseMemory + presa::kMemoryPerByte * size, presa::kMaxMemory),
       presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
   return new presa::OwnedMesh(
       presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, out); }));

@@ -63,7 +63,7 @@ void ActionReaction::compare(const Sums& now) noexcept {
   for (std::size_t f = 0; f < static_cast<std::size_t>(fingers_); ++f) {
     if (!moves(body_[f]) || now.grasp[f] != before.grasp[f]) continue;
     const Vec3 rendered = now.rendered[f] - before.rendered[f], given = now.given[f] - before.given[f];
-    const double size = std::max(rendered.norm(), kLeastForce * (now.time - before.time));
+    const double size = std::max(rendered.norm(), kMinForce * (now.time - before.time));
     Result& result = results_[f];
     ++result.windows;
     const double error = (given + rendered).norm() / size;

@@ -20,9 +20,9 @@ namespace presa {
 /// Thread: haptic; nonblocking, all memory is allocated at construction.
 class ActionReaction {
  public:
-  /// kLeastForce: a window with less impulse than this mean force would give is measured against that impulse.
+  /// kMinForce: a window with less impulse than this mean force would give is measured against that impulse.
   static constexpr double kWindow = 0.1;       // [s]
-  static constexpr double kLeastForce = 0.05;  // [N]
+  static constexpr double kMinForce = 0.05;  // [N]
 
   explicit ActionReaction(const Scene& scene);
   void add(const Tick& tick, const ContactExchange& contact, const ObjectState& objects, bool fresh) noexcept;
@@ -40,7 +40,7 @@ class ActionReaction {
     std::array<Vec3, kMaxFingers> rendered, given;  // [N s]
     std::array<std::uint64_t, kMaxFingers> grasp;  // counter of contact changes: equal counts mean an unchanged contact
   };
-  struct Given {
+  struct BodyImpulse {
     double time = 0;
     std::array<Vec3, kMaxFingers> impulse;
   };
@@ -53,7 +53,7 @@ class ActionReaction {
   std::size_t span_;               // dynamics steps in a window
   std::vector<Sums> ring_;         // at the ends of dynamics steps
   std::uint64_t count_ = 0;        // entries put into ring_ so far
-  std::array<Given, 64> pending_;  // impulses whose time the haptic side has not reached
+  std::array<BodyImpulse, 64> pending_;  // impulses whose time the haptic side has not reached
   std::size_t pending_count_ = 0;
   Sums sums_;                            // rendered impulse so far
   std::array<Vec3, kMaxFingers> force_;  // force rendered in the last tick [N]

@@ -128,8 +128,8 @@ class ContentReader {
   template <class Row>
   std::string keyProblem(const StoredTable& table, std::uint64_t number, const Row& row, const Row* before) const {
     const std::vector<TickRow>& ticks = contents_.ticks;
-    if (row.index > kMostTicks)
-      return "index: found " + std::to_string(row.index) + ", allowed up to " + std::to_string(kMostTicks);
+    if (row.index > kMaxTicks)
+      return "index: found " + std::to_string(row.index) + ", allowed up to " + std::to_string(kMaxTicks);
     if (before != nullptr && row.index <= before->index)
       return "index: found " + std::to_string(row.index) + " after " + std::to_string(before->index) +
              ", must be larger";

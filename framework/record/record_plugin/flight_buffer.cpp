@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostFiles = 99;  // per run: a device that faults repeatedly must not fill the disk
+constexpr int kMaxFiles = 99;  // per run: a device that faults repeatedly must not fill the disk
 
 void checkFolder(const std::string& file) {
   fs::path folder = fs::path(file).parent_path();
@@ -59,9 +59,9 @@ void FlightBuffer::append(const std::uint64_t* rows, std::size_t count) {
 
 void FlightBuffer::appendSchedule(RateGroup group, const ScheduleRow* rows, std::size_t count) {
   auto& kept = schedule_[static_cast<std::size_t>(group)];
-  const auto most = static_cast<std::size_t>(kBefore * RateTable(world_->scene.rates).rate(group)) + 1;
+  const auto max = static_cast<std::size_t>(kBefore * RateTable(world_->scene.rates).rate(group)) + 1;
   kept.insert(kept.end(), rows, rows + count);
-  if (kept.size() > most) kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(most));
+  if (kept.size() > max) kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(max));
   if (file_) file_->appendSchedule(group, rows, count);
 }
 
@@ -105,7 +105,7 @@ void FlightBuffer::close() {
 
 std::string FlightBuffer::nextName() const {
   const fs::path first = options_.flight;
-  for (int number = 1; number <= kMostFiles; ++number) {
+  for (int number = 1; number <= kMaxFiles; ++number) {
     const std::string tail = number == 1 ? "" : "-" + std::to_string(number);
     const fs::path name = first.parent_path() / (first.stem().string() + tail + first.extension().string());
     if (!fs::exists(name)) return name;

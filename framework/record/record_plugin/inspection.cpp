@@ -226,7 +226,7 @@ std::string Inspection::longText(const std::string& path) {
   return value;
 }
 
-std::uint64_t Inspection::textCount(const std::string& path, std::uint64_t most) {
+std::uint64_t Inspection::textCount(const std::string& path, std::uint64_t max) {
   const auto found = dataset(path);
   if (!found) return 0;
   const h5::Handle type(H5Dget_type(*found), H5Tclose, path);
@@ -238,10 +238,10 @@ std::uint64_t Inspection::textCount(const std::string& path, std::uint64_t most)
   }
   const auto texts = static_cast<std::uint64_t>(count);
   const std::uint64_t stored = H5Dget_storage_size(*found);
-  if (texts > most || stored / H5Tget_size(type) < texts || !spend(stored)) {
+  if (texts > max || stored / H5Tget_size(type) < texts || !spend(stored)) {
     wrong(673, path,
           "claims " + std::to_string(texts) + " texts of " + std::to_string(H5Tget_size(type)) + " bytes; " +
-              std::to_string(stored) + " bytes are stored, at most " + std::to_string(most) + " texts are allowed");
+              std::to_string(stored) + " bytes are stored, at most " + std::to_string(max) + " texts are allowed");
     return 0;
   }
   return texts;

@@ -36,7 +36,7 @@ class Inspection {
   /// The text of a dataset that holds exactly one.
   std::string longText(const std::string& path);
   /// Number of texts in a dataset.
-  std::uint64_t textCount(const std::string& path, std::uint64_t most);
+  std::uint64_t textCount(const std::string& path, std::uint64_t max);
 
   struct Rows {
     h5::Handle dataset;

@@ -71,7 +71,7 @@ std::string linkName(std::string name) {
 Table scheduleTable() {
   Table table{sizeof(ScheduleRow), {}};
   table.columns.push_back({"index", offsetof(ScheduleRow, index), Cell::kU64, "1", "number of the group's tick"});
-  table.columns.push_back({"made_up", offsetof(ScheduleRow, made_up), Cell::kU64, "1",
+  table.columns.push_back({"made_up", offsetof(ScheduleRow, catch_up), Cell::kU64, "1",
                            "1: run late, when a newer tick was due; not sent to the device; 2: the first after a gap"});
   for (std::size_t i = 0; i < ScheduleRow::kMaxBridges; ++i) {
     table.columns.push_back(
@@ -223,7 +223,7 @@ void RecordingFile::appendSchedule(RateGroup group, const ScheduleRow* rows, std
 }
 
 void RecordingFile::addFault(const std::string& what) {
-  if (++faults_ <= kMostFaults) h5::writeAttribute(file_, "fault_" + std::to_string(faults_), what);
+  if (++faults_ <= kMaxFaults) h5::writeAttribute(file_, "fault_" + std::to_string(faults_), what);
 }
 
 void RecordingFile::writeDropped(std::uint64_t dropped) { h5::writeAttribute(file_, "dropped", dropped); }

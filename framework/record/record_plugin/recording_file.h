@@ -44,7 +44,7 @@ class RecordingFile final : public RowSink {
   void rollBack() noexcept override;
   std::vector<std::string> files() const override { return {name_}; }
 
-  static constexpr std::uint64_t kMostFaults = 1000;  ///< stored per file
+  static constexpr std::uint64_t kMaxFaults = 1000;  ///< stored per file
 
  private:
   struct TableFile {

@@ -48,14 +48,14 @@ std::vector<Rule> tickRules(std::uint64_t fingers) {
           {"commanded_value", 0, -1, true},
           {"surfaces_changed", 0, 1},
           {"rearms", 0, std::numeric_limits<std::uint32_t>::max()},
-          {"commanded", 0, SurfaceSettings::kMost},
+          {"commanded", 0, SurfaceSettings::kCapacity},
           {"device_count", count, count},
           {"command_count", count, count},
           {"stop_requested", 0, 1}};
 }
 
 std::vector<Rule> fingerRules(std::uint64_t scene_bodies) {
-  return {{"phase", -1, kMostPhases - 1},
+  return {{"phase", -1, kMaxPhases - 1},
           {"valid", 0, 3},
           {"mode", 0, static_cast<std::int64_t>(ContactMode::kSlip)},
           {"body", -1, static_cast<std::int64_t>(scene_bodies) - 1}};

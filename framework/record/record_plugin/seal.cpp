@@ -8,7 +8,7 @@
 namespace presa::record::seal {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // maximum size of an attribute
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  // maximum size of an attribute
 
 /// All attributes that a run writes, except `complete`, which is written after the checksum.
 const char* const kRootAttributes[] = {"format",         "format_version",    "dropped",          "program_version",
@@ -50,12 +50,12 @@ class Sum {
  private:
   template <class Read>
   static std::string bytesOf(hid_t type, hid_t space, const std::string& what, const Read& read,
-                             std::size_t most = kMostBytes) {
+                             std::size_t max = kMaxBytes) {
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     const std::size_t size = H5Tget_size(type);
     // variable-length values are refused: their size is not in the type
     if (count < 0 || size == 0 || H5Tdetect_class(type, H5T_VLEN) != 0 || H5Tis_variable_str(type) > 0 ||
-        static_cast<std::uint64_t>(count) > most / size)
+        static_cast<std::uint64_t>(count) > max / size)
       throw h5::Failure(what + " is too long or has a type that recordings do not use");
     std::string bytes(static_cast<std::size_t>(count) * size, '\0');
     if (!bytes.empty()) h5::check(read(bytes.data()), what);
@@ -73,7 +73,7 @@ std::string sumOf(hid_t file, std::vector<TableSum> tables) {
   std::sort(tables.begin(), tables.end(), [](const TableSum& a, const TableSum& b) { return a.path < b.path; });
   Sum sum;
   for (const char* name : kRootAttributes) sum.attribute(file, name);
-  for (std::uint64_t i = 1; i <= RecordingFile::kMostFaults; ++i) {
+  for (std::uint64_t i = 1; i <= RecordingFile::kMaxFaults; ++i) {
     const std::string fault = "fault_" + std::to_string(i);
     if (!h5::hasAttribute(file, fault)) break;
     sum.attribute(file, fault);

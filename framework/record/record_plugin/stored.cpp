@@ -75,7 +75,7 @@ class Structure {
     stored_.program_version = look_.text("", "program_version");
     stored_.scene_file = look_.text("", "scene_file");
     stored_.start_utc = look_.text("", "start_utc");
-    for (std::uint64_t i = 1; i <= RecordingFile::kMostFaults; ++i) {
+    for (std::uint64_t i = 1; i <= RecordingFile::kMaxFaults; ++i) {
       const std::string name = "fault_" + std::to_string(i);
       if (!h5::hasAttribute(stored_.file, name)) break;
       stored_.faults.push_back(look_.text("", name));
@@ -114,18 +114,18 @@ class Structure {
     return true;
   }
 
-  /// Reads the tables of a group, each with its own number below `most`.
-  void group(const std::string& path, const std::string& number, const Table& columns, std::uint64_t most,
+  /// Reads the tables of a group, each with its own number below `max`.
+  void group(const std::string& path, const std::string& number, const Table& columns, std::uint64_t max,
              std::vector<StoredTable>& tables) {
     if (!look_.isGroup(path)) return;
     const std::vector<std::string> names = look_.members(path);
-    if (names.size() > most)
-      return look_.wrong(672, path, "has " + std::to_string(names.size()) + " tables; at most " + std::to_string(most));
+    if (names.size() > max)
+      return look_.wrong(672, path, "has " + std::to_string(names.size()) + " tables; at most " + std::to_string(max));
     bool numbered = true;
     for (const std::string& name : names) {
       StoredTable one;
       if (!table(path + '/' + name, columns, one)) continue;
-      const auto place = look_.count(one.path, number, 0, most - 1);
+      const auto place = look_.count(one.path, number, 0, max - 1);
       one.place = place.value_or(0);
       numbered = numbered && place.has_value();
       tables.push_back(std::move(one));

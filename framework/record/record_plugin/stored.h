@@ -11,9 +11,9 @@
 
 namespace presa::record {
 
-/// Limits on values in a recording. A phase is chosen by the device; kMostTicks is 24 days at 4 kHz.
-inline constexpr std::int32_t kMostPhases = 65536;
-inline constexpr std::uint64_t kMostTicks = std::uint64_t{1} << 33;
+/// Limits on values in a recording. A phase is chosen by the device; kMaxTicks is 24 days at 4 kHz.
+inline constexpr std::int32_t kMaxPhases = 65536;
+inline constexpr std::uint64_t kMaxTicks = std::uint64_t{1} << 33;
 
 /// A table with the types and storage of this format: no links, filters, external or virtual storage, and every row is
 /// stored in the file.

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const Names kNames({"a", "thumb.fn", "nan"});
+const SymbolTable kNames({"a", "thumb.fn", "nan"});
 const std::vector<double> kValues{3, 0.5, std::nan("")};
 
 double valueOf(const std::string& text) {
@@ -69,7 +69,7 @@ TEST(Expression, SaysWhereAndWhatIsWrong) {
 TEST(Expression, AggregatesNameTheirPhase) {
   Diagnostics diagnostics;
   const std::vector<std::string> phases{"lift", "hold"};
-  const Names samples({"t", "fn"});
+  const SymbolTable samples({"t", "fn"});
   std::vector<Aggregate> aggregates;
   const auto expression = Expression::compile("a + first(hold, fn > 1 and t > 2, 2 * fn) / seconds(lift)", kNames, {},
                                               diagnostics, &aggregates, &samples, &phases);

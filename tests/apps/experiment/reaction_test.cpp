@@ -18,7 +18,7 @@ constexpr std::size_t kWait = 0, kReact = 1;
 class ReactionTest : public testing::Test {
  protected:
   Reaction rule(double threshold, double sds) {
-    return {*Expression::compile("x", Names({"x"}), {}, diagnostics), kWait, kReact, threshold, sds, 0.2};
+    return {*Expression::compile("x", SymbolTable({"x"}), {}, diagnostics), kWait, kReact, threshold, sds, 0.2};
   }
   /// Onset found by the clock after all samples of both phases.
   static double onsetOf(const Reaction& rule, const std::vector<double>& wait, const std::vector<double>& react) {

@@ -4,7 +4,7 @@
 #include "apps/common/scratch_folder.h"
 #include "apps/experiment/operator/operator.h"
 #include "apps/experiment/session.h"
-#include "devices/simulated_subject/model/traits.h"
+#include "devices/simulated_subject/model/subject_parameters.h"
 #include "experiments/runner/definition/read.h"
 #include "tests/apps/experiment/contents.h"
 #include "tests/apps/experiment/refusal.h"
@@ -43,11 +43,11 @@ TEST(Simulated, IsDrawnFromTheSeedOfTheExperimentAndItsNumber) {
   Experiment experiment = gripStudy("L1");
   for (const int number : {1, 2}) {
     const subject::Population population(subject::Level::kL1);
-    const subject::Traits expected = population.draw(experiment.seed, static_cast<std::uint64_t>(number));
-    const std::vector<DeviceFact> traits = traitsOf(experiment, number);
-    ASSERT_EQ(traits.size(), population.traits().size());
-    for (const subject::Trait& trait : population.traits())
-      EXPECT_EQ(factOf(traits, std::string(trait.name)), expected.*trait.value) << trait.name;
+    const subject::SubjectParameters expected = population.draw(experiment.seed, static_cast<std::uint64_t>(number));
+    const std::vector<DeviceFact> parameters = traitsOf(experiment, number);
+    ASSERT_EQ(parameters.size(), population.parameters().size());
+    for (const subject::SubjectParameter& parameter : population.parameters())
+      EXPECT_EQ(factOf(parameters, std::string(parameter.name)), expected.*parameter.value) << parameter.name;
   }
   const double before = factOf(traitsOf(experiment, 1), "safety_margin");
   EXPECT_NE(factOf(traitsOf(experiment, 2), "safety_margin"), before);

@@ -16,10 +16,10 @@ constexpr double kPeriod = 0.001;
 class TrialTest : public testing::Test {
  protected:
   TrialTest() {
-    experiment.samples = Names({"t", "t_phase", "signal", "x"});
+    experiment.samples = SymbolTable({"t", "t_phase", "signal", "x"});
     experiment.factors = {{"mass", false, {{"mass", "kg", {}}}, {{"0.2"}, {"heavy"}}}};
-    experiment.names = Names({"mass", "missed_ticks", "clipped_s", "device_lost_s", "most_force"});
-    Names guards = experiment.samples;
+    experiment.names = SymbolTable({"mass", "missed_ticks", "clipped_s", "device_lost_s", "most_force"});
+    SymbolTable guards = experiment.samples;
     guards.add("mass");
     const auto make = [&](const char* text) { return Expression::compile(text, guards, {}, diagnostics); };
     experiment.phases.push_back({"lift", make("x > mass"), {}, 0.01, 1, Phase::OnTimeout::kAbort, ""});
@@ -135,7 +135,7 @@ TEST_F(TrialTest, ChangesTheFrictionWithItsPhase) {
       always, [](int) { return 1.0; }, 11);  // held 10 ms in the last tick: the next one is the first of the phase
   EXPECT_EQ(always.phase(), 1U);
   EXPECT_TRUE(always.frictionChanged());
-  Names seen = experiment.samples;
+  SymbolTable seen = experiment.samples;
   seen.add("mass");
   experiment.phases[1].event_when = Expression::compile("mass == 0.1", seen, {}, diagnostics);
   Trial never(experiment, {0.2}, kPeriod);

@@ -10,7 +10,7 @@ namespace {
 
 class CountingView final : public View {
  public:
-  explicit CountingView(TimeWish& wish) : View("counting", RateGroup::kView), wish_(wish) {}
+  explicit CountingView(TimeControl& time_control) : View("counting", RateGroup::kView), time_control_(time_control) {}
   void step(const Tick&) noexcept override {}
   bool wantsStop() const noexcept override { return closed; }
   std::uint32_t undosWanted() const noexcept override { return 0; }
@@ -21,25 +21,25 @@ class CountingView final : public View {
   void setBanner(const std::string&, bool) override {}
   void setTimings(const std::array<const GroupTiming*, kRateGroupCount>&) noexcept override {}
   void offerPointer(const std::vector<std::size_t>&) override {}
-  void offerTime(TimeWish&, double) noexcept override {}
+  void offerTime(TimeControl&, double) noexcept override {}
   void refresh() noexcept override {
-    if (++refreshed == act_at && act != nullptr) act(wish_, *this);
+    if (++refreshed == act_at && act != nullptr) act(time_control_, *this);
   }
   int refreshed = 0, act_at = 5;
   bool closed = false;
-  void (*act)(TimeWish&, CountingView&) = nullptr;
+  void (*act)(TimeControl&, CountingView&) = nullptr;
 
  private:
-  TimeWish& wish_;
+  TimeControl& time_control_;
 };
 
 struct Held {
-  TimeWish wish;
+  TimeControl time_control;
   RunControl control;
-  CountingView counting{wish};
+  CountingView counting{time_control};
   View* view = &counting;
   std::function<void(double)> meanwhile;
-  Pacer pacer{wish, view, control, meanwhile};
+  Pacer pacer{time_control, view, control, meanwhile};
   void step(double time) { pacer.step({static_cast<std::uint64_t>(time * 60), time, 1.0 / 60}); }
 };
 
@@ -47,10 +47,10 @@ struct Held {
 // or when the window closes.
 TEST(Pacer, AHeldRunWaitsForItsUser) {
   for (const auto act :
-       {+[](TimeWish&wish, CountingView&) { ++wish.steps; }, +[](TimeWish&wish, CountingView&) { wish.paused = false; },
-        +[](TimeWish&, CountingView&view) { view.closed = true; }}) {
+       {+[](TimeControl&time_control, CountingView&) { ++time_control.steps; }, +[](TimeControl&time_control, CountingView&) { time_control.paused = false; },
+        +[](TimeControl&, CountingView&view) { view.closed = true; }}) {
     Held held;
-    held.wish.paused = true;
+    held.time_control.paused = true;
     held.counting.act = act;
     held.step(1);
     EXPECT_EQ(held.counting.refreshed, held.counting.act_at);
@@ -62,11 +62,11 @@ TEST(Pacer, AHeldRunReadsCommands) {
   for (const bool window : {true, false}) {
     Held held;
     if (!window) held.view = nullptr;
-    held.wish.paused = true;
+    held.time_control.paused = true;
     int read = 0;
     held.meanwhile = [&](double time) {
       EXPECT_EQ(time, 1);
-      if (++read == 5) held.wish.paused = false;
+      if (++read == 5) held.time_control.paused = false;
     };
     held.step(1);
     EXPECT_EQ(read, 5);
@@ -76,9 +76,9 @@ TEST(Pacer, AHeldRunReadsCommands) {
 // Two requested steps are exactly two steps.
 TEST(Pacer, MakesAsManyStepsAsWereAskedFor) {
   Held held;
-  held.wish.paused = true;
-  held.wish.steps = 2;
-  held.counting.act = [](TimeWish&, CountingView& view) { view.closed = true; };
+  held.time_control.paused = true;
+  held.time_control.steps = 2;
+  held.counting.act = [](TimeControl&, CountingView& view) { view.closed = true; };
   held.step(1);
   held.step(2);
   EXPECT_EQ(held.counting.refreshed, 0);
@@ -89,7 +89,7 @@ TEST(Pacer, MakesAsManyStepsAsWereAskedFor) {
 // Never faster than requested: 0.1 s at a quarter of the speed take at least 0.4 s, and the window is drawn meanwhile.
 TEST(Pacer, SlowMotionTakesItsTime) {
   Held held;
-  held.wish.speed = 0.25;
+  held.time_control.speed = 0.25;
   const std::int64_t begin = monotonicNs();
   for (int i = 0; i <= 6; ++i) held.step(i / 60.0);
   EXPECT_GE(static_cast<double>(monotonicNs() - begin) * 1e-9, 0.4 - 1e-3);

@@ -35,11 +35,11 @@ std::string jumpingRig(const std::string& folder) {
 
 /// Largest |z component| of the commanded force [N] from `begin` [s] on.
 double forceAfter(const RecordedSamples& samples, const RecordedTable& finger, double begin) {
-  double most = 0;
+  double max = 0;
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
-    if (samples.time[i] >= begin) most = std::max(most, std::abs(finger.values("f_command_W_z")[i]));
+    if (samples.time[i] >= begin) max = std::max(max, std::abs(finger.values("f_command_W_z")[i]));
   }
-  return most;
+  return max;
 }
 
 // The user's view of a latched fault: the force vanishes, the terminal gives the reason, the key r brings the force

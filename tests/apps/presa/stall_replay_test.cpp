@@ -43,20 +43,20 @@ TEST(Replay, KnowsTheTicksThatAStallMadeUp) {
   const std::string file = test::scratch("stall.h5");
   Recording recording = recordStalledRun(file);
   auto& haptic = recording.schedule[static_cast<std::size_t>(RateGroup::kHaptic)];
-  const auto made_up =
-      std::count_if(haptic.begin(), haptic.end(), [](const ScheduleRow& row) { return row.made_up != 0; });
-  EXPECT_EQ(made_up, 50);
+  const auto catch_up =
+      std::count_if(haptic.begin(), haptic.end(), [](const ScheduleRow& row) { return row.catch_up != 0; });
+  EXPECT_EQ(catch_up, 50);
   // held force: constant during the stall, and changing at most at the slew limit (1000 N/s) after it
   for (std::size_t i = 1; i < recording.command.size(); ++i) {
     const double step = (recording.command[i].f_H_W[0] - recording.command[i - 1].f_H_W[0]).norm();
-    ASSERT_LE(step, haptic[i].made_up != 0 ? 0.0 : 1 + 1e-9) << recording.time[i];
+    ASSERT_LE(step, haptic[i].catch_up != 0 ? 0.0 : 1 + 1e-9) << recording.time[i];
   }
   const ReplayResult same = again(recording);
   EXPECT_EQ(same.problem, "");
   EXPECT_EQ(same.ticks, recording.time.size());
   EXPECT_EQ(same.differing, 0u);
 
-  for (ScheduleRow& row : haptic) row.made_up = 0;
+  for (ScheduleRow& row : haptic) row.catch_up = 0;
   EXPECT_GT(again(recording).differing, 0u);
   std::filesystem::remove(file);
 }

@@ -63,7 +63,7 @@ struct Watched {
     auto made = std::make_shared<World>();
     made->scene.bodies.resize(2);
     made->scene.assembly.emplace();
-    made->scene.assembly->field = Assembly::Field{{0, 0, 0.5}, {2, 2, 1}};
+    made->scene.assembly->workspace = Assembly::Workspace{{0, 0, 0.5}, {2, 2, 1}};
     made->scene.assembly->goals.emplace_back().bodies = {1};
     watch = std::make_unique<BlockWatch>(std::move(made));
     state.bodies.resize(2);

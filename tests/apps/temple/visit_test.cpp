@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 KeptSession someSession() {
   KeptSession kept{
-      .size = "column", .parameters = "", .seed = 9007199254740993, .spent = 12.3, .placed = 2, .X_WB = {}};
+      .size = "column", .parameters = "", .seed = 9007199254740993, .elapsed = 12.3, .placed = 2, .X_WB = {}};
   for (int i = 0; i < 6; ++i)
     kept.X_WB.push_back({{0.1 * i, 1.0 / 3, -0.2}, Quat(Eigen::AngleAxisd(0.3 * i, Vec3(1, 2, 3).normalized()))});
   return kept;
@@ -37,7 +37,7 @@ TEST(KeptSession, ComesBackToTheBit) {
   ASSERT_TRUE(read) << diagnostics.text();
   EXPECT_EQ(read->seed, kept.seed);
   EXPECT_EQ(read->placed, 2);
-  EXPECT_EQ(read->spent, kept.spent);
+  EXPECT_EQ(read->elapsed, kept.elapsed);
   ASSERT_EQ(read->X_WB.size(), 6U);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(read->X_WB[i].p, kept.X_WB[i].p);

@@ -52,7 +52,7 @@ TEST_P(Words, ComeThroughASceneUnchanged) {
   spec.physics_only = true;
   spec.to_be_built = true;
   spec.words = words;
-  spec.spent = 12.5;
+  spec.elapsed = 12.5;
   const std::string folder = test::scratch("scene_words");
   for (const SceneFile& file : meshFiles(building, true)) {
     std::filesystem::create_directories(std::filesystem::path(folder + "/" + file.path).parent_path());
@@ -61,7 +61,7 @@ TEST_P(Words, ComeThroughASceneUnchanged) {
   const Scene scene = parseScene(sceneText(building, spec), "scene.xml", folder, {}, diagnostics);
   ASSERT_EQ(diagnostics.text(), "");
   const Assembly& assembly = *scene.assembly;
-  EXPECT_EQ(assembly.spent, 12.5);
+  EXPECT_EQ(assembly.elapsed, 12.5);
   for (const AssemblyPhrase& phrase : assemblyPhrases())
     EXPECT_EQ(assembly.words.*phrase.text, words.*phrase.text) << phrase.attribute;
   ASSERT_EQ(assembly.words.elements.size(), words.elements.size());

@@ -129,7 +129,7 @@ TEST(AdmittanceDrive, StiffestWallOfASlowServoIsRouths) {
 // The speed of the virtual mass, the range of the sensor and the end stops are respected.
 TEST(AdmittanceDrive, SaturatesAndStopsAtItsEnds) {
   Parameters p = quiet();
-  p.most_speed = 0.5;
+  p.max_speed = 0.5;
   p.half_travel = {0.3, 0.3, 0.3};
   Drive drive = driveWith(p);
   for (int i = 0; i < 3000; ++i) {
@@ -140,8 +140,8 @@ TEST(AdmittanceDrive, SaturatesAndStopsAtItsEnds) {
   EXPECT_EQ(drive.position().x(), 0.3);
   EXPECT_EQ(drive.velocity().norm(), 0);
 
-  p.most_force = 5;
-  p.most_speed = 10;
+  p.max_force = 5;
+  p.max_speed = 10;
   p.half_travel = Vec3::Constant(10);
   Drive weak = driveWith(p);
   for (int i = 0; i < 5000; ++i) weak.advance({kNoHand, Vec3::Zero(), Vec3::Zero(), Vec3(50, 0, 0)});

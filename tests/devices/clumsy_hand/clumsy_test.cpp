@@ -61,7 +61,7 @@ std::set<int> phasesOf(ClumsyPlan& plan, const ObjectState& objects, double seco
     plan.see(objects, time);
     seen.insert(plan.phase());
     if (fastest != nullptr) *fastest = std::max(*fastest, plan.rate(time).centre.norm());
-    EXPECT_LE(plan.at(time).grip, ClumsyPlan::kMostGrip);
+    EXPECT_LE(plan.at(time).grip, ClumsyPlan::kMaxGrip);
   }
   return seen;
 }

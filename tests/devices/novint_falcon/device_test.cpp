@@ -44,7 +44,7 @@ class Lent final : public FalconTransport {
 };
 
 /// A Falcon with the lock for inspecting it.
-struct Desk {
+struct FalconBench {
   template <class Function>
   auto with(Function function) {
     const std::scoped_lock lock(mutex);
@@ -87,26 +87,26 @@ std::pair<int, std::string> refusal(FalconDevice& device) {
 }
 
 TEST(FalconIo, CarriesSamplesOneWayAndForcesTheOther) {
-  Desk desk;
-  desk.falcon.encoders = {300, -200, 100};
+  FalconBench bench;
+  bench.falcon.encoders = {300, -200, 100};
   {
-    FalconIo io(desk.transport(), {}, {});
+    FalconIo io(bench.transport(), {}, {});
     waitUntil([&] { return io.latest(kTick).valid; });
     EXPECT_NEAR((io.latest(kTick).p_DH * 1e3 - Vec3(14.528, -11.579, 136.148)).norm(), 0, 1e-3);
     waitUntil([&] {
       io.push({1, 2, 3});
-      return desk.with([](auto& falcon) { return !falcon.sent.back().zero(); });
+      return bench.with([](auto& falcon) { return !falcon.sent.back().zero(); });
     });
   }
   // the driver closed cleanly: the last packets have zero force
-  ASSERT_GT(desk.falcon.sent.size(), 13U);
-  for (std::size_t i = desk.falcon.sent.size() - 3; i < desk.falcon.sent.size(); ++i)
-    EXPECT_TRUE(desk.falcon.sent[i].zero());
+  ASSERT_GT(bench.falcon.sent.size(), 13U);
+  for (std::size_t i = bench.falcon.sent.size() - 3; i < bench.falcon.sent.size(); ++i)
+    EXPECT_TRUE(bench.falcon.sent[i].zero());
 }
 
 TEST(FalconIo, TheHapticThreadNeitherWaitsNorAllocates) {
-  Desk desk;
-  FalconIo io(desk.transport(), {}, {});
+  FalconBench bench;
+  FalconIo io(bench.transport(), {}, {});
   waitUntil([&] { return io.latest(kTick).valid; });
   RealTimeGuard guard;
   for (int i = 0; i < 1000; ++i) {
@@ -119,17 +119,17 @@ TEST(FalconIo, TheHapticThreadNeitherWaitsNorAllocates) {
 // When the I/O thread is stuck, its last sample becomes invalid after two ticks. Catch-up ticks after a stall happen at
 // one instant and do not count.
 TEST(FalconIo, ASilentThreadIsNoticedByTheHapticThread) {
-  Desk desk;
-  FalconIo io(desk.transport(), {}, {});
+  FalconBench bench;
+  FalconIo io(bench.transport(), {}, {});
   waitUntil([&] { return io.latest(kTick).valid; });
-  Tick made_up = kTick;
-  made_up.made_up = true;
-  std::unique_lock stuck(desk.mutex, std::defer_lock);
+  Tick catch_up = kTick;
+  catch_up.catch_up = true;
+  std::unique_lock stuck(bench.mutex, std::defer_lock);
   bool survived = false;
   for (int attempt = 0; attempt < 100 && !survived; ++attempt) {  // its last sample may be invalid
     waitUntil([&] { return io.latest(kTick).valid; });
     stuck.lock();
-    for (int i = 0; i < 50; ++i) survived = io.latest(made_up).valid;
+    for (int i = 0; i < 50; ++i) survived = io.latest(catch_up).valid;
     if (!survived) stuck.unlock();
   }
   ASSERT_TRUE(survived) << "made-up ticks take no time";
@@ -142,38 +142,38 @@ TEST(FalconIo, ASilentThreadIsNoticedByTheHapticThread) {
 }
 
 TEST(FalconIo, UnpluggedIsSaid) {
-  Desk desk;
-  FalconIo io(desk.transport(), {}, {});
+  FalconBench bench;
+  FalconIo io(bench.transport(), {}, {});
   waitUntil([&] { return io.latest(kTick).valid; });
-  desk.with([](auto& falcon) { falcon.unplugged = true; });
+  bench.with([](auto& falcon) { falcon.unplugged = true; });
   waitUntil([&] { return io.status().state == LinkState::kDead; });
   EXPECT_EQ(io.status().fault, LinkFault::kLost);
   EXPECT_FALSE(io.latest(kTick).valid);
 }
 
 TEST(FalconIo, AFaultIsLeftByArmingAgain) {
-  Desk desk;
-  FalconIo io(desk.transport(), {}, {});
+  FalconBench bench;
+  FalconIo io(bench.transport(), {}, {});
   waitUntil([&] { return io.latest(kTick).valid; });
-  desk.with([](auto& falcon) { falcon.homed = 3; });
+  bench.with([](auto& falcon) { falcon.homed = 3; });
   waitUntil([&] { return io.status().state == LinkState::kLatched; });
-  desk.with([](auto& falcon) { falcon.homed = 7; });
+  bench.with([](auto& falcon) { falcon.homed = 7; });
   io.rearm();
   waitUntil([&] { return io.latest(kTick).valid; });
 }
 
 TEST(FalconIo, EndsWhileADeviceIsStillSilent) {
-  Desk desk;
-  desk.falcon.loaded = false;
-  FalconIo io(desk.transport(), {0xaa, 0x08}, {});
+  FalconBench bench;
+  bench.falcon.loaded = false;
+  FalconIo io(bench.transport(), {0xaa, 0x08}, {});
   waitUntil([&] { return io.status().state == LinkState::kStarting; });
 }
 
 // p = X_WD (scale p_D): a quarter turn about x maps the device's z, towards the user, to -y, and its y to z.
 TEST(FalconDevice, StandsInTheWorldWhereTheRigPutsIt) {
-  Desk desk;
+  FalconBench bench;
   const double half = std::sqrt(0.5);
-  FalconDevice device(settingsOf({{0.1, 0.2, 0.3}, Quat(half, half, 0, 0)}, 2), desk.connect());
+  FalconDevice device(settingsOf({{0.1, 0.2, 0.3}, Quat(half, half, 0, 0)}, 2), bench.connect());
   device.open();
   FingerInput finger;
   waitUntil([&] { return (finger = device.read(kTick)).valid; });
@@ -182,9 +182,9 @@ TEST(FalconDevice, StandsInTheWorldWhereTheRigPutsIt) {
   // 2 N along -y of the world push along the device's z at any scale: -249.4 counts per newton
   waitUntil([&] {
     device.write({0, -2, 0}, kTick);
-    return desk.with([](auto& falcon) { return falcon.sent.back().force[0] == -499; });
+    return bench.with([](auto& falcon) { return falcon.sent.back().force[0] == -499; });
   });
-  desk.with([](auto& falcon) { EXPECT_EQ(falcon.sent.back().force, (Counts{-499, -499, -499})); });
+  bench.with([](auto& falcon) { EXPECT_EQ(falcon.sent.back().force, (Counts{-499, -499, -499})); });
   device.close();
   EXPECT_FALSE(device.read(kTick).valid);
 }
@@ -211,60 +211,60 @@ TEST(FalconDevice, VelocityTurnsAndScalesWithThePosition) {
 
 // In virtual time an hour may pass in a second, which no device can follow.
 TEST(FalconDevice, RefusesVirtualTime) {
-  Desk desk;
+  FalconBench bench;
   FalconSettings settings = settingsOf();
   settings.realtime = false;
-  FalconDevice device(settings, desk.connect());
+  FalconDevice device(settings, bench.connect());
   const auto [code, text] = refusal(device);
   EXPECT_EQ(code, kNeedsRealTime);
   EXPECT_NE(text.find("desk.xml:3:1: error[E486]"), std::string::npos) << text;
-  EXPECT_TRUE(desk.falcon.controls.empty());
+  EXPECT_TRUE(bench.falcon.controls.empty());
 }
 
 /// The device must be refused with this error after `homing_wait`, with zero force sent throughout.
-void expectUnhomed(Desk& desk, double homing_wait, Code wanted, const std::string& words) {
+void expectUnhomed(FalconBench& bench, double homing_wait, Code wanted, const std::string& words) {
   FalconSettings settings = settingsOf();
   settings.homing_wait = homing_wait;
-  FalconDevice device(settings, desk.connect());
+  FalconDevice device(settings, bench.connect());
   const auto [code, text] = refusal(device);
   EXPECT_EQ(code, wanted);
   EXPECT_NE(text.find(words), std::string::npos) << text;
-  EXPECT_TRUE(std::all_of(desk.falcon.sent.begin(), desk.falcon.sent.end(), [](auto& s) { return s.zero(); }));
+  EXPECT_TRUE(std::all_of(bench.falcon.sent.begin(), bench.falcon.sent.end(), [](auto& s) { return s.zero(); }));
 }
 
 TEST(FalconDevice, NotHomedIsSaidWithTheEncodersThatAreMissing) {
-  Desk desk;
-  desk.falcon.homed = 2;
-  expectUnhomed(desk, 0.02, kNotHomed, "no reference seen by encoder 1, 3");
+  FalconBench bench;
+  bench.falcon.homed = 2;
+  expectUnhomed(bench, 0.02, kNotHomed, "no reference seen by encoder 1, 3");
 }
 
 // No force before replies come regularly; the error names the gaps and not the grip.
 TEST(FalconDevice, GapsInItsRepliesAreSaidForWhatTheyAre) {
-  Desk desk;
-  desk.falcon.damage = [replies = 0](Bytes reply) mutable { return ++replies % 5 == 0 ? Bytes{} : reply; };
-  expectUnhomed(desk, 0.05, kUnevenReplies, "the grip is homed, but its replies leave gaps");
+  FalconBench bench;
+  bench.falcon.damage = [replies = 0](Bytes reply) mutable { return ++replies % 5 == 0 ? Bytes{} : reply; };
+  expectUnhomed(bench, 0.05, kUnevenReplies, "the grip is homed, but its replies leave gaps");
 }
 
 TEST(FalconDevice, NoFirmwareIsSaidWithTheSettingToAdd) {
-  Desk desk;
-  desk.falcon.loaded = false;
-  FalconDevice device(settingsOf(), desk.connect());
+  FalconBench bench;
+  bench.falcon.loaded = false;
+  FalconDevice device(settingsOf(), bench.connect());
   const auto [code, text] = refusal(device);
   EXPECT_EQ(code, kNoFirmwareNamed);
   EXPECT_NE(text.find("<set key=\"firmware\""), std::string::npos) << text;
 }
 
 TEST(FalconDevice, TenWrongEchoesNameThePowerAndTheHub) {
-  Desk desk;
-  desk.falcon.loaded = false;
-  desk.falcon.wont_run = true;
-  desk.falcon.garble = [](int, std::size_t, Bytes echo) {
+  FalconBench bench;
+  bench.falcon.loaded = false;
+  bench.falcon.wont_run = true;
+  bench.falcon.garble = [](int, std::size_t, Bytes echo) {
     echo[2] = 0x77;
     return echo;
   };
   FalconSettings settings = settingsOf();
   settings.firmware = {0xaa, 0x08, 0x00, 0x00};
-  FalconDevice device(settings, desk.connect());
+  FalconDevice device(settings, bench.connect());
   const auto [code, text] = refusal(device);
   EXPECT_EQ(code, kEchoWrong);
   EXPECT_NE(text.find("byte 2 of 4: sent 00, echoed 77"), std::string::npos) << text;

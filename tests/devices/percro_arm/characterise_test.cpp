@@ -68,14 +68,14 @@ TEST(PercroReach, NoDirectionAsksMoreOfAMotorThanTheForceInAll) {
     const Joints q = jointsAt(kArm.geometry, p);
     const double force = forceInAllDirections(kArm, q, kArm.motors.continuous_torque);
     RandomStream stream(1, "directions");
-    double most = 0;
+    double max = 0;
     for (int i = 0; i < 2000; ++i) {
       const Vec3 direction = Vec3(stream.normal(), stream.normal(), stream.normal()).normalized();
       const Vec3 torque = to_motors * (arm.weight(q) + force * jacobian(kArm.geometry, q).transpose() * direction);
-      most = std::max(most, torque.cwiseAbs().maxCoeff());
+      max = std::max(max, torque.cwiseAbs().maxCoeff());
     }
-    EXPECT_LE(most, kArm.motors.continuous_torque * (1 + 1e-12));
-    EXPECT_GT(most, 0.99 * kArm.motors.continuous_torque);
+    EXPECT_LE(max, kArm.motors.continuous_torque * (1 + 1e-12));
+    EXPECT_GT(max, 0.99 * kArm.motors.continuous_torque);
   }
 }
 

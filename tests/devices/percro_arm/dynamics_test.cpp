@@ -115,16 +115,16 @@ TEST(PercroDynamics, KeepsItsEnergyToSecondOrder) {
     ArmState state = released(arm);
     const double start = arm.energy(state, load);
     const int quarter = static_cast<int>(std::lround(1 / h)), steps = 4 * quarter;
-    double most = 0, first = 0, last = 0;
+    double max = 0, first = 0, last = 0;
     for (int i = 0; i < steps; ++i) {
       arm.step(state, Vec3::Zero(), load, h);
       const double off = arm.energy(state, load) - start;
-      most = std::max(most, std::abs(off));
+      max = std::max(max, std::abs(off));
       if (i < quarter) first += off;
       if (i >= 3 * quarter) last += off;
     }
-    EXPECT_LT(std::abs(last - first) / quarter, 0.1 * most) << h;
-    return most;
+    EXPECT_LT(std::abs(last - first) / quarter, 0.1 * max) << h;
+    return max;
   };
   const double coarse = ripple(0.5e-3), fine = ripple(0.25e-3);
   EXPECT_GT(coarse / fine, 3.5);

@@ -71,14 +71,14 @@ TEST(PercroArm, GivesThePrintedForcesInTheWorstPlace) {
   arm.place({length, 0, 0});
   settle(arm, {0, 4 * diagonal, 4 * diagonal}, 200);
   EXPECT_NEAR(arm.tipForce().norm(), 4, 0.04);
-  EXPECT_LE(arm.mostHeat(), 1);
+  EXPECT_LE(arm.maxHeat(), 1);
   settle(arm, {0, 10 * diagonal, 10 * diagonal}, 0.1);
   EXPECT_LT(arm.tipForce().norm(), 5);  // hot: no peak torque left
   SimulatedArm cold(withoutDryFriction(), Vec3::Zero(), kPeriod);
   cold.place({length, 0, 0});
   settle(cold, {0, 10 * diagonal, 10 * diagonal}, 2);
   EXPECT_NEAR(cold.tipForce().norm(), 10, 0.1);
-  EXPECT_GT(cold.leastShare(), 0.99);
+  EXPECT_GT(cold.minShare(), 0.99);
 }
 
 // A free arm neither sinks nor rises: the controller compensates its weight.

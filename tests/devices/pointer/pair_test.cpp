@@ -85,15 +85,15 @@ TEST(PointerPair, PressesAsTheSpringsSayAndNeverMoreThanItsGrip) {
 // at a wall of 1 N/mm rises by at most 0.85 N per millisecond.
 TEST(PointerPair, AJumpOfTheMouseIsNoJumpOfForce) {
   Bench bench(0.035);
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < 4000; ++i) {
     if (i % 400 == 0) bench.point(Vec3(i % 800 == 0 ? 0.5 : -0.5, 0.3, 0), i % 1200 == 0 ? 1 : 0, i);
     const auto before = bench.force;
     bench.step();
-    for (std::size_t f = 0; f < 2; ++f) most = std::max(most, bench.force[f] - before[f]);
+    for (std::size_t f = 0; f < 2; ++f) max = std::max(max, bench.force[f] - before[f]);
   }
-  EXPECT_GT(most, 0.05);  // the wall was touched
-  EXPECT_LT(most, bench.wall * (Pair::kSpeed + Pair::kTurn * kOpenHalf + Pair::kClose) * kPeriod);
+  EXPECT_GT(max, 0.05);  // the wall was touched
+  EXPECT_LT(max, bench.wall * (Pair::kSpeed + Pair::kTurn * kOpenHalf + Pair::kClose) * kPeriod);
 }
 
 TEST(PointerPair, FingertipsStopAtEachOther) {

@@ -137,10 +137,10 @@ INSTANTIATE_TEST_SUITE_P(Levels, Figures,
 // The heaviest slippery cube needs 4.905 N to be held, above the continuous force of the device. The trial continues,
 // and the time above the rating is reported.
 TEST(Rating, TheThreeCubesThatNeedMoreThanFourNewtonAreHeldAndTimed) {
-  const Traits traits = Population(Level::kL0).draw(1, 0);
+  const SubjectParameters parameters = Population(Level::kL0).draw(1, 0);
   int beyond = 0;
   for (const Cube& cube : studyCubes()) {
-    const TrialResult result = StandAlone(traits, {.cube = cube, .resolution = 80e-6}).run();
+    const TrialResult result = StandAlone(parameters, {.cube = cube, .resolution = 80e-6}).run();
     if (cube.slipForce() > kContinuousForce) {
       ++beyond;
       EXPECT_GT(result.grip, cube.slipForce());

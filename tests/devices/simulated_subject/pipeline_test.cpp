@@ -61,16 +61,16 @@ TEST(Pipeline, FirstSlipIsAtTheBoundOfStaticFrictionForEveryCube) {
 // level.
 TEST(Pipeline, TheHeaviestSoftCubeDoesNotTurnBetweenTheFingers) {
   StudyRun run(specOf({.mass = 0.4, .mu_s = 0.4, .mu_d = 0.3, .stiffness = 500}, kWeak, 30));
-  double most = 0;
+  double max = 0;
   bool held = false;
   run.observe([&](const HapticSample& sample) {
     const auto& fingers = sample.device.fingers;
     held = held || static_cast<Phase>(fingers[0].phase) == Phase::kHold;
-    most = std::max(most, std::abs(fingers[0].p_WH.z() - fingers[1].p_WH.z()));
+    max = std::max(max, std::abs(fingers[0].p_WH.z() - fingers[1].p_WH.z()));
   });
   run.run();
   EXPECT_TRUE(held);
-  EXPECT_LT(most, 5e-3);  // tremor and steps are below 1 mm, but a turning cube turns until it is lost
+  EXPECT_LT(max, 5e-3);  // tremor and steps are below 1 mm, but a turning cube turns until it is lost
 }
 
 // There are one thumb and one index finger; a third role is rejected.

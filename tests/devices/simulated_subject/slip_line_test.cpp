@@ -22,9 +22,9 @@ TEST_P(SlipLine, FirstSlipIsAtTheBoundOfStaticFrictionForEveryCubeAndSubject) {
   Population population = withoutNoise(GetParam());
   population.set("loosening", constant(kSlow));
   for (std::uint64_t subject = 0; subject < 4; ++subject) {
-    const Traits traits = population.draw(1, subject);
+    const SubjectParameters parameters = population.draw(1, subject);
     for (const Cube& cube : studyCubes()) {
-      const TrialResult result = StandAlone(traits, {.cube = cube}).run();
+      const TrialResult result = StandAlone(parameters, {.cube = cube}).run();
       ASSERT_TRUE(result.completed);
       EXPECT_NEAR(result.slip_force / cube.slipForce(), 1 - kStep / 2, kStep / 2)
           << "subject " << subject << ", m " << cube.mass << ", mu_s " << cube.mu_s << ", k " << cube.stiffness;

@@ -29,14 +29,14 @@ std::vector<StudyTrial> runStudy(const Population& population, int seeds) {
   const std::vector<Cube> cubes = studyCubes();
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds); ++seed) {
     for (std::uint64_t subject = 0; subject < 3; ++subject) {
-      const Traits traits = population.draw(seed, subject);
+      const SubjectParameters parameters = population.draw(seed, subject);
       for (std::uint64_t number = 0; number < 2 * cubes.size(); ++number) {
         const Trial trial{.cube = cubes[number % cubes.size()],
                           .seed = seed,
                           .subject = subject,
                           .trial = number,
                           .resolution = drawResolution(seed, subject, number)};
-        trials.push_back({trial, StandAlone(traits, trial).run()});
+        trials.push_back({trial, StandAlone(parameters, trial).run()});
       }
     }
   }

@@ -8,11 +8,11 @@
 namespace presa::subject {
 namespace {
 
-Senses holding(double height, double seen) {
-  Senses senses;
-  for (DigitSenses& digit : senses.digits) digit = {.q = 2e-3, .y = height, .normal = 2, .load = 1};
-  senses.sight = {.object = true, .height = seen};
-  return senses;
+Afferents holding(double height, double seen) {
+  Afferents afferents;
+  for (DigitAfferents& digit : afferents.digits) digit = {.q = 2e-3, .y = height, .normal = 2, .load = 1};
+  afferents.sight = {.object = true, .height = seen};
+  return afferents;
 }
 
 // The fingers settle after a lift. A slip detector that starts too early takes their drift for a slip, and the subject
@@ -21,10 +21,10 @@ TEST(Traps, NoSlipIsNoticedThatHasNotBegun) {
   for (const Level level : {Level::kL0, Level::kL1, Level::kL2}) {
     const Population population(level);
     for (std::uint64_t subject = 0; subject < 40; ++subject) {
-      const Traits traits = population.draw(2, subject);
+      const SubjectParameters parameters = population.draw(2, subject);
       for (const double stiffness : {500.0, 1000.0, 2000.0}) {
         const Cube cube{.mass = 0.4, .mu_s = 0.4, .mu_d = 0.3, .stiffness = stiffness};
-        StandAlone world(traits, {.cube = cube, .subject = subject, .resolution = 90e-6});
+        StandAlone world(parameters, {.cube = cube, .subject = subject, .resolution = 90e-6});
         while (world.brain().phase() <= Phase::kLoosen) ASSERT_TRUE(world.step());
         EXPECT_FALSE(std::isnan(world.result().notice_delay))
             << nameOf(level) << ", subject " << subject << ", k " << stiffness;
@@ -36,13 +36,13 @@ TEST(Traps, NoSlipIsNoticedThatHasNotBegun) {
 // At friction 0.4 a grip that follows the felt load is too late: it must follow the commanded lift.
 TEST(Traps, GripGoesAheadWithTheLiftThatIsCommanded) {
   Brain brain(Population(Level::kL0).draw(1, 0), {}, RandomStream(1, "perception"), 1e-3);
-  Senses senses = holding(0, 0);
-  for (DigitSenses& digit : senses.digits) digit.load = 0;
-  while (brain.phase() != Phase::kLoad) brain.step(senses);
-  senses.effort = 1;
-  for (int i = 0; i < 100; ++i) brain.step(senses);
+  Afferents afferents = holding(0, 0);
+  for (DigitAfferents& digit : afferents.digits) digit.load = 0;
+  while (brain.phase() != Phase::kLoad) brain.step(afferents);
+  afferents.effort = 1;
+  for (int i = 0; i < 100; ++i) brain.step(afferents);
   // 1 + 3.25 N/N, approached to exp(-100 ms / 20 ms)
-  EXPECT_NEAR(brain.intent().grip, 4.25, 3.25 * std::exp(-5));
+  EXPECT_NEAR(brain.command().grip, 4.25, 3.25 * std::exp(-5));
 }
 
 // With soft skin and strong muscles the grip builds up late and the cube slides. The lift must wait, or the fingers
@@ -71,9 +71,9 @@ TEST(Traps, LostIsRelativeToTheFingers) {
 // 5 %.
 TEST(Traps, StiffnessAndWeightAreFelt) {
   for (const Level level : {Level::kL0, Level::kL1, Level::kL2}) {
-    const Traits traits = Population(level).draw(4, 0);
+    const SubjectParameters parameters = Population(level).draw(4, 0);
     for (const Cube& cube : studyCubes()) {
-      StandAlone world(traits, {.cube = cube, .seed = 4, .resolution = 90e-6});
+      StandAlone world(parameters, {.cube = cube, .seed = 4, .resolution = 90e-6});
       while (world.brain().phase() <= Phase::kSettle) ASSERT_TRUE(world.step());
       EXPECT_NEAR(world.brain().perception().stiffness() / cube.stiffness, 1, 0.05) << nameOf(level);
       EXPECT_NEAR(world.brain().perception().load() / (cube.mass * Cube::kGravity / 2), 1, 0.05) << nameOf(level);
@@ -84,15 +84,15 @@ TEST(Traps, StiffnessAndWeightAreFelt) {
 // Opening fingers still touch the released object: that is not the next grasp.
 TEST(Traps, LettingGoForgetsWhereTheObjectWasUntilItIsTouchedAnew) {
   Perception perception(1e-3);
-  const auto live = [&](const Senses& senses) {
-    for (int i = 0; i < 500; ++i) perception.step(senses);
+  const auto live = [&](const Afferents& afferents) {
+    for (int i = 0; i < 500; ++i) perception.step(afferents);
   };
   live(holding(0.04, 0));
-  perception.letGo();
+  perception.release();
   live(holding(0.04, -0.04));
   EXPECT_EQ(perception.fallen(), 0);
-  Senses open = holding(0.04, -0.04);
-  for (DigitSenses& digit : open.digits) digit.normal = digit.load = 0;
+  Afferents open = holding(0.04, -0.04);
+  for (DigitAfferents& digit : open.digits) digit.normal = digit.load = 0;
   live(open);
   live(holding(0, 0));
   EXPECT_FALSE(perception.lost());
@@ -102,12 +102,12 @@ TEST(Traps, LettingGoForgetsWhereTheObjectWasUntilItIsTouchedAnew) {
 
 TEST(Traps, WithEyesClosedTheCubeIsLostWhenNothingIsTouched) {
   Perception perception(1e-3);
-  Senses senses = holding(0.04, -0.04);
-  senses.sight = {};
-  perception.step(senses);
+  Afferents afferents = holding(0.04, -0.04);
+  afferents.sight = {};
+  perception.step(afferents);
   EXPECT_FALSE(perception.lost());
-  for (DigitSenses& digit : senses.digits) digit.normal = 0;
-  perception.step(senses);
+  for (DigitAfferents& digit : afferents.digits) digit.normal = 0;
+  perception.step(afferents);
   EXPECT_TRUE(perception.lost());
 }
 

@@ -162,7 +162,7 @@ TEST_F(GuideTest, ADropIsAFallFromTheHand) {
 }
 
 TEST_F(GuideTest, TheFinishTellsTheTimeSinceTheFirstTouchAndWhatWasSpentBefore) {
-  scene_.assembly->spent = 100;
+  scene_.assembly->elapsed = 100;
   guide_.emplace(*scene_.assembly, scene_.bodies.size());
   run(5);
   hold(0);
@@ -172,7 +172,7 @@ TEST_F(GuideTest, TheFinishTellsTheTimeSinceTheFirstTouchAndWhatWasSpentBefore) 
   fill(2, 2);
   run(30);
   EXPECT_TRUE(guide_->now().finished);
-  EXPECT_NEAR(guide_->now().spent, 100 + kPeriod, 1e-9);
+  EXPECT_NEAR(guide_->now().elapsed, 100 + kPeriod, 1e-9);
   EXPECT_EQ(captions().finish, "All stands.");
   EXPECT_EQ(captions().took, "In 1 min 40 s.");
   EXPECT_EQ(std::ranges::count(kinds_, Kind::kFinished), 1);

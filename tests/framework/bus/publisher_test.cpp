@@ -120,7 +120,7 @@ TEST(Publisher, GivesTheStaticPartToWhoComesLate) {
   late->take(picture);
   EXPECT_EQ(picture.state(), RemotePicture::State::kEnded);
   EXPECT_EQ(picture.health().lost, 0u);
-  // half of 600 publications and the final one: one object, two fingers, one beat each
+  // half of 600 publications and the final one: one object, two fingers, one heartbeat each
   EXPECT_EQ(picture.health().received, 4u * (299 + 1 + 1));
 }
 

@@ -57,9 +57,9 @@ struct Wire {
     finger.valid = true;
     finger.p_WH.x() = 2 * where(object.stamp.time);
     picture.onFinger(finger, ns(clock + delay));
-    Beat beat;
-    beat.stamp = object.stamp;
-    picture.onBeat(beat, ns(clock + delay));
+    Heartbeat heartbeat;
+    heartbeat.stamp = object.stamp;
+    picture.onHeartbeat(heartbeat, ns(clock + delay));
   }
   /// Sends and delivers this many periods.
   void go(int periods) {
@@ -113,7 +113,7 @@ TEST(RemotePicture, BridgesALostSampleAndTakesALateOne) {
   wire.go(1);
   wire.picture.advance(ns(wire.clock - kPeriod));
   EXPECT_NEAR(wire.shown(), where(11 * kPeriod), 1e-12);  // between 10 and 13
-  EXPECT_EQ(wire.picture.health().lost, 6u);              // object, finger and beat of both
+  EXPECT_EQ(wire.picture.health().lost, 6u);              // object, finger and heartbeat of both
   wire.send(12);
   wire.send(12);
   EXPECT_EQ(wire.picture.health().lost, 3u);
@@ -197,10 +197,10 @@ TEST(RemotePicture, SaysThatTheRunHasEnded) {
   Wire wire(worldOf());
   wire.announce(7);
   wire.go(10);
-  Beat beat;
-  beat.stamp = wire.stampOf(11);
-  beat.last = true;
-  wire.picture.onBeat(beat, ns(wire.clock));
+  Heartbeat heartbeat;
+  heartbeat.stamp = wire.stampOf(11);
+  heartbeat.last = true;
+  wire.picture.onHeartbeat(heartbeat, ns(wire.clock));
   wire.clock += 10;
   wire.picture.advance(ns(wire.clock));
   EXPECT_EQ(wire.picture.state(), RemotePicture::State::kEnded);
@@ -224,13 +224,13 @@ TEST(RemotePicture, CountsWhatABadNetworkDoes) {
   TroubledReader reader(bus.reader(), {}, 3);
   RemotePicture picture(world);
   writer->announce({7, sceneHash(world), kPeriod, false, "s", ""});
-  Beat beat;
+  Heartbeat heartbeat;
   const auto publish = [&] {
-    beat.stamp = {7, beat.stamp.sequence + 1, static_cast<double>(beat.stamp.sequence) * kPeriod, 0};
+    heartbeat.stamp = {7, heartbeat.stamp.sequence + 1, static_cast<double>(heartbeat.stamp.sequence) * kPeriod, 0};
     ObjectSample object;
-    object.stamp = beat.stamp;
+    object.stamp = heartbeat.stamp;
     object.body = 1;
-    writer->publish({std::span(&object, 1), {}, beat});
+    writer->publish({std::span(&object, 1), {}, heartbeat});
     reader.take(picture);
   };
   publish();  // counting starts with the first
@@ -254,9 +254,9 @@ TEST(LocalBus, CountsWhatAReaderLeavesLying) {
   const auto writer = bus.writer();
   const auto reader = bus.reader();
   for (std::uint64_t n = 1; n <= 25; ++n) {
-    Beat beat;
-    beat.stamp.sequence = n;
-    writer->publish({{}, {}, beat});
+    Heartbeat heartbeat;
+    heartbeat.stamp.sequence = n;
+    writer->publish({{}, {}, heartbeat});
   }
   EXPECT_EQ(reader->overrun(), 15u);
 }
@@ -290,10 +290,10 @@ TEST(RemotePicture, ForgedNumbersAndTimesStopNothing) {
     object.body = 1;
     object.X_WB.p.x() = 99;
     wire.picture.onObject(object, ns(wire.clock));
-    Beat last;
+    Heartbeat last;
     last.stamp = forged;
     last.last = true;
-    wire.picture.onBeat(last, ns(wire.clock));
+    wire.picture.onHeartbeat(last, ns(wire.clock));
     wire.go(100);
     EXPECT_EQ(wire.picture.state(), RemotePicture::State::kLive) << forged.sequence << ' ' << forged.time;
     EXPECT_NEAR(wire.shown(), where(498 * kPeriod), 2 * kPeriod) << forged.sequence << ' ' << forged.time;

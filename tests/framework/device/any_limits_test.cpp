@@ -24,7 +24,7 @@ namespace {
 
 using test::Commands;
 using test::Objects;
-using test::Patches;
+using test::Neighbourhoods;
 
 constexpr double kGone = 0.020;  // [s]
 constexpr double kTouched = 1e-9;
@@ -40,7 +40,7 @@ struct Reached {
   double longest_decay = 0;
 };
 
-class Finger final : public Device {
+class RandomFinger final : public Device {
  public:
   FingerInput read(const Tick&) noexcept override { return {.valid = !silent, .lost = lost}; }
   void write(const Vec3& f, const Tick&) noexcept override { sent = f; }
@@ -54,13 +54,13 @@ class Chain {
  public:
   Chain(const FingerSafety& safety, const DeviceRating& rating, const Rates& rates)
       : rating_(rating), table_(rates), keeper_(rating) {
-    devices_.push_back(std::make_unique<Finger>());
-    finger = static_cast<Finger*>(devices_[0].get());
+    devices_.push_back(std::make_unique<RandomFinger>());
+    finger = static_cast<RandomFinger*>(devices_[0].get());
     GraphBuilder builder;
     builder.add(std::make_unique<DeviceInput>(devices_, control));
     commands = &builder.add(std::make_unique<Commands>());
     builder.add(std::make_unique<Objects>());
-    builder.add(std::make_unique<Patches>());
+    builder.add(std::make_unique<Neighbourhoods>());
     builder.add(std::make_unique<DeviceOutput>(devices_, std::vector<FingerSafety>{safety}, rates, false));
     builder.connectByName();
     graph_ = builder.build();
@@ -87,7 +87,7 @@ class Chain {
   }
 
   RunControl control;
-  Finger* finger = nullptr;
+  RandomFinger* finger = nullptr;
   Commands* commands = nullptr;
   bool stalled = false, killed = false;
 
@@ -134,10 +134,10 @@ class AnyFiles {
  private:
   bool chance(double share) { return random_.uniform(0, 1) < share; }
   /// Any size, and often none.
-  std::string attribute(const char* name, double least = 1e-9, double most = 1e9) {
+  std::string attribute(const char* name, double min = 1e-9, double max = 1e9) {
     if (chance(0.3)) return {};
     std::array<char, 64> text;
-    const double value = std::exp(random_.uniform(std::log(least), std::log(most)));
+    const double value = std::exp(random_.uniform(std::log(min), std::log(max)));
     std::snprintf(text.data(), text.size(), " %s=\"%.17g\"", name, value);
     return text.data();
   }
@@ -213,7 +213,7 @@ class AnyFiles {
         chain.stalled = true;
         // the dynamics' watchdog, or the collision's: two periods or 20 ms; the rating bounds the one, the schema's 10
         // Hz the other
-        before = std::min(safety.watchdog, ages::patches(rates)) + 1 / rates.dynamics;
+        before = std::min(safety.watchdog, ages::neighbourhoods(rates)) + 1 / rates.dynamics;
         ASSERT_LE(safety.watchdog, rating.watchdog);
         reached.watchdogs += safety.watchdog == rating.watchdog ? 1 : 0;
         break;

@@ -10,7 +10,7 @@ namespace presa {
 namespace {
 
 using test::Objects;
-using test::Patches;
+using test::Neighbourhoods;
 
 /// A finger that stands still and keeps the forces sent to it.
 class StillFinger final : public Device {
@@ -35,7 +35,7 @@ struct Rig {
     builder.add(std::make_unique<DeviceInput>(devices, control));
     builder.add(std::make_unique<test::Commands>(Vec3(4, 0, 0)));
     objects = &builder.add(std::make_unique<Objects>());
-    builder.add(std::make_unique<Patches>());
+    builder.add(std::make_unique<Neighbourhoods>());
     output = &builder.add(std::make_unique<DeviceOutput>(
         devices, std::vector<FingerSafety>{{.limits = {}, .watchdog = ages::objects(scene)}}, scene, false));
     builder.connectByName();
@@ -56,7 +56,7 @@ struct Rig {
   void catchUp(int ticks) {
     for (; ticks > 0; --ticks, ++i) {
       Tick tick = rates.tick(RateGroup::kHaptic, i);
-      tick.made_up = ticks > 1;
+      tick.catch_up = ticks > 1;
       graph.step(RateGroup::kHaptic, tick);
     }
   }

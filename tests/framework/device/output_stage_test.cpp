@@ -64,7 +64,7 @@ TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
                                               : dice == 1 ? Trust::kDropped
                                                           : Trust::kGood,
                                      .stop = dice == 2,
-                                     .held = dice == 3,
+                                     .catch_up = dice == 3,
                                      .lost = random() % 2000 == 0,
                                      .p_WH = vector(hostile, 0.1),
                                      .v_WH = vector(hostile, 0.5)};

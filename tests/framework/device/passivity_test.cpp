@@ -26,7 +26,7 @@ struct Hand {
 struct Outcome {
   double largest = 0;  // largest excursion of the hand in the last second [m]
   double given = 0;    // net energy to the hand over the whole run [J]
-  double most_given = 0;
+  double max_given = 0;
 };
 
 /// Ten seconds of an environment that drives: negative damping, 5 ms late.
@@ -38,7 +38,7 @@ Outcome live(bool passivity) {
   double sent = 0, x_before = 0;
   for (int i = 0; i < 10'000; ++i) {
     outcome.given += sent * (hand.x - x_before);
-    outcome.most_given = std::max(outcome.most_given, outcome.given);
+    outcome.max_given = std::max(outcome.max_given, outcome.given);
     x_before = hand.x;
     const double wish = late[static_cast<std::size_t>(i % 5)];
     late[static_cast<std::size_t>(i % 5)] = 12 * hand.v;
@@ -57,7 +57,7 @@ TEST(Passivity, AnActiveEnvironmentGivesNoNetEnergy) {
   // with the controller it comes to rest. What it may be ahead by: one tick's error of predicting f v T, 8 N at most
   EXPECT_LT(with.largest, 1e-4);
   EXPECT_LT(with.given, 1e-4);
-  EXPECT_LT(with.most_given, 8 * 0.3 * kPeriod);
+  EXPECT_LT(with.max_given, 8 * 0.3 * kPeriod);
 }
 
 // A passive wall in front of a moving hand: the controller does not reduce the energy that the wall may give back. The

@@ -2,7 +2,7 @@
 #include "framework/core/graph/module.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/contact_patch.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
 
 // Test modules that replace the modules before the output stage.
@@ -34,11 +34,11 @@ class Objects final : public Module {
 };
 
 /// Replaces the collision thread.
-class Patches final : public Module {
+class Neighbourhoods final : public Module {
  public:
-  Patches() : Module("patches", RateGroup::kCollision) {}
+  Neighbourhoods() : Module("patches", RateGroup::kCollision) {}
   void step(const Tick& tick) noexcept override { out.value.time = tick.time; }
-  Out<ContactPatches> out{*this, "contact_patches"};
+  Out<FingerNeighbourhoods> out{*this, "contact_patches"};
 };
 
 }  // namespace presa::test

@@ -71,9 +71,9 @@ TEST(MeshTree, BoundsTheDistanceFromBelowEverywhere) {
         const TangentBound bound = tree.bound(node, at[i], distance);
         EXPECT_NEAR(bound.at(at[i]), distance, rounding);
         for (const Vec3& other : {at[i], at[(i + 1) % at.size()]}) {
-          double least = 1e300;
-          for (const std::int32_t f : facets) least = std::min(least, distanceOf(tree, f, other));
-          ASSERT_LE(bound.at(other), least + rounding) << node;
+          double min = 1e300;
+          for (const std::int32_t f : facets) min = std::min(min, distanceOf(tree, f, other));
+          ASSERT_LE(bound.at(other), min + rounding) << node;
         }
       }
     }

@@ -19,9 +19,9 @@ using input::Refusal;
 using input::Trouble;
 using test::Bench;
 
-Trouble troubleOf(const std::string& file, std::uint64_t most = 100) {
+Trouble troubleOf(const std::string& file, std::uint64_t max = 100) {
   Refusal refusal;
-  const auto text = input::read(file, most, refusal);
+  const auto text = input::read(file, max, refusal);
   EXPECT_FALSE(text) << file;
   return refusal.trouble;
 }

@@ -5,7 +5,7 @@
 namespace presa::record {
 namespace {
 
-h5::Handle list(hsize_t rows, hsize_t most) { return {H5Screate_simple(1, &rows, &most), H5Sclose, "rows"}; }
+h5::Handle list(hsize_t rows, hsize_t max) { return {H5Screate_simple(1, &rows, &max), H5Sclose, "rows"}; }
 
 h5::Handle creation() { return {H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "properties"}; }
 

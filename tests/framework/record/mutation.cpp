@@ -193,7 +193,7 @@ std::string judgeRecording(const Recording& r, std::uint64_t specimen_ticks) {
       return "a tick with other fingers";
     if (!std::isfinite(r.time[i]) || (i > 0 && r.time[i] <= r.time[i - 1])) return "a time that does not rise";
     for (const FingerInput& finger : r.device[i].fingers)
-      if (finger.phase < -1 || finger.phase >= kMostPhases) return "a phase out of range";
+      if (finger.phase < -1 || finger.phase >= kMaxPhases) return "a phase out of range";
   }
   for (const Recording::Command& command : r.commands)
     if (command.row >= ticks || command.slot >= 96) return "a command out of range";
@@ -216,7 +216,7 @@ std::string judgeSamples(const RecordedSamples& samples) {
         if (column.values.size() != ticks) return "columns of different length";
   for (const RecordedTable& finger : samples.fingers)
     for (const double phase : finger.values("phase"))
-      if (phase < -1 || phase >= kMostPhases) return "a phase out of range";
+      if (phase < -1 || phase >= kMaxPhases) return "a phase out of range";
   return {};
 }
 

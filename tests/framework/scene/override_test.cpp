@@ -155,17 +155,17 @@ TEST(Override, AWatchdogThatNobodySetFollowsTheDynamics) {
 // At the usual rates every limit is exactly 20 ms.
 TEST(Ages, AreTwoPeriodsOfTheWriterAndNeverUnderTwentyMilliseconds) {
   const Rates usual;
-  EXPECT_EQ(ages::patches(usual), 0.020);
+  EXPECT_EQ(ages::neighbourhoods(usual), 0.020);
   EXPECT_EQ(ages::objects(usual), 0.020);
   EXPECT_EQ(ages::fingers(usual), 0.020);
   Rates slow;
   slow.collision = 10, slow.dynamics = 40;
-  EXPECT_DOUBLE_EQ(ages::patches(slow), 0.200);
+  EXPECT_DOUBLE_EQ(ages::neighbourhoods(slow), 0.200);
   EXPECT_DOUBLE_EQ(ages::objects(slow), 0.050);
   EXPECT_DOUBLE_EQ(ages::fingers(slow), 0.027);  // two haptic ticks plus the dynamics step solved meanwhile
   Rates fast;
   fast.haptic = 4000, fast.collision = fast.dynamics = 1000;
-  EXPECT_EQ(ages::patches(fast), 0.020);
+  EXPECT_EQ(ages::neighbourhoods(fast), 0.020);
   EXPECT_EQ(ages::objects(fast), 0.020);
 }
 

@@ -35,12 +35,12 @@ struct Kept final : Listener {
   void onRun(const RunInfo& run, std::int64_t) override { runs.push_back(run); }
   void onObject(const ObjectSample& sample, std::int64_t) override { objects.push_back(sample); }
   void onFinger(const FingerSample& sample, std::int64_t) override { fingers.push_back(sample); }
-  void onBeat(const Beat& beat, std::int64_t) override { beats.push_back(beat); }
+  void onHeartbeat(const Heartbeat& heartbeat, std::int64_t) override { heartbeats.push_back(heartbeat); }
   void onEvent(const Event& event, std::int64_t) override { events.push_back(event); }
   std::vector<RunInfo> runs;
   std::vector<ObjectSample> objects;
   std::vector<FingerSample> fingers;
-  std::vector<Beat> beats;
+  std::vector<Heartbeat> heartbeats;
   std::vector<Event> events;
 };
 
@@ -91,15 +91,15 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   contact.normal_force = 4 * odd;
   contact.tangential_force_W = {odd, 4, 1};
   contact.f_H_W = {odd, 5, 1};
-  const Beat beat{stamp, 1, 1, 0x80000001, 5, 99, true};
-  writer->publish({std::span(&object, 1), std::span(&finger, 1), beat});
+  const Heartbeat heartbeat{stamp, 1, 1, 0x80000001, 5, 99, true};
+  writer->publish({std::span(&object, 1), std::span(&finger, 1), heartbeat});
   writer->publish({stamp, Event::Kind::kObjectFault, 3});
   takeUntil(*reader, kept, [&] {
-    return !kept.objects.empty() && !kept.fingers.empty() && !kept.beats.empty() && !kept.events.empty();
+    return !kept.objects.empty() && !kept.fingers.empty() && !kept.heartbeats.empty() && !kept.events.empty();
   });
   ASSERT_EQ(kept.objects.size(), 1u);
   ASSERT_EQ(kept.fingers.size(), 1u);
-  ASSERT_EQ(kept.beats.size(), 1u);
+  ASSERT_EQ(kept.heartbeats.size(), 1u);
   ASSERT_EQ(kept.events.size(), 1u);
   const ObjectSample& o = kept.objects[0];
   EXPECT_EQ(o.stamp.run, stamp.run);
@@ -130,7 +130,7 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   EXPECT_EQ(f.contact.normal_force, contact.normal_force);
   EXPECT_EQ(f.contact.tangential_force_W, contact.tangential_force_W);
   EXPECT_EQ(f.contact.f_H_W, contact.f_H_W);
-  const Beat& b = kept.beats[0];
+  const Heartbeat& b = kept.heartbeats[0];
   EXPECT_EQ(b.objects, 1);
   EXPECT_EQ(b.fingers, 1);
   EXPECT_EQ(b.output_status, 0x80000001u);

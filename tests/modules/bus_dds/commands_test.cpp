@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "framework/bus/command_desk.h"
+#include "framework/bus/parameter_server.h"
 #include "framework/bus/publisher.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/record/checksum/checksum.h"
@@ -47,8 +47,8 @@ TEST(BusCommands, ArriveToTheBit) {
   EXPECT_EQ(parameters[0].run, 9u);
   EXPECT_EQ(parameters[0].name, "material/rubber/stiffness");
   EXPECT_EQ(parameters[0].value, 500.5);
-  EXPECT_EQ(parameters[0].least, 1);
-  EXPECT_EQ(parameters[0].most, 1000);
+  EXPECT_EQ(parameters[0].min, 1);
+  EXPECT_EQ(parameters[0].max, 1000);
   EXPECT_EQ(parameters[0].of, 3);
   const std::string longest(kLongestParameter, 'x');
   std::vector<Command> commands;
@@ -73,8 +73,8 @@ TEST(BusCommands, ArriveToTheBit) {
   EXPECT_EQ(answers[0].number, 6u);
   EXPECT_EQ(answers[0].verdict, Answer::Verdict::kOutOfRange);
   EXPECT_EQ(answers[0].value, odd);
-  EXPECT_TRUE(std::signbit(answers[0].least));
-  EXPECT_EQ(answers[0].most, 1e300);
+  EXPECT_TRUE(std::signbit(answers[0].min));
+  EXPECT_EQ(answers[0].max, 1e300);
 }
 
 // A later run does not obey commands sent before it started.
@@ -150,7 +150,7 @@ struct Clock final : Listener {
   void onRun(const RunInfo& info, std::int64_t) override { run = info; }
   void onObject(const ObjectSample&, std::int64_t) override {}
   void onFinger(const FingerSample&, std::int64_t) override {}
-  void onBeat(const Beat& beat, std::int64_t) override { time = beat.stamp.time; }
+  void onHeartbeat(const Heartbeat& heartbeat, std::int64_t) override { time = heartbeat.stamp.time; }
   void onEvent(const Event&, std::int64_t) override {}
   RunInfo run;
   double time = 0;
@@ -212,7 +212,7 @@ TEST(BusCommands, AreRefusedByARunThatTakesNone) {
     commander->send({runs.run.run, 5, 1, "material/rubber/stiffness", 700});
     sleepUntilNs(monotonicNs() + 10'000'000);
   }
-  const Commander::Heard heard = commander->take();
+  const Commander::Replies heard = commander->take();
   EXPECT_TRUE(heard.answers.empty());
   EXPECT_TRUE(heard.parameters.empty());
   run.signal(SIGINT);

@@ -18,7 +18,7 @@ namespace presa {
 
 /// Loopback and a random domain.
 inline BusSettings ownDomain() {
-  return {.network = "loopback", .domain = 1 + static_cast<int>(std::random_device{}() % kMostBusDomain)};
+  return {.network = "loopback", .domain = 1 + static_cast<int>(std::random_device{}() % kMaxBusDomain)};
 }
 
 /// The program in a separate process, killed with this object if it is still running. Captures its stderr and stdout.

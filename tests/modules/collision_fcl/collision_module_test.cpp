@@ -57,7 +57,7 @@ class CollisionModuleTest : public testing::Test {
     objects_bridge_ = std::make_unique<Bridge<ObjectState>>(objects_.out.value);
     objects_bridge_->addReader(module_->object_state);
   }
-  const FingerPatch& query(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero()) {
+  const FingerNeighbourhood& query(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero()) {
     if (!module_) start();
     device_.out.value.count = 1;
     device_.out.value.fingers[0].p_WH = p_WH;
@@ -67,7 +67,7 @@ class CollisionModuleTest : public testing::Test {
       bridge->pull();
     }
     module_->step(tick_);
-    return module_->contact_patches.value.fingers[0];
+    return module_->finger_neighbourhoods.value.fingers[0];
   }
   BodyMotion& motionOf(std::size_t body) { return objects_.out.value.bodies[body]; }
 
@@ -101,15 +101,16 @@ class CollisionModuleTest : public testing::Test {
 const Pose kPlaced{Vec3(0.4, -0.2, 0.1), Quat(Eigen::AngleAxisd(0.9, Vec3(1, 2, -1).normalized()))};
 const Pose kInBody{Vec3(0.01, 0.03, -0.02), Quat(Eigen::AngleAxisd(-0.5, Vec3(0, 1, 3).normalized()))};
 
-// The invariant of a patch: it covers everything that can be touched before the next one, at any pose of body and mesh.
+// The invariant of a neighbourhood: it covers everything that can be touched before the next one, at any pose of body
+// and mesh.
 TEST_F(CollisionModuleTest, TheCutHoldsEveryTriangleWithinItsRadius) {
   addMesh(makeSphere(0.05, 4), kPlaced, kInBody);
   const Vec3 finger = kPlaced * (kInBody * Vec3(0.0, 0.0, 0.056));
-  const FingerPatch& patch = query(finger);
-  ASSERT_EQ(patch.body_count, 1);
-  ASSERT_GT(patch.bodies[0].cut_count, 1);
-  EXPECT_LT((kPlaced * patch.bodies[0].center_B - finger).norm(), 1e-15);
-  expectComplete(patch.bodies[0]);
+  const FingerNeighbourhood& neighbourhood = query(finger);
+  ASSERT_EQ(neighbourhood.body_count, 1);
+  ASSERT_GT(neighbourhood.bodies[0].cut_count, 1);
+  EXPECT_LT((kPlaced * neighbourhood.bodies[0].center_B - finger).norm(), 1e-15);
+  expectComplete(neighbourhood.bodies[0]);
 }
 
 // The path of a finger over the horizon, at constant velocity or acceleration, lies within the bound.
@@ -118,14 +119,14 @@ TEST_F(CollisionModuleTest, RadiusGrowsByTheWayTheFingerCanGo) {
   const double still = query({0, 0, 0.06}).radius;
   const double moving = query({0, 0, 1.06}, {0.3, 0, 0.4}).radius;
   const double horizon = 2 * 0.01 + 1 / world_.scene.rates.dynamics;
-  constexpr double kFarther = 1.5;  // a patch is 1.5 times as large as needed, so that it serves for several queries
+  constexpr double kFarther = 1.5;  // a neighbourhood is 1.5 times as large as needed, so that it serves for several queries
   EXPECT_NEAR(still, kFarther * (1.1 * kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * horizon * horizon),
               1e-15);
   EXPECT_NEAR(moving - still, kFarther * 0.5 * horizon, 1e-15);
 }
 
-// A patch serves until it no longer covers the finger's need; the need is always covered, on any path.
-TEST_F(CollisionModuleTest, APatchServesUntilTheFingerNeedsMore) {
+// A neighbourhood serves until it no longer covers the finger's need; the need is always covered, on any path.
+TEST_F(CollisionModuleTest, ANeighbourhoodServesUntilTheFingerNeedsMore) {
   addMesh(makeSphere(0.05, 4), kPlaced, kInBody);
   const double needed = 1.1 * kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * 0.025 * 0.025;
   ASSERT_NEAR(1 / world_.scene.rates.dynamics, 0.005, 1e-15);
@@ -135,12 +136,12 @@ TEST_F(CollisionModuleTest, APatchServesUntilTheFingerNeedsMore) {
   Vec3 last = Vec3::Zero();
   for (double angle = 0; angle < 1; angle += 0.01) {  // 0.56 mm per query
     const Vec3 finger = kPlaced * (kInBody * Vec3(0.056 * std::sin(angle), 0, 0.056 * std::cos(angle)));
-    const FingerPatch& patch = query(finger);
-    if (patch.serial != serial) ++made;
-    serial = patch.serial;
-    ASSERT_GE(patch.radius, (patch.center_W - finger).norm() + needed - 1e-15);
-    ASSERT_EQ(patch.body_count, 1);
-    expectComplete(patch.bodies[0]);
+    const FingerNeighbourhood& neighbourhood = query(finger);
+    if (neighbourhood.serial != serial) ++made;
+    serial = neighbourhood.serial;
+    ASSERT_GE(neighbourhood.radius, (neighbourhood.center_W - finger).norm() + needed - 1e-15);
+    ASSERT_EQ(neighbourhood.body_count, 1);
+    expectComplete(neighbourhood.bodies[0]);
     way += last.isZero() ? 0 : (finger - last).norm();
     last = finger;
   }
@@ -179,12 +180,12 @@ TEST_F(CollisionModuleTest, EveryBodyInReachIsListedWhereverItGoes) {
   std::size_t listed = 0;
   for (int round = 0; round < 200; ++round) {
     Vec3 finger = 0.2 * Vec3(uniform(random), uniform(random), uniform(random));
-    const FingerPatch& patch = query(finger);
+    const FingerNeighbourhood& neighbourhood = query(finger);
     std::set<std::int32_t> there;
-    for (std::int32_t i = 0; i < patch.body_count; ++i) there.insert(patch.bodies[static_cast<std::size_t>(i)].body);
+    for (std::int32_t i = 0; i < neighbourhood.body_count; ++i) there.insert(neighbourhood.bodies[static_cast<std::size_t>(i)].body);
     for (std::size_t b = 0; b < world_.scene.bodies.size(); ++b) {
-      const double gap = (motionOf(b).X_WB_end.p - patch.center_W).norm() - radiusOf(b);
-      if (gap <= patch.radius) EXPECT_TRUE(there.contains(static_cast<std::int32_t>(b))) << round << ' ' << b;
+      const double gap = (motionOf(b).X_WB_end.p - neighbourhood.center_W).norm() - radiusOf(b);
+      if (gap <= neighbourhood.radius) EXPECT_TRUE(there.contains(static_cast<std::int32_t>(b))) << round << ' ' << b;
     }
     listed += there.size();
     for (std::size_t b = 10; b < world_.scene.bodies.size(); ++b) {
@@ -196,20 +197,21 @@ TEST_F(CollisionModuleTest, EveryBodyInReachIsListedWhereverItGoes) {
   EXPECT_LT(listed, 200u * 40);
 }
 
-// Too many bodies: the patch marks itself as unusable, and the tick examines all of them itself.
+// Too many bodies: the neighbourhood marks itself as unusable, and the tick examines all of them itself.
 TEST_F(CollisionModuleTest, ACrowdIsLeftToTheTick) {
   for (int i = 0; i < kMaxNearBodies + 1; ++i) addBody(Sphere{0.001}, {Vec3(0, 1e-4 * i, 0.01), Quat::Identity()});
   EXPECT_LT(query(Vec3::Zero()).radius, 0);
 }
 
-// Three slots of a triple buffer, copied to in turn while patches change one by one: every copy equals its source.
-TEST(ContactPatches, ACopyIsWhatItsSourceWasWhateverItHeldBefore) {
-  auto source = std::make_unique<ContactPatches>();
-  std::array<std::unique_ptr<ContactPatches>, 3> slots;
-  for (auto& slot : slots) slot = std::make_unique<ContactPatches>();
+// Three slots of a triple buffer, copied to in turn while neighbourhoods change one by one: every copy equals its
+// source.
+TEST(FingerNeighbourhoods, ACopyIsWhatItsSourceWasWhateverItHeldBefore) {
+  auto source = std::make_unique<FingerNeighbourhoods>();
+  std::array<std::unique_ptr<FingerNeighbourhoods>, 3> slots;
+  for (auto& slot : slots) slot = std::make_unique<FingerNeighbourhoods>();
   for (std::uint64_t round = 1; round < 30; ++round) {
     source->count = 1 + static_cast<int>(round % 3);
-    FingerPatch& changed = source->fingers[round % 3];
+    FingerNeighbourhood& changed = source->fingers[round % 3];
     changed.serial = round;
     changed.radius = static_cast<double>(round);
     changed.body_count = static_cast<int>(round % 7);
@@ -218,11 +220,11 @@ TEST(ContactPatches, ACopyIsWhatItsSourceWasWhateverItHeldBefore) {
       changed.bodies[b].cut_count = 2;
       changed.bodies[b].cut[1] = static_cast<std::int32_t>(round);
     }
-    ContactPatches& slot = *slots[round / 2 % 3];
+    FingerNeighbourhoods& slot = *slots[round / 2 % 3];
     slot = *source;
     ASSERT_EQ(slot.count, source->count);
     for (std::size_t f = 0; f < static_cast<std::size_t>(slot.count); ++f) {
-      const FingerPatch &copy = slot.fingers[f], &original = source->fingers[f];
+      const FingerNeighbourhood &copy = slot.fingers[f], &original = source->fingers[f];
       ASSERT_EQ(copy.serial, original.serial);
       ASSERT_EQ(copy.radius, original.radius);
       ASSERT_EQ(copy.body_count, original.body_count);

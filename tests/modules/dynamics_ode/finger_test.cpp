@@ -195,7 +195,7 @@ TEST(Finger, OldSampleIsExtrapolatedWithItsVelocity) {
 // A sticking proxy that reaches its static bound within the step slips there: from then on sliding friction is
 // rendered, and the body gets no more than that. mu 0.8 and 0.6 at 2 N; displaced by 1.5 and by 1.7 mm at the end of
 // the step.
-TEST(Finger, LetsGoInTheStepInWhichItsStaticBoundIsReached) {
+TEST(Finger, SlipsInTheStepInWhichItsStaticBoundIsReached) {
   const auto friction = [](double end) {
     WorldMaker maker;
     maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});

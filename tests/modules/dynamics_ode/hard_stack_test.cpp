@@ -8,7 +8,7 @@ namespace presa::ode {
 namespace {
 
 constexpr double kEdge = 0.05;
-constexpr double kMostPenetration = 5e-4;
+constexpr double kMaxPenetration = 5e-4;
 
 class MassRatio : public testing::TestWithParam<double> {};
 
@@ -21,8 +21,8 @@ TEST_P(MassRatio, HeavyStandsOnLight) {
   Runner runner(maker.world(), awake());
   for (int second = 0; second < 30; ++second) {
     runner.run(1);
-    ASSERT_LT(kEdge / 2 - runner[1].X_WB_end.p.z(), kMostPenetration);
-    ASSERT_LT(kEdge - (runner[2].X_WB_end.p.z() - runner[1].X_WB_end.p.z()), kMostPenetration);
+    ASSERT_LT(kEdge / 2 - runner[1].X_WB_end.p.z(), kMaxPenetration);
+    ASSERT_LT(kEdge - (runner[2].X_WB_end.p.z() - runner[1].X_WB_end.p.z()), kMaxPenetration);
     ASSERT_LT((runner[2].X_WB_end.p - Vec3(0, 0, 1.5 * kEdge)).norm(), 1e-3) << "it walked";
   }
   EXPECT_EQ(runner.bodies.fallbackSteps(), 0U);
@@ -80,7 +80,7 @@ TEST(Tower, OfTenStandsThirtySeconds) {
     for (std::size_t i = 1; i <= 10; ++i) places.push_back(runner[i].X_WB_end.p);
     for (int second = 0; second < 30; ++second) {
       runner.run(1);
-      ASSERT_LT(deepest(runner, 10), kMostPenetration);
+      ASSERT_LT(deepest(runner, 10), kMaxPenetration);
       ASSERT_LT(farthestFrom(runner, places), 1e-3) << turned;
     }
   }
@@ -106,7 +106,7 @@ TEST(Tower, OfTenGrippedAtTheLowestIsCarried) {
       for (std::size_t i = 2; i <= 10; ++i) {
         const Pose& below = runner[i - 1].X_WB_end;
         const Vec3 p = below.q.conjugate() * (runner[i].X_WB_end.p - below.p);
-        ASSERT_NEAR(p.z(), kEdge, kMostPenetration) << n << " block " << i;
+        ASSERT_NEAR(p.z(), kEdge, kMaxPenetration) << n << " block " << i;
         ASSERT_LT(p.head<2>().norm(), 1e-3) << n << " block " << i << " shifted";
       }
     }
@@ -168,16 +168,16 @@ TEST(Heap, FingerOnALargeIslandHoldsALightCube) {
     fingers[0].stiffness = 10000;
     fingers[0].damping = 1;
     fingers[0].p_WH = runner[1].X_WB_end.p + fingers[0].p_BP - 0.0005 * Vec3::UnitZ();
-    double least = 1e300, most = 0;
+    double min = 1e300, max = 0;
     for (int n = 0; n < 150; ++n) {
       runner.step(exchangeOf(fingers, runner));
       if (n < 100) continue;
       const double force = runner.bodies.fingerForce(0).norm();
-      least = std::min(least, force);
-      most = std::max(most, force);
+      min = std::min(min, force);
+      max = std::max(max, force);
     }
     EXPECT_GT(runner.bodies.contacts().size(), OdeOptions{}.direct_limit);
-    return (most - least) / most;
+    return (max - min) / max;
   };
   const double automatic = chatter(0), one = chatter(1);
   RecordProperty("chatter_percent", std::to_string(100 * automatic) + " against " + std::to_string(100 * one));

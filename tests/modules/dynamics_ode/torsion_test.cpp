@@ -9,14 +9,14 @@ namespace {
 constexpr double kEdge = 0.05, kMass = 0.1, kDepth = 0.003, kStiffness = 1000, kMu = 1;
 constexpr double kGrip = kStiffness * kDepth;         // of each finger [N]
 constexpr double kTorsion = 0.003;                    // [m]
-constexpr double kMost = 2 * kTorsion * kMu * kGrip;  // maximum torque of both [N m]
+constexpr double kMaxTorque = 2 * kTorsion * kMu * kGrip;  // maximum torque of both [N m]
 
-std::shared_ptr<const World> cube(double torsion, const Vec3& gravity) {
+std::shared_ptr<const World> cube(double torsional_radius, const Vec3& gravity) {
   WorldMaker maker;
   maker.gravity(gravity).box({kEdge, kEdge, kEdge}, kMass, {});
   auto world = std::make_shared<World>(*maker.world());
   world->scene.devices.resize(2);
-  for (Material& material : world->scene.materials) material.torsion = torsion;
+  for (Material& material : world->scene.materials) material.torsional_radius = torsional_radius;
   return world;
 }
 
@@ -24,7 +24,7 @@ double angleAboutX(const Runner& run) { return 2 * std::atan2(run[0].X_WB_end.q.
 
 // A spin about the line between the fingers decelerates with M / I, like a flywheel on a brake, and then stops.
 TEST(Torsion, BrakesASpinByAConstantTorque) {
-  const double inertia = kMass * kEdge * kEdge / 6, slowing = kMost / inertia, spin = 20;
+  const double inertia = kMass * kEdge * kEdge / 6, slowing = kMaxTorque / inertia, spin = 20;
   Runner run(cube(kTorsion, Vec3::Zero()), awake());
   run.bodies.setVelocity(0, Vec3::Zero(), {spin, 0, 0});
   std::vector<ReferenceFinger> fingers = pinch(0, kEdge, kDepth, kStiffness, kMu);
@@ -66,7 +66,7 @@ TEST(Torsion, APointTurnsFreely) {
 // Held beside its centre of mass, the cube stays while m g l is below the torque, and swings down when it is above.
 TEST(Torsion, HoldsALeverUpToItsTorque) {
   for (const double share : {0.8, 1.25}) {
-    const double lever = share * kMost / (kMass * kGravity);
+    const double lever = share * kMaxTorque / (kMass * kGravity);
     Runner run(cube(kTorsion, {0, 0, -kGravity}), awake());
     std::vector<ReferenceFinger> fingers = pinch(0, kEdge, kDepth, kStiffness, kMu);
     for (ReferenceFinger& finger : fingers) {

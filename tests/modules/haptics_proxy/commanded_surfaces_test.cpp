@@ -84,11 +84,11 @@ TEST(CommandedSurfaces, ChangeStiffnessWithoutAStep) {
       const double k = to + (from - to) * std::exp(-n * kPeriod / tau);
       ASSERT_NEAR(contact.stiffness, k, 2e-6 * kStiffness) << n;
       ASSERT_NEAR(contact.normal_force, k * depth, 2e-5) << n;
-      const double step = std::abs(contact.normal_force - last), most = std::abs(from - to) * depth * kPeriod / tau;
-      ASSERT_LE(step, 1.001 * most) << n;
+      const double step = std::abs(contact.normal_force - last), max = std::abs(from - to) * depth * kPeriod / tau;
+      ASSERT_LE(step, 1.001 * max) << n;
       ASSERT_LE(step, kSlewLimit / 50) << n;
       const double energy = std::abs(contact.normal_force - last) * depth / 2;  // change of k depth^2 / 2
-      ASSERT_LE(energy, 1.001 * most * depth / 2) << n;
+      ASSERT_LE(energy, 1.001 * max * depth / 2) << n;
       last = contact.normal_force;
     }
     EXPECT_EQ(finger.tick({0, 0, kHeight - depth}).stiffness, to);  // the target is reached
@@ -146,12 +146,12 @@ TEST(OpenSurfaces, AreWhatFingersTouchWithinWhatTheSceneLoadedWith) {
   const auto open = openSurfaces(world.scene);
   ASSERT_EQ(open.size(), 3u);
   EXPECT_EQ(open[0].name, "material/rubber/stiffness");
-  EXPECT_EQ(open[0].least, 1);
-  EXPECT_EQ(open[0].most, kStiffness);  // not above: only the loaded value has passed the stability check
+  EXPECT_EQ(open[0].min, 1);
+  EXPECT_EQ(open[0].max, kStiffness);  // not above: only the loaded value has passed the stability check
   EXPECT_EQ(open[1].name, "material/rubber/friction/static");
-  EXPECT_EQ(open[1].most, 1.6);
+  EXPECT_EQ(open[1].max, 1.6);
   EXPECT_EQ(open[2].name, "material/rubber/friction/dynamic");
-  EXPECT_EQ(open[2].most, 1.2);
+  EXPECT_EQ(open[2].max, 1.2);
   world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;  // renderer without friction
   EXPECT_EQ(openSurfaces(world.scene).size(), 1u);
   world.scene.haptics = {};

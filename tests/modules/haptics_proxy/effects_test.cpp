@@ -109,11 +109,11 @@ TEST(Pose, IsInterpolatedToNowOrHeldAtTheEndOfTheStep) {
 // On a thick body both renderers give the same spring force.
 TEST(Penalty, IsTheGodObjectOnAThickFace) {
   World world = test::worldOf(Box{{0.1, 0.1, 0.1}});
-  OneFinger god(world);
+  OneFinger god_object(world);
   world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;
   OneFinger penalty(world);
   for (double z = 0.06; z > 0.045; z -= 1e-4) {
-    const Vec3 f = god.tick({0.01, 0.005, z}).f_H_W;
+    const Vec3 f = god_object.tick({0.01, 0.005, z}).f_H_W;
     EXPECT_NEAR((penalty.tick({0.01, 0.005, z}).f_H_W - f).norm(), 0, kStiffness * 1e-6 * kR);
   }
   EXPECT_EQ(penalty.all().pop_through, 0u);
@@ -126,17 +126,17 @@ TEST(Penalty, PopsThroughAThinPlateWhichTheGodObjectHolds) {
   for (const bool mesh : {false, true}) {
     World world = mesh ? test::worldOf(MeshRef{}) : test::worldOf(Box{{0.1, 0.1, 0.002}});
     if (mesh) world.meshes[0].haptic = std::make_shared<const TriMesh>(plate);
-    OneFinger god(world);
+    OneFinger god_object(world);
     world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;
     OneFinger penalty(world);
     Vec3 held = Vec3::Zero(), popped = Vec3::Zero();
-    for (OneFinger* finger : {&god, &penalty}) {
-      for (double z = 0.02; z > -0.003; z -= 1e-4) (finger == &god ? held : popped) = finger->tick({0, 0, z}).f_H_W;
+    for (OneFinger* finger : {&god_object, &penalty}) {
+      for (double z = 0.02; z > -0.003; z -= 1e-4) (finger == &god_object ? held : popped) = finger->tick({0, 0, z}).f_H_W;
     }
     const double z = -0.003 + 1e-4;  // last height above -3 mm
     EXPECT_NEAR(held.z(), kStiffness * (0.001 + kR - z), 0.11) << mesh;
     EXPECT_NEAR(popped.z(), -kStiffness * (kR - (-z - 0.001)), 0.11) << mesh;
-    EXPECT_EQ(god.all().pop_through, 0u);
+    EXPECT_EQ(god_object.all().pop_through, 0u);
     EXPECT_EQ(penalty.all().pop_through, 1u);
   }
 }

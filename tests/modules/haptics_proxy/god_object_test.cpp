@@ -166,7 +166,7 @@ TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
     const ProxyContact c = stepProxy(tip, g, *s, {});
     tip = c.state;
     ASSERT_TRUE(tip.touching);
-    ASSERT_LT(c.stretch.norm(), 1e-8 * kR);
+    ASSERT_LT(c.tangential_displacement.norm(), 1e-8 * kR);
   }
 }
 
@@ -178,16 +178,16 @@ TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
     const Vec3 along(std::cos(heading), std::sin(heading), 0);
     const double depth = 0.002;
     FingertipState tip{{0, 0, kR}, {0, 0, kR}};
-    double most = 0, sliding = 0;
+    double max = 0, sliding = 0;
     for (int tick = 0; tick < 400; ++tick) {
       const Vec3 g = Vec3(0, 0, kR - depth) + along * (1e-5 * tick);
       const ProxyContact c = stepProxy(tip, g, *s, cone);
       tip = c.state;
-      const double ratio = c.stretch.norm() / c.depth;
-      if (!tip.slipping) most = std::max(most, ratio);
+      const double ratio = c.tangential_displacement.norm() / c.depth;
+      if (!tip.slipping) max = std::max(max, ratio);
       if (tip.slipping) sliding = ratio;
     }
-    EXPECT_NEAR(most, 0.8, 1.001e-5 / depth) << heading;  // within one step of the motion, plus rounding
+    EXPECT_NEAR(max, 0.8, 1.001e-5 / depth) << heading;  // within one step of the motion, plus rounding
     EXPECT_NEAR(sliding, 0.6, 1e-6) << heading;
   }
 }
@@ -215,8 +215,8 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
       ASSERT_TRUE(c.state.slipping);
     }
     const double phi = 2 * std::atan(std::tan(phi_0 / 2) * std::exp(-way / length));
-    const Vec3 stretch = c.state.hold - (from + Vec3(0, 0, way));
-    const double seen = std::acos(std::clamp(-stretch.z() / stretch.norm(), -1.0, 1.0));
+    const Vec3 displacement = c.state.stick_anchor - (from + Vec3(0, 0, way));
+    const double seen = std::acos(std::clamp(-displacement.z() / displacement.norm(), -1.0, 1.0));
     EXPECT_NEAR(seen, phi, 0.01 + step / length) << step;
   }
 }
@@ -260,7 +260,7 @@ TEST(Friction, LetsGoOfABodyThatHasGone) {
   const ProxyContact contact = stepProxy(tip, g, *floor, cone);
   EXPECT_TRUE(contact.state.touching);
   EXPECT_NEAR(contact.x.z(), kR, 1e-6 * kR);
-  EXPECT_LE(contact.stretch.norm(), cone.mu_static * contact.depth * (1 + 1e-9));
+  EXPECT_LE(contact.tangential_displacement.norm(), cone.mu_static * contact.depth * (1 + 1e-9));
 }
 
 // Two boxes move about a fingertip in the wedge between them, also round its edges: a touching proxy must lie on a

@@ -34,7 +34,7 @@ class OneFinger {
     graph_.step(RateGroup::kHaptic, {index_++, time, 1e-3});
     return sink_->contact->fingers[0];
   }
-  ContactPatches& patches() { return patches_->out.value; }
+  FingerNeighbourhoods& neighbourhoods() { return neighbourhoods_->out.value; }
   SurfaceChange& surfaces() { return surfaces_->out.value; }
   SurfaceSettings& settings() { return settings_->out.value; }
   ObjectState& objects() { return objects_->out.value; }
@@ -49,7 +49,7 @@ class OneFinger {
   void build(const HapticEffects& effects) {
     GraphBuilder builder;
     device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
-    patches_ = &builder.add(std::make_unique<Source<ContactPatches>>("contact_patches"));
+    neighbourhoods_ = &builder.add(std::make_unique<Source<FingerNeighbourhoods>>("contact_patches"));
     surfaces_ = &builder.add(std::make_unique<Source<SurfaceChange>>("surface_change"));
     settings_ = &builder.add(std::make_unique<Source<SurfaceSettings>>("surface_settings"));
     objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));
@@ -66,7 +66,7 @@ class OneFinger {
   std::shared_ptr<const World> world_;
   Graph graph_;
   Source<DeviceState>* device_ = nullptr;
-  Source<ContactPatches>* patches_ = nullptr;
+  Source<FingerNeighbourhoods>* neighbourhoods_ = nullptr;
   Source<SurfaceChange>* surfaces_ = nullptr;
   Source<SurfaceSettings>* settings_ = nullptr;
   Source<ObjectState>* objects_ = nullptr;

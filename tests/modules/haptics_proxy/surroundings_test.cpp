@@ -32,12 +32,12 @@ std::shared_ptr<const TriMesh> bumpyField(double edge = 1e-3, double reach = 0.0
 }
 
 double distanceFrom(const TriMesh& mesh, const Vec3& p) {
-  double least = 1e300;
+  double min = 1e300;
   for (const TriMesh::Triangle& t : mesh.triangles) {
     const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
-    least = std::min(least, (p - closestOnTriangle(p, at(0), at(1), at(2))).norm());
+    min = std::min(min, (p - closestOnTriangle(p, at(0), at(1), at(2))).norm());
   }
-  return least;
+  return min;
 }
 
 // The history of the fronts must not affect the result: a fingertip that keeps its surroundings from tick to tick and
@@ -76,7 +76,7 @@ TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
       state[s == kept.get() ? 0 : 1] = contact.state;
     }
     ASSERT_NEAR((state[0].x - state[1].x).norm(), 0, 2e-6 * kR) << tick;
-    ASSERT_NEAR((state[0].god - state[1].god).norm(), 0, 2e-6 * kR) << tick;
+    ASSERT_NEAR((state[0].god_object - state[1].god_object).norm(), 0, 2e-6 * kR) << tick;
     ASSERT_EQ(state[0].touching, state[1].touching) << tick;
     tip = state[0];
     before = hand;

@@ -239,9 +239,9 @@ TEST_F(Offscreen, PlotsTheLastSeconds) {
   }
   const PngPicture picture(file);
   const auto line = [&](int x) {  // within two lines of the expected height: it is one line thick, and averaged
-    int most = 0;
-    for (int y = 354; y <= 358; ++y) most = std::max(most, picture.at(x, y).b - picture.at(x, y).r);
-    return most;
+    int max = 0;
+    for (int y = 354; y <= 358; ++y) max = std::max(max, picture.at(x, y).b - picture.at(x, y).r);
+    return max;
   };
   for (const int x : {225, 245, 262}) EXPECT_GT(line(x), 60) << x;
   for (const int x : {60, 120, 200}) EXPECT_LT(line(x), 30) << x;

@@ -22,7 +22,7 @@ TEST(FrameBudget, DrawsLessOfTheWindowUntilFramesComeInTime) {
   draw(budget, 0.045, 100);
   EXPECT_EQ(budget.share(), 0.75);
   draw(budget, 0.200, 100);
-  EXPECT_EQ(budget.share(), FrameBudget::kLeast);  // the minimum, however long a frame takes
+  EXPECT_EQ(budget.share(), FrameBudget::kMinShare);  // the minimum, however long a frame takes
   draw(budget, 0.010, 100);
   EXPECT_EQ(budget.share(), 1);
 }

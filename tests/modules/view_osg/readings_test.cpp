@@ -111,16 +111,16 @@ TEST(Framing, FillsThePictureWithFieldsAndTowers) {
   };
   for (const double aspect : {16.0 / 9, 1.0}) {
     for (const auto& balls : {grid({1, 0.5, 0}), grid({0.05, 0.05, 0.8}), grid({0, 0, 0})}) {
-      Share most{-1, -1, -1, -1};
+      Share max{-1, -1, -1, -1};
       const CameraPose pose = frameSubject(balls, aspect, chooseHeading(balls));
       for (const Ball& ball : balls) {
         const Share share = shareOf(ball, pose, aspect);
-        most = {std::max(most.left, share.left), std::max(most.right, share.right), std::max(most.down, share.down),
-                std::max(most.up, share.up)};
+        max = {std::max(max.left, share.left), std::max(max.right, share.right), std::max(max.down, share.down),
+                std::max(max.up, share.up)};
       }
-      EXPECT_NEAR(most.left, most.right, 0.02);  // relative to the half width; exact where the width is limiting
-      EXPECT_NEAR(std::max(most.right / 0.52, most.up / 0.80), 1, 1e-9);
-      EXPECT_LE(std::max(most.left / 0.52, most.down / 0.80), 1 + 1e-9);
+      EXPECT_NEAR(max.left, max.right, 0.02);  // relative to the half width; exact where the width is limiting
+      EXPECT_NEAR(std::max(max.right / 0.52, max.up / 0.80), 1, 1e-9);
+      EXPECT_LE(std::max(max.left / 0.52, max.down / 0.80), 1 + 1e-9);
     }
   }
 }

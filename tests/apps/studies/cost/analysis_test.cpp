@@ -24,7 +24,7 @@ Outcome outcome(const std::string& rate, const std::string& coupling, double cos
 
 Result made() {
   Result result;
-  result.study.knobs = {{"dynamics_rate", {}}, {"coupling", {}}};
+  result.study.factors = {{"dynamics_rate", {}}, {"coupling", {}}};
   result.metrics = {"force_rms"};
   result.reference.noticeable["force_rms"] = 0.3;
   result.outcomes = {outcome("200", "soft", 0.010, 0.2),     outcome("100", "soft", 0.005, 0.4),
@@ -53,12 +53,12 @@ TEST(Analysis, TheDistanceFromTheFrontIsThatInCostAndThatInError) {
   EXPECT_EQ(off->as_accurate, 6u);
   EXPECT_NEAR(off->error, 4, 1e-12);
   EXPECT_EQ(off->as_cheap, 7u);
-  EXPECT_NEAR(off->least(), 1.25, 1e-12);
+  EXPECT_NEAR(off->ratio(), 1.25, 1e-12);
   // an engine without fingers cannot be a default
   for (Outcome& each : result.outcomes) each.setting.choices.emplace_back("engine", "ode");
   result.outcomes.push_back(outcome("200", "soft", 0.001, 0.001));
   result.outcomes.back().setting.choices.emplace_back("engine", "bullet");
-  EXPECT_EQ(distanceToFront(result, "force_rms")->least(), off->least());
+  EXPECT_EQ(distanceToFront(result, "force_rms")->ratio(), off->ratio());
   EXPECT_FALSE(distanceToFront(result, "hum")) << "the default has no such error";
 }
 
@@ -72,17 +72,17 @@ TEST(Analysis, ErrorsBelowTheResolutionAreEqual) {
   EXPECT_TRUE(result.resolved(result.outcomes[3], "force_rms")) << "a failure has no error to doubt";
   EXPECT_EQ(paretoFront(result, "force_rms"), (std::vector<std::size_t>{1, 0}));
   EXPECT_FALSE(cheapestBelow(result, "force_rms", 0.3)) << "nothing is known to be below";
-  EXPECT_EQ(distanceToFront(result, "force_rms")->least(), 1);
+  EXPECT_EQ(distanceToFront(result, "force_rms")->ratio(), 1);
 }
 
-TEST(Analysis, OneKnobBuysWhatItsNeighboursShow) {
-  const auto gains = knobGains(made(), "force_rms");
+TEST(Analysis, OneFactorBuysWhatItsNeighboursShow) {
+  const auto gains = factorGains(made(), "force_rms");
   ASSERT_EQ(gains.size(), 3u);
   EXPECT_EQ(gains[0].to, "100");
   EXPECT_NEAR(gains[0].error_ratio, 2, 1e-12);
   EXPECT_NEAR(gains[0].per_double_cost.value(), 0.5, 1e-9);  // half the cost, twice the error
   EXPECT_NEAR(gains[1].per_double_cost.value(), 0.5, 1e-9);
-  EXPECT_EQ(gains[2].knob, "coupling");
+  EXPECT_EQ(gains[2].factor, "coupling");
   EXPECT_NEAR(gains[2].error_ratio, 4, 1e-12);
   EXPECT_FALSE(gains[2].per_double_cost) << "the cost did not change";
 }
@@ -112,8 +112,8 @@ TEST(Sentences, SayWhatTheNumbersSay) {
   Result result = made();
   result.study.sentences = {
       {.kind = Kind::kBelow, .metric = "force_rms"},
-      {.kind = Kind::kHalving, .metric = "force_rms", .knob = "dynamics_rate"},
-      {.kind = Kind::kCompare, .metric = "force_rms", .knob = "coupling", .a = "soft", .b = "explicit"},
+      {.kind = Kind::kHalving, .metric = "force_rms", .factor = "dynamics_rate"},
+      {.kind = Kind::kCompare, .metric = "force_rms", .factor = "coupling", .a = "soft", .b = "explicit"},
       {.kind = Kind::kCheapest, .metric = "force_rms"},
       {.kind = Kind::kFailures},
       {.kind = Kind::kBelow, .metric = "hum"},

@@ -20,8 +20,8 @@ using testing::IsEmpty;
 constexpr double kPatience = 20;  // [s] max wait for an event
 
 /// A Falcon on the bus and its driver, with a haptic loop of 1 kHz that pushes with a constant force.
-struct Desk {
-  explicit Desk(const ModelSettings& settings = ready()) : falcon(bus.add(settings)) {
+struct FalconBench {
+  explicit FalconBench(const ModelSettings& settings = ready()) : falcon(bus.add(settings)) {
     falcon.with([](FalconModel& model, double) {
       // the bus delays and bunches requests: the slew limit holds on the driver's clock, not on the device's
       model.limits({.force = 8, .force_rate = 1000, .jitter = 1e-3});
@@ -101,17 +101,17 @@ TEST(FalconOverUsb, LoadsFirmwareAfterSevenBadAttempts) {
   settings.loader.firmware = firmware();
   for (int attempt = 0; attempt < 7; ++attempt)
     settings.loader.faults.push_back({attempt, static_cast<std::size_t>(attempt * 37), UploadFault::Kind::kWrongEcho});
-  Desk desk(settings);
-  desk.moveHand();
-  const bool opened = opensInTime(desk.driver);
+  FalconBench bench(settings);
+  bench.moveHand();
+  const bool opened = opensInTime(bench.driver);
   // the firmware runs and obeys even if its replies are irregular
-  desk.falcon.with([](FalconModel& model, double) { EXPECT_GE(model.processor().uploads(), 8); });
-  EXPECT_THAT(desk.violations(), IsEmpty());
+  bench.falcon.with([](FalconModel& model, double) { EXPECT_GE(model.processor().uploads(), 8); });
+  EXPECT_THAT(bench.violations(), IsEmpty());
   SKIP_UNLESS_OPENED(opened);
-  EXPECT_GE(desk.driver.status().load.attempts, 7);
-  EXPECT_EQ(desk.driver.status().state, LinkState::kOperating);
-  REACHED_OR_LATE(desk.untilFelt(1), desk.late);
-  EXPECT_THAT(desk.violations(), IsEmpty());
+  EXPECT_GE(bench.driver.status().load.attempts, 7);
+  EXPECT_EQ(bench.driver.status().state, LinkState::kOperating);
+  REACHED_OR_LATE(bench.untilFelt(1), bench.late);
+  EXPECT_THAT(bench.violations(), IsEmpty());
 }
 
 TEST(FalconOverUsb, TenWrongEchoesAreSaid) {
@@ -119,99 +119,99 @@ TEST(FalconOverUsb, TenWrongEchoesAreSaid) {
   settings.loader.firmware = firmware();
   for (int attempt = 0; attempt < 20; ++attempt)
     settings.loader.faults.push_back({attempt, 5, UploadFault::Kind::kCorruptByte});
-  Desk desk(settings);
+  FalconBench bench(settings);
   try {
-    desk.driver.open();
+    bench.driver.open();
     FAIL() << "it was opened";
   } catch (const InputError& error) {
     EXPECT_EQ(error.diagnostics().all().at(0).code, falcon::kEchoWrong);
     EXPECT_THAT(error.what(), HasSubstr("byte 5 of 700"));
     EXPECT_THAT(error.what(), HasSubstr("10 attempts"));
   }
-  desk.falcon.with([](FalconModel& model, double) {
+  bench.falcon.with([](FalconModel& model, double) {
     EXPECT_EQ(model.processor().uploads(), 10);
     EXPECT_EQ(model.requests(), 0);
   });
 }
 
 TEST(FalconOverUsb, ARefusedSettingIsSaid) {
-  Desk desk;
-  desk.falcon.with([](FalconModel& model, double) { model.refuseRequests(3); });
-  EXPECT_THROW(desk.driver.open(), InputError);
+  FalconBench bench;
+  bench.falcon.with([](FalconModel& model, double) { model.refuseRequests(3); });
+  EXPECT_THROW(bench.driver.open(), InputError);
 }
 
 TEST(FalconOverUsb, ShortAndMergedRepliesAreLivedThrough) {
-  Desk desk;
-  OPENED_OR_LATE(desk.driver);
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
+  FalconBench bench;
+  OPENED_OR_LATE(bench.driver);
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
   RandomStream random(1, "replies");
   int mutated = 0;
-  desk.falcon.with([&](FalconModel& model, double) {
+  bench.falcon.with([&](FalconModel& model, double) {
     model.onReply([&](ReplyFate& reply) {
       if (random.below(10) == 0) shorten(reply, random), ++mutated;
       reply.waits = random.below(10) == 0;
     });
   });
-  ASSERT_TRUE(desk.until([&](FalconModel&, const FingerInput&) { return mutated > 50; }));
-  desk.falcon.with([](FalconModel& model, double) { model.onReply(nullptr); });
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  EXPECT_EQ(desk.driver.status().state, LinkState::kOperating);
-  EXPECT_THAT(desk.violations(), IsEmpty());
+  ASSERT_TRUE(bench.until([&](FalconModel&, const FingerInput&) { return mutated > 50; }));
+  bench.falcon.with([](FalconModel& model, double) { model.onReply(nullptr); });
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  EXPECT_EQ(bench.driver.status().state, LinkState::kOperating);
+  EXPECT_THAT(bench.violations(), IsEmpty());
 }
 
 // No reply for half a second of the device's clock: the force is zero meanwhile, and returns.
 TEST(FalconOverUsb, SilenceTakesTheForceAwayAndItComesBack) {
-  Desk desk;
-  OPENED_OR_LATE(desk.driver);
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  desk.falcon.with([](FalconModel& model, double now) { model.mute(now, now + 0.5); });
-  EXPECT_TRUE(desk.untilZero());
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  EXPECT_THAT(desk.violations(), IsEmpty());
+  FalconBench bench;
+  OPENED_OR_LATE(bench.driver);
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  bench.falcon.with([](FalconModel& model, double now) { model.mute(now, now + 0.5); });
+  EXPECT_TRUE(bench.untilZero());
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  EXPECT_THAT(bench.violations(), IsEmpty());
 }
 
 // A stall ends transfers but not the connection: the halt is cleared and communication continues.
 TEST(FalconOverUsb, AStallIsCleared) {
-  Desk desk;
-  OPENED_OR_LATE(desk.driver);
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  desk.falcon.stallBulk(true);
-  EXPECT_TRUE(desk.until([](FalconModel&, const FingerInput& finger) { return !finger.valid; }));
-  desk.falcon.stallBulk(false);
-  EXPECT_TRUE(desk.until([](FalconModel&, const FingerInput& finger) { return finger.valid; }));
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  EXPECT_THAT(desk.violations(), IsEmpty());
+  FalconBench bench;
+  OPENED_OR_LATE(bench.driver);
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  bench.falcon.stallBulk(true);
+  EXPECT_TRUE(bench.until([](FalconModel&, const FingerInput& finger) { return !finger.valid; }));
+  bench.falcon.stallBulk(false);
+  EXPECT_TRUE(bench.until([](FalconModel&, const FingerInput& finger) { return finger.valid; }));
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  EXPECT_THAT(bench.violations(), IsEmpty());
 }
 
 TEST(FalconOverUsb, PulledOutInTheGraspAndBackItStartsFromTheBeginning) {
-  Desk desk;
-  OPENED_OR_LATE(desk.driver);
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  const double pulled = desk.falcon.now();
-  desk.falcon.unplug();
-  ASSERT_TRUE(desk.until([](FalconModel&, const FingerInput& finger) { return finger.lost; }));
-  RecordProperty("noticed_ms", static_cast<int>(1e3 * (desk.falcon.now() - pulled)));
-  EXPECT_EQ(desk.driver.status().fault, falcon::LinkFault::kLost);
-  desk.falcon.plug();
-  const int requests = desk.falcon.with([](FalconModel& model, double) { return model.requests(); });
-  desk.driver.rearm();
-  for (int i = 0; i < 50; ++i) desk.until([](FalconModel&, const FingerInput&) { return true; });
-  EXPECT_EQ(desk.falcon.with([](FalconModel& model, double) { return model.requests(); }), requests);
-  desk.driver.close();
-  desk.moveHand();
-  OPENED_OR_LATE(desk.driver);  // loads firmware and homes again
-  desk.falcon.with([](FalconModel& model, double) { EXPECT_EQ(model.processor().uploads(), 1); });
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  EXPECT_THAT(desk.violations(), IsEmpty());
+  FalconBench bench;
+  OPENED_OR_LATE(bench.driver);
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  const double pulled = bench.falcon.now();
+  bench.falcon.unplug();
+  ASSERT_TRUE(bench.until([](FalconModel&, const FingerInput& finger) { return finger.lost; }));
+  RecordProperty("noticed_ms", static_cast<int>(1e3 * (bench.falcon.now() - pulled)));
+  EXPECT_EQ(bench.driver.status().fault, falcon::LinkFault::kLost);
+  bench.falcon.plug();
+  const int requests = bench.falcon.with([](FalconModel& model, double) { return model.requests(); });
+  bench.driver.rearm();
+  for (int i = 0; i < 50; ++i) bench.until([](FalconModel&, const FingerInput&) { return true; });
+  EXPECT_EQ(bench.falcon.with([](FalconModel& model, double) { return model.requests(); }), requests);
+  bench.driver.close();
+  bench.moveHand();
+  OPENED_OR_LATE(bench.driver);  // loads firmware and homes again
+  bench.falcon.with([](FalconModel& model, double) { EXPECT_EQ(model.processor().uploads(), 1); });
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  EXPECT_THAT(bench.violations(), IsEmpty());
 }
 
 // Closing takes the force to zero at the device.
 TEST(FalconOverUsb, ClosedItLeavesZeroBehind) {
-  Desk desk;
-  OPENED_OR_LATE(desk.driver);
-  REACHED_OR_LATE(desk.untilFelt(1.5), desk.late);
-  desk.driver.close();
-  desk.falcon.with([](FalconModel& model, double) {
+  FalconBench bench;
+  OPENED_OR_LATE(bench.driver);
+  REACHED_OR_LATE(bench.untilFelt(1.5), bench.late);
+  bench.driver.close();
+  bench.falcon.with([](FalconModel& model, double) {
     EXPECT_FALSE(model.holdsForce());
     EXPECT_THAT(model.violations(), IsEmpty());
   });

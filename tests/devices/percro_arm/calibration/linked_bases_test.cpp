@@ -81,7 +81,7 @@ TEST(LinkedBases, AMotionAlongALineOrOnTheSpotIsRefused) {
   const Pose X_AB = anyPose(stream);
   for (const Vec3& spread : {Vec3(0.2, 1e-3, 1e-3), Vec3(5e-3, 5e-3, 5e-3), Vec3(0, 0, 0)}) {
     const LinkedBases fit = fitBases(samplesOf(stream, X_AB, spread, 30e-6));
-    EXPECT_GT(fit.condition, kMostCondition);
+    EXPECT_GT(fit.condition, kMaxCondition);
     EXPECT_NE(fit.refusal.find("too poor"), std::string::npos) << fit.refusal;
   }
   const LinkedBases line = fitBases(samplesOf(stream, X_AB, {0.2, 1e-3, 1e-3}, 0));
@@ -94,7 +94,7 @@ TEST(LinkedBases, WhatIsNoRigidMotionIsRefused) {
   auto samples = samplesOf(stream, X_AB, {0.1, 0.1, 0.1}, 30e-6);
   for (LinkedSample& s : samples) s.p_B *= 1.05;  // a joint that is not homed scales the positions of its arm
   EXPECT_NE(fitBases(samples).refusal.find("did not hold one point"), std::string::npos);
-  samples.resize(kLeastSamples - 1);
+  samples.resize(kMinSamples - 1);
   EXPECT_NE(fitBases(samples).refusal.find("too few"), std::string::npos);
   samples = samplesOf(stream, X_AB, {0.1, 0.1, 0.1}, 0);
   samples[7].p_A.x() = std::numeric_limits<double>::quiet_NaN();

@@ -144,7 +144,7 @@ class Diary final : public Module {
 // After a stall of 50 ms in virtual time the delayed ticks run at once, and only the newest writes to the device. After
 // a longer stall, all but the newest tick are skipped and counted.
 TEST(Lockstep, MarksTheTicksThatAStallMadeUp) {
-  for (const auto& [stall, made_up, skipped] : {std::tuple{0.050, 50u, 0u}, std::tuple{0.200, 0u, 200u}}) {
+  for (const auto& [stall, catch_up, skipped] : {std::tuple{0.050, 50u, 0u}, std::tuple{0.200, 0u, 200u}}) {
     GraphBuilder builder;
     auto& diary = builder.add(std::make_unique<Diary>());
     Graph graph = builder.build();
@@ -155,10 +155,10 @@ TEST(Lockstep, MarksTheTicksThatAStallMadeUp) {
     EXPECT_EQ(diary.ticks.size(), 400u - skipped);
     unsigned marked = 0;
     for (const Tick& tick : diary.ticks) {
-      marked += tick.made_up ? 1 : 0;
-      EXPECT_EQ(tick.made_up, made_up > 0 && tick.time > 0.0995 && tick.time < 0.1495) << tick.time;
+      marked += tick.catch_up ? 1 : 0;
+      EXPECT_EQ(tick.catch_up, catch_up > 0 && tick.time > 0.0995 && tick.time < 0.1495) << tick.time;
     }
-    EXPECT_EQ(marked, made_up);
+    EXPECT_EQ(marked, catch_up);
     EXPECT_EQ(executor.timing(RateGroup::kHaptic).skipped, skipped);
   }
 }
@@ -170,7 +170,7 @@ std::vector<std::int64_t> sentAt(std::int64_t stall_us, std::int64_t cost_us, in
   std::int64_t now = stall_us;
   for (int i = 0; i < ticks; ++i) {
     now = std::max<std::int64_t>(now, 1000 * i);
-    if (!catch_up.madeUp(now, now - 1000 * i)) sent.push_back(now);
+    if (!catch_up.isCatchUp(now, now - 1000 * i)) sent.push_back(now);
     now += cost_us;
   }
   return sent;

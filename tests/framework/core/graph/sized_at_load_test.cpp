@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/assembly/assembly_state.h"
-#include "framework/assembly/attraction.h"
+#include "framework/assembly/snap_constraint.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/state/object_state.h"
 #include "tests/support/alloc_lock_guard.h"
@@ -13,7 +13,7 @@
 namespace presa {
 namespace {
 
-static_assert(SizedAtLoad<ObjectState> && SizedAtLoad<Attractions> && SizedAtLoad<AssemblyState>);
+static_assert(SizedAtLoad<ObjectState> && SizedAtLoad<SnapConstraints> && SizedAtLoad<AssemblyState>);
 static_assert(!ExchangedData<std::vector<int>>, "what says nothing of its room may take some at any time");
 
 constexpr std::size_t kBodies = 5000;
@@ -91,11 +91,11 @@ TEST(SizedAtLoad, AReplayReadsTheVersionsItIsToldAndTakesNoMemoryOnTheWay) {
 }
 
 // The number of values in use may change at every step; the capacity does not.
-TEST(SizedAtLoad, AttractionsComeAndGoInTheRoomThatWasMade) {
+TEST(SizedAtLoad, SnapConstraintsComeAndGoInTheRoomThatWasMade) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
-  Attractions wanted;
+  SnapConstraints wanted;
   wanted.bodies.reserve(kBodies);
-  LatestValue<Attractions> latest(wanted);
+  LatestValue<SnapConstraints> latest(wanted);
   const RealTimeGuard guard;
   for (const std::size_t count : {std::size_t{0}, std::size_t{3}, kBodies, std::size_t{1}, kBodies}) {
     wanted.bodies.clear();

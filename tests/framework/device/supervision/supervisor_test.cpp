@@ -76,7 +76,7 @@ TEST_F(SupervisorCycle, EndsOnlyAfterAFarewellOfZero) {
   int cycles = 0;
   for (bool goes_on = true; goes_on; ++cycles) goes_on = supervisor_.cycle(true, kCycle);
   // 2 N at 1 N/ms, then 50 ms of zero
-  EXPECT_NEAR(cycles * kCycle, 2e-3 + Supervisor::kFarewell, 2 * kCycle);
+  EXPECT_NEAR(cycles * kCycle, 2e-3 + Supervisor::kZeroForceTime, 2 * kCycle);
   EXPECT_EQ(notes_.force, Vec3::Zero());
   supervisor_.close();
   EXPECT_TRUE(notes_.closed);
@@ -88,7 +88,7 @@ TEST_F(SupervisorCycle, ARearmReachesTheDeviceOnce) {
   tick(Vec3::Zero());
   tick(Vec3::Zero());
   EXPECT_EQ(notes_.rearms, 1);
-  EXPECT_EQ(report().rearms_met, 1u);
+  EXPECT_EQ(report().rearms_done, 1u);
 }
 
 }  // namespace

@@ -42,14 +42,14 @@ TEST(HardInput, ACrackHoldsAFingertipThatIsWider) {
       const MeshOracle oracle(*mesh);
       FingerRig rig(mesh, {.radius = radius});
       const double lowest = std::sqrt(radius * radius - gap * gap / 4);
-      double least = 1e300;
+      double min = 1e300;
       for (int i = 0; i < 40; ++i) rig.tick({-0.03, 0, 0.01 - i * 0.4e-3});
       for (int i = 0; i < 600; ++i) {
         const Vec3 h(-0.03 + i * 0.1e-3, 0.1e-3 * (i % 50), -0.006);
-        least = std::min(least, rig.tick(h).p_WP.z());
+        min = std::min(min, rig.tick(h).p_WP.z());
       }
-      EXPECT_GE(least, lowest - 1e-6);  // accuracy of a position
-      EXPECT_LE(least, radius + 1e-6);
+      EXPECT_GE(min, lowest - 1e-6);  // accuracy of a position
+      EXPECT_LE(min, radius + 1e-6);
       EXPECT_EQ(rig.all().pop_through, 0u);
       EXPECT_EQ(rig.all().coverage_lost, 0u);
     }

@@ -34,7 +34,7 @@ const char* const kRig = R"(<?xml version="1.0" encoding="UTF-8"?>
 
 struct Way {
   double first_inside = -1;  ///< [s]; negative: never
-  double least_distance = 1e300;
+  double min_distance = 1e300;
   std::uint32_t popped = 0;
 };
 
@@ -57,7 +57,7 @@ Way follow(const std::string& motion) {
   run.observe([&](const HapticSample& sample) {
     const FingerContact& finger = sample.contact.fingers[0];
     if (sample.contact.count == 0) return;
-    way.least_distance = std::min(way.least_distance, oracle.nearest(finger.p_WP, 0.01).distance);
+    way.min_distance = std::min(way.min_distance, oracle.nearest(finger.p_WP, 0.01).distance);
     if (watch.update(finger.p_WP) && way.first_inside < 0) way.first_inside = sample.tick.time;
     way.popped = sample.contact.pop_through;
   });
@@ -72,7 +72,7 @@ TEST(PopThrough, NeverHappensOnTheWayWhereItOnceDid) {
   EXPECT_EQ(way.first_inside, -1) << "[s]";
   EXPECT_EQ(way.popped, 0u);
   // tip of 2 mm: contact keeps its centre 2 mm off; 1 % for tolerances relative to the radius
-  EXPECT_GE(way.least_distance, 0.99 * 0.002);
+  EXPECT_GE(way.min_distance, 0.99 * 0.002);
 }
 
 }  // namespace

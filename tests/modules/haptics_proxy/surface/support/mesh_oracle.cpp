@@ -114,7 +114,7 @@ void MeshOracle::split(std::size_t node, std::int32_t first, std::int32_t count,
 
 MeshOracle::Nearest MeshOracle::nearest(const Vec3& p, double within) const {
   Nearest best;
-  double least = within * within;
+  double min = within * within;
   struct Entry {
     std::size_t node;
     double squared;
@@ -124,13 +124,13 @@ MeshOracle::Nearest MeshOracle::nearest(const Vec3& p, double within) const {
   stack[count++] = {0, squaredDistance(nodes_[0].low, nodes_[0].high, p)};
   while (count > 0) {
     const Entry entry = stack[--count];
-    if (entry.squared > least) continue;
+    if (entry.squared > min) continue;
     const Node& node = nodes_[entry.node];
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
       const Corners& t = triangles_[static_cast<std::size_t>(i)];
       const Vec3 q = nearestOnTriangle(p, t.a, t.b, t.c);
-      if (const double squared = (q - p).squaredNorm(); squared < least) {
-        least = squared;
+      if (const double squared = (q - p).squaredNorm(); squared < min) {
+        min = squared;
         best = {std::sqrt(squared), q, ids_[static_cast<std::size_t>(i)]};
       }
     }

@@ -28,7 +28,7 @@ void Wanderer::choose() {
     return;
   }
   // the nearest of a few random triangles, so that it mostly slides on from its position
-  double least = 1e300;
+  double min = 1e300;
   for (int i = 0; i < 8; ++i) {
     const auto t = static_cast<std::size_t>(uniform(0, 1) * static_cast<double>(mesh_.triangles.size() - 1));
     const auto at = [&](std::size_t k) -> const Vec3& {
@@ -36,11 +36,11 @@ void Wanderer::choose() {
     };
     const Vec3 middle = (at(0) + at(1) + at(2)) / 3, normal = (at(1) - at(0)).cross(at(2) - at(0));
     const double depth = uniform(-0.003, 0.01);
-    if ((middle - goal_).norm() >= least || !(normal.norm() > 0)) continue;
-    least = (middle - goal_).norm();
+    if ((middle - goal_).norm() >= min || !(normal.norm() > 0)) continue;
+    min = (middle - goal_).norm();
     target_ = middle - depth * normal.normalized();
   }
-  if (least == 1e300) target_ = goal_;
+  if (min == 1e300) target_ = goal_;
 }
 
 const Vec3& Wanderer::next(const Vec3& f_H_W) {

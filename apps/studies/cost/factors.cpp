@@ -1,0 +1,346 @@
+#include "apps/studies/cost/factors.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "apps/studies/cost/hash.h"
+#include "framework/scene/load.h"
+
+namespace presa::cost {
+namespace {
+
+struct KnownFactor {
+  const char* name;
+  const char* path;  ///< "device/*/…": every device
+};
+
+constexpr KnownFactor kFactors[] = {
+    {"haptic_rate", "rates/haptic"},
+    {"collision_rate", "rates/collision"},
+    {"dynamics_rate", "rates/dynamics"},
+    {"substeps", "dynamics/substeps"},
+    {"solver", "dynamics/solver"},
+    {"iterations", "dynamics/iterations"},
+    {"coupling", "dynamics/coupling"},
+    {"engine", "dynamics/engine"},
+    {"friction", "dynamics/friction"},
+    {"rotation", "dynamics/rotation"},
+    {"sleeping", "dynamics/sleeping"},
+    {"renderer", "haptics/renderer"},
+    {"pose", "haptics/pose"},
+    {"patch_margin", "collision/margin"},
+    {"fingertip_radius", "device/*/fingertip_radius"},
+};
+
+constexpr const char* kMeshFactor = "haptic_mesh";
+
+std::vector<std::string> pathsOf(const std::string& path, const Scene& scene) {
+  const std::size_t star = path.find('*');
+  if (star == std::string::npos) return {path};
+  std::vector<std::string> paths;
+  for (const DeviceRole& role : scene.devices) paths.push_back(std::string(path).replace(star, 1, role.role));
+  return paths;
+}
+
+std::vector<std::string> with(std::vector<std::string> sets, const std::vector<std::string>& more) {
+  sets.insert(sets.end(), more.begin(), more.end());
+  return sets;
+}
+
+struct Checked {
+  Diagnostics diagnostics;
+  std::uint64_t hash = 0;
+};
+
+Checked checkScene(const Inputs& inputs, const std::vector<std::string>& sets) {
+  Checked checked;
+  checked.hash = checkedScene(inputs, sets, checked.diagnostics);
+  return checked;
+}
+
+/// Parses a fraction of the triangles, "1/4" or "0.25"; 0: not a fraction in (0, 1].
+double partOf(const std::string& text) {
+  char* end = nullptr;
+  double part = std::strtod(text.c_str(), &end);
+  if (*end == '/') part /= std::strtod(end + 1, &end);
+  return *end == '\0' && part > 0 && part <= 1 ? part : 0;
+}
+
+/// The factor that replaces the haptic meshes of all bodies by decimated ones.
+Factor meshFactor(const std::vector<std::string>& values, const Scene& scene, const std::string& folder,
+              const SourceLocation& where, Diagnostics& diagnostics) {
+  Factor factor{kMeshFactor, {}};
+  for (const std::string& value : values) {
+    if (value.empty()) continue;
+    FactorValue& added = factor.values.emplace_back();
+    added.name = value;
+    const double part = partOf(value);
+    if (part == 0)
+      diagnostics.error(802, where, "haptic_mesh is a part of the triangles in (0, 1], found " + quote(value),
+                        "for example haptic_mesh=1,1/4,1/16");
+    for (const Body& body : scene.bodies) {
+      const auto* mesh = body.haptic ? std::get_if<MeshRef>(&body.haptic->shape) : nullptr;
+      if (mesh == nullptr || !(part > 0) || part == 1) continue;
+      std::string suffix = value;
+      std::replace(suffix.begin(), suffix.end(), '/', '_');
+      const std::string file = folder + "/meshes/" + body.name + "_" + suffix + ".obj";
+      added.sets.push_back("body/" + body.name + "/haptic/mesh/file=" + file);
+      added.meshes.push_back({body.name, mesh->file, file, part});
+    }
+  }
+  const bool any =
+      std::any_of(factor.values.begin(), factor.values.end(), [](const FactorValue& v) { return !v.meshes.empty(); });
+  if (!any && !factor.values.empty() && !diagnostics.hasErrors())
+    diagnostics.error(802, where, "no body of the scene has a haptic mesh, or every value is 1");
+  return factor;
+}
+
+/// All combinations, each with the index of every factor's value; SIZE_MAX: the scene's own value.
+std::vector<std::vector<std::size_t>> combinations(const std::vector<Factor>& factors, Combine combine) {
+  constexpr std::size_t kNone = SIZE_MAX;
+  std::vector<std::vector<std::size_t>> all;
+  if (combine == Combine::kOneAtATime) {
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      for (std::size_t v = 0; v < factors[k].values.size(); ++v) {
+        all.emplace_back(factors.size(), kNone)[k] = v;
+      }
+    }
+    return all;
+  }
+  std::vector<std::size_t> at(factors.size(), 0);
+  for (;;) {
+    all.push_back(at);
+    std::size_t k = factors.size();
+    while (k > 0 && ++at[k - 1] == factors[k - 1].values.size()) at[--k] = 0;
+    if (k == 0) return all;
+  }
+}
+
+void report(const Diagnostics& found, std::set<std::string>& reported, Diagnostics& diagnostics) {
+  for (const Diagnostic& finding : found.all()) {
+    if (finding.severity != Diagnostic::Severity::kError || !reported.insert(format(finding)).second) continue;
+    diagnostics.error(finding.code, finding.where, finding.message, finding.help);
+  }
+}
+
+std::string firstError(const Diagnostics& found) {
+  for (const Diagnostic& finding : found.all()) {
+    if (finding.severity == Diagnostic::Severity::kError) return finding.message;
+  }
+  return {};
+}
+
+/// A line of XML with its attributes in alphabetical order.
+std::string withSortedAttributes(const std::string& line) {
+  std::vector<std::string> attributes;
+  std::size_t begin = line.find(' ', line.find('<')), quote = 0;
+  const std::string head = line.substr(0, begin);
+  while (begin != std::string::npos && (quote = line.find('"', begin)) != std::string::npos) {
+    const std::size_t end = line.find('"', quote + 1);
+    if (end == std::string::npos) break;
+    attributes.push_back(line.substr(begin, end + 1 - begin));
+    begin = end + 1;
+  }
+  std::sort(attributes.begin(), attributes.end());
+  std::string out = head;
+  for (const std::string& attribute : attributes) out += attribute;
+  return out + (begin == std::string::npos ? "" : line.substr(begin));
+}
+
+/// The parts of the scene in sorted order, so that it does not matter which defaults the file left out.
+std::vector<std::string> sortedParts(const std::string& resolved_xml) {
+  std::vector<std::string> parts{""};
+  std::istringstream lines(resolved_xml);
+  for (std::string line; std::getline(lines, line);) {
+    const bool opens = (line.starts_with("  <") && !line.starts_with("  </")) || line.starts_with("</");
+    if (opens) parts.emplace_back();
+    parts.back() += withSortedAttributes(line) + "\n";
+  }
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+}  // namespace
+
+std::vector<std::string> factorNames() {
+  std::vector<std::string> names;
+  for (const KnownFactor& factor : kFactors) names.emplace_back(factor.name);
+  names.emplace_back(kMeshFactor);
+  return names;
+}
+
+std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>& sets, Diagnostics& diagnostics) {
+  std::vector<Override> overrides;
+  for (const std::string& set : with(inputs.sets, sets)) {
+    const std::size_t equals = set.find('=');
+    if (equals != std::string::npos) overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
+  }
+  Hash hash;
+  for (const std::string& part : sortedParts(loadScene(inputs.scene, overrides, diagnostics).resolved_xml))
+    hash.add(part);
+  return hash.value();
+}
+
+Factor makeFactor(const std::string& name, const std::vector<std::string>& values, const Scene& scene,
+              const std::string& folder, const SourceLocation& where, Diagnostics& diagnostics) {
+  const auto known =
+      std::find_if(std::begin(kFactors), std::end(kFactors), [&](const KnownFactor& k) { return k.name == name; });
+  if (known == std::end(kFactors) && name.find('/') == std::string::npos && name != kMeshFactor) {
+    std::string list;
+    for (const std::string& each : factorNames()) list += (list.empty() ? "" : ", ") + each;
+    diagnostics.error(801, where, "there is no knob " + quote(name) + didYouMean(name, factorNames()),
+                      "a knob is a path as after --set, such as material/rubber/damping, or one of: " + list);
+    return {};
+  }
+  Factor factor = name == kMeshFactor ? meshFactor(values, scene, folder, where, diagnostics) : Factor{name, {}};
+  const std::vector<std::string> paths = pathsOf(known == std::end(kFactors) ? name : known->path, scene);
+  for (const std::string& value : values) {
+    if (value.empty() || name == kMeshFactor) continue;
+    FactorValue& added = factor.values.emplace_back();
+    added.name = value;
+    for (const std::string& path : paths) added.sets.push_back(path + "=" + value);
+  }
+  if (factor.values.empty())
+    diagnostics.error(802, where, "knob " + quote(name) + " has no values", "for example dynamics_rate=100,200,500");
+  return factor;
+}
+
+void addSettings(Study& study, const std::vector<Factor>& factors, Combine combine, Diagnostics& diagnostics) {
+  const Checked base = checkScene(study.inputs, {});
+  if (base.diagnostics.hasErrors()) return;  // reported by the caller
+  if (study.settings.empty()) {
+    Setting& first = study.settings.emplace_back();
+    first.scene_hash = base.hash;
+  }
+  // a value is an error only if every combination with it is
+  std::map<std::pair<std::size_t, std::size_t>, Diagnostics> why;
+  std::set<std::pair<std::size_t, std::size_t>> good;
+  for (const std::vector<std::size_t>& combination : combinations(factors, combine)) {
+    Setting setting;
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      if (combination[k] == SIZE_MAX) continue;
+      const FactorValue& value = factors[k].values[combination[k]];
+      setting.sets = with(std::move(setting.sets), value.sets);
+      setting.choices.emplace_back(factors[k].name, value.name);
+    }
+    const Checked checked = checkScene(study.inputs, setting.sets);
+    setting.scene_hash = checked.hash;
+    setting.impossible = firstError(checked.diagnostics);
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      if (combination[k] == SIZE_MAX) continue;
+      if (setting.impossible.empty())
+        good.insert({k, combination[k]});
+      else
+        why.try_emplace({k, combination[k]}, checked.diagnostics);
+    }
+    const auto same = std::find_if(study.settings.begin(), study.settings.end(), [&](const Setting& s) {
+      return setting.impossible.empty() ? s.impossible.empty() && s.scene_hash == setting.scene_hash
+                                        : s.sets == setting.sets;
+    });
+    if (same == study.settings.end()) {
+      study.settings.push_back(std::move(setting));
+    } else if (same->choices.size() < setting.choices.size()) {
+      same->choices = setting.choices;
+    }
+  }
+  std::set<std::string> reported;
+  for (const auto& [value, found] : why) {
+    if (!good.contains(value)) report(found, reported, diagnostics);
+  }
+  for (const Factor& factor : factors) {
+    const auto known =
+        std::find_if(study.factors.begin(), study.factors.end(), [&](const Factor& k) { return k.name == factor.name; });
+    if (known == study.factors.end()) {
+      study.factors.push_back(factor);
+      continue;
+    }
+    for (const FactorValue& value : factor.values) {
+      const bool has = std::any_of(known->values.begin(), known->values.end(),
+                                   [&](const FactorValue& v) { return v.name == value.name; });
+      if (!has) known->values.push_back(value);
+    }
+  }
+}
+
+void nameSettings(Study& study) {
+  if (study.settings.empty()) return;
+  const std::uint64_t base = study.settings.front().scene_hash;
+  std::map<std::string, std::string> usual;  // the scene's own value of each factor
+  for (const Factor& factor : study.factors) {
+    usual[factor.name] = "as in the scene";
+    for (const FactorValue& value : factor.values) {
+      const Checked alone = checkScene(study.inputs, value.sets);
+      if (!alone.diagnostics.hasErrors() && alone.hash == base) usual[factor.name] = value.name;
+    }
+  }
+  for (Setting& setting : study.settings) {
+    const std::map<std::string, std::string> chosen(setting.choices.begin(), setting.choices.end());
+    setting.choices.clear();
+    std::vector<std::string> needed;  // only the sets that differ from the scene
+    for (const Factor& factor : study.factors) {
+      const auto found = chosen.find(factor.name);
+      const std::string& value = found == chosen.end() ? usual[factor.name] : found->second;
+      setting.choices.emplace_back(factor.name, value);
+      if (value == usual[factor.name]) continue;
+      setting.name += (setting.name.empty() ? "" : ", ") + factor.name + " " + value;
+      for (const FactorValue& each : factor.values) {
+        if (each.name == value) needed = with(std::move(needed), each.sets);
+      }
+    }
+    const Checked shorter = checkScene(study.inputs, needed);
+    if (!shorter.diagnostics.hasErrors() && shorter.hash == setting.scene_hash) setting.sets = needed;
+    if (setting.name.empty()) setting.name = "default";
+  }
+}
+
+bool hasMotion(const Plan& plan) {
+  return std::any_of(plan.modules.begin(), plan.modules.end(),
+                     [](const PlannedModule& module) { return module.group == RateGroup::kDynamics; });
+}
+
+std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder, bool quick) {
+  const Scene& scene = base.world->scene;
+  const bool moves = hasMotion(base.plan), touches = !scene.devices.empty(), meshes = base.plan.has("collision_fcl");
+  std::size_t solid = 0;
+  for (const Body& body : scene.bodies) solid += body.physics ? 1 : 0;
+  Diagnostics ignored;
+  std::vector<Factor> factors;
+  const auto add = [&](const char* name, const std::vector<std::string>& values) {
+    Factor factor = makeFactor(name, values, scene, folder, {}, ignored);
+    // skip values incompatible with the scene's other rates; the user did not ask for them
+    std::erase_if(factor.values, [&](const FactorValue& value) {
+      return checkScene({scene.file, "", {}}, value.sets).diagnostics.hasErrors();
+    });
+    if (!factor.values.empty()) factors.push_back(std::move(factor));
+  };
+  if (moves)
+    add("dynamics_rate", quick ? std::vector<std::string>{"100", "200", "500"}
+                               : std::vector<std::string>{"50", "100", "200", "250", "500", "1000"});
+  if (touches)
+    add("haptic_rate", quick ? std::vector<std::string>{"1000", "2000"}
+                             : std::vector<std::string>{"400", "500", "1000", "2000", "4000"});
+  if (moves && touches) add("coupling", {"soft", "explicit"});
+  if (moves && touches) add("pose", {"interpolate", "hold"});
+  if (meshes)
+    add("collision_rate",
+        quick ? std::vector<std::string>{"50", "100"} : std::vector<std::string>{"25", "50", "100", "200", "500"});
+  if (quick) return factors;
+  if (touches) add("renderer", {"god_object", "penalty"});
+  if (moves) {
+    add("substeps", {"1", "2", "4", "8"});
+    add("solver", {"auto", "direct", "iterative"});
+    add("rotation", {"exact", "engine", "none", "euler", "matrix"});
+  }
+  if (moves && solid > 1) add("friction", {"isotropic", "pyramid"});
+  if (meshes) {
+    add("haptic_mesh", {"1/2", "1/8", "1/32"});
+    add("patch_margin", {"0.001", "0.002", "0.004"});
+    add("fingertip_radius", {"0.002", "0.004", "0.008", "0.012"});
+  }
+  return factors;
+}
+
+}  // namespace presa::cost

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/studies/cost/study.h"
+
+namespace presa::cost {
+
+/// A factor, given by name or by path, with values from the command line or a study file. `folder`: folder of decimated
+/// meshes; `where`: position of the factor for messages. Errors (E801 unknown name, E802 no usable value) go to
+/// `diagnostics`.
+Factor makeFactor(const std::string& name, const std::vector<std::string>& values, const Scene& scene,
+              const std::string& folder, const SourceLocation& where, Diagnostics& diagnostics);
+
+/// The factors worth varying in this scene.
+std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder, bool quick);
+
+/// True when the scene has dynamics, with any engine.
+bool hasMotion(const Plan& plan);
+
+/// Names of all named factors.
+std::vector<std::string> factorNames();
+
+/// kGrid: every combination of the factors' values; kOneAtATime: each value alone.
+enum class Combine { kGrid, kOneAtATime };
+
+/// Adds settings to the study: first the unmodified scene, then every other setting once. A value that the scene
+/// rejects is an error; a rejected combination of valid values is an impossible setting.
+void addSettings(Study& study, const std::vector<Factor>& factors, Combine combine, Diagnostics& diagnostics);
+/// Loads and checks the scene with these sets; returns a hash of all its values. Errors go to `diagnostics`.
+std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>& sets, Diagnostics& diagnostics);
+/// Fills Setting::name and Setting::choices. Call it after all settings have been added.
+void nameSettings(Study& study);
+
+}  // namespace presa::cost

@@ -1,0 +1,52 @@
+#include "apps/temple/visit_observer.h"
+
+#include <utility>
+
+namespace presa::temple {
+
+VisitObserver::VisitObserver(std::shared_ptr<const World> world)
+    : Module("visit", RateGroup::kView),
+      world_(std::move(world)),
+      guide_(*world_->scene.assembly, world_->scene.bodies.size()) {
+  for (const Body& body : world_->scene.bodies) snapshot_.X_WB.push_back(body.X_WB);
+  snapshot_.now = guide_.now();
+}
+
+void VisitObserver::step(const Tick& tick) noexcept {
+  View* const view = view_.load(std::memory_order_relaxed);
+  std::optional<std::string> banner;
+  {
+    const std::lock_guard lock(mutex_);
+    if (view != nullptr && std::exchange(banner_changed_, false)) banner = banner_;
+  }
+  if (banner) view->setBanner(*banner, false);
+  if (!objects_.hasValue() || !assembly_.hasValue()) return;
+  guide_.step(tick.time, objects_.value(), assembly_.value(), contact_.value());
+  const std::lock_guard lock(mutex_);
+  snapshot_.time = tick.time;
+  snapshot_.now = guide_.now();
+  for (std::int32_t f = 0; f < contact_->count; ++f) {
+    if (contact_->fingers[static_cast<std::size_t>(f)].mode != ContactMode::kNone) snapshot_.touched = tick.time;
+  }
+  for (std::size_t i = 0; i < snapshot_.X_WB.size(); ++i) snapshot_.X_WB[i] = objects_->bodies[i].X_WB_end;
+  events_.insert(events_.end(), guide_.events().begin(), guide_.events().end());
+}
+
+VisitObserver::Snapshot VisitObserver::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return snapshot_;
+}
+
+std::vector<GuideEvent> VisitObserver::takeEvents() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(events_, {});
+}
+
+void VisitObserver::setBanner(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  if (text == banner_) return;
+  banner_ = text;
+  banner_changed_ = true;
+}
+
+}  // namespace presa::temple
