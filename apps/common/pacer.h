@@ -13,10 +13,17 @@ namespace presa {
 class Pacer final : public Module {
  public:
   /// `view` is set before the first step; null: no window. All arguments must outlive this.
-  Pacer(const TimeControl& time_control, View*& view, const RunControl& control, const std::function<void(double)>& meanwhile)
-      : Module("pace", RateGroup::kView), time_control_(time_control), view_(view), control_(control), meanwhile_(meanwhile) {}
+  Pacer(const TimeControl& time_control, View*& view, const RunControl& control,
+        const std::function<void(double)>& meanwhile)
+      : Module("pace", RateGroup::kView),
+        time_control_(time_control),
+        view_(view),
+        control_(control),
+        meanwhile_(meanwhile) {}
   void step(const Tick& tick) noexcept override;
-  std::vector<std::string> stages() const override { return {"wait as long as the user wants"}; }
+  std::vector<std::string> stages() const override {
+    return {"wait until the clock reaches the simulated time; pause and speed as requested"};
+  }
 
  private:
   bool due(double time) noexcept;

@@ -14,6 +14,7 @@
 #include "apps/common/terminal/status_line.h"
 #include "apps/common/version.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/device/device_modules.h"
 #include "framework/session/realtime_policy.h"
 
 namespace presa {
@@ -53,7 +54,7 @@ class SignalGuard {
 };
 
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
-constexpr int kMaxReportedTrips = 6;                         // trips reported by a note each; further ones are counted
+constexpr int kMaxReportedTrips = 6;                  // trips reported by a note each; further ones are counted
 
 /// The phases of the first scripted device. Unless the user chose the time of the picture, it is the middle of the hold.
 void followScript(Loaded& loaded, std::vector<RunResult::Phase>& phases) {
@@ -93,6 +94,7 @@ TerminalRun::TerminalRun(Loaded loaded, Settings settings)
   Session::Options session;
   session.trace_rate = settings_.trace_rate;
   session.wrap = settings_.wrap;
+  session.guide = settings_.guide;
   session.more = observers(loaded);
   run_ = std::make_unique<Run>(std::move(loaded), control_, std::move(session));
   run_->onPoll([this] { poll(); });
@@ -138,19 +140,19 @@ void TerminalRun::offerToCommands() {
   if (paced_) {
     while_held_ = [this](double time) { server_->serve(time); };
     server_->offer({"time/held", [this] { return time_control_.paused ? 1.0 : 0.0; }, always(0), always(1),
-                  [this](double held) { time_control_.paused = held >= 0.5; }});
+                    [this](double held) { time_control_.paused = held >= 0.5; }});
     server_->offer({"time/speed", [this] { return time_control_.speed.load(); }, always(kSlowest), always(kFastest),
-                  [this](double speed) { time_control_.speed = speed; }});
+                    [this](double speed) { time_control_.speed = speed; }});
   }
   // an undo is not recorded, and a replay without it would differ
   if (AssemblyControl* assembly = run_->session().assembly(); assembly != nullptr && run_->options().record.empty()) {
     server_->offer({"assembly/undone", [this] { return undone_; }, [this] { return undone_; },
-                  [this] { return undone_ + 1; },
-                  [this, assembly](double undone) {
-                    if (undone < undone_ + 1) return;
-                    ++undone_;
-                    assembly->undo();
-                  }});
+                    [this] { return undone_ + 1; },
+                    [this, assembly](double undone) {
+                      if (undone < undone_ + 1) return;
+                      ++undone_;
+                      assembly->undo();
+                    }});
   }
 }
 
@@ -188,7 +190,7 @@ void TerminalRun::poll() {
       device_lost_ = device_lost_ || (event.status & kOutputLost) != 0;
       fail(event.time, role + ": " + fault + "; the force went to zero and stays there");
       if (live_->keys && live_->keys->available())
-        live_->line.note(role + ": " + fault + ". Look, then press r to re-arm.");
+        live_->line.note(role + ": " + fault + ". Check the device, then press r to re-arm.");
     }
     if ((event.status & kOutputWatchdog) != 0 && event.time > 0) {
       if (++watchdog_trips_ > kMaxReportedTrips) continue;
@@ -214,10 +216,10 @@ void TerminalRun::rearm() {
       live_->line.note(format(finding));
       device_lost_ = true;
     }
-    if (device_lost_) return live_->line.note("not re-armed. Mend that, then press r again.");
+    if (device_lost_) return live_->line.note("not re-armed. Fix this, then press r again.");
   }
   control_.rearms.fetch_add(1, std::memory_order_relaxed);
-  live_->line.note("re-armed: forces come back softly where the cause is gone");
+  live_->line.note("re-armed: forces come back softly where the cause no longer exists");
 }
 
 void TerminalRun::fail(double time, std::string what) {
@@ -253,11 +255,11 @@ void TerminalRun::noteObjectFaults() {
   const double time = live_->values.object_fault_time.load(std::memory_order_relaxed);
   reported_object_faults_ = all;
   if ((faults & kFaultBodyFrozen) != 0)
-    fail(time, "a body's motion went beyond reason: it was frozen, forces faded to zero");
+    fail(time, "a body's motion became implausible: it was frozen, forces faded to zero");
   if ((faults & kFaultEngineFailed) != 0)
     fail(time, "the dynamics engine failed: all bodies were frozen, forces faded to zero");
   if ((faults & kFaultBadFinger) != 0)
-    fail(time, "a finger contact made no sense to the dynamics, forces faded to zero");
+    fail(time, "the dynamics received an invalid finger contact, forces faded to zero");
 }
 
 void TerminalRun::finish() {

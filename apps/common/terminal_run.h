@@ -21,6 +21,7 @@ class TerminalRun {
     std::string command;    ///< command line, for the report
     double speed = 1;       ///< lockstep with a window: simulated seconds per wall-clock second
     bool paced = false;     ///< lockstep without a window: keep `speed`, too
+    bool guide = false;     ///< as Session::Options::guide
     RealtimeProbe rights = realtimeRights;
     std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own observer modules
     std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap
@@ -54,7 +55,7 @@ class TerminalRun {
   TimeControl time_control_;
   bool paced_ = false;
   View* view_ = nullptr;
-  bus::ParameterServer* server_ = nullptr;        // receives commands from the bus; null: none
+  bus::ParameterServer* server_ = nullptr;  // receives commands from the bus; null: none
   std::function<void(double)> while_held_;  // lockstep: reads commands while the run is paused
   double undone_ = 0;                       // number of undos by commands
   struct Live;

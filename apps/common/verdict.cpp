@@ -36,7 +36,7 @@ std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
 
 std::string lossSentence(const RunResult::Object& object) {
   const std::string at = fixed(object.summary.lost_at, 3) + " s";
-  return object.summary.dropped ? "Dropped at " + at + ", before it was to be let go." : "Let go at " + at + ".";
+  return object.summary.dropped ? "Dropped at " + at + ", before it was to be released." : "Released at " + at + ".";
 }
 
 Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {

@@ -80,11 +80,11 @@ std::string headOf(const Experiment& experiment, const Subject& subject, int ses
                    static_cast<std::size_t>(practice), blocks, blocks == 1 ? "" : "s");
   text += format("%d rest%s of %s\n", rests, rests == 1 ? "" : "s", minutes(experiment.rest.seconds).c_str());
   if (experiment.procedure)
-    text += "listed as somebody would meet them who is right three times in four; answers change what follows\n";
+    text += "listed for a subject who is right three times in four; answers change the trials that follow\n";
   text += "phases:";
   for (const Phase& phase : experiment.phases)
     text += format(" %s (%s%s)", phase.name.c_str(), phase.until ? "at most " : "", minutes(phase.seconds).c_str());
-  text += format("\nduration: %s when every awaited thing happens at once, %s at most\n",
+  text += format("\nduration: %s when every awaited event happens at once, %s at most\n",
                  minutes(n * trial.min + pause).c_str(), minutes(n * trial.max + pause).c_str());
   return text;
 }

@@ -65,7 +65,7 @@ std::optional<std::string_view> recordOf(std::string_view line, std::string& sum
 
 Journal::Contents Journal::read(const std::string& file) {
   const std::string text = input::readOrRefuse(file, kMaxBytes, 922);
-  if (text.starts_with(kOldHead)) refuse(923, file, "was begun by a version of Presa whose sums prove too little");
+  if (text.starts_with(kOldHead)) refuse(923, file, "was begun by a version of Presa whose checksums are too weak");
   Contents contents;
   int line_number = 0;
   for (std::size_t at = 0; at < text.size();) {

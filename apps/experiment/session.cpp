@@ -164,8 +164,8 @@ std::unique_ptr<Respondent> SubjectSession::respondentFor(OperatorConsole& conso
   if (!log_.start.model.empty() && experiment_.procedure->observer)
     return simulatedRespondent(experiment_, log_.start.subject.number);
   if (console.person().silent())
-    refuse(928, experiment_.file, "its trials ask a question, and nobody is there to answer",
-           log_.start.model.empty() ? "--operator terminal" : "a <simulated_observer> in its <procedure>");
+    refuse(928, experiment_.file, "its trials ask a question, and there is nobody to answer it",
+           log_.start.model.empty() ? "--operator terminal" : "add a <simulated_observer> to its <procedure>");
   return keyboardRespondent(experiment_, console.person(), console.language());
 }
 

@@ -38,7 +38,8 @@ class SubjectSession {
   SubjectSession(const Experiment& experiment, SessionFolder folder, SessionLog log, Journal journal);
   /// Null without a procedure.
   std::unique_ptr<Respondent> respondentFor(OperatorConsole& console) const;
-  Conducted conductOne(const PlannedTrial& trial, const LoggedRun& run, OperatorConsole& console, Respondent* respondent) const;
+  Conducted conductOne(const PlannedTrial& trial, const LoggedRun& run, OperatorConsole& console,
+                       Respondent* respondent) const;
   LoggedRun& beginRun(const PlannedTrial& trial);
   void endRun(LoggedRun& run, const PlannedTrial& trial, const Conducted& result);
   void writeTable() const;

@@ -28,7 +28,8 @@ Subject subjectOf(const std::string& id, int number, Diagnostics& diagnostics) {
   const std::string digits(last.base(), id.end());
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (number <= 0 && !diagnostics.hasErrors())
-    diagnostics.error(911, where, quote(id) + " ends in no number from 1 up, which the order of trials depends on",
+    diagnostics.error(911, where,
+                      quote(id) + " does not end in a number from 1 up; the order of trials depends on that number",
                       "add --number N, or a pseudonym such as S01");
   return {id, number};
 }

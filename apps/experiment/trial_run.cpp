@@ -116,8 +116,8 @@ class TrialRun {
     const GroupTiming& haptic = run_->executor().timing(RateGroup::kHaptic);
     result.ticks = haptic.ticks;
     result.missed = haptic.missed;
-    const std::vector<double> quality{static_cast<double>(result.missed), observer_->clippedSeconds(), observer_->lostSeconds(),
-                                      observer_->maxForce()};
+    const std::vector<double> quality{static_cast<double>(result.missed), observer_->clippedSeconds(),
+                                      observer_->lostSeconds(), observer_->maxForce()};
     result.state = trial_.state();
     result.reason = trial_.reason();
     result.phases = trial_.stretches();

@@ -41,7 +41,7 @@ std::string logFile(const std::string& folder) { return (std::filesystem::path(f
 std::string keptText(const KeptSession& kept) {
   Json blocks = Json::array();
   for (const Pose& X : kept.X_WB) blocks.push_back(poseJson(X));
-  return Json{{"presa_temple", kFormat}, {"size", kept.size},     {"parameters", kept.parameters},
+  return Json{{"presa_temple", kFormat}, {"size", kept.size},       {"parameters", kept.parameters},
               {"seed", kept.seed},       {"spent_s", kept.elapsed}, {"placed", kept.placed},
               {"blocks", blocks}}
              .dump(1) +
@@ -61,7 +61,7 @@ std::optional<KeptSession> readKept(const std::string& file, Diagnostics& diagno
     for (const Json& block : json.at("blocks")) kept.X_WB.push_back(poseOf(block));
     return kept;
   } catch (const std::exception& error) {
-    diagnostics.error(967, {file, 0, 0}, std::string("no session to go on with: ") + error.what(),
+    diagnostics.error(967, {file, 0, 0}, std::string("no session to continue: ") + error.what(),
                       "the session.json of a visit, or start anew without --continue");
     return std::nullopt;
   }

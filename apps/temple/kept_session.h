@@ -12,7 +12,7 @@ namespace presa::temple {
 struct KeptSession {
   std::string size, parameters;  ///< the building: name of a shipped one, or a file
   std::uint64_t seed = 1;
-  double elapsed = 0;        ///< elapsed assembly time [s]
+  double elapsed = 0;      ///< elapsed assembly time [s]
   int placed = 0;          ///< number of blocks at their goals
   std::vector<Pose> X_WB;  ///< pose of each block
 };

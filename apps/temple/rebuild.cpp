@@ -100,7 +100,8 @@ Rebuilt measure(const Assembly& assembly, const RebuildObserver& rebuild_observe
     const GoalState& state = rebuild_observer.assembly().goals[g];
     if (state.status != GoalState::Status::kFilled) continue;
     const Pose& X_WB = rebuild_observer.objects().bodies[static_cast<std::size_t>(state.body)].X_WB_end;
-    const PoseDifference way = poseDifference(nearestTurn(assembly.goals[g].X_WB, assembly.goals[g].fold, X_WB.q), X_WB);
+    const PoseDifference way =
+        poseDifference(nearestTurn(assembly.goals[g].X_WB, assembly.goals[g].fold, X_WB.q), X_WB);
     rebuilt.worst_position_error = std::max(rebuilt.worst_position_error, way.distance);
     rebuilt.worst_angle_error = std::max(rebuilt.worst_angle_error, way.angle);
   }

@@ -58,7 +58,7 @@ class Strewing {
     }
     refuse(974, building_.name,
            "block " + quote(building_.blocks[waiting_.front()].name) + " has not come to rest on the field",
-           "another --seed strews the blocks another way");
+           "another --seed distributes the blocks differently");
   }
 
  private:

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/geometry/rotation_between.h"
+
 namespace presa::temple {
 namespace {
 
@@ -41,7 +43,7 @@ Quat drawTurn(const Vec3& extent, RandomStream& random) {
   }
   const int down = axes[random.below(axes.size())];
   const double side = random.uniform() < 0.5 ? 1 : -1;
-  const Quat face = Quat::FromTwoVectors(Vec3(side * Vec3::Unit(down)), Vec3::UnitZ());
+  const Quat face = rotationBetween(side * Vec3::Unit(down), Vec3::UnitZ());
   const double max = axes.size() == 3 ? kTilt : kTiltOfSlab;
   const double towards = random.uniform(0, 2 * kPi), tilt = random.uniform(0, max), turn = random.uniform(0, 2 * kPi);
   return Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) *

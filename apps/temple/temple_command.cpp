@@ -280,34 +280,32 @@ void addTemple(Command app, int& status) {
   command.flag("--auto", a->automatic,
                "two simulated fingers rebuild it from its ruins, by friction alone, against the clock");
   Option lockstep = command.flag("--lockstep", a->lockstep, "in virtual time, as fast as the machine goes");
-  command.option("--time-scale", a->time_scale, "in virtual time, so many seconds in one of the clock")
+  command.option("--time-scale", a->time_scale, "in virtual time: simulated seconds per wall-clock second")
       .positive()
       .excludes(lockstep);
-  command.option("--for", a->limit, "end after so many simulated seconds (default with --auto: 100 a block)")
+  command.option("--for", a->limit, "end after this many simulated seconds (default with --auto: 100 a block)")
       .positive();
   command.option("--summary", a->summary, "JSON: what was placed, how exactly, in what time");
-  command.option("--language", a->language, "of what visitors are told")
+  command.option("--language", a->language, "language of the texts for visitors")
       .oneOf(temple::shippedLanguages())
       .showDefault();
   command.option("--session", a->visits,
-                 "folder for log.jsonl (what happened, nothing of a person) and session.json (what stands), or none\n"
+                 "folder for log.jsonl (events, no personal data) and session.json (blocks in place), or none\n"
                  "(default against the clock: " +
                      temple::defaultVisitFolder() + ", else none)");
   command
       .option("--attract", a->attract,
-              "after so many seconds without a touch simulated hands go on, until somebody touches anything "
-              "(default: never)")
+              "after this many seconds without a touch, simulated hands continue until the next touch (default: never)")
       .positive();
-  command
-      .option("--continue", a->kept,
-              "go on with what stood, after a crash as well: a session.json (default: of --session)")
+  command.option("--continue", a->kept, "continue from a session.json, also after a crash (default: that of --session)")
       .values(0, 1);
   command.option("--size", a->size, "column: six pieces; facade: a front of four columns, 45 pieces")
       .oneOf(temple::shippedNames())
       .showDefault();
   command.flag("--assembled,--no-ruins", a->assembled,
                "every block where it belongs, instead of ruins strewn by a physics drop");
-  command.option("--seed", a->seed, "where stone broke off and blocks fell").showDefault();
+  command.option("--seed", a->seed, "seed of the damage to the stones and of the places where the blocks fell")
+      .showDefault();
   command.option("--write", a->folder, "folder for scene.xml and its meshes, which presa check, explain and run take");
   command.flag("--overwrite", a->overwrite, "let --write replace what the folder holds");
   command
@@ -318,7 +316,7 @@ void addTemple(Command app, int& status) {
   command.option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
   command.option("--video", a->video, "MP4 of the visit through ffmpeg, 30 pictures for each simulated second");
   addShowOption(command, a->show);
-  command.option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every so many simulated seconds")
+  command.option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every SECONDS simulated seconds")
       .values(2, 2);
   command
       .option("--view", a->view,

@@ -23,10 +23,10 @@ class Visit {
   Visit(Loaded loaded, const VisitSettings& settings)
       : settings_(settings), world_(loaded.world), options_(loaded.options), assembly_(*world_->scene.assembly) {
     auto rebuild_observer = std::make_unique<RebuildObserver>(world_);
-    auto observer = std::make_unique<VisitObserver>(world_);
+    auto observer = std::make_unique<VisitObserver>(*world_);
     rebuild_observer_ = rebuild_observer.get();
     observer_ = observer.get();
-    TerminalRun::Settings run{.quiet = settings.quiet, .command = "presa temple"};
+    TerminalRun::Settings run{.quiet = settings.quiet, .command = "presa temple", .guide = true};
     run.more.push_back(std::move(rebuild_observer));
     run.more.push_back(std::move(observer));
     run.paced = settings.time_scale > 0;

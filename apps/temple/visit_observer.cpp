@@ -4,12 +4,9 @@
 
 namespace presa::temple {
 
-VisitObserver::VisitObserver(std::shared_ptr<const World> world)
-    : Module("visit", RateGroup::kView),
-      world_(std::move(world)),
-      guide_(*world_->scene.assembly, world_->scene.bodies.size()) {
-  for (const Body& body : world_->scene.bodies) snapshot_.X_WB.push_back(body.X_WB);
-  snapshot_.now = guide_.now();
+VisitObserver::VisitObserver(const World& world) : Module("visit", RateGroup::kView) {
+  for (const Body& body : world.scene.bodies) snapshot_.X_WB.push_back(body.X_WB);
+  snapshot_.now.all = static_cast<std::int32_t>(world.scene.assembly->goals.size());
 }
 
 void VisitObserver::step(const Tick& tick) noexcept {
@@ -20,16 +17,15 @@ void VisitObserver::step(const Tick& tick) noexcept {
     if (view != nullptr && std::exchange(banner_changed_, false)) banner = banner_;
   }
   if (banner) view->setBanner(*banner, false);
-  if (!objects_.hasValue() || !assembly_.hasValue()) return;
-  guide_.step(tick.time, objects_.value(), assembly_.value(), contact_.value());
+  if (!objects_.hasValue() || guidance_->events == nullptr) return;
   const std::lock_guard lock(mutex_);
   snapshot_.time = tick.time;
-  snapshot_.now = guide_.now();
+  snapshot_.now = guidance_->now;
   for (std::int32_t f = 0; f < contact_->count; ++f) {
     if (contact_->fingers[static_cast<std::size_t>(f)].mode != ContactMode::kNone) snapshot_.touched = tick.time;
   }
   for (std::size_t i = 0; i < snapshot_.X_WB.size(); ++i) snapshot_.X_WB[i] = objects_->bodies[i].X_WB_end;
-  events_.insert(events_.end(), guide_.events().begin(), guide_.events().end());
+  events_.insert(events_.end(), guidance_->events->begin(), guidance_->events->end());
 }
 
 VisitObserver::Snapshot VisitObserver::snapshot() const {

@@ -1,23 +1,21 @@
 #pragma once
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <vector>
 
-#include "framework/assembly/assembly_guide.h"
-#include "framework/core/graph/port.h"
+#include "framework/assembly/guide_module.h"
 #include "framework/scene/world.h"
 #include "framework/session/view.h"
 
 namespace presa::temple {
 
-/// Runs the guide of the assembly and passes its events and state to the main thread. Thread: step() runs on the view's
+/// Passes the events and the state of the assembly's guide to the main thread. Thread: step() runs on the view's
 /// thread; the other functions are for the main thread.
 class VisitObserver final : public Module {
  public:
-  explicit VisitObserver(std::shared_ptr<const World> world);
+  explicit VisitObserver(const World& world);
   void step(const Tick& tick) noexcept override;
-  std::vector<std::string> stages() const override { return {"what happened to the assembly, for the log"}; }
+  std::vector<std::string> stages() const override { return {"collect the events of the assembly for the log"}; }
 
   struct Snapshot {
     double time = 0;     ///< [s]
@@ -36,10 +34,8 @@ class VisitObserver final : public Module {
 
  private:
   In<ObjectState> objects_{*this, "object_state"};
-  In<AssemblyState> assembly_{*this, "assembly_state"};
+  In<GuideState> guidance_{*this, "guidance"};
   In<ContactExchange> contact_{*this, "contact_exchange"};
-  std::shared_ptr<const World> world_;
-  AssemblyGuide guide_;
   std::atomic<View*> view_{nullptr};
   mutable std::mutex mutex_;  // guards all members below
   Snapshot snapshot_;

@@ -20,7 +20,9 @@ add_library(presa_options INTERFACE)
 target_compile_options(presa_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wno-restrict -Werror=return-type
   -ffp-contract=off -fno-math-errno
   -fno-semantic-interposition # nobody replaces our functions at load time: they may be inlined within their library
-  -fPIC) # programs, too: one set of precompiled headers serves all
+  -fPIC # programs, too: one set of precompiled headers serves all
+  # the compiler's own memory is collected later: a build takes an eighth less time, a compilation up to 1.3 GB
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576 --param=ggc-min-expand=200>)
 target_include_directories(presa_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(presa_options INTERFACE Eigen3::Eigen Boost::headers Threads::Threads)
 if(PRESA_SANITIZE)

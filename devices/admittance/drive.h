@@ -12,10 +12,10 @@
 namespace presa::admittance {
 
 struct Parameters {
-  double inertia = 2;       ///< M of the virtual mass [kg]
-  double viscosity = 20;    ///< B of the virtual mass [N s/m]
-  double bandwidth = 50;    ///< f of the first-order servo [Hz]
-  double noise = 0.01;      ///< of the force sensor: standard deviation per sample and axis [N]
+  double inertia = 2;      ///< M of the virtual mass [kg]
+  double viscosity = 20;   ///< B of the virtual mass [N s/m]
+  double bandwidth = 50;   ///< f of the first-order servo [Hz]
+  double noise = 0.01;     ///< of the force sensor: standard deviation per sample and axis [N]
   double max_force = 100;  ///< range of the sensor per axis [N]
   double max_speed = 1;    ///< max speed of the virtual mass and of the grip [m/s]
   Vec3 centre = Vec3::Zero(), half_travel{0.2, 0.2, 0.2};  ///< box between the end stops, in W [m]

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTowardsTop = 0.75;  // share of the half height: a body grasped there hangs with its top up
 constexpr double kSafety = 2.5;       // grip over the min grip that carries the body
-constexpr double kMinGrip = 0.5;    // [N]
+constexpr double kMinGrip = 0.5;      // [N]
 constexpr double kLevel = 0.6;        // sine: axes closer to horizontal than this count as level
 
 Vec3 level(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }

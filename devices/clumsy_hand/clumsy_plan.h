@@ -17,7 +17,7 @@ class ClumsyPlan final : public PairPlan {
   enum Phase : int { kStray, kReach, kGrab, kLift, kShake, kThrow, kDrag, kPress, kPush, kOpen };
   static const std::vector<std::string>& phaseNames();
   static constexpr double kFastest = 1.2;  ///< max speed of a movement [m/s]
-  static constexpr double kMaxGrip = 8;   ///< max grip force [N]
+  static constexpr double kMaxGrip = 8;    ///< max grip force [N]
 
   /// `fingertip`: radius [m]. Precondition: the scene has a free body with a physics geometry.
   ClumsyPlan(std::shared_ptr<const World> world, double fingertip, std::uint64_t seed);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTurn = 1;            // [rad/s]
 constexpr double kPeakOfMean = 1.875;  // peak over mean speed of a minimum-jerk movement
-constexpr double kMinDuration = 0.2;         // min duration of a movement [s]
+constexpr double kMinDuration = 0.2;   // min duration of a movement [s]
 
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 

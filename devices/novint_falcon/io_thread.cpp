@@ -9,10 +9,10 @@
 namespace presa::falcon {
 namespace {
 
-constexpr std::int64_t kWake = 250'000;  // [ns]
-constexpr int kPriority = 82;            // above the haptic thread (80), so that it does not delay this thread
-constexpr double kZeroForceTime = 20e-3;      // [s] of zero force at the end
-constexpr double kPatience = 1;          // [s] max wait at the end for a device that accepts no requests
+constexpr std::int64_t kWake = 250'000;   // [ns]
+constexpr int kPriority = 82;             // above the haptic thread (80), so that it does not delay this thread
+constexpr double kZeroForceTime = 20e-3;  // [s] of zero force at the end
+constexpr double kPatience = 1;           // [s] max wait at the end for a device that accepts no requests
 
 }  // namespace
 

@@ -19,7 +19,7 @@ const char* describe(LinkFault fault) noexcept {
     case LinkFault::kEchoMismatch:
       return "the boot loader echoed something else than the firmware";
     case LinkFault::kFirmwareSilent:
-      return "the firmware was loaded, and does not answer";
+      return "the firmware was loaded but does not answer";
     case LinkFault::kHomingLost:
       return "an encoder lost its reference; the force is zero";
     case LinkFault::kBadSamples:

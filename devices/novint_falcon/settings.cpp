@@ -32,8 +32,7 @@ std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const
   bool good = true;
   for (const std::string& word : xml::splitWords(found->second.value)) {
     double& number = numbers.emplace_back();
-    good =
-        good && xml::readNumber(word, number) == xml::NumberKind::kFinite && number > rule.min && number <= rule.max;
+    good = good && xml::readNumber(word, number) == xml::NumberKind::kFinite && number > rule.min && number <= rule.max;
   }
   if (good && numbers.size() == rule.count) return numbers;
   diagnostics.error(kBadNumber, found->second.where,

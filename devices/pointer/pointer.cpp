@@ -11,7 +11,7 @@
 namespace presa::pointer {
 namespace {
 
-constexpr double kMaxGrip = 6;        // [N], unless the rig or the scene sets less
+constexpr double kMaxGrip = 6;         // [N], unless the rig or the scene sets less
 constexpr double kShareOfLimit = 0.6;  // of the force limit; the rest is for weight and obstacles
 constexpr double kSpan = 0.12;         // [m]
 constexpr double kAbove = 0.05;        // [m] initial height above all free bodies
@@ -116,7 +116,7 @@ std::unique_ptr<Device> makeFinger(const DeviceBinding& binding, const World& wo
     diagnostics.error(455, binding.where, "role '" + binding.role + "' has other settings than the other finger",
                       "both fingers are one pair: give them the same grip, span, fingertip radius and force limit");
   else if (!pair->add(side, hand.impedance, RateTable(world.scene.rates).period(RateGroup::kHaptic)))
-    diagnostics.error(456, binding.where, "role '" + binding.role + "' is a side that another role is already",
+    diagnostics.error(456, binding.where, "role '" + binding.role + "' has a side that another role already has",
                       "one pointer moves one thumb and one index finger; side=\"-1\" is the thumb's");
   if (diagnostics.errorCount() > before) return nullptr;
   return std::make_unique<PointedFinger>(pair, side, std::move(hand), window);

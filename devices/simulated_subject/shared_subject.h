@@ -28,7 +28,7 @@ struct SubjectSettings {
   double resolution = 0;                ///< of the device [m]
   double hold = 11;                     ///< [s]; longer than a trial's 10 s, which start when the object is still
   bool eyes_closed = false;             ///< no sight while holding
-  double max_grip = 9;                 ///< max grip, below the device's force limit [N]
+  double max_grip = 9;                  ///< max grip, below the device's force limit [N]
   double reach = 0.02;                  ///< distance to the object at the start, and when the hand opens [m]
   subject::SubjectParameters parameters{};
 

@@ -78,7 +78,7 @@ std::unique_ptr<Device> makeDigit(const DeviceBinding& binding, const World& wor
         436, binding.where, "role '" + binding.role + "' has other settings than the other digit",
         "both digits are one person: give them the same level, seed, subject, reach, hold, resolution and eyes");
   else if (!subject->take(digit))
-    diagnostics.error(438, binding.where, "role '" + binding.role + "' is a digit that another role is already",
+    diagnostics.error(438, binding.where, "role '" + binding.role + "' has a digit that another role already has",
                       "a simulated subject has one thumb and one index finger");
   if (diagnostics.errorCount() > before) return nullptr;
   return std::make_unique<SimulatedDigit>(subject, digit);

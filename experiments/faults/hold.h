@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "experiments/faults/fault.h"
-#include "experiments/study/study_run.h"
 #include "experiments/study/compliant_finger.h"
+#include "experiments/study/study_run.h"
 #include "framework/device/wrapped_device.h"
 
 namespace presa::faults {

@@ -12,7 +12,7 @@ namespace presa::faults {
 namespace {
 
 constexpr double kMaxSeconds = 1;  // limit of processor time for reading
-constexpr double kTouch = 0.02;     // [s] of touching, for an accepted scene
+constexpr double kTouch = 0.02;    // [s] of touching, for an accepted scene
 
 std::string contentsOf(const std::string& file) {
   std::ostringstream text;

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "experiments/faults/scene_faults.h"
-#include "experiments/study/study_run.h"
 #include "experiments/study/compliant_finger.h"
+#include "experiments/study/study_run.h"
 #include "framework/scene/load.h"
 
 namespace presa::faults {

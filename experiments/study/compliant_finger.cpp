@@ -11,7 +11,7 @@ constexpr double kStep = 1e-5;  // integration step [s]
 }  // namespace
 
 CompliantFinger::CompliantFinger(const HandImpedance& hand, PrescribedFinger::Path target, const double& clock,
-                               Transport& transport)
+                                 Transport& transport)
     : hand_(hand), target_(std::move(target)), clock_(clock), transport_(transport), x_(target_(0).p_WH) {}
 
 void CompliantFinger::advance() noexcept {

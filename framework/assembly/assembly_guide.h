@@ -32,7 +32,7 @@ struct Guidance {
   std::optional<GuideEvent> news;    ///< last placed, undone or dropped event within kNews
   bool finished = false;             ///< all goals are filled, and the user touched something
   double finished_at = 0;            ///< [s]
-  double elapsed = 0;                  ///< time from first touch to completion, plus that of earlier runs [s]
+  double elapsed = 0;                ///< time from first touch to completion, plus that of earlier runs [s]
 };
 
 /// Follows an assembly task and derives guidance. Deterministic: equal states give equal guidance, to the bit.

@@ -14,17 +14,17 @@ namespace presa {
 /// so that light and heavy bodies move alike. The dynamics solves it together with contact and friction.
 struct SnapConstraint {
   std::int32_t body = kNoBody;
-  bool fixed = false;  ///< carries the body to the pose and holds it there until the constraint is removed
-  bool turns = true;   ///< the orientation is pulled, too
-  Pose X_WB;           ///< target pose of the body
-  double rate = 0;     ///< [1/s]
-  double speed = 0;    ///< maximum speed [m/s]; if `fixed`, minimum speed while it is carried
-  double max_acceleration = 0;     ///< maximum acceleration [m/s^2]
+  bool fixed = false;           ///< carries the body to the pose and holds it there until the constraint is removed
+  bool turns = true;            ///< the orientation is pulled, too
+  Pose X_WB;                    ///< target pose of the body
+  double rate = 0;              ///< [1/s]
+  double speed = 0;             ///< maximum speed [m/s]; if `fixed`, minimum speed while it is carried
+  double max_acceleration = 0;  ///< maximum acceleration [m/s^2]
 };
 
 /// The snap constraints of this moment; bodies not listed are free. Written by: collision thread (modules/assembly).
 struct SnapConstraints {
-  double time = 0;                 ///< [s]
+  double time = 0;                     ///< [s]
   std::vector<SnapConstraint> bodies;  ///< number varies; capacity reserved at load
 
   SnapConstraints() = default;

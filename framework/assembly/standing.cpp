@@ -45,7 +45,9 @@ AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
         assembly.goals[g].after, [&](std::size_t before) { return state.goals[before].status != Status::kFilled; });
     for (const std::size_t body : assembly.goals[g].bodies) {
       const PoseDifference difference = differenceTo(assembly.goals[g], objects.bodies[body].X_WB_end);
-      if (taken[body] != 0 || difference.distance > assembly.snap_distance || difference.angle > assembly.snap_angle_deg * kDegree) continue;
+      if (taken[body] != 0 || difference.distance > assembly.snap_distance ||
+          difference.angle > assembly.snap_angle_deg * kDegree)
+        continue;
       const bool blocked = waits != assembly.goals[g].after.end();
       state.goals[g] = {blocked ? Status::kBlocked : Status::kDrawing, static_cast<std::int32_t>(body),
                         blocked ? static_cast<std::int32_t>(*waits) : kNoGoal};

@@ -96,7 +96,7 @@ std::string sumsOfMeshes(const Scene& scene) {
 }
 
 void takeFromMeshStore(Scene& scene, const RunInfo& run, const std::vector<std::string>& folders,
-                   Diagnostics& diagnostics) {
+                       Diagnostics& diagnostics) {
   const std::vector<MeshRef*> meshes = meshesOf(scene);
   if (meshes.empty()) return;
   for (const std::string& folder : folders) input::allowFolder(folder);  // named by the user, not by the run

@@ -15,6 +15,7 @@ std::string sumsOfMeshes(const Scene& scene);
 /// `folders` whose bytes have the checksums that the run sent. No path received over the bus is opened, only regular
 /// files with a mesh extension in those folders. Reports E755 for each mesh that is not found and leaves its path
 /// empty.
-void takeFromMeshStore(Scene& scene, const RunInfo& run, const std::vector<std::string>& folders, Diagnostics& diagnostics);
+void takeFromMeshStore(Scene& scene, const RunInfo& run, const std::vector<std::string>& folders,
+                       Diagnostics& diagnostics);
 
 }  // namespace presa::bus

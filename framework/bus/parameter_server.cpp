@@ -114,7 +114,7 @@ void ParameterServer::showChanged() {
   shown_.resize(offers_.size());
   for (std::size_t i = 0; i < offers_.size(); ++i) {
     const Offer& offer = offers_[i];
-    OpenParameter now{run_,          offer.name,   offer.value(),
+    OpenParameter now{run_,        offer.name,  offer.value(),
                       offer.min(), offer.max(), static_cast<std::int32_t>(offers_.size())};
     OpenParameter& shown = shown_[i];
     if (shown.run == run_ && shown.value == now.value && shown.min == now.min && shown.max == now.max) continue;

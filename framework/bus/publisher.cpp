@@ -40,7 +40,7 @@ Publisher::~Publisher() = default;
 std::vector<std::string> Publisher::stages() const {
   std::vector<std::string> stages{"take the latest states, poses interpolated to now",
                                   "hand every object and finger to the network"};
-  if (server_) stages.emplace_back("judge the commands that have come, and answer");
+  if (server_) stages.emplace_back("check the commands that have arrived, and answer them");
   return stages;
 }
 

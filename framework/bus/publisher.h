@@ -20,7 +20,8 @@ class Publisher final : public Module, public Commandable {
   using Open = std::function<std::unique_ptr<Writer>()>;
   /// `open` and `open_post` are called in start(), on the thread of the group, and may throw InputError; `open_post`
   /// only when the run takes commands.
-  Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open, ParameterServer::Open open_post = {});
+  Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open,
+            ParameterServer::Open open_post = {});
   ~Publisher() override;
   void start() override;
   void step(const Tick& tick) noexcept override;

@@ -80,7 +80,7 @@ struct Answer {
   };
   std::uint64_t run = 0, sender = 0, number = 0;
   Verdict verdict = Verdict::kAccepted;
-  double value = 0;            ///< value in force
+  double value = 0;         ///< value in force
   double min = 0, max = 0;  ///< allowed range
 };
 

@@ -135,7 +135,7 @@ void DeviceOutput::stop() {
 
 std::vector<std::string> DeviceOutput::stages() const {
   return {"output stage: finite, magnitude, energy, thermal, fade (soft start, watchdog, stop), slew",
-          "write to the device, but for ticks made up after a late wake-up: the force is held"};
+          "write to the device; nothing is written in a catch-up tick: the force is held"};
 }
 
 }  // namespace presa

@@ -73,8 +73,8 @@ class DeviceOutput final : public Module {
   EventRing<FaultEvent> events_{256};
   In<DeviceState> device_{*this, "device_state"};
   In<ContactExchange> contact_{*this, "contact_exchange"};
-  In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}, WhenOld::kFadeToZero,
-                              neighbourhood_age_};
+  In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{},
+                                           WhenOld::kFadeToZero, neighbourhood_age_};
   In<ObjectState> objects_;
   Out<ForceCommand> command_{*this, "force_command"};
 };

@@ -6,9 +6,10 @@ const DevicePlugin& devicePlugin(const std::string& driver) {
   const auto& table = pluginTable<DevicePlugin>(driver, "presaDevicePlugin");
   if (!isSound(table.rating)) {
     Diagnostics diagnostics;
-    diagnostics.error(655, {"presa_" + driver + ".so", 0, 0},
-                      "the driver's rating is not finite, or its slew takes longer than 12 ms from its force to zero",
-                      "framework/device/device_rating.h says what a rating is");
+    diagnostics.error(
+        655, {"presa_" + driver + ".so", 0, 0},
+        "the driver's rating is not finite, or its force rate takes longer than 12 ms from the rated force to zero",
+        "a rating is explained in framework/device/device_rating.h");
     throw InputError(diagnostics);
   }
   return table;

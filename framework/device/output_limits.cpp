@@ -70,7 +70,7 @@ class Lowering {
     const double asked = wanted_.limits.force_rate;
     if (asked > rating_.force_rate)
       findings_.warning(kScenePastRating, wanted_.where,
-                        text("role '%s': force_rate is %.6g N/s, the device is rated for %.6g N/s, which holds",
+                        text("role '%s': force_rate is %.6g N/s, the device is rated for %.6g N/s; the rating is used",
                              wanted_.role, asked, rating_.force_rate));
     const double room = allowedUpTo("force_rate", bound_.limits.force_rate, rating_.force_rate, "N/s");
     const double rate = std::min(asked, room), slowest = force / DeviceRating::kSlowestDecay;
@@ -80,10 +80,10 @@ class Lowering {
     if (rate >= slowest) return rate;
     const bool rigs = room < asked;
     findings_.warning(kTooSlow, rigs ? bound_.where : wanted_.where,
-                      text("role '%s': with force_rate %.6g N/s, %.3g N would be zero after %.4g ms, longer than the "
-                           "%.3g ms that a device may take; %.4g N/s hold",
+                      text("role '%s': force_rate %.6g N/s takes %.3g N to zero in %.4g ms, at most %.3g ms are "
+                           "allowed; the force rate is raised to %.4g N/s",
                            wanted_.role, rate, force, 1e3 * force / rate, 1e3 * DeviceRating::kSlowestDecay, slowest),
-                      "a lower limit of the force allows a slower change");
+                      "a lower force limit allows a lower force rate");
     return slowest;
   }
 
@@ -91,8 +91,8 @@ class Lowering {
     const double asked = wanted_.limits.watchdog_ms * 1e-3;
     if (asked <= rating_.watchdog) return asked;
     findings_.warning(kWatchdogTooLong, wanted_.where,
-                      text("role '%s': watchdog_ms is %.6g, the device is rated for %.6g, which holds", wanted_.role,
-                           wanted_.limits.watchdog_ms, 1e3 * rating_.watchdog));
+                      text("role '%s': watchdog_ms is %.6g, the device is rated for %.6g; the rating is used",
+                           wanted_.role, wanted_.limits.watchdog_ms, 1e3 * rating_.watchdog));
     return rating_.watchdog;
   }
 
@@ -100,7 +100,7 @@ class Lowering {
   double allowedUpTo(const char* name, const std::optional<double>& allowed, double rated, const char* unit) {
     if (!allowed || *allowed <= rated) return allowed.value_or(rated);
     findings_.warning(kRigPastRating, bound_.where,
-                      text("role '%s': the rig allows %s=\"%.6g\", the device is rated for %.6g %s, which holds",
+                      text("role '%s': the rig allows %s=\"%.6g\", the device is rated for %.6g %s; the rating is used",
                            wanted_.role, name, *allowed, rated, unit));
     return rated;
   }
@@ -118,7 +118,7 @@ class Lowering {
     const double down = limits.force / limits.force_rate;
     if (imagined() || down <= DeviceOutput::kSilentZero) return;
     notes_.push_back(
-        text("%s: from %.3g N to zero takes %.1f ms at %.3g N/s: a silent device has that long at its force",
+        text("%s: a change from %.3g N to zero takes %.1f ms at %.3g N/s, also when the device stops answering",
              wanted_.role, limits.force, 1e3 * down, limits.force_rate));
   }
 

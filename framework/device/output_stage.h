@@ -21,7 +21,7 @@ enum OutputStatus : std::uint32_t {
   kOutputWarm = 1u << 7,       ///< limited below the command because the motors are warm
   kOutputOverload = 1u << 8,   ///< above the continuous rating, which the rig wants recorded, not limited
   kOutputDamped = 1u << 9,     ///< the passivity controller dissipated energy
-  kOutputOther = 1u << 10,     ///< another finger's device is lost: latched
+  kOutputOther = 1u << 10,     ///< the device of another finger is lost: latched
   kOutputGap = 1u << 11,       ///< no tick ran for longer than Executor::kGap: latched
 };
 /// Latched faults: each takes the force to zero until a re-arm.
@@ -31,10 +31,10 @@ inline constexpr std::uint32_t kOutputLatches =
 /// The latched fault in words; null: none.
 inline const char* latchedFault(std::uint32_t status) noexcept {
   if ((status & kOutputNotFinite) != 0) return "the commanded force was not a number";
-  if ((status & kOutputLost) != 0) return "its device is gone, or says what cannot be";
-  if ((status & kOutputSpeed) != 0) return "its device pushed a hand on that was too fast already";
-  if ((status & kOutputOther) != 0) return "another finger's device is lost";
-  if ((status & kOutputGap) != 0) return "the program or the whole machine stood still";
+  if ((status & kOutputLost) != 0) return "device disconnected or reporting implausible samples";
+  if ((status & kOutputSpeed) != 0) return "over-speed: the force was accelerating a hand that was already too fast";
+  if ((status & kOutputOther) != 0) return "the device of another finger is lost";
+  if ((status & kOutputGap) != 0) return "the program or the whole machine was suspended";
   return nullptr;
 }
 
@@ -58,9 +58,9 @@ class OutputStage {
     Vec3 command = Vec3::Zero();  ///< wanted force on the finger, in W [N]
     Trust trust = Trust::kGood;
     bool stop = false;         ///< the run is ending: the force fades
-    bool catch_up = false;         ///< catch-up tick, nothing is sent: the fade goes on, the force stays
+    bool catch_up = false;     ///< catch-up tick, nothing is sent: the fade goes on, the force stays
     bool lost = false;         ///< the device is disconnected or its samples are implausible
-    bool other_lost = false;   ///< another finger's device is lost: the remaining ones must not push the hand
+    bool other_lost = false;   ///< the device of another finger is lost: the remaining ones must not push the hand
     bool resumed = false;      ///< the first tick after a gap (Tick::resumed)
     Vec3 p_WH = Vec3::Zero();  ///< position of the finger [m]
     Vec3 v_WH = Vec3::Zero();  ///< its velocity [m/s]

@@ -41,7 +41,7 @@ class TransportWatch final : public WrappedDevice {
     if (step > slew * (1 + kRounding) + 1e-12) fail("changed faster than the slew limit", step, slew, tick);
     if (!usable_ && force > 0) fail("came before any usable sample", force, 0, tick);
     if (tick.resumed && force > 0) fail("came right after a gap", force, 0, tick);
-    if (lost_for_ > kGone + tick.period && force > 0) fail("outlived the device", force, 0, tick);
+    if (lost_for_ > kGone + tick.period && force > 0) fail("was sent after the device was lost", force, 0, tick);
     sent_ = f;
     inner().write(f, tick);
   }

@@ -49,7 +49,9 @@ class Search {
  private:
   const Vec3& normal(int i) const { return all_.item[static_cast<std::size_t>(i)].nhat; }
   // violation of constraint i at y
-  double violation(int i, const Vec3& y) const { return all_.item[static_cast<std::size_t>(i)].offset - normal(i).dot(y); }
+  double violation(int i, const Vec3& y) const {
+    return all_.item[static_cast<std::size_t>(i)].offset - normal(i).dot(y);
+  }
 
   bool one(int i) {
     const double lambda = violation(i, g_);

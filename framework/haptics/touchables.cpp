@@ -137,7 +137,7 @@ double Touchables::meet(const Touchable& touchable, const Query& query, const Ne
     const Pose X_AG = own ? touchable.X_BG : query.X_AW * (X_WB * touchable.X_BG);
     const bool same = own && isIdentity(touchable.X_BG);
     query.near.addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near,
-                      query.X_AW * query.p_WH, reach);
+                       query.X_AW * query.p_WH, reach);
   }
   return approach;
 }

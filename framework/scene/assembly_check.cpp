@@ -64,7 +64,7 @@ class AssemblyCheck {
       } else if (fixed_.contains(body)) {
         diagnostics_.error(kFixedBody, goal.where("bodies"),
                            goal.label() + " is for body " + quote(body) + ", which is fixed",
-                           "only a free body can be put somewhere");
+                           "only a free body can be moved to a goal");
       }
     }
   }

@@ -8,7 +8,7 @@ namespace presa {
 namespace {
 
 constexpr double kMinStiffness = 1;  // [N/m]; the surface must not vanish
-constexpr double kMaxFriction = 2;    // multiple of the loaded coefficient [-]
+constexpr double kMaxFriction = 2;   // multiple of the loaded coefficient [-]
 
 }  // namespace
 
@@ -21,8 +21,8 @@ std::vector<OpenSurface> openSurfaces(const Scene& scene) {
                                      [&](const Body& body) { return body.haptic && body.material == m; });
     if (!touched || scene.devices.empty()) continue;
     const std::string path = "material/" + material.name + "/";
-    open.push_back({m, &Material::stiffness, path + "stiffness", std::min(kMinStiffness, material.stiffness),
-                    material.stiffness});
+    open.push_back(
+        {m, &Material::stiffness, path + "stiffness", std::min(kMinStiffness, material.stiffness), material.stiffness});
     if (!friction || !(material.friction_static > 0)) continue;
     open.push_back(
         {m, &Material::friction_static, path + "friction/static", 0, kMaxFriction * material.friction_static});

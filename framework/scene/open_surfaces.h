@@ -11,7 +11,7 @@ struct OpenSurface {
   std::size_t material = 0;           ///< index into Scene::materials
   double Material::*value = nullptr;  ///< the parameter
   std::string name;                   ///< its path, as for --set: material/steel/stiffness
-  double min = 0, max = 0;         ///< minimum and maximum, both included
+  double min = 0, max = 0;            ///< minimum and maximum, both included
 };
 
 /// The open parameters of every material that fingers can touch, in the order of the scene:

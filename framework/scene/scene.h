@@ -63,7 +63,7 @@ struct Material {
   double damping = 0;           ///< [N s/m], >= 0
   double friction_static = 0;   ///< [-], >= dynamic
   double friction_dynamic = 0;  ///< [-]
-  double torsional_radius = 0;           ///< torsional friction radius of a soft fingertip about the contact normal [m]
+  double torsional_radius = 0;  ///< torsional friction radius of a soft fingertip about the contact normal [m]
   std::optional<FrictionCoefficients>
       changed_friction;       ///< friction under a finger after the surface change of an experiment; none: no change
   Vec3 color{0.7, 0.7, 0.7};  ///< linear RGB in [0, 1]
@@ -113,7 +113,7 @@ struct HapticSettings {
 };
 
 struct CollisionSettings {
-  double margin = 0;              ///< extent of the neighbourhood beyond the fingertip [m]; 0: chosen from the finger's motion
+  double margin = 0;  ///< extent of the neighbourhood beyond the fingertip [m]; 0: chosen from the finger's motion
   std::size_t max_triangles = 0;  ///< no effect; accepted for older scenes
 };
 
@@ -147,11 +147,11 @@ struct AssemblyGoal {
 
 /// An assembly task. A body near a free goal is pulled to it and then stays there.
 struct Assembly {
-  double snap_distance = 0.02;             ///< snap distance: a goal pulls bodies within it [m]
-  double snap_angle_deg = 30;     ///< snap angle: maximum rotation away from the goal [deg]
+  double snap_distance = 0.02;     ///< snap distance: a goal pulls bodies within it [m]
+  double snap_angle_deg = 30;      ///< snap angle: maximum rotation away from the goal [deg]
   double tolerance = 0.0005;       ///< a body counts as placed within this distance [m]
   double tolerance_angle_deg = 1;  ///< and within this angle [deg]
-  double snap_force = 1.5;               ///< maximum snap force, in multiples of the body's weight on Earth [-]
+  double snap_force = 1.5;         ///< maximum snap force, in multiples of the body's weight on Earth [-]
   /// Workspace, an axis-aligned box in W: a body that leaves it is brought back. None: unlimited.
   struct Workspace {
     Vec3 centre = Vec3::Zero(), size = Vec3::Zero();  ///< [m]

@@ -91,8 +91,8 @@ std::optional<SceneAndRig> readSceneAndRig(const Inputs& inputs, const RunOption
   if (!rig_file.empty()) rig = loadRig(rig_file, diagnostics);
   if (inputs.rig.empty() && !options.bus && rig.bus && opensMoreThanASceneMay(*rig.bus))
     diagnostics.error(751, {rig_file, 0, 0},
-                      "the scene chose this rig, which opens the network or takes commands: a scene may do neither",
-                      "--rig " + rig_file + " says that you want it, --bus none that you do not");
+                      "the scene names this rig, which opens the network or accepts commands; a scene may not do that",
+                      "--rig " + rig_file + " allows it, --bus none runs without a bus");
   if (diagnostics.hasErrors() && scene.bodies.empty()) return std::nullopt;
   return SceneAndRig{std::move(scene), std::move(rig)};
 }

@@ -82,17 +82,18 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
                : "the scene has no device");
   const char* dynamics = dynamicsPlugin(scene);
   if (fingers && !free.empty() && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
-    diagnostics.error(
-        407, {scene.file, 0, 0}, std::string("the scene has devices, and ") + dynamics + " knows no fingers",
-        "engine=\"ode\" moves bodies that are held; the others are there to compare with, without fingers");
+    diagnostics.error(407, {scene.file, 0, 0},
+                      std::string("the scene has devices, and ") + dynamics + " does not support fingers",
+                      "use engine=\"ode\"; the other engines serve for comparison and do not support fingers");
   }
   if (scene.assembly && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
     diagnostics.error(409, {scene.file, 0, 0},
-                      std::string("the scene has an assembly, and ") + dynamics + " draws no bodies", "engine=\"ode\"");
+                      std::string("the scene has an assembly, and ") + dynamics + " does not support snap constraints",
+                      "engine=\"ode\"");
   }
   if (options.realtime && scene.rates.haptic > kFastestRealTime) {
     diagnostics.error(408, {scene.file, 0, 0}, "a haptic rate above 10000 Hz cannot be kept against the clock",
-                      "--lockstep, where finer steps are a reference for coarser ones");
+                      "use --lockstep, in which finer steps serve as a reference for coarser ones");
   }
   call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
        "the scene has no assembly");
@@ -108,7 +109,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
        : options.bus ? "--bus " + bus->network
                      : (rig.bus ? "the rig '" + rig.name : "the scene '" + scene.name) + "' publishes on bus '" +
                            bus->network + "'",
-       "nobody asked for a bus (--bus)");
+       "no bus was requested (--bus)");
   return plan;
 }
 

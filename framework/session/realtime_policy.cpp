@@ -42,8 +42,8 @@ void checkCommandRate(const Scene& scene, const Rig& rig, const Plan& plan, Diag
                                       [&](const PlannedDevice& device) { return device.role == binding.role; });
     if (planned == plan.devices.end() || !isHardware(*planned)) continue;
     diagnostics.error(410, binding.where,
-                      "the force of '" + binding.role + "' would go to zero again and again: its driver '" +
-                          binding.driver + "' takes a force away after " + xml::numberText(1e3 * CommandKeeper::kHold) +
+                      "the force of '" + binding.role + "' would repeatedly go to zero: its driver '" + binding.driver +
+                          "' takes a force away after " + xml::numberText(1e3 * CommandKeeper::kHold) +
                           " ms without a command, and the haptic rate is " + xml::numberText(scene.rates.haptic) +
                           " Hz",
                       "rates/haptic=\"" + xml::numberText(lowest) + "\" or more");
@@ -57,8 +57,8 @@ double forceShare(bool hardware, const RunOptions& options, const RealtimeProbe&
   if (rights.granted()) return 1;
   const std::string refused = refusalOf(rights);
   if (!options.allow_no_rt) {
-    refuse(463, "", refused + ": other programs could hold up a device that is pushing a hand",
-           "let your group have it in /etc/security/limits.conf, '@plugdev - rtprio 90' and '@plugdev - memlock "
+    refuse(463, "", refused + ": other programs could delay the control of a device that is pushing a hand",
+           "grant it to your group in /etc/security/limits.conf: '@plugdev - rtprio 90' and '@plugdev - memlock "
            "unlimited', and log "
            "in again ('ulimit -r', 'ulimit -l' show it); `presa run --allow-no-rt` goes on with half the force, an "
            "experiment does not");

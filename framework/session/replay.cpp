@@ -46,7 +46,7 @@ class RecordedSurfaces final : public Module {
   explicit RecordedSurfaces(const Recording& recording)
       : Module("recorded_surfaces", RateGroup::kHaptic), recording_(recording) {}
   void step(const Tick&) noexcept override { change_.value.happened = recording_.surfaces_changed[row_++] != 0; }
-  std::vector<std::string> stages() const override { return {"change the surfaces where they changed"}; }
+  std::vector<std::string> stages() const override { return {"repeat the recorded surface changes"}; }
 
  private:
   const Recording& recording_;
@@ -67,7 +67,7 @@ class RecordedCommands final : public Module {
     }
     ++row_;
   }
-  std::vector<std::string> stages() const override { return {"set what commands set"}; }
+  std::vector<std::string> stages() const override { return {"repeat the recorded parameter changes"}; }
 
  private:
   const Recording& recording_;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "framework/assembly/guide_module.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/plugin/plugin_loader.h"
+#include "framework/device/device_modules.h"
 #include "framework/device/device_plugin.h"
 #include "framework/device/supervision/supervised_device.h"
 #include "framework/device/transport_watch.h"
@@ -114,6 +116,8 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
                           ratingOf(bindingOf(world_->rig, world_->scene.devices[f].role)), control);
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
+  if (world_->scene.assembly && (options.guide || options_.view != RunOptions::View::kNone))
+    builder.add(std::make_unique<GuideModule>(world_));
   for (const PlannedModule& planned : plan_.modules) builder.add(load(planned));
   offerPointer();
   if (!devices_.empty()) {

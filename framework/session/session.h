@@ -3,8 +3,8 @@
 #include <limits>
 #include <memory>
 
-#include "framework/core/graph/graph.h"
-#include "framework/device/device_modules.h"
+#include "framework/core/schedule/executor.h"
+#include "framework/device/device.h"
 #include "framework/record/monitor/monitor.h"
 #include "framework/record/recording.h"
 #include "framework/session/assembly_control.h"
@@ -13,7 +13,8 @@
 
 namespace presa {
 
-struct DevicePlugin;
+class DeviceOutput;
+struct FingerSafety;
 
 /// Names and versions of the libraries that the plan's modules use: "ODE 0.16.2". Loads the plug-ins.
 std::vector<std::string> engineVersions(const Plan& plan);
@@ -26,6 +27,7 @@ class Session {
     double trace_rate = 0;                      ///< samples per second for plots; 0: none
     DeviceList devices;                         ///< replay, studies: used instead of the rig's; already open
     bool open_devices = true;                   ///< false (explain): the rig's devices stay closed
+    bool guide = false;                         ///< run the guide of the scene's assembly even without a view
     std::vector<std::unique_ptr<Module>> more;  ///< the program's own observer modules
     /// Wraps the rig's devices once they are open; empty: they stay as they are.
     std::function<DeviceList(DeviceList)> wrap;

@@ -24,8 +24,9 @@ void AssemblyModule::step(const Tick& tick) noexcept {
 }
 
 std::vector<std::string> AssemblyModule::stages() const {
-  std::vector<std::string> all{"which body is near a place that is for it, what has to wait, what has arrived"};
-  if (world_->scene.assembly->workspace) all.emplace_back("bring back what has left the field");
+  std::vector<std::string> all{
+      "find the bodies near their goals, the goals that have to wait, and the bodies that have arrived"};
+  if (world_->scene.assembly->workspace) all.emplace_back("bring back bodies that have left the workspace");
   return all;
 }
 
@@ -35,7 +36,7 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOpti
   return std::make_unique<AssemblyModule>(std::move(world));
 }
 
-const ModulePlugin kPlugin{kPluginAbi, "assembly", "draws bodies to their places and keeps them there", create};
+const ModulePlugin kPlugin{kPluginAbi, "assembly", "pulls bodies to their goals and keeps them there", create};
 
 }  // namespace
 }  // namespace presa::assembly

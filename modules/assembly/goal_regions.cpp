@@ -70,8 +70,8 @@ void GoalRegions::findCandidates(const ObjectState& objects) {
       const Pose X_WG = nearestTurn(goal.X_WB, goal.fold, X_WB.q);
       const PoseDifference difference = poseDifference(X_WG, X_WB);
       const double slack = there == static_cast<std::int32_t>(g) ? kLeave : 1;
-      const bool near =
-          difference.distance < slack * assembly_.snap_distance && difference.angle < slack * assembly_.snap_angle_deg * kDegree;
+      const bool near = difference.distance < slack * assembly_.snap_distance &&
+                        difference.angle < slack * assembly_.snap_angle_deg * kDegree;
       if (refused_[body] == static_cast<std::int32_t>(g)) {
         if (!near) refused_[body] = kNoGoal;
         continue;
@@ -114,8 +114,9 @@ void GoalRegions::settle(const ObjectState& objects, double period) {
     pull_time_[g] += period;
     const BodyMotion& body = objects.bodies[index(goal.body)];
     const PoseDifference difference = poseDifference(placed_[g], body.X_WB_end);
-    const bool there = difference.distance < assembly_.tolerance && difference.angle < assembly_.tolerance_angle_deg * kDegree &&
-                       body.v_WB.norm() < kSlow && body.w_WB.norm() < kSlowTurn;
+    const bool there = difference.distance < assembly_.tolerance &&
+                       difference.angle < assembly_.tolerance_angle_deg * kDegree && body.v_WB.norm() < kSlow &&
+                       body.w_WB.norm() < kSlowTurn;
     settled_[g] = there ? settled_[g] + period : 0;
     if (settled_[g] < kSettle) continue;
     goal.status = Status::kFilled;
@@ -125,14 +126,15 @@ void GoalRegions::settle(const ObjectState& objects, double period) {
   }
 }
 
-void GoalRegions::addSnapConstraint(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights, double speed) {
+void GoalRegions::addSnapConstraint(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights,
+                                    double speed) {
   snap_constraints_.bodies.push_back({.body = static_cast<std::int32_t>(body),
-                                 .fixed = fixed,
-                                 .turns = turns,
-                                 .X_WB = X_WB,
-                                 .rate = kRate,
-                                 .speed = speed,
-                                 .max_acceleration = weights * kGravity});
+                                      .fixed = fixed,
+                                      .turns = turns,
+                                      .X_WB = X_WB,
+                                      .rate = kRate,
+                                      .speed = speed,
+                                      .max_acceleration = weights * kGravity});
 }
 
 // Bodies outside the workspace are pulled back. Without progress, for example at the ground's edge or under it, they
@@ -160,7 +162,10 @@ void GoalRegions::bringBack(const ObjectState& objects, double period) {
     // a body that leans against an edge would be held there by friction: lift it first
     if (returning_[body] > kCaught && p.z() < to.z() - kClear) to.head<2>() = p.head<2>();
     const bool carried = carried_[body] != 0;
-    addSnapConstraint(body, {to, X_WB.q}, carried, carried, kBringBackWeights, !carried ? kSpeed : away > kFar ? away : 0);
+    addSnapConstraint(body, {to, X_WB.q}, carried, carried, kBringBackWeights,
+                      !carried      ? kSpeed
+                      : away > kFar ? away
+                                    : 0);
   }
 }
 
@@ -170,9 +175,9 @@ void GoalRegions::slowDown(const ObjectState& objects) {
     // sleeping bodies stay asleep; awake ones are held even at rest, otherwise they would roll on from one step's push
     if (objects.bodies[body].asleep || objects.bodies[body].v_WB.norm() > kRollsTo) continue;
     snap_constraints_.bodies.push_back({.body = static_cast<std::int32_t>(body),
-                                   .turns = false,
-                                   .X_WB = objects.bodies[body].X_WB_end,
-                                   .max_acceleration = kGrass});
+                                        .turns = false,
+                                        .X_WB = objects.bodies[body].X_WB_end,
+                                        .max_acceleration = kGrass});
   }
 }
 
@@ -185,7 +190,8 @@ void GoalRegions::step(const ObjectState& objects, double period) {
     const GoalState& goal = state_.goals[g];
     if (goal.status == Status::kFilled) addSnapConstraint(index(goal.body), placed_[g], true, true, 0, 0);
     if (goal.status == Status::kDrawing)
-      addSnapConstraint(index(goal.body), placed_[g], false, true, assembly_.snap_force * std::min(1.0, pull_time_[g] / kRise), kSpeed);
+      addSnapConstraint(index(goal.body), placed_[g], false, true,
+                        assembly_.snap_force * std::min(1.0, pull_time_[g] / kRise), kSpeed);
   }
   bringBack(objects, period);
   slowDown(objects);

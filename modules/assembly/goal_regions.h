@@ -55,7 +55,7 @@ class GoalRegions {
   std::vector<std::int32_t> goal_of_;  // by body: the goal it is pulled to or stands at; kNoGoal
   std::vector<std::int32_t> refused_;  // by body: goal that undo took it from, until it has been out of reach
   std::vector<Pose> placed_;           // by goal: target pose of its body
-  std::vector<double> pull_time_;        // by goal: time for which it has pulled its body [s]
+  std::vector<double> pull_time_;      // by goal: time for which it has pulled its body [s]
   std::vector<double> settled_;        // by goal: time for which its body has been in place [s]
   std::vector<std::size_t> order_;     // filled goals, in order of filling
   std::vector<double> returning_;      // by body: time outside the workspace without progress [s]

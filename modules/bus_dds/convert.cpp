@@ -133,7 +133,7 @@ bus::Command fromTopic(const presa_dds_Command& command) {
 
 presa_dds_Answer toTopic(const bus::Answer& answer) noexcept {
   return {answer.run,   answer.sender, answer.number, static_cast<std::int32_t>(answer.verdict),
-          answer.value, answer.min,  answer.max};
+          answer.value, answer.min,    answer.max};
 }
 bus::Answer fromTopic(const presa_dds_Answer& answer) noexcept {
   return {answer.run,   answer.sender, answer.number, static_cast<bus::Answer::Verdict>(answer.verdict),

@@ -108,7 +108,9 @@ CollisionModule::Ball CollisionModule::ballOf(std::size_t finger, const Tick& ti
 bool CollisionModule::lastNeighbourhoodServes(std::size_t finger, const Ball& needed) noexcept {
   const FingerNeighbourhood& neighbourhood = finger_neighbourhoods.value.fingers[finger];
   // written so that a position with NaN is never served
-  if (neighbourhood.serial == 0 || !((needed.center_W - neighbourhood.center_W).norm() + needed.radius <= neighbourhood.radius)) return false;
+  if (neighbourhood.serial == 0 ||
+      !((needed.center_W - neighbourhood.center_W).norm() + needed.radius <= neighbourhood.radius))
+    return false;
   if (!any_moves_) return true;
   for (std::size_t i = 0; i < static_cast<std::size_t>(neighbourhood.body_count); ++i) {
     const NearBody& near = neighbourhood.bodies[i];
@@ -122,7 +124,8 @@ bool CollisionModule::lastNeighbourhoodServes(std::size_t finger, const Ball& ne
   const auto* end = neighbourhood.bodies.data() + neighbourhood.body_count;
   return std::ranges::all_of(found_, [&](std::int32_t t) {
     const std::int32_t body = touchables_[static_cast<std::size_t>(t)].body;
-    return std::find_if(neighbourhood.bodies.data(), end, [&](const NearBody& near) { return near.body == body; }) != end;
+    return std::find_if(neighbourhood.bodies.data(), end, [&](const NearBody& near) { return near.body == body; }) !=
+           end;
   });
 }
 
@@ -156,9 +159,12 @@ void CollisionModule::makeNeighbourhood(const Ball& needed, FingerNeighbourhood&
 
 std::vector<std::string> CollisionModule::stages() const {
   const char* margin = world_->scene.collision.margin > 0 ? "the scene's margin" : "a motion bound";
-  return {"place the bodies that have moved in the broad phase (FCL's dynamic tree of boxes)",
-          std::string("does each finger's last patch still hold what it can reach: fingertip, stretch and ") + margin,
-          "bodies within reach, and a cut through the hierarchy of each mesh among them"};
+  return {
+      "place the bodies that have moved in the broad phase (FCL's dynamic tree of boxes)",
+      std::string(
+          "check whether each finger's last neighbourhood still covers its reach: fingertip, proxy displacement and ") +
+          margin,
+      "bodies within reach, and a cut through the hierarchy of each mesh among them"};
 }
 
 }  // namespace presa

@@ -4,8 +4,8 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/device_state.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
 #include "modules/collision_fcl/broad_phase.h"

@@ -30,7 +30,7 @@ std::unique_ptr<btCollisionShape> shapeOf(const Geometry& geometry, const Body& 
     return std::make_unique<btCapsuleShapeZ>(rod->radius, rod->length);
   Diagnostics diagnostics;
   diagnostics.error(582, geometry.where, "body '" + body.name + "': dynamics_bullet has no mesh as physics geometry",
-                    "a box, sphere, cylinder or capsule, or engine=\"ode\"");
+                    "use a box, sphere, cylinder or capsule, or engine=\"ode\"");
   throw InputError(diagnostics);
 }
 
@@ -142,7 +142,7 @@ class DynamicsBullet final : public Module {
 
 const ModulePlugin kPlugin{
     .name = "dynamics_bullet",
-    .summary = "moves free bodies by Bullet as it comes, to compare with",
+    .summary = "moves free bodies with unmodified Bullet, for comparison",
     .create = [](std::shared_ptr<const World> world, const RunOptions&) -> std::unique_ptr<Module> {
       return std::make_unique<DynamicsBullet>(std::move(world));
     },

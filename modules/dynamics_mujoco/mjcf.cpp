@@ -29,7 +29,7 @@ std::string shape(const Geometry& geometry, const Body& body) {
     return "type=\"capsule\" size=\"" + number(rod->radius) + number(rod->length / 2) + "\"";
   Diagnostics diagnostics;
   diagnostics.error(580, geometry.where, "body '" + body.name + "': dynamics_mujoco has no mesh as physics geometry",
-                    "a box, sphere, cylinder or capsule, or engine=\"ode\"");
+                    "use a box, sphere, cylinder or capsule, or engine=\"ode\"");
   throw InputError(diagnostics);
 }
 

@@ -32,8 +32,8 @@ FingerContact contactOf(const FingerContact& contact, const ContactPart& part) {
 
 double fingerWeight(double age, double old_after) { return std::clamp(1 - (age - old_after) / kFingerFade, 0.0, 1.0); }
 
-std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const BodyInertiaState& body, double age,
-                                       double old_after, double h) {
+std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const BodyInertiaState& body,
+                                                     double age, double old_after, double h) {
   if (contact.mode == ContactMode::kNone) return std::nullopt;
   const double weight = fingerWeight(age, old_after);
   const double k = weight * contact.stiffness;

@@ -58,7 +58,7 @@ FingerContact contactOf(const FingerContact& contact, const ContactPart& part);
 
 /// The rows of a usable `contact`, sampled `age` [s] before the step, for a step of `h` [s]. The HIP is extrapolated
 /// with its velocity over at most `old_after`. None when there is no contact or it has faded.
-std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const BodyInertiaState& body, double age,
-                                       double old_after, double h);
+std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const BodyInertiaState& body,
+                                                     double age, double old_after, double h);
 
 }  // namespace presa::ode

@@ -54,7 +54,8 @@ FingerJoints::~FingerJoints() {
 }
 
 // Torsional friction of a fingertip that does not rotate, bounded by the normal force at the start of the step.
-void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies) {
+void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row,
+                                 const BodySet& bodies) {
   const double normal = std::max(0.0, row.expected_force_W.dot(row.n_in));
   dJointAttach(motors_[finger], bodies.body(body), nullptr);
   dJointSetAMotorAxis(motors_[finger], 0, 0, row.n_in.x(), row.n_in.y(), row.n_in.z());

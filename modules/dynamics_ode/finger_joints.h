@@ -44,8 +44,8 @@ class FingerJoints {
   const double old_after_;  ///< maximum age of a finger sample before it fades [s]
   std::vector<Active> active_;
   std::array<dJointFeedback, kMaxFingers * kMaxContactParts> feedback_{};  // as active_
-  std::vector<double> torsional_radius_;   // torsional friction radius by body [m]; empty if no material has torsion
-  std::vector<dJointID> motors_;  // by finger: torsional friction
+  std::vector<double> torsional_radius_;  // torsional friction radius by body [m]; empty if no material has torsion
+  std::vector<dJointID> motors_;          // by finger: torsional friction
 };
 
 /// Calls use(finger, contact, body) for each contact of a finger with a moving body: once, or once per part when

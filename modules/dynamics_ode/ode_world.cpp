@@ -5,7 +5,6 @@
 #include <exception>
 #include <optional>
 
-#include "modules/dynamics_ode/snap_drive.h"
 #include "modules/dynamics_ode/body_contacts.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/engine.h"
@@ -13,6 +12,7 @@
 #include "modules/dynamics_ode/islands.h"
 #include "modules/dynamics_ode/layers.h"
 #include "modules/dynamics_ode/sleep.h"
+#include "modules/dynamics_ode/snap_drive.h"
 #include "modules/dynamics_ode/step_solver.h"
 
 namespace presa::ode {
@@ -69,7 +69,7 @@ struct OdeWorld::Impl {
   FingerJoints fingers;
   BodyContacts collider;
   StepSolver solver;
-  std::optional<Sleep> sleep;          // empty when the scene turns sleeping off
+  std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
   std::optional<SnapDrive> snap_drive_;  // empty without an assembly
   Islands islands;
   Layers layers;

@@ -87,9 +87,10 @@ void SnapDrive::read(const SnapConstraints& snap_constraints, BodySet& bodies, S
 bool SnapDrive::hasChanged(std::size_t i) {
   const SnapConstraint* now = constraint_of_[i];
   std::optional<SnapConstraint>& before = before_[i];
-  const bool same = now == nullptr || (before && before->fixed == now->fixed && before->max_acceleration == now->max_acceleration &&
-                                       (before->X_WB.p - now->X_WB.p).norm() < kSamePlace &&
-                                       before->X_WB.q.angularDistance(now->X_WB.q) < kSameTurn);
+  const bool same =
+      now == nullptr ||
+      (before && before->fixed == now->fixed && before->max_acceleration == now->max_acceleration &&
+       (before->X_WB.p - now->X_WB.p).norm() < kSamePlace && before->X_WB.q.angularDistance(now->X_WB.q) < kSameTurn);
   if (now == nullptr) {
     before.reset();
   } else if (!same) {

@@ -40,9 +40,9 @@ class SnapDrive {
     dJointID linear = nullptr, angular = nullptr;  ///< null for a fixed body
   };
   SnapConstraints constraints_;
-  std::vector<const SnapConstraint*> constraint_of_;           // by body, into constraints_; null: free
+  std::vector<const SnapConstraint*> constraint_of_;   // by body, into constraints_; null: free
   std::vector<std::optional<SnapConstraint>> before_;  // by body: the constraint for which it was last woken
-  std::vector<Motors> motors_;                     // by body
+  std::vector<Motors> motors_;                         // by body
 };
 
 }  // namespace presa::ode

@@ -8,15 +8,15 @@ std::vector<std::string> listStages(const OdeOptions& options) {
   const std::string iterations =
       method.iterations > 0 ? std::to_string(method.iterations) : "up to " + std::to_string(options.max_iterations);
   std::vector<std::string> all;
-  if (method.sleeping) all.emplace_back("wake what a finger or a moving body touches; what lies still sleeps");
+  if (method.sleeping) all.emplace_back("wake bodies that a finger or a moving body touches; bodies at rest sleep");
   all.emplace_back(
-      "collide the physics geometries, a step ahead of the touch (sort and sweep, at most 8 contacts per pair)");
-  all.emplace_back("extrapolate each finger to the start of the step; a finger not heard of for 20 ms fades");
+      "collide the physics geometries, a step ahead of the contact (sort and sweep, at most 8 contacts per pair)");
+  all.emplace_back("extrapolate each finger to the start of the step; a finger without a sample for 20 ms fades");
   all.emplace_back(method.coupling == D::Coupling::kSoft
                        ? "fingers as implicit spring-dampers (soft contact joints) inside their friction cone"
                        : "fingers as forces that act for one step");
   if (method.friction == D::Friction::kIsotropic) {
-    all.emplace_back("where something slides, solve once without friction, to point friction along the coming slip");
+    all.emplace_back("for sliding contacts, solve once without friction to find the direction of slip");
   }
   all.push_back(method.solver == D::Solver::kDirect ? "solve all islands directly"
                 : method.solver == D::Solver::kIterative

@@ -24,7 +24,9 @@ void CommandedSurfaces::step(const SurfaceSettings& settings, double period) noe
   for (Transition& transition : transitions_) {
     if (*transition.value == transition.target) continue;
     const double rest = transition.target - *transition.value;
-    *transition.value = std::abs(rest) <= transition.near ? transition.target : *transition.value - rest * std::expm1(-period / kTimeConstant);
+    *transition.value = std::abs(rest) <= transition.near
+                            ? transition.target
+                            : *transition.value - rest * std::expm1(-period / kTimeConstant);
   }
 }
 

@@ -125,7 +125,9 @@ class ChangingFriction final : public FingerStage {
     if (body == kNoBody) return;
     applyFriction(tick, cones_[static_cast<std::size_t>(body)][change_->happened ? 1 : 0]);
   }
-  const char* what() const override { return "friction: two-state cone, another after the surfaces have changed"; }
+  const char* what() const override {
+    return "friction: two-state cone, with other coefficients after the surface change";
+  }
 
  private:
   std::vector<std::array<FrictionCone, 2>> cones_;  // by body: before and after

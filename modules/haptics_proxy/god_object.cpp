@@ -192,8 +192,8 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   const Tolerance tolerance(start, g, r);
   Leg leg;
   NearQuery query{start, surroundings.meshCount() == 0
-                       ? kMargin * r
-                       : kFarther * surroundings.step() + 0.1 * kMargin * r + 10 * tolerance.still};
+                             ? kMargin * r
+                             : kFarther * surroundings.step() + 0.1 * kMargin * r + 10 * tolerance.still};
   query.at(start, r, surroundings);
   bool met = false, arrived = false;
   double ahead = 0;

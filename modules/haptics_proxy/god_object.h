@@ -39,7 +39,7 @@ bool isSupported(const Vec3& x, double r, Surroundings& surroundings) noexcept;
 
 /// State of a fingertip, kept from tick to tick, in the working frame A.
 struct FingertipState {
-  Vec3 x = Vec3::Zero();    ///< proxy, held by friction
+  Vec3 x = Vec3::Zero();           ///< proxy, held by friction
   Vec3 god_object = Vec3::Zero();  ///< frictionless god-object; x itself in free space
   bool touching = false;
   bool slipping = false;
@@ -49,11 +49,11 @@ struct FingertipState {
 /// Contact of one fingertip, in the working frame A.
 struct ProxyContact {
   FingertipState state;
-  Vec3 x = Vec3::Zero();            ///< rendered proxy: state.x, unless an effect moves it
-  Vec3 first_touch = Vec3::Zero();  ///< position at the first contact of this tick's motion
-  Vec3 nhat = Vec3::UnitZ();        ///< direction of the frictionless force, body into finger
-  double depth = 0;                 ///< (x - g) . nhat [m]
-  Vec3 tangential_displacement = Vec3::Zero();      ///< tangential displacement: x - g without its normal part [m]
+  Vec3 x = Vec3::Zero();                        ///< rendered proxy: state.x, unless an effect moves it
+  Vec3 first_touch = Vec3::Zero();              ///< position at the first contact of this tick's motion
+  Vec3 nhat = Vec3::UnitZ();                    ///< direction of the frictionless force, body into finger
+  double depth = 0;                             ///< (x - g) . nhat [m]
+  Vec3 tangential_displacement = Vec3::Zero();  ///< tangential displacement: x - g without its normal part [m]
   std::int32_t body = kNoBody;
   ActiveSet active;   ///< active set of the frictionless point
   bool swept = true;  ///< the proxy moves along continuous paths; false: a renderer without memory, which may jump

@@ -26,7 +26,7 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   if (effects.poses == HapticEffects::Poses::kInterpolate) {
     place_bodies_.push_back({"interpolate the Object State to now", interpolateBodies});
   } else if (effects.poses == HapticEffects::Poses::kHold) {
-    place_bodies_.push_back({"take the bodies where the last dynamics step left them", holdBodies});
+    place_bodies_.push_back({"use the body poses at the end of the last dynamics step", holdBodies});
   }
   const SurfacesInForce in_force = surfaces(effects);
   finger_stages_.push_back(effects.renderer == HapticSettings::Renderer::kPenalty ? makePenalty() : makeGodObject());
@@ -88,7 +88,7 @@ void HapticsProxy::stepFinger(std::size_t f, double period) noexcept {
 
 std::vector<std::string> HapticsProxy::stages() const {
   std::vector<std::string> stages;
-  if (!commanded_.empty()) stages.emplace_back("bring the surfaces slowly to what commands have set");
+  if (!commanded_.empty()) stages.emplace_back("move the surface parameters smoothly to their commanded values");
   for (const PlaceBodies& stage : place_bodies_) stages.emplace_back(stage.what);
   stages.emplace_back("gather the pieces within reach of each fingertip");
   for (const auto& stage : finger_stages_) stages.emplace_back(stage->what());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "framework/geometry/rotation_between.h"
 #include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/finger_stage.h"
 
@@ -61,7 +62,7 @@ class Shading final : public FingerStage {
     }
     const double length = sum.norm();
     if (!(length > 0) || !(sum.dot(contact.nhat) > kMinCosine * length)) return;
-    const Quat turn = Quat::FromTwoVectors(contact.nhat, sum);
+    const Quat turn = rotationBetween(contact.nhat, sum);
     contact.nhat = sum / length;
     contact.tangential_displacement = turn * contact.tangential_displacement;
     contact.x = tick.g + contact.depth * contact.nhat + contact.tangential_displacement;
@@ -96,7 +97,7 @@ class Shading final : public FingerStage {
   }
 
   static constexpr double kMinCosine = 0.5;  // the force rotates by less than 60 degrees, else shading is skipped
-  std::vector<Smooth> bodies_;                 // as Scene::bodies
+  std::vector<Smooth> bodies_;               // as Scene::bodies
 };
 
 }  // namespace

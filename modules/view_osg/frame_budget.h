@@ -7,8 +7,8 @@ namespace presa::view {
 /// Chooses the fraction of the window's resolution at which software rendering keeps the frame time. No drawing here.
 class FrameBudget {
  public:
-  static constexpr double kLongest = 0.030;  ///< maximum frame time [s]
-  static constexpr double kMinShare = 0.625;    ///< minimum share; below it texts on stones and edges are lost
+  static constexpr double kLongest = 0.030;   ///< maximum frame time [s]
+  static constexpr double kMinShare = 0.625;  ///< minimum share; below it texts on stones and edges are lost
 
   double share() const { return kShares[at_]; }
   /// Adds a frame time [s]. True: the share has changed.

@@ -16,12 +16,14 @@ namespace {
 
 const Vec3 kPlaceColor(0.30, 0.85, 0.45), kMissingColor(1.0, 0.52, 0.08), kArrow(1.0, 0.62, 0.05);
 constexpr float kFaint = 0.16F, kStrong = 0.30F;
-constexpr double kPulsePeriod = 1.4;                                     // period of pulsation [s]
+constexpr double kPulsePeriod = 1.4;                              // period of pulsation [s]
 constexpr double kHead = 0.016, kShaft = 0.006, kLength = 0.036;  // sizes of the arrow [m]
 constexpr double kAbove = 0.008, kBob = 0.005;                    // mean height over the block, and its variation [m]
 
 /// Pulsation between 0 and 1.
-float pulse(double time) { return static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kPulsePeriod)); }
+float pulse(double time) {
+  return static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * time / kPulsePeriod));
+}
 
 }  // namespace
 

@@ -4,16 +4,16 @@
 
 #include "framework/assembly/assembly_guide.h"
 #include "framework/core/state/contact_exchange.h"
-#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/device_state.h"
+#include "framework/core/state/finger_neighbourhood.h"
 
 namespace presa::view {
 
 /// One moment of the run, copied from the ports: the input of a picture.
 struct ViewFrame {
-  double time = 0;                          ///< [s]
-  std::vector<Pose> X_WB;                   ///< in the order of Scene::bodies
-  std::vector<bool> asleep;                 ///< in the order of Scene::bodies
+  double time = 0;                                       ///< [s]
+  std::vector<Pose> X_WB;                                ///< in the order of Scene::bodies
+  std::vector<bool> asleep;                              ///< in the order of Scene::bodies
   const FingerNeighbourhoods* neighbourhoods = nullptr;  ///< value of the port; null: not connected
   DeviceState device;
   ContactExchange contacts;

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <osg/Notify>
 
-#include "framework/assembly/standing.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/session/module_plugin.h"
 #include "modules/view_osg/frame_image.h"
@@ -31,7 +30,6 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
   const ShownParts asked(options_.show);
   if (windowed() || asked[ShownPart::kPatches])
     neighbourhoods_.emplace(*this, "contact_patches", In<FingerNeighbourhoods>::Optional{});
-  if (world_->scene.assembly) guide_.emplace(*world_->scene.assembly, world_->scene.bodies.size());
   if (!options_.screenshot.empty()) screenshot_.outcome = Screenshot::Outcome::kPending;
 }
 
@@ -48,9 +46,10 @@ void ViewModule::start() {
   try {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
-    renderer_ = windowed() ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
-                                                {pointer_ ? &*pointer_ : nullptr, time_, guide_.has_value()})
-                           : makeOffscreenRenderer(*picture_);
+    renderer_ = windowed()
+                    ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
+                                         {pointer_ ? &*pointer_ : nullptr, time_, world_->scene.assembly.has_value()})
+                    : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
       refuse(701, "command line", std::string("cannot show the run: ") + error.what(),
@@ -90,7 +89,9 @@ void ViewModule::offerPointer(const std::vector<std::size_t>& fingers) {
   pointer_.emplace(fingers);
 }
 
-void ViewModule::offerTime(TimeControl& time_control, double length) noexcept { time_ = &time_control, length_ = length; }
+void ViewModule::offerTime(TimeControl& time_control, double length) noexcept {
+  time_ = &time_control, length_ = length;
+}
 
 void ViewModule::refresh() noexcept {
   if (!renderer_ || broken_ || !windowed()) return;
@@ -107,6 +108,7 @@ void ViewModule::copyPorts(const Tick& tick) {
   frame_.contacts = contact_exchange_.value();
   frame_.forces = force_command_.value();
   if (neighbourhoods_ && neighbourhoods_->hasValue()) frame_.neighbourhoods = &neighbourhoods_->value();
+  if (guidance_.connected()) frame_.guidance = guidance_->now;
   if (!object_state_.hasValue()) return;
   const ObjectState& objects = object_state_.value();
   const std::size_t count = std::min(frame_.X_WB.size(), objects.bodies.size());
@@ -114,16 +116,6 @@ void ViewModule::copyPorts(const Tick& tick) {
     frame_.X_WB[i] = objects.poseAt(static_cast<std::int32_t>(i), tick.time);
     frame_.asleep[i] = objects.bodies[i].asleep;
   }
-  if (guide_) followAssembly(objects, tick.time);
-}
-
-// Called in every step, because the guide measures hesitation. A remote viewer has no assembly state and estimates it
-// from poses.
-void ViewModule::followAssembly(const ObjectState& objects, double time) {
-  guide_->step(time, objects,
-               assembly_state_.hasValue() ? assembly_state_.value() : standing(*world_->scene.assembly, objects),
-               frame_.contacts);
-  frame_.guidance = guide_->now();
 }
 
 void ViewModule::drawWindow() {

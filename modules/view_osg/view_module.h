@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "framework/assembly/assembly_guide.h"
+#include "framework/assembly/guide_module.h"
 #include "framework/core/graph/port.h"
 #include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
@@ -45,7 +45,6 @@ class ViewModule final : public View {
   bool windowed() const { return options_.view == RunOptions::View::kWindow; }
   void copyPorts(const Tick& tick);
   void drawWindow();
-  void followAssembly(const ObjectState& objects, double time);
   bool screenshotDue() const;
   void film();
   void saveSeries();
@@ -60,16 +59,15 @@ class ViewModule final : public View {
   In<ForceCommand> force_command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
-  std::optional<In<FingerNeighbourhoods>> neighbourhoods_;     ///< only if neighbourhoods may be shown
-  std::optional<Out<PointerState>> pointer_out_;  ///< only with a pointer device
+  std::optional<In<FingerNeighbourhoods>> neighbourhoods_;  ///< only if neighbourhoods may be shown
+  std::optional<Out<PointerState>> pointer_out_;            ///< only with a pointer device
   std::optional<PointerControl> pointer_;
   TimeControl* time_ = nullptr;
   double length_ = 0;  ///< length of the recording [s]; 0: a run
-  In<AssemblyState> assembly_state_{*this, "assembly_state", In<AssemblyState>::Optional{}};
+  In<GuideState> guidance_{*this, "guidance", In<GuideState>::Optional{}};
 
   ViewFrame frame_;
-  std::optional<AssemblyGuide> guide_;  // only in scenes with an assembly
-  double next_picture_ = 0;             // next time for RunOptions::screenshots [s]
+  double next_picture_ = 0;  // next time for RunOptions::screenshots [s]
   GroupTimings timings_{};
   std::unique_ptr<Picture> picture_;
   std::unique_ptr<Renderer> renderer_;

@@ -45,7 +45,7 @@ TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
   EXPECT_EQ(whyLeftOut(full, "friction"), "not left out");
   EXPECT_NE(whyLeftOut(full, "changing friction").find("<changed>"), std::string::npos);
   EXPECT_TRUE(hasStage(explain(cube + " --set material/rubber/friction/changed/static=0.2"),
-                       "another after the surfaces have changed"));
+                       "with other coefficients after the surface change"));
 
   const json bare = explain(cube +
                             " --set material/rubber/friction/static=0 --set material/rubber/friction/dynamic=0"

@@ -58,7 +58,8 @@ const std::vector<Arrows>& arrows() {
       {"framework/bus/",
        {"framework/core/", "framework/input/", "framework/scene/", "framework/device/", "framework/record/"}},
       {"framework/session/",
-       {"framework/core/", "framework/input/", "framework/scene/", "framework/device/", "framework/record/"}},
+       {"framework/core/", "framework/input/", "framework/scene/", "framework/assembly/", "framework/device/",
+        "framework/record/"}},
       {"modules/", {"framework/"}},
       {"devices/", {"framework/", "devices/hand/"}},
       // a model of a device implements the narrow interface of the device's driver

@@ -45,7 +45,7 @@ void addMeshesOption(Command command, std::vector<std::string>& folders) {
 
 void addBusCommandsOption(Command command, bool& open) {
   command.flag("--bus-commands", open,
-               "let others on the bus set parameters of the run (presa bus set); without it nobody is listened to");
+               "let others on the bus set parameters of the run (presa bus set); without it, commands are ignored");
 }
 
 }  // namespace presa

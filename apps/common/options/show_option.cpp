@@ -9,7 +9,8 @@ void addShowOption(Command command, std::vector<std::string>& show) {
   for (const std::string_view part : kShownPartNames) (parts += parts.empty() ? "" : ", ") += part;
   command
       .option("--show", show,
-              "what the picture shows besides its own choice, by commas: " + parts + ";\nno-PART leaves one out")
+              "parts that the picture shows in addition to its default, separated by commas: " + parts +
+                  ";\nno-PART leaves one out")
       .separatedBy(',')
       .oneValueEach();
 }

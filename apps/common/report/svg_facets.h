@@ -52,8 +52,8 @@ struct FacetFigure {
   std::vector<Entry> legend{};
   bool y_from_zero = true, x_from_zero = false;
   double y_max = FacetPoint::kNone;  ///< value that the y axis must include
-  double facet_height = 0;            ///< [px]; 0: default
-  bool equal_scales = false;          ///< same scale on both axes: one axis extends beyond its data
+  double facet_height = 0;           ///< [px]; 0: default
+  bool equal_scales = false;         ///< same scale on both axes: one axis extends beyond its data
 };
 
 std::string render(const FacetFigure& figure);

@@ -21,7 +21,7 @@ std::atomic<PromptEnd*> current{nullptr};
 
 extern "C" void leaveNow(int) {
   static constexpr char kWords[] =
-      "\npresa: stopped in the middle of a step that takes long: files hold what was written before\n";
+      "\npresa: stopped during a long step: files contain only the data written before it\n";
   Keys::giveBack();
   if (::isatty(STDERR_FILENO) != 0) (void)!::write(STDERR_FILENO, kWords, sizeof kWords - 1);
   ::_exit(kInterrupted);

@@ -85,7 +85,8 @@ void addValidate(Command app, int& status) {
   addFolder(command, a->data);
   command.option("--key", a->key, "public key of the laboratory: every session must be signed by it");
   command.footer(
-      "Without --key this proves accidents, not malice: who alters a session on purpose can make its sums anew.");
+      "Without --key this detects accidents, not malice: a person who alters a session on purpose can recompute its "
+      "checksums.");
   command.action([a, &status] { status = validateAll(*a); });
 }
 
@@ -101,11 +102,11 @@ void addSign(Command app, int& status) {
 void addKey(Command app) {
   auto file = std::make_shared<std::string>();
   Command command = app.command("key", "Make the laboratory's key: FILE, to be kept secret, and FILE.pub");
-  command.option("FILE", *file, "where to; nothing is overwritten").required();
+  command.option("FILE", *file, "file for the secret key; nothing is overwritten").required();
   command.action([file] {
     makeKeyFiles(*file);
-    std::printf("%s is secret: keep it away from the data\n%s.pub goes to whoever checks\n", file->c_str(),
-                file->c_str());
+    std::printf("%s is secret: keep it away from the data\n%s.pub is for everybody who checks the data\n",
+                file->c_str(), file->c_str());
   });
 }
 
@@ -149,7 +150,7 @@ int forgetSubject(const ForgetArguments& a) {
   forget(traces, a.subject);
   std::printf("removed: %zu folders with %zu files, %zu files, %zu links, rows in %zu tables\n", traces.folders.size(),
               traces.files_in_folders, traces.files.size(), traces.links.size(), traces.tables.size());
-  if (!traces.mentions.empty()) std::puts("left, but they name the subject; make them anew or remove them:");
+  if (!traces.mentions.empty()) std::puts("not changed, but they name the subject; regenerate or remove them:");
   list(traces.mentions, "");
   return kExitOk;
 }

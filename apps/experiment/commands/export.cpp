@@ -37,7 +37,7 @@ void printCaveats(const std::vector<SourceSession>& sessions, const std::string&
 }
 
 int exportDataset(const ExportArguments& a) {
-  if (a.bids.empty() && a.csv.empty()) refuse(934, "export", "says not where to", "add --bids OUT, --csv OUT or both");
+  if (a.bids.empty() && a.csv.empty()) refuse(934, "export", "no output is named", "add --bids OUT, --csv OUT or both");
   for (const std::string& out : {a.bids, a.csv}) {
     if (!out.empty() && std::filesystem::exists(out)) refuse(933, out, "exists already: nothing is ever overwritten");
   }
@@ -53,7 +53,7 @@ int exportDataset(const ExportArguments& a) {
   whole = whole && (a.csv.empty() || exportCsv(sessions, a.csv, a.rate, more));
   progress.finish();
   if (whole && !a.csv.empty()) printCaveats(sessions, a.csv);
-  if (!whole) std::fputs("stopped: nothing is left of the export that was going on\n", stderr);
+  if (!whole) std::fputs("stopped: the unfinished export was removed\n", stderr);
   return whole ? kExitOk : kExitInterrupted;
 }
 

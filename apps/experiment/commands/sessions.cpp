@@ -57,23 +57,23 @@ int runToEnd(SubjectSession& session, const OperatorChoice& choice) {
     const auto person = operatorFor(session, choice.kind);
     end = session.run(*person, choice.language);
   } catch (const InputError& error) {
-    std::fprintf(stderr, "%s%s is whole up to there; when that is mended: presa experiment resume %s\n",
+    std::fprintf(stderr, "%s%s is complete up to there; when this is fixed: presa experiment resume %s\n",
                  error.diagnostics().text().c_str(), session.folder().journal().c_str(), session.folder().path.c_str());
     return kExitFault;
   } catch (const std::system_error& error) {
-    std::fprintf(stderr,
-                 "presa: error: %s\n%s is whole up to there; when the disk is in order: presa experiment resume %s\n",
-                 error.what(), session.folder().journal().c_str(), session.folder().path.c_str());
+    std::fprintf(
+        stderr, "presa: error: %s\n%s is complete up to there; when the disk is in order: presa experiment resume %s\n",
+        error.what(), session.folder().journal().c_str(), session.folder().path.c_str());
     return kExitFault;
   }
   const TrialSource& trials = session.trials();
   if (end == SubjectSession::End::kFault) {
-    std::fprintf(stderr, "presa: error: %s\nthe trial is marked and comes again: presa experiment resume %s\n",
+    std::fprintf(stderr, "presa: error: %s\nthe trial is marked and will be repeated: presa experiment resume %s\n",
                  session.fault().c_str(), session.folder().path.c_str());
     return kExitFault;
   }
   if (end == SubjectSession::End::kStopped) {
-    std::fprintf(stderr, "stopped; %zu trials are left, go on with: presa experiment resume %s\n", trials.left(),
+    std::fprintf(stderr, "stopped; %zu trials are left, continue with: presa experiment resume %s\n", trials.left(),
                  session.folder().path.c_str());
     return kExitInterrupted;
   }
@@ -148,7 +148,7 @@ void addWho(Command command, Arguments& a) {
 }
 
 void addOperator(Command command, OperatorChoice& choice) {
-  command.option("--operator", choice.kind, "where the operator sees the session: auto, terminal, window or none")
+  command.option("--operator", choice.kind, "the operator's display: auto, terminal, window or none")
       .oneOf({"auto", "terminal", "window", "none"})
       .showDefault();
   command.option("--language", choice.language, "of the texts for the participant").showDefault();

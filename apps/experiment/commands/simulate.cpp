@@ -54,7 +54,7 @@ int simulate(StudiesPlan plan, const std::string& shard) {
   const StudiesOutcome outcome = runStudies(plan, sessionsOf(plan, experiment->seed));
   for (const std::string& failure : outcome.failed) std::fprintf(stderr, "presa: error: %s\n", failure.c_str());
   if (outcome.interrupted) {
-    std::fprintf(stderr, "stopped; %zu sessions are complete, the same command goes on\n",
+    std::fprintf(stderr, "stopped; %zu sessions are complete, the same command continues\n",
                  outcome.complete + outcome.found);
     return kExitInterrupted;
   }
@@ -69,8 +69,8 @@ int simulate(StudiesPlan plan, const std::string& shard) {
 void addSimulate(Command app, int& status) {
   auto plan = std::make_shared<StudiesPlan>();
   auto shard = std::make_shared<std::string>();
-  Command command =
-      app.command("simulate", "Many studies with simulated subjects: what to expect before any person comes");
+  Command command = app.command(
+      "simulate", "Many studies with simulated subjects: results and power to expect before any person comes");
   command.option("EXPERIMENT", plan->experiment_file, "experiment file").required().existingFile();
   command.option("--subjects", plan->subjects, "in each study").withinCount(1, 999).showDefault();
   command.option("--seeds", plan->studies, "studies; the first has the experiment's own seed, the next those after it")
@@ -80,10 +80,10 @@ void addSimulate(Command app, int& status) {
   command.option("--rig", plan->rig_file, "rig with simulated devices instead").existingFile();
   command.option("--jobs", plan->jobs, "sessions at once (default: one per processor)").positive();
   command.option("--shard", *shard,
-                 "i/N: every N-th session from the i-th, for several machines; afterwards, with all in one "
-                 "folder, once more without");
+                 "i/N: only every N-th session from the i-th, to share the work between machines; afterwards put all "
+                 "into one folder and run once more without --shard");
   command.flag("--recordings", plan->recordings, "keep every haptic tick too");
-  command.option("--out", plan->out, "folder; the same command goes on with what is there").required();
+  command.option("--out", plan->out, "folder; the same command continues a stopped study").required();
   command.footer(
       "Exit status: 0 complete, 1 a session failed, 2 bad input, 130 Ctrl-C (the same command goes on).\n"
       "Example:  presa experiment simulate experiments/grip_slip/experiment.xml --simulated L1 --subjects 3 --seeds 20 "

@@ -46,7 +46,7 @@ void addWatch(const SessionView::Watch& watch, std::size_t columns, ConsoleView&
   const std::size_t used = head.size() + line.size();
   const std::size_t cells = columns > used + 12 ? columns - used - 2 : 10;
   console_view.push_back({head + "[" + gauge(watch.value, watch.line, watch.max, cells) + "]" + line,
-                   watch.value < watch.line ? Style::kWarning : Style::kPlain});
+                          watch.value < watch.line ? Style::kWarning : Style::kPlain});
 }
 
 /// Cuts the text to `columns` characters (UTF-8).
@@ -102,21 +102,23 @@ ConsoleView consoleViewOf(const SessionView& view, std::size_t columns, std::siz
   console_view.push_back({format("subject %s, session %d", view.subject.c_str(), view.session), Style::kDim});
   if (!view.model.empty()) console_view.push_back({view.model, Style::kWarning});
   console_view.push_back({format("%s %d%s, block %d     done %zu   left %zu   given up %zu     about %s left",
-                          view.practice ? "practice" : "trial", view.trial,
-                          view.attempt > 1 ? format(" (attempt %d)", view.attempt).c_str() : "", view.block, view.done,
-                          view.left, view.missing, minutes(view.seconds_left).c_str())});
+                                 view.practice ? "practice" : "trial", view.trial,
+                                 view.attempt > 1 ? format(" (attempt %d)", view.attempt).c_str() : "", view.block,
+                                 view.done, view.left, view.missing, minutes(view.seconds_left).c_str())});
   console_view.push_back({progressBar(view.done, view.done + view.left, columns > 20 ? columns - 6 : 8)});
   console_view.push_back({"condition  " + view.condition});
-  console_view.push_back({format("phase      %s   %.1f of %.0f s", view.phase.c_str(), view.phase_time, view.phase_limit),
-                   Style::kStrong});
+  console_view.push_back(
+      {format("phase      %s   %.1f of %.0f s", view.phase.c_str(), view.phase_time, view.phase_limit),
+       Style::kStrong});
   console_view.push_back({view.instruction.empty() ? "" : "           \"" + view.instruction + "\""});
   addWatch(view.watch, columns, console_view);
   console_view.push_back({fingersOf(view)});
   console_view.push_back(safetyOf(view));
   console_view.push_back({"last       " + view.last, Style::kDim});
   console_view.push_back({view.asked.empty() ? "p pause   r repeat   s skip   n note   q stop" : view.asked,
-                   view.asked.empty() ? Style::kDim : Style::kWarning});
-  const std::size_t room = rows > console_view.size() + 1 ? std::min<std::size_t>(rows - console_view.size() - 1, 12) : 0;
+                          view.asked.empty() ? Style::kDim : Style::kWarning});
+  const std::size_t room =
+      rows > console_view.size() + 1 ? std::min<std::size_t>(rows - console_view.size() - 1, 12) : 0;
   for (const std::string& line : levelPlot(view.answers, columns, room)) console_view.push_back({line});
   for (ConsoleLine& line : console_view) line.text = cut(line.text, columns);
   if (console_view.size() > rows) console_view.resize(rows);

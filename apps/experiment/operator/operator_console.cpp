@@ -24,8 +24,8 @@ std::string conditionText(const Experiment& experiment, const PlannedTrial& tria
 
 }  // namespace
 
-OperatorConsole::OperatorConsole(const Experiment& experiment, const SessionStart& start, std::string language, Operator& person,
-           std::function<void(const std::string&)> note)
+OperatorConsole::OperatorConsole(const Experiment& experiment, const SessionStart& start, std::string language,
+                                 Operator& person, std::function<void(const std::string&)> note)
     : experiment_(experiment),
       start_(start),
       language_(std::move(language)),
@@ -115,7 +115,8 @@ bool OperatorConsole::between(const std::string& what, const TrialSource& source
   if (!pause_ && !rests) return ending_ != Request::kStop;
   if (rests) since_rest_ = 0;
   const std::string instruction = rests ? experiment_.textFor("rest", language_) : "";
-  const Request request = person_.await(rests ? "rest   \"" + instruction + "\"" : "paused", rests ? experiment_.rest.seconds : 0);
+  const Request request =
+      person_.await(rests ? "rest   \"" + instruction + "\"" : "paused", rests ? experiment_.rest.seconds : 0);
   if (const auto note = person_.takeNote()) note_(*note);
   pause_ = false;
   return request != Request::kStop;

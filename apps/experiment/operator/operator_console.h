@@ -14,7 +14,7 @@ class OperatorConsole {
   using Request = Operator::Request;
   /// `note` is called with each note of the operator.
   OperatorConsole(const Experiment& experiment, const SessionStart& start, std::string language, Operator& person,
-       std::function<void(const std::string&)> note);
+                  std::function<void(const std::string&)> note);
 
   /// Shows the participant's instructions before the first trial. False: the session is to stop.
   bool welcome();
@@ -46,8 +46,8 @@ class OperatorConsole {
   Request ending_ = Request::kNone;
   bool pause_ = false, practice_ = false;
   std::int64_t begin_ns_;
-  std::size_t ended_ = 0;        // trials since begin_ns_
-  std::size_t since_rest_ = 0;   // trials since the last rest, without practice
+  std::size_t ended_ = 0;               // trials since begin_ns_
+  std::size_t since_rest_ = 0;          // trials since the last rest, without practice
   double min_duration_ = 0, each_ = 0;  // duration of a trial [s]: min; mean of the ended ones, breaks included
 };
 

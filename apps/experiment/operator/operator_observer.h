@@ -44,7 +44,7 @@ class OperatorObserver final : public HapticObserver {
     if ((command.status & kOutputMagnitude) != 0) clipped_ += tick.period;
     live_.clipped.store(clipped_, kRelaxed);
   }
-  std::vector<std::string> stages() const override { return {"copy what the operator sees"}; }
+  std::vector<std::string> stages() const override { return {"copy the values that the operator sees"}; }
 
  private:
   const Trial& trial_;

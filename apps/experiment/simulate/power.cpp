@@ -133,8 +133,8 @@ std::string pageOf(const StudiesPlan& plan, const Experiment& experiment, const 
   return page::head(title + " – simulated studies – Presa") + "<h1>" + svg::escape(title) +
          "</h1>\n<p class=\"lead\">" +
          format(
-             "%d simulated studies of %d subjects each: what each number of the analysis comes to, and how often each "
-             "test would find something (p &lt; 0.05).",
+             "%d simulated studies of %d subjects each: the distribution of each number of the analysis, and how often "
+             "each test is significant (p &lt; 0.05).",
              plan.studies, plan.subjects) +
          "</p>\n<div class=\"verdict bad\"><b>A model, not a person</b>\n<p>" + svg::escape(experiment.model) +
          ". Power is that of this model; people may differ.</p></div>\n" + htmlOf(table) + page::tail();

@@ -18,8 +18,8 @@ void print(const ViewerStatistics& statistics, const char* who) {
     std::printf("%s: joined no run\n", who);
     return;
   }
-  std::printf("%s: %.1f s, lost %llu of %llu samples, %llu twice, %llu late; thrown away here %llu, never sent %llu\n",
-              who, statistics.seconds, static_cast<unsigned long long>(statistics.lost),
+  std::printf("%s: %.1f s, lost %llu of %llu samples, %llu twice, %llu late; %llu dropped here, %llu never sent\n", who,
+              statistics.seconds, static_cast<unsigned long long>(statistics.lost),
               static_cast<unsigned long long>(statistics.received + statistics.lost),
               static_cast<unsigned long long>(statistics.doubled), static_cast<unsigned long long>(statistics.late),
               static_cast<unsigned long long>(statistics.overrun), static_cast<unsigned long long>(statistics.refused));
@@ -28,7 +28,8 @@ void print(const ViewerStatistics& statistics, const char* who) {
 }
 
 bool clean(const ViewerStatistics& statistics) {
-  return statistics.joined && statistics.received > 0 && statistics.lost == 0 && statistics.overrun == 0 && statistics.refused == 0;
+  return statistics.joined && statistics.received > 0 && statistics.lost == 0 && statistics.overrun == 0 &&
+         statistics.refused == 0;
 }
 
 void addListen(Command app, int& status) {
@@ -39,7 +40,7 @@ void addListen(Command app, int& status) {
   };
   auto a = std::make_shared<Arguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
-  Command command = app.command("listen", "Join a run without a picture, and say what is lost and how long it takes");
+  Command command = app.command("listen", "Join a run without a picture, and measure loss and latency");
   addBusOptions(command, *bus, "the network that the run is on");
   command.option("--wait", a->wait, "seconds to wait for a run").nonNegative().showDefault();
   addMeshesOption(command, a->meshes);
@@ -47,7 +48,7 @@ void addListen(Command app, int& status) {
   command.flag("--json", a->json, "the figures as JSON");
   command.flag("--quiet", a->quiet, "nothing on stderr");
   command.footer(
-      "Latencies mean something on the machine of the run only. Exit status: 0 nothing lost, 1 something, 3 no run.");
+      "Latencies are valid on the machine of the run only. Exit status: 0 nothing lost, 1 something, 3 no run.");
   command.action([=, &status] {
     const terminal::Interruption interruption;
     const ViewerStatistics statistics = listen(bus->value_or(BusSettings{}), a->meshes, a->wait, a->duration, a->quiet);

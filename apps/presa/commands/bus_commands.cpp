@@ -75,7 +75,7 @@ const FoundRun* choose(const std::vector<FoundRun>& runs, std::uint64_t id, int&
     return nullptr;
   }
   if (chosen == nullptr && closed != nullptr)
-    status = fail(723, kExitNoRun, nameOf(*closed) + " takes no commands", "it would with presa run … --bus-commands");
+    status = fail(723, kExitNoRun, nameOf(*closed) + " takes no commands", "start it with presa run … --bus-commands");
   if (chosen == nullptr && closed == nullptr)
     status = fail(722, kExitNoRun, id != 0 ? "no run " + textOfRun(id) + " on the bus" : "no run on the bus",
                   "presa run SCENE --bus loopback --bus-commands; --wait says how long to look for one");
@@ -106,7 +106,9 @@ bool tell(const FoundRun& run, const Setting& setting, const bus::Answer& answer
   else if (answer.verdict == Verdict::kNotANumber)
     fail(728, 0, "refused: " + found + " is not a number" + keeps, rangeOf(answer.min, answer.max) + " is allowed");
   else if (answer.verdict == Verdict::kOutOfOrder)
-    fail(757, 0, "refused: " + found + " has a number that does not follow; somebody sends commands in this name", {});
+    fail(757, 0,
+         "refused: " + found + " has a sequence number out of order; another program sends commands under this name",
+         {});
   else
     fail(729, 0, "refused: " + found + " was overtaken by a later command" + keeps, {});
   return false;
@@ -142,7 +144,7 @@ int set(const Arguments& arguments, const BusSettings& bus) {
     if (terminal::Interruption::came()) return kExitInterrupted;
     if (!answer)
       return fail(725, kExitNoRun, nameOf(run) + " did not answer within " + text(arguments.wait) + " s",
-                  "it has ended, stands still, or was killed; presa bus list shows the runs that are there");
+                  "it has ended, is suspended, or was killed; presa bus list shows the runs that are there");
     if (!tell(run, setting, *answer)) status = kExitFault;
   }
   return status;
@@ -191,7 +193,7 @@ int list(const Arguments& arguments, const BusSettings& bus) {
 void addBusList(Command app, int& status) {
   auto a = std::make_shared<Arguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
-  Command command = app.command("list", "The runs on the bus, and what of them may be set");
+  Command command = app.command("list", "The runs on the bus, and which of their parameters may be set");
   addBusOptions(command, *bus, "the network to look on");
   command.option("--wait", a->wait, "seconds to look for runs").nonNegative().showDefault();
   command.flag("--json", a->json, "as JSON");
@@ -208,10 +210,11 @@ void addBusSet(Command app, int& status) {
   addBusOptions(command, *bus, "the network that the run is on");
   command.option("--wait", a->wait, "seconds to wait for the run, and for each answer").nonNegative().showDefault();
   command.footer(
-      "What may be set, where the run has it: material/NAME/stiffness (up to what the scene loaded with),\n"
+      "Parameters that may be set, if the run has them: material/NAME/stiffness (up to what the scene loaded with),\n"
       "material/NAME/friction/static and /dynamic (up to twice that), time/held (0, 1) and time/speed of a lockstep "
       "run\n"
-      "that is kept to the clock, assembly/undone (one more takes out what was put last). Surfaces change within half "
+      "that is kept to the clock, assembly/undone (a value one higher removes the body placed last). Surfaces change "
+      "within half "
       "a\n"
       "second, so that a finger feels no step. Forces, limits and faults cannot be set from elsewhere.\n"
       "Exit status: 0 all accepted, 1 one was refused, 2 bad input, 3 no such run or no answer, 130 Ctrl-C.\n"

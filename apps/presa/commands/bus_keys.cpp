@@ -9,12 +9,13 @@ namespace presa {
 
 void addBusKeys(Command app, int& status) {
   auto folder = std::make_shared<std::string>();
-  Command command = app.command("keys", "Make the certificates with which a network is only yours");
+  Command command = app.command("keys", "Make certificates, so that only programs that have one can use the bus");
   command.option("DIR", *folder, "a folder that does not exist yet").required();
   command.footer(
       "Makes DIR/run, DIR/viewer and DIR/commander: take each to the machine that plays that part, and name it there "
       "with\n"
-      "--bus-keys. Who has none of them can neither join, nor read, nor forge; a viewer cannot command. DIR/authority "
+      "--bus-keys. Programs without a certificate can neither join, nor read, nor forge; a viewer cannot command. "
+      "DIR/authority "
       "has\n"
       "the key that signed them: keep it off the network, or delete it. Commands on lan need keys.\n"
       "Example:  presa bus keys lab\n"

@@ -64,7 +64,7 @@ int explain(const Arguments& arguments) {
 
 void addExplain(Command app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  Command command = app.command("explain", "Say which parts a scene calls for, why, and what is left out");
+  Command command = app.command("explain", "Show which parts a scene needs, why, and which are left out");
   command.option("SCENE", arguments->inputs.scene, "scene file").required();
   command.option("--rig", arguments->inputs.rig, "rig file instead of the scene's own");
   command.option("--set", arguments->inputs.sets, "PATH=VALUE; may be repeated").oneValueEach();

@@ -51,7 +51,7 @@ void printProvenance(const Recording& recording) {
         "out\n",
         static_cast<unsigned long long>(recording.left_out));
   else if (!recording.checksum)
-    std::printf("  no checksum: its format is from before there was one, so a change since then would not be seen\n");
+    std::printf("  no checksum: its format is older than checksums, so a later change is not detected\n");
 }
 
 void printHeader(const std::string& file, const Recording& recording) {
@@ -148,9 +148,7 @@ void addReplay(Command app, int& status) {
   command.option("FILE", arguments->file, "recording made with presa run --record, or the record of a fault (--flight)")
       .required();
   command.flag("--verify", arguments->verify, "compare every commanded force with the recorded one, bit by bit");
-  command
-      .option("--view", arguments->view,
-              "window: look at it, hold it, move about in it; offscreen: with --screenshot or --video")
+  command.option("--view", arguments->view, "window: play, pause and seek; offscreen: with --screenshot or --video")
       .oneOf({"window", "offscreen"});
   command.option("--speed", arguments->speed, "seconds of the recording in a second of the window (default 1)")
       .positive();

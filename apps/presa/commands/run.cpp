@@ -82,8 +82,7 @@ int run(Arguments arguments) {
   Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
   if (!diagnostics.hasErrors() && arguments.options.bus_commands && !loaded.options.bus)
-    diagnostics.error(122, {"--bus-commands", 0, 0}, "the run is on no bus that commands could come by",
-                      "add --bus loopback, or --bus lan");
+    diagnostics.error(122, {"--bus-commands", 0, 0}, "--bus-commands needs a bus", "add --bus loopback, or --bus lan");
   if (!diagnostics.hasErrors() && loaded.options.bus_commands) bus::requireKeysForCommands(*loaded.options.bus);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
@@ -109,7 +108,8 @@ void addRun(Command app, int& status) {
   a->options.duration = 0;
   Command command = app.command("run", "Run a scene, live or as fast as the machine goes");
   command.option("SCENE", a->inputs.scene, "scene file, e.g. config/scenes/cube.xml").required();
-  command.option("--rig", a->inputs.rig, "which devices play the scene's roles (default: the rig the scene names)");
+  command.option("--rig", a->inputs.rig,
+                 "rig file: the devices for the scene's roles (default: the rig that the scene names)");
   Option lockstep = command.flag("--lockstep", a->lockstep, "virtual time on one thread: deterministic to the bit");
   command.flag("--realtime", a->realtime, "one thread per rate, against the clock (default)").excludes(lockstep);
   command

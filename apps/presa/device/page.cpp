@@ -93,15 +93,14 @@ std::string assumptionTable(const Characterisation& c) {
 }  // namespace
 
 std::string page(const Characterisation& c) {
-  std::string out =
-      page::head(c.title + " – Presa") + "<h1>" + escape(c.title) + "</h1>\n<p class=\"lead\">Beside " +
-      escape(c.source) + ". These are figures of the model, not of a device.</p>\n" + figureTable(c) +
-      "<p class=\"caption\">Fitted: the model was made from this figure. Follows: it came out without being "
-      "put in. Assumed: it rests on numbers that nobody printed.</p>\n";
+  std::string out = page::head(c.title + " – Presa") + "<h1>" + escape(c.title) + "</h1>\n<p class=\"lead\">Beside " +
+                    escape(c.source) + ". These are figures of the model, not of a device.</p>\n" + figureTable(c) +
+                    "<p class=\"caption\">Fitted: the model was made from this figure. Follows: the model predicts it. "
+                    "Assumed: it rests on unpublished numbers.</p>\n";
   for (const DevicePlot& plot : c.plots)
     out += "<h2>" + escape(plot.title) + "</h2>\n" + svg::render(figureOf(plot)) + "<p class=\"caption\">" +
            escape(plot.caption) + "</p>\n";
-  return out + "<h2>Numbers that nobody printed</h2>\n" + assumptionTable(c) + "<p class=\"caption\">Presa " +
+  return out + "<h2>Unpublished numbers</h2>\n" + assumptionTable(c) + "<p class=\"caption\">Presa " +
          std::string(kVersion) + "</p>\n" + page::tail();
 }
 

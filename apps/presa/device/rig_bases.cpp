@@ -19,7 +19,7 @@ Element settingOf(const Element& device, const std::string& key) {
   }
   Diagnostics diagnostics;
   diagnostics.error(473, device.where(), device.label() + " has no setting " + quote(key),
-                    "a device that is to be calibrated says where it stands: pos (x y z) and quat (w x y z)");
+                    "a device that is to be calibrated needs the pose of its base: pos (x y z) and quat (w x y z)");
   throw InputError(std::move(diagnostics));
 }
 

@@ -81,9 +81,8 @@ std::string table(const Characterisation& c, bool color) {
            terminal::styled(verdictText(f), styleOf(f), color) + "\n";
   }
   return out +
-         "fitted: the model was made from this figure. follows: it came out without being put in. assumed: it rests "
-         "on\n"
-         "numbers that nobody printed. All of these are figures of the model, not of a device.\n";
+         "fitted: the model was made from this figure. follows: the model predicts it. assumed: it rests "
+         "on\nunpublished numbers. All of these are figures of the model, not of a device.\n";
 }
 
 std::string json(const Characterisation& c) {

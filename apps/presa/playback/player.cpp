@@ -6,6 +6,7 @@
 #include "apps/common/exit_status.h"
 #include "apps/common/terminal/interruption.h"
 #include "apps/presa/playback/recorded_moment.h"
+#include "framework/assembly/guide_module.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/session/session.h"
@@ -37,6 +38,7 @@ class Player {
     time_control_.speed = speed;
     GraphBuilder builder;
     builder.add(std::make_unique<RecordedSource>(moment_));
+    if (world->scene.assembly) builder.add(std::make_unique<GuideModule>(world));
     auto view = makeView(world, options);
     view_ = view.get();
     if (windowed()) view_->offerTime(time_control_, moment_.end());

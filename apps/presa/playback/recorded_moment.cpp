@@ -64,8 +64,8 @@ void RecordedMoment::fill(double time, ObjectState& objects, DeviceState& device
   }
 }
 
-void RecordedMoment::fillFinger(const FingerColumns& finger, std::size_t row, const ObjectState& objects, FingerInput& input,
-                                FingerContact& contact) const {
+void RecordedMoment::fillFinger(const FingerColumns& finger, std::size_t row, const ObjectState& objects,
+                                FingerInput& input, FingerContact& contact) const {
   input.p_WH = contact.p_WH = at(finger.p_WH, row);
   input.v_WH = contact.v_WH = at(finger.v_WH, row);
   input.phase = whole(finger.phase, row);

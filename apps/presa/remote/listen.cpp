@@ -12,8 +12,8 @@
 
 namespace presa {
 
-ViewerStatistics listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
-             bool quiet) {
+ViewerStatistics listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait,
+                        double duration, bool quiet) {
   const auto reader = bus::openReader(settings);
   const auto run = awaitRun(*reader, wait);
   if (!run) return {};

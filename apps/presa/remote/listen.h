@@ -18,8 +18,8 @@ struct ViewerStatistics {
 
 /// Joins a run and listens for the duration, or to the end of the run; waits up to `wait` for a run [s]. Unless quiet,
 /// reports on stderr when it has joined. `meshes`: folders as in bus::takeFromMeshStore.
-ViewerStatistics listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait, double duration,
-             bool quiet);
+ViewerStatistics listen(const BusSettings& settings, const std::vector<std::string>& meshes, double wait,
+                        double duration, bool quiet);
 
 nlohmann::ordered_json toJson(const ViewerStatistics& statistics);
 ViewerStatistics statisticsFrom(const nlohmann::json& json);

@@ -8,6 +8,7 @@
 #include "apps/common/exit_status.h"
 #include "apps/common/terminal/interruption.h"
 #include "apps/presa/remote/join.h"
+#include "framework/assembly/guide_module.h"
 #include "framework/bus/mesh_store.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/core/diagnostics/printable.h"
@@ -73,6 +74,7 @@ class Viewer {
     if (settings.view == RunOptions::View::kNone) return;
     GraphBuilder builder;
     builder.add(std::make_unique<RemoteSource>(picture_, view_));
+    if (world_->scene.assembly) builder.add(std::make_unique<GuideModule>(world_));
     auto view = makeView(world_, optionsOf(settings));
     view_ = view.get();
     builder.add(std::move(view));

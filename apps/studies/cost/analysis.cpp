@@ -95,11 +95,11 @@ std::vector<FactorGain> factorGains(const Result& result, const std::string& met
     if (factor == nullptr || !(usual.error.at(metric) > known) || !(cost.median > 0)) continue;
     const Spread changed = other.perSecond();
     FactorGain gain{*factor,
-                  valueOf(usual.setting, *factor),
-                  valueOf(other.setting, *factor),
-                  changed.median / cost.median,
-                  other.error.at(metric) / usual.error.at(metric),
-                  std::nullopt};
+                    valueOf(usual.setting, *factor),
+                    valueOf(other.setting, *factor),
+                    changed.median / cost.median,
+                    other.error.at(metric) / usual.error.at(metric),
+                    std::nullopt};
     // a change within the spread of the repeats does not count
     const bool apart = changed.low > cost.high || changed.high < cost.low;
     if (apart && std::abs(std::log(gain.cost_ratio)) > 0.05 && gain.error_ratio > 0)

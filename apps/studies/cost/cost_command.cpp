@@ -45,7 +45,7 @@ int runCost(Arguments a) {
   cost::Result result = cost::runStudy(study, {a.jobs, a.resume, a.instructions});
   result.command = commandLine(a);
   if (result.interrupted) {
-    std::fprintf(stderr, "stopped; what is done is kept in %s, go on with: %s --out %s --resume\n",
+    std::fprintf(stderr, "stopped; finished runs are kept in %s, continue with: %s --out %s --resume\n",
                  study.folder.c_str(), result.command.c_str(), study.folder.c_str());
     return kExitInterrupted;
   }

@@ -71,7 +71,7 @@ double partOf(const std::string& text) {
 
 /// The factor that replaces the haptic meshes of all bodies by decimated ones.
 Factor meshFactor(const std::vector<std::string>& values, const Scene& scene, const std::string& folder,
-              const SourceLocation& where, Diagnostics& diagnostics) {
+                  const SourceLocation& where, Diagnostics& diagnostics) {
   Factor factor{kMeshFactor, {}};
   for (const std::string& value : values) {
     if (value.empty()) continue;
@@ -185,7 +185,7 @@ std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>&
 }
 
 Factor makeFactor(const std::string& name, const std::vector<std::string>& values, const Scene& scene,
-              const std::string& folder, const SourceLocation& where, Diagnostics& diagnostics) {
+                  const std::string& folder, const SourceLocation& where, Diagnostics& diagnostics) {
   const auto known =
       std::find_if(std::begin(kFactors), std::end(kFactors), [&](const KnownFactor& k) { return k.name == name; });
   if (known == std::end(kFactors) && name.find('/') == std::string::npos && name != kMeshFactor) {
@@ -251,8 +251,8 @@ void addSettings(Study& study, const std::vector<Factor>& factors, Combine combi
     if (!good.contains(value)) report(found, reported, diagnostics);
   }
   for (const Factor& factor : factors) {
-    const auto known =
-        std::find_if(study.factors.begin(), study.factors.end(), [&](const Factor& k) { return k.name == factor.name; });
+    const auto known = std::find_if(study.factors.begin(), study.factors.end(),
+                                    [&](const Factor& k) { return k.name == factor.name; });
     if (known == study.factors.end()) {
       study.factors.push_back(factor);
       continue;

@@ -10,7 +10,7 @@ namespace presa::cost {
 /// meshes; `where`: position of the factor for messages. Errors (E801 unknown name, E802 no usable value) go to
 /// `diagnostics`.
 Factor makeFactor(const std::string& name, const std::vector<std::string>& values, const Scene& scene,
-              const std::string& folder, const SourceLocation& where, Diagnostics& diagnostics);
+                  const std::string& folder, const SourceLocation& where, Diagnostics& diagnostics);
 
 /// The factors worth varying in this scene.
 std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder, bool quick);

@@ -232,7 +232,7 @@ const std::vector<Metric>& allMetrics() {
        "of all free bodies, mean over the steady window, from the change of their poses; for scenes without fingers",
        [](const Evidence& s, const Evidence&) { return scaled(s.rest_energy, 1e3); }, true, none},
       {"rest_drift", "Drift at rest", "mm",
-       "way of the body that strays farthest during the steady window; for scenes without fingers",
+       "largest displacement of any body during the steady window; for scenes without fingers",
        [](const Evidence& s, const Evidence&) { return scaled(s.rest_drift, 1e3); }, true, none},
       {"force_step", "Force step at dynamics boundaries", "N",
        "bend of the normal force (second difference) at ticks that bring a new object state; RMS in the steady window, "

@@ -26,7 +26,7 @@ void chooseFolder(const Request& request, Study& study);
 
 /// Reads a study file into `study`, except the settings, and returns its factor grids.
 std::vector<std::vector<Factor>> readStudyFile(const std::string& file, const Request& request, Study& study,
-                                             Diagnostics& diagnostics);
+                                               Diagnostics& diagnostics);
 
 /// True when the file looks like a study file by its root element.
 bool isStudyFile(const std::string& file);

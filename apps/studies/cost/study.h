@@ -41,7 +41,7 @@ struct SentenceRule {
   enum class Kind { kBelow, kHalving, kCompare, kCheapest, kFront, kFailures };
   Kind kind = Kind::kBelow;
   std::string metric{};  ///< name; empty for kFailures
-  std::string factor{};    ///< for kHalving and kCompare
+  std::string factor{};  ///< for kHalving and kCompare
   std::string a{}, b{};  ///< for kCompare: values of the factor
   double limit = 0;      ///< for kBelow and kCheapest, in the metric's unit; 0: the just-noticeable difference
 };
@@ -68,7 +68,7 @@ struct Study {
   enum class Reference { kRefined, kAnalytic, kNone };
   Reference reference_kind = Reference::kRefined;
   std::vector<std::vector<std::string>> reference;  ///< for kRefined: sets of each level, coarse to fine; at least two
-  std::vector<Factor> factors;                          ///< all factors that vary
+  std::vector<Factor> factors;                      ///< all factors that vary
   std::vector<Setting> settings;                    ///< the first is the unmodified scene
   std::vector<std::string> metrics;                 ///< names, see metrics.h
   std::vector<SentenceRule> sentences;

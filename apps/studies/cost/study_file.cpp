@@ -53,7 +53,7 @@ Factor readFactor(const Element& element, const Scene& scene, const std::string&
   const std::string name = element.attribute("name");
   if (element.children("value").empty())
     return makeFactor(name, splitAtCommas(element.attribute("values")), scene, folder, element.where("name"),
-                    diagnostics);
+                      diagnostics);
   Factor factor{name, {}};
   for (const Element& value : element.children("value"))
     factor.values.push_back({value.attribute("name"), setsIn(value)});
@@ -105,7 +105,7 @@ void checkRule(const Element& element, const std::vector<std::vector<Factor>>& g
   if (found == nullptr) {
     diagnostics.error(
         806, element.where("knob"),
-        "this study turns no knob " + quote(element.attribute("knob")) + didYouMean(element.attribute("knob"), names));
+        "this study has no knob " + quote(element.attribute("knob")) + didYouMean(element.attribute("knob"), names));
     return;
   }
   for (const char* side : {"a", "b"}) {
@@ -148,7 +148,7 @@ bool isStudyFile(const std::string& file) {
 }
 
 std::vector<std::vector<Factor>> readStudyFile(const std::string& file, const Request& request, Study& study,
-                                             Diagnostics& diagnostics) {
+                                               Diagnostics& diagnostics) {
   const auto document = xml::Document::load(file, diagnostics);
   if (!document || !document->validate(schema(), diagnostics)) return {};
   document->writeDefaults(schema());
@@ -161,7 +161,7 @@ std::vector<std::vector<Factor>> readStudyFile(const std::string& file, const Re
     if (study.reference_kind == Study::Reference::kRefined && study.reference.size() < 2)
       diagnostics.error(807, reference.where(),
                         "a reference needs at least two levels, found " + std::to_string(study.reference.size()),
-                        "what two levels differ by is how well the reference is known");
+                        "the difference between two levels shows how well the reference is known");
   }
   Diagnostics scene_findings;  // ignored: reported by planStudy()
   const Loaded base = loadWorld(study.inputs, {}, scene_findings);

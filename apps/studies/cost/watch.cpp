@@ -7,6 +7,7 @@
 #include "apps/studies/cost/ripple.h"
 #include "experiments/study/energy_ledger.h"
 #include "experiments/study/free_motion.h"
+#include "framework/scene/pose_of.h"
 
 namespace presa::cost {
 namespace {
@@ -104,9 +105,7 @@ class Watcher {
       finite_ = finite_ && sample.command.f_H_W[f].allFinite() && contact.p_WP.allFinite();
     }
     for (const std::size_t i : free_) {
-      const Pose X_WB = sample.objects != nullptr
-                            ? sample.objects->poseAt(static_cast<std::int32_t>(i), sample.tick.time)
-                            : world_.scene.bodies[i].X_WB;
+      const Pose X_WB = poseOf(world_.scene, sample.objects, static_cast<std::int32_t>(i), sample.tick.time);
       trace.body.push_back(sampleOf(X_WB));
       finite_ = finite_ && X_WB.p.allFinite() && X_WB.q.coeffs().allFinite();
     }
@@ -114,9 +113,9 @@ class Watcher {
 
   std::string failure() const {
     const Monitor& monitor = run_.monitor();
-    if ((monitor.objectFaults() & kFaultBodyFrozen) != 0) return "a body's motion went beyond reason";
+    if ((monitor.objectFaults() & kFaultBodyFrozen) != 0) return "a body's motion became implausible";
     if ((monitor.objectFaults() & kFaultEngineFailed) != 0) return "the dynamics engine failed";
-    if (monitor.objectFaults() != 0) return "a finger contact made no sense to the dynamics";
+    if (monitor.objectFaults() != 0) return "the dynamics received an invalid finger contact";
     if (!finite_) return "a value was not finite";
     for (const std::size_t i : free_) {
       if (monitor.objects()[i].dropped) return world_.scene.bodies[i].name + " was dropped";

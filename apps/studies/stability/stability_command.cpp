@@ -9,7 +9,8 @@ namespace presa {
 void addStability(Command app, int& status) {
   auto options = std::make_shared<stability::RunnerOptions>();
   Command command = app.command(
-      "stability", "Run the hard cases with Presa's methods and with what they replace, and say which hold");
+      "stability",
+      "Run the hard cases with Presa's methods and the methods that they replace, and report which are stable");
   command.option("--case", options->cases, "only this case; may be repeated (--list names them)");
   command.flag("--list", options->list, "name the cases and what each is held against");
   command.flag("--quick", options->quick, "the subset that the tests run");

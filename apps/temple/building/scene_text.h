@@ -21,7 +21,7 @@ struct SceneSpec {
   bool fine_steps = true;
   bool to_be_built = false;  ///< with an <assembly>: every block snaps to its goal
   AssemblyWords words;       ///< texts of that assembly; without elements: no texts
-  double elapsed = 0;          ///< elapsed assembly time carried over [s]
+  double elapsed = 0;        ///< elapsed assembly time carried over [s]
   std::string rig;           ///< path of the rig for the scene's two fingers, thumb and index; empty: no fingers
 };
 

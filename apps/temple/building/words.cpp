@@ -27,7 +27,7 @@ AssemblyWords read(xml::Document& document, Diagnostics& diagnostics) {
   for (const BlockKind kind : kKinds) {
     if (std::ranges::find(words.elements, elementName(kind), &AssemblyWords::Element::name) != words.elements.end())
       continue;
-    diagnostics.error(968, root.where(), std::string("a ") + elementName(kind) + " is never spoken of",
+    diagnostics.error(968, root.where(), std::string("a ") + elementName(kind) + " has no <element> with its texts",
                       std::string("<element name=\"") + elementName(kind) + "\" called=\"…\" says=\"…\" waits=\"…\"/>");
   }
   return words;

@@ -201,7 +201,9 @@ void Brain::open() noexcept {
 
 bool Brain::slipFelt() const noexcept { return perception_.kick() > slip_threshold_ && time_ > kBlindTime; }
 
-bool Brain::slipSeen() const noexcept { return parameters_.seen_slip > 0 && perception_.fallen() > parameters_.seen_slip; }
+bool Brain::slipSeen() const noexcept {
+  return parameters_.seen_slip > 0 && perception_.fallen() > parameters_.seen_slip;
+}
 
 bool Brain::squeezeWhenSliding() noexcept {
   if (!perception_.seenSliding() || perception_.load() < kSlightLoad) return false;

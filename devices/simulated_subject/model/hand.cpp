@@ -47,7 +47,10 @@ void MotorNoise::renew(double grip) noexcept {
 }
 
 Hand::Hand(const SubjectParameters& parameters, RandomStream noise, double period, double q)
-    : parameters_(parameters), period_(period), mass_(parameters.hand_mass + parameters.device_mass), noise_(parameters, noise, period) {
+    : parameters_(parameters),
+      period_(period),
+      mass_(parameters.hand_mass + parameters.device_mass),
+      noise_(parameters, noise, period) {
   for (Digit& digit : digits_) digit.q = digit.anchor = q;
 }
 

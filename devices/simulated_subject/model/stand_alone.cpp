@@ -44,7 +44,8 @@ void StandAlone::Hold::add(double normal, double load_now) noexcept {
 
 StandAlone::StandAlone(const SubjectParameters& parameters, const Trial& trial)
     : trial_(trial),
-      hand_(parameters, RandomStream(trial.seed, "motor noise", itemOf(trial.subject, trial.trial)), kPeriod, -trial.reach),
+      hand_(parameters, RandomStream(trial.seed, "motor noise", itemOf(trial.subject, trial.trial)), kPeriod,
+            -trial.reach),
       brain_(parameters, taskOf(trial), RandomStream(trial.seed, "perception", itemOf(trial.subject, trial.trial)),
              kPeriod) {}
 

@@ -12,10 +12,12 @@ constexpr std::array<SubjectParameter, Population::kCount> kPopulation{{
     {"grip_damping", "N s/m", &SubjectParameters::grip_damping, uniform(2, 5), "Hajian & Howe 1997"},
     {"posture_stiffness", "N/m", &SubjectParameters::posture_stiffness, uniform(150, 400),
      "Hajian & Howe 1997, elbow on the table"},
-    {"posture_damping", "N s/m", &SubjectParameters::posture_damping, uniform(4, 8), "Hajian & Howe 1997, elbow on the table"},
+    {"posture_damping", "N s/m", &SubjectParameters::posture_damping, uniform(4, 8),
+     "Hajian & Howe 1997, elbow on the table"},
     {"force_cv", "1", &SubjectParameters::force_cv, uniform(0.02, 0.04), "Jones, Hamilton & Wolpert 2002"},
     {"force_weber", "1", &SubjectParameters::force_weber, uniform(0.07, 0.10), "Pang, Tan & Durlach 1991"},
-    {"reaction", "s", &SubjectParameters::reaction, uniform(0.13, 0.18), "twice the slip reflex of Johansson & Westling 1987"},
+    {"reaction", "s", &SubjectParameters::reaction, uniform(0.13, 0.18),
+     "twice the slip reflex of Johansson & Westling 1987"},
     {"loosening", "1/s", &SubjectParameters::loosening, logNormal(0.4, 0.4), "GUESS"},
     {"safety_margin", "1", &SubjectParameters::safety_margin, uniform(0.10, 0.40), "Westling & Johansson 1984"},
     {"slip_threshold", "m", &SubjectParameters::slip_threshold, logNormal(0.7e-3, 0.3),
@@ -24,7 +26,8 @@ constexpr std::array<SubjectParameter, Population::kCount> kPopulation{{
     {"device_mass", "kg", &SubjectParameters::device_mass, constant(0.10), "GUESS: Bergamasco et al. give none"},
     {"arm_stiffness", "N/m", &SubjectParameters::arm_stiffness, constant(50), "GUESS"},
     {"level_stiffness", "N/m", &SubjectParameters::level_stiffness, constant(1000), "GUESS: the digits are one hand"},
-    {"muscle_time", "s", &SubjectParameters::muscle_time, constant(0.3), "GUESS: a force source at rest, a spring above 0.5 Hz"},
+    {"muscle_time", "s", &SubjectParameters::muscle_time, constant(0.3),
+     "GUESS: a force source at rest, a spring above 0.5 Hz"},
     {"force_noise", "N", &SubjectParameters::force_noise, constant(0.02), "GUESS"},
     {"noise_time", "s", &SubjectParameters::noise_time, constant(0.15), "GUESS"},
     {"noise_shared", "1", &SubjectParameters::noise_shared, constant(0.8), "GUESS"},
@@ -33,7 +36,8 @@ constexpr std::array<SubjectParameter, Population::kCount> kPopulation{{
     {"slip_threshold_sd", "1", &SubjectParameters::slip_threshold_sd, constant(0.2), "GUESS"},
     {"seen_slip", "m", &SubjectParameters::seen_slip, constant(0), "not watched for"},
     {"seen_reaction", "s", &SubjectParameters::seen_reaction, constant(0.22), "GUESS"},
-    {"counts_device", "1", &SubjectParameters::counts_device, constant(1), "dF = k dX of Bergamasco et al., section 3.6.4"},
+    {"counts_device", "1", &SubjectParameters::counts_device, constant(1),
+     "dF = k dX of Bergamasco et al., section 3.6.4"},
     {"finger_resolution", "m", &SubjectParameters::finger_resolution, constant(0), "left out"},
     {"extra_grip", "N", &SubjectParameters::extra_grip, constant(0), "left out"},
     {"trial_sd", "1", &SubjectParameters::trial_sd, constant(0), "left out"},
@@ -92,8 +96,8 @@ Population::Population(Level level) : parameters_(kPopulation) {
 }
 
 bool Population::set(std::string_view name, Spread spread) noexcept {
-  const auto found =
-      std::find_if(parameters_.begin(), parameters_.end(), [&](const SubjectParameter& parameter) { return parameter.name == name; });
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const SubjectParameter& parameter) { return parameter.name == name; });
   if (found == parameters_.end()) return false;
   found->spread = spread;
   return true;

@@ -85,7 +85,7 @@ struct Watch {
   std::string name, unit;
   Expression value;                ///< over samples
   std::optional<Expression> line;  ///< reference value to compare with, over the columns
-  double max = 1;                 ///< upper end of the scale
+  double max = 1;                  ///< upper end of the scale
 };
 
 /// An exclusion rule, stated before the run: a trial for which it holds is not valid.
@@ -114,7 +114,7 @@ struct Experiment {
   std::optional<Watch> watch{};
   Analysis analysis;
   bool surfaces_change = false;  ///< the scene has a material with changed friction
-  SymbolTable samples;                 ///< names that guards and aggregates may use at haptic rate: see sample_names.h
+  SymbolTable samples;           ///< names that guards and aggregates may use at haptic rate: see sample_names.h
   SymbolTable names;  ///< per presentation: columns (factors, varied, stimulus), quality figures, measures in order
   std::string resolved_xml, scene_xml,
       rig_xml;  ///< the three documents with every default; scene and rig before any level is applied

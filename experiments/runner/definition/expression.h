@@ -39,8 +39,9 @@ class Expression {
   /// Nullopt with a finding at `where` on errors: E901 (syntax, with the character position) or E902 (unknown name).
   /// With `aggregates`, calls such as mean(PHASE, …) are allowed; each takes a slot after those of `names`, its
   /// arguments are over `samples`, and PHASE is one of `phases`.
-  static std::optional<Expression> compile(const std::string& text, const SymbolTable& names, const SourceLocation& where,
-                                           Diagnostics& diagnostics, std::vector<Aggregate>* aggregates = nullptr,
+  static std::optional<Expression> compile(const std::string& text, const SymbolTable& names,
+                                           const SourceLocation& where, Diagnostics& diagnostics,
+                                           std::vector<Aggregate>* aggregates = nullptr,
                                            const SymbolTable* samples = nullptr,
                                            const std::vector<std::string>* phases = nullptr);
 

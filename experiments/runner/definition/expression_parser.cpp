@@ -188,7 +188,7 @@ class ExpressionParser {
   void aggregate(const std::string& name, std::size_t start) {
     using Kind = Aggregate::Kind;
     static const std::pair<const char*, Kind> kKinds[] = {
-        {"mean", Kind::kMean},   {"sd", Kind::kSd},     {"least", Kind::kMin},     {"most", Kind::kMax},
+        {"mean", Kind::kMean},   {"sd", Kind::kSd},     {"least", Kind::kMin},       {"most", Kind::kMax},
         {"first", Kind::kFirst}, {"last", Kind::kLast}, {"seconds", Kind::kSeconds}, {"start", Kind::kStart}};
     const auto* kind =
         std::find_if(std::begin(kKinds), std::end(kKinds), [&](const auto& k) { return name == k.first; });
@@ -243,9 +243,10 @@ class ExpressionParser {
   Expression out_;
 };
 
-std::optional<Expression> Expression::compile(const std::string& text, const SymbolTable& names, const SourceLocation& where,
-                                              Diagnostics& diagnostics, std::vector<Aggregate>* aggregates,
-                                              const SymbolTable* samples, const std::vector<std::string>* phases) {
+std::optional<Expression> Expression::compile(const std::string& text, const SymbolTable& names,
+                                              const SourceLocation& where, Diagnostics& diagnostics,
+                                              std::vector<Aggregate>* aggregates, const SymbolTable* samples,
+                                              const std::vector<std::string>* phases) {
   try {
     return ExpressionParser(text, names, aggregates, samples, phases).parse();
   } catch (const Syntax& error) {

@@ -33,7 +33,8 @@ class Reader {
   NameList numbers(const char* attribute) {
     return each(attribute, [&](const Variable& variable) {
       if (variable.kind == Variable::Kind::kColumn && !holdsNumbers(variable.name))
-        error(kNoNumber, attribute, "column " + quote(variable.name) + " holds words, " + attribute + " needs numbers");
+        error(kNoNumber, attribute,
+              "column " + quote(variable.name) + " contains words, " + attribute + " needs numbers");
     });
   }
   /// A variable that groups trials.

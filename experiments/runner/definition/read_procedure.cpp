@@ -118,8 +118,8 @@ void readStimulus(const Element& element, Procedure& procedure, Diagnostics& dia
   };
   checkPlaces(element, stimulus.second_paths.size());
   for (const Element& with : element.children("with")) {
-    auto value =
-        Expression::compile(with.attribute("value"), SymbolTable({stimulus.column.name}), with.where("value"), diagnostics);
+    auto value = Expression::compile(with.attribute("value"), SymbolTable({stimulus.column.name}), with.where("value"),
+                                     diagnostics);
     checkPlaces(with, xml::splitWords(with.attribute("second_path")).size());
     if (value)
       stimulus.coupled.push_back(
@@ -141,8 +141,7 @@ void readVaried(const Element& root, Experiment& experiment, Diagnostics& diagno
     Vary vary{{element.attribute("name"), element.attribute("unit"), xml::splitWords(element.attribute("path"))},
               element.number("least", 0),
               element.number("most", 0)};
-    if (!(vary.max > vary.min))
-      diagnostics.error(kImpossibleMethod, element.where("most"), "most must be above least");
+    if (!(vary.max > vary.min)) diagnostics.error(kImpossibleMethod, element.where("most"), "most must be above least");
     claimName(element, experiment, diagnostics);
     experiment.varied.push_back(std::move(vary));
   }
@@ -175,7 +174,7 @@ void readObserver(const Element& root, Experiment& experiment, Diagnostics& diag
       const std::size_t wanted = experiment.procedure->task == Task::kTwoAlternatives ? 2 : 1;
       if (observer.percept.size() != wanted)
         diagnostics.error(kImpossibleMethod, element.where("percept"),
-                          "found " + std::to_string(observer.percept.size()) + " measures, this task compares " +
+                          "found " + std::to_string(observer.percept.size()) + " measures, this task needs " +
                               (wanted == 2 ? "two, one for each place" : "one"));
       if (experiment.procedure->task == Task::kYesNo && !(observer.criterion > 0))
         diagnostics.error(kImpossibleMethod, element.where("criterion"), "yes_no needs a criterion above 0");

@@ -10,6 +10,7 @@
 #include "experiments/stability/methods.h"
 #include "experiments/stability/random_hand.h"
 #include "experiments/study/compliant_finger.h"
+#include "framework/device/output_stage.h"
 
 namespace presa::stability {
 namespace {

@@ -9,6 +9,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/polyhedra.h"
+#include "framework/geometry/rotation_between.h"
 #include "framework/input/folders.h"
 
 namespace presa::stability {
@@ -67,8 +68,7 @@ Vec3 wayOver(const Solid& solid, const std::vector<Plane>& free, double time) {
   }
   const double polar = 0.1 + sway * (0.9 - 0.9 * std::cos(0.8 * moved)), around = 0.3 + 0.55 * moved;
   const Vec3 direction(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar));
-  const Vec3 far =
-                 solid.feature + 0.01 * (Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), solid.outward) * direction),
+  const Vec3 far = solid.feature + 0.01 * (rotationBetween(Vec3::UnitZ(), solid.outward) * direction),
              on = nearestInAll(solid.planes, far);
   return on + (2 - (2 - kNear) * in) * kRadius * (far - on).normalized();
 }

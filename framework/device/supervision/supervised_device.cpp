@@ -124,7 +124,7 @@ void SupervisedDevice::start(const std::atomic<bool>& stop) {
   }
   if (state != State::kRunning) {
     end();
-    refuse(kDied, "its supervisor ended before it had the device", "please report this, with the rig");
+    refuse(kDied, "its supervisor ended before it had opened the device", "please report this, with the rig");
   }
   notes_ = unpackedLines(answer);
   live_.store(&*share_, std::memory_order_release);
@@ -149,7 +149,8 @@ FingerInput SupervisedDevice::read(const Tick& tick) noexcept {
     silence_ += tick.period;
   const SupervisorReport& report = share.report.value();
   FingerInput finger = report.finger;
-  if (report.rearms_done != share.rearms.load(std::memory_order_relaxed)) finger.lost = false;  // from before the re-arm
+  if (report.rearms_done != share.rearms.load(std::memory_order_relaxed))
+    finger.lost = false;  // from before the re-arm
   finger.valid = finger.valid && !report.dropped && silence_ <= kSilent;
   finger.lost = finger.lost || silence_ > kDead;
   finger.age += silence_;

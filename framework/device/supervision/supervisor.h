@@ -36,7 +36,7 @@ class Supervisor {
   CountAllocations count_;
   std::uint64_t allocated_before_;
   SupervisorReport report_;
-  double time_ = 0;      // since the start [s]
+  double time_ = 0;             // since the start [s]
   double zero_force_time_ = 0;  // time at zero force since the program left [s]
 };
 

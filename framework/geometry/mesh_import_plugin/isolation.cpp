@@ -110,7 +110,7 @@ void limit(int resource, std::size_t value) {
 
 std::string causeOfDeath(int status) {
   if (!WIFSIGNALED(status)) return "the reader gave up";
-  if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL) return "the reader did not come to an end";
+  if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL) return "the reader did not finish in time";
   return std::string("the reader crashed on it (") + strsignal(WTERMSIG(status)) + ")";
 }
 

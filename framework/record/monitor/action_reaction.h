@@ -21,7 +21,7 @@ namespace presa {
 class ActionReaction {
  public:
   /// kMinForce: a window with less impulse than this mean force would give is measured against that impulse.
-  static constexpr double kWindow = 0.1;       // [s]
+  static constexpr double kWindow = 0.1;     // [s]
   static constexpr double kMinForce = 0.05;  // [N]
 
   explicit ActionReaction(const Scene& scene);
@@ -49,10 +49,10 @@ class ActionReaction {
 
   bool moves(std::int32_t body) const noexcept;
 
-  std::vector<char> free_;         // by body
-  std::size_t span_;               // dynamics steps in a window
-  std::vector<Sums> ring_;         // at the ends of dynamics steps
-  std::uint64_t count_ = 0;        // entries put into ring_ so far
+  std::vector<char> free_;               // by body
+  std::size_t span_;                     // dynamics steps in a window
+  std::vector<Sums> ring_;               // at the ends of dynamics steps
+  std::uint64_t count_ = 0;              // entries put into ring_ so far
   std::array<BodyImpulse, 64> pending_;  // impulses whose time the haptic side has not reached
   std::size_t pending_count_ = 0;
   Sums sums_;                            // rendered impulse so far

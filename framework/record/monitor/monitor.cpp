@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "framework/record/monitor/state_hash.h"
+#include "framework/scene/pose_of.h"
 
 namespace presa {
 namespace {
@@ -64,10 +65,6 @@ struct Monitor::Impl {
   void noteGrasp(std::size_t i, double time) noexcept;
   void keep(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
             const ObjectState* state) noexcept;
-  Pose poseOf(std::int32_t body, const ObjectState* state, double time) const noexcept {
-    return state && body < state->count() ? state->poseAt(body, time)
-                                          : world->scene.bodies[static_cast<std::size_t>(body)].X_WB;
-  }
 
   std::shared_ptr<const World> world;
   double loosen_time;
@@ -128,7 +125,7 @@ void Monitor::Impl::noteSlip(std::size_t f, const FingerContact& now, double tim
 
 void Monitor::Impl::follow(std::size_t i, const ObjectState& state, double time) noexcept {
   ObjectSummary& object = objects[i];
-  object.final = poseOf(static_cast<std::int32_t>(i), &state, time).p;
+  object.final = poseOf(world->scene, &state, static_cast<std::int32_t>(i), time).p;
   if (object.final.z() > object.highest.z()) object.highest = object.final;
 }
 
@@ -177,7 +174,8 @@ void Monitor::Impl::keep(const Tick& tick, const DeviceState& device, const Cont
   std::copy_n(contact.fingers.begin(), contact.count, now.fingers.begin());
   now.f_command.fill(Vec3::Zero());
   std::copy_n(command.f_H_W.begin(), command.count, now.f_command.begin());
-  for (std::size_t slot = 0; slot < traced.size(); ++slot) now.bodies[slot] = poseOf(traced[slot], state, tick.time);
+  for (std::size_t slot = 0; slot < traced.size(); ++slot)
+    now.bodies[slot] = poseOf(world->scene, state, traced[slot], tick.time);
 }
 
 Monitor::Monitor(std::shared_ptr<const World> world, double duration, double loosen_time, double trace_rate)

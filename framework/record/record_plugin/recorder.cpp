@@ -11,6 +11,7 @@
 
 #include "framework/core/schedule/rates.h"
 #include "framework/record/record_plugin/flight_buffer.h"
+#include "framework/scene/pose_of.h"
 
 namespace presa::record {
 namespace {
@@ -144,8 +145,7 @@ void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {
   const std::int32_t index = free_bodies_[slot];
   const bool known = objects_.hasValue() && index < objects_->count();
-  const Pose X_WB =
-      known ? objects_->poseAt(index, tick.time) : world_->scene.bodies[static_cast<std::size_t>(index)].X_WB;
+  const Pose X_WB = poseOf(world_->scene, known ? &objects_.value() : nullptr, index, tick.time);
   BodyRow row;
   row.index = tick.index;
   row.time = tick.time;

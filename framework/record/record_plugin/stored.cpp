@@ -96,9 +96,9 @@ class Structure {
     for (std::string name; words >> name;) {
       const std::string place = "name " + std::to_string(names.size() + 1);
       if (!std::all_of(name.begin(), name.end(), isInName))
-        return wrong(place + " is none of a port: allowed are letters, digits, '_', '-' and '.'");
+        return wrong(place + " is not the name of a port: letters, digits, '_', '-' and '.' are allowed");
       if (std::find(names.begin(), names.end(), name) != names.end())
-        return wrong(place + ", '" + name + "', is there before; allowed is once");
+        return wrong(place + ", '" + name + "', occurs twice; each name may occur once");
       names.push_back(std::move(name));
     }
     if (names.size() > ScheduleRow::kMaxBridges)

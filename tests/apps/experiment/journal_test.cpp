@@ -98,7 +98,7 @@ TEST_F(JournalTest, IsAChainOfSha256) {
 
 TEST_F(JournalTest, TheFormatBeforeIsNamed) {
   write("{\"sum\":\"cbf29ce484222325\",\"record\":{}}\n");
-  EXPECT_THAT(refusalOf([&] { Journal::read(file); }), HasSubstr("whose sums prove too little"));
+  EXPECT_THAT(refusalOf([&] { Journal::read(file); }), HasSubstr("whose checksums are too weak"));
 }
 
 TEST_F(JournalTest, OneProcessAtATime) {

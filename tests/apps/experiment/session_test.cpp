@@ -218,7 +218,7 @@ TEST_F(SessionTest, ControlCKeepsWhatIsThere) {
   awaitFirstTrial(data);
   process.kill(SIGINT);
   EXPECT_EQ(process.wait(), 130);
-  EXPECT_THAT(contentsOf(scratch.file("output")), HasSubstr("go on with: presa experiment resume"));
+  EXPECT_THAT(contentsOf(scratch.file("output")), HasSubstr("continue with: presa experiment resume"));
   EXPECT_FALSE(logOf(data).complete);
   EXPECT_EQ(program({"experiment", "resume", data}), 0) << output;
   EXPECT_TRUE(logOf(data).complete);
@@ -236,7 +236,7 @@ TEST_F(SessionTest, ALostDeviceEndsTheTrial) {
   arguments.insert(arguments.end(), {"--rig", rig});
   EXPECT_EQ(program(arguments), 1);
   EXPECT_THAT(output, HasSubstr("the device of 'index' gave no sample any more"));
-  EXPECT_THAT(output, HasSubstr("the trial is marked and comes again: presa experiment resume"));
+  EXPECT_THAT(output, HasSubstr("the trial is marked and will be repeated: presa experiment resume"));
   const SessionLog log = logOf(data);
   ASSERT_EQ(log.runs.size(), 1U);
   EXPECT_EQ(log.runs[0].outcome, Outcome::kInterrupted);
@@ -297,7 +297,7 @@ TEST_F(SessionTest, AFullDiskStopsItAndItGoesOn) {
                                 (recording ? "" : " --no-recording") + " > " + scratch.file("output") + " 2>&1";
     EXPECT_EQ(WEXITSTATUS(std::system(("bash -c \"" + limited + "\"").c_str())), 1);
     EXPECT_THAT(contentsOf(scratch.file("output")), HasSubstr("File too large"));
-    EXPECT_THAT(contentsOf(scratch.file("output")), HasSubstr("is whole up to there"));
+    EXPECT_THAT(contentsOf(scratch.file("output")), HasSubstr("is complete up to there"));
     EXPECT_FALSE(logOf(data).complete);
     EXPECT_FALSE(validate(folderOf(data, "S01", 1)).altered);
     EXPECT_EQ(program({"experiment", "resume", data}), 0) << output;

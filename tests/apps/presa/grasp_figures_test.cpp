@@ -145,9 +145,9 @@ TEST(Losses, AreToldEverywhere) {
   grasp.result.contact_points[1].summary.pop_through = 1;
   grasp.result.contact_points[1].summary.first_pop_through = 2.5;
   const std::string unseen =
-      "the surface near a finger was not fully known in 37 ticks (first at 1.204 s): forces there are not right";
+      "the surface near a finger was not fully known in 37 ticks (first at 1.204 s): forces there are wrong";
   const std::string passed =
-      "finger 'index' got past a surface 1 time (first at 2.500 s): what it felt from then on is not right";
+      "finger 'index' got past a surface 1 time (first at 2.500 s): its forces after that are wrong";
   EXPECT_EQ(lossesOf(grasp.result), (std::vector{unseen, passed}));
   EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kNeutral);
   const std::string closing = closingText(grasp.result, "", "", false);
@@ -172,9 +172,8 @@ TEST(Losses, NameTheFingerWhereThereIsOne) {
   Grasp grasp;
   grasp.result.coverage_lost = {1, 0.5};
   grasp.result.contact_points.resize(1);
-  EXPECT_EQ(
-      lossesOf(grasp.result).at(0),
-      "the surface near finger 'thumb' was not fully known in 1 tick (first at 0.500 s): forces there are not right");
+  EXPECT_EQ(lossesOf(grasp.result).at(0),
+            "the surface near finger 'thumb' was not fully known in 1 tick (first at 0.500 s): forces there are wrong");
 }
 
 // XML allows the control characters above U+007F in a name; U+009B begins an escape sequence.

@@ -46,9 +46,9 @@ struct Held {
 // While paused, a step waits for the user and draws meanwhile; it continues on a single step, at the end of the pause,
 // or when the window closes.
 TEST(Pacer, AHeldRunWaitsForItsUser) {
-  for (const auto act :
-       {+[](TimeControl&time_control, CountingView&) { ++time_control.steps; }, +[](TimeControl&time_control, CountingView&) { time_control.paused = false; },
-        +[](TimeControl&, CountingView&view) { view.closed = true; }}) {
+  for (const auto act : {+[](TimeControl&time_control, CountingView&) { ++time_control.steps; },
+                         +[](TimeControl&time_control, CountingView&) { time_control.paused = false; },
+                         +[](TimeControl&, CountingView&view) { view.closed = true; }}) {
     Held held;
     held.time_control.paused = true;
     held.counting.act = act;

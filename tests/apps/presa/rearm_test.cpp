@@ -48,9 +48,9 @@ TEST(Rearm, AKeyForgivesALatchedFault) {
   const std::string folder = test::scratch("rearm"), recording = folder + "/run.h5";
   test::OnTerminal presa({PRESA_BINARY_DIR "/bin/presa", "run", test::source("config/scenes/cube.xml"), "--rig",
                           jumpingRig(folder), "--realtime", "--view", "none", "--for", "6", "--record", recording});
-  ASSERT_TRUE(presa.says("Look, then press r to re-arm.")) << presa.seen();
-  EXPECT_THAT(presa.seen(), HasSubstr("thumb: its device is gone, or says what cannot be"));
-  EXPECT_TRUE(presa.says("index: another finger's device is lost")) << presa.seen();
+  ASSERT_TRUE(presa.says("Check the device, then press r to re-arm.")) << presa.seen();
+  EXPECT_THAT(presa.seen(), HasSubstr("thumb: device disconnected or reporting implausible samples"));
+  EXPECT_TRUE(presa.says("index: the device of another finger is lost")) << presa.seen();
   ASSERT_TRUE(presa.says("]  4.")) << presa.seen();  // the motion has ended by then
   presa.press('r');
   EXPECT_TRUE(presa.says("re-armed: forces come back softly")) << presa.seen();
@@ -77,7 +77,7 @@ TEST(Rearm, AProgramThatStoodStillWaitsForAKey) {
   kill(presa.pid(), SIGSTOP);
   sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(1.2e9 * Executor::kGap));
   kill(presa.pid(), SIGCONT);
-  ASSERT_TRUE(presa.says("the program or the whole machine stood still. Look, then press r to re-arm."))
+  ASSERT_TRUE(presa.says("the program or the whole machine was suspended. Check the device, then press r to re-arm."))
       << presa.seen();
   presa.press('r');
   EXPECT_TRUE(presa.says("re-armed: forces come back softly")) << presa.seen();
@@ -98,7 +98,7 @@ TEST(FlightRecord, IsWrittenAtAFaultAndShown) {
   EXPECT_GE(samples.time.back(), 3.0);
   const test::Outcome shown = test::presa("replay " + flight + " --page " + page);
   EXPECT_EQ(shown.status, 0) << shown.err;
-  EXPECT_THAT(shown.out, HasSubstr("thumb: its device is gone, or says what cannot be"));
+  EXPECT_THAT(shown.out, HasSubstr("thumb: device disconnected or reporting implausible samples"));
   EXPECT_GT(std::filesystem::file_size(page), 50'000u);
   EXPECT_FALSE(std::filesystem::exists(folder + "/flight-2.h5"));
 }

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "framework/geometry/rotation_between.h"
+
 namespace presa {
 namespace {
 
@@ -24,7 +26,7 @@ TEST(BoxPenetration, OfACubeOnEdgeOrCornerAboveAPlate) {
   const Vec3 plate(10, 10, 1), cube(1, 1, 1);
   const Quat on_edge = turned(std::numbers::pi / 4, Vec3::UnitX());
   EXPECT_NEAR(boxPenetration(plate, at(0, 0, -0.5), cube, at(0, 0, 0.7, on_edge)), std::sqrt(0.5) - 0.7, 1e-12);
-  const Quat on_corner = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitZ());
+  const Quat on_corner = rotationBetween(Vec3(1, 1, 1), Vec3::UnitZ());
   EXPECT_NEAR(boxPenetration(plate, at(0, 0, -0.5), cube, at(0, 0, 0.85, on_corner)), std::sqrt(0.75) - 0.85, 1e-12);
 }
 

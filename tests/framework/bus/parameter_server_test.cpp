@@ -159,7 +159,7 @@ TEST(ParameterServer, SetsWhatTheProgramOffers) {
   ParameterServer server(cubeScene(), [&] { return d.bus.post(); });
   double undone = 0;
   server.offer({"assembly/undone", [&] { return undone; }, [&] { return undone; }, [&] { return undone + 1; },
-              [&](double value) { undone = value; }});
+                [&](double value) { undone = value; }});
   server.start(kRun + 1);
   const auto say = [&](std::uint64_t number, double value) {
     d.commander->send({kRun + 1, 7, number, "assembly/undone", value});
@@ -182,7 +182,7 @@ TEST(ParameterServer, EveryCommandActsOnceOverABadNetwork) {
   std::map<std::string, std::vector<double>> acted;
   for (const char* name : {"a", "b"})
     server.offer({name, [&acted, name] { return acted[name].empty() ? 0.0 : acted[name].back(); }, [] { return 0.0; },
-                [] { return 1e6; }, [&acted, name](double value) { acted[name].push_back(value); }});
+                  [] { return 1e6; }, [&acted, name](double value) { acted[name].push_back(value); }});
   server.start(kRun);
   struct Sender {
     std::unique_ptr<Commander> commander;

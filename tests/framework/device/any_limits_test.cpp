@@ -23,8 +23,8 @@ namespace presa {
 namespace {
 
 using test::Commands;
-using test::Objects;
 using test::Neighbourhoods;
+using test::Objects;
 
 constexpr double kGone = 0.020;  // [s]
 constexpr double kTouched = 1e-9;

@@ -9,8 +9,8 @@
 namespace presa {
 namespace {
 
-using test::Objects;
 using test::Neighbourhoods;
+using test::Objects;
 
 /// A finger that stands still and keeps the forces sent to it.
 class StillFinger final : public Device {

@@ -66,10 +66,11 @@ TEST_F(Limits, TheRigRaisesThemUpToTheRatingAndNoFurther) {
   EXPECT_EQ(found.limits.speed, 1);
   EXPECT_EQ(found.watchdog, 0.1);
   const std::string rig = "rig.xml:3:7: warning[W651]: role 'thumb': the rig allows ";
-  EXPECT_THAT(findings.text(), HasSubstr(rig + "force=\"50\", the device is rated for 10 N, which holds"));
-  EXPECT_THAT(findings.text(), HasSubstr(rig + "force_rate=\"5000\", the device is rated for 1000 N/s, which holds"));
-  EXPECT_THAT(findings.text(), HasSubstr(rig + "continuous=\"6\", the device is rated for 4 N, which holds"));
-  EXPECT_THAT(findings.text(), HasSubstr(rig + "speed=\"1000\", the device is rated for 1 m/s, which holds"));
+  EXPECT_THAT(findings.text(), HasSubstr(rig + "force=\"50\", the device is rated for 10 N; the rating is used"));
+  EXPECT_THAT(findings.text(),
+              HasSubstr(rig + "force_rate=\"5000\", the device is rated for 1000 N/s; the rating is used"));
+  EXPECT_THAT(findings.text(), HasSubstr(rig + "continuous=\"6\", the device is rated for 4 N; the rating is used"));
+  EXPECT_THAT(findings.text(), HasSubstr(rig + "speed=\"1000\", the device is rated for 1 m/s; the rating is used"));
   EXPECT_THAT(
       findings.text(),
       HasSubstr("scene.xml:12:5: warning[W650]: role 'thumb': force_rate is 1e+09 N/s, the device is rated for"));
@@ -116,9 +117,8 @@ TEST_F(Limits, TheWayDownIsNeverSlow) {
   bound.limits.force = 8;
   role.limits.force_rate = 0.1;
   EXPECT_DOUBLE_EQ(limits().force_rate, 8 / DeviceRating::kSlowestDecay);
-  EXPECT_THAT(findings.text(),
-              HasSubstr("scene.xml:12:5: warning[W652]: role 'thumb': with force_rate 0.1 N/s, 8 N would "
-                        "be zero after 8e+04 ms, longer than the 12 ms"));
+  EXPECT_THAT(findings.text(), HasSubstr("scene.xml:12:5: warning[W652]: role 'thumb': force_rate 0.1 N/s takes 8 N to "
+                                         "zero in 8e+04 ms, at most 12 ms are allowed"));
   role.limits.force_rate = 1000;
   bound.limits.force_rate = 0.1;
   EXPECT_DOUBLE_EQ(limits().force_rate, 8 / DeviceRating::kSlowestDecay);

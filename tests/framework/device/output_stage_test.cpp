@@ -171,7 +171,7 @@ TEST(OutputStage, AnotherFingersLostDeviceLatchesToo) {
   stage.step({.command = {4, 0, 0}, .other_lost = true}, kPeriod);
   EXPECT_EQ(settle(stage, {4, 0, 0}).norm(), 0);
   EXPECT_EQ(stage.status() & kOutputLatches, kOutputOther);
-  EXPECT_STREQ(latchedFault(stage.status()), "another finger's device is lost");
+  EXPECT_STREQ(latchedFault(stage.status()), "the device of another finger is lost");
 }
 
 // 1.5 m/s along the force trips at the second sample; against it, where the device brakes the hand, never.

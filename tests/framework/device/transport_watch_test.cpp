@@ -62,7 +62,7 @@ TEST_F(TransportWatchTest, AfterTheDeviceWasLost) {
   port_->input.lost = true;
   tick(1);
   port_->input.lost = false;
-  EXPECT_DEATH(for (int i = 0; i < 100; ++i) tick(1), "outlived the device");
+  EXPECT_DEATH(for (int i = 0; i < 100; ++i) tick(1), "was sent after the device was lost");
 }
 TEST_F(TransportWatchTest, ARearmForgivesIt) {
   port_->input.lost = true;

@@ -71,7 +71,8 @@ TEST_F(GoalRegionsTest, DrawsWhatIsInReachOfDistanceAndAngle) {
   ASSERT_EQ(regions->snapConstraints().bodies.size(), 1);
   EXPECT_EQ(regions->snapConstraints().bodies[0].body, 0);
   EXPECT_FALSE(regions->snapConstraints().bodies[0].fixed);
-  EXPECT_NEAR(regions->snapConstraints().bodies[0].max_acceleration, 1.5 * 9.81 * kPeriod / GoalRegions::kRise, 1e-12) << "rises softly";
+  EXPECT_NEAR(regions->snapConstraints().bodies[0].max_acceleration, 1.5 * 9.81 * kPeriod / GoalRegions::kRise, 1e-12)
+      << "rises softly";
   step(40);
   EXPECT_EQ(regions->snapConstraints().bodies[0].max_acceleration, 1.5 * 9.81);
   at(0, {0.019, 0, 0}, 45 * kPi / 180);

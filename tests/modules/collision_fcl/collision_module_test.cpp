@@ -119,7 +119,8 @@ TEST_F(CollisionModuleTest, RadiusGrowsByTheWayTheFingerCanGo) {
   const double still = query({0, 0, 0.06}).radius;
   const double moving = query({0, 0, 1.06}, {0.3, 0, 0.4}).radius;
   const double horizon = 2 * 0.01 + 1 / world_.scene.rates.dynamics;
-  constexpr double kFarther = 1.5;  // a neighbourhood is 1.5 times as large as needed, so that it serves for several queries
+  constexpr double kFarther =
+      1.5;  // a neighbourhood is 1.5 times as large as needed, so that it serves for several queries
   EXPECT_NEAR(still, kFarther * (1.1 * kFingertip + reach::kMargin + 0.5 * reach::kAcceleration * horizon * horizon),
               1e-15);
   EXPECT_NEAR(moving - still, kFarther * 0.5 * horizon, 1e-15);
@@ -182,7 +183,8 @@ TEST_F(CollisionModuleTest, EveryBodyInReachIsListedWhereverItGoes) {
     Vec3 finger = 0.2 * Vec3(uniform(random), uniform(random), uniform(random));
     const FingerNeighbourhood& neighbourhood = query(finger);
     std::set<std::int32_t> there;
-    for (std::int32_t i = 0; i < neighbourhood.body_count; ++i) there.insert(neighbourhood.bodies[static_cast<std::size_t>(i)].body);
+    for (std::int32_t i = 0; i < neighbourhood.body_count; ++i)
+      there.insert(neighbourhood.bodies[static_cast<std::size_t>(i)].body);
     for (std::size_t b = 0; b < world_.scene.bodies.size(); ++b) {
       const double gap = (motionOf(b).X_WB_end.p - neighbourhood.center_W).norm() - radiusOf(b);
       if (gap <= neighbourhood.radius) EXPECT_TRUE(there.contains(static_cast<std::int32_t>(b))) << round << ' ' << b;

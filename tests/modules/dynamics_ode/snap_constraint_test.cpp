@@ -11,7 +11,8 @@ constexpr double kRate = 20;  // [1/s]
 
 SnapConstraints towards(const Pose& X_WB, double speed, double max_acceleration, std::int32_t body = 0) {
   SnapConstraints snap_constraints;
-  snap_constraints.bodies.push_back({.body = body, .X_WB = X_WB, .rate = kRate, .speed = speed, .max_acceleration = max_acceleration});
+  snap_constraints.bodies.push_back(
+      {.body = body, .X_WB = X_WB, .rate = kRate, .speed = speed, .max_acceleration = max_acceleration});
   return snap_constraints;
 }
 
@@ -88,7 +89,8 @@ TEST_F(SnappedBody, FrictionStopsOnlyAPullThatIsWeaker) {
     OdeWorld bodies(maker.world());
     run(bodies, kStep, 0, 2);
     ASSERT_TRUE(state.bodies[0].asleep);
-    bodies.setSnapConstraints(towards({{0.01, 0, state.bodies[0].X_WB_end.p.z()}, Quat::Identity()}, 0.1, weights * kGravity));
+    bodies.setSnapConstraints(
+        towards({{0.01, 0, state.bodies[0].X_WB_end.p.z()}, Quat::Identity()}, 0.1, weights * kGravity));
     run(bodies, kStep, 2, 4);
     EXPECT_NEAR(state.bodies[0].X_WB_end.p.x(), weights < 0.5 ? 0 : 0.01, 2e-5) << weights << " of 0.5";
   }

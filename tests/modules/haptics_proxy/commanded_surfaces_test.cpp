@@ -38,8 +38,8 @@ void set(OneFinger& finger, std::size_t slot, double value) {
 
 TEST(CommandedSurfaces, AreThereOnlyWhereTheRunTakesCommands) {
   World world = openBox();
-  EXPECT_THAT(OneFinger(world, kTakesCommands).stages(), Contains(HasSubstr("what commands have set")));
-  EXPECT_THAT(OneFinger(world).stages(), Not(Contains(HasSubstr("what commands have set"))));
+  EXPECT_THAT(OneFinger(world, kTakesCommands).stages(), Contains(HasSubstr("to their commanded values")));
+  EXPECT_THAT(OneFinger(world).stages(), Not(Contains(HasSubstr("to their commanded values"))));
   OneFinger closed(world);
   set(closed, 0, 100);  // without effect
   closed.tick({0, 0, kHeight + 0.001});

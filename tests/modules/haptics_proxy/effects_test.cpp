@@ -64,12 +64,12 @@ TEST(SurfaceChange, LetsAFingerSlipThatTheNewConeDoesNotHold) {
   Material& material = world.scene.materials[0];
   material.friction_static = 1.2;
   material.friction_dynamic = 1.1;
-  EXPECT_THAT(OneFinger(world).stages(), testing::Not(testing::Contains(HasSubstr("changed"))));
+  EXPECT_THAT(OneFinger(world).stages(), testing::Not(testing::Contains(HasSubstr("surface change"))));
   material.changed_friction = {.mu_static = 0.4, .mu_dynamic = 0.3};
   const double height = 0.05 + kR, depth = 0.002, normal = kStiffness * depth;
   for (const double way : {0.7e-3, 1e-3}) {  // 0.35 and 0.5 times the normal force
     OneFinger finger(world);
-    EXPECT_THAT(finger.stages(), testing::Contains(HasSubstr("another after the surfaces have changed")));
+    EXPECT_THAT(finger.stages(), testing::Contains(HasSubstr("with other coefficients after the surface change")));
     finger.tick({0, 0, height + 0.001});
     finger.tick({0, 0, height - depth});
     const FingerContact before = finger.tick({way, 0, height - depth});
@@ -131,7 +131,8 @@ TEST(Penalty, PopsThroughAThinPlateWhichTheGodObjectHolds) {
     OneFinger penalty(world);
     Vec3 held = Vec3::Zero(), popped = Vec3::Zero();
     for (OneFinger* finger : {&god_object, &penalty}) {
-      for (double z = 0.02; z > -0.003; z -= 1e-4) (finger == &god_object ? held : popped) = finger->tick({0, 0, z}).f_H_W;
+      for (double z = 0.02; z > -0.003; z -= 1e-4)
+        (finger == &god_object ? held : popped) = finger->tick({0, 0, z}).f_H_W;
     }
     const double z = -0.003 + 1e-4;  // last height above -3 mm
     EXPECT_NEAR(held.z(), kStiffness * (0.001 + kR - z), 0.11) << mesh;

@@ -116,7 +116,7 @@ TEST(Framing, FillsThePictureWithFieldsAndTowers) {
       for (const Ball& ball : balls) {
         const Share share = shareOf(ball, pose, aspect);
         max = {std::max(max.left, share.left), std::max(max.right, share.right), std::max(max.down, share.down),
-                std::max(max.up, share.up)};
+               std::max(max.up, share.up)};
       }
       EXPECT_NEAR(max.left, max.right, 0.02);  // relative to the half width; exact where the width is limiting
       EXPECT_NEAR(std::max(max.right / 0.52, max.up / 0.80), 1, 1e-9);

@@ -10,7 +10,7 @@ void addCharacterise(Command app, int& status) {
   auto options = std::make_shared<device::CharacteriseOptions>();
   Command command = app.command(
       "characterise",
-      "Resolution, workspace, forces, stiffness and bandwidth of a driver, beside what is printed of the device");
+      "Resolution, workspace, forces, stiffness and bandwidth of a driver, beside the published figures of the device");
   command.option("DRIVER", options->driver, "folder under devices/, e.g. percro_arm").required();
   command.option("--out", options->out, "folder for report.html and characteristics.json");
   command.option("--format", options->format, "text or json").oneOf({"text", "json"});

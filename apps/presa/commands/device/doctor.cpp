@@ -35,7 +35,7 @@ int doctor(const Arguments& arguments) {
 
 void addDeviceDoctor(Command app, int& status) {
   auto arguments = std::make_shared<Arguments>();
-  Command command = app.command("doctor", "What this computer and its devices lack for real time, and how to get it");
+  Command command = app.command("doctor", "What this computer and its devices lack for real time, with remedies");
   command.flag("--install-udev", arguments->install, "write the rules that let users open devices (as root)");
   command.option("--udev-folder", arguments->udev, "where these rules stand").showDefault();
   command.option("--format", arguments->format, "text or json").oneOf({"text", "json"});

@@ -106,8 +106,8 @@ TEST(FalconProgram, APulledOutFalconComesBackAfterARearm) {
   if (!pushed && !whyLate().empty()) GTEST_SKIP() << "no force was felt; " << whyLate();
   ASSERT_TRUE(pushed) << program.seen();
   falcon.unplug();
-  ASSERT_TRUE(program.says("Look, then press r to re-arm.")) << program.seen();
-  EXPECT_THAT(program.seen(), HasSubstr("thumb: its device is gone"));
+  ASSERT_TRUE(program.says("Check the device, then press r to re-arm.")) << program.seen();
+  EXPECT_THAT(program.seen(), HasSubstr("thumb: device disconnected"));
   program.press('r');
   EXPECT_TRUE(program.says("not re-armed.")) << program.seen();
   falcon.plug();

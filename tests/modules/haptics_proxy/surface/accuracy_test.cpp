@@ -14,6 +14,7 @@
 #include <cmath>
 #include <random>
 
+#include "framework/geometry/rotation_between.h"
 #include "tests/modules/haptics_proxy/surface/support/finger_rig.h"
 #include "tests/modules/haptics_proxy/surface/support/mesh_oracle.h"
 #include "tests/modules/haptics_proxy/surface/support/shapes.h"
@@ -71,7 +72,7 @@ void keepWorst(double& worst, double value) { worst = std::isnan(value) ? 1e300 
 /// Moves the finger to a free place on a path far from the body, approaching radially.
 void comeTo(FingerRig& rig, const Vec3& to) {
   const Vec3 from = rig.at(), out = from.norm() > 0 ? Vec3(from.normalized()) : Vec3(Vec3::UnitZ());
-  const Quat turn = Quat::FromTwoVectors(out, to);
+  const Quat turn = rotationBetween(out, to);
   for (int i = 0; i <= 8; ++i) rig.place(kFar * (Quat::Identity().slerp(i / 8.0, turn) * out));
   rig.place(to);
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <random>
 
+#include "framework/geometry/rotation_between.h"
 #include "tests/modules/haptics_proxy/surface/support/finger_rig.h"
 #include "tests/modules/haptics_proxy/surface/support/shapes.h"
 
@@ -90,7 +91,7 @@ class Plate {
     if (moving_) rig_.moveBody({}, {}, Vec3::Zero());
     const Vec3 begin = (Vec3(above.x() * 0.1, above.y() * 0.1, above.z())).normalized() * kFar;
     const Vec3 end = start.normalized() * kFar;
-    const Quat turn = Quat::FromTwoVectors(begin, end);
+    const Quat turn = rotationBetween(begin, end);
     for (int i = 0; i <= 6; ++i) rig_.place(Quat::Identity().slerp(i / 6.0, turn) * begin);
     proxy_ = rig_.place(start).p_WP;
     if ((proxy_ - start).norm() > 1e-9) ++count.not_free;
