@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "modules/dynamics_ode/grown_geom.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {

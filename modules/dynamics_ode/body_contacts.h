@@ -8,7 +8,7 @@
 #include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/broad_phase.h"
-#include "modules/dynamics_ode/parallel_boxes.h"
+#include "modules/dynamics_ode/stand_in_geoms.h"
 
 namespace presa::ode {
 

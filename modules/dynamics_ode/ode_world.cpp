@@ -10,7 +10,6 @@
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/islands.h"
-#include "modules/dynamics_ode/layers.h"
 #include "modules/dynamics_ode/sleep.h"
 #include "modules/dynamics_ode/snap_drive.h"
 #include "modules/dynamics_ode/step_solver.h"

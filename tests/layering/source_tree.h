@@ -5,7 +5,7 @@
 
 namespace presa::layering {
 
-/// A file of the repository; its path is relative to the root ("modules/dynamics_ode/friction.cpp").
+/// A file of the repository; its path is relative to the root ("modules/dynamics_ode/rotation.cpp").
 struct SourceFile {
   std::string path;
   std::string text;

@@ -102,7 +102,6 @@ MASS = "framework/geometry/tri_mesh.cpp"
 ROTATION = "modules/dynamics_ode/rotation.cpp"
 ROW = "modules/dynamics_ode/finger_constraint.cpp"
 FINGERS = "modules/dynamics_ode/finger_joints.cpp"
-PAIR = "modules/dynamics_ode/friction.cpp"
 CONTACTS = "modules/dynamics_ode/contact_joints.cpp"
 
 CORE = [
@@ -153,8 +152,8 @@ CORE = [
     (FINGERS, "torsional_radius_[body] * row.mu * normal", "torsional_radius_[body] * normal"),
     (FINGERS, "torsional_radius_[body] * row.mu * normal", "torsional_radius_[body] * row.mu"),
     (FINGERS, "row.mu = row.mu_dynamic;\n    wanted", "wanted"),
-    (PAIR, "std::sqrt(a.friction_dynamic * b.friction_dynamic)", "std::sqrt(a.friction_static * b.friction_static)"),
-    (PAIR, "slip_speed < kRestSpeed ? std::sqrt(a.friction_static * b.friction_static)", "slip_speed < kRestSpeed ? a.friction_static"),
+    (CONTACTS, "std::sqrt(a.friction_dynamic * b.friction_dynamic)", "std::sqrt(a.friction_static * b.friction_static)"),
+    (CONTACTS, "slip_speed < kRestSpeed ? std::sqrt(a.friction_static * b.friction_static)", "slip_speed < kRestSpeed ? a.friction_static"),
     (CONTACTS, "surface.motionN = c.depth / h_;", "surface.motionN = 0;"),
     (CONTACTS, "slip(i, bodies).norm() < kRestSpeed ? mu.at_rest : mu.sliding", "mu.at_rest"),
     (CONTACTS, "joints_[i].f_B_W = past->f_B_W;", ""),

@@ -11,7 +11,8 @@ import sys
 import time
 
 CLEAR = "\r\x1b[K"  # a status line
-DONE = re.compile(r"^\s*(\d+)/(\d+) Test\s+#(\d+): (\S.*?)\s*\.{2,}\s*(\S.*?)\s+([\d.]+) sec")
+# the verdict follows the last dots of the line, because a name may contain dots, too
+DONE = re.compile(r"^\s*(\d+)/(\d+) Test\s+#(\d+): (\S.*?)\s*\.*\.{2}\s*(\**[A-Z][^.]*?)\s+([\d.]+) sec")
 
 
 class Folder:

@@ -35,6 +35,8 @@ struct Expected {
   double drops, drops_tolerance;  ///< per trial
 };
 
+void PrintTo(const Expected& expected, std::ostream* out) { *out << "level " << nameOf(expected.level); }
+
 class Figures : public testing::TestWithParam<Expected> {};
 
 void print(const char* what, const std::vector<double>& values) {
