@@ -3,11 +3,11 @@
 #include <limits>
 #include <memory>
 
+#include "framework/assembly/assembly_control.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/device/device.h"
 #include "framework/record/monitor/monitor.h"
 #include "framework/record/recording.h"
-#include "framework/session/assembly_control.h"
 #include "framework/session/load_world.h"
 #include "framework/session/view.h"
 

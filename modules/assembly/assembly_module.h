@@ -2,8 +2,8 @@
 #include <atomic>
 #include <memory>
 
+#include "framework/assembly/assembly_control.h"
 #include "framework/core/graph/port.h"
-#include "framework/session/assembly_control.h"
 #include "framework/session/module_plugin.h"
 #include "modules/assembly/goal_regions.h"
 

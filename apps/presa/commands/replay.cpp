@@ -3,8 +3,7 @@
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/losses.h"
-#include "apps/common/options/show_option.h"
-#include "apps/common/options/view_choice.h"
+#include "apps/common/options/view_options.h"
 #include "apps/common/report/recording_page.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/playback/player.h"

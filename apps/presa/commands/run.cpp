@@ -5,8 +5,7 @@
 
 #include "apps/common/machine.h"
 #include "apps/common/options/bus_options.h"
-#include "apps/common/options/show_option.h"
-#include "apps/common/options/view_choice.h"
+#include "apps/common/options/view_options.h"
 #include "apps/common/report/report.h"
 #include "apps/common/summary.h"
 #include "apps/common/terminal/closing.h"

@@ -1,6 +1,5 @@
 #include "apps/common/options/bus_options.h"
-#include "apps/common/options/show_option.h"
-#include "apps/common/options/view_choice.h"
+#include "apps/common/options/view_options.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/remote/viewer.h"
 
