@@ -1,5 +1,5 @@
 option(PRESA_TESTS "Build the tests" ON)
-option(PRESA_UNITY "Compile several files of a library at once: a cold build takes a third of the time" ON)
+option(PRESA_UNITY "Compile several files of a library or a test at once: a cold build takes a third of the time" ON)
 set(PRESA_SANITIZE "" CACHE STRING "Value for -fsanitize= (address,undefined or thread); empty: none")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -105,15 +105,16 @@ function(presa_add_each folder)
   endforeach()
 endfunction()
 
-# presa_test(NAME LIBRARIES … LAUNCHER …): one GoogleTest program from every .cpp of the calling folder, run by the launcher
+# presa_test(NAME LIBRARIES … LAUNCHER … ALONE …): one GoogleTest program from every .cpp of the calling folder, run by the launcher
 function(presa_test name)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES;LAUNCHER" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;LAUNCHER;ALONE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   if(NOT sources)
     return()
   endif()
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE presa_framework ${ARG_LIBRARIES} GTest::gtest_main)
+  presa_unity(test_${name} ALONE ${ARG_ALONE})
   target_compile_definitions(test_${name} PRIVATE PRESA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PRESA_BINARY_DIR="${CMAKE_BINARY_DIR}")
   if(ARG_LAUNCHER)
     set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${ARG_LAUNCHER}")

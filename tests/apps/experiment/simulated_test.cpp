@@ -7,6 +7,7 @@
 #include "devices/simulated_subject/model/subject_parameters.h"
 #include "experiments/runner/definition/read.h"
 #include "tests/apps/experiment/contents.h"
+#include "tests/apps/experiment/facts.h"
 #include "tests/apps/experiment/refusal.h"
 
 // A simulated subject is the same individual in all its trials, and its data are always labelled as a model's.
@@ -23,13 +24,6 @@ Experiment gripStudy(const std::string& level, const std::string& rig = {}) {
   auto experiment = readExperiment(kFolder + "experiment.xml", rig, diagnostics, level);
   EXPECT_TRUE(experiment) << diagnostics.text();
   return experiment.value_or(Experiment{});
-}
-
-double factOf(const std::vector<DeviceFact>& facts, const std::string& name) {
-  for (const DeviceFact& fact : facts) {
-    if (fact.name == name) return fact.value;
-  }
-  return NAN;
 }
 
 TEST(Simulated, IsCalledAModelWhereverItComesFrom) {

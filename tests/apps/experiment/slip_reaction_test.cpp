@@ -8,6 +8,7 @@
 #include "apps/experiment/session.h"
 #include "experiments/runner/definition/read.h"
 #include "framework/record/record_plugin.h"
+#include "tests/apps/experiment/facts.h"
 
 // The shipped experiment with its simulated subject: the measured reaction time against the model's.
 namespace presa::experiment {
@@ -48,12 +49,6 @@ class Fingers {
  private:
   RecordedSamples samples_;
 };
-
-double factOf(const std::vector<DeviceFact>& facts, const std::string& name) {
-  const auto found =
-      std::find_if(facts.begin(), facts.end(), [&](const DeviceFact& fact) { return fact.name == name; });
-  return found == facts.end() ? NAN : found->value;
-}
 
 double valueOf(const Experiment& experiment, const TrialResult& result, const std::string& name) {
   return result.values[*experiment.names.find(name)];

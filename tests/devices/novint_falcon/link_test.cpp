@@ -9,7 +9,7 @@
 namespace presa::falcon {
 namespace {
 
-constexpr double kTick = 1e-3;
+constexpr double kPeriod = 1e-3;
 constexpr int kHomingBit = 1;
 
 /// A link and its device in virtual time; in every tick the haptic thread commands `force`.
@@ -21,7 +21,7 @@ struct Bench {
     falcon.sent.clear();
   }
 
-  void tick(double length = kTick) {
+  void tick(double length = kPeriod) {
     time += length;
     if (commanding) commanded = time;
     link.step(time, {force, commanded});
@@ -118,7 +118,7 @@ TEST(FalconLink, ForceStartsSoftlyAndArrivesInCounts) {
   EXPECT_EQ(bench.last(), *motorCounts({2, -1, 3}, p));
   EXPECT_NEAR((bench.link.sample().p_DH - p).norm(), 0, 1e-12);
   // rises with 1 / 0.5 s: the change between requests is bounded by that, plus a count for rounding
-  const double step = 3 / ForceGate::kSoftStart * kTick;
+  const double step = 3 / ForceGate::kSoftStart * kPeriod;
   for (std::size_t i = 1; i < bench.falcon.sent.size(); ++i) {
     for (std::size_t m = 0; m < 3; ++m)
       ASSERT_LE(std::abs(bench.falcon.sent[i].force[m] - bench.falcon.sent[i - 1].force[m]), 1000 * step + 1);
@@ -181,7 +181,7 @@ TEST(FalconLink, MissingRepliesTakeTheForceDown) {
   bench.operate({0, 0, 4});
   const Counts full = bench.last();
   bench.tick();  // the last one with a reply
-  const double last_reply = bench.time + kTick;
+  const double last_reply = bench.time + kPeriod;
   bench.falcon.replies_to_swallow = 20;
   const std::size_t from = bench.falcon.sent.size();
   for (int i = 0; i < 20; ++i) {
@@ -277,7 +277,7 @@ TEST(FalconLink, VelocityIsThatOfThePositions) {
     bench.falcon.encoders = {2 * i, 2 * i, 2 * i};
     bench.tick();
   }
-  const Vec3 steps = (bench.link.sample().p_DH - before) / kTick;
+  const Vec3 steps = (bench.link.sample().p_DH - before) / kPeriod;
   EXPECT_GT(steps.z(), 0.08);
   // the mechanism slows down by 0.07 % per period here, and the filter lags by three and a half periods
   EXPECT_NEAR((bench.link.sample().v_DH - steps).norm(), 0, 0.005 * steps.norm());
@@ -523,7 +523,7 @@ TEST(FalconLink, InOperationNothingIsAllocatedOrLocked) {
   double time = 0;
   const auto steps = [&](int count) {
     for (int i = 0; i < count; ++i) {
-      time += kTick;
+      time += kPeriod;
       link.step(time, {{1, 2, 3}, time});
     }
   };

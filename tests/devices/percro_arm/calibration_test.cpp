@@ -11,12 +11,11 @@
 #include "devices/percro_arm/steps.h"
 #include "framework/scene/load.h"
 #include "tests/apps/presa/support.h"
+#include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {
 namespace {
 
-const Parameters kArm = paperArm();
-const Vec3 kGravity{0, -9.81, 0};
 constexpr double kLink = 0.03;
 
 /// A pose facing the first arm from 1.5 m away, displaced by up to 10 cm per axis and 0.2 rad.

@@ -12,11 +12,10 @@
 #include "devices/percro_arm/steps.h"
 #include "framework/core/math/random.h"
 #include "tests/apps/presa/support.h"
+#include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {
 namespace {
-
-const Parameters kArm = paperArm();
 
 // Reference: the transfer function of the linear model. Without dry friction the remaining differences are the hold of
 // the command over a tick (0.1 dB at 100 Hz), the counts in J, and the sampling: 0.3 dB.

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "framework/core/math/random.h"
+#include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {
 namespace {
-
-const Vec3 kGravity{0, -9.81, 0};
 
 Parameters lossless() {
   Parameters p = paperArm();

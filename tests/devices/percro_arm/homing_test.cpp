@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "devices/percro_arm/switched_on.h"
+#include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {
 namespace {
 
 using Failure = Homing::Failure;
-const Parameters kArm = paperArm();
-const Vec3 kGravity{0, -9.81, 0};
 const TipLoad kEmptyThimble{.mass = 0.02};
 
 SwitchedOn switchedOn(std::uint64_t seed, const Markers& markers = {}) {

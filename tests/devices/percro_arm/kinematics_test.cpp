@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "framework/core/math/random.h"
+#include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {
 namespace {
 
-const Parameters kArm = paperArm();
 const Geometry& kGeometry = kArm.geometry;
 
 /// Random joints within the arm's ranges.

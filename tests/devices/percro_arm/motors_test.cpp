@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "devices/percro_arm/encoders.h"
+#include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {
 namespace {
-
-const Parameters kArm = paperArm();
 
 // Closed form of a first-order lag after a step of the command; the mean over a period is its integral. Exact up to
 // rounding.

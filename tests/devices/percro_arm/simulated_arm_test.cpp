@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "framework/core/math/random.h"
+#include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {
 namespace {
 
-const Vec3 kGravity{0, -9.81, 0};
 constexpr double kPeriod = 1e-3;
 
 Parameters withoutDryFriction() {

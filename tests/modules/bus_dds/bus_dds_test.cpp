@@ -14,9 +14,6 @@
 namespace presa::bus {
 namespace {
 
-const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
-constexpr double kPatience = 30;  // maximum wait for expected samples on a busy machine [s]
-
 StudySpec cube(double duration) {
   StudySpec spec;
   spec.scene = kCube;

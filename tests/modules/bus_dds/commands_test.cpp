@@ -17,8 +17,6 @@
 namespace presa::bus {
 namespace {
 
-const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
-constexpr double kPatience = 30;  // maximum wait for expected samples on a busy machine [s]
 const std::string kWait = "30";
 
 Said set(const BusSettings& bus, const std::string& what) { return say(bus, {"bus", "set", what, "--wait", kWait}); }

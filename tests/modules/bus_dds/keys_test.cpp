@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
-
 /// Two laboratories, each with its own authority.
 class BusKeys : public testing::Test {
  protected:

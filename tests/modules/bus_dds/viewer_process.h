@@ -16,6 +16,9 @@
 
 namespace presa {
 
+inline const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
+inline constexpr double kPatience = 30;  // maximum wait for expected samples on a busy machine [s]
+
 /// Loopback and a random domain.
 inline BusSettings ownDomain() {
   return {.network = "loopback", .domain = 1 + static_cast<int>(std::random_device{}() % kMaxBusDomain)};

@@ -6,8 +6,6 @@
 namespace presa::ode {
 namespace {
 
-const Vec3 kCube = Vec3::Constant(0.05);
-
 // Cubes in contact on all sides, or separate columns.
 std::shared_ptr<const World> pile(int n, double apart = 0) {
   WorldMaker maker;

@@ -3,9 +3,6 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kEdge = 0.05;
-const Vec3 kCube(kEdge, kEdge, kEdge);
-
 struct Grip {
   double stiffness, mass;
 };

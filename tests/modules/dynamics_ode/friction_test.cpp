@@ -3,7 +3,7 @@
 namespace presa::ode {
 namespace {
 
-const Vec3 kCube(0.08, 0.08, 0.08);
+const Vec3 kBlock(0.08, 0.08, 0.08);
 
 // Direction down the slope, oblique to any axis with which a friction pyramid could be aligned.
 const Vec3 kDown = turn(radians(37), Vec3::UnitZ()) * Vec3::UnitX();
@@ -17,7 +17,7 @@ Runner onSlope(double slope_deg, double heading_deg, double mu_static, double mu
   WorldMaker maker;
   maker.gravity(kGravity * (std::sin(a) * kDown - std::cos(a) * Vec3::UnitZ())).friction(mu_static, mu_dynamic);
   maker.fixedBox({20, 20, 0.1}, {{0, 0, -0.05}, turn(radians(17), Vec3::UnitZ())});
-  maker.box(kCube, mass, {{0, 0, 0.04}, turn(radians(heading_deg), Vec3::UnitZ())});
+  maker.box(kBlock, mass, {{0, 0, 0.04}, turn(radians(heading_deg), Vec3::UnitZ())});
   return Runner(maker.world(), awake());
 }
 
@@ -61,7 +61,7 @@ struct Slider {
   Vec3 v = Vec3::Zero();
   double spin = 0, heading = 0;
   void advance(double duration, double slope, double mu) {
-    const double a = kCube.x() / 2, height = kCube.z() / 2, inertia = (4 * a * a + 4 * a * a) / 12, dt = 2e-5;
+    const double a = kBlock.x() / 2, height = kBlock.z() / 2, inertia = (4 * a * a + 4 * a * a) / 12, dt = 2e-5;
     const double load = kGravity * std::cos(slope);
     Vec3 friction = Vec3::Zero();  // per unit of mass
     for (int n = 0; n < std::lround(duration / dt); ++n) {
@@ -172,7 +172,7 @@ TEST(Friction, StaticCoefficientHoldsAndDynamicBrakes) {
 // depth.
 TEST(Resting, PenetrationIsMicrons) {
   for (const double mass : {0.001, 0.2, 10.0}) {
-    Runner runner(WorldMaker().table().box(kCube, mass, {{0, 0, 0.0405}, Quat::Identity()}).world(), awake());
+    Runner runner(WorldMaker().table().box(kBlock, mass, {{0, 0, 0.0405}, Quat::Identity()}).world(), awake());
     runner.run(3);
     EXPECT_NEAR(runner[1].X_WB_end.p.z(), 0.04, 1e-5) << mass;
     EXPECT_LT(runner[1].v_WB.norm(), 1e-6) << mass;
@@ -185,7 +185,7 @@ TEST(Resting, PenetrationIsMicrons) {
 TEST(Resting, StackStandsStill) {
   WorldMaker maker;
   maker.table();
-  for (int i = 0; i < 5; ++i) maker.box(kCube, 0.2, {{0, 0, 0.04 + 0.08 * i}, turn(0.2 * i, Vec3::UnitZ())});
+  for (int i = 0; i < 5; ++i) maker.box(kBlock, 0.2, {{0, 0, 0.04 + 0.08 * i}, turn(0.2 * i, Vec3::UnitZ())});
   Runner runner(maker.world(), awake());
   runner.run(5);
   for (int i = 0; i < 5; ++i) {
@@ -200,7 +200,7 @@ TEST(Resting, StackStandsStill) {
 TEST(Friction, DraggedCubeFollowsTheFinger) {
   for (const double heading : {0.0, 30.0, 45.0, 80.0}) {
     WorldMaker maker;
-    maker.friction(0.2).table().box(kCube, 0.2, {{0, 0, 0.04}, turn(radians(heading), Vec3::UnitZ())});
+    maker.friction(0.2).table().box(kBlock, 0.2, {{0, 0, 0.04}, turn(radians(heading), Vec3::UnitZ())});
     Runner runner(maker.world());
     std::vector<ReferenceFinger> fingers{{1, {0, 0, 0.04}, Vec3::UnitZ()}};
     fingers[0].damping = 1;

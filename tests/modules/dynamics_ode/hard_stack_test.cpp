@@ -7,7 +7,6 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kEdge = 0.05;
 constexpr double kMaxPenetration = 5e-4;
 
 class MassRatio : public testing::TestWithParam<double> {};

@@ -5,8 +5,6 @@
 namespace presa::ode {
 namespace {
 
-const Vec3 kCube(0.05, 0.05, 0.05);
-
 OdeOptions with(const DynamicsSettings& method) {
   OdeOptions options;
   options.method = method;

@@ -6,8 +6,6 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kEdge = 0.05;
-
 std::shared_ptr<const World> boxAt(double z, double mass = 0.1) {
   WorldMaker maker;
   maker.table().box(Vec3::Constant(kEdge), mass, {{0, 0, z}, Quat::Identity()});

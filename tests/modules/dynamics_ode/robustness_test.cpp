@@ -8,7 +8,6 @@
 namespace presa::ode {
 namespace {
 
-const Vec3 kCube(0.05, 0.05, 0.05);
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // n x n x n cubes dropped on a table with small gaps and rotations.

@@ -4,8 +4,6 @@
 namespace presa::ode {
 namespace {
 
-const Vec3 kCube(0.05, 0.05, 0.05);
-
 WorldMaker pile(int n) {
   WorldMaker maker;
   maker.table();

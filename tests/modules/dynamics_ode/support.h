@@ -14,6 +14,8 @@ namespace presa::ode {
 
 inline constexpr double kStep = 0.005;  // [s]
 inline constexpr double kGravity = 9.81;
+inline constexpr double kEdge = 0.05;  // of the usual cube [m]
+inline const Vec3 kCube = Vec3::Constant(kEdge);
 
 inline Mat3 boxInertia(double mass, const Vec3& size) {
   const Vec3 s = size.cwiseProduct(size);

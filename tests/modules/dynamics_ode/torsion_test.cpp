@@ -6,7 +6,7 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kEdge = 0.05, kMass = 0.1, kDepth = 0.003, kStiffness = 1000, kMu = 1;
+constexpr double kMass = 0.1, kDepth = 0.003, kStiffness = 1000, kMu = 1;
 constexpr double kGrip = kStiffness * kDepth;              // of each finger [N]
 constexpr double kTorsion = 0.003;                         // [m]
 constexpr double kMaxTorque = 2 * kTorsion * kMu * kGrip;  // maximum torque of both [N m]

@@ -17,7 +17,10 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kR = 0.008, kStiffness = 1000, kHeight = 0.05 + kR, kPeriod = 1e-3;
+using test::kR;
+using test::kStiffness;
+
+constexpr double kHeight = 0.05 + kR, kPeriod = 1e-3;
 constexpr double kSlewLimit = 1000 * kPeriod;  // slew limit of a finger per tick [N] (DeviceLimits)
 
 const RunOptions kTakesCommands{.bus_commands = true};

@@ -14,7 +14,8 @@ using test::OneFinger;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kR = 0.008, kStiffness = 1000;
+using test::kR;
+using test::kStiffness;
 
 // ---- which stages there are ----------------------------------------------------------------------------------------
 

@@ -8,11 +8,12 @@
 
 #include "framework/haptics/nearest_feasible.h"
 #include "modules/haptics_proxy/god_object.h"
+#include "tests/modules/haptics_proxy/module_fixture.h"
 
 namespace presa {
 namespace {
 
-constexpr double kR = 0.008;
+using test::kR;
 
 // One tick as in the haptic loop with friction.
 ProxyContact stepProxy(const FingertipState& last, const Vec3& g, Surroundings& s, const FrictionCone& cone) {

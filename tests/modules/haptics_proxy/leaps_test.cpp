@@ -7,12 +7,12 @@
 namespace presa {
 namespace {
 
-constexpr double kR = 0.001, kStep = 0.003;
+constexpr double kTip = 0.001, kStep = 0.003;
 
 World touched(const Shape& shape, double mu) {
   World world = test::worldOf(shape, false);
   world.scene.materials[0].friction_static = world.scene.materials[0].friction_dynamic = mu;
-  world.scene.devices[0].fingertip_radius = kR;
+  world.scene.devices[0].fingertip_radius = kTip;
   return world;
 }
 
@@ -42,7 +42,7 @@ struct Walk {
 };
 Walk walk(double depth, double mu) {
   test::OneFinger finger(stair(mu));
-  const double low = kR - depth, high = kStep + kR + 0.001;
+  const double low = kTip - depth, high = kStep + kTip + 0.001;
   for (int i = 0; i <= 200; ++i) finger.tick({-0.01, 0, high + (low - high) * i / 200.0});
   Walk walk;
   Vec3 last = finger.all().fingers[0].p_WP;
@@ -53,7 +53,7 @@ Walk walk(double depth, double mu) {
   }
   walk.leaps = finger.all().leaps_by_finger[0];
   EXPECT_EQ(finger.all().pop_through, 0u);
-  EXPECT_NEAR(last.z(), kR, 1e-6);  // finally it rests on the lower tread
+  EXPECT_NEAR(last.z(), kTip, 1e-6);  // finally it rests on the lower tread
   return walk;
 }
 
@@ -72,12 +72,12 @@ TEST(Leaps, ComingDownAStairIsCounted) {
 TEST(Leaps, SlidingIsNone) {
   for (const double mu : {0.0, 0.4}) {
     test::OneFinger flat(stair(mu));
-    for (int i = 0; i <= 300; ++i) flat.tick({0.002 + 1e-4 * i, 0, kR + 0.001 - 2e-5 * std::min(i, 100)});
+    for (int i = 0; i <= 300; ++i) flat.tick({0.002 + 1e-4 * i, 0, kTip + 0.001 - 2e-5 * std::min(i, 100)});
     EXPECT_EQ(flat.all().leaps_by_finger[0], 0u) << mu;
 
     test::OneFinger round(touched(Sphere{0.03}, mu));
     for (int i = 0; i <= 600; ++i) {
-      const double angle = 2e-3 * i, distance = 0.03 + kR + 0.001 - 1e-5 * std::min(i, 300);
+      const double angle = 2e-3 * i, distance = 0.03 + kTip + 0.001 - 1e-5 * std::min(i, 300);
       round.tick(distance * Vec3(std::cos(angle), std::sin(angle), 0));
     }
     EXPECT_EQ(round.all().leaps_by_finger[0], 0u) << mu;

@@ -6,6 +6,9 @@
 
 namespace presa::test {
 
+inline constexpr double kR = 0.008;         // radius of the fingertip [m]
+inline constexpr double kStiffness = 1000;  // of the surface [N/m]
+
 /// Publishes a value set by the test, at haptic rate, so that the module under test reads it in the same tick.
 template <class T>
 struct Source final : Module {

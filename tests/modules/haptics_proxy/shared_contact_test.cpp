@@ -10,7 +10,8 @@
 namespace presa {
 namespace {
 
-constexpr double kR = 0.008, kStiffness = 1000;
+using test::kR;
+using test::kStiffness;
 
 /// Boxes (or their meshes) under one fingertip.
 World boxes(const std::vector<std::pair<Vec3, Pose>>& all, bool mesh, double mu = 0) {

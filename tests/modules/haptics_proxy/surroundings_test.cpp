@@ -5,11 +5,12 @@
 #include <random>
 
 #include "modules/haptics_proxy/god_object.h"
+#include "tests/modules/haptics_proxy/module_fixture.h"
 
 namespace presa {
 namespace {
 
-constexpr double kR = 0.008;
+using test::kR;
 
 // A bumpy surface of triangles.
 std::shared_ptr<const TriMesh> bumpyField(double edge = 1e-3, double reach = 0.02) {
