@@ -65,6 +65,7 @@ class TerminalRun {
   int watchdog_trips_ = 0;
   bool device_lost_ = false;  // since the last re-arm
   std::uint32_t reported_object_faults_ = 0;
+  bool effect_reported_ = false;
 };
 
 }  // namespace presa

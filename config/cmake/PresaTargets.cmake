@@ -45,9 +45,13 @@ function(presa_unity target)
   endforeach()
 endfunction()
 
-# presa_plugin(NAME SOURCES a.cpp … LIBRARIES … ALONE …): the shared object presa_NAME.so, loaded only when a scene calls for it
+# presa_plugin(NAME SOURCES a.cpp … LIBRARIES … ALONE …): the shared object presa_NAME.so, loaded only when a scene calls for it,
+# and beside it presa_NAME.xml, a copy of the folder's manifest.xml if it has one
 function(presa_plugin name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;ALONE" ${ARGN})
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/manifest.xml)
+    configure_file(manifest.xml ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/presa_${name}.xml COPYONLY)
+  endif()
   add_library(presa_${name} SHARED ${ARG_SOURCES})
   set_target_properties(presa_${name} PROPERTIES PREFIX "" PRESA_PLUGIN ON)
   target_link_libraries(presa_${name} PUBLIC presa_framework PRIVATE ${ARG_LIBRARIES})

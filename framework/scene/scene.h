@@ -10,6 +10,7 @@
 #include "framework/core/math/spatial.h"
 #include "framework/core/schedule/rates.h"
 #include "framework/scene/assembly_words.h"
+#include "framework/scene/plugin_element.h"
 
 /// A scene as plain data: the user's values with every default filled in. SI units throughout.
 /// Immutable after loading. Every module reads it; no module keeps a second copy of a value.
@@ -187,6 +188,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<DeviceRole> devices;
   std::optional<Assembly> assembly;
+  std::vector<PluginElement> plugin_elements;  ///< in document order
   std::optional<BusSettings> bus;
   std::string resolved_xml;  ///< document after --set and defaults, as stored in recordings
 

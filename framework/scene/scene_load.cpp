@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "framework/scene/scene_parts.h"
-#include "framework/scene/schemas.h"
+#include "framework/scene/manifest.h"
 
 namespace presa {
 namespace {
@@ -9,7 +9,7 @@ namespace {
 enum Code { kVersion = 201 };
 
 const xml::Schema& sceneSchema() {
-  static const xml::Schema schema(schemas::scene);
+  static const xml::Schema schema(sceneSchemaWith(manifests()));
   return schema;
 }
 

@@ -44,6 +44,9 @@ void checkOrientation(const xml::Element& element, Diagnostics& diagnostics);
 /// Writes defaults, implied materials and absolute paths into a document without errors.
 void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory);
 
+/// The elements that plug-ins bring, in the scene itself and in its bodies.
+std::vector<PluginElement> readPluginElements(const xml::Element& root);
+
 /// The <bus> of a scene or a rig, or none.
 std::optional<BusSettings> readBus(const xml::Element& root);
 /// E751: a scene may come from an untrusted source. It may publish on this machine, but neither open the network nor

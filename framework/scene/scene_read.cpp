@@ -248,6 +248,7 @@ Scene readScene(const Element& root, const std::string& file, const std::string&
   for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, materials, directory));
   for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));
   for (const Element& assembly : root.children("assembly")) scene.assembly = readAssembly(assembly, scene.bodies);
+  scene.plugin_elements = readPluginElements(root);
   scene.bus = readBus(root);
   return scene;
 }

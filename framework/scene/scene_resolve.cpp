@@ -66,9 +66,11 @@ void resolveScene(xml::Document& document, const xml::Schema& schema, const std:
   for (Element body : root.children("body")) {
     if (!body.hasAttribute("material")) body.setAttribute("material", materials[0].attribute("name"), body.where());
     resolveOrientation(body);
-    for (const Element& geometry : body.children()) {
-      resolveOrientation(geometry);
-      resolveMesh(geometry, directory);
+    for (const char* role : {"visual", "haptic", "physics"}) {
+      for (const Element& geometry : body.children(role)) {
+        resolveOrientation(geometry);
+        resolveMesh(geometry, directory);
+      }
     }
   }
   for (const Element& assembly : root.children("assembly")) {

@@ -4,4 +4,5 @@
 namespace presa::schemas {
 extern const char* const scene;
 extern const char* const rig;
+extern const char* const plugin;
 }  // namespace presa::schemas

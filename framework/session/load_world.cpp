@@ -114,6 +114,7 @@ std::vector<std::string> plugInsFor(const Inputs& inputs, const RunOptions& opti
       makePlan(read->scene, read->rig, bindDevices(read->scene, read->rig, diagnostics), options, diagnostics);
   std::set<std::string> names;
   for (const PlannedModule& module : plan.modules) names.insert(module.plugin);
+  for (const PlannedEffect& effect : plan.effects) names.insert(effect.plugin);
   for (const PlannedDevice& device : plan.devices) names.insert(device.driver);
   const auto isMesh = [](const std::optional<Geometry>& geometry) {
     return geometry && std::holds_alternative<MeshRef>(geometry->shape);

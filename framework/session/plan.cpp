@@ -26,6 +26,17 @@ const char* dynamicsPlugin(const Scene& scene) {
   }
 }
 
+void planEffects(const Scene& scene, Plan& plan) {
+  for (const PluginElement& element : scene.plugin_elements) {
+    const bool known = std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; });
+    if (known || scene.devices.empty()) continue;
+    const std::string owner = element.body == kNoBody
+                                  ? "the scene"
+                                  : "body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
+    plan.effects.push_back({element.plugin, owner + " has <" + element.element + ">"});
+  }
+}
+
 }  // namespace
 
 std::vector<PlannedDevice> bindDevices(const Scene& scene, const Rig& rig, Diagnostics& diagnostics) {
@@ -97,6 +108,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
   }
   call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
        "the scene has no assembly");
+  planEffects(scene, plan);
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,
        options.record.empty() ? "the last two seconds are kept for a fault" : "the run is recorded",

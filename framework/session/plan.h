@@ -19,10 +19,16 @@ struct PlannedDevice {
   std::string role, driver;
 };
 
+/// A plug-in that another one hosts: a force effect in the haptic tick.
+struct PlannedEffect {
+  std::string plugin, reason;  ///< "body 'cube' has <magnet>"
+};
+
 /// The plug-ins and drivers that a scene needs, and no others. Plain data: nothing is loaded or started yet.
 struct Plan {
   std::vector<PlannedModule> modules;
   std::vector<PlannedDevice> devices;  ///< in the order of the scene's roles
+  std::vector<PlannedEffect> effects;  ///< each plug-in once
   std::vector<LeftOut> left_out;
 
   bool has(const std::string& plugin) const;

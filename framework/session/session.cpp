@@ -10,6 +10,7 @@
 #include "framework/device/device_plugin.h"
 #include "framework/device/supervision/supervised_device.h"
 #include "framework/device/transport_watch.h"
+#include "framework/haptics/force_effects.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/module_plugin.h"
 
@@ -142,6 +143,11 @@ void Session::offerPointer() {
   if (view_ != nullptr && !fingers.empty()) view_->offerPointer(fingers);
 }
 
+std::optional<std::string> Session::brokenEffect() const {
+  if (force_effects_ == nullptr || force_effects_->broken() < 0) return std::nullopt;
+  return force_effects_->names()[static_cast<std::size_t>(force_effects_->broken())];
+}
+
 Session::~Session() {
   for (const auto& device : devices_) device->close();
 }
@@ -176,6 +182,7 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   }
   auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world_, options_);
   if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
+  if (const auto* host = dynamic_cast<const ForceEffectHost*>(module.get())) force_effects_ = host->forceEffects();
   if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
   return module;
 }

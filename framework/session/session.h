@@ -13,6 +13,8 @@
 
 namespace presa {
 
+class ForceEffects;
+
 class DeviceOutput;
 struct FingerSafety;
 
@@ -52,6 +54,8 @@ class Session {
   Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
   View* view() noexcept { return view_; }                     ///< null without a view
+  /// The force effect that broke its contract (framework/haptics/force_effect.h), or none. Thread: any.
+  std::optional<std::string> brokenEffect() const;
   AssemblyControl* assembly() noexcept { return assembly_; }  ///< null if nothing is assembled
 
   /// Start of the scripted phase of that name [s]; infinity when no device has one.
@@ -73,6 +77,7 @@ class Session {
   Monitor* monitor_ = nullptr;
   Recorder* recorder_ = nullptr;
   View* view_ = nullptr;
+  const ForceEffects* force_effects_ = nullptr;
   AssemblyControl* assembly_ = nullptr;
 };
 

@@ -172,6 +172,12 @@ void BodySet::addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP) {
   entry.torque_W += (p_WP - toVec3(dBodyGetPosition(entry.body))).cross(f_W);
 }
 
+void BodySet::addForceAndTorque(std::size_t i, const Vec3& f_W, const Vec3& torque_W) {
+  Entry& entry = bodies_[i];
+  entry.force_W += f_W;
+  entry.torque_W += torque_W - (toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm).cross(f_W);
+}
+
 void BodySet::applyForces() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Entry& entry = bodies_[i];

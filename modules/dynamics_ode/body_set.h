@@ -79,6 +79,8 @@ class BodySet {
   void resetForces();
   /// Adds a force f_W [N] at p_WP to moving body `i` for this step.
   void addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP);
+  /// Adds a force f_W [N] at the origin of B and a torque about it [N m] to moving body `i` for this step.
+  void addForceAndTorque(std::size_t i, const Vec3& f_W, const Vec3& torque_W);
   /// Passes the external forces of all enabled bodies to ODE, which clears them in every solve.
   void applyForces();
 

@@ -66,6 +66,8 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
       options_(optionsOf(*world_, seed)) {
   objects_.value.bodies.resize(world_->scene.bodies.size());
   if (world_->scene.assembly) snap_constraints_.emplace(*this, "attractions", In<SnapConstraints>::Optional{});
+  if (!world_->scene.plugin_elements.empty())
+    reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::Optional{});
 }
 
 void DynamicsModule::start() {
@@ -82,6 +84,7 @@ void DynamicsModule::setSnapConstraints() noexcept {
 
 void DynamicsModule::step(const Tick& tick) noexcept {
   setSnapConstraints();
+  if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value);
 }
 

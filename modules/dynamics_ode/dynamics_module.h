@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
+#include "framework/haptics/effect_reactions.h"
 #include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/ode_world.h"
 
@@ -29,6 +30,7 @@ class DynamicsModule final : public Module {
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
   std::optional<In<SnapConstraints>> snap_constraints_;  // only in scenes with an assembly
+  std::optional<In<EffectReactions>> reactions_;         // only if force effects act on free bodies
   std::uint64_t snap_constraints_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;

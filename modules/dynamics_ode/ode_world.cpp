@@ -7,6 +7,7 @@
 
 #include "modules/dynamics_ode/body_contacts.h"
 #include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/effect_forces.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/islands.h"
@@ -70,6 +71,7 @@ struct OdeWorld::Impl {
   StepSolver solver;
   std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
   std::optional<SnapDrive> snap_drive_;  // empty without an assembly
+  EffectForces effects;
   Islands islands;
   Layers layers;
   std::vector<BodyContact> contacts;
@@ -159,6 +161,7 @@ int OdeWorld::Impl::substepsNow() {
 void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, double h, int substeps) {
   bodies.resetForces();
   if (snap_drive_) snap_drive_->drive(bodies, h);
+  effects.push(bodies);
   fingers.read(exchange, time, h, bodies);
   if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) ++fallback_steps;
   for (std::size_t f = 0; f < kMaxFingers; ++f) {
@@ -220,6 +223,10 @@ void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
   if (impl_->failed) return;
   if (!impl_->snap_drive_) impl_->snap_drive_.emplace(impl_->bodies, impl_->engine.world());
   impl_->snap_drive_->read(snap_constraints, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);
+}
+
+void OdeWorld::addReactions(const EffectReactions& reactions, double period) noexcept {
+  if (!impl_->failed) impl_->effects.read(reactions, period, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);
 }
 
 void OdeWorld::write(double time, ObjectState& out) noexcept {

@@ -6,6 +6,7 @@
 #include "framework/assembly/snap_constraint.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
+#include "framework/haptics/effect_reactions.h"
 #include "framework/scene/world.h"
 #include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/ode_options.h"
@@ -38,6 +39,8 @@ class OdeWorld {
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
   /// Sets the snap constraints from the next step on. Never called: none.
   void setSnapConstraints(const SnapConstraints& snap_constraints);
+  /// Sets the mean forces of force effects in the next step: what was added to their impulses since the last call.
+  void addReactions(const EffectReactions& reactions, double period) noexcept;
   /// Writes the current poses as a state valid from `time` on [s].
   void write(double time, ObjectState& out) noexcept;
 

@@ -14,7 +14,10 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
   };
   HapticEffects effects;
   effects.renderer = scene.haptics.renderer;
-  if (any_touchable([](const Body& body) { return !body.fixed; })) {
+  const bool effect_on_free_body = std::ranges::any_of(scene.plugin_elements, [&](const PluginElement& element) {
+    return element.body != kNoBody && !scene.bodies[static_cast<std::size_t>(element.body)].fixed;
+  });
+  if (effect_on_free_body || any_touchable([](const Body& body) { return !body.fixed; })) {
     effects.poses = scene.haptics.pose == HapticSettings::PoseUse::kHold ? HapticEffects::Poses::kHold
                                                                          : HapticEffects::Poses::kInterpolate;
   }

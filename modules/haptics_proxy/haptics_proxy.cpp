@@ -34,6 +34,7 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   if (effects.shading) finger_stages_.push_back(makeShading(*world_));
   finger_stages_.push_back(makeSpring(in_force));
   if (effects.damping) finger_stages_.push_back(makeDamping(in_force));
+  if (!world_->scene.plugin_elements.empty()) force_effects_.push_back(std::make_unique<Effects>(*this, *world_));
 }
 
 SurfacesInForce HapticsProxy::surfaces(const HapticEffects& effects) {
@@ -55,10 +56,10 @@ void HapticsProxy::step(const Tick& tick) noexcept {
   ContactExchange& out = contact_.value;
   out.time = tick.time;
   out.count = device_->count;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, tick.period);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, tick);
 }
 
-void HapticsProxy::stepFinger(std::size_t f, double period) noexcept {
+void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
   const FingerInput& input = device_->fingers[f];
   FingerContact& out = contact_.value.fingers[f];
   RenderedFinger& finger = fingers_[f];
@@ -79,11 +80,13 @@ void HapticsProxy::stepFinger(std::size_t f, double period) noexcept {
   finger.p_WH = input.p_WH;
   const bool patched = neighbourhoods_.hasValue() && f < static_cast<std::size_t>(neighbourhoods_->count);
   // 10 %: room for being pushed out of a moving body
-  tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved, period,
+  tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved, now.period,
                                        patched ? &neighbourhoods_->fingers[f] : nullptr);
   finger.near->setStep(moved + tick.approach);
   for (const auto& stage : finger_stages_) stage->apply(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
+  for (const auto& added : force_effects_)
+    added->effects.apply(f, now, input, world_->scene.devices[f].fingertip_radius, touchables_, out, added->reactions.value);
 }
 
 std::vector<std::string> HapticsProxy::stages() const {
@@ -92,6 +95,9 @@ std::vector<std::string> HapticsProxy::stages() const {
   for (const PlaceBodies& stage : place_bodies_) stages.emplace_back(stage.what);
   stages.emplace_back("gather the pieces within reach of each fingertip");
   for (const auto& stage : finger_stages_) stages.emplace_back(stage->what());
+  for (const auto& added : force_effects_) {
+    for (const std::string& name : added->effects.names()) stages.push_back("force effect " + name);
+  }
   return stages;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
+#include "framework/haptics/force_effects.h"
 #include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
@@ -16,13 +17,16 @@ namespace presa {
 ///   f = k (p_WP - p_WH), modified by the effects that the scene uses.
 /// The collision thread's neighbourhoods limit the bodies to examine; without a neighbourhood all bodies are examined.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
-class HapticsProxy final : public Module {
+class HapticsProxy final : public Module, public ForceEffectHost {
  public:
   HapticsProxy(const std::shared_ptr<const World>& world, const RunOptions& options)
       : HapticsProxy(world, effectsOf(*world, options)) {}
   HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects);
   void step(const Tick& tick) noexcept override;
   std::vector<std::string> stages() const override;
+  const ForceEffects* forceEffects() const noexcept override {
+    return force_effects_.empty() ? nullptr : &force_effects_.front()->effects;
+  }
   std::vector<LeftOut> leftOut() const override { return effectsLeftOut(effects_); }
 
  private:
@@ -38,9 +42,17 @@ class HapticsProxy final : public Module {
     In<SurfaceSettings> settings;
     CommandedSurfaces surfaces;
   };
+  /// The force effects with the port of their reactions.
+  struct Effects {
+    Effects(Module& owner, const World& world) : effects(world), reactions(owner, kEffectReactionsPort) {
+      reactions.value = effects.reactions();
+    }
+    ForceEffects effects;
+    Out<EffectReactions> reactions;
+  };
   SurfacesInForce surfaces(const HapticEffects& effects);
   std::unique_ptr<FingerStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
-  void stepFinger(std::size_t finger, double period) noexcept;
+  void stepFinger(std::size_t finger, const Tick& tick) noexcept;
 
   std::shared_ptr<const World> world_;
   HapticEffects effects_;
@@ -54,6 +66,7 @@ class HapticsProxy final : public Module {
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kHold};
   std::optional<In<SurfaceChange>> surface_change_;    // only if friction can change
   std::vector<std::unique_ptr<Commanded>> commanded_;  // none or one
+  std::vector<std::unique_ptr<Effects>> force_effects_;  // none or one
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };
 

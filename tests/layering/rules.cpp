@@ -59,7 +59,7 @@ const std::vector<Arrows>& arrows() {
        {"framework/core/", "framework/input/", "framework/scene/", "framework/device/", "framework/record/"}},
       {"framework/session/",
        {"framework/core/", "framework/input/", "framework/scene/", "framework/assembly/", "framework/device/",
-        "framework/record/"}},
+        "framework/haptics/", "framework/record/"}},
       {"modules/", {"framework/"}},
       {"devices/", {"framework/", "devices/hand/"}},
       // a model of a device implements the narrow interface of the device's driver

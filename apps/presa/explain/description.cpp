@@ -69,7 +69,7 @@ json describeSession(Session& session, const std::set<std::string>& before) {
   const RateTable rates(session.world()->scene.rates);
   json out;
   out["scene"] = session.world()->scene.name;
-  for (const char* key : {"threads", "modules", "stages", "connections", "devices", "left_out", "libraries"})
+  for (const char* key : {"threads", "modules", "stages", "connections", "effects", "devices", "left_out", "libraries"})
     out[key] = json::array();
   for (const LeftOut& left_out : session.plan().left_out)
     out["left_out"].push_back({{"what", left_out.what}, {"why", left_out.why}});
@@ -85,6 +85,8 @@ json describeSession(Session& session, const std::set<std::string>& before) {
     for (const Module* module : session.graph().modules(group)) describeModule(*module, session.plan(), out);
   }
   for (const Connection& connection : session.graph().connections()) out["connections"].push_back(describe(connection));
+  for (const PlannedEffect& effect : session.plan().effects)
+    out["effects"].push_back({{"plugin", effect.plugin}, {"reason", effect.reason}});
   for (const PlannedDevice& device : session.plan().devices)
     out["devices"].push_back({{"role", device.role}, {"driver", device.driver}});
   for (const std::string& library : mappedLibraries()) {

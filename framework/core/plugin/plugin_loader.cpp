@@ -7,7 +7,6 @@
 #include <map>
 #include <mutex>
 #include <sstream>
-#include <vector>
 
 #include "framework/core/diagnostics/refuse.h"
 
@@ -23,18 +22,6 @@ fs::path frameworkFolder() {
   return fs::path(info.dli_fname).parent_path();
 }
 
-std::vector<fs::path> searchFolders() {
-  std::vector<fs::path> folders;
-  if (const char* list = std::getenv("PRESA_PLUGIN_PATH")) {
-    std::istringstream stream(list);
-    for (std::string folder; std::getline(stream, folder, ':');) {
-      if (!folder.empty()) folders.emplace_back(folder);
-    }
-  }
-  folders.push_back(frameworkFolder());
-  return folders;
-}
-
 /// Names come from rig and scene files; they must not lead out of the plug-in folders.
 bool isPluginName(const std::string& name) {
   return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
@@ -47,8 +34,8 @@ void* openPlugin(const std::string& name) {
   }
   const std::string file = "presa_" + name + ".so";
   std::string tried;
-  for (const fs::path& folder : searchFolders()) {
-    const fs::path path = folder / file;
+  for (const std::string& folder : pluginFolders()) {
+    const fs::path path = fs::path(folder) / file;
     std::error_code ignored;
     if (!fs::exists(path, ignored)) {
       tried += (tried.empty() ? "" : ", ") + path.string();
@@ -65,6 +52,18 @@ void* openPlugin(const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::string> pluginFolders() {
+  std::vector<std::string> folders;
+  if (const char* list = std::getenv("PRESA_PLUGIN_PATH")) {
+    std::istringstream stream(list);
+    for (std::string folder; std::getline(stream, folder, ':');) {
+      if (!folder.empty()) folders.push_back(folder);
+    }
+  }
+  folders.push_back(frameworkFolder());
+  return folders;
+}
 
 void* pluginSymbol(const std::string& name, const char* symbol) {
   static std::mutex mutex;

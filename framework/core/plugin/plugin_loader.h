@@ -1,10 +1,11 @@
 #pragma once
 #include <string>
+#include <vector>
 
 namespace presa {
 
 /// Version of the interface between the program and its plug-ins; a plug-in of another version is refused (E510).
-inline constexpr int kPluginAbi = 10;
+inline constexpr int kPluginAbi = 11;
 
 /// Address of the C symbol `symbol` in the plug-in `presa_<name>.so`. The plug-in is looked for in the folders of the
 /// environment variable PRESA_PLUGIN_PATH (separated by colons), then beside the framework library; it is loaded at the
@@ -12,6 +13,9 @@ inline constexpr int kPluginAbi = 10;
 /// Thread: any (not the haptic group). Throws InputError: E590 no such plug-in (with the paths tried), E591 it does not
 /// load, E592 it has no such symbol.
 void* pluginSymbol(const std::string& name, const char* symbol);
+
+/// The folders that plug-ins are looked for in, first to last.
+std::vector<std::string> pluginFolders();
 
 /// Throws InputError E510 when a plug-in was built for another version of the interface.
 void requireAbi(const std::string& plugin, int abi);

@@ -1,0 +1,47 @@
+#pragma once
+#include <memory>
+
+#include "framework/core/math/spatial.h"
+#include "framework/core/plugin/plugin_loader.h"
+#include "framework/scene/plugin_element.h"
+
+namespace presa {
+
+/// A tool (fingertip) and the frame of the body that an effect belongs to, in one haptic tick.
+struct EffectInput {
+  double time = 0, period = 0;  ///< [s]
+  Vec3 p_WT = Vec3::Zero();     ///< centre of the fingertip [m]
+  Vec3 v_WT = Vec3::Zero();     ///< [m/s]
+  double radius = 0;            ///< of the fingertip [m]
+  Pose X_WB;                    ///< pose of the body now; identity for an effect of the scene
+};
+
+/// A force on the tool. The body of the effect gets its negative at the same point.
+struct EffectForce {
+  Vec3 f_T_W = Vec3::Zero();  ///< [N]
+  Vec3 p_WF = Vec3::Zero();   ///< point at which it acts on the body [m]
+};
+
+/// A force on a tool that does not come from a contact: a magnet, a viscous field, a guide. Written once for all bodies
+/// and tools; one object per element of the scene. It acts on the tool, and its reaction on the element's body.
+class ForceEffect {
+ public:
+  virtual ~ForceEffect() = default;
+  /// The force on one tool. At most the element's max_force, and finite: otherwise the run's forces go to zero and the
+  /// fault is reported with the element's name. `tool`: index of the scene's device role.
+  /// Thread: haptic; no allocation, lock, exception or system call.
+  virtual EffectForce apply(std::size_t tool, const EffectInput& input) noexcept = 0;
+};
+
+/// Table of a force-effect plug-in; its manifest (framework/scene/manifest.h) names its elements.
+struct ForceEffectPlugin {
+  int abi = kPluginAbi;
+  const char* name;  ///< as in the manifest
+  /// One effect; may throw (E596). `tools`: number of device roles.
+  std::unique_ptr<ForceEffect> (*create)(const PluginElement& element, std::size_t tools);
+};
+
+}  // namespace presa
+
+#define PRESA_FORCE_EFFECT_PLUGIN(table) \
+  extern "C" __attribute__((visibility("default"))) const presa::ForceEffectPlugin* presaForceEffectPlugin() { return &(table); }

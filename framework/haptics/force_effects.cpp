@@ -1,0 +1,91 @@
+#include "framework/haptics/force_effects.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "framework/core/diagnostics/refuse.h"
+
+namespace presa {
+namespace {
+
+enum Code { kCannotBeMade = 596 };
+
+// A sum of several terms may exceed the bound by rounding.
+constexpr double kRounding = 1 + 1e-9;
+
+std::string nameOf(const PluginElement& element, const Scene& scene) {
+  const std::string name = "<" + element.element + ">";
+  return element.body == kNoBody ? name
+                                 : name + " of body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
+}
+
+std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tools) {
+  const auto& table = pluginTable<ForceEffectPlugin>(element.plugin, "presaForceEffectPlugin");
+  Diagnostics diagnostics;
+  try {
+    if (auto effect = table.create(element, tools)) return effect;
+    diagnostics.error(kCannotBeMade, element.where, "plug-in '" + element.plugin + "' made nothing for <" + element.element + ">");
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    diagnostics.error(kCannotBeMade, element.where,
+                      "plug-in '" + element.plugin + "' cannot make <" + element.element + ">: " + error.what(),
+                      "report this to the author of the plug-in");
+  }
+  throw InputError(std::move(diagnostics));
+}
+
+}  // namespace
+
+ForceEffects::ForceEffects(const World& world) {
+  const Scene& scene = world.scene;
+  for (const PluginElement& element : scene.plugin_elements) {
+    Effect effect{make(element, scene.devices.size()), nameOf(element, scene), element.number("max_force"), element.body};
+    if (element.body != kNoBody && !scene.bodies[static_cast<std::size_t>(element.body)].fixed) {
+      const auto known = std::find(moving_.begin(), moving_.end(), element.body);
+      effect.slot = static_cast<std::int32_t>(known - moving_.begin());
+      if (known == moving_.end()) moving_.push_back(element.body);
+    }
+    effects_.push_back(std::move(effect));
+  }
+}
+
+EffectReactions ForceEffects::reactions() const {
+  EffectReactions reactions;
+  for (const std::int32_t body : moving_) reactions.bodies.push_back({.body = body});
+  return reactions;
+}
+
+std::vector<std::string> ForceEffects::names() const {
+  std::vector<std::string> names;
+  for (const Effect& effect : effects_) names.push_back(effect.name);
+  return names;
+}
+
+void ForceEffects::apply(std::size_t tool, const Tick& tick, const FingerInput& input, double radius,
+                         const Touchables& touchables, FingerContact& out, EffectReactions& reactions) noexcept {
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    Effect& effect = effects_[i];
+    const Pose X_WB = touchables.frameOf(effect.body);
+    const EffectForce force = effect.effect->apply(tool, {tick.time, tick.period, input.p_WH, input.v_WH, radius, X_WB});
+    // written so that NaN fails
+    if (!(force.f_T_W.norm() <= effect.max_force * kRounding && force.p_WF.allFinite())) {
+      int none = -1;
+      broken_.compare_exchange_strong(none, static_cast<int>(i), std::memory_order_acq_rel);
+      break;
+    }
+    out.f_H_W += force.f_T_W;
+    react(effect, force, X_WB, tick.period, reactions);
+  }
+  if (broken() >= 0) out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+void ForceEffects::react(const Effect& effect, const EffectForce& force, const Pose& X_WB, double period,
+                         EffectReactions& reactions) const noexcept {
+  if (effect.slot < 0) return;
+  EffectReactions::OnBody& on = reactions.bodies[static_cast<std::size_t>(effect.slot)];
+  on.impulse_W -= period * force.f_T_W;
+  on.angular_impulse_W -= period * (force.p_WF - X_WB.p).cross(force.f_T_W);
+}
+
+}  // namespace presa

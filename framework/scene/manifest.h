@@ -1,0 +1,46 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "framework/core/diagnostics/diagnostics.h"
+
+namespace presa {
+
+/// What a plug-in adds to scenes, from the file `presa_NAME.xml` beside its library `presa_NAME.so`. Manifests are read
+/// without loading any library, so that a scene costs nothing for plug-ins that it does not name.
+struct Manifest {
+  enum class Kind { kForceEffect };
+  enum class Place { kBody, kScene };
+
+  struct Attribute {
+    std::string name, type, unit, about;
+    bool required = true;
+    std::string default_value;  ///< if not required
+    std::string above, min, max;  ///< bounds of a number; empty: none
+  };
+  struct Element {
+    std::string name;
+    Place place = Place::kBody;
+    std::vector<Attribute> attributes;
+    SourceLocation where;
+  };
+
+  std::string name;  ///< of the plug-in
+  Kind kind = Kind::kForceEffect;
+  std::string about;
+  std::vector<Element> elements;
+  std::string file;
+};
+
+/// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.
+/// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
+/// plug-in brings already, E595 a force effect whose element lacks the required attribute max_force.
+std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
+
+/// The manifests of this process, read once. Throws InputError with all errors. Thread: any.
+const std::vector<Manifest>& manifests();
+
+/// The schema of scenes with the elements of these plug-ins.
+std::string sceneSchemaWith(const std::vector<Manifest>& all);
+
+}  // namespace presa

@@ -1,0 +1,66 @@
+#include "framework/scene/plugin_element.h"
+
+#include <stdexcept>
+
+#include "framework/scene/manifest.h"
+#include "framework/scene/scene_parts.h"
+#include "framework/scene/xml/value_rule.h"
+
+namespace presa {
+namespace {
+
+std::vector<double> numbersOf(const PluginElement& element, const std::string& attribute, std::size_t count) {
+  std::vector<double> values;
+  for (const std::string& word : xml::splitWords(element.text(attribute))) {
+    double value = 0;
+    if (xml::readNumber(word, value) == xml::NumberKind::kFinite) values.push_back(value);
+  }
+  if (values.size() == count) return values;
+  throw std::logic_error("the manifest of plug-in '" + element.plugin + "' gives <" + element.element + " " +
+                         attribute + "> another type than its library expects");
+}
+
+}  // namespace
+
+double PluginElement::number(const std::string& attribute) const { return numbersOf(*this, attribute, 1).front(); }
+
+Vec3 PluginElement::vector3(const std::string& attribute) const {
+  const std::vector<double> v = numbersOf(*this, attribute, 3);
+  return {v[0], v[1], v[2]};
+}
+
+bool PluginElement::boolean(const std::string& attribute) const {
+  const std::string& value = text(attribute);
+  return value == "true" || value == "1";
+}
+
+const std::string& PluginElement::text(const std::string& attribute) const {
+  const auto found = attributes.find(attribute);
+  if (found != attributes.end()) return found->second;
+  throw std::logic_error("the manifest of plug-in '" + plugin + "' gives <" + element + "> no attribute '" + attribute +
+                         "', which its library reads");
+}
+
+std::vector<PluginElement> readPluginElements(const xml::Element& root) {
+  std::map<std::string, std::string> plugins;  // by element
+  for (const Manifest& manifest : manifests()) {
+    for (const Manifest::Element& element : manifest.elements) plugins[element.name] = manifest.name;
+  }
+  std::vector<PluginElement> all;
+  const auto add = [&](const xml::Element& element, std::int32_t body) {
+    const auto plugin = plugins.find(element.name());
+    if (plugin == plugins.end()) return;
+    PluginElement& added = all.emplace_back(PluginElement{plugin->second, element.name(), body, {}, element.where()});
+    for (const std::string& name : element.attributeNames()) added.attributes[name] = element.attribute(name);
+  };
+  std::int32_t body = 0;
+  for (const xml::Element& child : root.children()) {
+    add(child, kNoBody);
+    if (child.name() != "body") continue;
+    for (const xml::Element& inner : child.children()) add(inner, body);
+    ++body;
+  }
+  return all;
+}
+
+}  // namespace presa

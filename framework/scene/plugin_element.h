@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/math/spatial.h"
+#include "framework/core/state/limits.h"
+
+namespace presa {
+
+/// An element of the scene that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
+struct PluginElement {
+  std::string plugin;              ///< its name, from the manifest
+  std::string element;             ///< name of the element
+  std::int32_t body = kNoBody;     ///< index of the body in which it stands; kNoBody: in the scene
+  std::map<std::string, std::string> attributes;
+  SourceLocation where;
+
+  /// Value of an attribute of type number, vector3, boolean or text. Throws std::logic_error when the manifest has none
+  /// of that name or type.
+  double number(const std::string& attribute) const;
+  Vec3 vector3(const std::string& attribute) const;
+  bool boolean(const std::string& attribute) const;
+  const std::string& text(const std::string& attribute) const;
+};
+
+}  // namespace presa
