@@ -43,5 +43,7 @@ struct ForceEffectPlugin {
 
 }  // namespace presa
 
-#define PRESA_FORCE_EFFECT_PLUGIN(table) \
-  extern "C" __attribute__((visibility("default"))) const presa::ForceEffectPlugin* presaForceEffectPlugin() { return &(table); }
+#define PRESA_FORCE_EFFECT_PLUGIN(table)                                                                       \
+  extern "C" __attribute__((visibility("default"))) const presa::ForceEffectPlugin* presaForceEffectPlugin() { \
+    return &(table);                                                                                           \
+  }

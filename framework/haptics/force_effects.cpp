@@ -15,8 +15,9 @@ constexpr double kRounding = 1 + 1e-9;
 
 std::string nameOf(const PluginElement& element, const Scene& scene) {
   const std::string name = "<" + element.element + ">";
-  return element.body == kNoBody ? name
-                                 : name + " of body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
+  return element.body == kNoBody
+             ? name
+             : name + " of body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
 }
 
 std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tools) {
@@ -24,7 +25,8 @@ std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tool
   Diagnostics diagnostics;
   try {
     if (auto effect = table.create(element, tools)) return effect;
-    diagnostics.error(kCannotBeMade, element.where, "plug-in '" + element.plugin + "' made nothing for <" + element.element + ">");
+    diagnostics.error(kCannotBeMade, element.where,
+                      "plug-in '" + element.plugin + "' made nothing for <" + element.element + ">");
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -40,7 +42,8 @@ std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tool
 ForceEffects::ForceEffects(const World& world) {
   const Scene& scene = world.scene;
   for (const PluginElement& element : scene.plugin_elements) {
-    Effect effect{make(element, scene.devices.size()), nameOf(element, scene), element.number("max_force"), element.body};
+    Effect effect{make(element, scene.devices.size()), nameOf(element, scene), element.number("max_force"),
+                  element.body};
     if (element.body != kNoBody && !scene.bodies[static_cast<std::size_t>(element.body)].fixed) {
       const auto known = std::find(moving_.begin(), moving_.end(), element.body);
       effect.slot = static_cast<std::int32_t>(known - moving_.begin());
@@ -67,7 +70,8 @@ void ForceEffects::apply(std::size_t tool, const Tick& tick, const FingerInput& 
   for (std::size_t i = 0; i < effects_.size(); ++i) {
     Effect& effect = effects_[i];
     const Pose X_WB = touchables.frameOf(effect.body);
-    const EffectForce force = effect.effect->apply(tool, {tick.time, tick.period, input.p_WH, input.v_WH, radius, X_WB});
+    const EffectForce force =
+        effect.effect->apply(tool, {tick.time, tick.period, input.p_WH, input.v_WH, radius, X_WB});
     // written so that NaN fails
     if (!(force.f_T_W.norm() <= effect.max_force * kRounding && force.p_WF.allFinite())) {
       int none = -1;

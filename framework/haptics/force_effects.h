@@ -47,9 +47,9 @@ class ForceEffects {
   struct Effect {
     std::unique_ptr<ForceEffect> effect;
     std::string name;
-    double max_force = 0;         ///< [N]
+    double max_force = 0;  ///< [N]
     std::int32_t body = kNoBody;
-    std::int32_t slot = -1;       ///< index into EffectReactions::bodies; -1: the body does not move
+    std::int32_t slot = -1;  ///< index into EffectReactions::bodies; -1: the body does not move
   };
   void react(const Effect& effect, const EffectForce& force, const Pose& X_WB, double period,
              EffectReactions& reactions) const noexcept;

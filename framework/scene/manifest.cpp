@@ -19,9 +19,9 @@ enum Code { kBroken = 593, kTaken = 594, kUnbounded = 595 };
 constexpr const char* kPrefix = "presa_";
 
 Manifest::Attribute readAttribute(const xml::Element& element) {
-  return {element.attribute("name"),        element.attribute("type"),  element.attribute("unit"),
-          element.attribute("about"),       !element.hasAttribute("default"), element.attribute("default"),
-          element.attribute("above"),       element.attribute("min"),   element.attribute("max")};
+  return {element.attribute("name"),  element.attribute("type"),        element.attribute("unit"),
+          element.attribute("about"), !element.hasAttribute("default"), element.attribute("default"),
+          element.attribute("above"), element.attribute("min"),         element.attribute("max")};
 }
 
 Manifest read(const xml::Element& root, const std::string& file) {
@@ -44,11 +44,11 @@ void checkForce(const Manifest& manifest, Diagnostics& diagnostics) {
       return attribute.name == "max_force" && attribute.type == "number" && attribute.required;
     });
     if (!bounded) {
-      diagnostics.error(kUnbounded, element.where,
-                        "<" + element.name + "> of the force effect '" + manifest.name +
-                            "' has no required number max_force",
-                        "the scene must bound every force effect; add <attribute name=\"max_force\" type=\"number\" "
-                        "unit=\"N\" above=\"0\" about=\"…\"/>");
+      diagnostics.error(
+          kUnbounded, element.where,
+          "<" + element.name + "> of the force effect '" + manifest.name + "' has no required number max_force",
+          "the scene must bound every force effect; add <attribute name=\"max_force\" type=\"number\" "
+          "unit=\"N\" above=\"0\" about=\"…\"/>");
     }
   }
 }
@@ -92,10 +92,10 @@ void checkTaken(const std::vector<Manifest>& all, Diagnostics& diagnostics) {
       const auto [taken, is_new] =
           owners.try_emplace(element.name, "plug-in '" + manifest.name + "' (" + manifest.file + ")");
       if (is_new) continue;
-      diagnostics.error(kTaken, element.where,
-                        "plug-in '" + manifest.name + "' brings <" + element.name + ">, which " + taken->second +
-                            " brings already",
-                        "rename the element, or remove one of the two plug-ins");
+      diagnostics.error(
+          kTaken, element.where,
+          "plug-in '" + manifest.name + "' brings <" + element.name + ">, which " + taken->second + " brings already",
+          "rename the element, or remove one of the two plug-ins");
     }
   }
 }
@@ -184,7 +184,8 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
       declarations[element.place] += declarationOf(element, types);
   }
   insertAt(xsd, "types of plug-ins", types);
-  for (const auto& [place, text] : declarations) insertAt(xsd, std::string("elements of plug-ins: ") + nameOf(place), text);
+  for (const auto& [place, text] : declarations)
+    insertAt(xsd, std::string("elements of plug-ins: ") + nameOf(place), text);
   return xsd;
 }
 

@@ -15,7 +15,7 @@ struct Manifest {
   struct Attribute {
     std::string name, type, unit, about;
     bool required = true;
-    std::string default_value;  ///< if not required
+    std::string default_value;    ///< if not required
     std::string above, min, max;  ///< bounds of a number; empty: none
   };
   struct Element {

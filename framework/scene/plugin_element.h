@@ -11,9 +11,9 @@ namespace presa {
 
 /// An element of the scene that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
 struct PluginElement {
-  std::string plugin;              ///< its name, from the manifest
-  std::string element;             ///< name of the element
-  std::int32_t body = kNoBody;     ///< index of the body in which it stands; kNoBody: in the scene
+  std::string plugin;           ///< its name, from the manifest
+  std::string element;          ///< name of the element
+  std::int32_t body = kNoBody;  ///< index of the body in which it stands; kNoBody: in the scene
   std::map<std::string, std::string> attributes;
   SourceLocation where;
 

@@ -1,7 +1,7 @@
 #include <filesystem>
 
-#include "framework/scene/scene_parts.h"
 #include "framework/scene/manifest.h"
+#include "framework/scene/scene_parts.h"
 
 namespace presa {
 namespace {

@@ -28,7 +28,8 @@ const char* dynamicsPlugin(const Scene& scene) {
 
 void planEffects(const Scene& scene, Plan& plan) {
   for (const PluginElement& element : scene.plugin_elements) {
-    const bool known = std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; });
+    const bool known =
+        std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; });
     if (known || scene.devices.empty()) continue;
     const std::string owner = element.body == kNoBody
                                   ? "the scene"

@@ -53,7 +53,7 @@ class Session {
   const Monitor& monitor() const noexcept { return *monitor_; }
   Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
-  View* view() noexcept { return view_; }                     ///< null without a view
+  View* view() noexcept { return view_; }  ///< null without a view
   /// The force effect that broke its contract (framework/haptics/force_effect.h), or none. Thread: any.
   std::optional<std::string> brokenEffect() const;
   AssemblyControl* assembly() noexcept { return assembly_; }  ///< null if nothing is assembled

@@ -80,13 +80,14 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
   finger.p_WH = input.p_WH;
   const bool patched = neighbourhoods_.hasValue() && f < static_cast<std::size_t>(neighbourhoods_->count);
   // 10 %: room for being pushed out of a moving body
-  tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved, now.period,
-                                       patched ? &neighbourhoods_->fingers[f] : nullptr);
+  tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved,
+                                       now.period, patched ? &neighbourhoods_->fingers[f] : nullptr);
   finger.near->setStep(moved + tick.approach);
   for (const auto& stage : finger_stages_) stage->apply(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
   for (const auto& added : force_effects_)
-    added->effects.apply(f, now, input, world_->scene.devices[f].fingertip_radius, touchables_, out, added->reactions.value);
+    added->effects.apply(f, now, input, world_->scene.devices[f].fingertip_radius, touchables_, out,
+                         added->reactions.value);
 }
 
 std::vector<std::string> HapticsProxy::stages() const {

@@ -64,8 +64,8 @@ class HapticsProxy final : public Module, public ForceEffectHost {
   In<DeviceState> device_{*this, "device_state"};
   In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kHold};
-  std::optional<In<SurfaceChange>> surface_change_;    // only if friction can change
-  std::vector<std::unique_ptr<Commanded>> commanded_;  // none or one
+  std::optional<In<SurfaceChange>> surface_change_;      // only if friction can change
+  std::vector<std::unique_ptr<Commanded>> commanded_;    // none or one
   std::vector<std::unique_ptr<Effects>> force_effects_;  // none or one
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };

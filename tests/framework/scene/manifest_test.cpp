@@ -1,0 +1,83 @@
+#include "framework/scene/manifest.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "apps/common/scratch_folder.h"
+
+namespace presa {
+namespace {
+
+class Manifests : public testing::Test {
+ protected:
+  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_.path() / file) << text; }
+  static std::string effect(const std::string& name, const std::string& element, const std::string& more = {}) {
+    return "<plugin name=\"" + name + "\" kind=\"force_effect\" about=\"a test\"><element name=\"" + element +
+           "\" in=\"body\"><attribute name=\"max_force\" type=\"number\" above=\"0\" about=\"a bound\"/>" + more +
+           "</element></plugin>";
+  }
+  std::string errors() const {
+    Diagnostics diagnostics;
+    readManifests({folder_.path().string()}, diagnostics);
+    std::string all;
+    for (const Diagnostic& one : diagnostics.all()) all += std::to_string(one.code) + " " + one.message + "\n";
+    return all;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Manifests, BringTheirElementsIntoTheSchema) {
+  write("presa_wind.xml",
+        effect("wind", "wind",
+               "<attribute name=\"speed\" type=\"number\" default=\"2\" max=\"9\" unit=\"m/s\" about=\"how fast\"/>"));
+  Diagnostics diagnostics;
+  const auto all = readManifests({folder_.path().string()}, diagnostics);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_FALSE(diagnostics.hasErrors());
+  const std::string xsd = sceneSchemaWith(all);
+  EXPECT_NE(xsd.find("<xs:element name=\"wind\" minOccurs=\"0\">"), std::string::npos);
+  EXPECT_NE(xsd.find("how fast [m/s]"), std::string::npos);
+}
+
+TEST_F(Manifests, OfTheFirstFolderCount) {
+  write("presa_wind.xml", effect("wind", "wind"));
+  const ScratchFolder other;
+  std::ofstream(other.path() / "presa_wind.xml") << effect("wind", "gale");
+  Diagnostics diagnostics;
+  const auto all = readManifests({other.path().string(), folder_.path().string()}, diagnostics);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].elements[0].name, "gale");
+}
+
+TEST_F(Manifests, NeedTheNameOfTheirFile) {
+  write("presa_wind.xml", effect("gale", "wind"));
+  EXPECT_EQ(errors().substr(0, 4), "593 ");
+}
+
+TEST_F(Manifests, MayNotBringAnElementTwice) {
+  write("presa_gale.xml", effect("gale", "wind"));
+  write("presa_wind.xml", effect("wind", "wind"));
+  EXPECT_NE(errors().find("594 plug-in 'wind' brings <wind>, which plug-in 'gale'"), std::string::npos) << errors();
+}
+
+TEST_F(Manifests, MayNotBringAnElementOfPresa) {
+  write("presa_wind.xml", effect("wind", "friction"));
+  EXPECT_NE(errors().find("594 plug-in 'wind' brings <friction>, which Presa itself"), std::string::npos) << errors();
+}
+
+TEST_F(Manifests, OfForceEffectsBoundTheForce) {
+  write("presa_wind.xml",
+        "<plugin name=\"wind\" kind=\"force_effect\" about=\"a test\"><element name=\"wind\" in=\"body\">"
+        "<attribute name=\"max_force\" type=\"number\" default=\"3\" about=\"a bound\"/></element></plugin>");
+  EXPECT_EQ(errors().substr(0, 4), "595 ");
+}
+
+TEST_F(Manifests, AreCheckedLikeAnyFile) {
+  write("presa_wind.xml", "<plugin name=\"wind\" kind=\"forse_effect\" about=\"a test\"/>");
+  EXPECT_NE(errors().find("forse_effect"), std::string::npos) << errors();
+}
+
+}  // namespace
+}  // namespace presa
