@@ -11,7 +11,7 @@ namespace presa {
 class AssemblyObserver final : public Module {
  public:
   explicit AssemblyObserver(std::atomic<std::int32_t>& filled)
-      : Module("assembly_tap", RateGroup::kCollision), filled_(filled) {}
+      : Module("assembly_observer", RateGroup::kCollision), filled_(filled) {}
   void step(const Tick&) noexcept override { filled_.store(assembly_->filled, std::memory_order_relaxed); }
   std::vector<std::string> stages() const override { return {"count the places that are filled"}; }
 

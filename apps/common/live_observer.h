@@ -20,7 +20,7 @@ struct LiveValues {
 /// Copies forces and modes for the status line.
 class LiveObserver final : public HapticObserver {
  public:
-  explicit LiveObserver(LiveValues& values) : HapticObserver("live_tap"), values_(values) {}
+  explicit LiveObserver(LiveValues& values) : HapticObserver("live_observer"), values_(values) {}
 
   void observe(const HapticSample& sample) noexcept override {
     const ContactExchange& contact = sample.contact;

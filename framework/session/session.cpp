@@ -1,7 +1,7 @@
 #include "framework/session/session.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "framework/assembly/guide_module.h"
 #include "framework/core/graph/graph_builder.h"
@@ -24,31 +24,40 @@ const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
   return found == rig.devices.end() ? nullptr : &*found;
 }
 
+/// The devices of one driver, in the order of `bindings`, made in one call because two of them may be one hand. Every
+/// failure is an error at its binding.
+DeviceList createOf(const std::string& driver, const std::vector<DeviceBinding>& bindings,
+                    const std::shared_ptr<const World>& world, const RunOptions& options, Diagnostics& diagnostics) {
+  const auto refuseAll = [&](const std::string& what, const std::string& help) {
+    for (const DeviceBinding& binding : bindings)
+      diagnostics.error(406, binding.where, "role '" + binding.role + "': driver '" + driver + "' " + what, help);
+    return DeviceList(bindings.size());
+  };
+  try {
+    const std::size_t errors_before = diagnostics.errorCount();
+    DeviceList made = devicePlugin(driver).create(bindings, world, options, diagnostics);
+    const auto there = made.size() - static_cast<std::size_t>(std::count(made.begin(), made.end(), nullptr));
+    if (made.size() == bindings.size() && (there == made.size() || diagnostics.errorCount() > errors_before))
+      return made;
+    return refuseAll("made " + std::to_string(there) + " devices for " + std::to_string(bindings.size()) + " roles",
+                     "report this to the author of the driver");
+  } catch (const InputError& error) {
+    return refuseAll("cannot be loaded", error.what());
+  }
+}
+
 }  // namespace
 
 DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOptions& options, const Plan& plan,
                          Diagnostics& diagnostics) {
   DeviceList devices(plan.devices.size());
-  std::set<std::string> done;
-  for (const PlannedDevice& planned : plan.devices) {
-    if (!done.insert(planned.driver).second) continue;
-    // a driver makes all its devices in one call, because two of them may be one hand
-    std::vector<std::size_t> places;
+  std::map<std::string, std::vector<std::size_t>> places;  // of each driver's roles
+  for (std::size_t f = 0; f < plan.devices.size(); ++f) places[plan.devices[f].driver].push_back(f);
+  for (const auto& [driver, roles] : places) {
     std::vector<DeviceBinding> bindings;
-    for (std::size_t f = 0; f < plan.devices.size(); ++f) {
-      if (plan.devices[f].driver != planned.driver) continue;
-      places.push_back(f);
-      bindings.push_back(*bindingOf(world->rig, plan.devices[f].role));
-    }
-    try {
-      DeviceList made = devicePlugin(planned.driver).create(bindings, world, options, diagnostics);
-      for (std::size_t i = 0; i < std::min(made.size(), places.size()); ++i) devices[places[i]] = std::move(made[i]);
-    } catch (const InputError& error) {
-      for (const DeviceBinding& binding : bindings)
-        diagnostics.error(406, binding.where,
-                          "role '" + binding.role + "': driver '" + binding.driver + "' cannot be loaded",
-                          error.what());
-    }
+    for (const std::size_t f : roles) bindings.push_back(*bindingOf(world->rig, plan.devices[f].role));
+    DeviceList made = createOf(driver, bindings, world, options, diagnostics);
+    for (std::size_t i = 0; i < roles.size(); ++i) devices[roles[i]] = std::move(made[i]);
   }
   std::erase(devices, nullptr);
   return devices;
