@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
             presa::addRun(app, status);
             presa::addCheck(app, status);
             presa::addExplain(app, status);
+            presa::addPlugins(app, status);
             presa::addReplay(app, status);
             presa::addDevice(app, status);
             presa::addView(app, status);

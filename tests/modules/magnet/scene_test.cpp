@@ -45,6 +45,16 @@ TEST(SceneWithoutMagnet, LoadsNoneOfIt) {
   EXPECT_EQ(explained.out.find("effect_reactions"), std::string::npos);
 }
 
+TEST(Plugins, AreListedWithWhatTheyBringAndNotLoaded) {
+  const Outcome listed = test::shell(kPlugins + PRESA_BINARY_DIR "/bin/presa plugins");
+  EXPECT_EQ(listed.status, 0) << listed.err;
+  EXPECT_NE(listed.out.find("magnet (force effect), " PRESA_BINARY_DIR "/lib/presa\n"), std::string::npos)
+      << listed.out;
+  EXPECT_NE(listed.out.find("    <magnet> in a body\n      max_force    number [N] in (0, 20], required: "),
+            std::string::npos);
+  EXPECT_NE(listed.out.find("faulty (force effect), " PRESA_BINARY_DIR "/tests/plugins\n"), std::string::npos);
+}
+
 TEST(SceneWithMagnet, ErrorsAreLikeThoseOfAnyElement) {
   const Outcome missing = run(cubeWith("<magnet/>", true, "missing.xml"));
   EXPECT_EQ(missing.status, 2);

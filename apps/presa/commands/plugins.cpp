@@ -1,0 +1,81 @@
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "apps/presa/commands/commands.h"
+#include "framework/core/plugin/plugin_loader.h"
+#include "framework/scene/manifest.h"
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* kindOf(const Manifest& manifest) {
+  return manifest.kind == Manifest::Kind::kForceEffect ? "force effect" : "?";
+}
+
+std::string boundsOf(const Manifest::Attribute& attribute) {
+  if (attribute.above.empty() && attribute.min.empty() && attribute.max.empty()) return {};
+  const std::string low = !attribute.above.empty() ? "(" + attribute.above
+                          : !attribute.min.empty() ? "[" + attribute.min
+                                                   : "(-inf";
+  return " in " + low + ", " + (attribute.max.empty() ? "inf)" : attribute.max + "]");
+}
+
+void print(const Manifest::Attribute& attribute) {
+  const std::string unit = attribute.unit.empty() ? "" : " [" + attribute.unit + "]";
+  const std::string given = attribute.required ? "required" : "default " + attribute.default_value;
+  std::printf("      %-12s %s%s%s, %s: %s\n", attribute.name.c_str(), attribute.type.c_str(), unit.c_str(),
+              boundsOf(attribute).c_str(), given.c_str(), attribute.about.c_str());
+}
+
+void print(const Manifest& manifest) {
+  std::printf("%s (%s), %s\n  %s\n", manifest.name.c_str(), kindOf(manifest),
+              fs::path(manifest.file).parent_path().lexically_normal().c_str(), manifest.about.c_str());
+  for (const Manifest::Element& element : manifest.elements) {
+    std::printf("    <%s> in %s\n", element.name.c_str(),
+                element.place == Manifest::Place::kBody ? "a body" : "the scene");
+    for (const Manifest::Attribute& attribute : element.attributes) print(attribute);
+  }
+}
+
+/// Libraries that have no manifest, by their folder; the first folder that has a name counts.
+std::map<fs::path, std::set<std::string>> otherLibraries(const std::vector<Manifest>& all) {
+  std::set<std::string> known;
+  for (const Manifest& manifest : all) known.insert("presa_" + manifest.name + ".so");
+  std::map<fs::path, std::set<std::string>> others;
+  for (const std::string& folder : pluginFolders()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      const std::string file = entry.path().filename().string();
+      if (!file.starts_with("presa_") || entry.path().extension() != ".so" || !known.insert(file).second) continue;
+      others[fs::path(folder).lexically_normal()].insert(file.substr(6, file.size() - 9));
+    }
+  }
+  return others;
+}
+
+int listPlugins() {
+  const std::vector<Manifest>& all = manifests();
+  for (const Manifest& manifest : all) print(manifest);
+  for (const auto& [folder, names] : otherLibraries(all)) {
+    std::printf("Without a manifest, %s\n ", folder.c_str());
+    for (const std::string& name : names) std::printf(" %s", name.c_str());
+    std::printf("\n");
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void addPlugins(Command app, int& status) {
+  Command command = app.command("plugins", "List the plug-ins, and the elements that they bring to scenes");
+  command.footer(
+      "Plug-ins are looked for in the folders of PRESA_PLUGIN_PATH (separated by colons), then beside Presa's own.\n"
+      "No library is loaded for this list. A scene loads only the plug-ins that it names.");
+  command.action([&status] { status = listPlugins(); });
+}
+
+}  // namespace presa
