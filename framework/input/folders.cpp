@@ -27,13 +27,15 @@ bool liesIn(const fs::path& file, const fs::path& folder) {
   return end == folder.end() || (end->empty() && std::next(end) == folder.end());  // the last component of "a/" is ""
 }
 
-/// config and experiments beside the program, as in the source tree.
+/// config and experiments above the program, as in the source tree, or below share/presa, where they are installed.
 std::vector<fs::path> ownFolders() {
   std::error_code error;
   fs::path up = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (int level = 0; level < 5 && up.has_relative_path(); ++level, up = up.parent_path()) {
-    if (fs::is_directory(up / "config/schema", error) && fs::is_directory(up / "experiments", error))
-      return {real(up / "config"), real(up / "experiments")};
+    for (const fs::path& root : {up, up / "share/presa"}) {
+      if (fs::is_directory(root / "config/schema", error) && fs::is_directory(root / "experiments", error))
+        return {real(root / "config"), real(root / "experiments")};
+    }
   }
   return {};
 }

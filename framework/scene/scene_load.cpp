@@ -9,7 +9,9 @@ namespace {
 enum Code { kVersion = 201 };
 
 const xml::Schema& sceneSchema() {
-  static const xml::Schema schema(sceneSchemaWith(manifests()));
+  static const xml::Schema schema(
+      sceneSchemaWith(manifests()),
+      "; if a plug-in brings it, install the plug-in, or name its folder in PRESA_PLUGIN_PATH (presa plugins)");
   return schema;
 }
 

@@ -58,6 +58,7 @@ TEST(Layering, FilesFromOutsideComeThroughOneDoor) { EXPECT_THAT(offenders(opens
 TEST(Layering, EveryRoomSaysWhatItIsFor) {
   std::vector<std::string> silent;
   for (const std::string& room : rooms()) {
+    if (room == "docs") continue;  // pages, no code
     if (!std::filesystem::exists(std::filesystem::path(PRESA_SOURCE_DIR) / room / "README.md")) silent.push_back(room);
   }
   EXPECT_THAT(silent, IsEmpty());
@@ -79,7 +80,7 @@ TEST(Layering, TheRootHoldsNothingElse) {
                                       "CONTRIBUTING.md", "CHANGELOG.md",      "dev",         ".ci",
                                       ".gitignore",      ".clang-format",     ".clang-tidy", ".editorconfig",
                                       "framework",       "modules",           "devices",     "apps",
-                                      "config",          "experiments",       "tests"};
+                                      "config",          "experiments",       "tests",       "docs"};
   std::vector<std::string> others;
   for (const std::string& entry : rootEntries()) {
     if (!allowed.contains(entry)) others.push_back(entry);

@@ -189,7 +189,8 @@ class Checker {
           kUnknownElement, where,
           "unknown element " + tag(name) + " in " + in +
               (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
-          parent.content.empty() ? in + " has no elements in it" : "allowed: " + joined(parent.childNames()));
+          (parent.content.empty() ? in + " has no elements in it" : "allowed: " + joined(parent.childNames())) +
+              (nearest.empty() ? schema_.ifUnknown() : ""));
     }
     if (!nearest.empty()) corrections_.emplace_back(node, nearest);
     return nearest;

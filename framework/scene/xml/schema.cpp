@@ -55,7 +55,8 @@ bool ElementRule::mayBeEmpty() const {
          std::all_of(content.begin(), content.end(), [](const ContentRule& rule) { return rule.min == 0; });
 }
 
-Schema::Schema(const std::string& xsd) : compiled_(std::make_unique<Compiled>()) {
+Schema::Schema(const std::string& xsd, std::string if_unknown)
+    : compiled_(std::make_unique<Compiled>()), if_unknown_(std::move(if_unknown)) {
   prepareLibrary();
   std::string errors;
   const std::unique_ptr<xmlSchemaParserCtxt, decltype(&xmlSchemaFreeParserCtxt)> context(

@@ -48,13 +48,15 @@ struct ElementRule {
 /// ("1", "0..1", "1..*") in the namespace urn:presa:schema limits how often an element may occur.
 class Schema {
  public:
-  explicit Schema(const std::string& xsd);
+  /// `if_unknown`: added to the help for an unknown element that resembles no known one.
+  explicit Schema(const std::string& xsd, std::string if_unknown = {});
   ~Schema();
   Schema(const Schema&) = delete;
   Schema& operator=(const Schema&) = delete;
 
   const ElementRule& root() const { return *root_; }
   const std::vector<std::unique_ptr<ElementRule>>& elements() const { return elements_; }
+  const std::string& ifUnknown() const { return if_unknown_; }
 
  private:
   friend class Document;
@@ -63,6 +65,7 @@ class Schema {
   std::unique_ptr<Compiled> compiled_;
   std::vector<std::unique_ptr<ElementRule>> elements_;
   const ElementRule* root_ = nullptr;
+  std::string if_unknown_;
 };
 
 }  // namespace presa::xml

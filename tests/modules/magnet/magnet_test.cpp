@@ -5,6 +5,7 @@
 #include "framework/haptics/force_effects.h"
 #include "modules/dynamics_ode/ode_world.h"
 #include "tests/support/alloc_lock_guard.h"
+#include "tests/support/effect_field.h"
 
 namespace presa {
 namespace {
@@ -31,34 +32,15 @@ World boxWithMagnet(const std::string& pos) {
   return world;
 }
 
-/// A world whose bodies stay where they are, and one fingertip.
-class Field {
- public:
-  Field()
-      : world_(boxWithMagnet("0 0 0.02")), effects_(world_), touchables_(world_), reactions_(effects_.reactions()) {}
-  Vec3 at(const Vec3& p_WT) {
-    FingerContact out;
-    FingerInput input;
-    input.p_WH = p_WT;
-    effects_.apply(0, Tick{0, 0, 1e-3}, input, 0.008, touchables_, out, reactions_);
-    return out.f_H_W;
-  }
-
- private:
-  World world_;
-  ForceEffects effects_;
-  Touchables touchables_;
-  EffectReactions reactions_;
-};
-
 const Vec3 kPole{0, 0, 0.02};
+const std::string kElement = R"(<magnet max_force="2" range="0.04" pos="0 0 0.02"/>)";
 
 TEST(Magnet, PullsTowardsItsPoleWithAtMostMaxForce) {
-  Field field;
+  test::EffectField field(kElement);
   double strongest = 0, where = 0;
   const Vec3 direction = Vec3(1, 2, -2) / 3;
   for (double d = 1e-4; d < 0.05; d += 1e-5) {
-    const Vec3 f = field.at(kPole + d * direction);
+    const Vec3 f = field.force(kPole + d * direction);
     EXPECT_NEAR(f.dot(direction), -f.norm(), 1e-12);
     EXPECT_LE(f.norm(), kMaxForce * (1 + 1e-12));
     if (f.norm() > strongest) {
@@ -72,16 +54,16 @@ TEST(Magnet, PullsTowardsItsPoleWithAtMostMaxForce) {
 }
 
 TEST(Magnet, EndsAtItsRange) {
-  Field field;
-  EXPECT_EQ(field.at(kPole + Vec3(kRange, 0, 0)), Vec3::Zero());
-  EXPECT_EQ(field.at(kPole + Vec3(0, 1, 0)), Vec3::Zero());
+  test::EffectField field(kElement);
+  EXPECT_EQ(field.force(kPole + Vec3(kRange, 0, 0)), Vec3::Zero());
+  EXPECT_EQ(field.force(kPole + Vec3(0, 1, 0)), Vec3::Zero());
   // goes to zero like (range - d)^2: no step of the force at the border
-  EXPECT_LT(field.at(kPole + Vec3(kRange - 1e-5, 0, 0)).norm(), 1e-5);
+  EXPECT_LT(field.force(kPole + Vec3(kRange - 1e-5, 0, 0)).norm(), 1e-5);
 }
 
 // Potential V(d) = -max_force range / (6 c) (1 - u^2)^3, from integration by hand; the force must be its gradient.
 TEST(Magnet, CreatesNoEnergy) {
-  Field field;
+  test::EffectField field(kElement);
   const double c = 16 / (25 * std::sqrt(5.0));
   const auto potential = [&](const Vec3& p) {
     const double u2 = (p - kPole).squaredNorm() / (kRange * kRange);
@@ -94,16 +76,16 @@ TEST(Magnet, CreatesNoEnergy) {
       const Vec3 h = kStep * Vec3::Unit(axis);
       const double slope = (potential(p + h) - potential(p - h)) / (2 * kStep);
       // differences of potentials of 0.05 J, rounded to 1e-17, over 2e-6 m
-      EXPECT_NEAR(field.at(p)[axis], -slope, 1e-8) << i;
+      EXPECT_NEAR(field.force(p)[axis], -slope, 1e-8) << i;
     }
   }
 }
 
 TEST(Magnet, NeitherAllocatesNorLocks) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
-  Field field;
+  test::EffectField field(kElement);
   const RealTimeGuard guard;
-  for (int i = 0; i < 100; ++i) field.at(kPole + Vec3(0.001 * i, 0, 0));
+  for (int i = 0; i < 100; ++i) field.force(kPole + Vec3(0.001 * i, 0, 0));
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 

@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/templates/templates.h"
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/core/plugin/plugin_loader.h"
+#include "framework/scene/manifest.h"
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum Code { kBadName = 597, kCannotWrite = 598 };
+
+struct Arguments {
+  std::string kind, name, folder = ".";
+};
+
+/// Text that a new file gets: path below the project's folder, contents.
+struct NewFile {
+  std::string path, text;
+};
+
+void replaceAll(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+/// Replaces the one place where `from` stands.
+void replaceIn(std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("a template for new projects has no '" + from + "'");
+  text.replace(at, from.size(), to);
+}
+
+/// "soft_magnet" as the name of a class: "SoftMagnet".
+std::string className(const std::string& name) {
+  std::string out;
+  bool upper = true;
+  for (const char c : name) {
+    if (c != '_') out += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    upper = c == '_';
+  }
+  return out;
+}
+
+std::string shipped(const std::string& path) {
+  for (const templates::File& file : templates::files()) {
+    if (file.path == path) return file.text;
+  }
+  throw std::logic_error("no embedded file " + path);
+}
+
+/// The shipped cube and its scripted pinch, with `element` in the cube.
+std::vector<NewFile> liftingScene(const std::string& element) {
+  std::string scene = shipped("config/scenes/cube.xml"), rig = shipped("config/rigs/pinch_cube.xml");
+  replaceIn(scene, "../rigs/pinch_cube.xml", "rig.xml");
+  const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
+  replaceIn(scene, cube, cube + "\n    " + element);
+  replaceAll(rig, "../motions/pinch_cube.xml", "motion.xml");
+  return {{"scene/lift.xml", scene},
+          {"scene/rig.xml", rig},
+          {"scene/motion.xml", shipped("config/motions/pinch_cube.xml")}};
+}
+
+std::vector<NewFile> projectOf(const Arguments& arguments) {
+  const std::string folder = "apps/presa/templates/" + arguments.kind + "/";
+  std::vector<NewFile> files = liftingScene("<" + arguments.name + " max_force=\"0.5\"/>");
+  for (const templates::File& file : templates::files()) {
+    std::string path = file.path, text = file.text;
+    if (!path.starts_with(folder)) continue;
+    path = fs::path(path.substr(folder.size())).replace_extension().string();  // without ".in"
+    if (path.starts_with(arguments.kind)) path.replace(0, arguments.kind.size(), arguments.name);
+    replaceAll(text, "@name@", arguments.name);
+    replaceAll(text, "@Name@", className(arguments.name));
+    files.push_back({path, text});
+  }
+  return files;
+}
+
+void checkName(const std::string& name) {
+  const bool good = !name.empty() && name.size() <= 40 && name.front() >= 'a' && name.front() <= 'z' &&
+                    name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+  if (!good) {
+    refuse(kBadName, "", quote(name) + " cannot be the name of a plug-in",
+           "up to 40 lower-case letters, digits and underscores, the first of them a letter");
+  }
+  for (const std::string& folder : pluginFolders()) {
+    const fs::path taken = fs::path(folder) / ("presa_" + name + ".so");
+    if (fs::exists(taken)) {
+      refuse(kBadName, "", "there is a plug-in '" + name + "' already: " + taken.lexically_normal().string(),
+             "choose another name; presa plugins lists those that are taken");
+    }
+  }
+  // elements have the names of their plug-ins here, so Presa's own are taken, too
+  if (sceneSchemaWith(manifests()).find("<xs:element name=\"" + name + "\"") != std::string::npos)
+    refuse(kBadName, "", "<" + name + "> is an element of scenes already", "choose another name");
+}
+
+void write(const fs::path& project, const std::vector<NewFile>& files) {
+  if (fs::exists(project)) {
+    refuse(kCannotWrite, project.string(), "exists already, and nothing in it is overwritten",
+           "choose another name, or another folder with --in FOLDER");
+  }
+  std::error_code error;
+  fs::create_directories(project / "scene", error);
+  for (const NewFile& file : files) {
+    std::ofstream out(project / file.path);
+    out << file.text;
+    if (!out.flush()) refuse(kCannotWrite, (project / file.path).string(), "cannot be written");
+  }
+}
+
+/// Where CMake looks for Presa: empty if it finds it by itself.
+std::string prefixArgument() {
+  std::error_code error;
+  const fs::path prefix = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+  if (!fs::exists(prefix / "lib/cmake/Presa", error)) return " -DCMAKE_PREFIX_PATH=PREFIX";
+  return prefix == "/usr" || prefix == "/usr/local" ? "" : " -DCMAKE_PREFIX_PATH=" + prefix.string();
+}
+
+int writeNew(const Arguments& arguments) {
+  checkName(arguments.name);
+  const fs::path project = (fs::path(arguments.folder) / arguments.name).lexically_normal();
+  const std::vector<NewFile> files = projectOf(arguments);
+  write(project, files);
+  std::printf("%s:\n", project.c_str());
+  for (const NewFile& file : files) std::printf("  %s\n", file.path.c_str());
+  const std::string prefix = prefixArgument();
+  std::printf(
+      "\nBuild and test it:\n"
+      "  cd %s\n"
+      "  cmake -B build%s && cmake --build build && ctest --test-dir build\n"
+      "See it in the scene, and feel it:\n"
+      "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
+      "  presa explain scene/lift.xml\n"
+      "  presa run scene/lift.xml --view window\n",
+      project.c_str(), prefix.c_str());
+  if (prefix.ends_with("PREFIX"))
+    std::printf("Presa is not installed: cmake --install build --prefix PREFIX, in its source tree, comes first.\n");
+  return kExitOk;
+}
+
+}  // namespace
+
+void addNew(Command app, int& status) {
+  auto arguments = std::make_shared<Arguments>();
+  Command command = app.command("new", "Write a project outside the tree: a plug-in with a scene and a test");
+  command.option("KIND", arguments->kind, "effect: a force on the fingertips, with its reaction on a body")
+      .required()
+      .oneOf({"effect"});
+  command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
+  command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
+  command.footer(
+      "The project builds against an installed Presa (find_package(Presa)), and its test lifts a cube with the new\n"
+      "plug-in. docs/plugins.md follows one from here to the first touch.\n"
+      "Example:  presa new effect soft_magnet");
+  command.action([arguments, &status] { status = writeNew(*arguments); });
+}
+
+}  // namespace presa

@@ -1,0 +1,67 @@
+#include "tests/support/effect_field.h"
+
+#include "framework/haptics/force_effects.h"
+#include "framework/scene/manifest.h"
+#include "framework/session/load_world.h"
+
+namespace presa::test {
+namespace {
+
+bool standsInBody(const std::string& element) {
+  for (const Manifest& manifest : manifests()) {
+    for (const Manifest::Element& known : manifest.elements) {
+      const std::string tag = "<" + known.name;
+      const char after = element.starts_with(tag) && element.size() > tag.size() ? element[tag.size()] : 'x';
+      if (after == ' ' || after == '/' || after == '>') return known.place == Manifest::Place::kBody;
+    }
+  }
+  return false;  // reading the scene reports it
+}
+
+std::shared_ptr<const World> worldOf(const std::string& element) {
+  const bool in_body = standsInBody(element);
+  const std::string scene = R"(<scene version="1.0" name="effect">)" + (in_body ? "" : element) +
+                            R"(<world gravity="0 0 0"/><materials><material name="any" stiffness="1000"/></materials>
+    <body name="cube" material="any">)" +
+                            (in_body ? element : "") +
+                            R"(<physics mass="0.2"><box size="0.07 0.07 0.07"/></physics></body>
+    <devices><device role="finger" fingertip_radius="0.008"/></devices></scene>)";
+  Diagnostics diagnostics;
+  const Loaded loaded =
+      loadWithoutDevices({.scene_xml = scene,
+                          .name = "scene of EffectField",
+                          .rig_xml = R"(<rig version="1.0" name="none"><device role="finger" driver="none"/></rig>)"},
+                         {}, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
+  return loaded.world;
+}
+
+}  // namespace
+
+struct EffectField::Parts {
+  explicit Parts(const std::string& element) : world(worldOf(element)) {}
+  std::shared_ptr<const World> world;
+  ForceEffects effects{*world};
+  Touchables touchables{*world};
+  EffectReactions reactions = effects.reactions();
+};
+
+EffectField::EffectField(const std::string& element) : parts_(std::make_unique<Parts>(element)) {}
+EffectField::~EffectField() = default;
+
+Vec3 EffectField::force(const Vec3& p_WT, const Vec3& v_WT) noexcept {
+  FingerContact out;
+  FingerInput input;
+  input.p_WH = p_WT;
+  input.v_WH = v_WT;
+  input.valid = true;
+  parts_->effects.apply(0, Tick{0, 0, 1e-3}, input, parts_->world->scene.devices[0].fingertip_radius,
+                        parts_->touchables, out, parts_->reactions);
+  return out.f_H_W;
+}
+
+Vec3 EffectField::impulse() const noexcept {
+  return parts_->reactions.bodies.empty() ? Vec3::Zero().eval() : parts_->reactions.bodies[0].impulse_W;
+}
+
+}  // namespace presa::test
