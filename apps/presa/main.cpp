@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
             presa::addCheck(app, status);
             presa::addExplain(app, status);
             presa::addPlugins(app, status);
+            presa::addSchema(app, status);
             presa::addNew(app, status);
             presa::addReplay(app, status);
             presa::addDevice(app, status);

@@ -9,6 +9,7 @@ void addRun(Command app, int& status);
 void addCheck(Command app, int& status);
 void addExplain(Command app, int& status);
 void addPlugins(Command app, int& status);
+void addSchema(Command app, int& status);
 void addNew(Command app, int& status);
 void addReplay(Command app, int& status);
 void addView(Command app, int& status);

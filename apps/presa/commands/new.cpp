@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
@@ -57,30 +59,46 @@ std::string shipped(const std::string& path) {
   throw std::logic_error("no embedded file " + path);
 }
 
-/// The shipped cube and its scripted pinch, with `element` in the cube.
-std::vector<NewFile> liftingScene(const std::string& element) {
-  std::string scene = shipped("config/scenes/cube.xml"), rig = shipped("config/rigs/pinch_cube.xml");
+/// The shipped cube with the rig of the project, and `element` in the cube.
+std::string liftingScene(const std::string& element) {
+  std::string scene = shipped("config/scenes/cube.xml");
   replaceIn(scene, "../rigs/pinch_cube.xml", "rig.xml");
   const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
-  replaceIn(scene, cube, cube + "\n    " + element);
-  replaceAll(rig, "../motions/pinch_cube.xml", "motion.xml");
-  return {{"scene/lift.xml", scene},
-          {"scene/rig.xml", rig},
-          {"scene/motion.xml", shipped("config/motions/pinch_cube.xml")}};
+  if (!element.empty()) replaceIn(scene, cube, cube + "\n    " + element);
+  return scene;
 }
 
-std::vector<NewFile> projectOf(const Arguments& arguments) {
-  const std::string folder = "apps/presa/templates/" + arguments.kind + "/";
-  std::vector<NewFile> files = liftingScene("<" + arguments.name + " max_force=\"0.5\"/>");
+/// The shipped fingers that pick up the cube.
+std::vector<NewFile> scriptedFingers() {
+  std::string rig = shipped("config/rigs/pinch_cube.xml");
+  replaceAll(rig, "../motions/pinch_cube.xml", "motion.xml");
+  return {{"scene/rig.xml", rig}, {"scene/motion.xml", shipped("config/motions/pinch_cube.xml")}};
+}
+
+/// The templates of that folder, with the project's name in the place of "KIND" in file names and of @name@ in texts.
+std::vector<NewFile> fromTemplates(const std::string& folder, const Arguments& arguments) {
+  const std::string start = "apps/presa/templates/" + folder + "/";
+  std::vector<NewFile> files;
   for (const templates::File& file : templates::files()) {
     std::string path = file.path, text = file.text;
-    if (!path.starts_with(folder)) continue;
-    path = fs::path(path.substr(folder.size())).replace_extension().string();  // without ".in"
+    if (!path.starts_with(start)) continue;
+    path = fs::path(path.substr(start.size())).replace_extension().string();  // without ".in"
     if (path.starts_with(arguments.kind)) path.replace(0, arguments.kind.size(), arguments.name);
     replaceAll(text, "@name@", arguments.name);
     replaceAll(text, "@Name@", className(arguments.name));
     files.push_back({path, text});
   }
+  return files;
+}
+
+std::vector<NewFile> projectOf(const Arguments& arguments) {
+  std::vector<NewFile> files = fromTemplates("any", arguments);
+  const auto add = [&](std::vector<NewFile> more) { std::ranges::move(more, std::back_inserter(files)); };
+  add(fromTemplates(arguments.kind, arguments));
+  const bool effect = arguments.kind == "effect";
+  files.push_back({"scene/lift.xml", liftingScene(effect ? "<" + arguments.name + " max_force=\"0.5\"/>" : "")});
+  if (effect) add(scriptedFingers());
+  std::ranges::sort(files, {}, &NewFile::path);
   return files;
 }
 
@@ -152,9 +170,13 @@ int writeNew(const Arguments& arguments) {
 void addNew(Command app, int& status) {
   auto arguments = std::make_shared<Arguments>();
   Command command = app.command("new", "Write a project outside the tree: a plug-in with a scene and a test");
-  command.option("KIND", arguments->kind, "effect: a force on the fingertips, with its reaction on a body")
+  command
+      .option(
+          "KIND", arguments->kind,
+          "effect: a force on the fingertips, with its reaction on a body; device: a driver that measures fingertips "
+          "and renders forces")
       .required()
-      .oneOf({"effect"});
+      .oneOf({"effect", "device"});
   command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
   command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
   command.footer(

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# usage: from_package.sh BUILD
+# What a stranger does: makes the Debian package, unpacks it in an empty folder, writes plug-ins there with `presa new`, builds them against
+# the package alone, runs their tests, and feels them in a scene.
+set -euo pipefail
+build=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
+shows() { grep -qF -- "$2" <<<"$1" || fail "no '$2' in: $1"; }
+refused() {  # TEXT COMMAND…: exit status 2, and the message has TEXT
+  local text=$1 code=0 message
+  shift
+  message=$("$@" 2>&1) || code=$?
+  ((code == 2)) || fail "exit status $code of: $*"
+  shows "$message" "$text"
+}
+
+cpack --config "$build/CPackConfig.cmake" -B "$work/package" >cpack.log 2>&1 || { cat cpack.log >&2; fail "no package"; }
+package=$(ls package/presa_*.deb)
+needs=$(dpkg-deb -f "$package" Depends)
+for library in libode8 libfcl libopenscenegraph libusb-1.0 libhdf5; do shows "$needs" "$library"; done
+dpkg-deb -x "$package" root
+prefix=$work/root/usr
+
+# nothing of the tree that Presa was built in
+bare=(env -i "PATH=$prefix/bin:/usr/bin:/bin" "HOME=$work")
+run() { "${bare[@]}" "$@"; }
+
+project() {  # KIND NAME: its tests pass; the current folder becomes its own
+  cd "$work"
+  run presa new "$1" "$2"
+  cd "$2"
+  run cmake -B build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" >cmake.log || fail "$(cat cmake.log)"
+  run cmake --build build -j 2
+  run ctest --test-dir build --output-on-failure --no-tests=error
+}
+
+project effect soft_pull
+refused "scene/lift.xml:16:5: error[E111]: unknown element <soft_pull>" "${bare[@]}" presa check scene/lift.xml
+refused "PRESA_PLUGIN_PATH" "${bare[@]}" presa check scene/lift.xml
+found=("${bare[@]}" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa")
+shows "$("${found[@]}" presa explain scene/lift.xml)" "force effect <soft_pull> of body 'cube'"
+shows "$("${found[@]}" presa plugins)" "soft_pull (force effect), $PWD/build/lib/presa"
+"${found[@]}" presa run scene/lift.xml --lockstep --quiet --summary with.json
+run presa run "$prefix/share/presa/config/scenes/cube.xml" --lockstep --quiet --summary without.json
+[[ $(grep hash with.json) != "$(grep hash without.json)" ]] || fail "the effect changed nothing"
+# in the prefix it is found without a variable
+run cmake --install build --prefix "$prefix" >/dev/null
+shows "$(run presa check scene/lift.xml)" "scene/lift.xml: good"
+
+project device fingertip
+shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "presa_fingertip.so"
+refused "E590" "${bare[@]}" presa check scene/lift.xml
+
+cd "$work"
+refused "error[E597]: there is a plug-in 'magnet' already" "${bare[@]}" presa new effect magnet
+refused "error[E597]: <body> is an element of scenes already" "${bare[@]}" presa new effect body
+refused "error[E597]: 'Magnet' cannot be the name of a plug-in" "${bare[@]}" presa new effect Magnet
+refused "soft: error[E598]: exists already" "${bare[@]}" sh -c "mkdir soft; presa new effect soft"
