@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/scene/manifest.h"
+
 namespace presa {
 namespace {
 
@@ -35,6 +37,21 @@ void planEffects(const Scene& scene, Plan& plan) {
                                   ? "the scene"
                                   : "body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
     plan.effects.push_back({element.plugin, owner + " has <" + element.element + ">"});
+  }
+}
+
+/// What the scene could call for: the plug-ins whose elements it does not have.
+void leaveOutOthers(const Scene& scene, Plan& plan) {
+  for (const Manifest& manifest : manifests()) {
+    if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == manifest.name; })) continue;
+    if (std::ranges::any_of(scene.plugin_elements, [&](const PluginElement& e) { return e.plugin == manifest.name; })) {
+      plan.left_out.push_back({manifest.name, "the scene has no device"});
+      continue;
+    }
+    std::string elements;
+    for (const Manifest::Element& element : manifest.elements)
+      elements += (elements.empty() ? "<" : ", <") + element.name + ">";
+    plan.left_out.push_back({manifest.name, "the scene has no " + elements + ": " + manifest.about});
   }
 }
 
@@ -110,6 +127,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
   call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
        "the scene has no assembly");
   planEffects(scene, plan);
+  leaveOutOthers(scene, plan);
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,
        options.record.empty() ? "the last two seconds are kept for a fault" : "the run is recorded",

@@ -41,7 +41,10 @@ TEST(SceneWithMagnet, LoadsItsPlugInAndShowsIt) {
 TEST(SceneWithoutMagnet, LoadsNoneOfIt) {
   const Outcome explained = test::presa("explain " + test::source("config/scenes/cube.xml"));
   EXPECT_EQ(explained.status, 0) << explained.err;
-  EXPECT_EQ(explained.out.find("magnet"), std::string::npos) << explained.out;
+  EXPECT_EQ(explained.out.find("presa_magnet.so"), std::string::npos) << explained.out;
+  EXPECT_EQ(explained.out.find("force effect"), std::string::npos) << explained.out;
+  // what it could call for
+  EXPECT_NE(explained.out.find("the scene has no <magnet>: attracts fingertips"), std::string::npos) << explained.out;
   EXPECT_EQ(explained.out.find("effect_reactions"), std::string::npos);
 }
 
