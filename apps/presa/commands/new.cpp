@@ -62,7 +62,7 @@ std::string shipped(const std::string& path) {
 /// The shipped cube with the rig of the project, and `element` in the cube.
 std::string liftingScene(const std::string& element) {
   std::string scene = shipped("config/scenes/cube.xml");
-  replaceIn(scene, "../rigs/pinch_cube.xml", "rig.xml");
+  replaceIn(scene, R"(name="cube" rig="../rigs/pinch_cube.xml")", R"(name="lift" rig="rig.xml")");
   const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
   if (!element.empty()) replaceIn(scene, cube, cube + "\n    " + element);
   return scene;
