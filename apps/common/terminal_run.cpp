@@ -183,11 +183,10 @@ void TerminalRun::execute() {
 
 // Called regularly on the main thread: faults, a closed window, the status line.
 void TerminalRun::poll() {
-  if (const auto name = run_->session().brokenEffect(); name && !effect_reported_) {
+  if (const auto name = run_->session().brokenPlugin(); name && !effect_reported_) {
     effect_reported_ = true;
     fail(control_.time.load(std::memory_order_relaxed),
-         "force effect " + *name +
-             ": its plug-in computed a force above max_force or no number; every force went to zero");
+         *name + ": its plug-in computed a force above its bound or no number; every force went to zero");
   }
   FaultEvent event;
   while (run_->session().output() != nullptr && run_->session().output()->nextEvent(event)) {

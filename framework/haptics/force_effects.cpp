@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "framework/core/diagnostics/refuse.h"
+#include "framework/haptics/plugin_object.h"
 
 namespace presa {
 namespace {
-
-enum Code { kCannotBeMade = 596 };
 
 // A sum of several terms may exceed the bound by rounding.
 constexpr double kRounding = 1 + 1e-9;
@@ -22,19 +20,7 @@ std::string nameOf(const PluginElement& element, const Scene& scene) {
 
 std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tools) {
   const auto& table = pluginTable<ForceEffectPlugin>(element.plugin, "presaForceEffectPlugin");
-  Diagnostics diagnostics;
-  try {
-    if (auto effect = table.create(element, tools)) return effect;
-    diagnostics.error(kCannotBeMade, element.where,
-                      "plug-in '" + element.plugin + "' made nothing for <" + element.element + ">");
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    diagnostics.error(kCannotBeMade, element.where,
-                      "plug-in '" + element.plugin + "' cannot make <" + element.element + ">: " + error.what(),
-                      "report this to the author of the plug-in");
-  }
-  throw InputError(std::move(diagnostics));
+  return madeFor(element, [&] { return table.create(element, tools); });
 }
 
 }  // namespace
@@ -42,6 +28,7 @@ std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tool
 ForceEffects::ForceEffects(const World& world) {
   const Scene& scene = world.scene;
   for (const PluginElement& element : scene.plugin_elements) {
+    if (element.kind != PluginKind::kForceEffect) continue;
     Effect effect{make(element, scene.devices.size()), nameOf(element, scene), element.number("max_force"),
                   element.body};
     if (element.body != kNoBody && !scene.bodies[static_cast<std::size_t>(element.body)].fixed) {

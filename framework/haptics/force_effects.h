@@ -13,16 +13,6 @@
 
 namespace presa {
 
-class ForceEffects;
-
-/// A module that renders force effects.
-class ForceEffectHost {
- public:
-  virtual ~ForceEffectHost() = default;
-  /// Null when the scene has none.
-  virtual const ForceEffects* forceEffects() const noexcept = 0;
-};
-
 /// The force effects of a scene. Adds their forces to the rendered force of each tool, and sums up their reactions on
 /// moving bodies. A plug-in whose force is not finite or above its max_force is broken: from then on every tool's force is
 /// NaN, which the output stage latches as a fault and takes to zero.

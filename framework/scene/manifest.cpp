@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum Code { kBroken = 593, kTaken = 594, kUnbounded = 595 };
+enum Code { kBroken = 593, kTaken = 594, kAgainstKind = 595 };
 
 constexpr const char* kPrefix = "presa_";
 
@@ -24,13 +24,17 @@ Manifest::Attribute readAttribute(const xml::Element& element) {
           element.attribute("above"), element.attribute("min"),         element.attribute("max")};
 }
 
+Manifest::Place placeOf(const std::string& name) {
+  using Place = Manifest::Place;
+  return name == "body" ? Place::kBody : name == "friction" ? Place::kFriction : Place::kScene;
+}
+
 Manifest read(const xml::Element& root, const std::string& file) {
-  Manifest manifest{root.attribute("name"), Manifest::Kind::kForceEffect, root.attribute("about"), {}, file};
+  const PluginKind kind =
+      root.attribute("kind") == "friction_law" ? PluginKind::kFrictionLaw : PluginKind::kForceEffect;
+  Manifest manifest{root.attribute("name"), kind, root.attribute("about"), {}, file};
   for (const xml::Element& child : root.children("element")) {
-    Manifest::Element element{child.attribute("name"),
-                              child.attribute("in") == "body" ? Manifest::Place::kBody : Manifest::Place::kScene,
-                              {},
-                              child.where()};
+    Manifest::Element element{child.attribute("name"), placeOf(child.attribute("in")), {}, child.where()};
     for (const xml::Element& attribute : child.children("attribute"))
       element.attributes.push_back(readAttribute(attribute));
     manifest.elements.push_back(std::move(element));
@@ -38,14 +42,26 @@ Manifest read(const xml::Element& root, const std::string& file) {
   return manifest;
 }
 
-void checkForce(const Manifest& manifest, Diagnostics& diagnostics) {
+/// A friction law belongs to a material's friction, a force effect to a body or the scene.
+void checkPlace(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
+  const bool friction = manifest.kind == PluginKind::kFrictionLaw;
+  if (friction == (element.place == Manifest::Place::kFriction)) return;
+  diagnostics.error(kAgainstKind, element.where,
+                    "<" + element.name + "> of the " + nameOf(manifest.kind) + " '" + manifest.name +
+                        "' cannot stand in=\"" + nameOf(element.place) + "\"",
+                    friction ? "in=\"friction\"" : "in=\"body\" or in=\"scene\"");
+}
+
+void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
   for (const Manifest::Element& element : manifest.elements) {
+    checkPlace(manifest, element, diagnostics);
+    if (manifest.kind != PluginKind::kForceEffect) continue;
     const bool bounded = std::ranges::any_of(element.attributes, [](const Manifest::Attribute& attribute) {
       return attribute.name == "max_force" && attribute.type == "number" && attribute.required;
     });
     if (!bounded) {
       diagnostics.error(
-          kUnbounded, element.where,
+          kAgainstKind, element.where,
           "<" + element.name + "> of the force effect '" + manifest.name + "' has no required number max_force",
           "the scene must bound every force effect; add <attribute name=\"max_force\" type=\"number\" "
           "unit=\"N\" above=\"0\" about=\"…\"/>");
@@ -63,7 +79,7 @@ std::optional<Manifest> readManifest(const fs::path& path, Diagnostics& diagnost
                       "the manifest of plug-in '" + manifest.name + "' lies in " + quote(path.filename().string()),
                       "call it presa_" + manifest.name + ".xml");
   }
-  checkForce(manifest, diagnostics);
+  checkElements(manifest, diagnostics);
   return manifest;
 }
 
@@ -79,8 +95,6 @@ std::map<std::string, fs::path> manifestFiles(const std::vector<std::string>& fo
   }
   return files;
 }
-
-const char* nameOf(Manifest::Place place) { return place == Manifest::Place::kBody ? "body" : "scene"; }
 
 /// Reports elements that exist already: Presa's own, or those of another plug-in.
 void checkTaken(const std::vector<Manifest>& all, Diagnostics& diagnostics) {
@@ -137,7 +151,7 @@ std::string typeOf(const Manifest::Element& element, const Manifest::Attribute& 
 
 std::string declarationOf(const Manifest::Element& element, std::string& types) {
   std::string out = "<xs:element name=\"" + element.name + "\"";
-  if (element.place == Manifest::Place::kBody) out += " minOccurs=\"0\"";
+  if (element.place != Manifest::Place::kScene) out += " minOccurs=\"0\"";
   out += "><xs:complexType>";
   for (const Manifest::Attribute& attribute : element.attributes) {
     out += "<xs:attribute name=\"" + attribute.name + "\" type=\"" + typeOf(element, attribute, types) + "\"";
@@ -156,6 +170,19 @@ void insertAt(std::string& xsd, const std::string& mark, const std::string& text
 }
 
 }  // namespace
+
+const char* nameOf(PluginKind kind) { return kind == PluginKind::kFrictionLaw ? "friction law" : "force effect"; }
+
+const char* nameOf(Manifest::Place place) {
+  switch (place) {
+    case Manifest::Place::kBody:
+      return "body";
+    case Manifest::Place::kFriction:
+      return "friction";
+    default:
+      return "scene";
+  }
+}
 
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics) {
   std::vector<Manifest> all;

@@ -3,14 +3,14 @@
 #include <vector>
 
 #include "framework/core/diagnostics/diagnostics.h"
+#include "framework/scene/plugin_element.h"
 
 namespace presa {
 
 /// What a plug-in adds to scenes, from the file `presa_NAME.xml` beside its library `presa_NAME.so`. Manifests are read
 /// without loading any library, so that a scene costs nothing for plug-ins that it does not name.
 struct Manifest {
-  enum class Kind { kForceEffect };
-  enum class Place { kBody, kScene };
+  enum class Place { kBody, kScene, kFriction };
 
   struct Attribute {
     std::string name, type, unit, about;
@@ -26,7 +26,7 @@ struct Manifest {
   };
 
   std::string name;  ///< of the plug-in
-  Kind kind = Kind::kForceEffect;
+  PluginKind kind = PluginKind::kForceEffect;
   std::string about;
   std::vector<Element> elements;
   std::string file;
@@ -34,11 +34,17 @@ struct Manifest {
 
 /// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.
 /// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
-/// plug-in brings already, E595 a force effect whose element lacks the required attribute max_force.
+/// plug-in brings already, E595 an element that stands where those of its kind cannot, or that lacks the required
+/// attribute max_force of a force effect.
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.
 const std::vector<Manifest>& manifests();
+
+/// "force effect"
+const char* nameOf(PluginKind kind);
+/// "body": as in a manifest.
+const char* nameOf(Manifest::Place place);
 
 /// The schema of scenes with the elements of these plug-ins.
 std::string sceneSchemaWith(const std::vector<Manifest>& all);

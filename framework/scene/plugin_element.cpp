@@ -1,5 +1,6 @@
 #include "framework/scene/plugin_element.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "framework/scene/manifest.h"
@@ -41,18 +42,32 @@ const std::string& PluginElement::text(const std::string& attribute) const {
                          "', which its library reads");
 }
 
+bool Scene::hasForceEffects() const {
+  return std::ranges::any_of(plugin_elements,
+                             [](const PluginElement& element) { return element.kind == PluginKind::kForceEffect; });
+}
+
 std::vector<PluginElement> readPluginElements(const xml::Element& root) {
-  std::map<std::string, std::string> plugins;  // by element
+  std::map<std::string, const Manifest*> manifest_of;  // by element
   for (const Manifest& manifest : manifests()) {
-    for (const Manifest::Element& element : manifest.elements) plugins[element.name] = manifest.name;
+    for (const Manifest::Element& element : manifest.elements) manifest_of[element.name] = &manifest;
   }
   std::vector<PluginElement> all;
-  const auto add = [&](const xml::Element& element, std::int32_t body) {
-    const auto plugin = plugins.find(element.name());
-    if (plugin == plugins.end()) return;
-    PluginElement& added = all.emplace_back(PluginElement{plugin->second, element.name(), body, {}, element.where()});
+  const auto add = [&](const xml::Element& element, std::int32_t body, std::int32_t material = -1) {
+    const auto found = manifest_of.find(element.name());
+    if (found == manifest_of.end()) return;
+    const Manifest& manifest = *found->second;
+    PluginElement& added = all.emplace_back(
+        PluginElement{manifest.name, element.name(), body, {}, element.where(), manifest.kind, material});
     for (const std::string& name : element.attributeNames()) added.attributes[name] = element.attribute(name);
   };
+  std::int32_t material = 0;
+  for (const xml::Element& element : materialElements(root)) {
+    for (const xml::Element& friction : element.children("friction")) {
+      for (const xml::Element& law : friction.children()) add(law, kNoBody, material);
+    }
+    ++material;
+  }
   std::int32_t body = 0;
   for (const xml::Element& child : root.children()) {
     add(child, kNoBody);

@@ -9,13 +9,17 @@
 
 namespace presa {
 
+enum class PluginKind { kForceEffect, kFrictionLaw };
+
 /// An element of the scene that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
 struct PluginElement {
   std::string plugin;           ///< its name, from the manifest
   std::string element;          ///< name of the element
-  std::int32_t body = kNoBody;  ///< index of the body in which it stands; kNoBody: in the scene
+  std::int32_t body = kNoBody;  ///< index of the body in which it stands; kNoBody: in none
   std::map<std::string, std::string> attributes;
   SourceLocation where;
+  PluginKind kind = PluginKind::kForceEffect;
+  std::int32_t material = -1;  ///< index of the material in whose <friction> it stands; -1: in none
 
   /// Value of an attribute of type number, vector3, boolean or text. Throws std::logic_error when the manifest has none
   /// of that name or type.

@@ -192,6 +192,7 @@ struct Scene {
   std::optional<BusSettings> bus;
   std::string resolved_xml;  ///< document after --set and defaults, as stored in recordings
 
+  bool hasForceEffects() const;
   const Material& materialOf(const Body& body) const { return materials[body.material]; }
   /// Whether some touchable material has changed_friction and the renderer supports friction.
   bool surfacesChange() const;

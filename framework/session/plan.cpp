@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/haptics/friction_laws.h"
 #include "framework/scene/manifest.h"
 
 namespace presa {
@@ -33,10 +34,24 @@ void planEffects(const Scene& scene, Plan& plan) {
     const bool known =
         std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; });
     if (known || scene.devices.empty()) continue;
+    if (element.kind == PluginKind::kFrictionLaw) continue;  // planned by the materials that fingers touch
     const std::string owner = element.body == kNoBody
                                   ? "the scene"
                                   : "body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
     plan.effects.push_back({element.plugin, owner + " has <" + element.element + ">"});
+  }
+}
+
+/// The friction laws of the bodies that fingers can touch.
+void planFriction(const Scene& scene, Plan& plan) {
+  if (scene.devices.empty() || scene.haptics.renderer != HapticSettings::Renderer::kGodObject) return;
+  for (const Body& body : scene.bodies) {
+    if (!body.haptic || !hasFriction(scene, body.material)) continue;
+    const PluginElement* element = frictionElementOf(scene, body.material);
+    const std::string plugin = element != nullptr ? element->plugin : kDefaultFrictionLaw;
+    if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == plugin; })) continue;
+    const std::string owner = "material '" + scene.materials[body.material].name + "' has ";
+    plan.effects.push_back({plugin, owner + (element != nullptr ? "<" + element->element + ">" : "friction")});
   }
 }
 
@@ -45,7 +60,13 @@ void leaveOutOthers(const Scene& scene, Plan& plan) {
   for (const Manifest& manifest : manifests()) {
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == manifest.name; })) continue;
     if (std::ranges::any_of(scene.plugin_elements, [&](const PluginElement& e) { return e.plugin == manifest.name; })) {
-      plan.left_out.push_back({manifest.name, "the scene has no device"});
+      plan.left_out.push_back(
+          {manifest.name, scene.devices.empty() ? "the scene has no device" : "nothing touchable needs it"});
+      continue;
+    }
+    if (manifest.elements.empty()) {
+      plan.left_out.push_back(
+          {manifest.name, "no touchable material has friction without another law: " + manifest.about});
       continue;
     }
     std::string elements;
@@ -127,6 +148,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
   call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
        "the scene has no assembly");
   planEffects(scene, plan);
+  planFriction(scene, plan);
   leaveOutOthers(scene, plan);
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,

@@ -10,7 +10,7 @@
 #include "framework/device/device_plugin.h"
 #include "framework/device/supervision/supervised_device.h"
 #include "framework/device/transport_watch.h"
-#include "framework/haptics/force_effects.h"
+#include "framework/haptics/plugin_host.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/module_plugin.h"
 
@@ -152,9 +152,8 @@ void Session::offerPointer() {
   if (view_ != nullptr && !fingers.empty()) view_->offerPointer(fingers);
 }
 
-std::optional<std::string> Session::brokenEffect() const {
-  if (force_effects_ == nullptr || force_effects_->broken() < 0) return std::nullopt;
-  return force_effects_->names()[static_cast<std::size_t>(force_effects_->broken())];
+std::optional<std::string> Session::brokenPlugin() const {
+  return plugin_host_ == nullptr ? std::nullopt : plugin_host_->brokenPlugin();
 }
 
 Session::~Session() {
@@ -191,7 +190,7 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   }
   auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world_, options_);
   if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
-  if (const auto* host = dynamic_cast<const ForceEffectHost*>(module.get())) force_effects_ = host->forceEffects();
+  if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_host_ = host;
   if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
   return module;
 }

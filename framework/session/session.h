@@ -13,7 +13,7 @@
 
 namespace presa {
 
-class ForceEffects;
+class PluginHost;
 
 class DeviceOutput;
 struct FingerSafety;
@@ -54,8 +54,8 @@ class Session {
   Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
   View* view() noexcept { return view_; }  ///< null without a view
-  /// The force effect that broke its contract (framework/haptics/force_effect.h), or none. Thread: any.
-  std::optional<std::string> brokenEffect() const;
+  /// The plug-in of the haptic tick that broke its contract (framework/haptics/plugin_host.h), or none. Thread: any.
+  std::optional<std::string> brokenPlugin() const;
   AssemblyControl* assembly() noexcept { return assembly_; }  ///< null if nothing is assembled
 
   /// Start of the scripted phase of that name [s]; infinity when no device has one.
@@ -77,7 +77,7 @@ class Session {
   Monitor* monitor_ = nullptr;
   Recorder* recorder_ = nullptr;
   View* view_ = nullptr;
-  const ForceEffects* force_effects_ = nullptr;
+  const PluginHost* plugin_host_ = nullptr;
   AssemblyControl* assembly_ = nullptr;
 };
 

@@ -12,12 +12,26 @@ namespace {
 
 constexpr double kNoStretch = 1e-12;  // smaller displacements have no direction [m]
 
+// Tangential displacement of the sample: stiffness times it is the rendered force.
+Vec3 sampledStretch(const FingerContact& contact, const Vec3& nhat) {
+  const Vec3 stretch = contact.p_WP - contact.p_WH;
+  return stretch - stretch.dot(nhat) * nhat;
+}
+
+// What to add to the sample's displacement so that the law's own stiffness gives the rendered force without damping.
+Vec3 lawDisplacement(const FingerContact& contact, const Vec3& nhat) {
+  if (!(contact.tangential_ratio > 0)) return Vec3::Zero();
+  return (1 / contact.tangential_ratio - 1) * sampledStretch(contact, nhat) -
+         contact.damped_W / contact.tangential_ratio;
+}
+
 }  // namespace
 
 bool isUsable(const FingerContact& c) {
   return c.p_WH.allFinite() && c.v_WH.allFinite() && c.p_BP.allFinite() && c.p_BC.allFinite() && c.nhat_B.allFinite() &&
          std::isfinite(c.stiffness) && std::isfinite(c.damping) && std::isfinite(c.friction_static) &&
-         std::isfinite(c.friction_dynamic) && c.nhat_B.squaredNorm() > 0.25;
+         std::isfinite(c.friction_dynamic) && std::isfinite(c.tangential_ratio) && c.tangential_ratio >= 0 &&
+         std::isfinite(c.tangential_damping) && c.tangential_damping >= 0 && c.nhat_B.squaredNorm() > 0.25;
 }
 
 FingerContact contactOf(const FingerContact& contact, const ContactPart& part) {
@@ -46,7 +60,9 @@ std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contac
   const Vec3 p_WH = contact.p_WH + std::clamp(age, 0.0, old_after) * contact.v_WH;
   const Vec3 stretch = row.p_WP - p_WH;
   const double depth = stretch.dot(nhat);
-  const Vec3 tangential = stretch - depth * nhat;
+  const double k_t = contact.tangential_ratio * k, d_t = weight * contact.tangential_damping;
+  Vec3 tangential = stretch - depth * nhat;
+  if (contact.tangential_ratio != 1 || d_t > 0) tangential += lawDisplacement(contact, nhat);
   const double length = tangential.norm();
   row.n_in = -nhat;
   row.t1 = length > kNoStretch ? Vec3(-tangential / length) : nhat.unitOrthogonal();
@@ -57,12 +73,17 @@ std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contac
   row.cfm = 1 / hk_d;
   row.depth = std::max(0.0, depth);
   row.motion_n = row.n_in.dot(contact.v_WH) + row.erp / h * std::min(0.0, depth);
-  row.slip = 1 / (h * k);
-  row.motion_1 = length / h + row.t1.dot(contact.v_WH);
+  const double hk_t_d = h * k_t + d_t;
+  const bool rubs = hk_t_d > 0;
+  row.slip = rubs ? 1 / hk_t_d : 1 / (h * k);
+  row.motion_1 = (rubs ? h * k_t / hk_t_d : 0.0) * (length / h) + row.t1.dot(contact.v_WH);
   row.motion_2 = t2.dot(contact.v_WH);
   row.mu = std::max(0.0, contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static);
+  if (!rubs) row.mu = 0;
   row.mu_dynamic = std::clamp(contact.friction_dynamic, 0.0, row.mu);
-  row.expected_force_W = k * (row.depth * row.n_in + std::min(length, row.mu * row.depth) * row.t1);
+  row.expected_force_W =
+      k * (row.depth * row.n_in + std::min(contact.tangential_ratio * length, row.mu * row.depth) * row.t1);
+  if (d_t > 0) row.expected_force_W -= k * contact.damped_W;
   return row;
 }
 

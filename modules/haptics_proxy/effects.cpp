@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/haptics/friction_laws.h"
 #include "framework/scene/open_surfaces.h"
 
 namespace presa {
@@ -15,7 +16,8 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
   HapticEffects effects;
   effects.renderer = scene.haptics.renderer;
   const bool effect_on_free_body = std::ranges::any_of(scene.plugin_elements, [&](const PluginElement& element) {
-    return element.body != kNoBody && !scene.bodies[static_cast<std::size_t>(element.body)].fixed;
+    return element.kind == PluginKind::kForceEffect && element.body != kNoBody &&
+           !scene.bodies[static_cast<std::size_t>(element.body)].fixed;
   });
   if (effect_on_free_body || any_touchable([](const Body& body) { return !body.fixed; })) {
     effects.poses = scene.haptics.pose == HapticSettings::PoseUse::kHold ? HapticEffects::Poses::kHold
@@ -23,9 +25,8 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
   }
   const bool god_object = effects.renderer == HapticSettings::Renderer::kGodObject;
   effects.surface_change = scene.surfacesChange();
-  effects.friction =
-      effects.surface_change ||
-      (god_object && any_touchable([&](const Body& body) { return scene.materialOf(body).friction_static > 0; }));
+  effects.friction = effects.surface_change ||
+                     (god_object && any_touchable([&](const Body& body) { return hasFriction(scene, body.material); }));
   effects.commanded = options.bus_commands && !openSurfaces(scene).empty();
   effects.shading = god_object && any_touchable([](const Body& body) {
                       return body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape);

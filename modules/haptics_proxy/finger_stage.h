@@ -1,5 +1,7 @@
 #pragma once
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/core/graph/port.h"
@@ -44,11 +46,13 @@ struct FingerTick {
   FingerContact& out;
   ContactExchange& all;
   const Touchables& touchables;
+  double period = 0;  ///< [s]
   double r = 0;
   double approach = 0;  ///< maximum distance by which a surface may have approached the finger in this tick [m]
-  Pose X_WA;
+  Pose X_WA = {};
   Vec3 g = Vec3::Zero();  ///< HIP in A
-  ProxyContact contact;
+  ProxyContact contact = {};
+  bool broken = false;  ///< a friction law broke its contract: no force
 };
 
 /// One stage of a finger's tick. The list of stages is built once and holds only the effects that the scene uses.
@@ -58,15 +62,22 @@ class FingerStage {
   virtual ~FingerStage() = default;
   virtual void apply(FingerTick& tick) noexcept = 0;
   /// Description for `presa explain`.
-  virtual const char* what() const = 0;
+  virtual std::string what() const = 0;
+};
+
+/// The friction laws of the scene.
+class FrictionStage : public FingerStage {
+ public:
+  /// "friction law 'x' of material 'y'" that broke its contract, or none. Thread: any.
+  virtual std::optional<std::string> brokenLaw() const = 0;
 };
 
 // Each stage is in the file of its name; god-object, spring and damping are in render_stages.cpp.
 std::unique_ptr<FingerStage> makeGodObject();
 std::unique_ptr<FingerStage> makePenalty();
-std::unique_ptr<FingerStage> makeFriction(const SurfacesInForce& surfaces);
+std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces);
 /// `change` must outlive the stage.
-std::unique_ptr<FingerStage> makeChangingFriction(const World& world, const In<SurfaceChange>& change);
+std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const In<SurfaceChange>& change);
 std::unique_ptr<FingerStage> makeShading(const World& world);
 /// Writes contact state and spring force, and counts pop-through, lost coverage and leaps.
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 
+#include "framework/haptics/friction_law.h"
 #include "framework/haptics/surroundings.h"
 
 namespace presa {
@@ -44,6 +45,9 @@ struct FingertipState {
   bool touching = false;
   bool slipping = false;
   Vec3 stick_anchor = Vec3::Zero();  ///< stick anchor: friction pulls the HIP towards it; its image on the surface is x
+  bool fresh = true;                 ///< friction begins anew in the next tick
+  Vec3 g = Vec3::Zero();             ///< HIP, written by friction
+  FrictionState friction;            ///< the law's own
 };
 
 /// Contact of one fingertip, in the working frame A.
@@ -55,23 +59,28 @@ struct ProxyContact {
   double depth = 0;                             ///< (x - g) . nhat [m]
   Vec3 tangential_displacement = Vec3::Zero();  ///< tangential displacement: x - g without its normal part [m]
   std::int32_t body = kNoBody;
-  ActiveSet active;   ///< active set of the frictionless point
+  ActiveSet active;         ///< active set of the frictionless point
+  FrictionAnswer friction;  ///< of the law, for the dynamics; only if `touching` and there is friction
   bool swept = true;  ///< the proxy moves along continuous paths; false: a renderer without memory, which may jump
 };
 
 /// One tick of the frictionless god-object towards the HIP g.
 ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept;
 
-/// Coefficients of the two-state friction cone of the PERCRO paper (section 3.3, figure 10).
-struct FrictionCone {
-  double mu_static = 0;
-  double mu_dynamic = 0;
+/// The friction of one contact.
+struct Friction {
+  const FrictionLaw& law;
+  double mu_static, mu_dynamic;
+  double stiffness;  ///< of the surface [N/m]
+  double period;     ///< [s]
+  Quat q_BA = Quat::Identity();
 };
 
 /// Applies friction to a sliding `contact`: a sticking proxy stays at its last position or at the first touch, a
-/// slipping one follows the border of the cone. The tangential displacement is stored at the HIP, below the surface,
-/// not recomputed from the proxy: on a curved surface the two differ, and the difference would accumulate tick by tick.
-void holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
-                    const FrictionCone& cone, Surroundings& surroundings) noexcept;
+/// slipping one goes where the law's tangential force puts it. The tangential displacement is stored at the HIP, below
+/// the surface, not recomputed from the proxy: on a curved surface the two differ, and the difference would accumulate
+/// tick by tick. False: the law broke its contract.
+bool holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
+                    const Friction& friction, Surroundings& surroundings) noexcept;
 
 }  // namespace presa

@@ -1,6 +1,7 @@
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "framework/session/module_plugin.h"
 
@@ -30,11 +31,15 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   }
   const SurfacesInForce in_force = surfaces(effects);
   finger_stages_.push_back(effects.renderer == HapticSettings::Renderer::kPenalty ? makePenalty() : makeGodObject());
-  if (effects.friction) finger_stages_.push_back(frictionOf(effects, in_force));
+  if (effects.friction) {
+    auto friction = frictionOf(effects, in_force);
+    friction_ = friction.get();
+    finger_stages_.push_back(std::move(friction));
+  }
   if (effects.shading) finger_stages_.push_back(makeShading(*world_));
   finger_stages_.push_back(makeSpring(in_force));
   if (effects.damping) finger_stages_.push_back(makeDamping(in_force));
-  if (!world_->scene.plugin_elements.empty()) force_effects_.push_back(std::make_unique<Effects>(*this, *world_));
+  if (world_->scene.hasForceEffects()) force_effects_.push_back(std::make_unique<Effects>(*this, *world_));
 }
 
 SurfacesInForce HapticsProxy::surfaces(const HapticEffects& effects) {
@@ -43,9 +48,10 @@ SurfacesInForce HapticsProxy::surfaces(const HapticEffects& effects) {
   return {world_->scene, commanded_.back()->surfaces.materials()};
 }
 
-std::unique_ptr<FingerStage> HapticsProxy::frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces) {
+std::unique_ptr<FrictionStage> HapticsProxy::frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces) {
   if (!effects.surface_change) return makeFriction(surfaces);
-  return makeChangingFriction(*world_, surface_change_.emplace(*this, "surface_change", In<SurfaceChange>::Optional{}));
+  return makeChangingFriction(surfaces,
+                              surface_change_.emplace(*this, "surface_change", In<SurfaceChange>::Optional{}));
 }
 
 void HapticsProxy::step(const Tick& tick) noexcept {
@@ -72,7 +78,7 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
     finger.tip.x = finger.tip.god_object = finger.p_WH = input.p_WH;
   }
 
-  FingerTick tick{f, input, finger, out, contact_.value, touchables_, finger.radius, 0, {}, Vec3::Zero(), {}};
+  FingerTick tick{f, input, finger, out, contact_.value, touchables_, now.period, finger.radius};
   tick.X_WA = touchables_.frameOf(finger.frame);
   tick.g = tick.X_WA.inverseTimes(input.p_WH);
   const double way = std::max((finger.tip.x - tick.g).norm(), (finger.tip.god_object - tick.g).norm());
@@ -85,9 +91,18 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
   finger.near->setStep(moved + tick.approach);
   for (const auto& stage : finger_stages_) stage->apply(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
+  if (tick.broken) out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (const auto& added : force_effects_)
     added->effects.apply(f, now, input, world_->scene.devices[f].fingertip_radius, touchables_, out,
                          added->reactions.value);
+}
+
+std::optional<std::string> HapticsProxy::brokenPlugin() const {
+  for (const auto& added : force_effects_) {
+    const int broken = added->effects.broken();
+    if (broken >= 0) return "force effect " + added->effects.names()[static_cast<std::size_t>(broken)];
+  }
+  return friction_ == nullptr ? std::nullopt : friction_->brokenLaw();
 }
 
 std::vector<std::string> HapticsProxy::stages() const {

@@ -5,6 +5,7 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/haptics/force_effects.h"
+#include "framework/haptics/plugin_host.h"
 #include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
@@ -17,16 +18,14 @@ namespace presa {
 ///   f = k (p_WP - p_WH), modified by the effects that the scene uses.
 /// The collision thread's neighbourhoods limit the bodies to examine; without a neighbourhood all bodies are examined.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
-class HapticsProxy final : public Module, public ForceEffectHost {
+class HapticsProxy final : public Module, public PluginHost {
  public:
   HapticsProxy(const std::shared_ptr<const World>& world, const RunOptions& options)
       : HapticsProxy(world, effectsOf(*world, options)) {}
   HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects);
   void step(const Tick& tick) noexcept override;
   std::vector<std::string> stages() const override;
-  const ForceEffects* forceEffects() const noexcept override {
-    return force_effects_.empty() ? nullptr : &force_effects_.front()->effects;
-  }
+  std::optional<std::string> brokenPlugin() const override;
   std::vector<LeftOut> leftOut() const override { return effectsLeftOut(effects_); }
 
  private:
@@ -51,7 +50,7 @@ class HapticsProxy final : public Module, public ForceEffectHost {
     Out<EffectReactions> reactions;
   };
   SurfacesInForce surfaces(const HapticEffects& effects);
-  std::unique_ptr<FingerStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
+  std::unique_ptr<FrictionStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
   void stepFinger(std::size_t finger, const Tick& tick) noexcept;
 
   std::shared_ptr<const World> world_;
@@ -60,6 +59,7 @@ class HapticsProxy final : public Module, public ForceEffectHost {
   std::vector<RenderedFinger> fingers_;
   std::vector<PlaceBodies> place_bodies_;  ///< none or one
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;
+  const FrictionStage* friction_ = nullptr;  ///< null: no friction
 
   In<DeviceState> device_{*this, "device_state"};
   In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}};

@@ -49,7 +49,7 @@ class Penalty final : public FingerStage {
     contact.x = contact.state.x = contact.state.god_object = tick.g + contact.depth * contact.nhat;
     countFlip(tick);
   }
-  const char* what() const override { return "push towards the nearest surface (penalty, no memory)"; }
+  std::string what() const override { return "push towards the nearest surface (penalty, no memory)"; }
 
  private:
   static NearestSurface deepestUnder(const Vec3& g, double r, Surroundings& near) noexcept {

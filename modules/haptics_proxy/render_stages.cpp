@@ -13,7 +13,7 @@ class GodObject final : public FingerStage {
   void apply(FingerTick& tick) noexcept override {
     tick.contact = slideProxy(tick.finger.tip, tick.g, tick.r, *tick.finger.near);
   }
-  const char* what() const override {
+  std::string what() const override {
     return "move the proxy to the nearest reachable point (active set of at most three)";
   }
 };
@@ -23,7 +23,7 @@ class Spring final : public FingerStage {
  public:
   explicit Spring(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
   void apply(FingerTick& tick) noexcept override;
-  const char* what() const override { return "spring between proxy and HIP"; }
+  std::string what() const override { return "spring between proxy and HIP"; }
 
  private:
   static std::int32_t nearestBody(const FingerTick& tick) noexcept;
@@ -156,7 +156,7 @@ class Damping final : public FingerStage {
     out.damping = damping;
     out.normal_force = std::max(0.0, out.stiffness * out.depth - damping * relative.dot(out.nhat_W));
   }
-  const char* what() const override { return "surface damping along the normal"; }
+  std::string what() const override { return "surface damping along the normal"; }
 
  private:
   const SurfacesInForce surfaces_;
@@ -172,6 +172,8 @@ void moveToFrame(RenderedFinger& finger, Vec3& point, std::int32_t body, const T
   finger.tip.x = X_BA * finger.tip.x;
   finger.tip.god_object = X_BA * finger.tip.god_object;
   finger.tip.stick_anchor = X_BA * finger.tip.stick_anchor;
+  finger.tip.g = X_BA * finger.tip.g;
+  finger.tip.friction.vector = X_BA.q * finger.tip.friction.vector;
   point = X_BA * point;
   finger.frame = body;
 }

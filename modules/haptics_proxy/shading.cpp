@@ -67,7 +67,7 @@ class Shading final : public FingerStage {
     contact.tangential_displacement = turn * contact.tangential_displacement;
     contact.x = tick.g + contact.depth * contact.nhat + contact.tangential_displacement;
   }
-  const char* what() const override { return "force shading: normals interpolated over the facets"; }
+  std::string what() const override { return "force shading: normals interpolated over the facets"; }
 
  private:
   struct Smooth {

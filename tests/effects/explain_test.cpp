@@ -37,7 +37,7 @@ std::string whyLeftOut(const json& run, const std::string& what) {
 TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
   const std::string cube = source("config/scenes/cube.xml");
   const json full = explain(cube);
-  EXPECT_TRUE(hasStage(full, "friction: two-state cone"));
+  EXPECT_TRUE(hasStage(full, "friction: friction_cone"));
   EXPECT_TRUE(hasStage(full, "surface damping"));
   EXPECT_TRUE(hasStage(full, "interpolate the Object State"));
   EXPECT_FALSE(hasStage(full, "shading"));
@@ -51,7 +51,7 @@ TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
                             " --set material/rubber/friction/static=0 --set material/rubber/friction/dynamic=0"
                             " --set material/wood/friction/static=0 --set material/wood/friction/dynamic=0"
                             " --set material/rubber/damping=0 --set material/wood/damping=0 --set haptics/pose=hold");
-  EXPECT_FALSE(hasStage(bare, "friction: two-state cone"));
+  EXPECT_FALSE(hasStage(bare, "friction: friction_cone"));
   EXPECT_FALSE(hasStage(bare, "surface damping"));
   EXPECT_FALSE(hasStage(bare, "interpolate the Object State"));
   EXPECT_NE(whyLeftOut(bare, "friction").find("no touchable material"), std::string::npos);

@@ -38,8 +38,7 @@ LockstepRun::LockstepRun(const std::string& scene, const std::vector<std::string
   Run& run = parts_->run;
   run.execute();
   std::vector<std::string>& faults = parts_->faults;
-  if (const auto broken = run.session().brokenEffect())
-    faults.push_back("the force effect " + *broken + " broke its contract");
+  if (const auto broken = run.session().brokenPlugin()) faults.push_back(*broken + " broke its contract");
   if (run.monitor().objectFaults() != 0)
     faults.push_back("the dynamics had a fault at " + std::to_string(run.monitor().objectFaultTime()) + " s");
   if (run.monitor().popThrough() != 0) faults.push_back("a fingertip went through a surface");

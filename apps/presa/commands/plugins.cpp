@@ -12,10 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* kindOf(const Manifest& manifest) {
-  return manifest.kind == Manifest::Kind::kForceEffect ? "force effect" : "?";
-}
-
 std::string boundsOf(const Manifest::Attribute& attribute) {
   if (attribute.above.empty() && attribute.min.empty() && attribute.max.empty()) return {};
   const std::string low = !attribute.above.empty() ? "(" + attribute.above
@@ -32,11 +28,10 @@ void print(const Manifest::Attribute& attribute) {
 }
 
 void print(const Manifest& manifest) {
-  std::printf("%s (%s), %s\n  %s\n", manifest.name.c_str(), kindOf(manifest),
+  std::printf("%s (%s), %s\n  %s\n", manifest.name.c_str(), nameOf(manifest.kind),
               fs::path(manifest.file).parent_path().lexically_normal().c_str(), manifest.about.c_str());
   for (const Manifest::Element& element : manifest.elements) {
-    std::printf("    <%s> in %s\n", element.name.c_str(),
-                element.place == Manifest::Place::kBody ? "a body" : "the scene");
+    std::printf("    <%s> in <%s>\n", element.name.c_str(), nameOf(element.place));
     for (const Manifest::Attribute& attribute : element.attributes) print(attribute);
   }
 }

@@ -44,6 +44,8 @@ void StateHash::add(const FingerContact& finger) noexcept {
   add(finger.damping);
   add(finger.friction_static);
   add(finger.friction_dynamic);
+  if (finger.tangential_ratio != 1) add(finger.tangential_ratio);
+  if (finger.tangential_damping != 0) add(finger.tangential_damping);
   add(finger.normal_force);
   add(finger.tangential_force_W);
   add(finger.f_H_W);

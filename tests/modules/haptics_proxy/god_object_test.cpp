@@ -16,9 +16,9 @@ namespace {
 using test::kR;
 
 // One tick as in the haptic loop with friction.
-ProxyContact stepProxy(const FingertipState& last, const Vec3& g, Surroundings& s, const FrictionCone& cone) {
+ProxyContact stepProxy(const FingertipState& last, const Vec3& g, Surroundings& s, const FrictionCoefficients& cone) {
   ProxyContact contact = slideProxy(last, g, kR, s);
-  holdByFriction(contact, last, g, kR, cone, s);
+  test::holdByCone(contact, last, g, cone, s);
   return contact;
 }
 
@@ -174,7 +174,7 @@ TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
 // The two-state cone of the PERCRO paper holds up to mu_s and slides at mu_d, equally in every direction.
 TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
   const auto s = plate();
-  const FrictionCone cone{0.8, 0.6};
+  const FrictionCoefficients cone{0.8, 0.6};
   for (double heading = 0; heading < 6.28; heading += 0.4) {
     const Vec3 along(std::cos(heading), std::sin(heading), 0);
     const double depth = 0.002;
@@ -225,7 +225,7 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
 // A sticking finger does not creep: after a minute of shaking inside the cone the proxy is unchanged to the bit.
 TEST(Friction, StickingProxyDoesNotDrift) {
   const auto s = plate();
-  const FrictionCone cone{0.8, 0.6};
+  const FrictionCoefficients cone{0.8, 0.6};
   FingertipState tip{{0, 0, kR}, {0, 0, kR}};
   Vec3 first = Vec3::Zero();
   for (int tick = 0; tick < 60'000; ++tick) {
@@ -241,7 +241,7 @@ TEST(Friction, StickingProxyDoesNotDrift) {
 // The proxy sticks to a wall, above a floor into which its HIP is pressed as well; then the wall disappears. The proxy,
 // now in free air, must come down to the floor in the same tick. Oracle: the distance from the floor.
 TEST(Friction, LetsGoOfABodyThatHasGone) {
-  const FrictionCone cone{0.8, 0.6};
+  const FrictionCoefficients cone{0.8, 0.6};
   const double high = 0.0005;  // height of the sticking proxy above its position on the floor [m]
   const auto surroundings = [](bool wall) {
     auto s = box({0.2, 0.2, 0.05}, {0, 0, -0.05});

@@ -9,6 +9,13 @@ namespace presa::test {
 inline constexpr double kR = 0.008;         // radius of the fingertip [m]
 inline constexpr double kStiffness = 1000;  // of the surface [N/m]
 
+/// Friction with the default law.
+inline bool holdByCone(ProxyContact& contact, const FingertipState& last, const Vec3& g,
+                       const FrictionCoefficients& cone, Surroundings& surroundings) {
+  static const auto kLaw = pluginTable<FrictionLawPlugin>(kDefaultFrictionLaw, "presaFrictionLawPlugin").create({});
+  return holdByFriction(contact, last, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3}, surroundings);
+}
+
 /// Publishes a value set by the test, at haptic rate, so that the module under test reads it in the same tick.
 template <class T>
 struct Source final : Module {

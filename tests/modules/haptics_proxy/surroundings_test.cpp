@@ -73,7 +73,7 @@ TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
       s->setStep((hand - before).norm() + 2e-5);
       s->addMesh(0, tree, own ? nullptr : &X_AG, Pose{}, s == kept.get() ? &near : nullptr, hand, 0.012);
       ProxyContact contact = slideProxy(tip, hand, kR, *s);
-      holdByFriction(contact, tip, hand, kR, {0.4, 0.3}, *s);
+      test::holdByCone(contact, tip, hand, {0.4, 0.3}, *s);
       state[s == kept.get() ? 0 : 1] = contact.state;
     }
     ASSERT_NEAR((state[0].x - state[1].x).norm(), 0, 2e-6 * kR) << tick;

@@ -1,0 +1,30 @@
+#pragma once
+#include <memory>
+#include <utility>
+
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/scene/plugin_element.h"
+
+namespace presa {
+
+/// The object that a plug-in makes for an element of the scene. Throws InputError: E596 with the element's place when
+/// `create` throws or makes nothing.
+template <class Create>
+auto madeFor(const PluginElement& element, const Create& create) -> decltype(create()) {
+  constexpr int kCannotBeMade = 596;
+  Diagnostics diagnostics;
+  try {
+    if (auto made = create()) return made;
+    diagnostics.error(kCannotBeMade, element.where,
+                      "plug-in '" + element.plugin + "' made nothing for <" + element.element + ">");
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    diagnostics.error(kCannotBeMade, element.where,
+                      "plug-in '" + element.plugin + "' cannot make <" + element.element + ">: " + error.what(),
+                      "report this to the author of the plug-in");
+  }
+  throw InputError(std::move(diagnostics));
+}
+
+}  // namespace presa
