@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/haptics/friction_laws.h"
+
 namespace presa {
 
 void takeMonitor(const Monitor& monitor, RunResult& result) {
@@ -17,10 +19,12 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
     const Body& body = world.scene.bodies[i];
     if (body.fixed) continue;
     const Material& material = world.scene.materialOf(body);
+    // another law than the cone does not slip at the static coefficient
+    const bool cone = frictionElementOf(world.scene, body.material) == nullptr;
     const auto slot = std::find(traced.begin(), traced.end(), static_cast<std::int32_t>(i));
     result.objects.push_back({body.name, static_cast<std::int32_t>(i),
                               slot == traced.end() ? -1 : static_cast<std::int32_t>(slot - traced.begin()),
-                              world.inertias[i].mass, material.friction_static, material.friction_dynamic,
+                              world.inertias[i].mass, cone ? material.friction_static : 0, material.friction_dynamic,
                               monitor.objects()[i]});
   }
   result.trace = monitor.trace().empty() ? nullptr : &monitor.trace();

@@ -30,6 +30,7 @@ std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
     slips += result.contact_points[finger.contact_point].name + " at " + fixed(finger.slip->normal_force, 3) + " N";
   }
   if (slips.empty()) return "No slip after the loosening began.";
+  if (!(figures.slip_limit > 0)) return "Slipped: " + slips + ".";
   return "Slipped: " + slips + "; friction stops carrying the weight at m g / (" +
          std::to_string(figures.fingers.size()) + " mu_s) = " + fixed(figures.slip_limit, 3) + " N.";
 }

@@ -43,6 +43,14 @@ struct FrictionAnswer {
   Vec3 damped = Vec3::Zero();           ///< part of `stretch` that damping causes [m]
 };
 
+/// Whether an answer for a contact of this depth keeps FrictionLaw's contract. Haptic thread.
+inline bool keepsContract(const FrictionAnswer& answer, double depth) noexcept {
+  constexpr double kRounding = 1 + 1e-9;
+  // written so that NaN fails
+  return answer.stretch.norm() <= answer.bound * depth * kRounding && answer.bound_sliding >= 0 && answer.ratio >= 0 &&
+         answer.damping >= 0 && answer.damped.allFinite();
+}
+
 /// The bound of a law without one, such as viscous friction.
 inline constexpr double kNoFrictionBound = 1e6;
 

@@ -11,7 +11,7 @@ namespace presa {
 /// `create` throws or makes nothing.
 template <class Create>
 auto madeFor(const PluginElement& element, const Create& create) -> decltype(create()) {
-  constexpr int kCannotBeMade = 596;
+  enum Code { kCannotBeMade = 596 };
   Diagnostics diagnostics;
   try {
     if (auto made = create()) return made;

@@ -30,7 +30,8 @@ enum Code {
   kMassOfFixed = 220,
   kNoGeometry = 221,
   kWatchdog = 222,
-  kSlowDynamics = 223
+  kSlowDynamics = 223,
+  kTwoLaws = 224
 };
 
 // Between two dynamics steps a held body moves on in a straight line. The scripted grasp of 20 and 200 g at 0.5 to 4
@@ -193,9 +194,21 @@ class SceneCheck {
   void checkFriction(const Element& material) {
     for (const Element& friction : material.children("friction")) {
       checkCoefficients(friction, material.label());
+      checkLaws(friction, material.label());
       for (const Element& changed : friction.children("changed"))
         checkCoefficients(changed, material.label() + " after its change");
     }
+  }
+
+  /// Every other child of <friction> than <changed> is the element of a friction law.
+  void checkLaws(const Element& friction, const std::string& whose) {
+    std::vector<Element> laws = friction.children();
+    std::erase_if(laws, [](const Element& child) { return child.name() == "changed"; });
+    if (laws.size() < 2) return;
+    diagnostics_.error(
+        kTwoLaws, laws[1].where(),
+        "friction of " + whose + " names two laws, <" + laws[0].name() + "> and <" + laws[1].name() + ">",
+        "one law for each material");
   }
 
   void checkCoefficients(const Element& friction, const std::string& whose) {

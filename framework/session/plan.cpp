@@ -65,8 +65,7 @@ void leaveOutOthers(const Scene& scene, Plan& plan) {
       continue;
     }
     if (manifest.elements.empty()) {
-      plan.left_out.push_back(
-          {manifest.name, "no touchable material has friction without another law: " + manifest.about});
+      plan.left_out.push_back({manifest.name, "no touchable material has friction that names no law"});
       continue;
     }
     std::string elements;

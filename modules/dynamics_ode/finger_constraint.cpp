@@ -31,7 +31,8 @@ bool isUsable(const FingerContact& c) {
   return c.p_WH.allFinite() && c.v_WH.allFinite() && c.p_BP.allFinite() && c.p_BC.allFinite() && c.nhat_B.allFinite() &&
          std::isfinite(c.stiffness) && std::isfinite(c.damping) && std::isfinite(c.friction_static) &&
          std::isfinite(c.friction_dynamic) && std::isfinite(c.tangential_ratio) && c.tangential_ratio >= 0 &&
-         std::isfinite(c.tangential_damping) && c.tangential_damping >= 0 && c.nhat_B.squaredNorm() > 0.25;
+         c.damped_W.allFinite() && std::isfinite(c.tangential_damping) && c.tangential_damping >= 0 &&
+         c.nhat_B.squaredNorm() > 0.25;
 }
 
 FingerContact contactOf(const FingerContact& contact, const ContactPart& part) {

@@ -48,13 +48,6 @@ FrictionAnswer ask(const Friction& friction, ProxyContact& contact, const Finger
       contact.state.friction);
 }
 
-/// Whether the answer keeps the law's contract; written so that NaN fails.
-bool isKept(const FrictionAnswer& answer, double depth) noexcept {
-  constexpr double kRounding = 1 + 1e-9;
-  return answer.stretch.norm() <= answer.bound * depth * kRounding && answer.bound_sliding >= 0 && answer.ratio >= 0 &&
-         answer.damping >= 0 && answer.damped.allFinite();
-}
-
 bool meets(const Vec3& a, const Vec3& b, double r) noexcept {
   constexpr double kSame = 1e-4;  // relative to r: accuracy of two motions to the same point
   return (a - b).norm() <= kSame * r;
@@ -79,7 +72,7 @@ bool holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   displacement -= displacement.dot(contact.nhat) * contact.nhat;
   contact.friction = ask(friction, contact, last, g, displacement);
   const Vec3& stretch = contact.friction.stretch;
-  if (!isKept(contact.friction, contact.depth)) return false;
+  if (!keepsContract(contact.friction, contact.depth)) return false;
   contact.state.slipping = contact.friction.slipping;
 
   // a sticking proxy stays fixed in the body's coordinates, so there is no drift to correct

@@ -48,8 +48,9 @@ std::string graspTiles(const GraspFigures& grasp) {
          tile("held in stick", fixed(grasp.held_in_stick, 2) + " s") +
          tile("offset constant to", fixed(offset * 1000, 3) + " mm") +
          tile("grip ripple", fixed(ripple * 100, 2) + " %") +
-         tile("slip limit m g / (" + std::to_string(grasp.fingers.size()) + " μ<sub>s</sub>)",
-              fixed(grasp.slip_limit, 3) + " N") +
+         (grasp.slip_limit > 0 ? tile("slip limit m g / (" + std::to_string(grasp.fingers.size()) + " μ<sub>s</sub>)",
+                                      fixed(grasp.slip_limit, 3) + " N")
+                               : std::string{}) +
          "</div>\n";
 }
 

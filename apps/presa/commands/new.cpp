@@ -59,12 +59,16 @@ std::string shipped(const std::string& path) {
   throw std::logic_error("no embedded file " + path);
 }
 
-/// The shipped cube with the rig of the project, and `element` in the cube.
-std::string liftingScene(const std::string& element) {
+/// The shipped cube with the rig of the project, and the plug-in's element in the cube or in the friction of its material.
+std::string liftingScene(const Arguments& arguments) {
   std::string scene = shipped("config/scenes/cube.xml");
   replaceIn(scene, R"(name="cube" rig="../rigs/pinch_cube.xml")", R"(name="lift" rig="rig.xml")");
   const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
-  if (!element.empty()) replaceIn(scene, cube, cube + "\n    " + element);
+  if (arguments.kind == "effect") replaceIn(scene, cube, cube + "\n    <" + arguments.name + " max_force=\"0.5\"/>");
+  if (arguments.kind == "friction") {
+    replaceIn(scene, R"(<friction static="0.8" dynamic="0.6"/>)",
+              R"(<friction static="0.8" dynamic="0.6"><)" + arguments.name + "/></friction>");
+  }
   return scene;
 }
 
@@ -95,9 +99,8 @@ std::vector<NewFile> projectOf(const Arguments& arguments) {
   std::vector<NewFile> files = fromTemplates("any", arguments);
   const auto add = [&](std::vector<NewFile> more) { std::ranges::move(more, std::back_inserter(files)); };
   add(fromTemplates(arguments.kind, arguments));
-  const bool effect = arguments.kind == "effect";
-  files.push_back({"scene/lift.xml", liftingScene(effect ? "<" + arguments.name + " max_force=\"0.5\"/>" : "")});
-  if (effect) add(scriptedFingers());
+  files.push_back({"scene/lift.xml", liftingScene(arguments)});
+  if (arguments.kind != "device") add(scriptedFingers());
   std::ranges::sort(files, {}, &NewFile::path);
   return files;
 }
@@ -173,10 +176,10 @@ void addNew(Command app, int& status) {
   command
       .option(
           "KIND", arguments->kind,
-          "effect: a force on the fingertips, with its reaction on a body; device: a driver that measures fingertips "
-          "and renders forces")
+          "effect: a force on the fingertips, with its reaction on a body; friction: a law of friction between fingers "
+          "and bodies; device: a driver that measures fingertips and renders forces")
       .required()
-      .oneOf({"effect", "device"});
+      .oneOf({"effect", "friction", "device"});
   command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
   command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
   command.footer(

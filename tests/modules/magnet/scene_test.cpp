@@ -53,7 +53,7 @@ TEST(Plugins, AreListedWithWhatTheyBringAndNotLoaded) {
   EXPECT_EQ(listed.status, 0) << listed.err;
   EXPECT_NE(listed.out.find("magnet (force effect), " PRESA_BINARY_DIR "/lib/presa\n"), std::string::npos)
       << listed.out;
-  EXPECT_NE(listed.out.find("    <magnet> in a body\n      max_force    number [N] in (0, 20], required: "),
+  EXPECT_NE(listed.out.find("    <magnet> in <body>\n      max_force    number [N] in (0, 20], required: "),
             std::string::npos);
   EXPECT_NE(listed.out.find("faulty (force effect), " PRESA_BINARY_DIR "/tests/plugins\n"), std::string::npos);
 }
