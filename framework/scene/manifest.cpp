@@ -150,7 +150,7 @@ std::string typeOf(const Manifest::Element& element, const Manifest::Attribute& 
 }
 
 std::string declarationOf(const Manifest::Element& element, std::string& types) {
-  std::string out = "<xs:element name=\"" + element.name + "\"";
+  std::string out = "<xs:element name=\"" + element.name + "\" p:implied=\"false\"";
   if (element.place != Manifest::Place::kScene) out += " minOccurs=\"0\"";
   out += "><xs:complexType>";
   for (const Manifest::Attribute& attribute : element.attributes) {

@@ -100,7 +100,7 @@ TickCount lockstep(const std::string& program, const std::string& arguments) {
 // body. (Nothing moves here: ODE's heap use costs some instructions more or less depending on the address of the heap.)
 TEST_F(SwitchedOff, RecordingAndViewAreFree) {
   const TickCount whole = lockstep(std::string(PRESA_BINARY_DIR) + "/bin/presa", ballScene());
-  const TickCount bare = lockstep(programWith({"haptics_proxy", "scripted"}), ballScene());
+  const TickCount bare = lockstep(programWith({"friction_cone", "haptics_proxy", "scripted"}), ballScene());
   EXPECT_NEAR(whole.instructions, bare.instructions, kNothing);
   EXPECT_EQ(whole.out, bare.out);
   EXPECT_NE(whole.out, "no hash");
@@ -115,7 +115,7 @@ TEST_F(SwitchedOff, GravityIsFreeWhereNothingCanFall) {
     <body name="table" fixed="true"><haptic><box size="1 1 0.02"/></haptic></body>
     <devices><device role="thumb"/><device role="index"/></devices></scene>)";
   const TickCount with = lockstep(std::string(PRESA_BINARY_DIR) + "/bin/presa", scene);
-  const std::string bare_program = programWith({"haptics_proxy", "scripted"});
+  const std::string bare_program = programWith({"friction_cone", "haptics_proxy", "scripted"});
   const TickCount bare = lockstep(bare_program, scene);
   const TickCount weightless = lockstep(bare_program, scene + " --set world/gravity=\"0 0 0\"");
   EXPECT_NEAR(with.instructions, bare.instructions, kNothing);

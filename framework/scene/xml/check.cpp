@@ -256,7 +256,7 @@ void writeDefaultsOf(Element element, const ElementRule& rule) {
   for (const ContentRule& content : rule.content) {
     const ElementRule& only = *content.options.front();
     const bool is_optional_single = content.options.size() == 1 && content.min == 0 && content.max == 1;
-    if (!is_optional_single || !only.mayBeEmpty() || only.attributes.empty()) continue;
+    if (!is_optional_single || !only.implied || !only.mayBeEmpty() || only.attributes.empty()) continue;
     if (element.children(only.name).empty()) element.addChild(only.name, element.where());
   }
   for (const Element& child : element.children()) {

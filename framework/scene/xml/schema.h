@@ -30,6 +30,7 @@ struct ElementRule {
   std::string name;
   std::vector<AttributeRule> attributes;
   std::vector<ContentRule> content;
+  bool implied = true;  ///< where it may stand once and all its values have defaults, it is there without being written
 
   const AttributeRule* attribute(const std::string& attribute_name) const;
   const ElementRule* child(const std::string& child_name) const;
@@ -45,7 +46,8 @@ struct ElementRule {
 ///
 /// The rules support the part of XSD 1.0 that Presa's schemas use; any other construct throws std::logic_error. One
 /// extension, which XSD 1.0 lacks: within a repeated choice (elements in any order) the attribute `p:occurs`
-/// ("1", "0..1", "1..*") in the namespace urn:presa:schema limits how often an element may occur.
+/// ("1", "0..1", "1..*") in the namespace urn:presa:schema limits how often an element may occur. An element with
+/// p:implied="false" is there only if it is written.
 class Schema {
  public:
   /// `if_unknown`: added to the help for an unknown element that resembles no known one.

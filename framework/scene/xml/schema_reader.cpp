@@ -39,13 +39,18 @@ std::size_t occurrence(const xmlNode* node, const char* attribute) {
   return readCount(attributeOf(node, attribute).value_or("1"));
 }
 
+/// Value of an attribute in Presa's own namespace, or none.
+std::optional<std::string> extensionOf(const xmlNode* node, const char* attribute) {
+  const std::unique_ptr<xmlChar, void (*)(void*)> value(
+      xmlGetNsProp(node, reinterpret_cast<const xmlChar*>(attribute), reinterpret_cast<const xmlChar*>(kExtensions)),
+      xmlFree);
+  if (!value) return std::nullopt;
+  return fromXml(value.get());
+}
+
 /// Minimum and maximum from p:occurs; any number when it is absent.
 std::pair<std::size_t, std::size_t> statedOccurrence(const xmlNode* node) {
-  const std::unique_ptr<xmlChar, void (*)(void*)> value(
-      xmlGetNsProp(node, reinterpret_cast<const xmlChar*>("occurs"), reinterpret_cast<const xmlChar*>(kExtensions)),
-      xmlFree);
-  if (!value) return {0, kUnbounded};
-  const std::string text = fromXml(value.get());
+  const std::string text = extensionOf(node, "occurs").value_or("0..*");
   const auto dots = text.find("..");
   if (dots == std::string::npos) return {readCount(text), readCount(text)};
   return {readCount(text.substr(0, dots)), readCount(text.substr(dots + 2))};
@@ -82,6 +87,7 @@ const ElementRule* SchemaReader::readElement(const xmlNode* node) {
   schema_.elements_.push_back(std::make_unique<ElementRule>());
   ElementRule& rule = *schema_.elements_.back();
   rule.name = attributeOf(node, "name").value_or("");
+  rule.implied = extensionOf(node, "implied") != "false";
   const auto type = attributeOf(node, "type");
   if (type) readComplexType(global("complexType", *type), rule);
   for (const xmlNode* child : childElements(node)) {

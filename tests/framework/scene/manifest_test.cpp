@@ -37,7 +37,7 @@ TEST_F(Manifests, BringTheirElementsIntoTheSchema) {
   ASSERT_EQ(all.size(), 1U);
   EXPECT_FALSE(diagnostics.hasErrors());
   const std::string xsd = sceneSchemaWith(all);
-  EXPECT_NE(xsd.find("<xs:element name=\"wind\" minOccurs=\"0\">"), std::string::npos);
+  EXPECT_NE(xsd.find("<xs:element name=\"wind\" p:implied=\"false\" minOccurs=\"0\">"), std::string::npos);
   EXPECT_NE(xsd.find("how fast [m/s]"), std::string::npos);
 }
 
@@ -72,6 +72,17 @@ TEST_F(Manifests, OfForceEffectsBoundTheForce) {
         "<plugin name=\"wind\" kind=\"force_effect\" about=\"a test\"><element name=\"wind\" in=\"body\">"
         "<attribute name=\"max_force\" type=\"number\" default=\"3\" about=\"a bound\"/></element></plugin>");
   EXPECT_EQ(errors().substr(0, 4), "595 ");
+}
+
+TEST_F(Manifests, OfFrictionLawsBelongToFriction) {
+  const auto law = [](const std::string& place) {
+    return "<plugin name=\"wind\" kind=\"friction_law\" about=\"a test\"><element name=\"wind\" in=\"" + place +
+           "\"/></plugin>";
+  };
+  write("presa_wind.xml", law("friction"));
+  EXPECT_EQ(errors(), "");
+  write("presa_wind.xml", law("body"));
+  EXPECT_EQ(errors(), "595 <wind> of the friction law 'wind' cannot stand in=\"body\"\n");
 }
 
 TEST_F(Manifests, AreCheckedLikeAnyFile) {

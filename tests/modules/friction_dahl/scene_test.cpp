@@ -62,6 +62,14 @@ TEST(SceneWithDahl, LiftsTheCubeAndLosesItAtTheCoulombForce) {
   EXPECT_EQ(outcome.out.find("mu_s"), std::string::npos);  // the cone's figure does not hold here
 }
 
+// <faulty_friction> has defaults for all its attributes.
+TEST(Law, IsThereOnlyWhereItIsWritten) {
+  const Outcome explained =
+      test::shell(kPlugins + PRESA_BINARY_DIR "/bin/presa explain " + cubeWith("", "none.xml") + kRig);
+  EXPECT_EQ(explained.status, 0) << explained.err;
+  EXPECT_NE(explained.out.find("friction: friction_cone\n"), std::string::npos) << explained.out;
+}
+
 TEST(SceneWithDahl, ErrorsAreLikeThoseOfAnyElement) {
   const Outcome missing = run(cubeWith("<dahl/>", "missing.xml"));
   EXPECT_EQ(missing.status, 2);
