@@ -5,6 +5,8 @@
 
 #include "framework/core/schedule/rates.h"
 #include "framework/device/device_plugin.h"
+#include "framework/haptics/friction_laws.h"
+#include "framework/scene/manifest.h"
 #include "framework/session/session.h"
 
 namespace presa {
@@ -20,15 +22,28 @@ bool touchable(const Scene& scene, std::size_t material) {
   return false;
 }
 
-std::string inWords(const Material& material, double allowed, const StiffnessBound& bound) {
+std::string inWords(const std::string& what, double stiffness, double allowed, const StiffnessBound& bound) {
   std::array<char, 320> text;
-  std::snprintf(
-      text.data(), text.size(),
-      "material '%s' of %.4g N/mm is felt with %.4g N/mm: half of K_max = b / ((d + 1/2) T) = %.4g N/mm, with the "
-      "b = %.3g N s/m of '%s', d = %d and T = %.3g ms",
-      material.name.c_str(), material.stiffness * 1e-3, allowed * 1e-3, bound.stiffness * 1e-3, bound.damping,
-      bound.role.c_str(), bound.delay, bound.period * 1e3);
+  std::snprintf(text.data(), text.size(),
+                "%s of %.4g N/mm is felt with %.4g N/mm: half of K_max = b / ((d + 1/2) T) = %.4g N/mm, with the "
+                "b = %.3g N s/m of '%s', d = %d and T = %.3g ms",
+                what.c_str(), stiffness * 1e-3, allowed * 1e-3, bound.stiffness * 1e-3, bound.damping,
+                bound.role.c_str(), bound.delay, bound.period * 1e3);
   return text.data();
+}
+
+/// The stiffnesses of a friction law: the attributes of its element in N/m.
+std::vector<std::string> stiffnessesOf(const PluginElement& element) {
+  std::vector<std::string> names;
+  for (const Manifest& manifest : manifests()) {
+    for (const Manifest::Element& known : manifest.elements) {
+      if (manifest.name != element.plugin || known.name != element.element) continue;
+      for (const Manifest::Attribute& attribute : known.attributes) {
+        if (attribute.unit == "N/m") names.push_back(attribute.name);
+      }
+    }
+  }
+  return names;
 }
 
 }  // namespace
@@ -51,14 +66,25 @@ std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound&
   std::vector<Override> lowered;
   if (!(bound.stiffness > 0)) return lowered;
   const double allowed = kStableShare * bound.stiffness;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const Material& material = scene.materials[m];
-    if (material.stiffness <= allowed * (1 + kRounding) || !touchable(scene, m)) continue;
-    diagnostics.warning(454, material.where, inWords(material, allowed, bound),
+  const auto lower = [&](const std::string& what, double stiffness, const SourceLocation& where, std::string path) {
+    if (stiffness <= allowed * (1 + kRounding)) return;
+    diagnostics.warning(454, where, inWords(what, stiffness, allowed, bound),
                         "more damping of hand or device, or a higher haptic rate, allows more");
     std::array<char, 32> value;
     std::snprintf(value.data(), value.size(), "%.17g", allowed);
-    lowered.push_back({"material/" + material.name + "/stiffness", value.data()});
+    lowered.push_back({std::move(path), value.data()});
+  };
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const Material& material = scene.materials[m];
+    if (!touchable(scene, m)) continue;
+    const std::string name = "material '" + material.name + "'", path = "material/" + material.name;
+    lower(name, material.stiffness, material.where, path + "/stiffness");
+    const PluginElement* law = frictionElementOf(scene, m);
+    if (law == nullptr) continue;
+    for (const std::string& attribute : stiffnessesOf(*law)) {
+      lower("<" + law->element + " " + attribute + "> of " + name, law->number(attribute), law->where,
+            path + "/friction/" + law->element + "/" + attribute);
+    }
   }
   return lowered;
 }

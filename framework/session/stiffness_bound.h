@@ -23,8 +23,8 @@ StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const
 /// Share of K_max that a material may have: disturbances then die out, even if the hand lets go.
 inline constexpr double kStableShare = 0.5;
 
-/// Overrides that lower each touchable material above kStableShare of the bound to it; empty: none is above. One
-/// warning W454 for each, with the bound.
+/// Overrides that lower the stiffness of each touchable material, and those of its friction law (attributes in N/m), to
+/// kStableShare of the bound; empty: none is above. One warning W454 for each, with the bound.
 std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics);
 
 }  // namespace presa

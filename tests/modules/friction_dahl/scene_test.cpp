@@ -62,6 +62,17 @@ TEST(SceneWithDahl, LiftsTheCubeAndLosesItAtTheCoulombForce) {
   EXPECT_EQ(outcome.out.find("mu_s"), std::string::npos);  // the cone's figure does not hold here
 }
 
+// Ten times stiffer than the surface the cube could not be held; the law is bounded like a surface, and holds it.
+TEST(SceneWithDahl, LowersAStiffnessThatTheDeviceCannotRender) {
+  const Outcome outcome = run(cubeWith("<dahl stiffness=\"20000\"/>", "stiff.xml"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(
+      (outcome.out + outcome.err).find("<dahl stiffness> of material 'rubber' of 20 N/mm is felt with 7.668 N/mm"),
+      std::string::npos)
+      << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("held in stick for 4.00 of 4.00 s"), std::string::npos) << outcome.out;
+}
+
 // <faulty_friction> has defaults for all its attributes.
 TEST(Law, IsThereOnlyWhereItIsWritten) {
   const Outcome explained =
