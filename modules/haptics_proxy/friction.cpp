@@ -56,7 +56,7 @@ bool meets(const Vec3& a, const Vec3& b, double r) noexcept {
 }  // namespace
 
 bool holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
-                    const Friction& friction, Surroundings& surroundings) noexcept {
+                    const Friction& friction, Surroundings& surroundings, FrictionAnswer& answer) noexcept {
   if (!contact.state.touching && !last.touching) return true;
   surroundings.use(Point::kHeld);
   if (!contact.state.touching) {
@@ -70,10 +70,10 @@ bool holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
   contact.state.stick_anchor = last.touching ? last.stick_anchor : contact.first_touch;
   Vec3 displacement = contact.state.stick_anchor - contact.state.god_object;
   displacement -= displacement.dot(contact.nhat) * contact.nhat;
-  contact.friction = ask(friction, contact, last, g, displacement);
-  const Vec3& stretch = contact.friction.stretch;
-  if (!keepsContract(contact.friction, contact.depth)) return false;
-  contact.state.slipping = contact.friction.slipping;
+  answer = ask(friction, contact, last, g, displacement);
+  const Vec3& stretch = answer.stretch;
+  if (!keepsContract(answer, contact.depth)) return false;
+  contact.state.slipping = answer.slipping;
 
   // a sticking proxy stays fixed in the body's coordinates, so there is no drift to correct
   if (!contact.state.slipping && stretch == displacement && isSupported(held, r, surroundings)) {
@@ -124,13 +124,13 @@ class LawStage : public FrictionStage {
   void hold(FingerTick& tick, std::int32_t body, double mu_static, double mu_dynamic) noexcept {
     Friction friction{*laws_.of(body), mu_static, mu_dynamic, surfaces_.of(body).stiffness, tick.period};
     if (body != tick.finger.frame) friction.q_BA = tick.touchables.frameOf(body).q.conjugate() * tick.X_WA.q;
-    if (!holdByFriction(tick.contact, tick.finger.tip, tick.g, tick.r, friction, *tick.finger.near)) {
+    FrictionAnswer answer;
+    if (!holdByFriction(tick.contact, tick.finger.tip, tick.g, tick.r, friction, *tick.finger.near, answer)) {
       int none = -1;
       broken_.compare_exchange_strong(none, body, std::memory_order_acq_rel);
     }
     tick.broken = broken_.load(std::memory_order_relaxed) >= 0;
     if (!tick.contact.state.touching) return;
-    const FrictionAnswer& answer = tick.contact.friction;
     tick.out.friction_static = answer.bound;
     tick.out.friction_dynamic = answer.bound_sliding;
     tick.out.tangential_ratio = answer.ratio;

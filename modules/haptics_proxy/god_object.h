@@ -47,7 +47,7 @@ struct FingertipState {
   Vec3 stick_anchor = Vec3::Zero();  ///< stick anchor: friction pulls the HIP towards it; its image on the surface is x
   bool fresh = true;                 ///< friction begins anew in the next tick
   Vec3 g = Vec3::Zero();             ///< HIP, written by friction
-  FrictionState friction;            ///< the law's own
+  FrictionState friction{};          ///< the law's own
 };
 
 /// Contact of one fingertip, in the working frame A.
@@ -59,8 +59,7 @@ struct ProxyContact {
   double depth = 0;                             ///< (x - g) . nhat [m]
   Vec3 tangential_displacement = Vec3::Zero();  ///< tangential displacement: x - g without its normal part [m]
   std::int32_t body = kNoBody;
-  ActiveSet active;         ///< active set of the frictionless point
-  FrictionAnswer friction;  ///< of the law, for the dynamics; only if `touching` and there is friction
+  ActiveSet active;   ///< active set of the frictionless point
   bool swept = true;  ///< the proxy moves along continuous paths; false: a renderer without memory, which may jump
 };
 
@@ -79,8 +78,8 @@ struct Friction {
 /// Applies friction to a sliding `contact`: a sticking proxy stays at its last position or at the first touch, a
 /// slipping one goes where the law's tangential force puts it. The tangential displacement is stored at the HIP, below
 /// the surface, not recomputed from the proxy: on a curved surface the two differ, and the difference would accumulate
-/// tick by tick. False: the law broke its contract.
+/// tick by tick. Writes the law's `answer` if there is a contact. False: the law broke its contract.
 bool holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec3& g, double r,
-                    const Friction& friction, Surroundings& surroundings) noexcept;
+                    const Friction& friction, Surroundings& surroundings, FrictionAnswer& answer) noexcept;
 
 }  // namespace presa

@@ -13,7 +13,9 @@ inline constexpr double kStiffness = 1000;  // of the surface [N/m]
 inline bool holdByCone(ProxyContact& contact, const FingertipState& last, const Vec3& g,
                        const FrictionCoefficients& cone, Surroundings& surroundings) {
   static const auto kLaw = pluginTable<FrictionLawPlugin>(kDefaultFrictionLaw, "presaFrictionLawPlugin").create({});
-  return holdByFriction(contact, last, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3}, surroundings);
+  FrictionAnswer answer;
+  return holdByFriction(contact, last, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3}, surroundings,
+                        answer);
 }
 
 /// Publishes a value set by the test, at haptic rate, so that the module under test reads it in the same tick.
