@@ -64,7 +64,10 @@ bool holdByFriction(ProxyContact& contact, const FingertipState& last, const Vec
     const ProxyMove back = moveProxy(last.x, contact.state.god_object, r, surroundings);
     if (!meets(back.x, contact.state.god_object, r)) startAgainFrom(back.x, g, r, contact, surroundings);
     contact.x = contact.state.x;
-    return true;
+    if (!contact.state.touching) return true;
+    // a contact that begins here: nothing is stretched yet, but the dynamics needs the law's bounds
+    answer = ask(friction, contact, FingertipState{}, g, Vec3::Zero());
+    return keepsContract(answer, contact.depth);
   }
   const Vec3 held = last.touching ? last.x : contact.first_touch;
   contact.state.stick_anchor = last.touching ? last.stick_anchor : contact.first_touch;

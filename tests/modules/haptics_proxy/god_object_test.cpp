@@ -51,6 +51,24 @@ TEST(GodObject, IsTheProjectionOnAPlane) {
   EXPECT_NEAR((move.x - Vec3(0.03, -0.01, kR)).norm(), 0, 1e-8 * kR);
 }
 
+// The frictionless point went round a thin wall that still holds the proxy: contact begins anew in this tick, and its
+// law gives the dynamics the bounds of it.
+TEST(Friction, BoundsAContactThatBeginsBehindAWall) {
+  const auto s = box({0.0005, 0.1, 0.1});
+  FingertipState last;
+  last.touching = true;
+  last.x = {-0.0005 - kR, 0, 0};
+  last.god_object = {0.012, 0, 0};
+  const Vec3 g(0.02, 0, 0);
+  ProxyContact contact = slideProxy(last, g, kR, *s);
+  ASSERT_FALSE(contact.state.touching);
+  const FrictionAnswer answer = test::holdByCone(contact, last, g, {0.8, 0.6}, *s);
+  EXPECT_TRUE(contact.state.touching);
+  EXPECT_NEAR(contact.x.x(), last.x.x(), 1e-8 * kR);
+  EXPECT_EQ(answer.bound, 0.8);
+  EXPECT_EQ(answer.bound_sliding, 0.6);
+}
+
 // On the ridge of a roof, with the HIP just below it, the fingertip leaves the ridge slowly at first, in short legs
 // round the edge. When the legs run out, it is still in contact.
 TEST(GodObject, IsInTouchWhenItsLegsRunOutOnARidge) {

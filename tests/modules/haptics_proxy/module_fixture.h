@@ -1,4 +1,6 @@
 #pragma once
+#include <gtest/gtest.h>
+
 #include <memory>
 
 #include "framework/core/graph/graph_builder.h"
@@ -10,12 +12,13 @@ inline constexpr double kR = 0.008;         // radius of the fingertip [m]
 inline constexpr double kStiffness = 1000;  // of the surface [N/m]
 
 /// Friction with the default law.
-inline bool holdByCone(ProxyContact& contact, const FingertipState& last, const Vec3& g,
-                       const FrictionCoefficients& cone, Surroundings& surroundings) {
+inline FrictionAnswer holdByCone(ProxyContact& contact, const FingertipState& last, const Vec3& g,
+                                 const FrictionCoefficients& cone, Surroundings& surroundings) {
   static const auto kLaw = pluginTable<FrictionLawPlugin>(kDefaultFrictionLaw, "presaFrictionLawPlugin").create({});
   FrictionAnswer answer;
-  return holdByFriction(contact, last, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3}, surroundings,
-                        answer);
+  EXPECT_TRUE(holdByFriction(contact, last, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3},
+                             surroundings, answer));
+  return answer;
 }
 
 /// Publishes a value set by the test, at haptic rate, so that the module under test reads it in the same tick.
