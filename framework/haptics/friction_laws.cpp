@@ -32,6 +32,11 @@ const PluginElement* frictionElementOf(const Scene& scene, std::size_t material)
   return found == scene.plugin_elements.end() ? nullptr : &*found;
 }
 
+PluginElement frictionLawOf(const Scene& scene, std::size_t material) {
+  if (const PluginElement* written = frictionElementOf(scene, material)) return *written;
+  return {kDefaultFrictionLaw, "friction", kNoBody, {}, scene.materials[material].where, PluginKind::kFrictionLaw};
+}
+
 bool hasFriction(const Scene& scene, std::size_t material) {
   const Material& m = scene.materials[material];
   return m.friction_static > 0 || m.changed_friction || frictionElementOf(scene, material) != nullptr;
@@ -41,18 +46,19 @@ FrictionLaws::FrictionLaws(const Scene& scene) {
   laws_.push_back(std::make_unique<Frictionless>());
   std::map<std::size_t, const FrictionLaw*> of_material;
   for (const Body& body : scene.bodies) {
-    const bool rubs = body.haptic && hasFriction(scene, body.material);
-    const PluginElement* written = rubs ? frictionElementOf(scene, body.material) : nullptr;
-    const PluginElement element =
-        written != nullptr ? *written : PluginElement{kDefaultFrictionLaw,     "friction", kNoBody, {}, body.where,
-                                                      PluginKind::kFrictionLaw};
-    const auto [law, is_new] = of_material.try_emplace(body.material, nullptr);
-    if (rubs && law->second == nullptr) {
-      laws_.push_back(make(element));
-      law->second = laws_.back().get();
+    if (!body.haptic || !hasFriction(scene, body.material)) {
+      of_body_.push_back(body.haptic ? laws_.front().get() : nullptr);
+      names_.emplace_back();
+      continue;
     }
-    of_body_.push_back(rubs ? law->second : body.haptic ? laws_.front().get() : nullptr);
-    names_.push_back(rubs ? element.plugin : std::string{});
+    const PluginElement element = frictionLawOf(scene, body.material);
+    const FrictionLaw*& law = of_material[body.material];
+    if (law == nullptr) {
+      laws_.push_back(make(element));
+      law = laws_.back().get();
+    }
+    of_body_.push_back(law);
+    names_.push_back(element.plugin);
   }
 }
 

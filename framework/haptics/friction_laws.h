@@ -30,6 +30,8 @@ class FrictionLaws {
 
 /// The element that gives the material's law, or null: kDefaultFrictionLaw.
 const PluginElement* frictionElementOf(const Scene& scene, std::size_t material);
+/// The same with the default filled in, which stands for <friction> itself.
+PluginElement frictionLawOf(const Scene& scene, std::size_t material);
 /// Whether fingers feel friction on the material, now or after the surface change.
 bool hasFriction(const Scene& scene, std::size_t material);
 

@@ -28,9 +28,10 @@ class Touchables {
   Pose frameOf(std::int32_t body) const noexcept { return body == kNoBody ? Pose{} : placed(body); }
   /// Velocity of the material point of the body at p_W [m/s].
   Vec3 velocityAt(std::int32_t body, const Vec3& p_W) const noexcept;
-  /// Fills `near`, in the coordinates of the body `frame`, with everything that a fingertip can meet while its centre stays within `reach` of the HIP,
-  /// which moved by `moved` since the last tick. When `neighbourhood` is null or does not cover this, all bodies are
-  /// examined. Returns the distance by which a surface may have approached the HIP in a tick of `period` [m].
+  /// Fills `near`, in the coordinates of the body `frame`, with everything that a fingertip can meet while its centre
+  /// stays within `reach` of the HIP, which moved by `moved` since the last tick. When `neighbourhood` is null or does
+  /// not cover this, all bodies are examined. Returns the distance by which a surface may have approached the HIP in a
+  /// tick of `period` [m].
   double surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved, double period,
                   const FingerNeighbourhood* neighbourhood) const noexcept;
 

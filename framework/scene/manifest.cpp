@@ -203,6 +203,14 @@ const std::vector<Manifest>& manifests() {
   return kAll;
 }
 
+const Manifest::Element* findElement(const std::string& name) {
+  for (const Manifest& manifest : manifests()) {
+    const auto found = std::ranges::find(manifest.elements, name, &Manifest::Element::name);
+    if (found != manifest.elements.end()) return &*found;
+  }
+  return nullptr;
+}
+
 std::string sceneSchemaWith(const std::vector<Manifest>& all) {
   std::string xsd = schemas::scene, types;
   std::map<Manifest::Place, std::string> declarations;

@@ -41,6 +41,9 @@ std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Dia
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.
 const std::vector<Manifest>& manifests();
 
+/// The element of that name among the manifests of this process, or null; names are unique (E594). Thread: any.
+const Manifest::Element* findElement(const std::string& name);
+
 /// "force effect"
 const char* nameOf(PluginKind kind);
 /// "body": as in a manifest.

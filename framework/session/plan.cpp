@@ -47,11 +47,10 @@ void planFriction(const Scene& scene, Plan& plan) {
   if (scene.devices.empty() || scene.haptics.renderer != HapticSettings::Renderer::kGodObject) return;
   for (const Body& body : scene.bodies) {
     if (!body.haptic || !hasFriction(scene, body.material)) continue;
-    const PluginElement* element = frictionElementOf(scene, body.material);
-    const std::string plugin = element != nullptr ? element->plugin : kDefaultFrictionLaw;
-    if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == plugin; })) continue;
-    const std::string owner = "material '" + scene.materials[body.material].name + "' has ";
-    plan.effects.push_back({plugin, owner + (element != nullptr ? "<" + element->element + ">" : "friction")});
+    const PluginElement law = frictionLawOf(scene, body.material);
+    if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == law.plugin; })) continue;
+    const std::string& material = scene.materials[body.material].name;
+    plan.effects.push_back({law.plugin, "material '" + material + "' has <" + law.element + ">"});
   }
 }
 

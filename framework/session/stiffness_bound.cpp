@@ -35,13 +35,10 @@ std::string inWords(const std::string& what, double stiffness, double allowed, c
 /// The stiffnesses of a friction law: the attributes of its element in N/m.
 std::vector<std::string> stiffnessesOf(const PluginElement& element) {
   std::vector<std::string> names;
-  for (const Manifest& manifest : manifests()) {
-    for (const Manifest::Element& known : manifest.elements) {
-      if (manifest.name != element.plugin || known.name != element.element) continue;
-      for (const Manifest::Attribute& attribute : known.attributes) {
-        if (attribute.unit == "N/m") names.push_back(attribute.name);
-      }
-    }
+  const Manifest::Element* known = findElement(element.element);
+  if (known == nullptr) return names;
+  for (const Manifest::Attribute& attribute : known->attributes) {
+    if (attribute.unit == "N/m") names.push_back(attribute.name);
   }
   return names;
 }

@@ -24,10 +24,11 @@ struct BodyInertiaState {
 ///   t2   . v+ + slip f_2 =              t2   . v_H     |f_2| <= mu f_n,  t2 = n_in x t1
 /// where v+ is the velocity of P at the end of the step. A friction law may give the tangential rows a stiffness k_t and a
 /// damping d_t of their own (FingerContact::tangential_ratio); then slip = 1/(h k_t + d_t), |t|/h is weighted by
-/// h k_t/(h k_t + d_t), and t is the displacement at which k_t gives the force of the sample. The solution is f_n = k (depth at the end of the step) + d
-/// (closing velocity), an implicit spring-damper; tangentially the spring alone, as on the haptic side. At rest f_n = k
-/// depth and f_1 = k |t| exactly. A finger that left the surface since its sample (depth < 0) either closes the gap
-/// within the step or exerts no force.
+/// h k_t/(h k_t + d_t), and t is the displacement at which k_t gives the force of the sample. The solution is
+///   f_n = k (depth at the end of the step) + d (closing velocity),
+/// an implicit spring-damper; tangentially the spring alone, as on the haptic side. At rest f_n = k depth and
+/// f_1 = k |t| exactly. A finger that left the surface since its sample (depth < 0) either closes the gap within the
+/// step or exerts no force.
 ///
 /// The force acts at P, not at the touched point one fingertip radius below it: the spring with energy k |P - H|^2 / 2
 /// is attached to the body at P, so force and torque are its gradient and no motion of the body creates energy. A

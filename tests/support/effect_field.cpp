@@ -2,23 +2,18 @@
 
 #include "framework/haptics/force_effects.h"
 #include "framework/scene/manifest.h"
-#include "framework/session/load_world.h"
+#include "tests/support/finger_world.h"
 
 namespace presa::test {
 namespace {
 
 bool standsInBody(const std::string& element) {
-  for (const Manifest& manifest : manifests()) {
-    for (const Manifest::Element& known : manifest.elements) {
-      const std::string tag = "<" + known.name;
-      const char after = element.starts_with(tag) && element.size() > tag.size() ? element[tag.size()] : 'x';
-      if (after == ' ' || after == '/' || after == '>') return known.place == Manifest::Place::kBody;
-    }
-  }
-  return false;  // reading the scene reports it
+  const std::string name = element.substr(1, element.find_first_of(" />") - 1);
+  const Manifest::Element* known = findElement(name);
+  return known != nullptr && known->place == Manifest::Place::kBody;  // null: reading the scene reports it
 }
 
-std::shared_ptr<const World> worldOf(const std::string& element) {
+std::shared_ptr<const World> worldWith(const std::string& element) {
   const bool in_body = standsInBody(element);
   const std::string scene = R"(<scene version="1.0" name="effect">)" + (in_body ? "" : element) +
                             R"(<world gravity="0 0 0"/><materials><material name="any" stiffness="1000"/></materials>
@@ -26,20 +21,13 @@ std::shared_ptr<const World> worldOf(const std::string& element) {
                             (in_body ? element : "") +
                             R"(<physics mass="0.2"><box size="0.07 0.07 0.07"/></physics></body>
     <devices><device role="finger" fingertip_radius="0.008"/></devices></scene>)";
-  Diagnostics diagnostics;
-  const Loaded loaded =
-      loadWithoutDevices({.scene_xml = scene,
-                          .name = "scene of EffectField",
-                          .rig_xml = R"(<rig version="1.0" name="none"><device role="finger" driver="none"/></rig>)"},
-                         {}, diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
-  return loaded.world;
+  return fingerWorld(scene);
 }
 
 }  // namespace
 
 struct EffectField::Parts {
-  explicit Parts(const std::string& element) : world(worldOf(element)) {}
+  explicit Parts(const std::string& element) : world(worldWith(element)) {}
   std::shared_ptr<const World> world;
   ForceEffects effects{*world};
   Touchables touchables{*world};

@@ -3,32 +3,26 @@
 #include <limits>
 
 #include "framework/haptics/friction_laws.h"
-#include "framework/session/load_world.h"
+#include "tests/support/finger_world.h"
 
 namespace presa::test {
 namespace {
 
-std::shared_ptr<const World> worldOf(const std::string& element, const FrictionTrack::Contact& contact) {
+std::shared_ptr<const World> worldWith(const std::string& element, const FrictionTrack::Contact& contact) {
   const std::string scene = R"(<scene version="1.0" name="friction"><world gravity="0 0 0"/>
     <materials><material name="any" stiffness="1000"><friction static=")" +
                             std::to_string(contact.mu_static) + "\" dynamic=\"" + std::to_string(contact.mu_dynamic) +
                             "\">" + element + R"(</friction></material></materials>
     <body name="plane" fixed="true" material="any"><haptic><box size="1 1 1"/></haptic></body>
     <devices><device role="finger" fingertip_radius="0.008"/></devices></scene>)";
-  Diagnostics diagnostics;
-  const Loaded loaded =
-      loadWithoutDevices({.scene_xml = scene,
-                          .name = "scene of FrictionTrack",
-                          .rig_xml = R"(<rig version="1.0" name="none"><device role="finger" driver="none"/></rig>)"},
-                         {}, diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
-  return loaded.world;
+  return fingerWorld(scene);
 }
 
 }  // namespace
 
 struct FrictionTrack::Parts {
-  Parts(const std::string& element, const Contact& of) : world(worldOf(element, of)), laws(world->scene), contact(of) {}
+  Parts(const std::string& element, const Contact& of)
+      : world(worldWith(element, of)), laws(world->scene), contact(of) {}
   std::shared_ptr<const World> world;
   FrictionLaws laws;
   Contact contact;

@@ -19,8 +19,9 @@ struct SourceLocation {
 struct Diagnostic {
   enum class Severity { kWarning, kError };
   Severity severity = Severity::kError;
-  int code =
-      0;  ///< E1xx reading, well-formedness and schema, E2xx scene, E3xx mesh, E4xx rig and devices, E5xx graph, E6xx recording, E7xx view, E8xx studies of cost, E9xx experiments
+  /// E1xx reading, well-formedness and schema, E2xx scene, E3xx mesh, E4xx rig and devices, E5xx graph, E6xx recording,
+  /// E7xx view, E8xx studies of cost, E9xx experiments.
+  int code = 0;
   std::string message;
   std::string help;  ///< may be empty
   SourceLocation where;

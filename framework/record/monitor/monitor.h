@@ -61,7 +61,8 @@ struct TraceSample {
 /// results after the executor has stopped.
 class Monitor final : public HapticObserver {
  public:
-  /// `duration` of the run [s] bounds the trace. `loosen_time`: start of the scripted release [s], or infinity. `trace_rate` [Hz]; 0: no trace.
+  /// `duration` of the run [s] bounds the trace. `loosen_time`: start of the scripted release [s], or infinity.
+  /// `trace_rate` [Hz]; 0: no trace.
   Monitor(std::shared_ptr<const World> world, double duration, double loosen_time, double trace_rate);
   ~Monitor() override;
   /// Without dynamics, bodies keep their start poses. An object state is summed and hashed when its version changes.
