@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "apps/common/file_text.h"
 
@@ -35,5 +37,19 @@ Outcome shell(const std::string& command) {
 }
 
 Outcome presa(const std::string& arguments) { return shell(std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments); }
+
+std::string cubeWith(const std::string& name, const std::function<void(std::string&)>& edit) {
+  std::ifstream in(source("config/scenes/cube.xml"));
+  std::string xml{std::istreambuf_iterator<char>(in), {}};
+  edit(xml);
+  const std::string file = scratch(name);
+  std::ofstream(file) << xml;
+  return file;
+}
+
+Outcome withTestPlugins(const std::string& verb, const std::string& scene, const std::string& more) {
+  return shell("PRESA_PLUGIN_PATH=" PRESA_BINARY_DIR "/tests/plugins " PRESA_BINARY_DIR "/bin/presa " + verb + " " +
+               scene + " --rig " + source("config/rigs/pinch_cube.xml") + " --allow-folder " + source("config") + more);
+}
 
 }  // namespace presa::test

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,5 +24,10 @@ struct Outcome {
 };
 Outcome shell(const std::string& command);
 Outcome presa(const std::string& arguments);
+
+/// The shipped cube, its text changed by `edit`, as a file in the scratch folder.
+std::string cubeWith(const std::string& name, const std::function<void(std::string&)>& edit);
+/// `presa VERB` for a file of cubeWith, with the shipped rig and also the plug-ins of the tests.
+Outcome withTestPlugins(const std::string& verb, const std::string& scene, const std::string& more = {});
 
 }  // namespace presa::test

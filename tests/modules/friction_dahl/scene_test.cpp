@@ -11,31 +11,24 @@ namespace {
 
 using test::Outcome;
 
-const std::string kPlugins = "PRESA_PLUGIN_PATH=" PRESA_BINARY_DIR "/tests/plugins ";
-const std::string kRig =
-    " --rig " + test::source("config/rigs/pinch_cube.xml") + " --allow-folder " + test::source("config");
+using test::withTestPlugins;
 
 /// The shipped scene with `law` in the friction of its two materials.
 std::string cubeWith(const std::string& law, const std::string& name) {
-  std::ifstream in(test::source("config/scenes/cube.xml"));
-  std::string xml{std::istreambuf_iterator<char>(in), {}};
-  const std::string start = "<friction ";
-  for (std::size_t at = 0; (at = xml.find(start, at)) != std::string::npos; ++at) {
-    const std::size_t end = xml.find("/>", at);
-    xml.replace(end, 2, ">" + law + "</friction>");
-  }
-  const std::string file = test::scratch(name);
-  std::ofstream(file) << xml;
-  return file;
+  return test::cubeWith(name, [&](std::string& xml) {
+    for (std::size_t at = 0; (at = xml.find("<friction ", at)) != std::string::npos; ++at) {
+      xml.replace(xml.find("/>", at), 2, ">" + law + "</friction>");
+    }
+  });
 }
 
 Outcome run(const std::string& scene, const std::string& more = {}) {
-  return test::shell(kPlugins + PRESA_BINARY_DIR "/bin/presa run " + scene + kRig + " --lockstep" + more);
+  return withTestPlugins("run", scene, " --lockstep" + more);
 }
 
 TEST(SceneWithDahl, LoadsItsLawAndNotTheCone) {
   const std::string scene = cubeWith("<dahl stiffness=\"2000\"/>", "dahl.xml");
-  const Outcome explained = test::presa("explain " + scene + kRig);
+  const Outcome explained = withTestPlugins("explain", scene);
   EXPECT_EQ(explained.status, 0) << explained.err;
   EXPECT_NE(explained.out.find("friction: friction_dahl\n"), std::string::npos) << explained.out;
   EXPECT_NE(explained.out.find("presa_friction_dahl.so"), std::string::npos);
@@ -75,8 +68,7 @@ TEST(SceneWithDahl, LowersAStiffnessThatTheDeviceCannotRender) {
 
 // <faulty_friction> has defaults for all its attributes.
 TEST(Law, IsThereOnlyWhereItIsWritten) {
-  const Outcome explained =
-      test::shell(kPlugins + PRESA_BINARY_DIR "/bin/presa explain " + cubeWith("", "none.xml") + kRig);
+  const Outcome explained = withTestPlugins("explain", cubeWith("", "none.xml"));
   EXPECT_EQ(explained.status, 0) << explained.err;
   EXPECT_NE(explained.out.find("friction: friction_cone\n"), std::string::npos) << explained.out;
 }

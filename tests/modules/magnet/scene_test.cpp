@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "tests/apps/presa/support.h"
 
 // From the command line: the shipped cube with force effects, from XML alone.
@@ -10,28 +8,20 @@ namespace {
 
 using test::Outcome;
 
-const std::string kPlugins = "PRESA_PLUGIN_PATH=" PRESA_BINARY_DIR "/tests/plugins ";
-const std::string kRig =
-    " --rig " + test::source("config/rigs/pinch_cube.xml") + " --allow-folder " + test::source("config");
+using test::withTestPlugins;
 
 /// The shipped scene with `text` inserted after the start tag of its cube or of the scene.
 std::string cubeWith(const std::string& text, bool in_body, const std::string& name) {
-  std::ifstream in(test::source("config/scenes/cube.xml"));
-  std::string xml{std::istreambuf_iterator<char>(in), {}};
-  const std::size_t at = xml.find('>', xml.find(in_body ? "<body name=\"cube\"" : "<scene"));
-  xml.insert(at + 1, text);
-  const std::string file = test::scratch(name);
-  std::ofstream(file) << xml;
-  return file;
+  return test::cubeWith(name, [&](std::string& xml) {
+    xml.insert(xml.find('>', xml.find(in_body ? "<body name=\"cube\"" : "<scene")) + 1, text);
+  });
 }
 
-Outcome run(const std::string& scene, const std::string& more = {}) {
-  return test::shell(kPlugins + PRESA_BINARY_DIR "/bin/presa run " + scene + kRig + " --lockstep --for 2" + more);
-}
+Outcome run(const std::string& scene) { return withTestPlugins("run", scene, " --lockstep --for 2"); }
 
 TEST(SceneWithMagnet, LoadsItsPlugInAndShowsIt) {
   const std::string scene = cubeWith("<magnet max_force=\"1.5\" range=\"0.06\"/>", true, "magnet.xml");
-  const Outcome explained = test::presa("explain " + scene + kRig);
+  const Outcome explained = withTestPlugins("explain", scene);
   EXPECT_EQ(explained.status, 0) << explained.err;
   EXPECT_NE(explained.out.find("force effect <magnet> of body 'cube'"), std::string::npos) << explained.out;
   EXPECT_NE(explained.out.find("presa_magnet.so"), std::string::npos);
@@ -49,7 +39,8 @@ TEST(SceneWithoutMagnet, LoadsNoneOfIt) {
 }
 
 TEST(Plugins, AreListedWithWhatTheyBringAndNotLoaded) {
-  const Outcome listed = test::shell(kPlugins + PRESA_BINARY_DIR "/bin/presa plugins");
+  const Outcome listed =
+      test::shell("PRESA_PLUGIN_PATH=" PRESA_BINARY_DIR "/tests/plugins " PRESA_BINARY_DIR "/bin/presa plugins");
   EXPECT_EQ(listed.status, 0) << listed.err;
   EXPECT_NE(listed.out.find("magnet (force effect), " PRESA_BINARY_DIR "/lib/presa\n"), std::string::npos)
       << listed.out;
