@@ -11,7 +11,7 @@ foreach(room IN ITEMS core haptics geometry scene device)
   set_target_properties(presa_room_${room} PROPERTIES EXPORT_NAME ${room})
   list(APPEND presa_exported presa_room_${room})
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} framework/${room}/*.h)
-  list(FILTER headers EXCLUDE REGEX "_plugin/")
+  list(FILTER headers EXCLUDE REGEX "_plugin/|scene/xml/(document_data|schema_compiled|schema_reader).h") # they need libxml2
   list(APPEND presa_headers ${headers})
 endforeach()
 list(APPEND presa_headers framework/session/module_plugin.h

@@ -2,12 +2,12 @@
 set(PRESA_PLUGIN_DIR lib/presa) # below the prefix; plug-ins, their manifests, and the libraries that only Presa uses
 
 # presa_plugin(NAME SOURCES a.cpp … LIBRARIES … ALONE …): the shared object presa_NAME.so, loaded only when a scene calls for it,
-# and beside it presa_NAME.xml, a copy of the folder's manifest.xml if it has one. ALONE: see presa_unity in PresaTargets.cmake.
+# and beside it presa_NAME.xml, the folder's manifest.xml, if it has one, with the version of the project. ALONE: see presa_unity in PresaTargets.cmake.
 function(presa_plugin name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;ALONE" ${ARGN})
   set(folder ${CMAKE_BINARY_DIR}/${PRESA_PLUGIN_DIR})
   if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/manifest.xml)
-    configure_file(manifest.xml ${folder}/presa_${name}.xml COPYONLY)
+    configure_file(manifest.xml ${folder}/presa_${name}.xml @ONLY)
     install(FILES ${folder}/presa_${name}.xml DESTINATION ${PRESA_PLUGIN_DIR})
   endif()
   add_library(presa_${name} SHARED ${ARG_SOURCES})

@@ -32,7 +32,7 @@ Manifest::Place placeOf(const std::string& name) {
 Manifest read(const xml::Element& root, const std::string& file) {
   const PluginKind kind =
       root.attribute("kind") == "friction_law" ? PluginKind::kFrictionLaw : PluginKind::kForceEffect;
-  Manifest manifest{root.attribute("name"), kind, root.attribute("about"), {}, file};
+  Manifest manifest{root.attribute("name"), root.attribute("version"), kind, root.attribute("about"), {}, file};
   for (const xml::Element& child : root.children("element")) {
     Manifest::Element element{child.attribute("name"), placeOf(child.attribute("in")), {}, child.where()};
     for (const xml::Element& attribute : child.children("attribute"))

@@ -25,7 +25,7 @@ struct Manifest {
     SourceLocation where;
   };
 
-  std::string name;  ///< of the plug-in
+  std::string name, version;  ///< of the plug-in
   PluginKind kind = PluginKind::kForceEffect;
   std::string about;
   std::vector<Element> elements;

@@ -42,7 +42,7 @@ refused "scene/lift.xml:16:5: error[E111]: unknown element <soft_pull>" "${bare[
 refused "PRESA_PLUGIN_PATH" "${bare[@]}" presa check scene/lift.xml
 found=("${bare[@]}" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa")
 shows "$("${found[@]}" presa explain scene/lift.xml)" "force effect <soft_pull> of body 'cube'"
-shows "$("${found[@]}" presa plugins)" "soft_pull (force effect), $PWD/build/lib/presa"
+shows "$("${found[@]}" presa plugins)" "soft_pull 0.1.0 (force effect), $PWD/build/lib/presa"
 "${found[@]}" presa run scene/lift.xml --lockstep --quiet --summary with.json
 run presa run "$prefix/share/presa/config/scenes/cube.xml" --lockstep --quiet --summary without.json
 [[ $(grep hash with.json) != "$(grep hash without.json)" ]] || fail "the effect changed nothing"

@@ -28,7 +28,7 @@ void print(const Manifest::Attribute& attribute) {
 }
 
 void print(const Manifest& manifest) {
-  std::printf("%s (%s), %s\n  %s\n", manifest.name.c_str(), nameOf(manifest.kind),
+  std::printf("%s %s (%s), %s\n  %s\n", manifest.name.c_str(), manifest.version.c_str(), nameOf(manifest.kind),
               fs::path(manifest.file).parent_path().lexically_normal().c_str(), manifest.about.c_str());
   for (const Manifest::Element& element : manifest.elements) {
     std::printf("    <%s> in <%s>\n", element.name.c_str(), nameOf(element.place));

@@ -13,9 +13,9 @@ class Manifests : public testing::Test {
  protected:
   void write(const std::string& file, const std::string& text) const { std::ofstream(folder_.path() / file) << text; }
   static std::string effect(const std::string& name, const std::string& element, const std::string& more = {}) {
-    return "<plugin name=\"" + name + "\" kind=\"force_effect\" about=\"a test\"><element name=\"" + element +
-           "\" in=\"body\"><attribute name=\"max_force\" type=\"number\" above=\"0\" about=\"a bound\"/>" + more +
-           "</element></plugin>";
+    return "<plugin name=\"" + name + "\" version=\"1.0\" kind=\"force_effect\" about=\"a test\"><element name=\"" +
+           element + "\" in=\"body\"><attribute name=\"max_force\" type=\"number\" above=\"0\" about=\"a bound\"/>" +
+           more + "</element></plugin>";
   }
   std::string errors() const {
     Diagnostics diagnostics;
@@ -68,16 +68,17 @@ TEST_F(Manifests, MayNotBringAnElementOfPresa) {
 }
 
 TEST_F(Manifests, OfForceEffectsBoundTheForce) {
-  write("presa_wind.xml",
-        "<plugin name=\"wind\" kind=\"force_effect\" about=\"a test\"><element name=\"wind\" in=\"body\">"
-        "<attribute name=\"max_force\" type=\"number\" default=\"3\" about=\"a bound\"/></element></plugin>");
+  write(
+      "presa_wind.xml",
+      "<plugin name=\"wind\" version=\"1.0\" kind=\"force_effect\" about=\"a test\"><element name=\"wind\" in=\"body\">"
+      "<attribute name=\"max_force\" type=\"number\" default=\"3\" about=\"a bound\"/></element></plugin>");
   EXPECT_EQ(errors().substr(0, 4), "595 ");
 }
 
 TEST_F(Manifests, OfFrictionLawsBelongToFriction) {
   const auto law = [](const std::string& place) {
-    return "<plugin name=\"wind\" kind=\"friction_law\" about=\"a test\"><element name=\"wind\" in=\"" + place +
-           "\"/></plugin>";
+    return "<plugin name=\"wind\" version=\"1.0\" kind=\"friction_law\" about=\"a test\"><element name=\"wind\" in=\"" +
+           place + "\"/></plugin>";
   };
   write("presa_wind.xml", law("friction"));
   EXPECT_EQ(errors(), "");
@@ -86,7 +87,7 @@ TEST_F(Manifests, OfFrictionLawsBelongToFriction) {
 }
 
 TEST_F(Manifests, AreCheckedLikeAnyFile) {
-  write("presa_wind.xml", "<plugin name=\"wind\" kind=\"forse_effect\" about=\"a test\"/>");
+  write("presa_wind.xml", "<plugin name=\"wind\" version=\"1.0\" kind=\"forse_effect\" about=\"a test\"/>");
   EXPECT_NE(errors().find("forse_effect"), std::string::npos) << errors();
 }
 

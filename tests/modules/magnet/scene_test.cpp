@@ -42,11 +42,13 @@ TEST(Plugins, AreListedWithWhatTheyBringAndNotLoaded) {
   const Outcome listed =
       test::shell("PRESA_PLUGIN_PATH=" PRESA_BINARY_DIR "/tests/plugins " PRESA_BINARY_DIR "/bin/presa plugins");
   EXPECT_EQ(listed.status, 0) << listed.err;
-  EXPECT_NE(listed.out.find("magnet (force effect), " PRESA_BINARY_DIR "/lib/presa\n"), std::string::npos)
+  EXPECT_NE(listed.out.find("magnet " PRESA_VERSION " (force effect), " PRESA_BINARY_DIR "/lib/presa\n"),
+            std::string::npos)
       << listed.out;
   EXPECT_NE(listed.out.find("    <magnet> in <body>\n      max_force    number [N] in (0, 20], required: "),
             std::string::npos);
-  EXPECT_NE(listed.out.find("faulty (force effect), " PRESA_BINARY_DIR "/tests/plugins\n"), std::string::npos);
+  EXPECT_NE(listed.out.find("faulty " PRESA_VERSION " (force effect), " PRESA_BINARY_DIR "/tests/plugins\n"),
+            std::string::npos);
 }
 
 TEST(SceneWithMagnet, ErrorsAreLikeThoseOfAnyElement) {
