@@ -10,7 +10,7 @@
 #include "framework/core/state/surface_change.h"
 #include "framework/haptics/touchables.h"
 #include "framework/scene/world.h"
-#include "modules/haptics_proxy/god_object.h"
+#include "modules/god_object/god_object.h"
 
 namespace presa {
 

@@ -10,7 +10,7 @@
 #include "framework/haptics/friction_laws.h"
 
 #include "modules/haptics_proxy/finger_stage.h"
-#include "modules/haptics_proxy/god_object.h"
+#include "modules/god_object/god_object.h"
 
 namespace presa {
 

@@ -92,7 +92,7 @@ SAFETY = [
     (SUPERVISED, "&& silence_ <= kSilent", ""),
 ]
 
-GOD = "modules/haptics_proxy/god_object.cpp"
+GOD = "modules/god_object/god_object.cpp"
 FRICTION = "modules/haptics_proxy/friction.cpp"
 NEAREST = "framework/haptics/nearest_feasible.cpp"
 SHADING = "modules/haptics_proxy/shading.cpp"

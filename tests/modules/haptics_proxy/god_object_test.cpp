@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/haptics/nearest_feasible.h"
-#include "modules/haptics_proxy/god_object.h"
+#include "modules/god_object/god_object.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
 
 namespace presa {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "modules/haptics_proxy/god_object.h"
+#include "modules/god_object/god_object.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
 
 namespace presa {

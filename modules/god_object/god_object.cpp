@@ -3,7 +3,7 @@
 // new contact (swept with Newton's method, convex_piece.h), and repeat until a leg is shorter than the tolerance.
 // Invariants: the sphere never passes a piece; a leg keeps the centre at half its distance from every touched piece;
 // tolerances are relative to r and not below the rounding of the coordinates.
-#include "modules/haptics_proxy/god_object.h"
+#include "modules/god_object/god_object.h"
 
 #include <algorithm>
 #include <cmath>
