@@ -19,6 +19,10 @@ class Touchables {
   /// body, far below any perceptible size of the smallest. Depth and contact point are reported for the point.
   double lift() const noexcept { return std::max(1e-6 * largest_, 1e-5 * smallest_); }
   std::size_t meshCount() const noexcept { return mesh_count_; }
+  /// Whether `body` is the index of a touchable body.
+  bool has(std::int32_t body) const noexcept {
+    return static_cast<std::size_t>(body) < touchable_of_.size() && touchable_of_[static_cast<std::size_t>(body)] >= 0;
+  }
 
   /// Sets the poses of a tick: interpolated at `time`, or held at the end of the dynamics step. Before the first call
   /// bodies have their start poses.

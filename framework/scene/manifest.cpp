@@ -24,15 +24,42 @@ Manifest::Attribute readAttribute(const xml::Element& element) {
           element.attribute("above"), element.attribute("min"),         element.attribute("max")};
 }
 
-Manifest::Place placeOf(const std::string& name) {
-  using Place = Manifest::Place;
-  return name == "body" ? Place::kBody : name == "friction" ? Place::kFriction : Place::kScene;
+using Place = Manifest::Place;
+
+/// Kinds as they are called in manifests and in texts, and where their elements may stand.
+struct KindRule {
+  PluginKind kind;
+  const char *word, *name;
+  std::vector<Place> places;
+};
+
+const std::vector<KindRule>& kindRules() {
+  static const std::vector<KindRule> kRules{
+      {PluginKind::kForceEffect, "force_effect", "force effect", {Place::kBody, Place::kScene}},
+      {PluginKind::kFrictionLaw, "friction_law", "friction law", {Place::kFriction}},
+      {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}}};
+  return kRules;
+}
+
+constexpr std::pair<Place, const char*> kPlaces[] = {
+    {Place::kBody, "body"}, {Place::kScene, "scene"}, {Place::kFriction, "friction"}, {Place::kHaptics, "haptics"}};
+
+const KindRule& ruleOf(PluginKind kind) { return *std::ranges::find(kindRules(), kind, &KindRule::kind); }
+
+// The schema has checked the words.
+PluginKind kindOf(const std::string& word) { return std::ranges::find(kindRules(), word, &KindRule::word)->kind; }
+Place placeOf(const std::string& word) {
+  return std::ranges::find(kPlaces, word, [](const auto& place) { return std::string(place.second); })->first;
 }
 
 Manifest read(const xml::Element& root, const std::string& file) {
-  const PluginKind kind =
-      root.attribute("kind") == "friction_law" ? PluginKind::kFrictionLaw : PluginKind::kForceEffect;
-  Manifest manifest{root.attribute("name"), root.attribute("version"), kind, root.attribute("about"), {}, file};
+  Manifest manifest{.name = root.attribute("name"),
+                    .version = root.attribute("version"),
+                    .kind = kindOf(root.attribute("kind")),
+                    .about = root.attribute("about"),
+                    .proxy = root.attribute("gives") == "proxy",
+                    .elements = {},
+                    .file = file};
   for (const xml::Element& child : root.children("element")) {
     Manifest::Element element{child.attribute("name"), placeOf(child.attribute("in")), {}, child.where()};
     for (const xml::Element& attribute : child.children("attribute"))
@@ -42,30 +69,52 @@ Manifest read(const xml::Element& root, const std::string& file) {
   return manifest;
 }
 
-/// A friction law belongs to a material's friction, a force effect to a body or the scene.
 void checkPlace(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
-  const bool friction = manifest.kind == PluginKind::kFrictionLaw;
-  if (friction == (element.place == Manifest::Place::kFriction)) return;
+  const std::vector<Place>& places = ruleOf(manifest.kind).places;
+  if (std::ranges::find(places, element.place) != places.end()) return;
+  std::string allowed;
+  for (const Place place : places)
+    allowed += (allowed.empty() ? "in=\"" : " or in=\"") + std::string(nameOf(place)) + "\"";
   diagnostics.error(kAgainstKind, element.where,
                     "<" + element.name + "> of the " + nameOf(manifest.kind) + " '" + manifest.name +
                         "' cannot stand in=\"" + nameOf(element.place) + "\"",
-                    friction ? "in=\"friction\"" : "in=\"body\" or in=\"scene\"");
+                    allowed);
+}
+
+/// The scene must bound every force effect.
+void checkBound(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
+  const bool bounded = std::ranges::any_of(element.attributes, [](const Manifest::Attribute& attribute) {
+    return attribute.name == "max_force" && attribute.type == "number" && attribute.required;
+  });
+  if (bounded) return;
+  diagnostics.error(
+      kAgainstKind, element.where,
+      "<" + element.name + "> of the force effect '" + manifest.name + "' has no required number max_force",
+      "the scene must bound every force effect; add <attribute name=\"max_force\" type=\"number\" "
+      "unit=\"N\" above=\"0\" about=\"…\"/>");
+}
+
+/// A scene that names a renderer need not have its settings.
+void checkSettings(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
+  for (const Manifest::Attribute& attribute : element.attributes) {
+    if (!attribute.required) continue;
+    diagnostics.error(
+        kAgainstKind, element.where,
+        "<" + element.name + " " + attribute.name + "> of the renderer '" + manifest.name + "' has no default",
+        "a scene may name a renderer without its settings; add default=\"…\"");
+  }
 }
 
 void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
   for (const Manifest::Element& element : manifest.elements) {
     checkPlace(manifest, element, diagnostics);
-    if (manifest.kind != PluginKind::kForceEffect) continue;
-    const bool bounded = std::ranges::any_of(element.attributes, [](const Manifest::Attribute& attribute) {
-      return attribute.name == "max_force" && attribute.type == "number" && attribute.required;
-    });
-    if (!bounded) {
-      diagnostics.error(
-          kAgainstKind, element.where,
-          "<" + element.name + "> of the force effect '" + manifest.name + "' has no required number max_force",
-          "the scene must bound every force effect; add <attribute name=\"max_force\" type=\"number\" "
-          "unit=\"N\" above=\"0\" about=\"…\"/>");
-    }
+    if (manifest.kind == PluginKind::kForceEffect) checkBound(manifest, element, diagnostics);
+    if (manifest.kind == PluginKind::kRenderer) checkSettings(manifest, element, diagnostics);
+  }
+  if (manifest.kind == PluginKind::kRenderer && manifest.elements.size() > 1) {
+    diagnostics.error(kAgainstKind, manifest.elements[1].where,
+                      "the renderer '" + manifest.name + "' has a second element for its settings",
+                      "put all attributes into <" + manifest.elements[0].name + ">");
   }
 }
 
@@ -78,6 +127,11 @@ std::optional<Manifest> readManifest(const fs::path& path, Diagnostics& diagnost
     diagnostics.error(kBroken, document->root().where("name"),
                       "the manifest of plug-in '" + manifest.name + "' lies in " + quote(path.filename().string()),
                       "call it presa_" + manifest.name + ".xml");
+  }
+  if (manifest.proxy && manifest.kind != PluginKind::kRenderer) {
+    diagnostics.error(kAgainstKind, document->root().where("gives"),
+                      "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "' says gives=\"proxy\"",
+                      "only a renderer has a proxy");
   }
   checkElements(manifest, diagnostics);
   return manifest;
@@ -171,17 +225,10 @@ void insertAt(std::string& xsd, const std::string& mark, const std::string& text
 
 }  // namespace
 
-const char* nameOf(PluginKind kind) { return kind == PluginKind::kFrictionLaw ? "friction law" : "force effect"; }
+const char* nameOf(PluginKind kind) { return ruleOf(kind).name; }
 
 const char* nameOf(Manifest::Place place) {
-  switch (place) {
-    case Manifest::Place::kBody:
-      return "body";
-    case Manifest::Place::kFriction:
-      return "friction";
-    default:
-      return "scene";
-  }
+  return std::ranges::find(kPlaces, place, [](const auto& named) { return named.first; })->second;
 }
 
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics) {
@@ -203,6 +250,11 @@ const std::vector<Manifest>& manifests() {
   return kAll;
 }
 
+const Manifest* findManifest(const std::string& name) {
+  const auto found = std::ranges::find(manifests(), name, &Manifest::name);
+  return found == manifests().end() ? nullptr : &*found;
+}
+
 const Manifest::Element* findElement(const std::string& name) {
   for (const Manifest& manifest : manifests()) {
     const auto found = std::ranges::find(manifest.elements, name, &Manifest::Element::name);
@@ -219,6 +271,11 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
       declarations[element.place] += declarationOf(element, types);
   }
   insertAt(xsd, "types of plug-ins", types);
+  std::string renderers;
+  for (const Manifest& manifest : all) {
+    if (manifest.kind == PluginKind::kRenderer) renderers += "<xs:enumeration value=\"" + manifest.name + "\"/>";
+  }
+  insertAt(xsd, "renderers of plug-ins", renderers);
   for (const auto& [place, text] : declarations)
     insertAt(xsd, std::string("elements of plug-ins: ") + nameOf(place), text);
   return xsd;

@@ -10,7 +10,7 @@ namespace presa {
 /// What a plug-in adds to scenes, from the file `presa_NAME.xml` beside its library `presa_NAME.so`. Manifests are read
 /// without loading any library, so that a scene costs nothing for plug-ins that it does not name.
 struct Manifest {
-  enum class Place { kBody, kScene, kFriction };
+  enum class Place { kBody, kScene, kFriction, kHaptics };
 
   struct Attribute {
     std::string name, type, unit, about;
@@ -28,14 +28,15 @@ struct Manifest {
   std::string name, version;  ///< of the plug-in
   PluginKind kind = PluginKind::kForceEffect;
   std::string about;
+  bool proxy = false;  ///< a renderer with a proxy: gives="proxy"
   std::vector<Element> elements;
   std::string file;
 };
 
 /// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.
 /// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
-/// plug-in brings already, E595 an element that stands where those of its kind cannot, or that lacks the required
-/// attribute max_force of a force effect.
+/// plug-in brings already, E595 what a plug-in of its kind may not have or must have: the place of an element, the
+/// required max_force of a force effect, the defaults of a renderer's settings.
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.
@@ -43,6 +44,9 @@ const std::vector<Manifest>& manifests();
 
 /// The element of that name among the manifests of this process, or null; names are unique (E594). Thread: any.
 const Manifest::Element* findElement(const std::string& name);
+
+/// The manifest of that plug-in of this process, or null. Thread: any.
+const Manifest* findManifest(const std::string& name);
 
 /// "force effect"
 const char* nameOf(PluginKind kind);

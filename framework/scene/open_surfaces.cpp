@@ -14,7 +14,7 @@ constexpr double kMaxFriction = 2;   // multiple of the loaded coefficient [-]
 
 std::vector<OpenSurface> openSurfaces(const Scene& scene) {
   std::vector<OpenSurface> open;
-  const bool friction = scene.haptics.renderer == HapticSettings::Renderer::kGodObject && !scene.surfacesChange();
+  const bool friction = scene.haptics.proxy && !scene.surfacesChange();
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Material& material = scene.materials[m];
     const bool touched = std::any_of(scene.bodies.begin(), scene.bodies.end(),

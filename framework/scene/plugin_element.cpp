@@ -68,6 +68,9 @@ std::vector<PluginElement> readPluginElements(const xml::Element& root) {
     }
     ++material;
   }
+  for (const xml::Element& haptics : root.children("haptics")) {
+    for (const xml::Element& settings : haptics.children()) add(settings, kNoBody);
+  }
   std::int32_t body = 0;
   for (const xml::Element& child : root.children()) {
     add(child, kNoBody);

@@ -107,9 +107,9 @@ struct DeviceRole {
 /// Haptic rendering method. The defaults are Presa's methods; the other values select the conventional ones for
 /// comparison.
 struct HapticSettings {
-  enum class Renderer { kGodObject, kPenalty };
   enum class PoseUse { kInterpolate, kHold };
-  Renderer renderer = Renderer::kGodObject;
+  std::string renderer = "god_object";  ///< plug-in (framework/haptics/renderer.h)
+  bool proxy = true;                    ///< its manifest gives a proxy that friction can hold
   PoseUse pose = PoseUse::kInterpolate;
 };
 

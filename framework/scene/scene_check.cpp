@@ -6,6 +6,7 @@
 
 #include "framework/core/state/limits.h"
 #include "framework/scene/ages.h"
+#include "framework/scene/manifest.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/xml/value_rule.h"
 
@@ -31,7 +32,8 @@ enum Code {
   kNoGeometry = 221,
   kWatchdog = 222,
   kSlowDynamics = 223,
-  kTwoLaws = 224
+  kTwoLaws = 224,
+  kOtherRenderer = 225
 };
 
 // Between two dynamics steps a held body moves on in a straight line. The scripted grasp of 20 and 200 g at 0.5 to 4
@@ -80,6 +82,7 @@ class SceneCheck {
     const auto moves = [](const Element& body) { return !body.flawed("fixed") && !body.boolean("fixed", false); };
     if (!devices.empty() && std::any_of(bodies.begin(), bodies.end(), moves)) checkDynamics(devices);
     for (const Element& material : materials_) checkFriction(material);
+    for (const Element& haptics : root_.children("haptics")) checkRenderer(haptics);
     if (bodies.empty())
       diagnostics_.error(kNoBody, root_.where(), "the scene has no <body>", "a scene needs at least one body");
     if (materials_.empty() && !bodies.empty()) {
@@ -209,6 +212,20 @@ class SceneCheck {
         kTwoLaws, laws[1].where(),
         "friction of " + whose + " names two laws, <" + laws[0].name() + "> and <" + laws[1].name() + ">",
         "one law for each material");
+  }
+
+  /// The children of <haptics> are the settings of renderers.
+  void checkRenderer(const Element& haptics) {
+    if (haptics.flawed("renderer")) return;
+    const std::string name = haptics.attribute("renderer", "god_object");
+    const Manifest* renderer = findManifest(name);
+    for (const Element& settings : haptics.children()) {
+      const auto is_this = [&](const Manifest::Element& own) { return own.name == settings.name(); };
+      if (renderer != nullptr && std::ranges::any_of(renderer->elements, is_this)) continue;
+      diagnostics_.error(kOtherRenderer, settings.where(),
+                         "<" + settings.name() + "> has settings of another renderer than " + quote(name),
+                         "remove it, or write <haptics renderer=\"…\"> with the renderer that it belongs to");
+    }
   }
 
   void checkCoefficients(const Element& friction, const std::string& whose) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "framework/scene/manifest.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/xml/value_rule.h"
 
@@ -190,7 +191,9 @@ Value choose(const Element& element, const std::string& attribute, Value fallbac
 HapticSettings readHaptics(const Element& element) {
   using H = HapticSettings;
   H settings;
-  settings.renderer = choose(element, "renderer", settings.renderer, {{"penalty", H::Renderer::kPenalty}});
+  settings.renderer = element.attribute("renderer");
+  const Manifest* renderer = findManifest(settings.renderer);
+  settings.proxy = renderer != nullptr && renderer->proxy;
   settings.pose = choose(element, "pose", settings.pose, {{"hold", H::PoseUse::kHold}});
   return settings;
 }
@@ -222,9 +225,9 @@ DynamicsSettings readDynamics(const Element& element) {
 }  // namespace
 
 bool Scene::surfacesChange() const {
-  return haptics.renderer == HapticSettings::Renderer::kGodObject &&
-         std::any_of(bodies.begin(), bodies.end(),
-                     [&](const Body& body) { return body.haptic && materialOf(body).changed_friction; });
+  return haptics.proxy && std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+           return body.haptic && materialOf(body).changed_friction;
+         });
 }
 
 Scene readScene(const Element& root, const std::string& file, const std::string& directory) {

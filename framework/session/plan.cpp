@@ -34,7 +34,7 @@ void planEffects(const Scene& scene, Plan& plan) {
     const bool known =
         std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; });
     if (known || scene.devices.empty()) continue;
-    if (element.kind == PluginKind::kFrictionLaw) continue;  // planned by the materials that fingers touch
+    if (element.kind != PluginKind::kForceEffect) continue;  // the others are planned below
     const std::string owner = element.body == kNoBody
                                   ? "the scene"
                                   : "body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
@@ -42,9 +42,15 @@ void planEffects(const Scene& scene, Plan& plan) {
   }
 }
 
+void planRenderer(const Scene& scene, Plan& plan) {
+  if (scene.devices.empty()) return;
+  const std::string& renderer = scene.haptics.renderer;
+  plan.effects.push_back({renderer, "fingers meet bodies: <haptics renderer=\"" + renderer + "\">"});
+}
+
 /// The friction laws of the bodies that fingers can touch.
 void planFriction(const Scene& scene, Plan& plan) {
-  if (scene.devices.empty() || scene.haptics.renderer != HapticSettings::Renderer::kGodObject) return;
+  if (scene.devices.empty() || !scene.haptics.proxy) return;
   for (const Body& body : scene.bodies) {
     if (!body.haptic || !hasFriction(scene, body.material)) continue;
     const PluginElement law = frictionLawOf(scene, body.material);
@@ -61,6 +67,10 @@ void leaveOutOthers(const Scene& scene, Plan& plan) {
     if (std::ranges::any_of(scene.plugin_elements, [&](const PluginElement& e) { return e.plugin == manifest.name; })) {
       plan.left_out.push_back(
           {manifest.name, scene.devices.empty() ? "the scene has no device" : "nothing touchable needs it"});
+      continue;
+    }
+    if (manifest.kind == PluginKind::kRenderer) {
+      plan.left_out.push_back({manifest.name, "the scene's renderer is '" + scene.haptics.renderer + "'"});
       continue;
     }
     if (manifest.elements.empty()) {
@@ -145,6 +155,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
   }
   call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
        "the scene has no assembly");
+  planRenderer(scene, plan);
   planEffects(scene, plan);
   planFriction(scene, plan);
   leaveOutOthers(scene, plan);

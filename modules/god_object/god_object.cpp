@@ -244,7 +244,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   return result;
 }
 
-ProxyContact slideProxy(const FingertipState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept {
+ProxyContact slideProxy(const ProxyState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept {
   ProxyContact contact;
   surroundings.use(Point::kGodObject);
   // the frictionless point continues from its own last position, so its way is short even when friction holds the proxy

@@ -15,6 +15,7 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
   };
   HapticEffects effects;
   effects.renderer = scene.haptics.renderer;
+  effects.proxy = scene.haptics.proxy;
   const bool effect_on_free_body = std::ranges::any_of(scene.plugin_elements, [&](const PluginElement& element) {
     return element.kind == PluginKind::kForceEffect && element.body != kNoBody &&
            !scene.bodies[static_cast<std::size_t>(element.body)].fixed;
@@ -23,12 +24,12 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
     effects.poses = scene.haptics.pose == HapticSettings::PoseUse::kHold ? HapticEffects::Poses::kHold
                                                                          : HapticEffects::Poses::kInterpolate;
   }
-  const bool god_object = effects.renderer == HapticSettings::Renderer::kGodObject;
   effects.surface_change = scene.surfacesChange();
-  effects.friction = effects.surface_change ||
-                     (god_object && any_touchable([&](const Body& body) { return hasFriction(scene, body.material); }));
+  effects.friction =
+      effects.surface_change ||
+      (effects.proxy && any_touchable([&](const Body& body) { return hasFriction(scene, body.material); }));
   effects.commanded = options.bus_commands && !openSurfaces(scene).empty();
-  effects.shading = god_object && any_touchable([](const Body& body) {
+  effects.shading = effects.proxy && any_touchable([](const Body& body) {
                       return body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape);
                     });
   effects.damping = any_touchable([&](const Body& body) { return scene.materialOf(body).damping > 0; });
@@ -36,21 +37,21 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
 }
 
 std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
-  const bool god_object = effects.renderer == HapticSettings::Renderer::kGodObject;
+  const std::string renderer = "the renderer '" + effects.renderer + "' has no proxy ";
   std::vector<LeftOut> left_out;
   if (effects.poses == HapticEffects::Poses::kNone) left_out.push_back({"moving bodies", "nothing touchable moves"});
   if (!effects.friction) {
-    left_out.push_back({"friction", god_object ? "no touchable material has friction"
-                                               : "the penalty renderer has no proxy that friction holds"});
+    left_out.push_back(
+        {"friction", effects.proxy ? "no touchable material has friction" : renderer + "that friction holds"});
   }
   if (!effects.surface_change) {
-    left_out.push_back({"changing friction", god_object ? "no touchable material has <changed> friction"
-                                                        : "the penalty renderer has no friction"});
+    left_out.push_back({"changing friction", effects.proxy ? "no touchable material has <changed> friction"
+                                                           : renderer + "that friction holds"});
   }
   if (!effects.commanded) left_out.push_back({"commanded surfaces", "the run takes no commands (--bus-commands)"});
   if (!effects.shading) {
-    left_out.push_back({"force shading", god_object ? "no touchable mesh says shading=\"smooth\""
-                                                    : "the penalty renderer has no proxy to turn"});
+    left_out.push_back(
+        {"force shading", effects.proxy ? "no touchable mesh says shading=\"smooth\"" : renderer + "to turn"});
   }
   if (!effects.damping) left_out.push_back({"surface damping", "no touchable material has damping"});
   return left_out;

@@ -12,7 +12,8 @@ namespace presa {
 struct HapticEffects {
   enum class Poses { kNone, kInterpolate, kHold };  ///< kNone: no touchable body moves
   Poses poses = Poses::kNone;
-  HapticSettings::Renderer renderer = HapticSettings::Renderer::kGodObject;
+  std::string renderer;
+  bool proxy = true;  ///< the renderer has a proxy that friction can hold and shading can turn
   bool friction = false;
   bool surface_change = false;  ///< friction that changes during the run
   bool commanded = false;       ///< surface parameters open to commands

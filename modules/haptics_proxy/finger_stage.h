@@ -8,9 +8,9 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/surface_change.h"
+#include "framework/haptics/renderer.h"
 #include "framework/haptics/touchables.h"
 #include "framework/scene/world.h"
-#include "modules/god_object/god_object.h"
 
 namespace presa {
 
@@ -18,16 +18,12 @@ namespace presa {
 struct RenderedFinger {
   bool alive = false;
   std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
-  FingertipState tip;
-  Vec3 penalty_nhat = Vec3::Zero();  ///< normal of the last tick, penalty renderer only; zero: no contact
-  double radius = 0;                 ///< radius of the moved sphere [m]
-  double lift = 0;                   ///< excess of `radius` over the fingertip radius, not 0 for a point [m]
-  Vec3 p_WH = Vec3::Zero();          ///< HIP of the last tick [m]
+  ProxyState tip;
+  double radius = 0;         ///< radius of the moved sphere [m]
+  double lift = 0;           ///< excess of `radius` over the fingertip radius, not 0 for a point [m]
+  Vec3 p_WH = Vec3::Zero();  ///< HIP of the last tick [m]
   std::unique_ptr<Surroundings> near;
 };
-
-/// Transforms the finger's state and `point` into the coordinates of `body`.
-void moveToFrame(RenderedFinger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept;
 
 /// The surface parameters in force. Both references must outlive the stages.
 struct SurfacesInForce {
@@ -52,7 +48,10 @@ struct FingerTick {
   Pose X_WA = {};
   Vec3 g = Vec3::Zero();  ///< HIP in A
   ProxyContact contact = {};
-  bool broken = false;  ///< a friction law broke its contract: no force
+  bool broken = false;  ///< a plug-in broke its contract: no force
+  /// Body whose coordinates hold the finger's state from the next tick on; X_BA, if it is another.
+  std::int32_t next_frame = kNoBody;
+  Pose X_BA = {};
 };
 
 /// One stage of a finger's tick. The list of stages is built once and holds only the effects that the scene uses.
@@ -61,6 +60,8 @@ class FingerStage {
  public:
   virtual ~FingerStage() = default;
   virtual void apply(FingerTick& tick) noexcept = 0;
+  /// Transforms what the stage keeps of the finger from tick to tick into the coordinates of the next frame.
+  virtual void changeFrame(std::size_t /*finger*/, const Pose& /*X_BA*/) noexcept {}
   /// Description for `presa explain`.
   virtual std::string what() const = 0;
 };
@@ -72,12 +73,12 @@ class FrictionStage : public FingerStage {
   virtual std::optional<std::string> brokenLaw() const = 0;
 };
 
-// Each stage is in the file of its name; god-object, spring and damping are in render_stages.cpp.
-std::unique_ptr<FingerStage> makeGodObject();
-std::unique_ptr<FingerStage> makePenalty();
-std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces);
-/// `change` must outlive the stage.
-std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const In<SurfaceChange>& change);
+// Each stage is in the file of its name; spring and damping are in render_stages.cpp.
+/// `mover` must outlive the stage.
+std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const ProxyMover& mover);
+/// `change` must outlive the stage, too.
+std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const ProxyMover& mover,
+                                                    const In<SurfaceChange>& change);
 std::unique_ptr<FingerStage> makeShading(const World& world);
 /// Writes contact state and spring force, and counts pop-through, lost coverage and leaps.
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);

@@ -1,8 +1,10 @@
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "framework/haptics/renderers.h"
 #include "framework/session/module_plugin.h"
 
 namespace presa {
@@ -30,7 +32,7 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
     place_bodies_.push_back({"use the body poses at the end of the last dynamics step", holdBodies});
   }
   const SurfacesInForce in_force = surfaces(effects);
-  finger_stages_.push_back(effects.renderer == HapticSettings::Renderer::kPenalty ? makePenalty() : makeGodObject());
+  renderer_ = makeRenderer(*world_);
   if (effects.friction) {
     auto friction = frictionOf(effects, in_force);
     friction_ = friction.get();
@@ -49,8 +51,8 @@ SurfacesInForce HapticsProxy::surfaces(const HapticEffects& effects) {
 }
 
 std::unique_ptr<FrictionStage> HapticsProxy::frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces) {
-  if (!effects.surface_change) return makeFriction(surfaces);
-  return makeChangingFriction(surfaces,
+  if (!effects.surface_change) return makeFriction(surfaces, *renderer_->mover());
+  return makeChangingFriction(surfaces, *renderer_->mover(),
                               surface_change_.emplace(*this, "surface_change", In<SurfaceChange>::Optional{}));
 }
 
@@ -89,7 +91,9 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
   tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved,
                                        now.period, patched ? &neighbourhoods_->fingers[f] : nullptr);
   finger.near->setStep(moved + tick.approach);
+  touch(tick);
   for (const auto& stage : finger_stages_) stage->apply(tick);
+  if (tick.next_frame != finger.frame) changeFrame(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
   if (tick.broken) out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (const auto& added : force_effects_)
@@ -97,7 +101,41 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
                          added->reactions.value);
 }
 
+void HapticsProxy::touch(FingerTick& tick) noexcept {
+  tick.contact = renderer_->touch({tick.index, tick.g, tick.r, tick.finger.tip, tick.X_WA, *tick.finger.near});
+  if (keepsContract(tick.contact)) [[likely]]
+    return;
+  renderer_broken_.store(true, std::memory_order_release);
+  tick.broken = true;
+  tick.contact = {};
+  tick.contact.x = tick.contact.state.x = tick.contact.state.god_object = tick.g;
+}
+
+bool HapticsProxy::keepsContract(const ProxyContact& contact) const noexcept {
+  const ProxyState& state = contact.state;
+  // a number that is not finite makes the sum so
+  double sum = contact.depth + contact.x.sum() + state.x.sum() + state.god_object.sum() + contact.nhat.sum();
+  bool touchable = !state.touching || touchables_.has(contact.body);
+  for (int a = 0; a < contact.active.count; ++a) {
+    const ActiveSet::Member& member = contact.active.member[static_cast<std::size_t>(a)];
+    sum += member.weight + member.nhat.sum();
+    touchable = touchable && touchables_.has(member.body);
+  }
+  return std::isfinite(sum) && touchable;
+}
+
+// Moves the finger's state into the coordinates of the next frame.
+void HapticsProxy::changeFrame(FingerTick& tick) noexcept {
+  ProxyState& tip = tick.finger.tip;
+  tip.x = tick.X_BA * tip.x;
+  tip.god_object = tick.X_BA * tip.god_object;
+  renderer_->changeFrame(tick.index, tick.X_BA);
+  for (const auto& stage : finger_stages_) stage->changeFrame(tick.index, tick.X_BA);
+  tick.finger.frame = tick.next_frame;
+}
+
 std::optional<std::string> HapticsProxy::brokenPlugin() const {
+  if (renderer_broken_.load(std::memory_order_acquire)) return "renderer '" + world_->scene.haptics.renderer + "'";
   for (const auto& added : force_effects_) {
     const int broken = added->effects.broken();
     if (broken >= 0) return "force effect " + added->effects.names()[static_cast<std::size_t>(broken)];
@@ -110,6 +148,7 @@ std::vector<std::string> HapticsProxy::stages() const {
   if (!commanded_.empty()) stages.emplace_back("move the surface parameters smoothly to their commanded values");
   for (const PlaceBodies& stage : place_bodies_) stages.emplace_back(stage.what);
   stages.emplace_back("gather the pieces within reach of each fingertip");
+  stages.push_back(renderer_->what());
   for (const auto& stage : finger_stages_) stages.emplace_back(stage->what());
   for (const auto& added : force_effects_) {
     for (const std::string& name : added->effects.names()) stages.push_back("force effect " + name);

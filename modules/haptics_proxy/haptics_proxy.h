@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -6,6 +7,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/haptics/force_effects.h"
 #include "framework/haptics/plugin_host.h"
+#include "framework/haptics/renderer.h"
 #include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
@@ -52,12 +54,17 @@ class HapticsProxy final : public Module, public PluginHost {
   SurfacesInForce surfaces(const HapticEffects& effects);
   std::unique_ptr<FrictionStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
   void stepFinger(std::size_t finger, const Tick& tick) noexcept;
+  void touch(FingerTick& tick) noexcept;
+  bool keepsContract(const ProxyContact& contact) const noexcept;
+  void changeFrame(FingerTick& tick) noexcept;
 
   std::shared_ptr<const World> world_;
   HapticEffects effects_;
   Touchables touchables_;
   std::vector<RenderedFinger> fingers_;
   std::vector<PlaceBodies> place_bodies_;  ///< none or one
+  std::unique_ptr<Renderer> renderer_;
+  std::atomic<bool> renderer_broken_{false};
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;
   const FrictionStage* friction_ = nullptr;  ///< null: no friction
 

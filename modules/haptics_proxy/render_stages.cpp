@@ -1,22 +1,11 @@
 #include <algorithm>
 
-#include "framework/haptics/touchables.h"
 #include "modules/haptics_proxy/finger_stage.h"
 
 namespace presa {
 namespace {
 
 constexpr double kNear = 1.06;  // a body within this times r of a free fingertip's centre carries the proxy
-
-class GodObject final : public FingerStage {
- public:
-  void apply(FingerTick& tick) noexcept override {
-    tick.contact = slideProxy(tick.finger.tip, tick.g, tick.r, *tick.finger.near);
-  }
-  std::string what() const override {
-    return "move the proxy to the nearest reachable point (active set of at most three)";
-  }
-};
 
 /// Converts the result into contact state and spring force, and stores the finger's state for the next tick.
 class Spring final : public FingerStage {
@@ -48,7 +37,11 @@ void Spring::apply(FingerTick& tick) noexcept {
   }
   finger.tip = contact.state;
   out.p_WP = tick.X_WA * contact.x;
-  moveToFrame(finger, contact.x, touching ? contact.body : nearestBody(tick), tick.touchables);
+  tick.next_frame = touching ? contact.body : nearestBody(tick);
+  if (tick.next_frame != finger.frame) {
+    tick.X_BA = tick.touchables.frameOf(tick.next_frame).inverse() * tick.touchables.frameOf(finger.frame);
+    contact.x = tick.X_BA * contact.x;
+  }
   if (!touching) {
     out.p_BP = out.p_WP;
     return;
@@ -129,7 +122,8 @@ std::int32_t Spring::nearestBody(const FingerTick& tick) noexcept {
 void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
   Surroundings& near = *tick.finger.near;
   if (near.crowded()) ++tick.all.coverage_lost;
-  if (!tick.contact.swept || !near.passedThrough(tick.contact.state.x, tick.r)) return;
+  const bool crossed = tick.contact.swept ? near.passedThrough(tick.contact.state.x, tick.r) : tick.contact.crossed;
+  if (!crossed) return;
   ++tick.all.pop_through;
   ++tick.all.pop_through_by_finger[tick.index];
 }
@@ -139,7 +133,7 @@ void Spring::countWhatWentWrong(FingerTick& tick) noexcept {
 bool Spring::leaps(const FingerTick& tick) noexcept {
   constexpr double kOfStep = 8;     // minimum length of a leap relative to the motion of HIP and bodies
   constexpr double kOfDepth = 0.1;  // minimum length relative to the depth; shorter ones are imperceptible
-  const FingertipState &last = tick.finger.tip, &now = tick.contact.state;
+  const ProxyState &last = tick.finger.tip, &now = tick.contact.state;
   if (!last.touching || !now.touching || !tick.contact.swept) return false;
   const double way = (now.god_object - last.god_object).norm();
   return way > kOfStep * tick.finger.near->step() && way > kOfDepth * (last.god_object - tick.g).norm();
@@ -164,20 +158,7 @@ class Damping final : public FingerStage {
 
 }  // namespace
 
-std::unique_ptr<FingerStage> makeGodObject() { return std::make_unique<GodObject>(); }
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces) { return std::make_unique<Spring>(surfaces); }
-void moveToFrame(RenderedFinger& finger, Vec3& point, std::int32_t body, const Touchables& touchables) noexcept {
-  if (finger.frame == body) return;
-  const Pose X_BA = touchables.frameOf(body).inverse() * touchables.frameOf(finger.frame);
-  finger.tip.x = X_BA * finger.tip.x;
-  finger.tip.god_object = X_BA * finger.tip.god_object;
-  finger.tip.stick_anchor = X_BA * finger.tip.stick_anchor;
-  finger.tip.g = X_BA * finger.tip.g;
-  finger.tip.friction.vector = X_BA.q * finger.tip.friction.vector;
-  point = X_BA * point;
-  finger.frame = body;
-}
-
 std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces) {
   return std::make_unique<Damping>(surfaces);
 }

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <limits>
+#include <vector>
 
-#include "framework/haptics/touchables.h"
-#include "modules/haptics_proxy/finger_stage.h"
+#include "framework/haptics/renderer.h"
 
 namespace presa {
 namespace {
@@ -31,23 +31,30 @@ NearestSurface surfaceOf(const NearPiece& piece, const Surroundings::Triangle& t
 /// Penalty method, the baseline without a proxy: the force is proportional to the depth below the *nearest* surface,
 /// and nothing is remembered. Beyond the middle of a thin part the nearest surface is the far one, and the finger is
 /// pushed out there.
-class Penalty final : public FingerStage {
+class Penalty final : public Renderer {
  public:
-  void apply(FingerTick& tick) noexcept override {
-    tick.contact.x = tick.contact.state.x = tick.contact.state.god_object = tick.g;
-    tick.contact.swept = false;
-    const NearestSurface deepest = deepestUnder(tick.g, tick.r, *tick.finger.near);
+  explicit Penalty(std::size_t tools) : last_nhat_W_(tools, Vec3::Zero()) {}
+
+  ProxyContact touch(const RenderInput& input) noexcept override {
+    ProxyContact contact;
+    contact.swept = false;
+    contact.x = contact.state.x = contact.state.god_object = input.g;
+    const NearestSurface deepest = deepestUnder(input.g, input.radius, input.near);
+    Vec3& last_nhat_W = last_nhat_W_[input.tool];
     if (deepest.body == kNoBody) {
-      tick.finger.penalty_nhat.setZero();
-      return;
+      last_nhat_W.setZero();
+      return contact;
     }
-    ProxyContact& contact = tick.contact;
     contact.state.touching = contact.state.slipping = true;
     contact.body = deepest.body;
     contact.nhat = deepest.nhat;
-    contact.depth = tick.r - deepest.signed_distance;
-    contact.x = contact.state.x = contact.state.god_object = tick.g + contact.depth * contact.nhat;
-    countFlip(tick);
+    contact.depth = input.radius - deepest.signed_distance;
+    contact.x = contact.state.x = contact.state.god_object = input.g + contact.depth * contact.nhat;
+    // a force that reverses from one tick to the next: the finger went through, as this method lets it
+    const Vec3 nhat_W = input.X_WA.q * contact.nhat;
+    contact.crossed = nhat_W.dot(last_nhat_W) < 0;
+    last_nhat_W = nhat_W;
+    return contact;
   }
   std::string what() const override { return "push towards the nearest surface (penalty, no memory)"; }
 
@@ -76,20 +83,15 @@ class Penalty final : public FingerStage {
     return deepest;
   }
 
-  // A force direction that reverses from one tick to the next means that the finger went through. Expected of this
-  // method.
-  static void countFlip(FingerTick& tick) noexcept {
-    const Vec3 nhat_W = tick.X_WA.q * tick.contact.nhat;
-    if (nhat_W.dot(tick.finger.penalty_nhat) < 0) {
-      ++tick.all.pop_through;
-      ++tick.all.pop_through_by_finger[tick.index];
-    }
-    tick.finger.penalty_nhat = nhat_W;
-  }
+  std::vector<Vec3> last_nhat_W_;  // by tool; zero: no contact
 };
 
+const RendererPlugin kPlugin{.name = "penalty",
+                             .create = [](const PluginElement&, const World& world) -> std::unique_ptr<Renderer> {
+                               return std::make_unique<Penalty>(world.scene.devices.size());
+                             }};
+
 }  // namespace
-
-std::unique_ptr<FingerStage> makePenalty() { return std::make_unique<Penalty>(); }
-
 }  // namespace presa
+
+PRESA_RENDERER_PLUGIN(presa::kPlugin)

@@ -13,6 +13,7 @@ TESTS = {
     "framework/core/state/": ["graph", "dynamics", "haptics"],
     "framework/core/math/": ["math", "haptics", "dynamics"],
     "modules/haptics_proxy/": ["haptics", "surface"],
+    "modules/god_object/": ["haptics", "surface"],
     "modules/dynamics_ode/": ["dynamics"],
 }
 

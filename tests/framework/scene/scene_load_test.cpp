@@ -48,7 +48,7 @@ std::string contentOf(const Scene& scene) {
   text << static_cast<int>(settings.engine) << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver)
        << static_cast<int>(settings.friction) << static_cast<int>(settings.rotation) << settings.sleeping << " "
        << settings.iterations << " " << settings.substeps << "\n";
-  text << static_cast<int>(scene.haptics.renderer) << static_cast<int>(scene.haptics.pose) << " "
+  text << scene.haptics.renderer << static_cast<int>(scene.haptics.pose) << " "
        << scene.collision.margin << " " << scene.collision.max_triangles << "\n";
   for (const Material& m : scene.materials) {
     text << m.name << " " << m.stiffness << " " << m.damping << " " << m.friction_static << " " << m.friction_dynamic
@@ -141,7 +141,8 @@ TEST(SceneLoad, EveryMethodCanBeNamed) {
           "<dynamics coupling=\"explicit\" solver=\"direct\" iterations=\"30\" substeps=\"4\" friction=\"pyramid\" "
           "rotation=\"matrix\" sleeping=\"false\"/><body name=\"cube\" velocity=\"1 2 3\" angular_velocity=\"4 5 6\""),
       "mass=\"0.2\"", "mass=\"0.2\" force=\"7 8 9\""));
-  EXPECT_EQ(scene.haptics.renderer, HapticSettings::Renderer::kPenalty);
+  EXPECT_EQ(scene.haptics.renderer, "penalty");
+  EXPECT_FALSE(scene.haptics.proxy);
   EXPECT_EQ(scene.haptics.pose, HapticSettings::PoseUse::kHold);
   EXPECT_EQ(scene.collision.margin, 0.002);
   EXPECT_EQ(scene.collision.max_triangles, 64u);

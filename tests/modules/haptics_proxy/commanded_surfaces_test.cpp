@@ -155,7 +155,7 @@ TEST(OpenSurfaces, AreWhatFingersTouchWithinWhatTheSceneLoadedWith) {
   EXPECT_EQ(open[1].max, 1.6);
   EXPECT_EQ(open[2].name, "material/rubber/friction/dynamic");
   EXPECT_EQ(open[2].max, 1.2);
-  world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;  // renderer without friction
+  world.scene.haptics = {.renderer = "penalty", .proxy = false};  // renderer without friction
   EXPECT_EQ(openSurfaces(world.scene).size(), 1u);
   world.scene.haptics = {};
   world.scene.materials[0].changed_friction = {.mu_static = 0.4, .mu_dynamic = 0.3};  // reserved for the experiment

@@ -32,7 +32,7 @@ TEST(Stages, AreThoseTheSceneNamesAndNoOther) {
               ElementsAre(HasSubstr("interpolate"), HasSubstr("gather"), HasSubstr("proxy"), HasSubstr("friction"),
                           HasSubstr("shading"), HasSubstr("spring"), HasSubstr("damping")));
 
-  full.scene.haptics = {HapticSettings::Renderer::kPenalty, HapticSettings::PoseUse::kHold};
+  full.scene.haptics = {"penalty", false, HapticSettings::PoseUse::kHold};
   EXPECT_THAT(OneFinger(full).stages(), ElementsAre(HasSubstr("last dynamics step"), HasSubstr("gather"),
                                                     HasSubstr("penalty"), HasSubstr("spring"), HasSubstr("damping")));
   // a material used by no touchable body requires no stage
@@ -111,7 +111,7 @@ TEST(Pose, IsInterpolatedToNowOrHeldAtTheEndOfTheStep) {
 TEST(Penalty, IsTheGodObjectOnAThickFace) {
   World world = test::worldOf(Box{{0.1, 0.1, 0.1}});
   OneFinger god_object(world);
-  world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;
+  world.scene.haptics = {.renderer = "penalty", .proxy = false};
   OneFinger penalty(world);
   for (double z = 0.06; z > 0.045; z -= 1e-4) {
     const Vec3 f = god_object.tick({0.01, 0.005, z}).f_H_W;
@@ -128,7 +128,7 @@ TEST(Penalty, PopsThroughAThinPlateWhichTheGodObjectHolds) {
     World world = mesh ? test::worldOf(MeshRef{}) : test::worldOf(Box{{0.1, 0.1, 0.002}});
     if (mesh) world.meshes[0].haptic = std::make_shared<const TriMesh>(plate);
     OneFinger god_object(world);
-    world.scene.haptics.renderer = HapticSettings::Renderer::kPenalty;
+    world.scene.haptics = {.renderer = "penalty", .proxy = false};
     OneFinger penalty(world);
     Vec3 held = Vec3::Zero(), popped = Vec3::Zero();
     for (OneFinger* finger : {&god_object, &penalty}) {

@@ -13,12 +13,13 @@
 namespace presa {
 namespace {
 
-using test::kR;
+using test::kR, test::Tip;
 
 // One tick as in the haptic loop with friction.
-ProxyContact stepProxy(const FingertipState& last, const Vec3& g, Surroundings& s, const FrictionCoefficients& cone) {
-  ProxyContact contact = slideProxy(last, g, kR, s);
-  test::holdByCone(contact, last, g, cone, s);
+ProxyContact stepProxy(Tip& tip, const Vec3& g, Surroundings& s, const FrictionCoefficients& cone) {
+  ProxyContact contact = slideProxy(tip, g, kR, s);
+  test::holdByCone(contact, tip, g, cone, s);
+  static_cast<ProxyState&>(tip) = contact.state;
   return contact;
 }
 
@@ -55,10 +56,8 @@ TEST(GodObject, IsTheProjectionOnAPlane) {
 // law gives the dynamics the bounds of it.
 TEST(Friction, BoundsAContactThatBeginsBehindAWall) {
   const auto s = box({0.0005, 0.1, 0.1});
-  FingertipState last;
+  Tip last({-0.0005 - kR, 0, 0}, {0.012, 0, 0});
   last.touching = true;
-  last.x = {-0.0005 - kR, 0, 0};
-  last.god_object = {0.012, 0, 0};
   const Vec3 g(0.02, 0, 0);
   ProxyContact contact = slideProxy(last, g, kR, *s);
   ASSERT_FALSE(contact.state.touching);
@@ -179,11 +178,10 @@ TEST(GodObject, GoesRoundTheEdgeOfABox) {
 TEST(Friction, FrictionlessSlidingHasNoTangentialForce) {
   const auto s = plate();
   Vec3 x(-0.05, 0, 0.02);
-  FingertipState tip{x, x};
+  Tip tip{x, x};
   for (int tick = 0; tick < 500; ++tick) {
     const Vec3 g(-0.05 + 2e-4 * tick, 1e-5 * tick, 0.006);
     const ProxyContact c = stepProxy(tip, g, *s, {});
-    tip = c.state;
     ASSERT_TRUE(tip.touching);
     ASSERT_LT(c.tangential_displacement.norm(), 1e-8 * kR);
   }
@@ -196,12 +194,11 @@ TEST(Friction, HoldsUpToStaticAndSlidesAtDynamicInEveryDirection) {
   for (double heading = 0; heading < 6.28; heading += 0.4) {
     const Vec3 along(std::cos(heading), std::sin(heading), 0);
     const double depth = 0.002;
-    FingertipState tip{{0, 0, kR}, {0, 0, kR}};
+    Tip tip{{0, 0, kR}, {0, 0, kR}};
     double max = 0, sliding = 0;
     for (int tick = 0; tick < 400; ++tick) {
       const Vec3 g = Vec3(0, 0, kR - depth) + along * (1e-5 * tick);
       const ProxyContact c = stepProxy(tip, g, *s, cone);
-      tip = c.state;
       const double ratio = c.tangential_displacement.norm() / c.depth;
       if (!tip.slipping) max = std::max(max, ratio);
       if (tip.slipping) sliding = ratio;
@@ -221,20 +218,20 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
     s.add({.body = 0,
            .id = -1,
            .shape = Primitive{.kind = Primitive::Kind::kCylinder, .radius = radius, .half_length = 0.1}});
-    FingertipState tip{{radius + kR, 0, 0}, {radius + kR, 0, 0}};
+    Tip tip{{radius + kR, 0, 0}, {radius + kR, 0, 0}};
     const double inside = radius + kR - depth;
     ProxyContact c = stepProxy(tip, {inside, 0, 0}, s, {mu, mu});
     for (double around = 0; around < 0.01; around += 2e-5) {
-      c = stepProxy(c.state, {inside * std::cos(around / inside), -inside * std::sin(around / inside), 0}, s, {mu, mu});
+      c = stepProxy(tip, {inside * std::cos(around / inside), -inside * std::sin(around / inside), 0}, s, {mu, mu});
     }
     const Vec3 from(inside * std::cos(0.01 / inside), -inside * std::sin(0.01 / inside), 0);
     const double phi_0 = std::numbers::pi / 2, way = 0.003;
     for (double along = step; along < way + 0.5 * step; along += step) {
-      c = stepProxy(c.state, from + Vec3(0, 0, along), s, {mu, mu});
+      c = stepProxy(tip, from + Vec3(0, 0, along), s, {mu, mu});
       ASSERT_TRUE(c.state.slipping);
     }
     const double phi = 2 * std::atan(std::tan(phi_0 / 2) * std::exp(-way / length));
-    const Vec3 displacement = c.state.stick_anchor - (from + Vec3(0, 0, way));
+    const Vec3 displacement = tip.held.stick_anchor - (from + Vec3(0, 0, way));
     const double seen = std::acos(std::clamp(-displacement.z() / displacement.norm(), -1.0, 1.0));
     EXPECT_NEAR(seen, phi, 0.01 + step / length) << step;
   }
@@ -244,12 +241,12 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
 TEST(Friction, StickingProxyDoesNotDrift) {
   const auto s = plate();
   const FrictionCoefficients cone{0.8, 0.6};
-  FingertipState tip{{0, 0, kR}, {0, 0, kR}};
+  Tip tip{{0, 0, kR}, {0, 0, kR}};
   Vec3 first = Vec3::Zero();
   for (int tick = 0; tick < 60'000; ++tick) {
     const double t = tick * 1e-3;
     const Vec3 g(4e-4 * std::sin(7 * t), 4e-4 * std::sin(11 * t), kR - 0.002 + 2e-4 * std::sin(5 * t));
-    tip = stepProxy(tip, g, *s, cone).state;
+    stepProxy(tip, g, *s, cone);
     if (tick == 0) first = tip.x;
     ASSERT_FALSE(tip.slipping);
   }
@@ -269,10 +266,10 @@ TEST(Friction, LetsGoOfABodyThatHasGone) {
     return s;
   };
   const auto both = surroundings(true), floor = surroundings(false);
-  FingertipState tip{{kR + 0.001, 0, kR + high}, {kR + 0.001, 0, kR + high}};
-  tip = stepProxy(tip, {kR - 0.001, 0, kR + high}, *both, cone).state;
+  Tip tip{{kR + 0.001, 0, kR + high}, {kR + 0.001, 0, kR + high}};
+  stepProxy(tip, {kR - 0.001, 0, kR + high}, *both, cone);
   const Vec3 g(kR - 0.001, 0, kR - 0.005);
-  tip = stepProxy(tip, g, *both, cone).state;
+  stepProxy(tip, g, *both, cone);
   ASSERT_FALSE(tip.slipping);
   ASSERT_NEAR(tip.x.z(), kR + high, 1e-8 * kR);
 
@@ -288,7 +285,7 @@ TEST(Friction, LetsGoOfABodyThatHasGone) {
 TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
-  FingertipState tip{{0.03, 0, 0.03}, {0.03, 0, 0.03}};
+  Tip tip{{0.03, 0, 0.03}, {0.03, 0, 0.03}};
   Vec3 g = tip.x, wall(-0.02, 0, 0.02), post(0.02, 0, -0.02);
   int touching = 0, stuck = 0;
   for (int tick = 0; tick < 20'000; ++tick) {
@@ -302,7 +299,7 @@ TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
     s->add({.body = 1, .id = -1, .shape = second});
     g += 3e-4 * Vec3(unit(random), unit(random), unit(random));
     g = g.cwiseMax(Vec3(-0.002, -0.025, -0.002)).cwiseMin(Vec3(0.015, 0.025, 0.015));
-    tip = stepProxy(tip, g, *s, {0.8, 0.6}).state;
+    stepProxy(tip, g, *s, {0.8, 0.6});
     if (!tip.touching) continue;
     ++touching;
     stuck += tip.slipping ? 0 : 1;

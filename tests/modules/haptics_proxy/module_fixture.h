@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "framework/core/graph/graph_builder.h"
+#include "modules/god_object/god_object.h"
+#include "modules/haptics_proxy/friction.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 namespace presa::test {
@@ -11,13 +13,20 @@ namespace presa::test {
 inline constexpr double kR = 0.008;         // radius of the fingertip [m]
 inline constexpr double kStiffness = 1000;  // of the surface [N/m]
 
-/// Friction with the default law.
-inline FrictionAnswer holdByCone(ProxyContact& contact, const FingertipState& last, const Vec3& g,
-                                 const FrictionCoefficients& cone, Surroundings& surroundings) {
+/// A fingertip from tick to tick, as friction and the god-object keep it.
+struct Tip : ProxyState {
+  Tip(const Vec3& x, const Vec3& god_object) : ProxyState{x, god_object, false, false} {}
+  Held held;
+};
+
+/// Friction with the default law and the proxy of the god-object. Does not write the tip's ProxyState.
+inline FrictionAnswer holdByCone(ProxyContact& contact, Tip& tip, const Vec3& g, const FrictionCoefficients& cone,
+                                 Surroundings& surroundings) {
   static const auto kLaw = pluginTable<FrictionLawPlugin>(kDefaultFrictionLaw, "presaFrictionLawPlugin").create({});
+  static const auto kRenderer = pluginTable<RendererPlugin>("god_object", "presaRendererPlugin").create({}, World{});
   FrictionAnswer answer;
-  EXPECT_TRUE(holdByFriction(contact, last, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3},
-                             surroundings, answer));
+  EXPECT_TRUE(holdByFriction(contact, tip, tip.held, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3},
+                             *kRenderer->mover(), surroundings, answer));
   return answer;
 }
 

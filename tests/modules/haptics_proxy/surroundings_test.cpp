@@ -50,7 +50,7 @@ TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   auto kept = std::make_unique<Surroundings>();
-  FingertipState tip{{0, 0, 0.01}, {0, 0, 0.01}};
+  test::Tip tip{{0, 0, 0.01}, {0, 0, 0.01}};
   NearBody near;
   int touched = 0;
   Vec3 hand(0, 0, 0.0065), before = hand;
@@ -67,19 +67,20 @@ TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
     const Pose X_AG{Vec3(sway, 0, 0), Quat::Identity()};
     const bool own = tick / 1000 == 1;
     const auto fresh = std::make_unique<Surroundings>();
-    FingertipState state[2];
+    test::Tip next[2] = {tip, tip};
     for (Surroundings* s : {kept.get(), fresh.get()}) {
       s->begin();
       s->setStep((hand - before).norm() + 2e-5);
       s->addMesh(0, tree, own ? nullptr : &X_AG, Pose{}, s == kept.get() ? &near : nullptr, hand, 0.012);
       ProxyContact contact = slideProxy(tip, hand, kR, *s);
-      test::holdByCone(contact, tip, hand, {0.4, 0.3}, *s);
-      state[s == kept.get() ? 0 : 1] = contact.state;
+      test::Tip& moved = next[s == kept.get() ? 0 : 1];
+      test::holdByCone(contact, moved, hand, {0.4, 0.3}, *s);
+      static_cast<ProxyState&>(moved) = contact.state;
     }
-    ASSERT_NEAR((state[0].x - state[1].x).norm(), 0, 2e-6 * kR) << tick;
-    ASSERT_NEAR((state[0].god_object - state[1].god_object).norm(), 0, 2e-6 * kR) << tick;
-    ASSERT_EQ(state[0].touching, state[1].touching) << tick;
-    tip = state[0];
+    ASSERT_NEAR((next[0].x - next[1].x).norm(), 0, 2e-6 * kR) << tick;
+    ASSERT_NEAR((next[0].god_object - next[1].god_object).norm(), 0, 2e-6 * kR) << tick;
+    ASSERT_EQ(next[0].touching, next[1].touching) << tick;
+    tip = next[0];
     before = hand;
     touched += tip.touching;
   }
@@ -167,7 +168,7 @@ TEST(Surroundings, AreFullWhereEverythingTouches) {
   turnInsideOut(socket);
   const MeshTree tree(std::make_shared<const TriMesh>(socket));
   auto s = std::make_unique<Surroundings>();
-  FingertipState tip{Vec3::Zero(), Vec3::Zero()};
+  ProxyState tip{Vec3::Zero(), Vec3::Zero()};
   for (int tick = 0; tick < 5; ++tick) {
     const Vec3 g(1e-4 * tick, 0, 5e-5 * tick);
     s->begin();

@@ -1,0 +1,12 @@
+#pragma once
+#include <memory>
+
+#include "framework/haptics/renderer.h"
+
+namespace presa {
+
+/// The renderer that the scene names, with its settings. Loads its plug-in. Throws InputError: the errors of
+/// pluginTable; E596 a renderer that cannot be made or does not give what its manifest says.
+std::unique_ptr<Renderer> makeRenderer(const World& world);
+
+}  // namespace presa
