@@ -93,6 +93,9 @@ class Renderer {
   virtual std::string what() const = 0;
 };
 
+/// The contact of a frictionless proxy that `moved` towards g. Haptic thread; nonblocking.
+ProxyContact contactOf(const ProxyMove& moved, const Vec3& g) noexcept;
+
 /// Table of a renderer plug-in. Its manifest (framework/scene/manifest.h) makes its name a value of <haptics renderer>;
 /// an element of the manifest, if it has one, stands in <haptics> and has defaults for all its attributes.
 struct RendererPlugin {

@@ -1,6 +1,7 @@
 #include "framework/haptics/renderers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "framework/haptics/plugin_object.h"
@@ -37,6 +38,35 @@ std::unique_ptr<Renderer> makeRenderer(const World& world) {
       throw std::logic_error("its manifest says gives=\"proxy\", but it has no mover");
     return renderer;
   });
+}
+
+bool keepsContract(const ProxyContact& contact, const Touchables& touchables) noexcept {
+  const ProxyState& state = contact.state;
+  // a number that is not finite makes the sum so
+  double sum = contact.depth + contact.x.sum() + state.x.sum() + state.god_object.sum() + contact.nhat.sum();
+  bool touchable = !state.touching || touchables.has(contact.body);
+  for (int a = 0; a < contact.active.count; ++a) {
+    const ActiveSet::Member& member = contact.active.member[static_cast<std::size_t>(a)];
+    sum += member.weight + member.nhat.sum();
+    touchable = touchable && touchables.has(member.body);
+  }
+  return std::isfinite(sum) && touchable;
+}
+
+ProxyContact contactOf(const ProxyMove& moved, const Vec3& g) noexcept {
+  ProxyContact contact;
+  contact.x = contact.state.x = contact.state.god_object = moved.x;
+  contact.depth = (moved.x - g).norm();
+  if (!moved.touching || !(contact.depth > 0)) {
+    contact.depth = 0;
+    return contact;
+  }
+  contact.state.touching = contact.state.slipping = true;
+  contact.first_touch = moved.first_touch;
+  contact.body = moved.body;
+  contact.nhat = (moved.x - g) / contact.depth;
+  contact.active = moved.active;
+  return contact;
 }
 
 }  // namespace presa

@@ -2,11 +2,15 @@
 #include <memory>
 
 #include "framework/haptics/renderer.h"
+#include "framework/haptics/touchables.h"
 
 namespace presa {
 
 /// The renderer that the scene names, with its settings. Loads its plug-in. Throws InputError: the errors of
 /// pluginTable; E596 a renderer that cannot be made or does not give what its manifest says.
 std::unique_ptr<Renderer> makeRenderer(const World& world);
+
+/// Whether a contact keeps Renderer's contract. Haptic thread.
+bool keepsContract(const ProxyContact& contact, const Touchables& touchables) noexcept;
 
 }  // namespace presa

@@ -245,23 +245,10 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
 }
 
 ProxyContact slideProxy(const ProxyState& last, const Vec3& g, double r, Surroundings& surroundings) noexcept {
-  ProxyContact contact;
   surroundings.use(Point::kGodObject);
   // the frictionless point continues from its own last position, so its way is short even when friction holds the proxy
   // back
-  const ProxyMove bare = moveProxy(last.god_object, g, r, surroundings);
-  contact.x = contact.state.x = contact.state.god_object = bare.x;
-  contact.depth = (bare.x - g).norm();
-  if (!bare.touching || !(contact.depth > 0)) {
-    contact.depth = 0;
-    return contact;
-  }
-  contact.state.touching = contact.state.slipping = true;
-  contact.first_touch = bare.first_touch;
-  contact.body = bare.body;
-  contact.nhat = (bare.x - g) / contact.depth;
-  contact.active = bare.active;
-  return contact;
+  return contactOf(moveProxy(last.god_object, g, r, surroundings), g);
 }
 
 }  // namespace presa

@@ -1,7 +1,6 @@
 #include "modules/haptics_proxy/haptics_proxy.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "framework/haptics/renderers.h"
@@ -103,25 +102,12 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
 
 void HapticsProxy::touch(FingerTick& tick) noexcept {
   tick.contact = renderer_->touch({tick.index, tick.g, tick.r, tick.finger.tip, tick.X_WA, *tick.finger.near});
-  if (keepsContract(tick.contact)) [[likely]]
+  if (keepsContract(tick.contact, touchables_)) [[likely]]
     return;
   renderer_broken_.store(true, std::memory_order_release);
   tick.broken = true;
   tick.contact = {};
   tick.contact.x = tick.contact.state.x = tick.contact.state.god_object = tick.g;
-}
-
-bool HapticsProxy::keepsContract(const ProxyContact& contact) const noexcept {
-  const ProxyState& state = contact.state;
-  // a number that is not finite makes the sum so
-  double sum = contact.depth + contact.x.sum() + state.x.sum() + state.god_object.sum() + contact.nhat.sum();
-  bool touchable = !state.touching || touchables_.has(contact.body);
-  for (int a = 0; a < contact.active.count; ++a) {
-    const ActiveSet::Member& member = contact.active.member[static_cast<std::size_t>(a)];
-    sum += member.weight + member.nhat.sum();
-    touchable = touchable && touchables_.has(member.body);
-  }
-  return std::isfinite(sum) && touchable;
 }
 
 // Moves the finger's state into the coordinates of the next frame.

@@ -55,7 +55,6 @@ class HapticsProxy final : public Module, public PluginHost {
   std::unique_ptr<FrictionStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
   void stepFinger(std::size_t finger, const Tick& tick) noexcept;
   void touch(FingerTick& tick) noexcept;
-  bool keepsContract(const ProxyContact& contact) const noexcept;
   void changeFrame(FingerTick& tick) noexcept;
 
   std::shared_ptr<const World> world_;

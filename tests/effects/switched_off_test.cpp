@@ -76,7 +76,11 @@ std::string programWith(const std::vector<std::string>& plugins) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("libpresa_")) copy("lib/presa/" + name);
   }
-  for (const std::string& plugin : plugins) copy("lib/presa/presa_" + plugin + ".so");
+  for (const std::string& plugin : plugins) {
+    const std::string file = "lib/presa/presa_" + plugin;
+    copy(file + ".so");
+    if (fs::exists(from / (file + ".xml"))) copy(file + ".xml");
+  }
   for (const char* folder : {"config", "experiments"}) {  // folders from which scenes may name rigs and motions
     if (!fs::exists(to / folder)) fs::create_directory_symlink(fs::path(PRESA_SOURCE_DIR) / folder, to / folder);
   }
@@ -100,7 +104,7 @@ TickCount lockstep(const std::string& program, const std::string& arguments) {
 // body. (Nothing moves here: ODE's heap use costs some instructions more or less depending on the address of the heap.)
 TEST_F(SwitchedOff, RecordingAndViewAreFree) {
   const TickCount whole = lockstep(std::string(PRESA_BINARY_DIR) + "/bin/presa", ballScene());
-  const TickCount bare = lockstep(programWith({"friction_cone", "haptics_proxy", "scripted"}), ballScene());
+  const TickCount bare = lockstep(programWith({"friction_cone", "god_object", "haptics_proxy", "scripted"}), ballScene());
   EXPECT_NEAR(whole.instructions, bare.instructions, kNothing);
   EXPECT_EQ(whole.out, bare.out);
   EXPECT_NE(whole.out, "no hash");
@@ -115,7 +119,7 @@ TEST_F(SwitchedOff, GravityIsFreeWhereNothingCanFall) {
     <body name="table" fixed="true"><haptic><box size="1 1 0.02"/></haptic></body>
     <devices><device role="thumb"/><device role="index"/></devices></scene>)";
   const TickCount with = lockstep(std::string(PRESA_BINARY_DIR) + "/bin/presa", scene);
-  const std::string bare_program = programWith({"friction_cone", "haptics_proxy", "scripted"});
+  const std::string bare_program = programWith({"friction_cone", "god_object", "haptics_proxy", "scripted"});
   const TickCount bare = lockstep(bare_program, scene);
   const TickCount weightless = lockstep(bare_program, scene + " --set world/gravity=\"0 0 0\"");
   EXPECT_NEAR(with.instructions, bare.instructions, kNothing);

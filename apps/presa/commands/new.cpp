@@ -59,12 +59,14 @@ std::string shipped(const std::string& path) {
   throw std::logic_error("no embedded file " + path);
 }
 
-/// The shipped cube with the rig of the project, and the plug-in's element in the cube or in the friction of its material.
+/// The shipped cube with the rig of the project, and the plug-in's element where those of its kind stand.
 std::string liftingScene(const Arguments& arguments) {
   std::string scene = shipped("config/scenes/cube.xml");
   replaceIn(scene, R"(name="cube" rig="../rigs/pinch_cube.xml")", R"(name="lift" rig="rig.xml")");
   const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
   if (arguments.kind == "effect") replaceIn(scene, cube, cube + "\n    <" + arguments.name + " max_force=\"0.5\"/>");
+  if (arguments.kind == "renderer")
+    replaceIn(scene, "  <materials>", "  <haptics renderer=\"" + arguments.name + "\"/>\n  <materials>");
   if (arguments.kind == "friction") {
     replaceIn(scene, R"(<friction static="0.8" dynamic="0.6"/>)",
               R"(<friction static="0.8" dynamic="0.6"><)" + arguments.name + "/></friction>");
@@ -177,9 +179,11 @@ void addNew(Command app, int& status) {
       .option(
           "KIND", arguments->kind,
           "effect: a force on the fingertips, with its reaction on a body; friction: a law of friction between fingers "
-          "and bodies; device: a driver that measures fingertips and renders forces")
+          "and bodies; renderer: where surfaces hold the fingertips; device: a driver that measures fingertips and "
+          "renders "
+          "forces")
       .required()
-      .oneOf({"effect", "friction", "device"});
+      .oneOf({"effect", "friction", "renderer", "device"});
   command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
   command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
   command.footer(

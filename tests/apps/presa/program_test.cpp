@@ -44,9 +44,9 @@ TEST(Run, WritesTheSummaryThatIsPromised) {
 TEST(Run, NamesThePlugInsThatItWouldLoad) {
   const auto plain = presa("run " + kCube + " --view none --plug-ins");
   EXPECT_EQ(plain.status, 0) << plain.err;
-  EXPECT_EQ(plain.out, "dynamics_ode\nfriction_cone\nhaptics_proxy\nscripted\n");
+  EXPECT_EQ(plain.out, "dynamics_ode\nfriction_cone\ngod_object\nhaptics_proxy\nscripted\n");
   const auto recorded = presa("run " + kCube + " --view offscreen --record never.h5 --plug-ins");
-  EXPECT_EQ(recorded.out, "checksum\ndynamics_ode\nfriction_cone\nhaptics_proxy\nrecord\nscripted\nview_osg\n");
+  EXPECT_EQ(recorded.out, "checksum\ndynamics_ode\nfriction_cone\ngod_object\nhaptics_proxy\nrecord\nscripted\nview_osg\n");
   EXPECT_EQ(presa("run no_such_scene.xml --plug-ins").status, 2);
 }
 

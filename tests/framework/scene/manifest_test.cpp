@@ -86,6 +86,40 @@ TEST_F(Manifests, OfFrictionLawsBelongToFriction) {
   EXPECT_EQ(errors(), "595 <wind> of the friction law 'wind' cannot stand in=\"body\"\n");
 }
 
+std::string renderer(const std::string& elements) {
+  return "<plugin name=\"rays\" version=\"1.0\" kind=\"renderer\" gives=\"proxy\" about=\"a test\">" + elements +
+         "</plugin>";
+}
+
+TEST_F(Manifests, OfRenderersAddAValueToHaptics) {
+  write("presa_rays.xml", renderer("<element name=\"rays\" in=\"haptics\"><attribute name=\"count\" type=\"number\" "
+                                   "default=\"3\" about=\"how many\"/></element>"));
+  Diagnostics diagnostics;
+  const auto all = readManifests({folder_.path().string()}, diagnostics);
+  EXPECT_FALSE(diagnostics.hasErrors());
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_TRUE(all[0].proxy);
+  const std::string xsd = sceneSchemaWith(all);
+  EXPECT_NE(xsd.find("<xs:enumeration value=\"rays\"/>"), std::string::npos);
+  EXPECT_NE(xsd.find("<xs:element name=\"rays\" p:implied=\"false\" minOccurs=\"0\">"), std::string::npos);
+}
+
+TEST_F(Manifests, OfRenderersHaveOneElementWithDefaults) {
+  write("presa_rays.xml", renderer("<element name=\"rays\" in=\"haptics\"><attribute name=\"count\" type=\"number\" "
+                                   "about=\"how many\"/></element>"));
+  EXPECT_EQ(errors(), "595 <rays count> of the renderer 'rays' has no default\n");
+  write("presa_rays.xml", renderer("<element name=\"rays\" in=\"haptics\"/><element name=\"beams\" in=\"haptics\"/>"));
+  EXPECT_EQ(errors(), "595 the renderer 'rays' has a second element for its settings\n");
+  write("presa_rays.xml", renderer("<element name=\"rays\" in=\"body\"/>"));
+  EXPECT_EQ(errors(), "595 <rays> of the renderer 'rays' cannot stand in=\"body\"\n");
+}
+
+TEST_F(Manifests, OnlyOfRenderersGiveAProxy) {
+  write("presa_wind.xml",
+        "<plugin name=\"wind\" version=\"1.0\" kind=\"friction_law\" gives=\"proxy\" about=\"a test\"/>");
+  EXPECT_EQ(errors(), "595 the friction law 'wind' says gives=\"proxy\"\n");
+}
+
 TEST_F(Manifests, AreCheckedLikeAnyFile) {
   write("presa_wind.xml", "<plugin name=\"wind\" version=\"1.0\" kind=\"forse_effect\" about=\"a test\"/>");
   EXPECT_NE(errors().find("forse_effect"), std::string::npos) << errors();
