@@ -37,12 +37,16 @@ const std::vector<KindRule>& kindRules() {
   static const std::vector<KindRule> kRules{
       {PluginKind::kForceEffect, "force_effect", "force effect", {Place::kBody, Place::kScene}},
       {PluginKind::kFrictionLaw, "friction_law", "friction law", {Place::kFriction}},
-      {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}}};
+      {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}},
+      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}}};
   return kRules;
 }
 
-constexpr std::pair<Place, const char*> kPlaces[] = {
-    {Place::kBody, "body"}, {Place::kScene, "scene"}, {Place::kFriction, "friction"}, {Place::kHaptics, "haptics"}};
+constexpr std::pair<Place, const char*> kPlaces[] = {{Place::kBody, "body"},
+                                                     {Place::kScene, "scene"},
+                                                     {Place::kMaterial, "material"},
+                                                     {Place::kFriction, "friction"},
+                                                     {Place::kHaptics, "haptics"}};
 
 const KindRule& ruleOf(PluginKind kind) { return *std::ranges::find(kindRules(), kind, &KindRule::kind); }
 
@@ -58,6 +62,7 @@ Manifest read(const xml::Element& root, const std::string& file) {
                     .kind = kindOf(root.attribute("kind")),
                     .about = root.attribute("about"),
                     .proxy = root.attribute("gives") == "proxy",
+                    .needs_proxy = root.attribute("needs") == "proxy",
                     .elements = {},
                     .file = file};
   for (const xml::Element& child : root.children("element")) {

@@ -10,7 +10,7 @@ namespace presa {
 /// What a plug-in adds to scenes, from the file `presa_NAME.xml` beside its library `presa_NAME.so`. Manifests are read
 /// without loading any library, so that a scene costs nothing for plug-ins that it does not name.
 struct Manifest {
-  enum class Place { kBody, kScene, kFriction, kHaptics };
+  enum class Place { kBody, kScene, kMaterial, kFriction, kHaptics };
 
   struct Attribute {
     std::string name, type, unit, about;
@@ -28,7 +28,8 @@ struct Manifest {
   std::string name, version;  ///< of the plug-in
   PluginKind kind = PluginKind::kForceEffect;
   std::string about;
-  bool proxy = false;  ///< a renderer with a proxy: gives="proxy"
+  bool proxy = false;        ///< a renderer with a proxy: gives="proxy"
+  bool needs_proxy = false;  ///< a surface effect of renderers with a proxy: needs="proxy"
   std::vector<Element> elements;
   std::string file;
 };

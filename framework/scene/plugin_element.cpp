@@ -63,6 +63,7 @@ std::vector<PluginElement> readPluginElements(const xml::Element& root) {
   };
   std::int32_t material = 0;
   for (const xml::Element& element : materialElements(root)) {
+    for (const xml::Element& effect : element.children()) add(effect, kNoBody, material);
     for (const xml::Element& friction : element.children("friction")) {
       for (const xml::Element& law : friction.children()) add(law, kNoBody, material);
     }

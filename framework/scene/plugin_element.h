@@ -9,7 +9,7 @@
 
 namespace presa {
 
-enum class PluginKind { kForceEffect, kFrictionLaw, kRenderer };
+enum class PluginKind { kForceEffect, kFrictionLaw, kRenderer, kSurfaceEffect };
 
 /// An element of the scene that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
 struct PluginElement {
@@ -19,7 +19,7 @@ struct PluginElement {
   std::map<std::string, std::string> attributes;
   SourceLocation where;
   PluginKind kind = PluginKind::kForceEffect;
-  std::int32_t material = -1;  ///< index of the material in whose <friction> it stands; -1: in none
+  std::int32_t material = -1;  ///< index of the material in which, or in whose <friction>, it stands; -1: in none
 
   /// Value of an attribute of type number, vector3, boolean or text. Throws std::logic_error when the manifest has none
   /// of that name or type.

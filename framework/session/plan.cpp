@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/haptics/friction_laws.h"
+#include "framework/haptics/surface_effects.h"
 #include "framework/scene/manifest.h"
 
 namespace presa {
@@ -60,27 +61,35 @@ void planFriction(const Scene& scene, Plan& plan) {
   }
 }
 
-/// What the scene could call for: the plug-ins whose elements it does not have.
+void planSurfaceEffects(const Scene& scene, Plan& plan) {
+  if (scene.devices.empty()) return;
+  for (const PluginElement& effect : surfaceEffectsOf(scene)) {
+    if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == effect.plugin; })) continue;
+    const std::string& body = scene.bodies[static_cast<std::size_t>(effect.body)].name;
+    plan.effects.push_back({effect.plugin, "body '" + body + "' has <" + effect.element + ">"});
+  }
+}
+
+/// Why the scene does not call for that plug-in.
+std::string whyNot(const Manifest& manifest, const Scene& scene) {
+  const auto of_it = [&](const PluginElement& element) { return element.plugin == manifest.name; };
+  if (scene.devices.empty()) return "the scene has no device";
+  if (manifest.kind == PluginKind::kRenderer) return "the scene's renderer is '" + scene.haptics.renderer + "'";
+  if (manifest.needs_proxy && !scene.haptics.proxy) return "the renderer '" + scene.haptics.renderer + "' has no proxy";
+  if (manifest.name == kShading) return "no touchable mesh says shading=\"smooth\"";
+  if (manifest.name == kDefaultFrictionLaw) return "no touchable material has friction that names no law";
+  if (std::ranges::any_of(scene.plugin_elements, of_it)) return "nothing touchable needs it";
+  std::string elements;
+  for (const Manifest::Element& element : manifest.elements)
+    elements += (elements.empty() ? "<" : ", <") + element.name + ">";
+  return "the scene has no " + elements + ": " + manifest.about;
+}
+
+/// What the scene could call for.
 void leaveOutOthers(const Scene& scene, Plan& plan) {
   for (const Manifest& manifest : manifests()) {
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == manifest.name; })) continue;
-    if (std::ranges::any_of(scene.plugin_elements, [&](const PluginElement& e) { return e.plugin == manifest.name; })) {
-      plan.left_out.push_back(
-          {manifest.name, scene.devices.empty() ? "the scene has no device" : "nothing touchable needs it"});
-      continue;
-    }
-    if (manifest.kind == PluginKind::kRenderer) {
-      plan.left_out.push_back({manifest.name, "the scene's renderer is '" + scene.haptics.renderer + "'"});
-      continue;
-    }
-    if (manifest.elements.empty()) {
-      plan.left_out.push_back({manifest.name, "no touchable material has friction that names no law"});
-      continue;
-    }
-    std::string elements;
-    for (const Manifest::Element& element : manifest.elements)
-      elements += (elements.empty() ? "<" : ", <") + element.name + ">";
-    plan.left_out.push_back({manifest.name, "the scene has no " + elements + ": " + manifest.about});
+    plan.left_out.push_back({manifest.name, whyNot(manifest, scene)});
   }
 }
 
@@ -158,6 +167,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
   planRenderer(scene, plan);
   planEffects(scene, plan);
   planFriction(scene, plan);
+  planSurfaceEffects(scene, plan);
   leaveOutOthers(scene, plan);
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/haptics/friction_laws.h"
+#include "framework/haptics/surface_effects.h"
 #include "framework/scene/open_surfaces.h"
 
 namespace presa {
@@ -29,9 +30,7 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
       effects.surface_change ||
       (effects.proxy && any_touchable([&](const Body& body) { return hasFriction(scene, body.material); }));
   effects.commanded = options.bus_commands && !openSurfaces(scene).empty();
-  effects.shading = effects.proxy && any_touchable([](const Body& body) {
-                      return body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape);
-                    });
+  effects.surface_effects = !surfaceEffectsOf(scene).empty();
   effects.damping = any_touchable([&](const Body& body) { return scene.materialOf(body).damping > 0; });
   return effects;
 }
@@ -49,10 +48,6 @@ std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
                                                            : renderer + "that friction holds"});
   }
   if (!effects.commanded) left_out.push_back({"commanded surfaces", "the run takes no commands (--bus-commands)"});
-  if (!effects.shading) {
-    left_out.push_back(
-        {"force shading", effects.proxy ? "no touchable mesh says shading=\"smooth\"" : renderer + "to turn"});
-  }
   if (!effects.damping) left_out.push_back({"surface damping", "no touchable material has damping"});
   return left_out;
 }

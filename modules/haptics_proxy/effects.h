@@ -13,11 +13,11 @@ struct HapticEffects {
   enum class Poses { kNone, kInterpolate, kHold };  ///< kNone: no touchable body moves
   Poses poses = Poses::kNone;
   std::string renderer;
-  bool proxy = true;  ///< the renderer has a proxy that friction can hold and shading can turn
+  bool proxy = true;  ///< the renderer has a proxy that friction can hold
   bool friction = false;
-  bool surface_change = false;  ///< friction that changes during the run
-  bool commanded = false;       ///< surface parameters open to commands
-  bool shading = false;
+  bool surface_change = false;   ///< friction that changes during the run
+  bool commanded = false;        ///< surface parameters open to commands
+  bool surface_effects = false;  ///< force shading and those of plug-ins
   bool damping = false;
 };
 

@@ -48,6 +48,7 @@ struct FingerTick {
   Pose X_WA = {};
   Vec3 g = Vec3::Zero();  ///< HIP in A
   ProxyContact contact = {};
+  double softness = 1;  ///< stiffness of the surface over that of its material, from surface effects
   bool broken = false;  ///< a plug-in broke its contract: no force
   /// Body whose coordinates hold the finger's state from the next tick on; X_BA, if it is another.
   std::int32_t next_frame = kNoBody;
@@ -73,15 +74,25 @@ class FrictionStage : public FingerStage {
   virtual std::optional<std::string> brokenLaw() const = 0;
 };
 
+/// The surface effects of the scene.
+class SurfaceStage : public FingerStage {
+ public:
+  /// The effect that broke its contract, or empty. Thread: any.
+  virtual std::string broken() const = 0;
+};
+
 // Each stage is in the file of its name; spring and damping are in render_stages.cpp.
 /// `mover` must outlive the stage.
 std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const ProxyMover& mover);
 /// `change` must outlive the stage, too.
 std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const ProxyMover& mover,
                                                     const In<SurfaceChange>& change);
-std::unique_ptr<FingerStage> makeShading(const World& world);
+/// `world` must outlive the stage.
+std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces);
 /// Writes contact state and spring force, and counts pop-through, lost coverage and leaps.
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);
+/// The same for scenes with surface effects, which may leave less than the material's stiffness.
+std::unique_ptr<FingerStage> makeSoftSpring(const SurfacesInForce& surfaces);
 std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces);
 
 }  // namespace presa

@@ -37,8 +37,12 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
     friction_ = friction.get();
     finger_stages_.push_back(std::move(friction));
   }
-  if (effects.shading) finger_stages_.push_back(makeShading(*world_));
-  finger_stages_.push_back(makeSpring(in_force));
+  if (effects.surface_effects) {
+    auto surfaces = makeSurfaces(*world_, in_force);
+    surface_effects_ = surfaces.get();
+    finger_stages_.push_back(std::move(surfaces));
+  }
+  finger_stages_.push_back(effects.surface_effects ? makeSoftSpring(in_force) : makeSpring(in_force));
   if (effects.damping) finger_stages_.push_back(makeDamping(in_force));
   if (world_->scene.hasForceEffects()) force_effects_.push_back(std::make_unique<Effects>(*this, *world_));
 }
@@ -126,6 +130,7 @@ std::optional<std::string> HapticsProxy::brokenPlugin() const {
     const int broken = added->effects.broken();
     if (broken >= 0) return "force effect " + added->effects.names()[static_cast<std::size_t>(broken)];
   }
+  if (surface_effects_ != nullptr && !surface_effects_->broken().empty()) return surface_effects_->broken();
   return friction_ == nullptr ? std::nullopt : friction_->brokenLaw();
 }
 

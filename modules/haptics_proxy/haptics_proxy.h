@@ -65,7 +65,8 @@ class HapticsProxy final : public Module, public PluginHost {
   std::unique_ptr<Renderer> renderer_;
   std::atomic<bool> renderer_broken_{false};
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;
-  const FrictionStage* friction_ = nullptr;  ///< null: no friction
+  const FrictionStage* friction_ = nullptr;        ///< null: no friction
+  const SurfaceStage* surface_effects_ = nullptr;  ///< null: no surface effects
 
   In<DeviceState> device_{*this, "device_state"};
   In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}};

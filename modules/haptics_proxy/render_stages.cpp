@@ -8,7 +8,7 @@ namespace {
 constexpr double kNear = 1.06;  // a body within this times r of a free fingertip's centre carries the proxy
 
 /// Converts the result into contact state and spring force, and stores the finger's state for the next tick.
-class Spring final : public FingerStage {
+class Spring : public FingerStage {
  public:
   explicit Spring(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
   void apply(FingerTick& tick) noexcept override;
@@ -139,6 +139,17 @@ bool Spring::leaps(const FingerTick& tick) noexcept {
   return way > kOfStep * tick.finger.near->step() && way > kOfDepth * (last.god_object - tick.g).norm();
 }
 
+class SoftSpring final : public Spring {
+ public:
+  using Spring::Spring;
+  void apply(FingerTick& tick) noexcept override {
+    Spring::apply(tick);
+    tick.out.stiffness *= tick.softness;
+    tick.out.normal_force *= tick.softness;
+    tick.out.tangential_force_W *= tick.softness;
+  }
+};
+
 class Damping final : public FingerStage {
  public:
   explicit Damping(const SurfacesInForce& surfaces) : surfaces_(surfaces) {}
@@ -159,6 +170,9 @@ class Damping final : public FingerStage {
 }  // namespace
 
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces) { return std::make_unique<Spring>(surfaces); }
+std::unique_ptr<FingerStage> makeSoftSpring(const SurfacesInForce& surfaces) {
+  return std::make_unique<SoftSpring>(surfaces);
+}
 std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces) {
   return std::make_unique<Damping>(surfaces);
 }

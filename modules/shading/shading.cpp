@@ -4,9 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/geometry/rotation_between.h"
-#include "framework/haptics/touchables.h"
-#include "modules/haptics_proxy/finger_stage.h"
+#include "framework/haptics/surface_effect.h"
 
 namespace presa {
 namespace {
@@ -39,69 +37,44 @@ Vec3 cornerWeights(const PreparedTriangle& t, const Vec3& q) noexcept {
 
 /// Force shading: facets of a mesh feel like the smooth surface they approximate. The normal of each triangle that
 /// holds the fingertip is interpolated between its corners; the force rotates accordingly and keeps its magnitude.
-class Shading final : public FingerStage {
+class Shading final : public SurfaceEffect {
  public:
-  explicit Shading(const World& world) {
-    for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
-      const auto& haptic = world.scene.bodies[b].haptic;
-      const auto& mesh = world.meshes[b].haptic;
-      const bool smooth = haptic && haptic->smooth && mesh;
-      bodies_.push_back(smooth ? Smooth{mesh, haptic->X_BG.q, vertexNormals(*mesh)} : Smooth{});
-    }
-  }
+  Shading(const Geometry& haptic, std::shared_ptr<const TriMesh> mesh)
+      : mesh_(std::move(mesh)), q_BG_(haptic.X_BG.q), normals_(vertexNormals(*mesh_)) {}
 
-  void apply(FingerTick& tick) noexcept override {
-    ProxyContact& contact = tick.contact;
-    if (!contact.state.touching || !bodies_[static_cast<std::size_t>(contact.body)].mesh) return;
-    Surroundings& near = *tick.finger.near;
-    near.use(Point::kGodObject);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.active.count); ++i) {
-      const ActiveSet::Member& member = contact.active.member[i];
-      sum += member.weight * normalOf(member, near.triangleOf(member.piece, contact.state.god_object), tick);
-    }
-    const double length = sum.norm();
-    if (!(length > 0) || !(sum.dot(contact.nhat) > kMinCosine * length)) return;
-    const Quat turn = rotationBetween(contact.nhat, sum);
-    contact.nhat = sum / length;
-    contact.tangential_displacement = turn * contact.tangential_displacement;
-    contact.x = tick.g + contact.depth * contact.nhat + contact.tangential_displacement;
-  }
-  std::string what() const override { return "force shading: normals interpolated over the facets"; }
-
- private:
-  struct Smooth {
-    std::shared_ptr<const TriMesh> mesh;  ///< null: not smooth
-    Quat q_BG = Quat::Identity();
-    std::vector<Vec3> normals;  ///< mesh frame
-  };
-
-  // Interpolated normal, in A, of a piece that holds the fingertip.
-  Vec3 normalOf(const ActiveSet::Member& member, const Surroundings::Triangle& triangle,
-                const FingerTick& tick) const noexcept {
-    const Smooth& body = bodies_[static_cast<std::size_t>(member.body)];
-    if (!body.mesh || triangle.facet == nullptr) return member.nhat;
+  Vec3 normal(const SurfaceInput& input, const ActiveSet::Member& member, const Vec3& nhat) noexcept override {
+    const Surroundings::Triangle triangle = input.near.triangleOf(member.piece, input.contact.state.god_object);
+    if (triangle.facet == nullptr) return nhat;
     const MeshTree::Facet& facet = *triangle.facet;
     const PreparedTriangle prepared(triangle.tree->corner(facet, 0), triangle.tree->corner(facet, 1),
                                     triangle.tree->corner(facet, 2));
     const Vec3 weight = cornerWeights(prepared, closestOnTriangle(triangle.x_G, prepared));
-    const TriMesh::Triangle& corners = body.mesh->triangles[static_cast<std::size_t>(facet.id)];
+    const TriMesh::Triangle& corners = mesh_->triangles[static_cast<std::size_t>(facet.id)];
     Vec3 normal_G = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
-      normal_G += weight[static_cast<Eigen::Index>(i)] * body.normals[static_cast<std::size_t>(corners[i])];
+      normal_G += weight[static_cast<Eigen::Index>(i)] * normals_[static_cast<std::size_t>(corners[i])];
     }
-    const Vec3 normal_W = tick.touchables.frameOf(member.body).q * (body.q_BG * normal_G);
-    const Vec3 normal = tick.X_WA.q.conjugate() * normal_W;
+    const Vec3 normal_W = input.touchables.frameOf(member.body).q * (q_BG_ * normal_G);
+    const Vec3 normal = input.X_WA.q.conjugate() * normal_W;
     const double length = normal.norm();
-    return length > 0 && normal.dot(member.nhat) > 0 ? Vec3(normal / length) : member.nhat;
+    return length > 0 && normal.dot(nhat) > 0 ? Vec3(normal / length) : nhat;
   }
+  std::string what() const override { return "force shading: normals interpolated over the facets"; }
 
-  static constexpr double kMinCosine = 0.5;  // the force rotates by less than 60 degrees, else shading is skipped
-  std::vector<Smooth> bodies_;               // as Scene::bodies
+ private:
+  std::shared_ptr<const TriMesh> mesh_;
+  Quat q_BG_;
+  std::vector<Vec3> normals_;  // mesh frame
 };
 
+const SurfaceEffectPlugin kPlugin{
+    .name = "shading",
+    .create = [](const PluginElement& element, const World& world) -> std::unique_ptr<SurfaceEffect> {
+      const auto body = static_cast<std::size_t>(element.body);
+      return std::make_unique<Shading>(*world.scene.bodies[body].haptic, world.meshes[body].haptic);
+    }};
+
 }  // namespace
-
-std::unique_ptr<FingerStage> makeShading(const World& world) { return std::make_unique<Shading>(world); }
-
 }  // namespace presa
+
+PRESA_SURFACE_EFFECT_PLUGIN(presa::kPlugin)

@@ -41,7 +41,7 @@ TEST(Explain, ListsTheStagesThatRunAndTheReasonsOfThoseThatDoNot) {
   EXPECT_TRUE(hasStage(full, "surface damping"));
   EXPECT_TRUE(hasStage(full, "interpolate the Object State"));
   EXPECT_FALSE(hasStage(full, "shading"));
-  EXPECT_NE(whyLeftOut(full, "force shading").find("smooth"), std::string::npos);
+  EXPECT_NE(whyLeftOut(full, "shading").find("smooth"), std::string::npos);
   EXPECT_EQ(whyLeftOut(full, "friction"), "not left out");
   EXPECT_NE(whyLeftOut(full, "changing friction").find("<changed>"), std::string::npos);
   EXPECT_TRUE(hasStage(explain(cube + " --set material/rubber/friction/changed/static=0.2"),

@@ -54,6 +54,10 @@ project friction slick
 shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "friction: friction_cone, slick"
 refused "scene/lift.xml:8:117: error[E111]: unknown element <slick>" "${bare[@]}" presa check scene/lift.xml
 
+project surface ripples
+shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "ripples of 0.1 mm"
+refused "scene/lift.xml:16:5: error[E111]: unknown element <ripples>" "${bare[@]}" presa check scene/lift.xml
+
 project renderer small_proxy
 shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "move the proxy in up to 16 legs (small_proxy)"
 refused "scene/lift.xml:7:12: error[E116]" "${bare[@]}" presa check scene/lift.xml

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "framework/haptics/renderers.h"
+#include "framework/haptics/surface_effects.h"
 #include "tests/support/finger_world.h"
 
 namespace presa::test {
@@ -10,33 +11,36 @@ namespace {
 
 constexpr double kRadius = 0.008, kStiffness = 1000, kPeriod = 1e-3;
 
-std::shared_ptr<const World> worldWith(const std::string& haptics, const std::string& shape) {
+std::shared_ptr<const World> worldWith(const std::string& haptics, const std::string& shape,
+                                       const std::string& effects) {
   return fingerWorld(R"(<scene version="1.0" name="rendered"><world gravity="0 0 0"/>)" + haptics +
                      R"(<materials><material name="any" stiffness="1000"/></materials>
     <body name="body" fixed="true" material="any"><haptic>)" +
-                     shape + R"(</haptic></body>
+                     shape + "</haptic>" + effects + R"(</body>
     <devices><device role="finger" fingertip_radius="0.008"/></devices></scene>)");
 }
 
 }  // namespace
 
 struct RenderedBody::Parts {
-  Parts(const std::string& haptics, const std::string& shape)
-      : world(worldWith(haptics, shape)),
+  Parts(const std::string& haptics, const std::string& shape, const std::string& effects)
+      : world(worldWith(haptics, shape, effects)),
         renderer(makeRenderer(*world)),
         touchables(*world),
-        near(touchables.meshCount()) {}
+        near(touchables.meshCount()),
+        surface(*world) {}
   std::shared_ptr<const World> world;
   std::unique_ptr<Renderer> renderer;
   Touchables touchables;
   Surroundings near;
+  SurfaceEffects surface;
   ProxyState proxy;
   Vec3 last_p_WH = Vec3::Zero();
   bool alive = false;
 };
 
-RenderedBody::RenderedBody(const std::string& haptics, const std::string& shape)
-    : parts_(std::make_unique<Parts>(haptics, shape)) {}
+RenderedBody::RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects)
+    : parts_(std::make_unique<Parts>(haptics, shape, effects)) {}
 RenderedBody::~RenderedBody() = default;
 
 Vec3 RenderedBody::force(const Vec3& p_WH) noexcept {
@@ -48,10 +52,16 @@ Vec3 RenderedBody::force(const Vec3& p_WH) noexcept {
   p.touchables.surround(p.near, kNoBody, p_WH, way + 1.1 * kRadius, moved, kPeriod, nullptr);
   p.near.setStep(moved);
   const Pose X_WA;
-  const ProxyContact contact = p.renderer->touch({0, p_WH, kRadius, p.proxy, X_WA, p.near});
-  if (!keepsContract(contact, p.touchables)) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  ProxyContact contact = p.renderer->touch({0, p_WH, kRadius, p.proxy, X_WA, p.near});
+  const Vec3 broken = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!keepsContract(contact, p.touchables)) return broken;
   p.proxy = contact.state;
-  return kStiffness * contact.depth * contact.nhat;
+  if (!contact.state.touching) return Vec3::Zero();
+  double softness = 1;
+  if (p.surface.on(contact.body) &&
+      !p.surface.act({0, kPeriod, kRadius, p_WH, contact, X_WA, p.touchables, p.near}, kStiffness, contact, softness))
+    return broken;
+  return softness * kStiffness * (contact.depth * contact.nhat + contact.tangential_displacement);
 }
 
 }  // namespace presa::test

@@ -6,21 +6,22 @@
 
 namespace presa::test {
 
-/// One renderer, and a fingertip of 8 mm that feels a fixed body of 1000 N/m at the origin, without friction and without a
-/// run. The element is read like any scene's, with the plug-in's manifest:
+/// A fingertip of 8 mm that feels a fixed body of 1000 N/m at the origin, by one renderer and the body's surface effects,
+/// without friction and without a run. The elements are read like any scene's, with the plug-ins' manifests:
 ///
 ///     RenderedBody box("<haptics renderer=\"god_object\"/>", "<box size=\"0.1 0.1 0.1\"/>");
 ///     box.force({0, 0, 0.1});
 ///     EXPECT_NEAR(box.force({0, 0, 0.057}).z(), 1, 1e-9);
 class RenderedBody {
  public:
-  /// `haptics`: the scene's <haptics>; `shape`: the haptic geometry of the body. Throws InputError with every finding.
-  RenderedBody(const std::string& haptics, const std::string& shape);
+  /// `haptics`: the scene's <haptics>, or empty; `shape`: the haptic geometry of the body; `effects`: surface effects of
+  /// the body. Throws InputError with every finding.
+  RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects = {});
   ~RenderedBody();
 
-  /// One tick of 1 ms with the device at p_WH. Returns the force on it [N]; NaN if the renderer's contact breaks its
-  /// contract (framework/haptics/renderer.h). In the first tick the fingertip should be free.
-  /// Nonblocking if the renderer is: put a RealTimeGuard around it.
+  /// One tick of 1 ms with the device at p_WH. Returns the force on it [N]; NaN if the renderer or an effect breaks
+  /// its contract. In the first tick the fingertip should be free.
+  /// Nonblocking if the plug-ins are: put a RealTimeGuard around it.
   Vec3 force(const Vec3& p_WH) noexcept;
 
  private:

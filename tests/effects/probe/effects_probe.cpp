@@ -62,7 +62,7 @@ int probe(int count, char** arguments) {
   const std::string without = arguments[3];
   effects.friction = effects.friction && without != "friction";
   effects.damping = effects.damping && without != "damping";
-  effects.shading = effects.shading && without != "shading";
+  effects.surface_effects = effects.surface_effects && without != "shading";
   without_gravity = without == "gravity";
 
   std::erase_if(loaded.plan.modules, [](const PlannedModule& m) { return m.plugin == "haptics_proxy"; });

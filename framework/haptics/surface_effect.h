@@ -1,0 +1,66 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "framework/core/plugin/plugin_loader.h"
+#include "framework/haptics/renderer.h"
+#include "framework/haptics/touchables.h"
+#include "framework/scene/plugin_element.h"
+#include "framework/scene/world.h"
+
+namespace presa {
+
+/// One tool that touches the body of an effect, in one haptic tick. Vectors in the working frame A.
+struct SurfaceInput {
+  std::size_t tool;  ///< index of the scene's device role
+  double period;     ///< [s]
+  double radius;     ///< of the tool [m]
+  const Vec3& g;     ///< where the device is [m]
+  const ProxyContact& contact;
+  const Pose& X_WA;
+  const Touchables& touchables;
+  Surroundings& near;
+
+  Pose X_BA(std::int32_t body) const noexcept { return touchables.frameOf(body).inverse() * X_WA; }
+  /// Touched point of the body without friction, in the body's coordinates [m].
+  Vec3 touched_B() const noexcept { return X_BA(contact.body) * (contact.state.god_object - radius * contact.nhat); }
+};
+
+/// What an effect may change. The force on the tool is stiffness * (depth * nhat + tangential).
+struct SurfaceContact {
+  Vec3 nhat;         ///< unit normal, body into tool
+  double depth;      ///< [m]
+  Vec3 tangential;   ///< displacement by friction [m]
+  double stiffness;  ///< of the surface, at most that of its material [N/m]
+};
+
+/// Changes how a surface feels where a tool touches it: its normal, its height, its stiffness. One object for each body
+/// that has the element, in itself or in its material; the effects of a body act in the order of the scene.
+/// Thread: haptic, except for construction and what(); no allocation, lock, exception or system call.
+class SurfaceEffect {
+ public:
+  virtual ~SurfaceEffect() = default;
+  /// Unit normal of the piece of this body that holds the tool; `nhat` before this effect. The force keeps its magnitude
+  /// and turns by less than 60 degrees, else the change is left out.
+  virtual Vec3 normal(const SurfaceInput&, const ActiveSet::Member&, const Vec3& nhat) noexcept { return nhat; }
+  /// A contact that is not finite, or stiffer than its material, ends the run: forces go to zero, and the fault is
+  /// reported with the effect's name. Where the normal force falls, Presa lets the tangential force fall with it.
+  virtual void apply(const SurfaceInput&, SurfaceContact&) noexcept {}
+  /// Description for `presa explain`.
+  virtual std::string what() const = 0;
+};
+
+/// Table of a surface-effect plug-in; its manifest (framework/scene/manifest.h) names its elements.
+struct SurfaceEffectPlugin {
+  int abi = kPluginAbi;
+  const char* name;  ///< as in the manifest
+  /// The effect on the body element.body; may throw (E596). The world stays alive as long as the effect.
+  std::unique_ptr<SurfaceEffect> (*create)(const PluginElement& element, const World& world);
+};
+
+}  // namespace presa
+
+#define PRESA_SURFACE_EFFECT_PLUGIN(table)                                                                         \
+  extern "C" __attribute__((visibility("default"))) const presa::SurfaceEffectPlugin* presaSurfaceEffectPlugin() { \
+    return &(table);                                                                                               \
+  }

@@ -1,0 +1,124 @@
+#include "framework/haptics/surface_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/geometry/rotation_between.h"
+#include "framework/haptics/plugin_object.h"
+#include "framework/scene/manifest.h"
+
+namespace presa {
+namespace {
+
+constexpr double kMinCosine = 0.5;      // of the angle by which effects may turn a force
+constexpr double kRounding = 1 + 1e-9;  // a stiffness may exceed its bound by rounding
+
+std::unique_ptr<SurfaceEffect> make(const PluginElement& element, const World& world) {
+  const auto& table = pluginTable<SurfaceEffectPlugin>(element.plugin, "presaSurfaceEffectPlugin");
+  return madeFor(element, [&] { return table.create(element, world); });
+}
+
+bool needsProxy(const std::string& plugin) {
+  const Manifest* manifest = findManifest(plugin);
+  return manifest != nullptr && manifest->needs_proxy;
+}
+
+}  // namespace
+
+std::vector<PluginElement> surfaceEffectsOf(const Scene& scene) {
+  std::vector<PluginElement> all;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    if (!body.haptic) continue;
+    const auto index = static_cast<std::int32_t>(b);
+    for (const PluginElement& element : scene.plugin_elements) {
+      const bool of_it = element.body == index || element.material == static_cast<std::int32_t>(body.material);
+      if (element.kind != PluginKind::kSurfaceEffect || !of_it) continue;
+      all.push_back(element);
+      all.back().body = index;
+    }
+    if (body.haptic->smooth && std::holds_alternative<MeshRef>(body.haptic->shape))
+      all.push_back({kShading, "haptic shading=\"smooth\"", index, {}, {scene.file, 0, 0}, PluginKind::kSurfaceEffect});
+  }
+  if (!scene.haptics.proxy) std::erase_if(all, [](const PluginElement& element) { return needsProxy(element.plugin); });
+  return all;
+}
+
+SurfaceEffects::SurfaceEffects(const World& world) : of_body_(world.scene.bodies.size()) {
+  for (const PluginElement& element : surfaceEffectsOf(world.scene)) {
+    const auto body = static_cast<std::size_t>(element.body);
+    of_body_[body].push_back({make(element, world), "surface effect <" + element.element + "> of body '" +
+                                                        world.scene.bodies[body].name + "'"});
+  }
+}
+
+// Turns the contact's normal. True if it changed.
+bool SurfaceEffects::turn(const SurfaceInput& input, ProxyContact& contact) noexcept {
+  input.near.use(Point::kGodObject);
+  Vec3 sum = Vec3::Zero();
+  bool changed = false;
+  for (int i = 0; i < contact.active.count; ++i) {
+    const ActiveSet::Member& member = contact.active.member[static_cast<std::size_t>(i)];
+    Vec3 nhat = member.nhat;
+    for (const Effect& each : of_body_[static_cast<std::size_t>(member.body)])
+      nhat = each.effect->normal(input, member, nhat);
+    changed = changed || nhat != member.nhat;
+    sum += member.weight * nhat;
+  }
+  const double length = sum.norm();
+  if (!changed || !(length > 0) || !(sum.dot(contact.nhat) > kMinCosine * length)) return false;
+  const Quat turn = rotationBetween(contact.nhat, sum);
+  contact.nhat = sum / length;
+  contact.tangential_displacement = turn * contact.tangential_displacement;
+  return true;
+}
+
+// False: an effect broke its contract, now or before.
+bool SurfaceEffects::apply(std::int32_t body, const SurfaceInput& input, SurfaceContact& contact) noexcept {
+  const double stiffness = contact.stiffness;
+  for (const Effect& each : of_body_[static_cast<std::size_t>(body)]) {
+    each.effect->apply(input, contact);
+    const double sum = contact.depth + contact.nhat.sum() + contact.tangential.sum();
+    if (std::isfinite(sum) && contact.stiffness >= 0 && contact.stiffness <= kRounding * stiffness) continue;
+    const Effect* none = nullptr;
+    broken_.compare_exchange_strong(none, &each, std::memory_order_acq_rel);
+  }
+  return broken_.load(std::memory_order_relaxed) == nullptr;
+}
+
+bool SurfaceEffects::act(const SurfaceInput& input, double stiffness, ProxyContact& contact,
+                         double& softness) noexcept {
+  const bool turned = turn(input, contact);
+  const SurfaceContact before{contact.nhat, contact.depth, contact.tangential_displacement, stiffness};
+  SurfaceContact after = before;
+  if (!apply(contact.body, input, after)) return false;
+  const bool changed = after.depth != before.depth || after.stiffness != stiffness || after.nhat != before.nhat ||
+                       after.tangential != before.tangential;
+  if (!turned && !changed) return true;
+  contact.nhat = after.nhat;
+  contact.depth = after.depth;
+  contact.tangential_displacement = after.tangential;
+  // friction was bounded by the normal force before
+  if (after.depth < before.depth) contact.tangential_displacement *= std::max(0.0, after.depth) / before.depth;
+  softness = after.stiffness / stiffness;
+  contact.x = input.g + contact.depth * contact.nhat + contact.tangential_displacement;
+  return true;
+}
+
+std::vector<std::string> SurfaceEffects::descriptions() const {
+  std::vector<std::string> all;
+  for (const auto& effects : of_body_) {
+    for (const Effect& each : effects) {
+      std::string what = each.effect->what();
+      if (std::ranges::find(all, what) == all.end()) all.push_back(std::move(what));
+    }
+  }
+  return all;
+}
+
+std::string SurfaceEffects::broken() const {
+  const Effect* broken = broken_.load(std::memory_order_acquire);
+  return broken == nullptr ? std::string{} : broken->name;
+}
+
+}  // namespace presa

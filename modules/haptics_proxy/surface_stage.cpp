@@ -1,0 +1,38 @@
+// The surface effects of the touched body. They rotate and shift the rendered proxy about the HIP, so that the dynamics,
+// which sees the spring between the two, gets the same force.
+#include "framework/haptics/surface_effects.h"
+#include "modules/haptics_proxy/finger_stage.h"
+
+namespace presa {
+namespace {
+
+class Surfaces final : public SurfaceStage {
+ public:
+  Surfaces(const World& world, const SurfacesInForce& surfaces) : surfaces_(surfaces), effects_(world) {}
+
+  void apply(FingerTick& tick) noexcept override {
+    ProxyContact& contact = tick.contact;
+    if (!contact.state.touching || !effects_.on(contact.body)) return;
+    const SurfaceInput input{tick.index, tick.period, tick.r,          tick.g,
+                             contact,    tick.X_WA,   tick.touchables, *tick.finger.near};
+    if (!effects_.act(input, surfaces_.of(contact.body).stiffness, contact, tick.softness)) tick.broken = true;
+  }
+  std::string what() const override {
+    std::string all;
+    for (const std::string& what : effects_.descriptions()) all += (all.empty() ? "" : "; ") + what;
+    return all;
+  }
+  std::string broken() const override { return effects_.broken(); }
+
+ private:
+  const SurfacesInForce surfaces_;
+  SurfaceEffects effects_;
+};
+
+}  // namespace
+
+std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces) {
+  return std::make_unique<Surfaces>(world, surfaces);
+}
+
+}  // namespace presa
