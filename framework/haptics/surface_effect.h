@@ -44,7 +44,8 @@ class SurfaceEffect {
   /// and turns by less than 60 degrees, else the change is left out.
   virtual Vec3 normal(const SurfaceInput&, const ActiveSet::Member&, const Vec3& nhat) noexcept { return nhat; }
   /// A contact that is not finite, or stiffer than its material, ends the run: forces go to zero, and the fault is
-  /// reported with the effect's name. Where the normal force falls, Presa lets the tangential force fall with it.
+  /// reported with the effect's name. Presa turns the tangential displacement with the normal, and lets it fall with the
+  /// depth, so that friction keeps its bound.
   virtual void apply(const SurfaceInput&, SurfaceContact&) noexcept {}
   /// Description for `presa explain`.
   virtual std::string what() const = 0;

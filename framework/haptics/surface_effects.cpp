@@ -92,15 +92,16 @@ bool SurfaceEffects::act(const SurfaceInput& input, double stiffness, ProxyConta
   const SurfaceContact before{contact.nhat, contact.depth, contact.tangential_displacement, stiffness};
   SurfaceContact after = before;
   if (!apply(contact.body, input, after)) return false;
-  const bool changed = after.depth != before.depth || after.stiffness != stiffness || after.nhat != before.nhat ||
-                       after.tangential != before.tangential;
-  if (!turned && !changed) return true;
+  softness = after.stiffness / stiffness;
+  const bool moved = after.depth != before.depth || after.nhat != before.nhat || after.tangential != before.tangential;
+  if (!turned && !moved) return true;
+  // friction stays across the normal and below its bound; while it slips it is at its bound
+  if (after.nhat != before.nhat) after.tangential = rotationBetween(before.nhat, after.nhat) * after.tangential;
+  if (contact.state.slipping || after.depth < before.depth)
+    after.tangential *= std::max(0.0, after.depth) / before.depth;
   contact.nhat = after.nhat;
   contact.depth = after.depth;
   contact.tangential_displacement = after.tangential;
-  // friction was bounded by the normal force before
-  if (after.depth < before.depth) contact.tangential_displacement *= std::max(0.0, after.depth) / before.depth;
-  softness = after.stiffness / stiffness;
   contact.x = input.g + contact.depth * contact.nhat + contact.tangential_displacement;
   return true;
 }

@@ -55,7 +55,7 @@ shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/l
 refused "scene/lift.xml:8:117: error[E111]: unknown element <slick>" "${bare[@]}" presa check scene/lift.xml
 
 project surface ripples
-shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "ripples of 0.1 mm"
+shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "ripples of 0.05 mm"
 refused "scene/lift.xml:16:5: error[E111]: unknown element <ripples>" "${bare[@]}" presa check scene/lift.xml
 
 project renderer small_proxy
