@@ -19,7 +19,7 @@ struct SurfaceInput {
   const ProxyContact& contact;
   const Pose& X_WA;
   const Touchables& touchables;
-  Surroundings& near;
+  const Surroundings& near;  ///< the pieces of contact.active are those of Point::kGodObject
 
   Pose X_BA(std::int32_t body) const noexcept { return touchables.frameOf(body).inverse() * X_WA; }
   /// Touched point of the body without friction, in the body's coordinates [m].

@@ -54,7 +54,6 @@ SurfaceEffects::SurfaceEffects(const World& world) : of_body_(world.scene.bodies
 
 // Turns the contact's normal. True if it changed.
 bool SurfaceEffects::turn(const SurfaceInput& input, ProxyContact& contact) noexcept {
-  input.near.use(Point::kGodObject);
   Vec3 sum = Vec3::Zero();
   bool changed = false;
   for (int i = 0; i < contact.active.count; ++i) {

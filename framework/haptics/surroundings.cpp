@@ -110,10 +110,10 @@ void Surroundings::mark(const PieceRef& ref) noexcept {
   }
 }
 
-Surroundings::Triangle Surroundings::triangleOf(const PieceRef& ref, const Vec3& x) const noexcept {
+Surroundings::Triangle Surroundings::triangleOf(Point point, const PieceRef& ref, const Vec3& x) const noexcept {
   if (ref.source < 0) return {};
   const Mesh& mesh = *near_[static_cast<std::size_t>(ref.source)];
-  const std::int32_t facet = mesh.fronts[point_].facetOf(ref.item);
+  const std::int32_t facet = mesh.fronts[static_cast<std::size_t>(point)].facetOf(ref.item);
   if (facet < 0) return {};
   return {mesh.tree, &mesh.tree->facet(facet), mesh.toG(x)};
 }

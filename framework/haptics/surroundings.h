@@ -55,6 +55,17 @@ class Surroundings {
     focus_radius_ = -1;
   }
 
+  /// The triangle that a piece of a point's fronts is; does not change the point or its trail.
+  struct Triangle {
+    const MeshTree* tree = nullptr;
+    const MeshTree::Facet* facet = nullptr;  ///< null, like `tree`, for a primitive
+    Vec3 x_G = Vec3::Zero();                 ///< the given point in mesh coordinates
+  };
+  Triangle triangleOf(Point point, const PieceRef& ref, const Vec3& x) const noexcept;
+  Triangle triangleOf(const PieceRef& ref, const Vec3& x) const noexcept {
+    return triangleOf(static_cast<Point>(point_), ref, x);
+  }
+
   /// Selects the pieces that may come within `radius` of x; the queries below examine only these until the next
   /// focus().
   void focus(const Vec3& x, double radius) noexcept {
@@ -81,13 +92,6 @@ class Surroundings {
   void clearMarks() noexcept;
   void mark(const PieceRef& ref) noexcept;
 
-  /// The mesh triangle of a piece; null members for a primitive.
-  struct Triangle {
-    const MeshTree* tree = nullptr;
-    const MeshTree::Facet* facet = nullptr;
-    Vec3 x_G = Vec3::Zero();  ///< the given point in mesh coordinates
-  };
-  Triangle triangleOf(const PieceRef& ref, const Vec3& x) const noexcept;
   /// Rotation from the mesh coordinates of a piece to A.
   Mat3 turnOf(const PieceRef& ref) const noexcept {
     return ref.source < 0 ? Mat3(Mat3::Identity())

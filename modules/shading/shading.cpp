@@ -43,7 +43,8 @@ class Shading final : public SurfaceEffect {
       : mesh_(std::move(mesh)), q_BG_(haptic.X_BG.q), normals_(vertexNormals(*mesh_)) {}
 
   Vec3 normal(const SurfaceInput& input, const ActiveSet::Member& member, const Vec3& nhat) noexcept override {
-    const Surroundings::Triangle triangle = input.near.triangleOf(member.piece, input.contact.state.god_object);
+    const Surroundings::Triangle triangle =
+        input.near.triangleOf(Point::kGodObject, member.piece, input.contact.state.god_object);
     if (triangle.facet == nullptr) return nhat;
     const MeshTree::Facet& facet = *triangle.facet;
     const PreparedTriangle prepared(triangle.tree->corner(facet, 0), triangle.tree->corner(facet, 1),

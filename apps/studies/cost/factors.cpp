@@ -8,6 +8,7 @@
 
 #include "apps/studies/cost/hash.h"
 #include "framework/scene/load.h"
+#include "framework/scene/manifest.h"
 
 namespace presa::cost {
 namespace {
@@ -301,6 +302,15 @@ bool hasMotion(const Plan& plan) {
                      [](const PlannedModule& module) { return module.group == RateGroup::kDynamics; });
 }
 
+/// The renderers that are installed.
+static std::vector<std::string> renderers() {
+  std::vector<std::string> names;
+  for (const Manifest& manifest : manifests()) {
+    if (manifest.kind == PluginKind::kRenderer) names.push_back(manifest.name);
+  }
+  return names;
+}
+
 std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder, bool quick) {
   const Scene& scene = base.world->scene;
   const bool moves = hasMotion(base.plan), touches = !scene.devices.empty(), meshes = base.plan.has("collision_fcl");
@@ -328,7 +338,7 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
     add("collision_rate",
         quick ? std::vector<std::string>{"50", "100"} : std::vector<std::string>{"25", "50", "100", "200", "500"});
   if (quick) return factors;
-  if (touches) add("renderer", {"god_object", "penalty"});
+  if (touches) add("renderer", renderers());
   if (moves) {
     add("substeps", {"1", "2", "4", "8"});
     add("solver", {"auto", "direct", "iterative"});

@@ -114,6 +114,20 @@ TEST_F(Manifests, OfRenderersHaveOneElementWithDefaults) {
   EXPECT_EQ(errors(), "595 <rays> of the renderer 'rays' cannot stand in=\"body\"\n");
 }
 
+TEST_F(Manifests, OfSurfaceEffectsBelongToABodyOrAMaterial) {
+  const auto effect = [](const std::string& place) {
+    return "<plugin name=\"wind\" version=\"1.0\" kind=\"surface_effect\" about=\"a test\"><element name=\"wind\" "
+           "in=\"" +
+           place + "\"/></plugin>";
+  };
+  for (const char* place : {"body", "material"}) {
+    write("presa_wind.xml", effect(place));
+    EXPECT_EQ(errors(), "");
+  }
+  write("presa_wind.xml", effect("scene"));
+  EXPECT_EQ(errors(), "595 <wind> of the surface effect 'wind' cannot stand in=\"scene\"\n");
+}
+
 TEST_F(Manifests, OnlyOfRenderersGiveAProxy) {
   write("presa_wind.xml",
         "<plugin name=\"wind\" version=\"1.0\" kind=\"friction_law\" gives=\"proxy\" about=\"a test\"/>");

@@ -177,5 +177,20 @@ TEST(Shading, TurnsTheForceIntoTheInterpolatedNormal) {
   EXPECT_GT(worst_faceted, 0.1);  // without shading the facets are 6 degrees off
 }
 
+// In one tick the fingertip goes off a thin plate and round its edge to below it. The straight line between the two
+// places crosses the plate; its path does not, and shading must not hide the path from the test for pop-through.
+TEST(Shading, CountsNoPopThroughOnAWayRoundAnEdge) {
+  for (const bool smooth : {false, true}) {
+    World world = test::worldOf(MeshRef{});
+    world.meshes[0].haptic = std::make_shared<const TriMesh>(makeBox({0.1, 0.1, 0.002}));
+    world.scene.bodies[0].haptic->smooth = smooth;
+    OneFinger finger(world);
+    finger.tick({0.045, 0, 0.02});
+    EXPECT_GT(finger.tick({0.045, 0, 0.005}).normal_force, 0);
+    EXPECT_GT(finger.tick({0.0505, 0, -0.0085}).normal_force, 0);
+    EXPECT_EQ(finger.all().pop_through, 0u) << smooth;
+  }
+}
+
 }  // namespace
 }  // namespace presa
