@@ -1,11 +1,14 @@
 #pragma once
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <random>
 #include <stdexcept>
@@ -19,9 +22,22 @@ namespace presa {
 inline const std::string kCube = std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml";
 inline constexpr double kPatience = 30;  // maximum wait for expected samples on a busy machine [s]
 
-/// Loopback and a random domain.
+/// Loopback and a random domain that no other test has.
 inline BusSettings ownDomain() {
-  return {.network = "loopback", .domain = 1 + static_cast<int>(std::random_device{}() % kMaxBusDomain)};
+  std::random_device random;
+  const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) throw std::runtime_error("no socket");
+  for (int tries = 0; tries < 1000; ++tries) {
+    const int domain = 1 + static_cast<int>(random() % kMaxBusDomain);
+    // a name that this process holds until it ends: no test that runs beside it gets the same domain
+    sockaddr_un name{.sun_family = AF_UNIX, .sun_path = {}};
+    const std::string text = "presa-test-domain-" + std::to_string(domain);
+    text.copy(name.sun_path + 1, text.size());  // the leading zero makes it a name without a file
+    const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + text.size());
+    if (bind(fd, reinterpret_cast<const sockaddr*>(&name), length) == 0)
+      return {.network = "loopback", .domain = domain};
+  }
+  throw std::runtime_error("no free domain");
 }
 
 /// The program in a separate process, killed with this object if it is still running. Captures its stderr and stdout.
