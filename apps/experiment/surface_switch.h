@@ -1,7 +1,7 @@
 #pragma once
 #include "experiments/runner/definition/trial.h"
 #include "framework/core/graph/port.h"
-#include "framework/core/state/surface_change.h"
+#include "framework/scene/surface_change.h"
 
 namespace presa::experiment {
 

@@ -6,8 +6,8 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/schedule/rates.h"
-#include "framework/core/state/surface_change.h"
 #include "framework/scene/open_surfaces.h"
+#include "framework/scene/surface_change.h"
 #include "framework/scene/surface_settings.h"
 
 namespace presa {

@@ -7,9 +7,9 @@
 #include "framework/core/graph/port.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
-#include "framework/core/state/surface_change.h"
 #include "framework/haptics/renderer.h"
 #include "framework/haptics/touchables.h"
+#include "framework/scene/surface_change.h"
 #include "framework/scene/world.h"
 
 namespace presa {

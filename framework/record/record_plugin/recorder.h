@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
-#include "framework/core/state/surface_change.h"
 #include "framework/record/record_plugin/row_ring.h"
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
+#include "framework/scene/surface_change.h"
 #include "framework/scene/surface_settings.h"
 
 namespace presa::record {

@@ -6,8 +6,8 @@
 
 #include "apps/common/scratch_folder.h"
 #include "framework/core/graph/port.h"
-#include "framework/core/state/surface_change.h"
 #include "framework/record/record_plugin.h"
+#include "framework/scene/surface_change.h"
 #include "framework/session/replay.h"
 #include "framework/session/run.h"
 
