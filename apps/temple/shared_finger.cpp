@@ -45,9 +45,9 @@ FingerInput SharedFinger::read(const Tick& tick) noexcept {
   return input;
 }
 
-void SharedFinger::write(const Vec3& f_H_W, const Tick& tick) noexcept {
-  inner().write(moving_ != nullptr ? Vec3::Zero().eval() : f_H_W, tick);
-  if (moving_ != nullptr) moving_->write(f_H_W, sinceChange(tick));
+void SharedFinger::write(const Wrench& F_H_W, const Tick& tick) noexcept {
+  inner().write(moving_ != nullptr ? Wrench() : F_H_W, tick);
+  if (moving_ != nullptr) moving_->write(F_H_W, sinceChange(tick));
 }
 
 }  // namespace presa::temple

@@ -23,7 +23,7 @@ class SharedFinger final : public WrappedDevice {
   bool visitorMoved() const noexcept { return moved_.load(std::memory_order_relaxed); }
 
   FingerInput read(const Tick& tick) noexcept override;
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override;
   bool looks() const override { return true; }
   void see(const ObjectState& objects, const Tick& tick) noexcept override;
 

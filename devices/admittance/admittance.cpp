@@ -24,9 +24,9 @@ class AdmittanceDevice final : public Device {
     return {drive_.position(), drive_.velocity(), hand_.motion().at(tick.time).phase, tick.time < lost_at_};
   }
 
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
     advance(tick);
-    drive_.command(f_H_W);
+    drive_.command(F_H_W.f);
   }
 
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }

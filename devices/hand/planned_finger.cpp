@@ -48,9 +48,9 @@ class PlannedFingerDevice final : public Device {
     advance(tick);
     return {plant_.position(), plant_.velocity(), finger_.plan->phase(), true};
   }
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
     advance(tick);
-    force_ = f_H_W;
+    force_ = F_H_W.f;
   }
 
   std::vector<std::string> phases() const override { return finger_.phases; }

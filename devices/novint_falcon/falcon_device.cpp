@@ -88,8 +88,8 @@ FingerInput FalconDevice::read(const Tick& tick) noexcept {
   return fingerOf(io_->latest(tick), settings_.X_WD, settings_.scale);
 }
 
-void FalconDevice::write(const Vec3& f_H_W, const Tick&) noexcept {
-  if (io_) io_->push(settings_.X_WD.q.conjugate() * f_H_W);
+void FalconDevice::write(const Wrench& F_H_W, const Tick&) noexcept {
+  if (io_) io_->push(settings_.X_WD.q.conjugate() * F_H_W.f);
 }
 
 std::vector<std::string> FalconDevice::notes() const {

@@ -20,7 +20,7 @@ class FalconDevice final : public Device {
   void open() override;
   void close() noexcept override { io_.reset(); }
   FingerInput read(const Tick& tick) noexcept override;
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override;
   std::vector<std::string> notes() const override;
 
   /// State of the link. Main thread.

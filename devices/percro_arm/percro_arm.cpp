@@ -38,9 +38,9 @@ class PercroArm final : public Device {
             tick.time < lost_at_};
   }
 
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
     advance(tick);
-    arm_.command(X_WD_.q.conjugate() * f_H_W);
+    arm_.command(X_WD_.q.conjugate() * F_H_W.f);
   }
 
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }

@@ -38,9 +38,9 @@ class PointedFinger final : public Device {
     pair_->advance(tick);
     return {pair_->finger(side_).position(), pair_->finger(side_).velocity(), -1, true};
   }
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
     pair_->advance(tick);
-    pair_->push(side_, f_H_W);
+    pair_->push(side_, F_H_W.f);
   }
   double damping() const override { return damping_; }
   std::vector<std::string> notes() const override { return notes_; }

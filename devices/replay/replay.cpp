@@ -24,7 +24,7 @@ class ReplayedFinger final : public Device {
     return sample;
   }
 
-  void write(const Vec3&, const Tick&) noexcept override {}
+  void write(const Wrench&, const Tick&) noexcept override {}
 
   std::vector<std::string> phases() const override { return phases_; }
   std::vector<double> phaseTimes() const override { return phase_times_; }

@@ -25,9 +25,9 @@ class ScriptedFinger final : public Device {
     return {plant_.position(), plant_.velocity(), hand_.motion().at(tick.time).phase, tick.time < lost_at_};
   }
 
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
     advance(tick);
-    force_ = f_H_W;
+    force_ = F_H_W.f;
   }
 
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }

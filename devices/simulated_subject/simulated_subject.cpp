@@ -33,7 +33,7 @@ class SimulatedDigit final : public Device {
   bool looks() const override { return digit_ == 0; }
   void see(const ObjectState& objects, const Tick& tick) noexcept override { subject_->see(objects, tick); }
   FingerInput read(const Tick& tick) noexcept override { return subject_->read(digit_, tick); }
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override { subject_->write(digit_, f_H_W, tick); }
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override { subject_->write(digit_, F_H_W.f, tick); }
 
   std::vector<std::string> phases() const override {
     return {subject::kPhaseNames.begin(), subject::kPhaseNames.end()};

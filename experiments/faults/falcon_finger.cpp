@@ -73,8 +73,8 @@ FingerInput FalconFinger::read(const Tick& tick) noexcept {
   return falcon::fingerOf(link_->sample(), X_WD_, 1);
 }
 
-void FalconFinger::write(const Vec3& f_H_W, const Tick& tick) noexcept {
-  command_ = {X_WD_.q.conjugate() * f_H_W, timeOf(tick.time)};
+void FalconFinger::write(const Wrench& F_H_W, const Tick& tick) noexcept {
+  command_ = {X_WD_.q.conjugate() * F_H_W.f, timeOf(tick.time)};
 }
 
 void FalconFinger::rearm() noexcept {

@@ -23,7 +23,7 @@ class FalconFinger final : public Device {
   FalconFinger(const Hold& hold, double side, std::uint64_t seed, Transport& transport);
 
   FingerInput read(const Tick& tick) noexcept override;
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override;
   void rearm() noexcept override;
   double damping() const override { return HandImpedance{}.damping; }
 

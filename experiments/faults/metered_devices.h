@@ -18,12 +18,12 @@ struct Meter {
 class MeteredDevice final : public WrappedDevice {
  public:
   MeteredDevice(std::unique_ptr<Device> device, Meter& meter) : WrappedDevice(std::move(device)), meter_(meter) {}
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override {
-    const double force = f_H_W.norm();
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
+    const double force = F_H_W.f.norm();
     meter_.largest = force > meter_.largest || !(force == force) ? force : meter_.largest;
-    meter_.largest_step = std::max(meter_.largest_step, (f_H_W - meter_.force).norm());
-    meter_.force = f_H_W;
-    inner().write(f_H_W, tick);
+    meter_.largest_step = std::max(meter_.largest_step, (F_H_W.f - meter_.force).norm());
+    meter_.force = F_H_W.f;
+    inner().write(F_H_W, tick);
   }
 
  private:

@@ -53,8 +53,8 @@ FingerInput WallDevice::read(const Tick& tick) noexcept {
   return {setup_.p_WO + x_ * Vec3::UnitX(), v_ * Vec3::UnitX(), -1, true};
 }
 
-void WallDevice::write(const Vec3& f_H_W, const Tick&) noexcept {
-  pending_.push_back(f_H_W.x());
+void WallDevice::write(const Wrench& F_H_W, const Tick&) noexcept {
+  pending_.push_back(F_H_W.f.x());
   held_ = pending_.front();
   pending_.pop_front();
 }

@@ -31,7 +31,7 @@ class WallDevice final : public Device {
   };
   explicit WallDevice(const Setup& setup);
   FingerInput read(const Tick& tick) noexcept override;
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override;
 
  private:
   Setup setup_;

@@ -34,14 +34,14 @@ FingerInput CompliantFinger::read(const Tick&) noexcept {
   return {x_, v_, -1, true};
 }
 
-void CompliantFinger::write(const Vec3& f_H_W, const Tick&) noexcept {
+void CompliantFinger::write(const Wrench& F_H_W, const Tick&) noexcept {
   advance();
   if (clock_ > written_at_) {
     force_before_ = transport_.force;
     written_at_ = clock_;
   }
-  transport_.force = f_H_W;
-  transport_.largest_step = std::max(transport_.largest_step, (f_H_W - force_before_).norm());
+  transport_.force = F_H_W.f;
+  transport_.largest_step = std::max(transport_.largest_step, (F_H_W.f - force_before_).norm());
 }
 
 }  // namespace presa

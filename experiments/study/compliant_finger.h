@@ -28,7 +28,7 @@ class CompliantFinger final : public Device {
   CompliantFinger(const HandImpedance& hand, PrescribedFinger::Path target, const double& clock, Transport& transport);
 
   FingerInput read(const Tick& tick) noexcept override;
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override;
   double damping() const override { return hand_.damping; }
 
  private:

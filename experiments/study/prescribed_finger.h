@@ -21,7 +21,7 @@ class PrescribedFinger final : public Device {
     const State now = path_(tick.time);
     return {now.p_WH, now.v_WH, -1, true};
   }
-  void write(const Vec3&, const Tick&) noexcept override {}
+  void write(const Wrench&, const Tick&) noexcept override {}
 
  private:
   Path path_;

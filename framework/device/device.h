@@ -19,10 +19,10 @@ struct DeviceFact {
   bool of_run = false;  ///< drawn anew for each run; false: the same for the same seed and subject
 };
 
-/// A haptic device of one finger: position out, force in; SI units, world frame W, H is the fingertip's centre (HIP).
+/// A haptic device of one tool: pose out, wrench in; SI units, world frame W, H is the fingertip's centre (HIP).
 /// read, write, rearm, see and point run on the haptic thread, do not allocate and block no longer than the device
 /// exchange; open, reopen and close run on the main thread and may block. DeviceInput checks every sample that read()
-/// returns, and an OutputStage bounds every force before write().
+/// returns, and an OutputStage bounds every wrench before write().
 class Device {
  public:
   virtual ~Device() = default;
@@ -33,8 +33,9 @@ class Device {
   /// The sample for this tick; `valid` is false when there is none. A simulated finger advances to tick.time under the
   /// force of the last write: after a stall, ticks are skipped, or come without a write between them.
   virtual FingerInput read(const Tick& tick) noexcept = 0;
-  /// Sends the force on the finger [N, world frame]; the device holds it until the next write.
-  virtual void write(const Vec3& f_H_W, const Tick& tick) noexcept = 0;
+  /// Sends the wrench on the tool; the device holds it until the next write. The torque is zero for a driver whose
+  /// rating has none.
+  virtual void write(const Wrench& F_H_W, const Tick& tick) noexcept = 0;
 
   /// The user has re-armed the run: clears a latched fault, so that the device may try again. Called before read.
   virtual void rearm() noexcept {}
@@ -46,6 +47,9 @@ class Device {
   /// True for a simulated hand that needs the bodies' poses; it gets them in see(), before read. False for hardware.
   virtual bool looks() const { return false; }
   virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}
+
+  /// True if its samples are `oriented`. Constant.
+  virtual bool measuresOrientation() const { return false; }
 
   /// True for a finger moved with the mouse; it gets the pointer's state in point(), before read. False for hardware.
   virtual bool points() const { return false; }

@@ -87,7 +87,7 @@ void DeviceOutput::step(const Tick& tick) noexcept {
   for (std::size_t f = 0; f < devices_.size(); ++f) {
     const FingerInput& finger = device_->fingers[f];
     if (device_->rearms != rearms_) stages_[f].rearm();
-    const OutputStage::Input input{.command = contact_->fingers[f].f_H_W,
+    const OutputStage::Input input{.command = {contact_->fingers[f].f_H_W, contact_->fingers[f].t_H_W},
                                    .trust = trust(f, tick),
                                    .stop = device_->stop_requested,
                                    .catch_up = tick.catch_up,
@@ -95,8 +95,12 @@ void DeviceOutput::step(const Tick& tick) noexcept {
                                    .other_lost = lost > (finger.lost ? 1 : 0),
                                    .resumed = tick.resumed,
                                    .p_WH = finger.p_WH,
-                                   .v_WH = finger.v_WH};
-    command.f_H_W[f] = stages_[f].step(input, elapsed);
+                                   .v_WH = finger.v_WH,
+                                   .w_WT = finger.w_WT,
+                                   .q_WT = finger.q_WT};
+    const Wrench& sent = stages_[f].step(input, elapsed);
+    command.f_H_W[f] = sent.f;
+    command.t_H_W[f] = sent.t;
     command.status |= stages_[f].status();
     report(f, reported_[f], stages_[f].status(), tick.time);
     reported_[f] = stages_[f].status();
@@ -108,7 +112,7 @@ void DeviceOutput::step(const Tick& tick) noexcept {
 // Catch-up ticks are not written: the device would receive many forces at one instant, in effect one step past the slew
 // limit.
 void DeviceOutput::send(std::size_t finger, const Tick& tick) noexcept {
-  if (!tick.catch_up) devices_[finger]->write(command_.value.f_H_W[finger], tick);
+  if (!tick.catch_up) devices_[finger]->write(stages_[finger].last(), tick);
 }
 
 // One event when a bit is newly set, not one per tick.
@@ -126,9 +130,9 @@ void DeviceOutput::stop() {
     tick.time += tick.period;
     if (realtime_) sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(tick.period * 1e9));
     for (std::size_t f = 0; f < devices_.size(); ++f) {
-      const Vec3 force = stages_[f].step({.stop = true}, tick.period);
-      devices_[f]->write(force, tick);
-      moving = moving || force.norm() > 0;
+      const Wrench& sent = stages_[f].step({.stop = true}, tick.period);
+      devices_[f]->write(sent, tick);
+      moving = moving || !(sent == Wrench());
     }
   }
 }

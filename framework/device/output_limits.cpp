@@ -45,6 +45,7 @@ class Lowering {
     limits.records_overload = recordsOverload();
     limits.speed = allowedUpTo("speed", allowed.speed, rating_.speed, "m/s");
     limits.passivity = allowed.passivity;
+    if (rating_.torque > 0) boundTorque(limits);
     safety.watchdog = watchdog();
     noteWayDown(limits);
     return safety;
@@ -85,6 +86,34 @@ class Lowering {
                            wanted_.role, rate, force, 1e3 * force / rate, 1e3 * DeviceRating::kSlowestDecay, slowest),
                       "a lower force limit allows a lower force rate");
     return slowest;
+  }
+
+  /// As for the force, with the same rules and findings.
+  void boundTorque(OutputLimits& limits) {
+    const DeviceBinding::Limits& allowed = bound_.limits;
+    const double usual = imagined() ? rating_.torque : 0.5 * rating_.torque;
+    const double room = allowed.torque ? allowedUpTo("torque", allowed.torque, rating_.torque, "N m") : usual;
+    const double asked = wanted_.limits.torque;
+    limits.torque = std::min(asked, room);
+    if (limits.torque < asked)
+      notes_.push_back(text("%s: torques up to %.3g N m (the scene asks for %.3g, the device's nominal torque is %.3g)",
+                            wanted_.role, limits.torque, asked, rating_.torque));
+    const double slowest = limits.torque / DeviceRating::kSlowestDecay;
+    const double rate = allowedUpTo("torque_rate", allowed.torque_rate, rating_.torque_rate, "N m/s");
+    limits.torque_rate = std::max(std::min(rate, wanted_.limits.torque_rate), slowest);
+    if (limits.torque_rate < wanted_.limits.torque_rate)
+      notes_.push_back(text("%s: the torque changes by up to %.4g N m/s (the scene asks for %.4g)", wanted_.role,
+                            limits.torque_rate, wanted_.limits.torque_rate));
+    if (rate < slowest)
+      findings_.warning(kTooSlow, bound_.where,
+                        text("role '%s': torque_rate %.6g N m/s takes %.3g N m to zero in %.4g ms, at most %.3g ms are "
+                             "allowed; the torque rate is raised to %.4g N m/s",
+                             wanted_.role, rate, limits.torque, 1e3 * limits.torque / rate,
+                             1e3 * DeviceRating::kSlowestDecay, slowest),
+                        "a lower torque limit allows a lower torque rate");
+    limits.continuous_torque =
+        allowedUpTo("continuous_torque", allowed.continuous_torque, rating_.continuous_torque, "N m");
+    limits.angular_speed = allowedUpTo("angular_speed", allowed.angular_speed, rating_.angular_speed, "rad/s");
   }
 
   double watchdog() {
@@ -139,6 +168,10 @@ OutputLimits limitsOf(const DeviceRating& rating) noexcept {
   limits.continuous = rating.continuous;
   limits.heating_time = rating.heating_time;
   limits.speed = rating.speed;
+  limits.torque = rating.torque;
+  limits.torque_rate = rating.torque_rate;
+  limits.continuous_torque = rating.continuous_torque;
+  limits.angular_speed = rating.angular_speed;
   return limits;
 }
 

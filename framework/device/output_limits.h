@@ -10,17 +10,21 @@
 
 namespace presa {
 
-/// Limits that the output stage of one finger enforces.
+/// Limits that the output stage of one tool enforces.
 struct OutputLimits {
   double force = 8;          ///< magnitude [N]
   double force_rate = 1000;  ///< slew [N/s]
   double soft_start = 0.5;   ///< from zero to full force at start, after a watchdog and after a re-arm [s]
   double fade_out = 0.02;    ///< from full force to zero [s]
-  double continuous = std::numeric_limits<double>::infinity();  ///< force for unlimited time [N]
-  double heating_time = 60;                                     ///< time constant of the motors' heat [s]
-  bool records_overload = false;                                ///< a force above `continuous` is only reported
-  double speed = std::numeric_limits<double>::infinity();       ///< over-speed trip [m/s]
-  bool passivity = false;                                       ///< the hand may receive no net energy
+  double continuous = std::numeric_limits<double>::infinity();         ///< force for unlimited time [N]
+  double heating_time = 60;                                            ///< time constant of the motors' heat [s]
+  bool records_overload = false;                                       ///< a force above `continuous` is only reported
+  double speed = std::numeric_limits<double>::infinity();              ///< over-speed trip [m/s]
+  bool passivity = false;                                              ///< the hand may receive no net energy
+  double torque = 0;                                                   ///< magnitude [N m]; 0: no torque is sent
+  double torque_rate = 0;                                              ///< slew [N m/s]
+  double continuous_torque = std::numeric_limits<double>::infinity();  ///< torque for unlimited time [N m]
+  double angular_speed = std::numeric_limits<double>::infinity();      ///< over-speed trip [rad/s]
 };
 
 /// Limits of one finger's output stage, and the age from which it no longer trusts the dynamics.

@@ -12,38 +12,68 @@ bool plausible(const Vec3& v) { return v.allFinite() && v.cwiseAbs().maxCoeff() 
 }  // namespace
 
 OutputStage::OutputStage(const OutputLimits& limits)
-    : limits_(limits), budget_(limits.continuous, limits.heating_time) {}
+    : limits_(limits),
+      force_{limits.force,
+             limits.force_rate,
+             limits.continuous,
+             {limits.continuous, limits.heating_time},
+             PassivityController()},
+      torque_{limits.torque,
+              limits.torque_rate,
+              limits.continuous_torque,
+              {limits.continuous_torque, limits.heating_time},
+              PassivityController(PassivityController::kMaxTurnDamping)} {}
 
-Vec3 OutputStage::step(const Input& input, double period) noexcept {
+const Wrench& OutputStage::step(const Input& input, double period) noexcept {
   status_ = kOutputClean;
-  budget_.step(last_.norm(), period);
   latchFaults(input);
-  Vec3 force = clampMagnitude(good_, limits_.force, kOutputMagnitude);
-  if (limits_.passivity && plausible(input.p_WH) && plausible(input.v_WH)) {
-    force = energy_.step(force, input.p_WH, input.v_WH, period);
-    if (energy_.acting()) status_ |= kOutputDamped;
-    force = clampMagnitude(force, limits_.force, kOutputMagnitude);
-  }
-  force = thermalLimit(force) * fade(input, period);
-  last_ = slewLimit(force, input.catch_up ? 0 : limits_.force_rate * period);
-  if (limits_.passivity) energy_.sent(last_);
+  const Vec3 force = bounded(force_, good_.f, last_.f, {input.p_WH, input.v_WH}, period);
+  const double gain = fade(input, period);
+  last_.f = slewLimit(force * gain, last_.f, input.catch_up ? 0 : force_.rate * period);
+  if (limits_.passivity) force_.energy.sent(last_.f);
+  if (torque_.max > 0) stepTorque(input, gain, period);
   return last_;
+}
+
+void OutputStage::stepTorque(const Input& input, double gain, double period) noexcept {
+  if (limits_.passivity && input.q_WT.coeffs().allFinite()) {
+    const Eigen::AngleAxisd turn(input.q_WT * q_WT_.conjugate());
+    turned_ += turn.angle() * turn.axis();
+    q_WT_ = input.q_WT;
+  }
+  const Vec3 torque = bounded(torque_, good_.t, last_.t, {turned_, input.w_WT}, period);
+  last_.t = slewLimit(torque * gain, last_.t, input.catch_up ? 0 : torque_.rate * period);
+  if (limits_.passivity) torque_.energy.sent(last_.t);
+}
+
+Vec3 OutputStage::bounded(Part& part, const Vec3& wanted, const Vec3& last, const Motion& motion,
+                          double period) noexcept {
+  part.budget.step(last.norm(), period);
+  Vec3 force = clampMagnitude(wanted, part.max, kOutputMagnitude);
+  if (limits_.passivity && plausible(motion.x) && plausible(motion.v)) {
+    force = part.energy.step(force, motion.x, motion.v, period);
+    if (part.energy.acting()) status_ |= kOutputDamped;
+    force = clampMagnitude(force, part.max, kOutputMagnitude);
+  }
+  return thermalLimit(part, force, last);
 }
 
 void OutputStage::rearm() noexcept {
   latches_ = 0;
-  good_.setZero();
+  good_ = {};
   gain_ = 0;
   over_speed_ = false;
 }
 
-// Latches faults. Over-speed needs two ticks in a row and a force along the motion: a hand may be fast on its own.
+// Latches faults. Over-speed needs two ticks in a row and a force or torque along the motion: a hand may be fast on
+// its own.
 void OutputStage::latchFaults(const Input& input) noexcept {
-  if (!input.command.allFinite()) latches_ |= kOutputNotFinite;
+  if (!input.command.f.allFinite() || !input.command.t.allFinite()) latches_ |= kOutputNotFinite;
   if (input.lost) latches_ |= kOutputLost;
   if (input.other_lost) latches_ |= kOutputOther;
   if (input.resumed) latches_ |= kOutputGap;
-  const bool over_speed = input.v_WH.norm() > limits_.speed && last_.dot(input.v_WH) > 0;
+  const bool over_speed = (input.v_WH.norm() > limits_.speed && last_.f.dot(input.v_WH) > 0) ||
+                          (input.w_WT.norm() > limits_.angular_speed && last_.t.dot(input.w_WT) > 0);
   if (over_speed && over_speed_) latches_ |= kOutputSpeed;
   over_speed_ = over_speed;
   if (latches_ == 0) good_ = input.command;
@@ -63,9 +93,9 @@ Vec3 OutputStage::clampMagnitude(Vec3 force, double max, OutputStatus sign) noex
   return force;
 }
 
-Vec3 OutputStage::thermalLimit(const Vec3& force) noexcept {
-  if (!limits_.records_overload) return clampMagnitude(force, budget_.maxForce(limits_.force), kOutputWarm);
-  if (last_.norm() > limits_.continuous) status_ |= kOutputOverload;
+Vec3 OutputStage::thermalLimit(const Part& part, const Vec3& force, const Vec3& last) noexcept {
+  if (!limits_.records_overload) return clampMagnitude(force, part.budget.maxForce(part.max), kOutputWarm);
+  if (last.norm() > part.continuous) status_ |= kOutputOverload;
   return force;
 }
 
@@ -83,12 +113,12 @@ double OutputStage::fade(const Input& input, double period) noexcept {
   return dropped ? 0 : gain_;
 }
 
-Vec3 OutputStage::slewLimit(const Vec3& force, double max) noexcept {
-  const Vec3 change = force - last_;
+Vec3 OutputStage::slewLimit(const Vec3& force, const Vec3& last, double max) noexcept {
+  const Vec3 change = force - last;
   const double length = change.norm();
   if (!(length > max)) return force;
   status_ |= kOutputSlew;
-  return last_ + change * (max / length);
+  return last + change * (max / length);
 }
 
 }  // namespace presa

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "framework/core/math/spatial.h"
@@ -12,7 +13,7 @@ namespace presa {
 enum OutputStatus : std::uint32_t {
   kOutputClean = 0,
   kOutputNotFinite = 1u << 0,  ///< command was NaN or infinite: latched
-  kOutputMagnitude = 1u << 1,  ///< clipped to the force limit
+  kOutputMagnitude = 1u << 1,  ///< clipped to the force or the torque limit
   kOutputSlew = 1u << 2,       ///< changed slower than asked
   kOutputFading = 1u << 3,     ///< soft start, stop or recovery: scaled by less than 1
   kOutputWatchdog = 1u << 4,   ///< contact information too old, or no sample of the finger: to zero
@@ -38,10 +39,11 @@ inline const char* latchedFault(std::uint32_t status) noexcept {
   return nullptr;
 }
 
-/// The last stage between the graph and the device of one finger:
+/// The last stage between the graph and the device of one tool. Force and torque pass the same steps, each with limits of
+/// its own:
 ///     finite -> magnitude -> energy -> thermal -> fade -> slew
 /// For any command, the force sent is finite and at most `force`, changes by at most force_rate * period from one tick
-/// to the next, and goes to zero after a latched fault, where it stays until a re-arm. The slew limit comes last, so
+/// to the next, likewise the torque, and both go to zero after a latched fault, where they stay until a re-arm. The slew limit comes last, so
 /// that no other stage can cause a step. Always present; no scene can leave it out.
 /// Thread: haptic; nonblocking.
 class OutputStage {
@@ -55,42 +57,58 @@ class OutputStage {
     kDropped,  ///< too old, or no sample: to zero at the slew limit; returns softly (short gap: at that limit)
   };
   struct Input {
-    Vec3 command = Vec3::Zero();  ///< wanted force on the finger, in W [N]
+    Wrench command = {};  ///< wanted wrench on the tool, in W
     Trust trust = Trust::kGood;
-    bool stop = false;         ///< the run is ending: the force fades
-    bool catch_up = false;     ///< catch-up tick, nothing is sent: the fade goes on, the force stays
-    bool lost = false;         ///< the device is disconnected or its samples are implausible
-    bool other_lost = false;   ///< the device of another finger is lost: the remaining ones must not push the hand
-    bool resumed = false;      ///< the first tick after a gap (Tick::resumed)
-    Vec3 p_WH = Vec3::Zero();  ///< position of the finger [m]
-    Vec3 v_WH = Vec3::Zero();  ///< its velocity [m/s]
+    bool stop = false;             ///< the run is ending: the force fades
+    bool catch_up = false;         ///< catch-up tick, nothing is sent: the fade goes on, the force stays
+    bool lost = false;             ///< the device is disconnected or its samples are implausible
+    bool other_lost = false;       ///< the device of another finger is lost: the remaining ones must not push the hand
+    bool resumed = false;          ///< the first tick after a gap (Tick::resumed)
+    Vec3 p_WH = Vec3::Zero();      ///< position of the finger [m]
+    Vec3 v_WH = Vec3::Zero();      ///< its velocity [m/s]
+    Vec3 w_WT = Vec3::Zero();      ///< angular velocity of an oriented tool [rad/s]
+    Quat q_WT = Quat::Identity();  ///< its orientation
   };
-  /// Returns the force to send, in W [N]. `period`: time since the last step, gaps included [s].
-  Vec3 step(const Input& input, double period) noexcept;
+  /// Returns the wrench to send, in W. `period`: time since the last step, gaps included [s].
+  const Wrench& step(const Input& input, double period) noexcept;
 
   /// Clears every latched fault; the force comes back from zero with a soft start. A persisting cause latches again.
   void rearm() noexcept;
 
   std::uint32_t status() const noexcept { return status_; }
-  const Vec3& last() const noexcept { return last_; }
+  const Wrench& last() const noexcept { return last_; }
   bool latched() const noexcept { return latches_ != 0; }
   /// Late samples are common: after a gap of at most this length the force comes back without a soft start [s].
   static constexpr double kShortGap = 3e-3;
 
-  double heat() const noexcept { return budget_.heat(); }  ///< share of the heat that the continuous rating allows
+  /// Share of the heat that the continuous ratings allow: of the forces or of the torques, whichever is larger.
+  double heat() const noexcept { return std::max(force_.budget.heat(), torque_.budget.heat()); }
 
  private:
+  /// Limits and state of the force, or of the torque.
+  struct Part {
+    double max, rate, continuous;
+    ThermalBudget budget;
+    PassivityController energy;
+  };
+  /// Where the tool is, in the coordinate in which a part does work.
+  struct Motion {
+    const Vec3 &x, &v;
+  };
   void latchFaults(const Input& input) noexcept;
+  Vec3 bounded(Part& part, const Vec3& wanted, const Vec3& last, const Motion& motion, double period) noexcept;
   Vec3 clampMagnitude(Vec3 force, double max, OutputStatus sign) noexcept;
-  Vec3 thermalLimit(const Vec3& force) noexcept;
+  Vec3 thermalLimit(const Part& part, const Vec3& force, const Vec3& last) noexcept;
   double fade(const Input& input, double period) noexcept;
-  Vec3 slewLimit(const Vec3& force, double max) noexcept;
+  Vec3 slewLimit(const Vec3& force, const Vec3& last, double max) noexcept;
+  void stepTorque(const Input& input, double gain, double period) noexcept;
 
   OutputLimits limits_;
-  ThermalBudget budget_;
-  PassivityController energy_;
-  Vec3 good_ = Vec3::Zero();  // last finite command
-  Vec3 last_ = Vec3::Zero();  // last force sent
+  Part force_, torque_;
+  Wrench good_;                   // last finite command
+  Wrench last_;                   // last wrench sent
+  Quat q_WT_ = Quat::Identity();  // orientation at the last tick
+  Vec3 turned_ = Vec3::Zero();    // rotation so far [rad]
   double gain_ = 0;
   double gap_ = 0;  // time for which the command has been dropped [s]
   std::uint32_t latches_ = 0, status_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 
 #include "framework/core/state/device_state.h"
 
@@ -11,6 +12,7 @@ namespace presa {
 class SampleCheck {
  public:
   static constexpr double kFastest = 20;        ///< speed that no hand reaches [m/s]
+  static constexpr double kFastestTurn = 200;   ///< angular speed that no hand reaches [rad/s]
   static constexpr double kHold = 1e-3 + 1e-9;  ///< longest age of a sample that is used or bridged [s]
 
   /// Takes the device's sample, returns the checked one. `period`: since the last call [s]. `lost` stays set until
@@ -27,6 +29,9 @@ class SampleCheck {
     } else {
       input.p_WH = good_.p_WH;
       input.v_WH.setZero();
+      input.oriented = good_.oriented;
+      input.q_WT = good_.q_WT;
+      input.w_WT.setZero();
       input.valid = good_.valid && since_ <= kHold && input.age <= kHold;
     }
     input.valid = input.valid && !latched_;
@@ -42,7 +47,14 @@ class SampleCheck {
  private:
   bool possible(const FingerInput& input) const noexcept {
     if (!input.p_WH.allFinite() || !input.v_WH.allFinite() || !(input.age >= 0)) return false;
+    if (input.oriented && !possibleTurn(input)) return false;
     return !good_.valid || (input.p_WH - good_.p_WH).norm() <= kFastest * since_;
+  }
+  bool possibleTurn(const FingerInput& input) const noexcept {
+    constexpr double kRounding = 1e-6;  // of a unit quaternion
+    if (!(std::abs(input.q_WT.norm() - 1) <= kRounding) || !input.w_WT.allFinite()) return false;
+    const bool known = good_.valid && good_.oriented;
+    return !known || input.q_WT.angularDistance(good_.q_WT) <= kFastestTurn * since_ + kRounding;
   }
   FingerInput good_;
   double since_ = 0;  // age of the last good sample [s]

@@ -18,8 +18,9 @@ class TransportWatch final : public WrappedDevice {
   TransportWatch(std::unique_ptr<Device> device, const OutputLimits& limits, const DeviceRating& rating,
                  const RunControl& control)
       : WrappedDevice(std::move(device)),
-        force_(std::min(limits.force, rating.force)),
-        force_rate_(std::min(limits.force_rate, rating.force_rate)),
+        force_{"force", "N", std::min(limits.force, rating.force), std::min(limits.force_rate, rating.force_rate)},
+        torque_{"torque", "N m", std::min(limits.torque, rating.torque),
+                std::min(limits.torque_rate, rating.torque_rate)},
         control_(control) {}
 
   FingerInput read(const Tick& tick) noexcept override {
@@ -32,30 +33,41 @@ class TransportWatch final : public WrappedDevice {
     return input;
   }
 
-  void write(const Vec3& f, const Tick& tick) noexcept override {
-    const double force = std::hypot(f.x(), f.y(), f.z());
-    const double step = std::hypot(f.x() - sent_.x(), f.y() - sent_.y(), f.z() - sent_.z());
-    if (!std::isfinite(force)) fail("is not finite", force, 0, tick);
-    if (force > force_ * (1 + kRounding)) fail("is above the limit", force, force_, tick);
-    const double slew = force_rate_ * (tick.resumed ? Executor::kGap : tick.period);
-    if (step > slew * (1 + kRounding) + 1e-12) fail("changed faster than the slew limit", step, slew, tick);
-    if (!usable_ && force > 0) fail("came before any usable sample", force, 0, tick);
-    if (tick.resumed && force > 0) fail("came right after a gap", force, 0, tick);
-    if (lost_for_ > kGone + tick.period && force > 0) fail("was sent after the device was lost", force, 0, tick);
-    sent_ = f;
-    inner().write(f, tick);
+  void write(const Wrench& wrench, const Tick& tick) noexcept override {
+    judge(force_, wrench.f, sent_.f, tick);
+    judge(torque_, wrench.t, sent_.t, tick);
+    sent_ = wrench;
+    inner().write(wrench, tick);
   }
 
  private:
-  [[noreturn]] static void fail(const char* what, double found, double allowed, const Tick& tick) noexcept {
-    std::fprintf(stderr, "transport: the force %s: %.17g N, allowed %.17g N, at %.6f s\n", what, found, allowed,
-                 tick.time);
+  /// The force or the torque of a wrench.
+  struct Part {
+    const char *name, *unit;
+    double max, rate;
+  };
+
+  void judge(const Part& part, const Vec3& f, const Vec3& before, const Tick& tick) const noexcept {
+    const double force = f.norm(), step = (f - before).norm();
+    if (!f.allFinite()) fail(part, "is not finite", force, 0, tick);
+    if (force > part.max * (1 + kRounding)) fail(part, "is above the limit", force, part.max, tick);
+    const double slew = part.rate * (tick.resumed ? Executor::kGap : tick.period);
+    if (step > slew * (1 + kRounding) + 1e-12) fail(part, "changed faster than the slew limit", step, slew, tick);
+    if (!usable_ && force > 0) fail(part, "came before any usable sample", force, 0, tick);
+    if (tick.resumed && force > 0) fail(part, "came right after a gap", force, 0, tick);
+    if (lost_for_ > kGone + tick.period && force > 0) fail(part, "was sent after the device was lost", force, 0, tick);
+  }
+
+  [[noreturn]] static void fail(const Part& part, const char* what, double found, double allowed,
+                                const Tick& tick) noexcept {
+    std::fprintf(stderr, "transport: the %s %s: %.17g %s, allowed %.17g %s, at %.6f s\n", part.name, what, found,
+                 part.unit, allowed, part.unit, tick.time);
     std::abort();
   }
 
-  double force_, force_rate_;  // [N], [N/s]
+  Part force_, torque_;
   const RunControl& control_;
-  Vec3 sent_ = Vec3::Zero();
+  Wrench sent_;
   std::uint32_t rearms_ = 0;
   double lost_for_ = 0;  // [s]
   bool usable_ = false;

@@ -13,11 +13,12 @@ class WrappedDevice : public Device {
   void open() override { device_->open(); }
   void close() noexcept override { device_->close(); }
   FingerInput read(const Tick& tick) noexcept override { return device_->read(tick); }
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override { device_->write(f_H_W, tick); }
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override { device_->write(F_H_W, tick); }
   void rearm() noexcept override { device_->rearm(); }
   void reopen(const std::atomic<bool>& stop) override { device_->reopen(stop); }
   bool looks() const override { return device_->looks(); }
   void see(const ObjectState& objects, const Tick& tick) noexcept override { device_->see(objects, tick); }
+  bool measuresOrientation() const override { return device_->measuresOrientation(); }
   bool points() const override { return device_->points(); }
   void point(const PointerState& pointer, const Tick& tick) noexcept override { device_->point(pointer, tick); }
   std::string model() const override { return device_->model(); }

@@ -101,6 +101,7 @@ struct RecordedSamples {
   std::vector<std::uint32_t> status;   ///< OutputStatus bits of all fingers together
   std::vector<RecordedTable> fingers;  ///< in the order of the scene's roles
   std::vector<RecordedTable> bodies;   ///< free bodies, in the order of the scene
+  std::vector<RecordedTable> tools;    ///< of roles whose device measures its orientation
 };
 
 /// The record plug-in (HDF5), loaded when a run is recorded or replayed.
@@ -110,7 +111,9 @@ struct RecordPlugin {
   /// writes them to options.flight. Throws InputError: E601 the file exists (and options.overwrite is not set),
   /// E602 it cannot be written. Call from an ordinary thread, because the writer thread inherits its priority and CPU
   /// set.
-  std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world, const RunOptions& options);
+  /// `tools`: the roles whose devices measure their orientation, in order.
+  std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world, const RunOptions& options,
+                                      const std::vector<std::size_t>& tools);
   /// Checks the whole file before building anything from it. Throws InputError with every finding: E603 cannot be read,
   /// E604 not HDF5, E605 not a recording, E606 newer format, E607 no tick, E608 damaged, E670 storage other than a
   /// recording's, E671 attribute, E672 object or column, E673 rows not stored or tables of different length, E674 index

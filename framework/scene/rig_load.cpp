@@ -34,6 +34,10 @@ DeviceBinding::Limits readLimits(const Element& device) {
     limits.soft_start = optionalNumber(element, "soft_start");
     limits.continuous = optionalNumber(element, "continuous");
     limits.speed = optionalNumber(element, "speed");
+    limits.torque = optionalNumber(element, "torque");
+    limits.torque_rate = optionalNumber(element, "torque_rate");
+    limits.continuous_torque = optionalNumber(element, "continuous_torque");
+    limits.angular_speed = optionalNumber(element, "angular_speed");
     limits.records_overload = element.attribute("past_continuous") == "record";
     limits.passivity = element.boolean("passivity", false);
   }

@@ -93,6 +93,8 @@ struct Body {
 struct DeviceLimits {
   double force = 8;          ///< magnitude [N]
   double force_rate = 1000;  ///< slew [N/s]
+  double torque = 0.5;       ///< magnitude [N m]
+  double torque_rate = 50;   ///< slew [N m/s]; raised if `torque` would take more than 12 ms to zero
   double watchdog_ms = 20;   ///< age of the object state at which the force fades [ms]
 };
 
@@ -209,7 +211,8 @@ struct DeviceBinding {
   std::map<std::string, Setting> settings;  ///< <set key= value=/>; the driver checks keys and values
   /// Limits of this installation, beside those of the scene. Absent values: the driver's rating applies.
   struct Limits {
-    std::optional<double> force, force_rate, soft_start, continuous, speed;  ///< [N] [N/s] [s] [N] [m/s]
+    std::optional<double> force, force_rate, soft_start, continuous, speed;       ///< [N] [N/s] [s] [N] [m/s]
+    std::optional<double> torque, torque_rate, continuous_torque, angular_speed;  ///< [N m] [N m/s] [N m] [rad/s]
     bool records_overload = false;  ///< exceeding `continuous` is recorded as an event instead of being limited
     bool passivity = false;         ///< passivity control: no net energy to the hand
   };

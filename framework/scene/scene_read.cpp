@@ -172,6 +172,8 @@ DeviceRole readDevice(const Element& element) {
   for (const Element& limits : element.children("limits")) {
     device.limits.force = limits.number("force", device.limits.force);
     device.limits.force_rate = limits.number("force_rate", device.limits.force_rate);
+    device.limits.torque = limits.number("torque", device.limits.torque);
+    device.limits.torque_rate = limits.number("torque_rate", device.limits.torque_rate);
     device.limits.watchdog_ms = limits.number("watchdog_ms", device.limits.watchdog_ms);
   }
   device.where = element.where();

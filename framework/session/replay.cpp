@@ -33,7 +33,8 @@ class RecordedFinger final : public Device {
  public:
   RecordedFinger(const Recording& recording, std::size_t finger) : recording_(recording), finger_(finger) {}
   FingerInput read(const Tick&) noexcept override { return recording_.device[row_++].fingers[finger_]; }
-  void write(const Vec3&, const Tick&) noexcept override {}
+  void write(const Wrench&, const Tick&) noexcept override {}
+  bool measuresOrientation() const override { return recording_.device.front().fingers[finger_].oriented; }
 
  private:
   const Recording& recording_;
@@ -146,7 +147,7 @@ class Replayer {
     bool same = command_->count == recording_.command[row].count;
     for (std::size_t f = 0; f < result_.fingers; ++f) {
       const Vec3 &now = command_->f_H_W[f], &then = recording_.command[row].f_H_W[f];
-      if (sameBits(now, then)) continue;
+      if (sameBits(now, then) && sameBits(command_->t_H_W[f], recording_.command[row].t_H_W[f])) continue;
       same = false;
       result_.largest_difference = std::max(result_.largest_difference, (now - then).norm());
     }

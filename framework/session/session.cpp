@@ -105,6 +105,7 @@ std::vector<FingerSafety> safetyOf(const World& world, const RunOptions& options
     safety.push_back(
         safetyFor(role, binding == nullptr ? DeviceBinding{} : *binding, ratingOf(binding), notes, findings));
     safety.back().limits.force *= options.force_share;
+    safety.back().limits.torque *= options.force_share;
   }
   return safety;
 }
@@ -184,7 +185,7 @@ void Session::openDevices() {
 
 std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   if (planned.plugin == "record") {
-    auto recorder = recordPlugin().create(world_, options_);
+    auto recorder = recordPlugin().create(world_, options_, orientedTools());
     recorder_ = recorder.get();
     return recorder;
   }
@@ -193,6 +194,14 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_host_ = host;
   if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
   return module;
+}
+
+std::vector<std::size_t> Session::orientedTools() const {
+  std::vector<std::size_t> tools;
+  for (std::size_t f = 0; f < devices_.size(); ++f) {
+    if (devices_[f]->measuresOrientation()) tools.push_back(f);
+  }
+  return tools;
 }
 
 double Session::phaseStart(const std::string& phase) const {

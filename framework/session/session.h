@@ -64,6 +64,7 @@ class Session {
  private:
   void openDevices();
   void offerPointer();
+  std::vector<std::size_t> orientedTools() const;
   std::unique_ptr<Module> load(const PlannedModule& planned);
 
   std::shared_ptr<const World> world_;

@@ -14,7 +14,7 @@ void run(benchmark::State& state, const OutputLimits& limits) {
   for (auto _ : state) {
     phase += 0.01;
     const Vec3 wish(3 * std::sin(phase), 2, 1);
-    Vec3 sent = stage.step({.command = wish, .p_WH = 0.01 * wish, .v_WH = {0.1, 0, 0}}, 1e-3);
+    Vec3 sent = stage.step({.command = wish, .p_WH = 0.01 * wish, .v_WH = {0.1, 0, 0}}, 1e-3).f;
     benchmark::DoNotOptimize(sent);
   }
 }

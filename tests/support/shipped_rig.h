@@ -43,7 +43,7 @@ inline void expectRealTime(Device& device) {
   for (std::uint64_t i = 0; i < 3000; ++i) {
     const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
     device.read(tick);
-    device.write({0.1, 0, 20.0 * static_cast<double>(i % 2)}, tick);
+    device.write(Vec3(0.1, 0, 20.0 * static_cast<double>(i % 2)), tick);
   }
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }

@@ -37,13 +37,13 @@ class Probe final : public Device {
     finger.valid = true;
     return finger;
   }
-  void write(const Vec3& f_H_W, const Tick&) noexcept override {
+  void write(const Wrench& F_H_W, const Tick&) noexcept override {
     const std::uint64_t entry = log_->written.load(std::memory_order_relaxed);
     if (entry < ProbeLog::kEntries) {
-      log_->entries[entry] = {monotonicNs(), f_H_W.norm(), (f_H_W - sent_).norm()};
+      log_->entries[entry] = {monotonicNs(), F_H_W.f.norm(), (F_H_W.f - sent_).norm()};
       log_->written.store(entry + 1, std::memory_order_release);
     }
-    sent_ = f_H_W;
+    sent_ = F_H_W.f;
   }
 
  private:

@@ -5,14 +5,22 @@
 /// Spatial quantities in monogram notation: quantity_FrameTarget_Expressed.
 ///   p_WB   position of B's origin measured from W [m]      R_WB, q_WB  rotation taking B-vectors to W-vectors
 ///   X_WB   pose (p_WB, q_WB)                               v_WB, w_WB  linear, angular velocity [m/s, rad/s]
-///   f_B_W  force on B expressed in W [N]                   nhat_AB_W   unit normal from A into B
-/// Frames: W world (right-handed, z up), B body, D device base, H haptic interface point, P proxy, C contact.
+///   f_B_W  force on B expressed in W [N]                   t_B_W   torque on B about its origin [N m]
+///   F_B_W  wrench on B: f_B_W and t_B_W                    nhat_AB_W   unit normal from A into B
+/// Frames: W world (z up), B body, D device base, H haptic interface point, T tool (origin H), P proxy, C contact.
 namespace presa {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 /// Unit quaternion without SIMD alignment, so that states are plain packed data.
 using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
+
+/// A force [N] and a torque about the origin of the frame on which it acts [N m]. A force alone converts to a wrench.
+struct Wrench {
+  Vec3 f, t;
+  Wrench(const Vec3& force = Vec3::Zero(), const Vec3& torque = Vec3::Zero()) : f(force), t(torque) {}
+  bool operator==(const Wrench&) const = default;
+};
 
 /// Rigid transform X_AB: maps coordinates in B to coordinates in A.
 struct Pose {

@@ -20,8 +20,7 @@ struct ContactPart {
 };
 inline constexpr std::size_t kMaxContactParts = 3;  ///< three planes fix a point in space
 
-/// Contact of one finger. Convention: nhat points from the body into the finger, depth >= 0 when
-/// overlapping; f_H_W is the force on the finger, the body gets its negative.
+/// Contact of one finger. nhat points from the body into the finger; depth >= 0 when they overlap.
 struct FingerContact {
   ContactMode mode = ContactMode::kNone;
   std::int32_t body = kNoBody;
@@ -43,6 +42,7 @@ struct FingerContact {
   double normal_force = 0;                 ///< f_H_W . nhat_W [N], >= 0
   Vec3 tangential_force_W = Vec3::Zero();  ///< f_H_W without its normal part [N]
   Vec3 f_H_W = Vec3::Zero();               ///< rendered force on the finger, before the output stage [N]
+  Vec3 t_H_W = Vec3::Zero();               ///< rendered torque about H on an oriented tool [N m]; 0 on others
   /// Above 1: several bodies hold the finger, `body` the largest share; `parts` lists them. Otherwise `body` bears all.
   std::int32_t part_count = 0;
   std::array<ContactPart, kMaxContactParts> parts;
@@ -53,8 +53,7 @@ struct FingerContact {
 struct ContactExchange {
   double time = 0;         ///< [s]
   std::int32_t count = 0;  ///< fingers in use
-  /// Since start: ticks in which a fingertip missed surfaces in its reach, because there were more bodies, or more
-  /// triangles touched at once, than the fixed capacities hold.
+  /// Since start: ticks in which a fingertip missed surfaces in its reach, because they exceeded a fixed capacity.
   std::uint32_t coverage_lost = 0;
   std::uint32_t pop_through = 0;  ///< since start: how often the centre of a fingertip crossed a surface
   std::array<std::uint32_t, kMaxFingers> pop_through_by_finger{};  ///< the same for each finger

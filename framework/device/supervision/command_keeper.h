@@ -18,30 +18,32 @@ class CommandKeeper {
   struct Input {
     bool fresh = false;  ///< a command came since the last step
     bool alone = false;  ///< the program is gone; latches
-    Vec3 command = Vec3::Zero();
+    Wrench command = {};
     FingerInput finger{};
   };
 
-  /// Returns the force to send, in W [N]. `elapsed`: since the last step, by the clock [s]. A delayed keeper still
+  /// Returns the wrench to send, in W. `elapsed`: since the last step, by the clock [s]. A delayed keeper still
   /// drops an old command in time; its force then goes down by at most kLongestStep of slew.
-  Vec3 step(const Input& input, double elapsed) noexcept {
+  const Wrench& step(const Input& input, double elapsed) noexcept {
     age_ = input.fresh ? 0 : age_ + elapsed;
     alone_ = alone_ || input.alone;
     if (alone_ || age_ > kHold)
       dropped_ = true;
-    else if (input.fresh && input.command == Vec3::Zero())
+    else if (input.fresh && input.command == Wrench())
       dropped_ = false;
     return stage_.step({.command = input.command,
                         .trust = dropped_ ? OutputStage::Trust::kDropped : OutputStage::Trust::kGood,
                         .lost = input.finger.lost,
                         .p_WH = input.finger.p_WH,
-                        .v_WH = input.finger.v_WH},
+                        .v_WH = input.finger.v_WH,
+                        .w_WT = input.finger.w_WT,
+                        .q_WT = input.finger.q_WT},
                        std::min(elapsed, kLongestStep));
   }
 
   void rearm() noexcept { stage_.rearm(); }
   bool dropped() const noexcept { return dropped_; }
-  const Vec3& last() const noexcept { return stage_.last(); }
+  const Wrench& last() const noexcept { return stage_.last(); }
 
   /// Longest age of a command [s]: more than a late haptic tick, short enough for zero within 10 ms from 5 N.
   static constexpr double kHold = 5e-3;

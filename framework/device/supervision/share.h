@@ -10,14 +10,14 @@ namespace presa {
 
 /// Command of the program to a supervised device.
 struct SupervisedCommand {
-  Vec3 f_H_W = Vec3::Zero();  ///< force on the finger [N]
+  Wrench F_H_W;  ///< wrench on the tool
 };
 
 /// Report of the supervisor, published in every cycle.
 struct SupervisorReport {
   FingerInput finger;             ///< the device's sample, unchecked
   bool dropped = false;           ///< commands stopped: force zero until a command of exactly zero comes
-  Vec3 sent = Vec3::Zero();       ///< force that the device holds from now on [N]
+  Wrench sent;                    ///< wrench that the device holds from now on
   std::uint64_t cycles = 0;       ///< since the start
   std::uint64_t allocated = 0;    ///< allocations since the start; must stay 0
   std::uint32_t rearms_done = 0;  ///< value of SupervisorShare::rearms that it has carried out

@@ -158,8 +158,8 @@ FingerInput SupervisedDevice::read(const Tick& tick) noexcept {
   return finger;
 }
 
-void SupervisedDevice::write(const Vec3& f_H_W, const Tick& tick) noexcept {
-  live_.load(std::memory_order_relaxed)->command.publish({f_H_W}, tick.time);
+void SupervisedDevice::write(const Wrench& F_H_W, const Tick& tick) noexcept {
+  live_.load(std::memory_order_relaxed)->command.publish({F_H_W}, tick.time);
 }
 
 void SupervisedDevice::rearm() noexcept {

@@ -26,7 +26,7 @@ class SupervisedDevice final : public Device {
   /// After the device or its supervisor was lost: ends the old supervisor and starts a new one, which opens the device.
   void reopen(const std::atomic<bool>& stop) override;
   FingerInput read(const Tick& tick) noexcept override;
-  void write(const Vec3& f_H_W, const Tick& tick) noexcept override;
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override;
   void rearm() noexcept override;
 
   std::string model() const override { return driver_->model(); }

@@ -112,13 +112,13 @@ bool Supervisor::cycle(bool alone, double elapsed) noexcept {
   report_.finger = device_->read(tick);
   const bool fresh = share_.command.update();
   report_.sent = keeper_.step(
-      {.fresh = fresh, .alone = ending, .command = share_.command.value().f_H_W, .finger = report_.finger}, elapsed);
+      {.fresh = fresh, .alone = ending, .command = share_.command.value().F_H_W, .finger = report_.finger}, elapsed);
   device_->write(report_.sent, tick);
   report_.dropped = keeper_.dropped();
   ++report_.cycles;
   report_.allocated = count_() - allocated_before_;
   share_.report.publish(report_, tick.time);
-  zero_force_time_ = ending && report_.sent == Vec3::Zero() ? zero_force_time_ + elapsed : 0;
+  zero_force_time_ = ending && report_.sent == Wrench() ? zero_force_time_ + elapsed : 0;
   return zero_force_time_ < kZeroForceTime;
 }
 

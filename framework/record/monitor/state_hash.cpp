@@ -26,6 +26,7 @@ void StateHash::add(const DeviceState& state) noexcept {
     add(finger.v_WH);
     add(finger.phase);
     add(finger.valid);
+    if (finger.oriented) add(Pose{finger.w_WT, finger.q_WT});
   }
 }
 
@@ -49,6 +50,7 @@ void StateHash::add(const FingerContact& finger) noexcept {
   add(finger.normal_force);
   add(finger.tangential_force_W);
   add(finger.f_H_W);
+  if (!finger.t_H_W.isZero(0)) add(finger.t_H_W);
 }
 
 void StateHash::add(const ContactExchange& state) noexcept {

@@ -42,6 +42,10 @@ class ContentReader {
       auto all = rows<BodyRow>(table, {}, static_cast<bool>(take.body));
       if (take.body) take.body(table, std::move(all));
     }
+    for (const StoredTable& table : stored_.tools) {
+      auto all = rows<ToolRow>(table, {}, static_cast<bool>(take.tool));
+      if (take.tool) take.tool(table, std::move(all));
+    }
     for (std::size_t g = 0; g < stored_.schedule.size(); ++g)
       contents_.schedule[g] = rows<ScheduleRow>(stored_.schedule[g], scheduleRules(), true);
     if (stored_.complete) compareLengths();
@@ -173,6 +177,7 @@ class ContentReader {
     };
     for (const StoredTable& table : stored_.fingers) compare(table);
     for (const StoredTable& table : stored_.bodies) compare(table);
+    for (const StoredTable& table : stored_.tools) compare(table);
     if (wholeRun()) compare(stored_.schedule.front());
   }
 

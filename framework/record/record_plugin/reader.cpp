@@ -67,9 +67,21 @@ Recording readRecording(const std::string& file) {
       recording.command.resize(rows.size());
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (table.place == 0) recording.command[i].f_H_W.fill(Vec3::Zero());
+      if (table.place == 0)
+        recording.command[i].f_H_W.fill(Vec3::Zero()), recording.command[i].t_H_W.fill(Vec3::Zero());
       recording.device[i].fingers[table.place] = inputOf(rows[i]);
       recording.command[i].f_H_W[table.place] = Vec3(rows[i].f_command_W);
+    }
+  };
+  take.tool = [&](const StoredTable& table, const std::vector<ToolRow>& rows) {
+    const std::size_t count = std::min(rows.size(), recording.device.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      FingerInput& finger = recording.device[i].fingers[table.place];
+      const double(&q)[4] = rows[i].q_WT;
+      finger.oriented = true;
+      finger.q_WT = Quat(q[0], q[1], q[2], q[3]);
+      finger.w_WT = Vec3(rows[i].w_WT);
+      recording.command[i].t_H_W[table.place] = Vec3(rows[i].t_command_W);
     }
   };
   Contents contents = readContents(file, take);
@@ -86,7 +98,7 @@ Recording readRecording(const std::string& file) {
   recording.device.resize(contents.count);
   recording.command.resize(contents.count);
   if (recording.fingers == 0)
-    for (ForceCommand& command : recording.command) command.f_H_W.fill(Vec3::Zero());
+    for (ForceCommand& command : recording.command) command.f_H_W.fill(Vec3::Zero()), command.t_H_W.fill(Vec3::Zero());
   takeTicks(contents, recording);
   return recording;
 }

@@ -31,22 +31,27 @@ std::vector<std::int32_t> freeBodies(const Scene& scene) {
   return indices;
 }
 
-std::unique_ptr<RowSink> createSink(const std::shared_ptr<const World>& world, const RunOptions& options) {
+std::unique_ptr<RowSink> createSink(const std::shared_ptr<const World>& world, const RunOptions& options,
+                                    const std::vector<std::size_t>& tools) {
   const h5::Library library;
-  if (options.record.empty()) return std::make_unique<FlightBuffer>(world, options);
-  return std::make_unique<RecordingFile>(*world, options);
+  if (options.record.empty()) return std::make_unique<FlightBuffer>(world, options, tools);
+  return std::make_unique<RecordingFile>(*world, options, tools);
 }
 
 void copy(const Vec3& from, double (&to)[3]) noexcept { std::copy_n(from.data(), 3, to); }
+void copy(const Quat& from, double (&to)[4]) noexcept {
+  to[0] = from.w(), to[1] = from.x(), to[2] = from.y(), to[3] = from.z();
+}
 
 }  // namespace
 
-FileRecorder::FileRecorder(std::shared_ptr<const World> world, const RunOptions& options, WriterSettings settings)
+FileRecorder::FileRecorder(std::shared_ptr<const World> world, const RunOptions& options,
+                           const std::vector<std::size_t>& tools, WriterSettings settings)
     : Recorder("record", RateGroup::kHaptic),
       world_(std::move(world)),
       settings_(std::move(settings)),
       realtime_(options.realtime),
-      file_(createSink(world_, options)),
+      file_(createSink(world_, options, tools)),
       layout_(file_->layout()),
       free_bodies_(freeBodies(world_->scene)),
       capacity_(ringRows(*world_, layout_.bytes())),
@@ -116,6 +121,7 @@ void FileRecorder::fillRow(const Tick& tick) noexcept {
   put(0, row);
   for (std::size_t f = 0; f < layout_.fingers; ++f) fillFinger(f, tick);
   for (std::size_t b = 0; b < layout_.bodies; ++b) fillBody(b, tick);
+  for (std::size_t t = 0; t < layout_.tools.size(); ++t) fillTool(t, tick);
 }
 
 void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
@@ -142,6 +148,18 @@ void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
   put(layout_.fingerOffset(finger), row);
 }
 
+void FileRecorder::fillTool(std::size_t slot, const Tick& tick) noexcept {
+  const std::size_t finger = layout_.tools[slot];
+  ToolRow row;
+  row.index = tick.index;
+  row.time = tick.time;
+  copy(device_->fingers[finger].q_WT, row.q_WT);
+  copy(device_->fingers[finger].w_WT, row.w_WT);
+  copy(contact_->fingers[finger].t_H_W, row.t_rendered_W);
+  copy(command_->t_H_W[finger], row.t_command_W);
+  put(layout_.toolOffset(slot), row);
+}
+
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {
   const std::int32_t index = free_bodies_[slot];
   const bool known = objects_.hasValue() && index < objects_->count();
@@ -150,10 +168,7 @@ void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {
   row.index = tick.index;
   row.time = tick.time;
   copy(X_WB.p, row.p_WB);
-  row.q_WB[0] = X_WB.q.w();
-  row.q_WB[1] = X_WB.q.x();
-  row.q_WB[2] = X_WB.q.y();
-  row.q_WB[3] = X_WB.q.z();
+  copy(X_WB.q, row.q_WB);
   if (known) {
     const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(index)];
     copy(motion.v_WB, row.v_WB);

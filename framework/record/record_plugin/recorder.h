@@ -31,7 +31,8 @@ struct WriterSettings {
 /// ring and is, between construction and finish(), the only thread that touches the file.
 class FileRecorder final : public Recorder {
  public:
-  FileRecorder(std::shared_ptr<const World> world, const RunOptions& options, WriterSettings settings = {});
+  FileRecorder(std::shared_ptr<const World> world, const RunOptions& options, const std::vector<std::size_t>& tools,
+               WriterSettings settings = {});
   ~FileRecorder() override;
 
   void step(const Tick& tick) noexcept override;
@@ -50,6 +51,7 @@ class FileRecorder final : public Recorder {
   void handOver() noexcept;
   void fillFinger(std::size_t finger, const Tick& tick) noexcept;
   void fillBody(std::size_t slot, const Tick& tick) noexcept;
+  void fillTool(std::size_t slot, const Tick& tick) noexcept;
   template <class Row>
   void put(std::size_t offset, const Row& row) noexcept;
   void hurryWriter() noexcept;

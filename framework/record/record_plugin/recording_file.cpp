@@ -81,16 +81,17 @@ Table scheduleTable() {
   return table;
 }
 
-RowLayout layoutOf(const World& world) {
+RowLayout layoutOf(const World& world, const std::vector<std::size_t>& tools) {
   RowLayout layout;
   layout.fingers = std::min<std::size_t>(world.scene.devices.size(), kMaxFingers);
   layout.bodies = static_cast<std::size_t>(std::count_if(world.scene.bodies.begin(), world.scene.bodies.end(),
                                                          [](const Body& body) { return !body.fixed; }));
+  layout.tools = tools;
   return layout;
 }
 
-RecordingFile::RecordingFile(const World& world, const RunOptions& options)
-    : name_(options.record), layout_(layoutOf(world)) {
+RecordingFile::RecordingFile(const World& world, const RunOptions& options, const std::vector<std::size_t>& tools)
+    : name_(options.record), layout_(layoutOf(world, tools)) {
   const std::string& name = name_;
   claim(name, options.overwrite);
   try {
@@ -119,6 +120,11 @@ void RecordingFile::create(const World& world, const RunOptions& options) {
     tables_.push_back(createTable("haptic/bodies", linkName(world.scene.bodies[b].name), bodyTable()));
     h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
   }
+  if (!layout_.tools.empty()) h5::group(file_, "haptic/tools");
+  for (const std::size_t f : layout_.tools) {
+    tables_.push_back(createTable("haptic/tools", linkName(world.scene.devices[f].role), toolTable()));
+    h5::writeAttribute(tables_.back().dataset, "tool", std::uint64_t{f});
+  }
   for (int g = 0; g < kScheduledGroupCount; ++g) {
     schedule_.push_back(createTable("schedule", toString(static_cast<RateGroup>(g)), scheduleTable()));
     // with room for the names, so that they change no place in the file when they come
@@ -130,7 +136,7 @@ void RecordingFile::create(const World& world, const RunOptions& options) {
 void RecordingFile::describe(const World& world, const RunOptions& options) {
   const RateTable rates(world.scene.rates);
   h5::writeAttribute(file_, "format", std::string(kFormatName));
-  h5::writeAttribute(file_, "format_version", kFormatVersion);
+  h5::writeAttribute(file_, "format_version", layout_.tools.empty() ? kToolsSince - 1 : kFormatVersion);
   h5::writeAttribute(file_, "complete", std::uint64_t{0});
   h5::writeAttribute(file_, seal::kAttribute, seal::open());
   h5::writeAttribute(file_, "dropped", std::uint64_t{0});

@@ -12,9 +12,11 @@
 
 namespace presa::record {
 
-/// Version of the file layout; a reader refuses a higher one.
+/// Version of the file layout; a reader refuses a higher one. A file without tools has the version before.
 inline constexpr std::uint64_t kFormatVersion =
-    7;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs
+    8;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs; 8: tools
+/// First version with haptic/tools.
+inline constexpr std::uint64_t kToolsSince = 8;
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows per chunk of the file and per write.
 inline constexpr std::size_t kBlockRows = 1024;
@@ -30,7 +32,7 @@ inline constexpr const char* kInputsAttribute = "inputs";
 class RecordingFile final : public RowSink {
  public:
   /// Throws InputError E601, E602.
-  RecordingFile(const World& world, const RunOptions& options);
+  RecordingFile(const World& world, const RunOptions& options, const std::vector<std::size_t>& tools);
 
   const RowLayout& layout() const noexcept override { return layout_; }
   void nameInputs(const ScheduleInputs& inputs) override;
@@ -70,7 +72,7 @@ class RecordingFile final : public RowSink {
   RowLayout layout_;
   std::uint64_t faults_ = 0;
   h5::Handle file_;
-  std::vector<TableFile> tables_;    ///< as RowLayout: the ticks, each finger, each free body
+  std::vector<TableFile> tables_;    ///< as RowLayout: the ticks, each finger, each free body, each tool
   std::vector<TableFile> schedule_;  ///< by RateGroup
   std::vector<std::byte> gathered_;
   hsize_t reserved_ = 0;  ///< bytes of the file with reserved space

@@ -32,7 +32,7 @@ class RowSink {
   virtual std::vector<std::string> files() const = 0;
 };
 
-/// The row layout for this world.
-RowLayout layoutOf(const World& world);
+/// The row layout for this world; `tools`: the roles whose devices measure their orientation.
+RowLayout layoutOf(const World& world, const std::vector<std::size_t>& tools);
 
 }  // namespace presa::record

@@ -91,6 +91,17 @@ Table bodyTable() {
   return {sizeof(R), c.take()};
 }
 
+Table toolTable() {
+  using R = ToolRow;
+  Columns c;
+  c.key(offsetof(R, index), offsetof(R, time))
+      .vector("q_WT", offsetof(R, q_WT), "1", "orientation of the tool as unit quaternion, tool to world", "wxyz")
+      .vector("w_WT", offsetof(R, w_WT), "rad/s", "its angular velocity, world frame")
+      .vector("t_rendered_W", offsetof(R, t_rendered_W), "N m", "torque on the tool before the output stage")
+      .vector("t_command_W", offsetof(R, t_command_W), "N m", "torque on the tool after the output stage");
+  return {sizeof(R), c.take()};
+}
+
 Table subset(const Table& table, const std::vector<std::string>& columns) {
   Table part{table.row_bytes, {}};
   for (const Column& column : table.columns) {

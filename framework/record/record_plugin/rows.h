@@ -53,12 +53,22 @@ struct BodyRow {
   double v_WB[3] = {}, w_WB[3] = {};
 };
 
+/// /haptic/tools/<role>, for a device that measures its orientation
+struct ToolRow {
+  std::uint64_t index = 0;
+  double time = 0;
+  double q_WT[4] = {1, 0, 0, 0};
+  double w_WT[3] = {};
+  double t_rendered_W[3] = {}, t_command_W[3] = {};
+};
+
 // rows pass through the ring as 64-bit words and are written byte by byte, so they must not contain padding
 template <class Row>
 inline constexpr bool kPacked = std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(std::uint64_t) == 0;
 static_assert(kPacked<TickRow> && sizeof(TickRow) == 9 * 8 + 6 * 4);
 static_assert(kPacked<FingerRow> && sizeof(FingerRow) == (2 + 3 * 9 + 2) * 8 + 4 * 4);
 static_assert(kPacked<BodyRow> && sizeof(BodyRow) == (2 + 13) * 8);
+static_assert(kPacked<ToolRow> && sizeof(ToolRow) == (2 + 13) * 8);
 
 enum class Cell { kU64, kF64, kI32, kU32 };
 
@@ -86,14 +96,17 @@ struct Table {
 Table tickTable();
 Table fingerTable();
 Table bodyTable();
+Table toolTable();
 
-/// Layout of a complete row in the ring: the tick, then each finger, then each free body.
+/// Layout of a complete row in the ring: the tick, then each finger, each free body, and each oriented tool.
 struct RowLayout {
   std::size_t fingers = 0;
   std::size_t bodies = 0;
+  std::vector<std::size_t> tools;  ///< their fingers
   std::size_t fingerOffset(std::size_t finger) const { return sizeof(TickRow) + finger * sizeof(FingerRow); }
   std::size_t bodyOffset(std::size_t body) const { return fingerOffset(fingers) + body * sizeof(BodyRow); }
-  std::size_t bytes() const { return bodyOffset(bodies); }
+  std::size_t toolOffset(std::size_t tool) const { return bodyOffset(bodies) + tool * sizeof(ToolRow); }
+  std::size_t bytes() const { return toolOffset(tools.size()); }
   std::size_t words() const { return bytes() / sizeof(std::uint64_t); }
 };
 

@@ -50,6 +50,9 @@ RecordedSamples readSamples(const std::string& file) {
   take.body = [&](const StoredTable& table, const std::vector<BodyRow>& rows) {
     samples.bodies.push_back(byColumn(table, rows));
   };
+  take.tool = [&](const StoredTable& table, const std::vector<ToolRow>& rows) {
+    samples.tools.push_back(byColumn(table, rows));
+  };
   const Contents contents = readContents(file, take);
   samples.haptic_period = contents.stored.haptic_period;
   samples.complete = contents.stored.complete;
@@ -65,6 +68,7 @@ RecordedSamples readSamples(const std::string& file) {
   }
   shorten(samples.fingers, contents.count);
   shorten(samples.bodies, contents.count);
+  shorten(samples.tools, contents.count);
   return samples;
 }
 

@@ -51,6 +51,8 @@ class Structure {
       table("haptic/ticks", ticksOf(stored_.version), stored_.ticks);
       group("haptic/fingers", "finger", fingerTable(), kMaxFingers, stored_.fingers);
       group("haptic/bodies", "body", bodyTable(), stored_.scene_bodies, stored_.bodies);
+      if (stored_.version >= kToolsSince)
+        group("haptic/tools", "tool", toolTable(), stored_.fingers.size(), stored_.tools);
     }
     if (!look_.isGroup("schedule")) return;
     if (stored_.version >= kInputsSince) stored_.inputs.emplace();

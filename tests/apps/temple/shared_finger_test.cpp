@@ -22,7 +22,7 @@ class PuppetDevice final : public Device {
     puppet_.last = tick;
     return {.p_WH = puppet_.p_WH, .v_WH = Vec3::Zero(), .valid = true};
   }
-  void write(const Vec3& f_H_W, const Tick&) noexcept override { puppet_.force = f_H_W; }
+  void write(const Wrench& F_H_W, const Tick&) noexcept override { puppet_.force = F_H_W.f; }
   bool points() const override { return true; }
   void point(const PointerState& pointer, const Tick&) noexcept override { puppet_.p_WH = pointer.p_WT; }
 
@@ -37,7 +37,7 @@ class SharedFingerTest : public testing::Test {
     ++index_;
     finger.see(objects, tick);
     const FingerInput input = finger.read(tick);
-    finger.write({0, 0, 1}, tick);
+    finger.write(Vec3(0, 0, 1), tick);
     return input;
   }
   /// Number of ticks without a valid sample from now on.

@@ -101,7 +101,7 @@ TEST(Clumsy, ItsTickNeitherAllocatesNorLocks) {
     const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
     device->see(objects, tick);
     device->read(tick);
-    device->write({0.1, 0, 3.0 * static_cast<double>(i % 2)}, tick);
+    device->write(Vec3(0.1, 0, 3.0 * static_cast<double>(i % 2)), tick);
   }
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }

@@ -181,7 +181,7 @@ TEST(FalconDevice, StandsInTheWorldWhereTheRigPutsIt) {
 
   // 2 N along -y of the world push along the device's z at any scale: -249.4 counts per newton
   waitUntil([&] {
-    device.write({0, -2, 0}, kTick);
+    device.write(Vec3(0, -2, 0), kTick);
     return bench.with([](auto& falcon) { return falcon.sent.back().force[0] == -499; });
   });
   bench.with([](auto& falcon) { EXPECT_EQ(falcon.sent.back().force, (Counts{-499, -499, -499})); });

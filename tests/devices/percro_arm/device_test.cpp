@@ -72,7 +72,7 @@ TEST(PercroDevice, ReportsWholeCountsThroughTheBasePose) {
   for (std::uint64_t i = 0; i < 3000; ++i) {
     const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
     const FingerInput input = device->read(tick);
-    device->write(Vec3::Zero(), tick);
+    device->write({}, tick);
     ASSERT_TRUE(input.valid);
     const Vec3 counts = percro::transmission(arm.geometry) *
                         percro::jointsAt(arm.geometry, X_WD.inverseTimes(input.p_WH)) / arm.motors.count();

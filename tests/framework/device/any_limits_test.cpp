@@ -16,8 +16,8 @@
 #include "tests/framework/device/stand_ins.h"
 
 // Ten thousand random scenes and rigs pass through the file readers, the limits, the output stage and the supervisor's
-// keeper. For all of them, no force and no change of force beyond the driver's rating reaches the transport, and after
-// a failure the force is zero within 20 ms. Every number in the files is random, the rendering commands any force, and
+// keeper. For all of them, no force, no torque and no change of them beyond the driver's rating reaches the transport,
+// and after a failure both are zero within 20 ms. Every number in the files is random, the rendering commands any force, and
 // then one of seven failures occurs.
 namespace presa {
 namespace {
@@ -34,7 +34,7 @@ enum class End { kStop, kLost, kSilent, kNotANumber, kStall, kKilled, kOld };
 constexpr int kEnds = 7;
 
 struct Reached {
-  long forces = 0, steps = 0, slow_decays = 0, watchdogs = 0;  // within 1 % of what is allowed
+  long forces = 0, steps = 0, torques = 0, turns = 0, slow_decays = 0, watchdogs = 0;  // within 1 % of what is allowed
   long lowered = 0, refused = 0, runs = 0;
   std::array<long, kEnds> ends{};
   double longest_decay = 0;
@@ -43,9 +43,9 @@ struct Reached {
 class RandomFinger final : public Device {
  public:
   FingerInput read(const Tick&) noexcept override { return {.valid = !silent, .lost = lost}; }
-  void write(const Vec3& f, const Tick&) noexcept override { sent = f; }
+  void write(const Wrench& F_H_W, const Tick&) noexcept override { sent = F_H_W; }
   bool silent = false, lost = false;
-  Vec3 sent = Vec3::Zero();
+  Wrench sent;
 };
 
 /// One finger from the rendering to the transport: the program's stage, and a supervisor's keeper that runs four times
@@ -66,7 +66,9 @@ class Chain {
     graph_ = builder.build();
   }
   double period() const { return table_.period(RateGroup::kHaptic); }
-  double force() const { return sent_.norm(); }
+  /// Whether anything is sent.
+  bool acts() const { return sent_.f.norm() > 1e-12 || sent_.t.norm() > 1e-13; }
+  double force() const { return sent_.f.norm(); }
 
   /// One haptic tick; checks that the forces after the stage and after the keeper are within the rating.
   void tick(Reached& reached) {
@@ -80,7 +82,7 @@ class Chain {
     commanded_ = finger->sent;
     constexpr int kCycles = 4;
     for (int i = 0; i < kCycles; ++i) {
-      const Vec3 before = sent_;
+      const Wrench before = sent_;
       sent_ = keeper_.step({.fresh = i == 0 && !killed, .command = commanded_}, period() / kCycles);
       judge(sent_, before, period() / kCycles, reached);
     }
@@ -96,13 +98,17 @@ class Chain {
     const auto divisor = static_cast<std::uint64_t>(table_.divisor(group));
     if (index_ % divisor == 0) graph_.step(group, table_.tick(group, index_ / divisor));
   }
-  void judge(const Vec3& force, const Vec3& before, double elapsed, Reached& reached) {
+  void judge(const Wrench& wrench, const Wrench& before, double elapsed, Reached& reached) {
+    judge(wrench.f, before.f, rating_.force, rating_.force_rate * elapsed, reached.forces, reached.steps);
+    judge(wrench.t, before.t, rating_.torque, rating_.torque_rate * elapsed, reached.torques, reached.turns);
+  }
+  static void judge(const Vec3& force, const Vec3& before, double max, double max_step, long& at_max, long& at_step) {
     ASSERT_TRUE(force.allFinite());
-    const double size = force.norm(), step = (force - before).norm(), reach = rating_.force_rate * elapsed;
-    ASSERT_LE(size, rating_.force * (1 + kTouched));
-    ASSERT_LE(step, reach * (1 + kTouched));
-    reached.forces += size > 0.99 * rating_.force ? 1 : 0;
-    reached.steps += step > 0.99 * reach ? 1 : 0;
+    const double size = force.norm(), step = (force - before).norm();
+    ASSERT_LE(size, max * (1 + kTouched));
+    ASSERT_LE(step, max_step * (1 + kTouched));
+    at_max += max > 0 && size > 0.99 * max ? 1 : 0;
+    at_step += max > 0 && step > 0.99 * max_step ? 1 : 0;
   }
 
   DeviceRating rating_;
@@ -111,7 +117,7 @@ class Chain {
   CommandKeeper keeper_;
   Graph graph_;
   std::uint64_t index_ = 0;
-  Vec3 commanded_ = Vec3::Zero(), sent_ = Vec3::Zero();
+  Wrench commanded_, sent_;
 };
 
 class AnyFiles {
@@ -132,6 +138,7 @@ class AnyFiles {
   }
 
  private:
+  Vec3 direction() { return Vec3(random_.normal(), random_.normal(), random_.normal()).normalized(); }
   bool chance(double share) { return random_.uniform(0, 1) < share; }
   /// Any size, and often none.
   std::string attribute(const char* name, double min = 1e-9, double max = 1e9) {
@@ -152,11 +159,14 @@ class AnyFiles {
         "\" collision=\"" + std::to_string(slow) + "\" dynamics=\"" + std::to_string(slow) +
         R"("/><materials><material name="m" stiffness="1000"><friction static="1" dynamic="1"/></material></materials>
 <body name="b" fixed="true"><haptic><sphere radius="1"/></haptic></body><devices><device role="finger"><limits)" +
-        attribute("force") + attribute("force_rate") + attribute("watchdog_ms", 20) + "/></device></devices></scene>";
+        attribute("force") + attribute("force_rate") + attribute("torque") + attribute("torque_rate") +
+        attribute("watchdog_ms", 20) + "/></device></devices></scene>";
     const std::string rig = "<rig version=\"1.0\" name=\"any\"><device role=\"finger\" driver=\"" + driver +
                             "\"><limits" + attribute("force") + attribute("force_rate") +
                             (chance(0.8) ? "" : attribute("soft_start", 0.5, 60)) + attribute("continuous") +
-                            attribute("speed") + (chance(0.5) ? R"( past_continuous="record")" : "") +
+                            attribute("speed") + attribute("torque") + attribute("torque_rate") +
+                            attribute("continuous_torque") + attribute("angular_speed") +
+                            (chance(0.5) ? R"( past_continuous="record")" : "") +
                             (chance(0.2) ? R"( passivity="true")" : "") + "/></device></rig>";
     Diagnostics findings;
     World world;
@@ -176,11 +186,12 @@ class AnyFiles {
     for (int i = 0; i < 5; ++i) chain.tick(reached);  // a keeper opens at zero
     for (double time = 0; time < 0.6 && !testing::Test::HasFatalFailure(); time += chain.period()) {
       if (chance(0.1))
-        chain.commands->wanted = std::pow(10., random_.uniform(-3, 12)) *
-                                 Vec3(random_.normal(), random_.normal(), random_.normal()).normalized();
+        chain.commands->wanted = {std::pow(10., random_.uniform(-3, 12)) * direction(),
+                                  std::pow(10., random_.uniform(-5, 12)) * direction()};
       chain.tick(reached);
     }
-    chain.commands->wanted = {0, 0, chance(0.5) ? 1e6 : -1e6};
+    const Vec3 up(0, 0, chance(0.5) ? 1e6 : -1e6);
+    chain.commands->wanted = {up, up};
     for (int i = 0; i < 20; ++i) chain.tick(reached);
   }
 
@@ -201,7 +212,8 @@ class AnyFiles {
         before = SampleCheck::kHold;
         break;
       case End::kNotANumber:
-        chain.commands->wanted.x() = std::numeric_limits<double>::quiet_NaN();
+        (chance(0.5) ? chain.commands->wanted.f : chain.commands->wanted.t).x() =
+            std::numeric_limits<double>::quiet_NaN();
         break;
       case End::kKilled:
         chain.killed = true;
@@ -220,7 +232,7 @@ class AnyFiles {
     }
     const double from = chain.force();
     double took = 0;
-    for (; chain.force() > 1e-12 && took < 1; took += chain.period()) {
+    for (; chain.acts() && took < 1; took += chain.period()) {
       chain.tick(reached);
       if (testing::Test::HasFatalFailure()) return;
     }
@@ -248,15 +260,18 @@ TEST(AnyLimits, NoFileWidensTheRatingOrSlowsTheWayToZero) {
     ASSERT_FALSE(HasFatalFailure()) << "run " << run;
   }
   std::printf(
-      "%ld runs (%ld refused, %ld lowered with a word): forces at the rating %ld, steps at it %ld, watchdogs at it "
+      "%ld runs (%ld refused, %ld lowered with a word): forces at the rating %ld, steps at it %ld, torques %ld and "
+      "%ld, watchdogs at it "
       "%ld, decays of more than 10.8 ms %ld, the longest %.1f ms\n",
-      reached.runs, reached.refused, reached.lowered, reached.forces, reached.steps, reached.watchdogs,
-      reached.slow_decays, 1e3 * reached.longest_decay);
+      reached.runs, reached.refused, reached.lowered, reached.forces, reached.steps, reached.torques, reached.turns,
+      reached.watchdogs, reached.slow_decays, 1e3 * reached.longest_decay);
   // or nothing was tried
   EXPECT_GT(reached.runs, kRuns / 2);
   EXPECT_GT(reached.lowered, reached.runs / 2);
   EXPECT_GT(reached.forces, kRuns);
   EXPECT_GT(reached.steps, 10 * kRuns);
+  EXPECT_GT(reached.torques, kRuns / 10);
+  EXPECT_GT(reached.turns, kRuns / 2);
   EXPECT_GT(reached.watchdogs, kRuns / 50);
   EXPECT_GT(reached.slow_decays, kRuns / 20);
   for (const long runs : reached.ends) EXPECT_GT(runs, kRuns / 20);

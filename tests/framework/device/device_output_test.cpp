@@ -16,9 +16,9 @@ using test::Objects;
 class StillFinger final : public Device {
  public:
   FingerInput read(const Tick&) noexcept override { return {.valid = !silent, .lost = lost}; }
-  void write(const Vec3& f_H_W, const Tick&) noexcept override {
-    steepest = std::max(steepest, (f_H_W - force).norm());
-    force = f_H_W;
+  void write(const Wrench& F_H_W, const Tick&) noexcept override {
+    steepest = std::max(steepest, (F_H_W.f - force).norm());
+    force = F_H_W.f;
     ++writes;
   }
   bool silent = false, lost = false;

@@ -42,7 +42,7 @@ Outcome live(bool passivity) {
     x_before = hand.x;
     const double wish = late[static_cast<std::size_t>(i % 5)];
     late[static_cast<std::size_t>(i % 5)] = 12 * hand.v;
-    sent = stage.step({.command = {wish, 0, 0}, .p_WH = {hand.x, 0, 0}, .v_WH = {hand.v, 0, 0}}, kPeriod).x();
+    sent = stage.step({.command = Vec3(wish, 0, 0), .p_WH = {hand.x, 0, 0}, .v_WH = {hand.v, 0, 0}}, kPeriod).f.x();
     hand.step(sent);
     if (i >= 9000) outcome.largest = std::max(outcome.largest, std::abs(hand.x));
   }
@@ -68,8 +68,8 @@ TEST(Passivity, APassiveEnvironmentIsLeftAlone) {
   for (int i = 0; i < 4000; ++i) {
     const double t = std::max(0, i - 600) * kPeriod, x = 0.005 * (1 - std::cos(2 * t)), v = 0.01 * std::sin(2 * t);
     const Vec3 wall(-500 * x - 2 * v, 0, 0);
-    const Vec3 a = with.step({.command = wall, .p_WH = {x, 0, 0}, .v_WH = {v, 0, 0}}, kPeriod);
-    const Vec3 b = without.step({.command = wall, .p_WH = {x, 0, 0}, .v_WH = {v, 0, 0}}, kPeriod);
+    const Vec3 a = with.step({.command = wall, .p_WH = {x, 0, 0}, .v_WH = {v, 0, 0}}, kPeriod).f;
+    const Vec3 b = without.step({.command = wall, .p_WH = {x, 0, 0}, .v_WH = {v, 0, 0}}, kPeriod).f;
     largest = std::max(largest, (a - b).norm());
   }
   EXPECT_EQ(largest, 0);

@@ -8,16 +8,17 @@
 // Test modules that replace the modules before the output stage.
 namespace presa::test {
 
-/// Replaces the rendering: commands a given force.
+/// Replaces the rendering: commands a given wrench.
 class Commands final : public Module {
  public:
-  explicit Commands(const Vec3& wish = Vec3::Zero()) : Module("rendering", RateGroup::kHaptic), wanted(wish) {}
+  explicit Commands(const Wrench& wish = {}) : Module("rendering", RateGroup::kHaptic), wanted(wish) {}
   void step(const Tick& tick) noexcept override {
     out.value.time = tick.time;
     out.value.count = 1;
-    out.value.fingers[0].f_H_W = wanted;
+    out.value.fingers[0].f_H_W = wanted.f;
+    out.value.fingers[0].t_H_W = wanted.t;
   }
-  Vec3 wanted;
+  Wrench wanted;
   Out<ContactExchange> out{*this, "contact_exchange"};
 };
 

@@ -12,7 +12,7 @@ namespace {
 class Port final : public Device {
  public:
   FingerInput read(const Tick&) noexcept override { return input; }
-  void write(const Vec3&, const Tick&) noexcept override {}
+  void write(const Wrench&, const Tick&) noexcept override {}
   FingerInput input{.valid = true};
 };
 
@@ -24,15 +24,16 @@ class TransportWatchTest : public testing::Test {
     ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);
     auto port = std::make_unique<Port>();
     port_ = port.get();
-    device_ = watched(std::move(port), limits(), kRating, control_);
+    device_ = watched(std::move(port), limits(), rating(), control_);
     EXPECT_NE(device_.get(), port_);
   }
   void tick(double force) {
     device_->read(tick_);
-    device_->write({force, 0, 0}, tick_);
+    device_->write(Vec3(force, 0, 0), tick_);
     ++tick_.index;
     tick_.time += tick_.period;
   }
+  virtual const DeviceRating& rating() const { return kRating; }
   virtual OutputLimits limits() const { return {.force = 2, .force_rate = 1000}; }
   RunControl control_;
   Port* port_ = nullptr;
@@ -45,6 +46,15 @@ TEST_F(TransportWatchTest, WhatKeepsThePromisesPasses) {
 }
 TEST_F(TransportWatchTest, NotFinite) {
   EXPECT_DEATH(tick(std::numeric_limits<double>::quiet_NaN()), "the force is not finite");
+}
+// In any component: std::hypot(0, NaN, 0) is 0 in libstdc++ 12.
+TEST_F(TransportWatchTest, NotFiniteInAnyComponent) {
+  for (int i = 0; i < 3; ++i) {
+    Vec3 force = Vec3::Zero();
+    force[i] = std::numeric_limits<double>::quiet_NaN();
+    device_->read(tick_);
+    EXPECT_DEATH(device_->write(force, tick_), "the force is not finite");
+  }
 }
 TEST_F(TransportWatchTest, AboveTheLimit) {
   tick(1);
@@ -71,6 +81,30 @@ TEST_F(TransportWatchTest, ARearmForgivesIt) {
   for (int i = 0; i < 100; ++i) tick(0);
   ++control_.rearms;
   tick(1);
+}
+
+// The torque has limits of its own, and keeps the same promises.
+class TorqueWatch : public TransportWatchTest {
+ protected:
+  static constexpr DeviceRating kTorqueRating{.torque = 0.2, .torque_rate = 20};
+  const DeviceRating& rating() const override { return kTorqueRating; }
+  OutputLimits limits() const override { return limitsOf(kTorqueRating); }
+  void turn(double torque) {
+    device_->read(tick_);
+    device_->write({Vec3::Zero(), Vec3(0, torque, 0)}, tick_);
+    ++tick_.index;
+    tick_.time += tick_.period;
+  }
+};
+TEST_F(TorqueWatch, KeepsItsOwnLimits) {
+  for (int i = 0; i <= 10; ++i) turn(0.02 * i);
+  EXPECT_DEATH(turn(0.2001), "the torque is above the limit");
+  EXPECT_DEATH(turn(0.17), "the torque changed faster than the slew limit");
+  EXPECT_DEATH(turn(std::numeric_limits<double>::quiet_NaN()), "the torque is not finite");
+}
+TEST_F(TransportWatchTest, ADriverWithoutTorqueGetsNone) {
+  device_->read(tick_);
+  EXPECT_DEATH(device_->write({Vec3::Zero(), Vec3(0, 1e-9, 0)}, tick_), "the torque is above the limit");
 }
 
 // The limits are wrong, as if a scene had widened them: the watch enforces the rating.

@@ -105,7 +105,7 @@ TEST_F(Flight, NeverReplacesAFile) {
 TEST_F(Flight, AFolderThatIsNotThereIsSaidAtTheStart) {
   try {
     const RecordedSetup setup = flownSetup(folder_.file("none/flight.h5"));
-    FileRecorder recorder(setup.world, setup.options);
+    FileRecorder recorder(setup.world, setup.options, {});
     FAIL() << "it started";
   } catch (const InputError& error) {
     EXPECT_EQ(error.diagnostics().all().front().code, 602);

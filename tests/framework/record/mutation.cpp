@@ -237,7 +237,7 @@ void writeSpecimen(const std::string& file, std::uint64_t ticks) {
   options.record = file;
   options.overwrite = true;
   const h5::Library library;
-  RecordingFile out(world, options);
+  RecordingFile out(world, options, {});
   out.nameInputs({{{"contact_patches", "object_state"}, {}, {"contact_exchange"}, {}}});
   std::vector<std::uint64_t> words(out.layout().words());
   auto* const row = reinterpret_cast<std::byte*>(words.data());

@@ -187,7 +187,7 @@ TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
   const std::string file = folder.file("run.h5");
   recordTicks(file, 10);
   auto setup = recordedSetup(file, false);
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, setup.options); }), 601);
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, setup.options, {}); }), 601);
   EXPECT_EQ(readRecording(file).time.size(), 10u);
   setup.options.overwrite = true;
   {
@@ -202,10 +202,10 @@ TEST(Recorder, ReplacesAFileOnlyWhenAsked) {
 TEST(Recorder, RefusesWhatCannotBeWritten) {
   const ScratchFolder folder;
   const auto nowhere = recordedSetup(folder.file("none/run.h5"), false);
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(nowhere.world, nowhere.options); }), 602);
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(nowhere.world, nowhere.options, {}); }), 602);
   auto setup = recordedSetup(folder.path().string(), false);
   setup.options.overwrite = true;
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, setup.options); }), 602);
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, setup.options, {}); }), 602);
 }
 
 // While a run writes a file, no reader and no other run may open it.
@@ -216,7 +216,7 @@ TEST(Recorder, KeepsOthersAwayWhileItWrites) {
   EXPECT_EQ(readCode(folder.file("run.h5")), 603);
   RunOptions second = setup.options;
   second.overwrite = true;
-  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, second); }), 602);
+  EXPECT_EQ(codeOf([&] { FileRecorder recorder(setup.world, second, {}); }), 602);
   run.step(5);
   run.recorder->finish();
   EXPECT_EQ(readRecording(folder.file("run.h5")).time.size(), 5u);
@@ -245,8 +245,8 @@ TEST(Reader, RefusesEveryWrongFileWithItsReason) {
   std::string newer = bytes;
   const std::size_t version = newer.find(std::string("format_version\0", 15));
   ASSERT_NE(version, std::string::npos);
-  ASSERT_EQ(newer[version + 40], 7);
-  newer[version + 40] = 8;
+  ASSERT_EQ(newer[version + 40], kToolsSince - 1);  // without tools
+  newer[version + 40] = static_cast<char>(kFormatVersion + 1);
   writeBytes(bad, newer);
   EXPECT_EQ(readCode(bad), 606);
 

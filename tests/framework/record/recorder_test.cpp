@@ -152,7 +152,7 @@ TEST(RecordPlugin, LoadsBesideTheFrameworkAndMakesRecorders) {
   EXPECT_EQ(recordPlugin().abi, kPluginAbi);
   auto setup = recordedSetup(folder.file("run.h5"), false);
   setup.world->scene.devices.clear();  // ports stay unconnected
-  const auto recorder = recordPlugin().create(setup.world, setup.options);
+  const auto recorder = recordPlugin().create(setup.world, setup.options, {});
   EXPECT_EQ(recorder->group(), RateGroup::kHaptic);
   ScheduleLog schedule;
   recorder->attach(schedule);

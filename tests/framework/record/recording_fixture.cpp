@@ -108,7 +108,8 @@ RecordedRun::RecordedRun(const RecordedSetup& setup, WriterSettings settings)
     : rates(setup.world->scene.rates), recorder(nullptr), graph([&] {
         GraphBuilder builder;
         builder.add(std::make_unique<Source>());
-        recorder = &builder.add(std::make_unique<FileRecorder>(setup.world, setup.options, std::move(settings)));
+        recorder = &builder.add(std::make_unique<FileRecorder>(setup.world, setup.options, std::vector<std::size_t>{},
+                                                               std::move(settings)));
         schedule.inputs = inputsOfAll();
         recorder->attach(schedule);
         builder.connectByName();

@@ -22,11 +22,11 @@ class Keeper : public testing::Test {
     for (int i = 0; i < steps; ++i) step({.command = kWanted});
   }
   void step(const CommandKeeper::Input& input) {
-    const Vec3 before = keeper_.last();
-    const Vec3 force = keeper_.step(input, kPeriod);
+    const Vec3 before = keeper_.last().f;
+    const Vec3 force = keeper_.step(input, kPeriod).f;
     EXPECT_LE((force - before).norm(), 1000 * kPeriod * (1 + 1e-12));
   }
-  double force() const { return keeper_.last().norm(); }
+  double force() const { return keeper_.last().f.norm(); }
   /// Pressed with the whole force: first zero, then half a second of soft start.
   void press() {
     command(Vec3::Zero(), 4);
@@ -80,11 +80,11 @@ TEST_F(Keeper, HoldsTheRatingWhateverIsCommanded) {
   command(Vec3::Zero(), 4);
   int at_rating = 0, at_slew = 0;
   for (int i = 0; i < 4000; ++i) {
-    const double before = keeper_.last().z();
-    step({.fresh = true, .command = {0, 0, i / 100 % 2 == 0 ? 1e9 : -1e9}});
+    const double before = keeper_.last().f.z();
+    step({.fresh = true, .command = Vec3(0, 0, i / 100 % 2 == 0 ? 1e9 : -1e9)});
     ASSERT_LE(force(), kRating.force);
     at_rating += force() == kRating.force ? 1 : 0;
-    at_slew += std::abs(keeper_.last().z() - before) > 0.999 * kRating.force_rate * kPeriod ? 1 : 0;
+    at_slew += std::abs(keeper_.last().f.z() - before) > 0.999 * kRating.force_rate * kPeriod ? 1 : 0;
   }
   EXPECT_GT(at_rating, 500);
   EXPECT_GT(at_slew, 500);

@@ -103,7 +103,7 @@ TEST_F(Supervised, ExchangesWithoutASystemCall) {
               for (std::uint64_t i = 0; i < 1000; ++i) {
                 const Tick tick{.index = i, .time = static_cast<double>(i) * kPeriod, .period = kPeriod};
                 device_->read(tick);
-                device_->write({0, 0, 1}, tick);
+                device_->write(Vec3(0, 0, 1), tick);
               }
             }),
             "");

@@ -20,7 +20,7 @@ class NotedDevice final : public Device {
   explicit NotedDevice(Notes& notes) : notes_(notes) {}
   void close() noexcept override { notes_.closed = true; }
   FingerInput read(const Tick&) noexcept override { return notes_.sample; }
-  void write(const Vec3& f, const Tick&) noexcept override { notes_.force = f; }
+  void write(const Wrench& F_H_W, const Tick&) noexcept override { notes_.force = F_H_W.f; }
   void rearm() noexcept override { ++notes_.rearms; }
 
  private:
