@@ -15,12 +15,14 @@ struct Keyframe {
   double time = 0;
   Vec3 position = Vec3::Zero();
   Vec3 force = Vec3::Zero();
+  Quat q_WT = Quat::Identity();
   std::string phase;
 };
 
 class KeyframeMotion final : public Motion {
  public:
-  explicit KeyframeMotion(std::vector<Keyframe> frames) : frames_(std::move(frames)) {
+  KeyframeMotion(std::vector<Keyframe> frames, bool turns) : frames_(std::move(frames)) {
+    oriented = turns;
     for (const Keyframe& frame : frames_) {
       if (frame.phase.empty() || (!phase_names.empty() && phase_names.back() == frame.phase)) continue;
       phase_names.push_back(frame.phase);
@@ -38,6 +40,7 @@ class KeyframeMotion final : public Motion {
       const Keyframe& end = after == frames_.end() ? frames_.back() : frames_.front();
       target.p_WT = end.position;
       target.force_W = end.force;
+      target.q_WT = end.q_WT;
       return target;
     }
     const Keyframe &from = *(after - 1), &to = *after;
@@ -46,10 +49,20 @@ class KeyframeMotion final : public Motion {
     target.p_WT = from.position + minimumJerk(s) * (to.position - from.position);
     target.v_WT = minimumJerkSlope(s) / duration * (to.position - from.position);
     target.force_W = from.force + s * (to.force - from.force);
+    if (oriented) turn(from, to, s, duration, target);
     return target;
   }
 
  private:
+  /// About one axis, the shorter way.
+  static void turn(const Keyframe& from, const Keyframe& to, double s, double duration, MotionTarget& target) noexcept {
+    Quat way = to.q_WT * from.q_WT.conjugate();
+    if (way.w() < 0) way.coeffs() = -way.coeffs();
+    const Eigen::AngleAxisd whole(way);
+    target.q_WT = Quat(Eigen::AngleAxisd(minimumJerk(s) * whole.angle(), whole.axis())) * from.q_WT;
+    target.w_WT = minimumJerkSlope(s) / duration * whole.angle() * whole.axis();
+  }
+
   std::vector<Keyframe> frames_;
 };
 
@@ -111,16 +124,20 @@ class KeyframeReader {
     return frames;
   }
 
+  /// The file has orientations.
+  bool turns() const noexcept { return turns_; }
+
  private:
   void readHeader(const std::vector<Cell>& cells) {
-    static const std::vector<std::string> kKnown{"time_s", "role", "x_m",  "y_m",  "z_m",
-                                                 "fx_N",   "fy_N", "fz_N", "phase"};
+    static const std::vector<std::string> kKnown{"time_s", "role",  "x_m", "y_m", "z_m", "fx_N", "fy_N",
+                                                 "fz_N",   "phase", "qw",  "qx",  "qy",  "qz"};
     std::map<std::string, std::size_t> columns;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (std::find(kKnown.begin(), kKnown.end(), cells[i].text) == kKnown.end()) {
-        diagnostics_.error(421, {file_, line_, cells[i].column},
-                           "unknown column '" + cells[i].text + "'" + didYouMean(cells[i].text, kKnown),
-                           "columns: time_s, role, x_m, y_m, z_m, and optionally fx_N, fy_N, fz_N, phase");
+        diagnostics_.error(
+            421, {file_, line_, cells[i].column},
+            "unknown column '" + cells[i].text + "'" + didYouMean(cells[i].text, kKnown),
+            "columns: time_s, role, x_m, y_m, z_m, and optionally fx_N, fy_N, fz_N, phase, qw, qx, qy, qz");
       }
       columns[cells[i].text] = i;
     }
@@ -129,6 +146,15 @@ class KeyframeReader {
         diagnostics_.error(422, {file_, line_, 1}, "column '" + kKnown[k] + "' is missing");
         return;
       }
+    }
+    if (columns.contains("qw") || columns.contains("qx") || columns.contains("qy") || columns.contains("qz")) {
+      for (const char* name : {"qw", "qx", "qy", "qz"}) {
+        if (columns.contains(name)) continue;
+        diagnostics_.error(422, {file_, line_, 1}, std::string("column '") + name + "' is missing",
+                           "an orientation needs qw, qx, qy and qz");
+        return;
+      }
+      turns_ = true;
     }
     columns_ = std::move(columns);
   }
@@ -145,6 +171,7 @@ class KeyframeReader {
     frame.time = number(cells, "time_s");
     frame.position = {number(cells, "x_m"), number(cells, "y_m"), number(cells, "z_m")};
     frame.force = {number(cells, "fx_N"), number(cells, "fy_N"), number(cells, "fz_N")};
+    if (turns_) frame.q_WT = orientation(cells);
     if (columns_.contains("phase")) frame.phase = cells[columns_.at("phase")].text;
     if (!frames.empty() && !(frame.time > frames.back().time)) {
       diagnostics_.error(425, {file_, line_, cells[columns_.at("time_s")].column},
@@ -153,6 +180,16 @@ class KeyframeReader {
       return;
     }
     frames.push_back(std::move(frame));
+  }
+
+  Quat orientation(const std::vector<Cell>& cells) {
+    const Quat q(number(cells, "qw"), number(cells, "qx"), number(cells, "qy"), number(cells, "qz"));
+    const double norm = q.norm();
+    if (std::abs(norm - 1) <= 0.01) return q.normalized();
+    diagnostics_.error(427, {file_, line_, cells[columns_.at("qw")].column},
+                       "qw, qx, qy, qz must be a unit quaternion; its length is " + std::to_string(norm),
+                       "e.g. 1,0,0,0, or 0.7071,0.7071,0,0 for a quarter turn about x");
+    return Quat::Identity();
   }
 
   double number(const std::vector<Cell>& cells, const std::string& column) {
@@ -175,6 +212,7 @@ class KeyframeReader {
   Diagnostics& diagnostics_;
   std::map<std::string, std::size_t> columns_;
   int line_ = 0;
+  bool turns_ = false;
 };
 
 }  // namespace
@@ -182,9 +220,10 @@ class KeyframeReader {
 std::unique_ptr<Motion> readKeyframeMotion(const std::string& file, const MotionContext& context,
                                            Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  std::vector<Keyframe> frames = KeyframeReader(file, context, diagnostics).read();
+  KeyframeReader reader(file, context, diagnostics);
+  std::vector<Keyframe> frames = reader.read();
   if (diagnostics.errorCount() > before) return nullptr;
-  return std::make_unique<KeyframeMotion>(std::move(frames));
+  return std::make_unique<KeyframeMotion>(std::move(frames), reader.turns());
 }
 
 }  // namespace presa

@@ -17,6 +17,8 @@ struct MotionTarget {
   Vec3 inward_W = Vec3::Zero();  ///< unit direction of force control while gripping; zero: not gripping
   double grip = 0;               ///< wanted grip force along inward_W [N]
   int phase = -1;
+  Quat q_WT = Quat::Identity();  ///< wanted orientation of the tool
+  Vec3 w_WT = Vec3::Zero();      ///< its angular velocity [rad/s]
 };
 
 /// Impedance of the hand at the fingertip. damping 0: chosen automatically ("auto").
@@ -33,6 +35,7 @@ class Motion {
   virtual MotionTarget at(double time) const noexcept = 0;
   virtual FingerImpedance impedance() const { return {}; }
   std::vector<std::string> phase_names;
+  bool oriented = false;            ///< the motion says how the tool turns
   std::vector<double> phase_times;  ///< start of each phase, then the end of the last one [s]
 
  protected:
@@ -50,8 +53,8 @@ struct MotionContext {
 /// Reads phases with grip, move and opening (XML, config/schema/motion.xsd). Null with findings on errors.
 std::unique_ptr<Motion> readPhasedMotion(const std::string& file, const MotionContext& context,
                                          Diagnostics& diagnostics);
-/// Reads keyframes (CSV): header `time_s,role,x_m,y_m,z_m` and optionally `fx_N,fy_N,fz_N`, `phase`; minimum-jerk
-/// interpolation between keyframes of one role. Null with findings on errors.
+/// Reads keyframes (CSV): header `time_s,role,x_m,y_m,z_m` and optionally `fx_N,fy_N,fz_N`, `qw,qx,qy,qz` (orientation of the
+/// tool as a quaternion), `phase`; minimum-jerk interpolation between keyframes of one role. Null with findings on errors.
 std::unique_ptr<Motion> readKeyframeMotion(const std::string& file, const MotionContext& context,
                                            Diagnostics& diagnostics);
 

@@ -11,6 +11,7 @@
 #include "devices/percro_arm/linked_arms.h"
 #include "devices/percro_arm/steps.h"
 #include "devices/percro_arm/switched_on.h"
+#include "devices/percro_arm/thimble.h"
 #include "framework/core/schedule/rates.h"
 #include "framework/device/device_plugin.h"
 
@@ -30,13 +31,20 @@ class PercroArm final : public Device {
         arm_(parameters, X_WD.q.conjugate() * kGravity_W, period),
         notes_(std::move(settings.notes)) {
     arm_.place(X_WD_.inverseTimes(hand_.motion().at(0).p_WT));
+    thimble_.place(arm_.state().q);
   }
 
   FingerInput read(const Tick& tick) noexcept override {
     advance(tick);
-    return {X_WD_ * arm_.reportedPosition(), X_WD_.q * arm_.reportedVelocity(), hand_.motion().at(tick.time).phase,
-            tick.time < lost_at_};
+    const MotionTarget target = hand_.motion().at(tick.time);
+    FingerInput input{X_WD_ * arm_.reportedPosition(), X_WD_.q * arm_.reportedVelocity(), target.phase,
+                      tick.time < lost_at_};
+    input.oriented = true;
+    input.q_WT = X_WD_.q * thimble_.orientation();
+    input.w_WT = X_WD_.q * thimble_.rate();
+    return input;
   }
+  bool measuresOrientation() const override { return true; }
 
   void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
     advance(tick);
@@ -69,6 +77,7 @@ class PercroArm final : public Device {
                   .target = X_WD_.inverseTimes(target.p_WT),
                   .target_velocity = X_WD_.q.conjugate() * target.v_WT,
                   .force = X_WD_.q.conjugate() * push});
+    thimble_.sample(arm_.state().q, arm_.encoders().joints(), period);
   }
 
   Pose X_WD_;
@@ -76,6 +85,7 @@ class PercroArm final : public Device {
   FingerImpedance impedance_;
   double lost_at_;
   percro::SimulatedArm arm_;
+  percro::Thimble thimble_;
   std::vector<std::string> notes_;
   Tick at_;  // time of the arm
 };

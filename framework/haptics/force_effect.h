@@ -9,26 +9,32 @@ namespace presa {
 
 /// A tool (fingertip) and the frame of the body that an effect belongs to, in one haptic tick.
 struct EffectInput {
-  double time = 0, period = 0;  ///< [s]
-  Vec3 p_WT = Vec3::Zero();     ///< centre of the fingertip [m]
-  Vec3 v_WT = Vec3::Zero();     ///< [m/s]
-  double radius = 0;            ///< of the fingertip [m]
-  Pose X_WB;                    ///< pose of the body now; identity for an effect of the scene
+  double time = 0, period = 0;   ///< [s]
+  Vec3 p_WT = Vec3::Zero();      ///< centre of the fingertip [m]
+  Vec3 v_WT = Vec3::Zero();      ///< [m/s]
+  double radius = 0;             ///< of the fingertip [m]
+  Pose X_WB;                     ///< pose of the body now; identity for an effect of the scene
+  bool oriented = false;         ///< the device measures the orientation; false: no torque reaches the hand
+  Quat q_WT = Quat::Identity();  ///< orientation of the tool
+  Vec3 w_WT = Vec3::Zero();      ///< its angular velocity [rad/s]
 };
 
-/// A force on the tool. The body of the effect gets its negative at the same point.
+/// A force and a couple on the tool. The body of the effect gets their negatives, the force at the same point. The torque
+/// on an oriented tool about its centre is the couple plus the moment of the force; a fingertip without orientation gets
+/// the force alone.
 struct EffectForce {
-  Vec3 f_T_W = Vec3::Zero();  ///< [N]
-  Vec3 p_WF = Vec3::Zero();   ///< point at which it acts on the body [m]
+  Vec3 f_T_W = Vec3::Zero();       ///< [N]
+  Vec3 p_WF = Vec3::Zero();        ///< point at which it acts on tool and body [m]
+  Vec3 couple_T_W = Vec3::Zero();  ///< [N m]
 };
 
-/// A force on a tool that does not come from a contact: a magnet, a viscous field, a guide. Written once for all bodies
+/// A force or a torque on a tool that does not come from a contact: a magnet, a viscous field, a guide. Written once for all bodies
 /// and tools; one object per element of the scene. It acts on the tool, and its reaction on the element's body.
 class ForceEffect {
  public:
   virtual ~ForceEffect() = default;
-  /// The force on one tool. At most the element's max_force, and finite: otherwise the run's forces go to zero and the
-  /// fault is reported with the element's name. `tool`: index of the scene's device role.
+  /// The force on one tool: at most the element's max_force, its couple at most max_torque, and finite; a bound that the
+  /// element does not have is zero. Otherwise the run's forces go to zero and the fault names the element. `tool`: index of the scene's device role.
   /// Thread: haptic; no allocation, lock, exception or system call.
   virtual EffectForce apply(std::size_t tool, const EffectInput& input) noexcept = 0;
 };

@@ -23,14 +23,19 @@ std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tool
   return madeFor(element, [&] { return table.create(element, tools); });
 }
 
+/// Zero for an element without this attribute.
+double boundOf(const PluginElement& element, const std::string& attribute) {
+  return element.attributes.contains(attribute) ? element.number(attribute) : 0;
+}
+
 }  // namespace
 
 ForceEffects::ForceEffects(const World& world) {
   const Scene& scene = world.scene;
   for (const PluginElement& element : scene.plugin_elements) {
     if (element.kind != PluginKind::kForceEffect) continue;
-    Effect effect{make(element, scene.devices.size()), nameOf(element, scene), element.number("max_force"),
-                  element.body};
+    Effect effect{make(element, scene.devices.size()), nameOf(element, scene), boundOf(element, "max_force"),
+                  boundOf(element, "max_torque"), element.body};
     if (element.body != kNoBody && !scene.bodies[static_cast<std::size_t>(element.body)].fixed) {
       const auto known = std::find(moving_.begin(), moving_.end(), element.body);
       effect.slot = static_cast<std::int32_t>(known - moving_.begin());
@@ -57,26 +62,29 @@ void ForceEffects::apply(std::size_t tool, const Tick& tick, const FingerInput& 
   for (std::size_t i = 0; i < effects_.size(); ++i) {
     Effect& effect = effects_[i];
     const Pose X_WB = touchables.frameOf(effect.body);
-    const EffectForce force =
-        effect.effect->apply(tool, {tick.time, tick.period, input.p_WH, input.v_WH, radius, X_WB});
+    const EffectForce force = effect.effect->apply(
+        tool, {tick.time, tick.period, input.p_WH, input.v_WH, radius, X_WB, input.oriented, input.q_WT, input.w_WT});
     // written so that NaN fails
-    if (!(force.f_T_W.norm() <= effect.max_force * kRounding && force.p_WF.allFinite())) {
+    if (!(force.f_T_W.norm() <= effect.max_force * kRounding && force.p_WF.allFinite() &&
+          force.couple_T_W.norm() <= effect.max_torque * kRounding)) {
       int none = -1;
       broken_.compare_exchange_strong(none, static_cast<int>(i), std::memory_order_acq_rel);
       break;
     }
     out.f_H_W += force.f_T_W;
-    react(effect, force, X_WB, tick.period, reactions);
+    if (input.oriented) out.t_H_W += force.couple_T_W + (force.p_WF - input.p_WH).cross(force.f_T_W);
+    react(effect, force, X_WB, input.oriented, tick.period, reactions);
   }
   if (broken() >= 0) out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-void ForceEffects::react(const Effect& effect, const EffectForce& force, const Pose& X_WB, double period,
+void ForceEffects::react(const Effect& effect, const EffectForce& force, const Pose& X_WB, bool oriented, double period,
                          EffectReactions& reactions) const noexcept {
   if (effect.slot < 0) return;
   EffectReactions::OnBody& on = reactions.bodies[static_cast<std::size_t>(effect.slot)];
   on.impulse_W -= period * force.f_T_W;
   on.angular_impulse_W -= period * (force.p_WF - X_WB.p).cross(force.f_T_W);
+  if (oriented) on.angular_impulse_W -= period * force.couple_T_W;
 }
 
 }  // namespace presa

@@ -13,8 +13,8 @@
 
 namespace presa {
 
-/// The force effects of a scene. Adds their forces to the rendered force of each tool, and sums up their reactions on
-/// moving bodies. A plug-in whose force is not finite or above its max_force is broken: from then on every tool's force is
+/// The force effects of a scene. Adds their forces and torques to those of each tool, and sums up their reactions on
+/// moving bodies. A plug-in whose force or couple is not finite or above its bound is broken: from then on every tool's force is
 /// NaN, which the output stage latches as a fault and takes to zero.
 /// Thread: haptic, except for construction and names.
 class ForceEffects {
@@ -37,11 +37,11 @@ class ForceEffects {
   struct Effect {
     std::unique_ptr<ForceEffect> effect;
     std::string name;
-    double max_force = 0;  ///< [N]
+    double max_force = 0, max_torque = 0;  ///< [N], [N m]
     std::int32_t body = kNoBody;
     std::int32_t slot = -1;  ///< index into EffectReactions::bodies; -1: the body does not move
   };
-  void react(const Effect& effect, const EffectForce& force, const Pose& X_WB, double period,
+  void react(const Effect& effect, const EffectForce& force, const Pose& X_WB, bool oriented, double period,
              EffectReactions& reactions) const noexcept;
 
   std::vector<Effect> effects_;

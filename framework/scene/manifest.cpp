@@ -89,14 +89,16 @@ void checkPlace(const Manifest& manifest, const Manifest::Element& element, Diag
 /// The scene must bound every force effect.
 void checkBound(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
   const bool bounded = std::ranges::any_of(element.attributes, [](const Manifest::Attribute& attribute) {
-    return attribute.name == "max_force" && attribute.type == "number" && attribute.required;
+    const bool bound = attribute.name == "max_force" || attribute.name == "max_torque";
+    return bound && attribute.type == "number" && attribute.required;
   });
   if (bounded) return;
-  diagnostics.error(
-      kAgainstKind, element.where,
-      "<" + element.name + "> of the force effect '" + manifest.name + "' has no required number max_force",
-      "the scene must bound every force effect; add <attribute name=\"max_force\" type=\"number\" "
-      "unit=\"N\" above=\"0\" about=\"…\"/>");
+  diagnostics.error(kAgainstKind, element.where,
+                    "<" + element.name + "> of the force effect '" + manifest.name +
+                        "' has no required number max_force or max_torque",
+                    "the scene must bound every force effect, one that gives a torque by max_torque; add <attribute "
+                    "name=\"max_force\" type=\"number\" "
+                    "unit=\"N\" above=\"0\" about=\"…\"/>");
 }
 
 /// A scene that names a renderer need not have its settings.

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "framework/core/math/spatial.h"
+#include "framework/core/state/device_state.h"
 
 namespace presa::test {
 
@@ -23,8 +24,13 @@ class EffectField {
   /// its contract (framework/haptics/force_effect.h).
   /// Nonblocking if the effect is: put a RealTimeGuard around it.
   Vec3 force(const Vec3& p_WT, const Vec3& v_WT = Vec3::Zero()) noexcept;
-  /// Impulse given to the cube by all calls of force() so far, each of 1 ms [N s]. Zero for an effect of the scene.
+  /// Force and torque on a tool about its centre, for an effect that gives a torque. As force().
+  Wrench wrench(const FingerInput& tool) noexcept;
+  /// Impulse given to the cube by all calls of force() and wrench() so far, each of 1 ms [N s]. Zero for an effect of the
+  /// scene.
   Vec3 impulse() const noexcept;
+  /// The same about the cube's centre [N m s].
+  Vec3 angularImpulse() const noexcept;
 
  private:
   struct Parts;

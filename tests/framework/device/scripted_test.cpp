@@ -146,6 +146,26 @@ TEST(KeyframeMotion, PassesThroughItsKeyframes) {
   EXPECT_EQ(motion->phase_names, (std::vector<std::string>{"reach", "hold"}));
 }
 
+// Orientations: at the keyframes, the shorter way between them (q and -q are one), at the rate that is the derivative.
+TEST(KeyframeMotion, TurnsAToolTheShorterWay) {
+  Diagnostics diagnostics;
+  const auto motion = readKeyframeMotion(writeFile("turn.csv",
+                                                   "time_s,role,x_m,y_m,z_m,qw,qx,qy,qz\n0,pen,0,0,0,1,0,0,0\n"
+                                                   "2,pen,0,0,0,-0.8660254037844386,-0.5,0,0\n"),
+                                         {"pen", 1, 0}, diagnostics);
+  ASSERT_TRUE(motion) << diagnostics.text();
+  EXPECT_TRUE(motion->oriented);
+  EXPECT_NEAR(motion->at(1).q_WT.angularDistance(Quat::Identity()), std::acos(-1.0) / 6, 1e-12);  // half of 60 degrees
+  for (double t = 0.1; t < 2; t += 0.1) {
+    const Quat before = motion->at(t - 1e-6).q_WT, after = motion->at(t + 1e-6).q_WT;
+    EXPECT_NEAR((after * before.conjugate()).x() * 2 / 2e-6, motion->at(t).w_WT.x(), 1e-6) << t;
+  }
+  EXPECT_EQ(readKeyframeMotion(writeFile("long.csv", "time_s,role,x_m,y_m,z_m,qw,qx,qy,qz\n0,pen,0,0,0,1,1,0,0\n"),
+                               {"pen", 1, 0}, diagnostics),
+            nullptr);
+  EXPECT_NE(diagnostics.text().find("error[E427]"), std::string::npos) << diagnostics.text();
+}
+
 // Every error is reported with its line and column, all of them at once.
 TEST(KeyframeMotion, NamesEveryMistakeWithItsPlace) {
   const std::string file =

@@ -73,6 +73,11 @@ TEST_F(Manifests, OfForceEffectsBoundTheForce) {
       "<plugin name=\"wind\" version=\"1.0\" kind=\"force_effect\" about=\"a test\"><element name=\"wind\" in=\"body\">"
       "<attribute name=\"max_force\" type=\"number\" default=\"3\" about=\"a bound\"/></element></plugin>");
   EXPECT_EQ(errors().substr(0, 4), "595 ");
+  write(
+      "presa_wind.xml",
+      "<plugin name=\"wind\" version=\"1.0\" kind=\"force_effect\" about=\"a test\"><element name=\"wind\" in=\"body\">"
+      "<attribute name=\"max_torque\" type=\"number\" about=\"a bound\"/></element></plugin>");
+  EXPECT_EQ(errors(), "");
 }
 
 TEST_F(Manifests, OfFrictionLawsBelongToFriction) {
