@@ -105,9 +105,11 @@ void Publisher::fillFingers(const Stamp& stamp) noexcept {
     if (finger < device_->count) {
       sample.valid = device_->fingers[f].valid;
       sample.p_WH = device_->fingers[f].p_WH;
+      sample.oriented = device_->fingers[f].oriented;
+      sample.q_WT = device_->fingers[f].q_WT;
     }
     if (finger < contact_->count) sample.contact = contact_->fingers[f];
-    if (finger < command_->count) sample.f_H_W = command_->f_H_W[f];
+    if (finger < command_->count) sample.f_H_W = command_->f_H_W[f], sample.t_H_W = command_->t_H_W[f];
   }
 }
 

@@ -212,16 +212,21 @@ void RemotePicture::fill(ObjectState& objects, DeviceState& device, ContactExcha
     device.fingers[f] = {};
     contact.fingers[f] = {};
     command.f_H_W[f].setZero();
+    command.t_H_W[f].setZero();
     if (sample == nullptr) continue;
     device.fingers[f].valid = sample->valid;
     device.fingers[f].p_WH = sample->p_WH;
+    device.fingers[f].oriented = sample->oriented;
+    device.fingers[f].q_WT = sample->q_WT;
     contact.fingers[f] = sample->contact;
     command.f_H_W[f] = sample->f_H_W;
+    command.t_H_W[f] = sample->t_H_W;
     if (before == nullptr || after == nullptr) continue;
     const double share = (time_ - before->stamp.time) / (after->stamp.time - before->stamp.time);
     if (!(share > 0)) continue;
     const Vec3 p_WH = before->p_WH + share * (after->p_WH - before->p_WH);
     device.fingers[f].p_WH = contact.fingers[f].p_WH = p_WH;
+    device.fingers[f].q_WT = before->q_WT.slerp(share, after->q_WT);
   }
   const Heartbeat* heartbeat = heartbeats_.around(time_).first;
   command.status = heartbeat != nullptr ? heartbeat->output_status : 0;

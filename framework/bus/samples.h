@@ -36,8 +36,11 @@ struct FingerSample {
   std::int32_t finger = -1;  ///< index into Scene::devices
   bool valid = false;        ///< the device delivers usable samples
   Vec3 p_WH = Vec3::Zero();  ///< [m]
+  bool oriented = false;     ///< the device measures the tool's orientation
+  Quat q_WT = Quat::Identity();
   FingerContact contact;
   Vec3 f_H_W = Vec3::Zero();  ///< force on the finger after the output stage [N]
+  Vec3 t_H_W = Vec3::Zero();  ///< torque [N m]
 };
 
 /// Heartbeat: ends each publication and carries the values that belong to no object or finger.

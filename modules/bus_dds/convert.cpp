@@ -1,6 +1,7 @@
 #include "modules/bus_dds/convert.h"
 
 #include <algorithm>
+#include <array>
 
 namespace presa::bus_dds {
 namespace {
@@ -12,11 +13,15 @@ bus::Stamp fromTopic(const presa_dds_Stamp& stamp) noexcept {
   return {stamp.run, stamp.number, stamp.time, stamp.sent_ns};
 }
 void put(const Vec3& v, presa_dds_Vector& out) noexcept { std::copy_n(v.data(), 3, out); }
+void put(const Quat& q, presa_dds_Quaternion& out) noexcept {
+  std::ranges::copy(std::array{q.w(), q.x(), q.y(), q.z()}, out);
+}
 void put(const std::string& name, presa_dds_Name& out) noexcept {
   static_assert(sizeof(presa_dds_Name) == bus::kLongestParameter + 1);
   out[name.copy(out, bus::kLongestParameter)] = '\0';
 }
 Vec3 vec3(const presa_dds_Vector& v) noexcept { return {v[0], v[1], v[2]}; }
+Quat quat(const presa_dds_Quaternion& q) noexcept { return {q[0], q[1], q[2], q[3]}; }
 
 }  // namespace
 
@@ -25,8 +30,7 @@ presa_dds_ObjectState toTopic(const bus::ObjectSample& sample) noexcept {
   out.body = sample.body;
   out.stamp = toTopic(sample.stamp);
   put(sample.X_WB.p, out.position);
-  const Quat& q = sample.X_WB.q;
-  std::ranges::copy(std::array{q.w(), q.x(), q.y(), q.z()}, out.orientation);
+  put(sample.X_WB.q, out.orientation);
   put(sample.v_WB, out.velocity);
   put(sample.w_WB, out.angular_velocity);
   out.asleep = sample.asleep;
@@ -37,8 +41,7 @@ bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept {
   bus::ObjectSample out;
   out.body = sample.body;
   out.stamp = fromTopic(sample.stamp);
-  const double* q = sample.orientation;
-  out.X_WB = {vec3(sample.position), Quat(q[0], q[1], q[2], q[3])};
+  out.X_WB = {vec3(sample.position), quat(sample.orientation)};
   out.v_WB = vec3(sample.velocity);
   out.w_WB = vec3(sample.angular_velocity);
   out.asleep = sample.asleep;
@@ -52,6 +55,8 @@ presa_dds_DeviceState toTopic(const bus::FingerSample& sample) noexcept {
   out.stamp = toTopic(sample.stamp);
   out.valid = sample.valid;
   put(sample.p_WH, out.hip);
+  out.oriented = sample.oriented;
+  put(sample.q_WT, out.tool);
   out.mode = static_cast<std::int32_t>(contact.mode);
   out.body = contact.body;
   put(contact.p_WP, out.proxy);
@@ -64,6 +69,7 @@ presa_dds_DeviceState toTopic(const bus::FingerSample& sample) noexcept {
   put(contact.tangential_force_W, out.tangential_force);
   put(contact.f_H_W, out.rendered_force);
   put(sample.f_H_W, out.held_force);
+  put(sample.t_H_W, out.held_torque);
   return out;
 }
 
@@ -73,6 +79,8 @@ bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept {
   out.stamp = fromTopic(sample.stamp);
   out.valid = sample.valid;
   out.p_WH = out.contact.p_WH = vec3(sample.hip);
+  out.oriented = sample.oriented;
+  out.q_WT = quat(sample.tool);
   FingerContact& contact = out.contact;
   contact.mode = static_cast<ContactMode>(std::clamp(sample.mode, 0, 2));
   contact.body = sample.body;
@@ -86,6 +94,7 @@ bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept {
   contact.tangential_force_W = vec3(sample.tangential_force);
   contact.f_H_W = vec3(sample.rendered_force);
   out.f_H_W = vec3(sample.held_force);
+  out.t_H_W = vec3(sample.held_torque);
   return out;
 }
 

@@ -15,6 +15,7 @@ namespace {
 constexpr double kGlowsWith = 4;  ///< normal force at which a fingertip is fully red [N]
 constexpr double kHipRadius = 0.0022;
 constexpr double kLinkRadius = 0.0007;
+constexpr double kPenRadius = 0.003, kPenLength = 0.12;
 constexpr double kShaftRadius = 0.0013;
 constexpr double kHeadRadius = 0.0034;
 constexpr double kHeadLength = 0.009;
@@ -89,6 +90,7 @@ ContactGlyphs::FingerGlyph ContactGlyphs::makeFinger() {
   finger.hip = placed(sphereGeometry(kHipRadius, kHipColor), *solid_);
   finger.link = placed(unitShaft(kHipColor), *solid_);
   finger.tip = placed(sphereGeometry(1, kSkinColor), *tips_);
+  finger.pen = placed(unitShaft(kPenColor), *solid_);
   finger.shaft = placed(unitShaft(kArrowColor), *arrows_);
   finger.head = placed(unitConeUp(kArrowColor), *arrows_);
   finger.tip_color = new osg::Uniform("state_color", osg::Vec3());
@@ -121,6 +123,9 @@ void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
     if (link.norm() > 1e-5) finger.link->setMatrix(alongZ(view.p_WH, link, {kLinkRadius, kLinkRadius, link.norm()}));
     finger.tip->setMatrix(toOsg(Pose{view.p_WP, Quat::Identity()}));
     finger.tip->preMult(osg::Matrixd::scale(view.radius, view.radius, view.radius));
+    setShown(*finger.pen, view.valid && view.oriented);
+    if (view.oriented)
+      finger.pen->setMatrix(alongZ(view.p_WP, view.q_WT * Vec3::UnitZ(), {kPenRadius, kPenRadius, kPenLength}));
     finger.tip_color->set(osg::Vec3(toOsg(stateColor(view.mode))));
     const double max = std::min(view.force_limit, kGlowsWith);
     finger.pressure->set(static_cast<float>(view.touches() ? std::min(1.0, view.normal_force / max) : 0.0));

@@ -13,9 +13,11 @@ namespace presa::view {
 Vec3 stateColor(ContactMode mode);
 inline const Vec3 kHipColor{0.10, 0.85, 1.0};
 inline const Vec3 kArrowColor{1.0, 0.72, 0.02};
+inline const Vec3 kPenColor{0.16, 0.20, 0.30};
 inline const Vec3 kSkinColor{0.80, 0.46, 0.34};
 
-/// Glyphs of the fingers: HIP, fingertip at the proxy, the link between them, force arrow, friction cone.
+/// Glyphs of the fingers: HIP, fingertip at the proxy with a pen where the device measures the orientation, the link
+/// between them, force arrow, friction cone.
 class ContactGlyphs {
  public:
   explicit ContactGlyphs(std::size_t fingers);
@@ -27,7 +29,7 @@ class ContactGlyphs {
 
  private:
   struct FingerGlyph {
-    osg::ref_ptr<osg::MatrixTransform> hip, link, tip, shaft, head, cone;
+    osg::ref_ptr<osg::MatrixTransform> hip, link, tip, pen, shaft, head, cone;
     osg::ref_ptr<osg::Uniform> tip_color, pressure, cone_color;
   };
   FingerGlyph makeFinger();

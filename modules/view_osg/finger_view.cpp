@@ -42,6 +42,8 @@ std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame) 
     if (index < frame.device.count) {
       finger.valid = frame.device.fingers[i].valid;
       finger.p_WH = finger.p_WP = frame.device.fingers[i].p_WH;
+      finger.oriented = frame.device.fingers[i].oriented;
+      finger.q_WT = frame.device.fingers[i].q_WT;
     }
     if (index < frame.contacts.count) placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
   }

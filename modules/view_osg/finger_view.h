@@ -15,7 +15,9 @@ struct FingerView {
   bool valid = false;  ///< the device delivers usable samples
   ContactMode mode = ContactMode::kNone;
   std::int32_t body = kNoBody;
-  double radius = 0;            ///< fingertip radius [m]
+  double radius = 0;      ///< fingertip radius [m]
+  bool oriented = false;  ///< the device measures the tool's orientation
+  Quat q_WT = Quat::Identity();
   Vec3 p_WH = Vec3::Zero();     ///< HIP [m]
   Vec3 p_WP = Vec3::Zero();     ///< proxy, relative to the body as drawn [m]
   Vec3 p_WC = Vec3::Zero();     ///< touched point, relative to the body as drawn [m]

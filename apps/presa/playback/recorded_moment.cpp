@@ -18,6 +18,14 @@ Vec3 at(const std::array<Column, 3>& vector, std::size_t row) {
 
 std::int32_t whole(Column column, std::size_t row) { return static_cast<std::int32_t>((*column)[row]); }
 
+/// Columns of a role's orientation; none when its device measured none.
+std::optional<std::array<Column, 4>> orientationOf(const RecordedSamples& samples, const std::string& role) {
+  for (const RecordedTable& t : samples.tools) {
+    if (t.name == role) return {{&t.values("q_WT_w"), &t.values("q_WT_x"), &t.values("q_WT_y"), &t.values("q_WT_z")}};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 RecordedMoment::RecordedMoment(const RecordedSamples& samples, const World& world) : samples_(samples), world_(world) {
@@ -26,7 +34,7 @@ RecordedMoment::RecordedMoment(const RecordedSamples& samples, const World& worl
                         vectorOf(t, "p_BC"), vectorOf(t, "nhat_W"), vectorOf(t, "tangential_force_W"),
                         vectorOf(t, "f_rendered_W"), vectorOf(t, "f_command_W"), &t.values("depth"),
                         &t.values("normal_force"), &t.values("phase"), &t.values("valid"), &t.values("mode"),
-                        &t.values("body")});
+                        &t.values("body"), orientationOf(samples, t.name)});
   }
   std::map<std::string, std::size_t> bodies;
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) bodies.try_emplace(world.scene.bodies[b].name, b);
@@ -70,6 +78,11 @@ void RecordedMoment::fillFinger(const FingerColumns& finger, std::size_t row, co
   input.v_WH = contact.v_WH = at(finger.v_WH, row);
   input.phase = whole(finger.phase, row);
   input.valid = whole(finger.valid, row) != 0;
+  if (finger.q_WT) {
+    const auto q = [&](std::size_t i) { return (*(*finger.q_WT)[i])[row]; };
+    input.oriented = true;
+    input.q_WT = Quat(q(0), q(1), q(2), q(3)).normalized();
+  }
   contact.mode = static_cast<ContactMode>(whole(finger.mode, row));
   contact.body = whole(finger.body, row);
   contact.p_WP = at(finger.p_WP, row);

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
@@ -28,6 +29,7 @@ class RecordedMoment {
   struct FingerColumns {
     Vector p_WH, v_WH, p_WP, p_BP, p_BC, nhat_W, tangential, rendered, command;
     Column depth, normal, phase, valid, mode, body;
+    std::optional<std::array<Column, 4>> q_WT;  ///< of an oriented tool
   };
   struct BodyColumns {
     std::size_t body;

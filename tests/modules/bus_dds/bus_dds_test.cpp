@@ -76,6 +76,9 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   finger.valid = true;
   finger.p_WH = finger.contact.p_WH = {1, odd, 3};
   finger.f_H_W = {7, 8, odd};
+  finger.t_H_W = {odd, 0.25, -3};
+  finger.oriented = true;
+  finger.q_WT = Quat(0.5, -0.5, 0.5, -0.5);
   FingerContact& contact = finger.contact;
   contact.mode = ContactMode::kSlip;
   contact.body = 117;
@@ -115,6 +118,9 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   EXPECT_TRUE(f.valid);
   EXPECT_EQ(f.p_WH, finger.p_WH);
   EXPECT_EQ(f.f_H_W, finger.f_H_W);
+  EXPECT_EQ(f.t_H_W, finger.t_H_W);
+  EXPECT_TRUE(f.oriented);
+  EXPECT_EQ(f.q_WT.coeffs(), finger.q_WT.coeffs());
   EXPECT_EQ(f.contact.mode, contact.mode);
   EXPECT_EQ(f.contact.body, contact.body);
   EXPECT_EQ(f.contact.p_WH, contact.p_WH);
