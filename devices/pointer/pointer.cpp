@@ -4,6 +4,7 @@
 
 #include "devices/hand/hand_settings.h"
 #include "devices/pointer/pair.h"
+#include "devices/pointer/stylus.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/schedule/rates.h"
 #include "framework/device/device_plugin.h"
@@ -16,15 +17,11 @@ constexpr double kShareOfLimit = 0.6;  // of the force limit; the rest is for we
 constexpr double kSpan = 0.12;         // [m]
 constexpr double kAbove = 0.05;        // [m] initial height above all free bodies
 
-/// One fingertip of the pair.
-class PointedFinger final : public Device {
+/// A tool moved with the mouse.
+class PointedTool : public Device {
  public:
-  PointedFinger(std::shared_ptr<Pair> pair, Pair::Side side, HandSettings settings, bool window)
-      : pair_(std::move(pair)),
-        side_(side),
-        damping_(settings.impedance.damping),
-        notes_(std::move(settings.notes)),
-        window_(window) {}
+  PointedTool(HandSettings settings, bool window)
+      : damping_(settings.impedance.damping), notes_(std::move(settings.notes)), window_(window) {}
 
   void open() override {
     if (window_) return;
@@ -32,6 +29,21 @@ class PointedFinger final : public Device {
            "add --view window (it needs a display), or use a rig with another driver");
   }
   bool points() const override { return true; }
+  double damping() const override { return damping_; }
+  std::vector<std::string> notes() const override { return notes_; }
+
+ private:
+  double damping_;
+  std::vector<std::string> notes_;
+  bool window_;
+};
+
+/// One fingertip of the pair.
+class PointedFinger final : public PointedTool {
+ public:
+  PointedFinger(std::shared_ptr<Pair> pair, Pair::Side side, HandSettings settings, bool window)
+      : PointedTool(std::move(settings), window), pair_(std::move(pair)), side_(side) {}
+
   void point(const PointerState& pointer, const Tick&) noexcept override { pair_->point(pointer); }
 
   FingerInput read(const Tick& tick) noexcept override {
@@ -42,15 +54,30 @@ class PointedFinger final : public Device {
     pair_->advance(tick);
     pair_->push(side_, F_H_W.f);
   }
-  double damping() const override { return damping_; }
-  std::vector<std::string> notes() const override { return notes_; }
 
  private:
   std::shared_ptr<Pair> pair_;
   Pair::Side side_;
-  double damping_;
-  std::vector<std::string> notes_;
-  bool window_;
+};
+
+class PointedStylus final : public PointedTool {
+ public:
+  PointedStylus(const Stylus& stylus, HandSettings settings, bool window)
+      : PointedTool(std::move(settings), window), stylus_(stylus) {}
+
+  void point(const PointerState& pointer, const Tick&) noexcept override { stylus_.point(pointer); }
+  bool measuresOrientation() const override { return true; }
+  FingerInput read(const Tick& tick) noexcept override {
+    stylus_.advance(tick);
+    return stylus_.sample();
+  }
+  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
+    stylus_.advance(tick);
+    stylus_.push(F_H_W);
+  }
+
+ private:
+  Stylus stylus_;
 };
 
 /// Distance from a body's origin to its farthest point [m].
@@ -106,7 +133,7 @@ PairSettings readPair(const DeviceBinding& binding, const World& world, Diagnost
 std::unique_ptr<Device> makeFinger(const DeviceBinding& binding, const World& world, bool window,
                                    std::shared_ptr<Pair>& pair, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping", "grip", "span"}, diagnostics);
+  refuseUnknownSettings(binding, {"tool", "side", "mass", "stiffness", "damping", "grip", "span"}, diagnostics);
   const Pair::Side side = sideOf(binding, diagnostics) < 0 ? Pair::kThumb : Pair::kIndex;
   HandSettings hand = readImpedance(binding, world, 0, {}, diagnostics);
   const PairSettings settings = readPair(binding, world, diagnostics);
@@ -122,17 +149,47 @@ std::unique_ptr<Device> makeFinger(const DeviceBinding& binding, const World& wo
   return std::make_unique<PointedFinger>(pair, side, std::move(hand), window);
 }
 
+/// Whether the rig makes the role a stylus: tool="stylus".
+bool isStylus(const DeviceBinding& binding, Diagnostics& diagnostics) {
+  const auto found = binding.settings.find("tool");
+  if (found == binding.settings.end() || found->second.value == "finger") return false;
+  if (found->second.value != "stylus")
+    diagnostics.error(457, found->second.where, "tool must be finger or stylus, found " + quote(found->second.value));
+  return true;
+}
+
+/// Null with a finding.
+std::unique_ptr<Device> makeStylus(const DeviceBinding& binding, const World& world, bool window,
+                                   Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  refuseUnknownSettings(binding, {"tool", "mass", "stiffness", "damping"}, diagnostics);
+  HandSettings hand = readImpedance(binding, world, 0, {}, diagnostics);
+  if (diagnostics.errorCount() > before) return nullptr;
+  const Stylus stylus(startOf(world), readPair(binding, world, diagnostics).push, hand.impedance,
+                      RateTable(world.scene.rates).period(RateGroup::kHaptic));
+  return std::make_unique<PointedStylus>(stylus, std::move(hand), window);
+}
+
 DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
                   const RunOptions& options, Diagnostics& diagnostics) {
   std::shared_ptr<Pair> pair;  // one mouse moves all fingers
   DeviceList fingers;
-  for (const DeviceBinding& binding : bindings)
-    fingers.push_back(makeFinger(binding, *world, options.view == RunOptions::View::kWindow, pair, diagnostics));
+  const bool window = options.view == RunOptions::View::kWindow;
+  for (const DeviceBinding& binding : bindings) {
+    if (!isStylus(binding, diagnostics)) {
+      fingers.push_back(makeFinger(binding, *world, window, pair, diagnostics));
+      continue;
+    }
+    fingers.push_back(makeStylus(binding, *world, window, diagnostics));
+    if (bindings.size() > 1)
+      diagnostics.error(458, binding.where, "role '" + binding.role + "' is a stylus beside other tools of the pointer",
+                        "one pointer moves one pair of fingers, or one stylus");
+  }
   return fingers;
 }
 
 const DevicePlugin kPlugin{.name = "pointer",
-                           .summary = "one of two fingertips moved with mouse and keys in the window",
+                           .summary = "one of two fingertips, or a stylus, moved with mouse and keys in the window",
                            .create = create,
                            .rating = kImaginedRating};
 

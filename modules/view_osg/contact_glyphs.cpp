@@ -15,7 +15,7 @@ namespace {
 constexpr double kGlowsWith = 4;  ///< normal force at which a fingertip is fully red [N]
 constexpr double kHipRadius = 0.0022;
 constexpr double kLinkRadius = 0.0007;
-constexpr double kPenRadius = 0.003, kPenLength = 0.12;
+constexpr double kPenRadius = 0.003;
 constexpr double kShaftRadius = 0.0013;
 constexpr double kHeadRadius = 0.0034;
 constexpr double kHeadLength = 0.009;

@@ -9,6 +9,7 @@
 namespace presa::view {
 
 inline constexpr double kArrowLengthPerNewton = 0.010;  ///< [m/N]
+inline constexpr double kPenLength = 0.12;              ///< of a tool whose device measures its orientation [m]
 
 struct FingerView {
   std::string role;

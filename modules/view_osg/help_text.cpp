@@ -11,9 +11,9 @@ Lines pairLines() {
   return {{"", "pair of fingers"},
           {"left drag", "over the ground"},
           {"Shift + left drag", "up, down and aside"},
-          {"wheel", "close and open the grip"},
+          {"wheel", "close and open the grip; tilt a stylus"},
           {"arrows, PageUp, PageDown", "right, left, away, near, up, down"},
-          {"+  -", "close and open"},
+          {"+  -", "close and open; tilt"},
           {"q  e", "turn about the vertical"},
           {"Shift + key", "a fifth of the step"}};
 }

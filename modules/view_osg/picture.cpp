@@ -88,6 +88,7 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
   for (const FingerView& finger : fingers) {
     if (!finger.valid) continue;
     subject_.push_back({finger.p_WP, finger.radius});
+    if (finger.oriented) subject_.push_back({finger.p_WP + kPenLength * (finger.q_WT * Vec3::UnitZ()), 0.0});
     if (finger.touches()) subject_.push_back({finger.p_WC + kArrowLengthPerNewton * finger.f_H_W, 0.0});
   }
 }

@@ -17,6 +17,7 @@ void PointerControl::begin(const DeviceState& device) {
   for (std::size_t f : fingers_) {
     if (f >= static_cast<std::size_t>(device.count) || !device.fingers[f].valid) return;
     sum += device.fingers[f].p_WH;
+    stylus_ = device.fingers[f].oriented;
   }
   state_.p_WT = sum / static_cast<double>(fingers_.size());
   begun_ = true;
@@ -45,9 +46,12 @@ void PointerControl::turn(double angle) {
   changed();
 }
 
-void PointerControl::close(double amount) {
+void PointerControl::close(double steps) {
   if (!begun_) return;
-  state_.closing = std::clamp(state_.closing + amount, 0.0, 1.0);
+  if (stylus_)
+    state_.tilt = std::clamp(state_.tilt + steps * kTurnStep, -kMaxTilt, kMaxTilt);
+  else
+    state_.closing = std::clamp(state_.closing + steps * kCloseStep, 0.0, 1.0);
   changed();
 }
 

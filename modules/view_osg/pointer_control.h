@@ -8,12 +8,13 @@
 
 namespace presa::view {
 
-/// Target pose of a pair of fingers, moved by mouse and keys. It starts at the fingers' own position.
+/// Target pose of a pair of fingers or of a stylus, moved by mouse and keys. It starts at the fingers' own position.
 class PointerControl {
  public:
   static constexpr double kStep = 0.005;                   ///< per arrow key [m]
   static constexpr double kTurnStep = 0.0872664625997165;  ///< per key, five degrees [rad]
   static constexpr double kCloseStep = 0.04;               ///< per wheel notch or key
+  static constexpr double kMaxTilt = 1.4;                  ///< [rad]
 
   /// Indices into DeviceState::fingers.
   explicit PointerControl(std::vector<std::size_t> fingers) : fingers_(std::move(fingers)) {}
@@ -28,7 +29,8 @@ class PointerControl {
   /// Moves to the camera's right, level away from it, and up [m].
   void move(double right, double away, double up, const CameraControl& camera);
   void turn(double angle);
-  void close(double amount);
+  /// Wheel notches or keys: a pair closes by kCloseStep, a stylus tilts by kTurnStep.
+  void close(double steps);
 
   const PointerState& state() const { return state_; }
 
@@ -37,6 +39,7 @@ class PointerControl {
 
   std::vector<std::size_t> fingers_;
   bool begun_ = false;
+  bool stylus_ = false;  ///< the tool measures its orientation
   PointerState state_;
 };
 

@@ -111,8 +111,7 @@ void WindowInput::click(const Event& event, bool twice) {
 void WindowInput::scroll(const Event& event) {
   const bool up = event.getScrollingMotion() == Event::SCROLL_UP;
   if (!up && event.getScrollingMotion() != Event::SCROLL_DOWN) return;
-  if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL))
-    return controls_.pointer->close(up ? PointerControl::kCloseStep : -PointerControl::kCloseStep);
+  if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL)) return controls_.pointer->close(up ? 1 : -1);
   following = false;
   camera_.zoom(up ? 1 / kNotch : kNotch);
 }
@@ -196,12 +195,12 @@ bool WindowInput::pairKey(int key, bool fine) {
     case '+':
     case '=':
     case Event::KEY_KP_Add:
-      pair.close(PointerControl::kCloseStep);
+      pair.close(1);
       return true;
     case '-':
     case '_':
     case Event::KEY_KP_Subtract:
-      pair.close(-PointerControl::kCloseStep);
+      pair.close(-1);
       return true;
     case 'q':
       pair.turn(share * PointerControl::kTurnStep);
