@@ -6,6 +6,7 @@
 
 #include "apps/common/grasp_figures.h"
 #include "devices/percro_arm/kinematics.h"
+#include "devices/percro_arm/thimble.h"
 #include "tests/support/shipped_rig.h"
 
 namespace presa {
@@ -78,6 +79,33 @@ TEST(PercroDevice, ReportsWholeCountsThroughTheBasePose) {
                         percro::jointsAt(arm.geometry, X_WD.inverseTimes(input.p_WH)) / arm.motors.count();
     ASSERT_LT((counts - Vec3(counts.array().round())).cwiseAbs().maxCoeff(), 1e-4) << i;  // the rig's 8 digits
   }
+}
+
+// The modelled finger keeps its orientation while the barrel turns under it. The thimble reports it through the three
+// encoders of the wrist, half a count of error each, and the barrel's, which add less than 0.3 mrad.
+TEST(PercroDevice, ReportsTheThimblesOrientation) {
+  Diagnostics diagnostics;
+  const auto device = thumb(diagnostics);
+  ASSERT_TRUE(device) << diagnostics.text();
+  EXPECT_TRUE(device->measuresOrientation());
+  const Pose X_WD{{-0.75, 0, 0.1}, Quat(std::sqrt(0.5), std::sqrt(0.5), 0, 0)};
+  const percro::Geometry geometry = percro::paperArm().geometry;
+  Quat first = Quat::Identity();
+  double error = 0, barrel = 0;
+  Mat3 start = Mat3::Identity();
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const Tick tick{i, static_cast<double>(i) * 1e-3, 1e-3};
+    const FingerInput input = device->read(tick);
+    device->write({}, tick);
+    ASSERT_TRUE(input.oriented);
+    const Mat3 R = percro::barrelFrame(percro::jointsAt(geometry, X_WD.inverseTimes(input.p_WH)));
+    if (i == 0) first = input.q_WT, start = R;
+    error = std::max(error, input.q_WT.angularDistance(first));
+    barrel = std::max(barrel, Eigen::AngleAxisd(R * start.transpose()).angle());
+    ASSERT_LT(input.w_WT.norm(), 0.5);  // a count in 1 ms, smoothed over 10 ms: 0.15 rad/s each
+  }
+  EXPECT_LT(error, std::sqrt(3) * percro::Thimble::kCount / 2 + 3e-4);
+  EXPECT_GT(barrel, 0.05);
 }
 
 TEST(PercroDevice, ItsTickNeitherAllocatesNorLocks) {

@@ -38,6 +38,40 @@ TEST(SampleCheck, TheSecondImpossibleSampleLatches) {
   }
 }
 
+/// A tool turned about x by `angle`, with a quaternion of this length.
+FingerInput turned(double angle, double length = 1) {
+  FingerInput input = at(0);
+  input.oriented = true;
+  input.q_WT = Quat(Eigen::AngleAxisd(angle, Vec3::UnitX()));
+  input.q_WT.coeffs() *= length;
+  input.w_WT = {1, 2, 3};
+  return input;
+}
+
+// An orientation that is no rotation, not finite, or faster than 200 rad/s is rejected like an impossible position: the
+// last good one for one tick, at rest; the second in a row latches.
+TEST(SampleCheck, AnImpossibleOrientationIsRejected) {
+  FingerInput wild = turned(0.1);
+  wild.w_WT.z() = kNan;
+  for (const FingerInput& bad : {turned(0.1, 1.01), turned(0.1, kNan), turned(0.1, 0), turned(0.1 + 0.21), wild}) {
+    SampleCheck check;
+    EXPECT_TRUE(check.take(turned(0.1), kPeriod).w_WT == Vec3(1, 2, 3));
+    const FingerInput bridged = check.take(bad, kPeriod);
+    EXPECT_TRUE(bridged.valid && bridged.oriented);
+    EXPECT_EQ(bridged.q_WT.coeffs(), turned(0.1).q_WT.coeffs());
+    EXPECT_TRUE(bridged.w_WT.isZero(0));
+    EXPECT_FALSE(check.latched());
+    check.take(turned(0.1, 0), kPeriod);
+    EXPECT_TRUE(check.latched());
+  }
+  SampleCheck check;
+  check.take(turned(0.1), kPeriod);
+  EXPECT_TRUE(check.take(turned(0.1 + 0.19), kPeriod).w_WT == Vec3(1, 2, 3));  // 190 rad/s
+  FingerInput opposite = turned(0.1 + 0.19);
+  opposite.q_WT.coeffs() *= -1;  // the same orientation
+  EXPECT_TRUE(check.take(opposite, kPeriod).w_WT == Vec3(1, 2, 3));
+}
+
 // 20 m/s is the bound: a jump is judged by the time since the last good sample.
 TEST(SampleCheck, AJumpIsJudgedByTheTimeThatItHad) {
   SampleCheck check;
