@@ -116,15 +116,18 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
       plan_(std::move(loaded.plan)),
       devices_(std::move(options.devices)) {
   Diagnostics said;  // discarded: reported when the world was loaded
-  const std::vector<FingerSafety> safety = safetyOf(*world_, options_, notes_, said);
+  std::vector<FingerSafety> safety = safetyOf(*world_, options_, notes_, said);
   if (devices_.empty()) {
     devices_ = std::move(loaded.devices);
     if (options.open_devices) openDevices();
   }
   if (options.wrap) devices_ = options.wrap(std::move(devices_));
-  for (std::size_t f = 0; f < devices_.size(); ++f)
+  for (std::size_t f = 0; f < devices_.size(); ++f) {
+    // a tool without orientation gets no torque, and its output stage does no work for one
+    if (!devices_[f]->measuresOrientation()) safety[f].limits.torque = 0;
     devices_[f] = watched(std::move(devices_[f]), safety[f].limits,
                           ratingOf(bindingOf(world_->rig, world_->scene.devices[f].role)), control);
+  }
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
   if (world_->scene.assembly && (options.guide || options_.view != RunOptions::View::kNone))

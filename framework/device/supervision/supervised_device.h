@@ -14,7 +14,7 @@ namespace presa {
 /// this process stops or dies. read and write exchange the latest values with it, wait-free, without a system call.
 class SupervisedDevice final : public Device {
  public:
-  /// `driver`: the same device, never opened here; it answers model(), facts() and damping().
+  /// `driver`: the same device, never opened here; it answers model(), facts(), damping() and measuresOrientation().
   SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file);
   ~SupervisedDevice() override { close(); }
 
@@ -31,6 +31,7 @@ class SupervisedDevice final : public Device {
 
   std::string model() const override { return driver_->model(); }
   std::vector<DeviceFact> facts() const override { return driver_->facts(); }
+  bool measuresOrientation() const override { return driver_->measuresOrientation(); }
   double damping() const override { return driver_->damping(); }
   std::vector<std::string> notes() const override { return notes_; }
 

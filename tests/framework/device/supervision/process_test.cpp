@@ -183,5 +183,18 @@ TEST_F(Supervised, WhatTheDriverRefusesIsSaidHere) {
   }
 }
 
+/// A driver that measures its orientation, never opened.
+class OrientedDriver final : public Device {
+ public:
+  FingerInput read(const Tick&) noexcept override { return {}; }
+  void write(const Wrench&, const Tick&) noexcept override {}
+  bool measuresOrientation() const override { return true; }
+};
+
+// Otherwise a real stylus would get no torque, and its recordings no orientation.
+TEST(SupervisedDevice, MeasuresTheOrientationThatItsDriverMeasures) {
+  EXPECT_TRUE(SupervisedDevice(std::make_unique<OrientedDriver>(), {}, "").measuresOrientation());
+}
+
 }  // namespace
 }  // namespace presa
