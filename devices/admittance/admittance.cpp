@@ -65,7 +65,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 
 const DevicePlugin kPlugin{
     .name = "admittance",
-    .summary = "model of an admittance device (force in, position out), moved by a scripted hand",
     .create = createEach<create>,
     .rating = {.force = 100, .force_rate = 10000, .continuous = 100, .behind = DeviceRating::Behind::kModel}};
 

@@ -76,10 +76,6 @@ std::string noteOn(const std::string& role, const Parameters& p, double stiffest
 
 Settings readSettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  std::vector<std::string> keys = handKeys();
-  keys.insert(keys.end(), {"inertia", "viscosity", "bandwidth", "noise", "most_force", "most_speed", "centre",
-                           "half_travel", "seed"});
-  refuseUnknownSettings(binding, keys, diagnostics);
   Settings settings;
   Parameters& p = settings.parameters;
   readNumber(binding, "inertia", false, p.inertia, diagnostics);

@@ -10,7 +10,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_p
                                const RunOptions& /*options*/, Diagnostics& diagnostics) {
   const World& world = *shared_world;
   const std::size_t before = diagnostics.errorCount();
-  refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping"}, diagnostics);
   const double side = sideOf(binding, diagnostics);
   HandSettings settings = readImpedance(binding, world, 0, {}, diagnostics);
   if (!world.scene.assembly) {
@@ -27,7 +26,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_p
 }
 
 const DevicePlugin kPlugin{.name = "assembling_hand",
-                           .summary = "one of two simulated fingertips that build a scene's assembly on their own",
                            .create = createEach<create>,
                            .rating = kImaginedRating};
 

@@ -12,7 +12,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_p
                                const RunOptions& options, Diagnostics& diagnostics) {
   const World& world = *shared_world;
   const std::size_t before = diagnostics.errorCount();
-  refuseUnknownSettings(binding, {"side", "mass", "stiffness", "damping"}, diagnostics);
   const double side = sideOf(binding, diagnostics);
   HandSettings settings = readImpedance(binding, world, 0, {}, diagnostics);
   if (std::ranges::none_of(world.scene.bodies, [](const Body& body) { return body.physics && !body.fixed; }))
@@ -29,7 +28,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_p
 }
 
 const DevicePlugin kPlugin{.name = "clumsy_hand",
-                           .summary = "one of two simulated fingertips that grab, throw, press and push at random",
                            .create = createEach<create>,
                            .rating = kImaginedRating};
 

@@ -71,11 +71,6 @@ double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics) {
   return binding.role == "thumb" ? -1 : 1;
 }
 
-const std::vector<std::string>& handKeys() {
-  static const std::vector<std::string> keys{"motion", "side", "mass", "stiffness", "damping", "lost_at"};
-  return keys;
-}
-
 HandSettings readImpedance(const DeviceBinding& binding, const World& world, double carried, FingerImpedance impedance,
                            Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();

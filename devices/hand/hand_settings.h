@@ -9,9 +9,6 @@
 
 namespace presa {
 
-/// The rig settings of a simulated hand: motion, side, mass, stiffness, damping, lost_at.
-const std::vector<std::string>& handKeys();
-
 struct HandSettings {
   std::unique_ptr<Motion> motion;
   FingerImpedance impedance;       ///< with the chosen damping

@@ -18,7 +18,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_p
 }
 
 const DevicePlugin kPlugin{.name = "novint_falcon",
-                           .summary = "Novint Falcon over USB",
                            .create = createEach<create>,
                            .diagnose = falcon::diagnose,
                            .udev_rule = falcon::kUdevRule,

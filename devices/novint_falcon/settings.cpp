@@ -13,9 +13,6 @@
 namespace presa::falcon {
 namespace {
 
-const std::vector<std::string> kKeys{"serial", "firmware",          "pos",       "quat",
-                                     "scale",  "counts_per_torque", "max_speed", "homing_wait"};
-
 struct NumberRule {
   std::size_t count = 1;
   double min = 0;  ///< each number must be greater
@@ -68,7 +65,6 @@ Pose readBase(const DeviceBinding& binding, Diagnostics& diagnostics) {
 }  // namespace
 
 FalconSettings readSettings(const DeviceBinding& binding, const RunOptions& options, Diagnostics& diagnostics) {
-  refuseUnknownSettings(binding, kKeys, diagnostics);
   FalconSettings settings;
   settings.role = binding.role;
   settings.where = binding.where;

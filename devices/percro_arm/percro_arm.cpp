@@ -141,9 +141,6 @@ void checkReach(const DeviceBinding& binding, const Pose& X_WD, const Motion& mo
 
 std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  std::vector<std::string> keys = handKeys();
-  keys.insert(keys.end(), {"pos", "quat"});
-  refuseUnknownSettings(binding, keys, diagnostics);
   const percro::Parameters parameters = percro::paperArm();
   const percro::ArmDynamics dynamics(parameters, Vec3::Zero());
   HandSettings hand = readHand(binding, world, dynamics.inertia(percro::Joints::Zero())[2], diagnostics);
@@ -156,7 +153,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 
 const DevicePlugin kPlugin{
     .name = "percro_arm",
-    .summary = "model of an arm of the PERCRO interface, moved by a scripted hand",
     .create = createEach<create>,
     .rating = {.force = 10, .continuous = 4, .heating_time = 30, .behind = DeviceRating::Behind::kModel}};
 

@@ -133,7 +133,6 @@ PairSettings readPair(const DeviceBinding& binding, const World& world, Diagnost
 std::unique_ptr<Device> makeFinger(const DeviceBinding& binding, const World& world, bool window,
                                    std::shared_ptr<Pair>& pair, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  refuseUnknownSettings(binding, {"tool", "side", "mass", "stiffness", "damping", "grip", "span"}, diagnostics);
   const Pair::Side side = sideOf(binding, diagnostics) < 0 ? Pair::kThumb : Pair::kIndex;
   HandSettings hand = readImpedance(binding, world, 0, {}, diagnostics);
   const PairSettings settings = readPair(binding, world, diagnostics);
@@ -189,7 +188,6 @@ DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_
 }
 
 const DevicePlugin kPlugin{.name = "pointer",
-                           .summary = "one of two fingertips, or a stylus, moved with mouse and keys in the window",
                            .create = create,
                            .rating = kImaginedRating};
 

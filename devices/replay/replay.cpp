@@ -65,7 +65,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
 }
 
 const DevicePlugin kPlugin{.name = "replay",
-                           .summary = "repeats the motion of a recorded finger, regardless of forces",
                            .create = createEach<create>,
                            .rating = kImaginedRating};
 

@@ -161,7 +161,6 @@ std::vector<std::string> notesOn(const std::string& role, const std::string& fin
 
 ReplaySettings readReplaySettings(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  refuseUnknownSettings(binding, {"file", "role", "speed", "at_end"}, diagnostics);
   ReplaySettings settings;
   settings.speed = readSpeed(binding, diagnostics);
   settings.lost_at_end = readLostAtEnd(binding, diagnostics);

@@ -73,14 +73,12 @@ class ScriptedFinger final : public Device {
 
 std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  refuseUnknownSettings(binding, handKeys(), diagnostics);
   HandSettings hand = readHand(binding, world, 0, diagnostics);
   if (diagnostics.errorCount() > before) return nullptr;
   return std::make_unique<ScriptedFinger>(std::move(hand), RateTable(world.scene.rates).period(RateGroup::kHaptic));
 }
 
 const DevicePlugin kPlugin{.name = "scripted",
-                           .summary = "simulated fingertip that follows a motion file through a finger's impedance",
                            .create = createEach<create>,
                            .rating = kImaginedRating};
 

@@ -8,9 +8,6 @@
 namespace presa {
 namespace {
 
-const std::vector<std::string> kKeys{"level", "seed", "subject", "digit",     "object",     "width",
-                                     "reach", "hold", "noise",   "loosening", "resolution", "eyes"};
-
 const DeviceBinding::Setting* settingOf(const DeviceBinding& binding, const std::string& key) {
   const auto found = binding.settings.find(key);
   return found == binding.settings.end() ? nullptr : &found->second;
@@ -58,12 +55,6 @@ std::int32_t bodyOf(const DeviceBinding& binding, const World& world, Diagnostic
 
 SubjectSettings readSettings(const DeviceBinding& binding, const World& world, const RunOptions& options,
                              Diagnostics& diagnostics) {
-  for (const auto& [key, setting] : binding.settings) {
-    if (std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end()) continue;
-    diagnostics.error(
-        430, setting.where, "driver 'simulated_subject' has no setting '" + key + "'" + didYouMean(key, kKeys),
-        "settings: level, seed, subject, digit, object, width, reach, hold, noise, loosening, resolution, eyes");
-  }
   SubjectSettings settings;
   if (const DeviceBinding::Setting* level = settingOf(binding, "level")) {
     const auto known = subject::levelNamed(level->value);

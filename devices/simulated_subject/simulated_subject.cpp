@@ -94,7 +94,6 @@ DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_
 }
 
 const DevicePlugin kPlugin{.name = "simulated_subject",
-                           .summary = "a model of a person who grips, lifts, loosens and holds with thumb and index",
                            .create = create,
                            .rating = kImaginedRating};
 

@@ -26,8 +26,7 @@ struct DeviceFinding {
 
 struct DevicePlugin {
   int abi = kPluginAbi;
-  const char* name;
-  const char* summary;
+  const char* name;  ///< of its manifest, which lists its settings
   /// Creates a device for each binding, in their order, without touching hardware. Checks their settings (all findings
   /// to `diagnostics`); null for a binding that has an error. createEach<make> is for a driver whose devices do not
   /// know each other. Thread: main.

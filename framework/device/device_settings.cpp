@@ -9,7 +9,7 @@ namespace presa {
 void refuseUnknownSettings(const DeviceBinding& binding, const std::vector<std::string>& known,
                            Diagnostics& diagnostics) {
   std::string list;
-  for (const std::string& key : known) list += (list.empty() ? "" : ", ") + key + (key == "motion" ? " (file)" : "");
+  for (const std::string& key : known) list += (list.empty() ? "" : ", ") + key;
   for (const auto& [key, setting] : binding.settings) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     diagnostics.error(401, setting.where,

@@ -5,8 +5,10 @@
 #include <map>
 
 #include "framework/core/plugin/plugin_loader.h"
+#include "framework/scene/scene_facts.h"
 #include "framework/scene/schemas.h"
 #include "framework/scene/xml/schema.h"
+#include "framework/scene/xml/value_rule.h"
 #include "framework/scene/xml/xml.h"
 
 namespace presa {
@@ -14,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum Code { kBroken = 593, kTaken = 594, kAgainstKind = 595 };
+enum Code { kMissing = 590, kBroken = 593, kTaken = 594, kAgainstKind = 595 };
 
 constexpr const char* kPrefix = "presa_";
 
@@ -25,6 +27,12 @@ Manifest::Attribute readAttribute(const xml::Element& element) {
 }
 
 using Place = Manifest::Place;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
 
 /// Kinds as they are called in manifests and in texts, and where their elements may stand.
 struct KindRule {
@@ -38,7 +46,9 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kForceEffect, "force_effect", "force effect", {Place::kBody, Place::kScene}},
       {PluginKind::kFrictionLaw, "friction_law", "friction law", {Place::kFriction}},
       {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}},
-      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}}};
+      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}},
+      {PluginKind::kModule, "module", "module", {Place::kBody, Place::kScene}},
+      {PluginKind::kDevice, "device", "device", {}}};
   return kRules;
 }
 
@@ -56,14 +66,33 @@ Place placeOf(const std::string& word) {
   return std::ranges::find(kPlaces, word, [](const auto& place) { return std::string(place.second); })->first;
 }
 
+// The schema has checked the word; a manifest without one is no module or is reported by checkRole.
+RateGroup rateOf(const std::string& word) {
+  for (int group = 0; group < kRateGroupCount; ++group)
+    if (word == toString(static_cast<RateGroup>(group))) return static_cast<RateGroup>(group);
+  return RateGroup::kHaptic;
+}
+
+Manifest::ModuleRole readRole(const xml::Element& root) {
+  Manifest::ModuleRole role{.rate = rateOf(root.attribute("rate")), .engine = root.attribute("engine"), .wanted = {}};
+  role.fingers = root.attribute("fingers") != "false";
+  role.snap = root.attribute("snap") != "false";
+  for (const xml::Element& wanted : root.children("wanted"))
+    role.wanted.push_back(xml::splitWords(wanted.attribute("when")));
+  return role;
+}
+
 Manifest read(const xml::Element& root, const std::string& file) {
   Manifest manifest{.name = root.attribute("name"),
                     .version = root.attribute("version"),
                     .kind = kindOf(root.attribute("kind")),
                     .about = root.attribute("about"),
-                    .proxy = root.attribute("gives") == "proxy",
+                    .gives = root.attribute("gives"),
                     .needs_proxy = root.attribute("needs") == "proxy",
+                    .left_out = root.attribute("left_out"),
                     .elements = {},
+                    .settings = {},
+                    .module = readRole(root),
                     .file = file};
   for (const xml::Element& child : root.children("element")) {
     Manifest::Element element{child.attribute("name"), placeOf(child.attribute("in")), {}, child.where()};
@@ -71,6 +100,7 @@ Manifest read(const xml::Element& root, const std::string& file) {
       element.attributes.push_back(readAttribute(attribute));
     manifest.elements.push_back(std::move(element));
   }
+  for (const xml::Element& setting : root.children("setting")) manifest.settings.push_back(readAttribute(setting));
   return manifest;
 }
 
@@ -83,7 +113,7 @@ void checkPlace(const Manifest& manifest, const Manifest::Element& element, Diag
   diagnostics.error(kAgainstKind, element.where,
                     "<" + element.name + "> of the " + nameOf(manifest.kind) + " '" + manifest.name +
                         "' cannot stand in=\"" + nameOf(element.place) + "\"",
-                    allowed);
+                    allowed.empty() ? "a rig sets it: write <setting> instead of <element>" : allowed);
 }
 
 /// The scene must bound every force effect.
@@ -125,6 +155,50 @@ void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
   }
 }
 
+/// A rig sets what a device says; a device has no place in a scene, where it is one of several in a role.
+void checkSettings(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
+  if (manifest.kind == PluginKind::kDevice) return;
+  for (const xml::Element& setting : root.children("setting"))
+    diagnostics.error(kAgainstKind, setting.where(),
+                      "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "' has <setting>",
+                      "only a device does; other plug-ins have <element>");
+}
+
+/// What only modules say, and what every module has to say.
+void checkRole(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
+  const bool module = manifest.kind == PluginKind::kModule;
+  const std::string who = "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "'";
+  for (const char* word : {"rate", "engine", "fingers", "snap"}) {
+    if (!module && root.hasAttribute(word))
+      diagnostics.error(kAgainstKind, root.where(word), who + " says " + word + "=\"…\"", "only a module does");
+  }
+  for (const xml::Element& wanted : root.children("wanted")) {
+    if (!module) diagnostics.error(kAgainstKind, wanted.where(), who + " has <wanted>", "only a module does");
+    for (const std::string& word : xml::splitWords(wanted.attribute("when"))) {
+      const std::vector<std::string>& names = factNames();
+      if (std::ranges::find(names, word) != names.end()) continue;
+      diagnostics.error(kAgainstKind, wanted.where("when"), "no fact " + quote(word) + didYouMean(word, names),
+                        "facts: " + joined(names));
+    }
+  }
+  if (module && !root.hasAttribute("rate"))
+    diagnostics.error(kAgainstKind, root.where(), who + " has no rate", "rate=\"haptic\", \"collision\", …");
+  if (module && manifest.module.wanted.empty() && manifest.elements.empty())
+    diagnostics.error(kAgainstKind, root.where(), who + " is never needed",
+                      "add <wanted when=\"…\"/>, or an <element> that calls for it");
+}
+
+/// `gives` says what others find the plug-in by.
+void checkGift(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
+  if (manifest.gives.empty()) return;
+  const PluginKind giver = manifest.hasProxy() ? PluginKind::kRenderer : PluginKind::kModule;
+  if (manifest.kind == giver) return;
+  diagnostics.error(kAgainstKind, root.where("gives"),
+                    "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "' says gives=\"" +
+                        manifest.gives + "\"",
+                    "only a " + std::string(nameOf(giver)) + " has a " + manifest.gives);
+}
+
 std::optional<Manifest> readManifest(const fs::path& path, Diagnostics& diagnostics) {
   static const xml::Schema schema(schemas::plugin);
   const auto document = xml::Document::load(path.string(), diagnostics);
@@ -135,11 +209,9 @@ std::optional<Manifest> readManifest(const fs::path& path, Diagnostics& diagnost
                       "the manifest of plug-in '" + manifest.name + "' lies in " + quote(path.filename().string()),
                       "call it presa_" + manifest.name + ".xml");
   }
-  if (manifest.proxy && manifest.kind != PluginKind::kRenderer) {
-    diagnostics.error(kAgainstKind, document->root().where("gives"),
-                      "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "' says gives=\"proxy\"",
-                      "only a renderer has a proxy");
-  }
+  checkGift(manifest, document->root(), diagnostics);
+  checkRole(manifest, document->root(), diagnostics);
+  checkSettings(manifest, document->root(), diagnostics);
   checkElements(manifest, diagnostics);
   return manifest;
 }
@@ -224,6 +296,8 @@ std::string declarationOf(const Manifest::Element& element, std::string& types) 
   return out + "</xs:complexType></xs:element>\n";
 }
 
+std::string choice(const std::string& value) { return "<xs:enumeration value=\"" + value + "\"/>"; }
+
 void insertAt(std::string& xsd, const std::string& mark, const std::string& text) {
   const std::size_t at = xsd.find("<!-- " + mark + " -->");
   if (at == std::string::npos) throw std::logic_error("scene.xsd has no comment '" + mark + "'");
@@ -262,6 +336,14 @@ const Manifest* findManifest(const std::string& name) {
   return found == manifests().end() ? nullptr : &*found;
 }
 
+const Manifest& manifestGiving(const std::string& what) {
+  const auto found = std::ranges::find(manifests(), what, &Manifest::gives);
+  if (found != manifests().end()) return *found;
+  Diagnostics diagnostics;
+  diagnostics.error(kMissing, {}, "no plug-in gives a " + what, "looked for manifests in " + joined(pluginFolders()));
+  throw InputError(std::move(diagnostics));
+}
+
 const Manifest::Element* findElement(const std::string& name) {
   for (const Manifest& manifest : manifests()) {
     const auto found = std::ranges::find(manifest.elements, name, &Manifest::Element::name);
@@ -278,11 +360,13 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
       declarations[element.place] += declarationOf(element, types);
   }
   insertAt(xsd, "types of plug-ins", types);
-  std::string renderers;
+  std::string renderers, engines;
   for (const Manifest& manifest : all) {
-    if (manifest.kind == PluginKind::kRenderer) renderers += "<xs:enumeration value=\"" + manifest.name + "\"/>";
+    if (manifest.kind == PluginKind::kRenderer) renderers += choice(manifest.name);
+    if (!manifest.module.engine.empty()) engines += choice(manifest.module.engine);
   }
   insertAt(xsd, "renderers of plug-ins", renderers);
+  insertAt(xsd, "engines of plug-ins", engines);
   for (const auto& [place, text] : declarations)
     insertAt(xsd, std::string("elements of plug-ins: ") + nameOf(place), text);
   return xsd;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/schedule/tick.h"
 #include "framework/scene/plugin_element.h"
 
 namespace presa {
@@ -25,19 +26,36 @@ struct Manifest {
     SourceLocation where;
   };
 
+  /// When a run needs a module, and where it runs.
+  struct ModuleRole {
+    RateGroup rate = RateGroup::kHaptic;
+    /// One of several engines: scenes choose it by <dynamics engine>. Empty: no engine.
+    std::string engine;
+    bool fingers = true, snap = true;  ///< an engine that supports fingers, and snap constraints of an assembly
+    /// Alternatives. Each lists the facts (framework/scene/scene_facts.h) that must hold together. Empty: the module is
+    /// needed where one of its elements stands.
+    std::vector<std::vector<std::string>> wanted;
+  };
+
   std::string name, version;  ///< of the plug-in
   PluginKind kind = PluginKind::kForceEffect;
   std::string about;
-  bool proxy = false;        ///< a renderer with a proxy: gives="proxy"
+  /// "proxy": a renderer with a proxy; "view", "bus": the module that draws, that publishes; empty: nothing others ask for
+  std::string gives;
   bool needs_proxy = false;  ///< a surface effect of renderers with a proxy: needs="proxy"
+  std::string left_out;      ///< why a scene leaves it out, where its kind does not say; empty: derived from its elements
   std::vector<Element> elements;
+  std::vector<Attribute> settings;  ///< of a device: keys that a rig may set; type "file" is a path below the rig's folder
+  ModuleRole module;  ///< of a module
   std::string file;
+
+  bool hasProxy() const { return gives == "proxy"; }
 };
 
 /// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.
 /// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
 /// plug-in brings already, E595 what a plug-in of its kind may not have or must have: the place of an element, the
-/// required max_force or max_torque of a force effect, the defaults of a renderer's settings.
+/// required max_force or max_torque of a force effect, the defaults of a renderer's settings, the rate of a module.
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.
@@ -48,6 +66,9 @@ const Manifest::Element* findElement(const std::string& name);
 
 /// The manifest of that plug-in of this process, or null. Thread: any.
 const Manifest* findManifest(const std::string& name);
+
+/// The first manifest that gives this ("view", "bus"). Throws InputError E590 when no plug-in does. Thread: any.
+const Manifest& manifestGiving(const std::string& what);
 
 /// "force effect"
 const char* nameOf(PluginKind kind);

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "framework/core/state/limits.h"
+#include "framework/scene/manifest.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/schemas.h"
 
@@ -16,7 +18,13 @@ const xml::Schema& rigSchema() {
   return schema;
 }
 
-bool isPath(const std::string& key) { return key == "motion" || key == "file" || key == "firmware"; }
+/// Whether the driver's manifest says that the setting is a file.
+bool isFile(const std::string& driver, const std::string& key) {
+  const Manifest* manifest = findManifest(driver);
+  return manifest != nullptr && std::ranges::any_of(manifest->settings, [&](const Manifest::Attribute& setting) {
+           return setting.name == key && setting.type == "file";
+         });
+}
 
 void addSetting(DeviceBinding& binding, const std::string& key, const DeviceBinding::Setting& setting,
                 const SourceLocation& where, Diagnostics& diagnostics) {
@@ -64,7 +72,8 @@ DeviceBinding readBinding(const Element& device, Diagnostics& diagnostics) {
 
 void resolvePaths(const Element& device, const std::string& directory) {
   for (Element set : device.children("set")) {
-    if (isPath(set.attribute("key"))) set.setAttribute("value", resolvePath(set.attribute("value"), directory));
+    if (isFile(device.attribute("driver"), set.attribute("key")))
+      set.setAttribute("value", resolvePath(set.attribute("value"), directory));
   }
 }
 
@@ -133,7 +142,7 @@ std::vector<std::string> filesNamedBy(const Rig& rig) {
   std::vector<std::string> files;
   for (const DeviceBinding& device : rig.devices) {
     for (const auto& [key, setting] : device.settings) {
-      if (isPath(key)) files.push_back(setting.value);
+      if (isFile(device.driver, key)) files.push_back(setting.value);
     }
   }
   return files;

@@ -106,11 +106,15 @@ struct DeviceRole {
   SourceLocation where;
 };
 
+/// What a scene gets that names none, as in its schema.
+inline constexpr const char* kDefaultRenderer = "god_object";
+inline constexpr const char* kDefaultEngine = "ode";
+
 /// Haptic rendering method. The defaults are Presa's methods; the other values select the conventional ones for
 /// comparison.
 struct HapticSettings {
   enum class PoseUse { kInterpolate, kHold };
-  std::string renderer = "god_object";  ///< plug-in (framework/haptics/renderer.h)
+  std::string renderer = kDefaultRenderer;  ///< plug-in (framework/haptics/renderer.h)
   bool proxy = true;                    ///< its manifest gives a proxy that friction can hold
   PoseUse pose = PoseUse::kInterpolate;
 };
@@ -122,13 +126,12 @@ struct CollisionSettings {
 
 /// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.
 struct DynamicsSettings {
-  enum class Engine { kOde, kMujoco, kBullet };  ///< kMujoco and kBullet: for comparison only, without fingers
   enum class Coupling { kSoft, kExplicit };
   enum class Solver { kAuto, kDirect, kIterative };
   enum class Friction { kIsotropic, kPyramid };
   /// kMatrix: R (I + S(w) dt), re-orthonormalised; kEuler: one Euler step of Euler's equations.
   enum class Rotation { kExact, kEngine, kNone, kEuler, kMatrix };
-  Engine engine = Engine::kOde;
+  std::string engine = kDefaultEngine;  ///< name of a plug-in's manifest
   Coupling coupling = Coupling::kSoft;
   Solver solver = Solver::kAuto;
   std::size_t iterations = 0;  ///< of the iterative solver; 0: as many as fit into the period

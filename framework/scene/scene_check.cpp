@@ -217,7 +217,7 @@ class SceneCheck {
   /// The children of <haptics> are the settings of renderers.
   void checkRenderer(const Element& haptics) {
     if (haptics.flawed("renderer")) return;
-    const std::string name = haptics.attribute("renderer", "god_object");
+    const std::string name = haptics.attribute("renderer", kDefaultRenderer);
     const Manifest* renderer = findManifest(name);
     for (const Element& settings : haptics.children()) {
       const auto is_this = [&](const Manifest::Element& own) { return own.name == settings.name(); };

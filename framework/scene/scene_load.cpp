@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "framework/scene/manifest.h"
@@ -8,10 +9,25 @@ namespace {
 
 enum Code { kVersion = 201 };
 
+/// How to get the plug-in that brings an unknown element. Plug-ins beside a scene are found, but a library that came
+/// with a scene runs only if the user says so.
+std::string ifUnknown(const std::string& element, const std::string& file) {
+  const std::filesystem::path scene = std::filesystem::path(file).parent_path();
+  for (const char* folder : {"plugins", "../build/lib/presa"}) {
+    const std::string near = (scene / folder).lexically_normal().string();
+    Diagnostics of_others;
+    for (const Manifest& manifest : readManifests({near}, of_others)) {
+      if (std::ranges::find(manifest.elements, element, &Manifest::Element::name) == manifest.elements.end()) continue;
+      return "; plug-in '" + manifest.name + "' in " + near + " brings it: --allow-plugins " + near +
+             ", or name that folder in PRESA_PLUGIN_PATH";
+    }
+  }
+  return "; if a plug-in brings it, install the plug-in, or name its folder with --allow-plugins or in "
+         "PRESA_PLUGIN_PATH (presa plugins)";
+}
+
 const xml::Schema& sceneSchema() {
-  static const xml::Schema schema(
-      sceneSchemaWith(manifests()),
-      "; if a plug-in brings it, install the plug-in, or name its folder in PRESA_PLUGIN_PATH (presa plugins)");
+  static const xml::Schema schema(sceneSchemaWith(manifests()), ifUnknown);
   return schema;
 }
 

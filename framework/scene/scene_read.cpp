@@ -195,7 +195,7 @@ HapticSettings readHaptics(const Element& element) {
   H settings;
   settings.renderer = element.attribute("renderer");
   const Manifest* renderer = findManifest(settings.renderer);
-  settings.proxy = renderer != nullptr && renderer->proxy;
+  settings.proxy = renderer != nullptr && renderer->hasProxy();
   settings.pose = choose(element, "pose", settings.pose, {{"hold", H::PoseUse::kHold}});
   return settings;
 }
@@ -207,8 +207,7 @@ CollisionSettings readCollision(const Element& element) {
 DynamicsSettings readDynamics(const Element& element) {
   using D = DynamicsSettings;
   D settings;
-  settings.engine =
-      choose(element, "engine", settings.engine, {{"mujoco", D::Engine::kMujoco}, {"bullet", D::Engine::kBullet}});
+  settings.engine = element.attribute("engine");
   settings.coupling = choose(element, "coupling", settings.coupling, {{"explicit", D::Coupling::kExplicit}});
   settings.solver = choose(element, "solver", settings.solver,
                            {{"direct", D::Solver::kDirect}, {"iterative", D::Solver::kIterative}});

@@ -13,8 +13,7 @@ namespace presa {
 
 struct ModulePlugin {
   int abi = kPluginAbi;
-  const char* name;     ///< name of its folder
-  const char* summary;  ///< one line for --help and explain
+  const char* name;  ///< of its manifest, which says when a run needs it
   std::unique_ptr<Module> (*create)(std::shared_ptr<const World> world, const RunOptions& options);
   std::string (*library)() = nullptr;  ///< outside library and version: "ODE 0.16.2"; null: none
 };

@@ -5,29 +5,25 @@
 #include "framework/haptics/friction_laws.h"
 #include "framework/haptics/surface_effects.h"
 #include "framework/scene/manifest.h"
+#include "framework/scene/scene_facts.h"
 
 namespace presa {
 namespace {
 
 constexpr double kFastestRealTime = 10000;  // [Hz]
-/// The haptic tick tests up to this many bodies faster than it reads a list of near ones.
-constexpr std::size_t kFewTouchables = 32;
 
-template <class Wanted>
-std::string firstBody(const Scene& scene, const Wanted& wanted) {
-  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), wanted);
-  return found == scene.bodies.end() ? std::string{} : found->name;
+/// "body 'cube'", "the scene"
+std::string ownerOf(const PluginElement& element, const Scene& scene) {
+  if (element.body == kNoBody) return "the scene";
+  return "body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
 }
 
-const char* dynamicsPlugin(const Scene& scene) {
-  switch (scene.dynamics.engine) {
-    case DynamicsSettings::Engine::kMujoco:
-      return "dynamics_mujoco";
-    case DynamicsSettings::Engine::kBullet:
-      return "dynamics_bullet";
-    default:
-      return "dynamics_ode";
-  }
+/// Why a scene leaves out a plug-in that it could call for by an element.
+std::string withoutItsElements(const Manifest& manifest) {
+  std::string elements;
+  for (const Manifest::Element& element : manifest.elements)
+    elements += (elements.empty() ? "<" : ", <") + element.name + ">";
+  return "the scene has no " + elements + ": " + manifest.about;
 }
 
 void planEffects(const Scene& scene, Plan& plan) {
@@ -36,10 +32,7 @@ void planEffects(const Scene& scene, Plan& plan) {
         std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; });
     if (known || scene.devices.empty()) continue;
     if (element.kind != PluginKind::kForceEffect) continue;  // the others are planned below
-    const std::string owner = element.body == kNoBody
-                                  ? "the scene"
-                                  : "body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
-    plan.effects.push_back({element.plugin, owner + " has <" + element.element + ">"});
+    plan.effects.push_back({element.plugin, ownerOf(element, scene) + " has <" + element.element + ">"});
   }
 }
 
@@ -76,20 +69,94 @@ std::string whyNot(const Manifest& manifest, const Scene& scene) {
   if (scene.devices.empty()) return "the scene has no device";
   if (manifest.kind == PluginKind::kRenderer) return "the scene's renderer is '" + scene.haptics.renderer + "'";
   if (manifest.needs_proxy && !scene.haptics.proxy) return "the renderer '" + scene.haptics.renderer + "' has no proxy";
-  if (manifest.name == kShading) return "no touchable mesh says shading=\"smooth\"";
-  if (manifest.name == kDefaultFrictionLaw) return "no touchable material has friction that names no law";
+  if (!manifest.left_out.empty()) return manifest.left_out;
   if (std::ranges::any_of(scene.plugin_elements, of_it)) return "nothing touchable needs it";
-  std::string elements;
-  for (const Manifest::Element& element : manifest.elements)
-    elements += (elements.empty() ? "<" : ", <") + element.name + ">";
-  return "the scene has no " + elements + ": " + manifest.about;
+  return withoutItsElements(manifest);
 }
 
 /// What the scene could call for.
 void leaveOutOthers(const Scene& scene, Plan& plan) {
   for (const Manifest& manifest : manifests()) {
+    if (manifest.kind == PluginKind::kModule) continue;
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == manifest.name; })) continue;
     plan.left_out.push_back({manifest.name, whyNot(manifest, scene)});
+  }
+}
+
+/// Whether a run needs a module, and why or why not.
+struct Need {
+  bool wanted;
+  std::string reason;
+};
+
+/// One alternative of <wanted>: the last fact says why, the first that does not hold says why not.
+Need needOf(const std::vector<std::string>& together, const std::vector<SceneFact>& facts) {
+  Need need{true, ""};
+  for (const std::string& name : together) {
+    const SceneFact& fact = *std::ranges::find(facts, name, &SceneFact::name);  // the manifest was checked
+    if (!fact.holds) return {false, fact.why};
+    need.reason = fact.why;
+  }
+  return need;
+}
+
+Need needOf(const Manifest& module, const Scene& scene, const std::vector<SceneFact>& facts) {
+  if (!module.module.engine.empty() && module.module.engine != scene.dynamics.engine)
+    return {false, "the scene's engine is '" + scene.dynamics.engine + "'"};
+  Need need{false, ""};
+  for (const std::vector<std::string>& together : module.module.wanted) {
+    need = needOf(together, facts);
+    if (need.wanted) return need;
+  }
+  const auto own = std::ranges::find(scene.plugin_elements, module.name, &PluginElement::plugin);
+  if (own != scene.plugin_elements.end()) return {true, ownerOf(*own, scene) + " has <" + own->element + ">"};
+  if (module.module.wanted.empty()) need.reason = withoutItsElements(module);
+  return need;
+}
+
+/// The modules of the plug-in folders, by rate and name, so that the order of a graph depends on nothing else.
+std::vector<const Manifest*> modulesByRate() {
+  std::vector<const Manifest*> modules;
+  for (const Manifest& manifest : manifests())
+    if (manifest.kind == PluginKind::kModule) modules.push_back(&manifest);
+  std::ranges::stable_sort(modules, {}, [](const Manifest* m) { return m->module.rate; });
+  return modules;
+}
+
+/// "ode, other": engines for which `supports` is set.
+std::string enginesThat(bool Manifest::ModuleRole::*supports) {
+  std::string names;
+  for (const Manifest* manifest : modulesByRate()) {
+    const Manifest::ModuleRole& role = manifest->module;
+    if (!role.engine.empty() && role.*supports) names += (names.empty() ? "" : ", ") + role.engine;
+  }
+  return names;
+}
+
+/// What the scene has and its engine does not support.
+void checkEngine(const Scene& scene, const Plan& plan, Diagnostics& diagnostics) {
+  const SourceLocation where{scene.file, 0, 0};
+  for (const PlannedModule& planned : plan.modules) {
+    const Manifest::ModuleRole& role = findManifest(planned.plugin)->module;
+    if (role.engine.empty()) continue;
+    if (!role.fingers && !scene.devices.empty())
+      diagnostics.error(407, where, "the scene has devices, and " + planned.plugin + " does not support fingers",
+                        "engines that do: " + enginesThat(&Manifest::ModuleRole::fingers));
+    if (!role.snap && scene.assembly)
+      diagnostics.error(409, where,
+                        "the scene has an assembly, and " + planned.plugin + " does not support snap constraints",
+                        "engines that do: " + enginesThat(&Manifest::ModuleRole::snap));
+  }
+}
+
+void planModules(const Scene& scene, const std::vector<SceneFact>& facts, Plan& plan) {
+  for (const Manifest* manifest : modulesByRate()) {
+    Need need = needOf(*manifest, scene, facts);
+    if (need.wanted) {
+      plan.modules.push_back({manifest->name, manifest->module.rate, std::move(need.reason)});
+    } else {
+      plan.left_out.push_back({manifest->name, std::move(need.reason)});
+    }
   }
 }
 
@@ -123,65 +190,17 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
               Diagnostics& diagnostics) {
   Plan plan;
   plan.devices = std::move(devices);
-  const auto call = [&](bool wanted, const char* plugin, RateGroup group, std::string why, std::string why_not) {
-    if (wanted) {
-      plan.modules.push_back({plugin, group, std::move(why)});
-    } else {
-      plan.left_out.push_back({plugin, std::move(why_not)});
-    }
-  };
-
-  const std::string free = firstBody(scene, [](const Body& b) { return !b.fixed; });
-  const std::string mesh =
-      firstBody(scene, [](const Body& b) { return b.haptic && std::holds_alternative<MeshRef>(b.haptic->shape); });
-  const std::string touchable = firstBody(scene, [](const Body& b) { return b.haptic.has_value(); });
-  const bool fingers = !scene.devices.empty();
-
-  call(fingers, "haptics_proxy", RateGroup::kHaptic,
-       touchable.empty() ? "the scene has devices" : "fingers can touch body '" + touchable + "'",
-       "the scene has no device");
-  const auto touchables =
-      static_cast<std::size_t>(std::ranges::count_if(scene.bodies, [](const Body& b) { return b.haptic.has_value(); }));
-  call(fingers && (!mesh.empty() || touchables > kFewTouchables), "collision_fcl", RateGroup::kCollision,
-       mesh.empty() ? std::to_string(touchables) + " bodies can be touched"
-                    : "body '" + mesh + "' has a mesh as haptic geometry",
-       fingers ? "few haptic geometries, and all of them primitives, which the haptic tick handles exactly"
-               : "the scene has no device");
-  const char* dynamics = dynamicsPlugin(scene);
-  if (fingers && !free.empty() && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
-    diagnostics.error(407, {scene.file, 0, 0},
-                      std::string("the scene has devices, and ") + dynamics + " does not support fingers",
-                      "use engine=\"ode\"; the other engines serve for comparison and do not support fingers");
-  }
-  if (scene.assembly && scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
-    diagnostics.error(409, {scene.file, 0, 0},
-                      std::string("the scene has an assembly, and ") + dynamics + " does not support snap constraints",
-                      "engine=\"ode\"");
-  }
+  planModules(scene, factsOf(scene, rig, options), plan);
+  checkEngine(scene, plan, diagnostics);
   if (options.realtime && scene.rates.haptic > kFastestRealTime) {
     diagnostics.error(408, {scene.file, 0, 0}, "a haptic rate above 10000 Hz cannot be kept against the clock",
                       "use --lockstep, in which finer steps serve as a reference for coarser ones");
   }
-  call(scene.assembly.has_value(), "assembly", RateGroup::kCollision, "bodies are to be put together",
-       "the scene has no assembly");
   planRenderer(scene, plan);
   planEffects(scene, plan);
   planFriction(scene, plan);
   planSurfaceEffects(scene, plan);
   leaveOutOthers(scene, plan);
-  call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
-  call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,
-       options.record.empty() ? "the last two seconds are kept for a fault" : "the run is recorded",
-       "nothing is recorded");
-  call(options.view != RunOptions::View::kNone, "view_osg", RateGroup::kView,
-       options.view == RunOptions::View::kWindow ? "--view window" : "a picture is wanted", "no view is wanted");
-  const std::optional<BusSettings> bus = busOf(scene, rig, options);
-  call(bus.has_value(), "bus_dds", RateGroup::kBus,
-       !bus          ? ""
-       : options.bus ? "--bus " + bus->network
-                     : (rig.bus ? "the rig '" + rig.name : "the scene '" + scene.name) + "' publishes on bus '" +
-                           bus->network + "'",
-       "no bus was requested (--bus)");
   return plan;
 }
 

@@ -5,13 +5,16 @@
 
 #include "framework/assembly/guide_module.h"
 #include "framework/core/graph/graph_builder.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/core/plugin/plugin_loader.h"
 #include "framework/device/device_modules.h"
 #include "framework/device/device_plugin.h"
+#include "framework/device/device_settings.h"
 #include "framework/device/supervision/supervised_device.h"
 #include "framework/device/transport_watch.h"
 #include "framework/haptics/plugin_host.h"
 #include "framework/record/record_plugin.h"
+#include "framework/scene/manifest.h"
 #include "framework/session/module_plugin.h"
 
 namespace presa {
@@ -22,6 +25,23 @@ const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
   const auto found = std::find_if(rig.devices.begin(), rig.devices.end(),
                                   [&](const DeviceBinding& binding) { return binding.role == role; });
   return found == rig.devices.end() ? nullptr : &*found;
+}
+
+/// Settings that the driver's manifest does not list (E401). A driver without a manifest checks its own.
+void checkSettings(const std::string& driver, const std::vector<DeviceBinding>& bindings, Diagnostics& diagnostics) {
+  const Manifest* manifest = findManifest(driver);
+  if (manifest == nullptr) return;
+  std::vector<std::string> known;
+  for (const Manifest::Attribute& setting : manifest->settings) known.push_back(setting.name);
+  for (const DeviceBinding& binding : bindings) refuseUnknownSettings(binding, known, diagnostics);
+}
+
+/// ": did you mean 'scripted'?"
+std::string nearestDriver(const std::string& driver) {
+  std::vector<std::string> drivers;
+  for (const Manifest& manifest : manifests())
+    if (manifest.kind == PluginKind::kDevice) drivers.push_back(manifest.name);
+  return didYouMean(driver, drivers);
 }
 
 /// The devices of one driver, in the order of `bindings`, made in one call because two of them may be one hand. Every
@@ -35,6 +55,7 @@ DeviceList createOf(const std::string& driver, const std::vector<DeviceBinding>&
   };
   try {
     const std::size_t errors_before = diagnostics.errorCount();
+    checkSettings(driver, bindings, diagnostics);
     DeviceList made = devicePlugin(driver).create(bindings, world, options, diagnostics);
     const auto there = made.size() - static_cast<std::size_t>(std::count(made.begin(), made.end(), nullptr));
     if (made.size() == bindings.size() && (there == made.size() || diagnostics.errorCount() > errors_before))
@@ -42,7 +63,7 @@ DeviceList createOf(const std::string& driver, const std::vector<DeviceBinding>&
     return refuseAll("made " + std::to_string(there) + " devices for " + std::to_string(bindings.size()) + " roles",
                      "report this to the author of the driver");
   } catch (const InputError& error) {
-    return refuseAll("cannot be loaded", error.what());
+    return refuseAll("cannot be loaded" + nearestDriver(driver), error.what());
   }
 }
 
@@ -64,7 +85,7 @@ DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOpt
 }
 
 std::unique_ptr<View> makeView(std::shared_ptr<const World> world, const RunOptions& options) {
-  auto module = pluginTable<ModulePlugin>("view_osg", "presaModulePlugin").create(std::move(world), options);
+  auto module = pluginTable<ModulePlugin>(manifestGiving("view").name, "presaModulePlugin").create(std::move(world), options);
   return std::unique_ptr<View>(&dynamic_cast<View&>(*module.release()));
 }
 
@@ -88,6 +109,18 @@ std::vector<std::string> engineVersions(const Plan& plan) {
 }
 
 namespace {
+
+std::unique_ptr<Module> makeModule(const PlannedModule& planned, const std::shared_ptr<const World>& world,
+                                   const RunOptions& options) {
+  auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world, options);
+  if (module != nullptr && module->group() == planned.group) return module;
+  const Manifest* manifest = findManifest(planned.plugin);
+  refuse(596, manifest == nullptr ? planned.plugin : manifest->file,
+         "the library of module '" + planned.plugin + "' makes " +
+             (module == nullptr ? "nothing" : std::string("a module of the ") + toString(module->group()) + " rate") +
+             ", its manifest says rate=\"" + toString(planned.group) + "\"",
+         "report this to the author of the plug-in");
+}
 
 /// The rating of the driver that the rig names, or kImaginedRating without one: replays and studies bring their own
 /// devices.
@@ -192,10 +225,10 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
     recorder_ = recorder.get();
     return recorder;
   }
-  auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world_, options_);
-  if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
+  auto module = makeModule(planned, world_, options_);
+  if (auto* view = dynamic_cast<View*>(module.get())) view_ = view;
   if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_host_ = host;
-  if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
+  if (auto* assembly = dynamic_cast<AssemblyControl*>(module.get())) assembly_ = assembly;
   return module;
 }
 

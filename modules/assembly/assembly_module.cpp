@@ -36,7 +36,7 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOpti
   return std::make_unique<AssemblyModule>(std::move(world));
 }
 
-const ModulePlugin kPlugin{kPluginAbi, "assembly", "pulls bodies to their goals and keeps them there", create};
+const ModulePlugin kPlugin{.name = "assembly", .create = create};
 
 }  // namespace
 }  // namespace presa::assembly

@@ -18,7 +18,6 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOpti
 std::string library() { return "Cyclone DDS " DDS_VERSION; }
 
 const ModulePlugin kPlugin{.name = "bus_dds",
-                           .summary = "publishes the state for viewers, on this machine or on others",
                            .create = &create,
                            .library = &library};
 

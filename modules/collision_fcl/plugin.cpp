@@ -10,9 +10,7 @@ std::unique_ptr<presa::Module> create(std::shared_ptr<const presa::World> world,
 }
 
 const presa::ModulePlugin kPlugin{
-    presa::kPluginAbi, "collision_fcl",
-    "bodies near each finger (FCL broad phase), and cuts through the hierarchies of their meshes", create,
-    [] { return std::string("FCL " FCL_VERSION); }};
+    .name = "collision_fcl", .create = create, .library = [] { return std::string("FCL " FCL_VERSION); }};
 
 }  // namespace
 

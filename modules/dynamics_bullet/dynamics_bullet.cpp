@@ -142,7 +142,6 @@ class DynamicsBullet final : public Module {
 
 const ModulePlugin kPlugin{
     .name = "dynamics_bullet",
-    .summary = "moves free bodies with unmodified Bullet, for comparison",
     .create = [](std::shared_ptr<const World> world, const RunOptions&) -> std::unique_ptr<Module> {
       return std::make_unique<DynamicsBullet>(std::move(world));
     },

@@ -112,7 +112,6 @@ class DynamicsMujoco final : public Module {
 
 const ModulePlugin kPlugin{
     .name = "dynamics_mujoco",
-    .summary = "moves free bodies with unmodified MuJoCo, for comparison",
     .create = [](std::shared_ptr<const World> world, const RunOptions&) -> std::unique_ptr<Module> {
       return std::make_unique<DynamicsMujoco>(std::move(world));
     },

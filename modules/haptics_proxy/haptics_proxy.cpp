@@ -150,7 +150,6 @@ std::vector<std::string> HapticsProxy::stages() const {
 namespace {
 const ModulePlugin kPlugin{
     .name = "haptics_proxy",
-    .summary = "god-object with fingertip radius, and the effects the scene names, 1 kHz",
     .create = [](std::shared_ptr<const World> world, const RunOptions& options) -> std::unique_ptr<Module> {
       return std::make_unique<HapticsProxy>(world, options);
     }};

@@ -179,7 +179,7 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOpti
 }
 
 const ModulePlugin kPlugin{
-    .name = "view_osg", .summary = "draws bodies, fingers and forces in a window or a picture", .create = &create};
+    .name = "view_osg", .create = &create};
 
 }  // namespace
 }  // namespace presa::view

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -22,21 +23,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds --allow-folder to every command without subcommands.
-void offerFolders(CLI::App& app) {
-  const auto commands = app.get_subcommands([](CLI::App*) { return true; });
-  for (CLI::App* command : commands) offerFolders(*command);
-  if (!commands.empty()) return;
+/// Plug-ins are looked for in `folder` first, by this process and its child processes.
+void allowPlugins(const std::string& folder) {
+  const char* list = std::getenv("PRESA_PLUGIN_PATH");
+  const std::string others = list == nullptr ? "" : ":" + std::string(list);
+  setenv("PRESA_PLUGIN_PATH", (fs::absolute(folder).lexically_normal().string() + others).c_str(), 1);
+}
+
+void offerFolder(CLI::App& app, const char* option, void (*allow)(const std::string&), const char* about) {
   app.add_option_function<std::vector<std::string>>(
-         "--allow-folder",
-         [](const std::vector<std::string>& folders) {
-           for (const std::string& folder : folders) input::allowFolder(folder);
-         },
-         "files may name files in this folder, too (repeatable; also PRESA_ALLOW_FOLDERS)")
+         option, [allow](const std::vector<std::string>& folders) { std::ranges::for_each(folders, allow); }, about)
       ->type_name("FOLDER")
       ->check(CLI::ExistingDirectory)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+/// Adds --allow-folder and --allow-plugins to every command without subcommands.
+void offerFolders(CLI::App& app) {
+  const auto commands = app.get_subcommands([](CLI::App*) { return true; });
+  for (CLI::App* command : commands) offerFolders(*command);
+  if (!commands.empty()) return;
+  offerFolder(app, "--allow-folder", input::allowFolder,
+              "files may name files in this folder, too (repeatable; also PRESA_ALLOW_FOLDERS)");
+  offerFolder(app, "--allow-plugins", allowPlugins,
+              "look for plug-ins in this folder, too, such as one beside a scene (repeatable; also PRESA_PLUGIN_PATH)");
 }
 
 fs::path programFolder() {

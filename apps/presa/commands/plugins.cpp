@@ -27,9 +27,29 @@ void print(const Manifest::Attribute& attribute) {
               boundsOf(attribute).c_str(), given.c_str(), attribute.about.c_str());
 }
 
+void printSetting(const Manifest::Attribute& setting) {
+  const std::string unit = setting.unit.empty() ? "" : " [" + setting.unit + "]";
+  const std::string given = setting.required ? "" : ", default " + setting.default_value;
+  std::printf("      %-12s %s%s%s: %s\n", setting.name.c_str(), setting.type.c_str(), unit.c_str(), given.c_str(),
+              setting.about.c_str());
+}
+
+/// When a run needs a module: "dynamics rate, engine 'ode', when free_body".
+std::string roleOf(const Manifest::ModuleRole& role) {
+  std::string text = std::string(toString(role.rate)) + " rate";
+  if (!role.engine.empty()) text += ", engine '" + role.engine + "'";
+  for (std::size_t i = 0; i < role.wanted.size(); ++i) {
+    text += i == 0 ? ", when" : ", or";
+    for (const std::string& fact : role.wanted[i]) text += " " + fact;
+  }
+  return text;
+}
+
 void print(const Manifest& manifest) {
   std::printf("%s %s (%s), %s\n  %s\n", manifest.name.c_str(), manifest.version.c_str(), nameOf(manifest.kind),
               fs::path(manifest.file).parent_path().lexically_normal().c_str(), manifest.about.c_str());
+  if (manifest.kind == PluginKind::kModule) std::printf("    %s\n", roleOf(manifest.module).c_str());
+  for (const Manifest::Attribute& setting : manifest.settings) printSetting(setting);
   for (const Manifest::Element& element : manifest.elements) {
     std::printf("    <%s> in <%s>\n", element.name.c_str(), nameOf(element.place));
     for (const Manifest::Attribute& attribute : element.attributes) print(attribute);
@@ -66,9 +86,10 @@ int listPlugins() {
 }  // namespace
 
 void addPlugins(Command app, int& status) {
-  Command command = app.command("plugins", "List the plug-ins, and the elements that they bring to scenes");
+  Command command = app.command("plugins", "List the plug-ins, the elements that they bring to scenes, and the settings of drivers");
   command.footer(
-      "Plug-ins are looked for in the folders of PRESA_PLUGIN_PATH (separated by colons), then beside Presa's own.\n"
+      "Plug-ins are looked for in the folders of --allow-plugins and of PRESA_PLUGIN_PATH (separated by colons), then\n"
+      "beside Presa's own.\n"
       "No library is loaded for this list. A scene loads only the plug-ins that it names.");
   command.action([&status] { status = listPlugins(); });
 }

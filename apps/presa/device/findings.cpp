@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "apps/common/terminal/text.h"
+#include "framework/scene/manifest.h"
 #include "framework/session/session.h"
 
 namespace presa::device {
@@ -28,16 +28,16 @@ Style styleOf(Verdict verdict) {
 
 std::vector<std::string> drivers() {
   std::vector<std::string> names;
-  std::istringstream list(PRESA_DRIVERS);
-  for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+  for (const Manifest& manifest : manifests())
+    if (manifest.kind == PluginKind::kDevice) names.push_back(manifest.name);
   return names;
 }
 
 Report ask(const DeviceBinding& binding) {
-  Report report{binding.driver, "", {}};
+  const Manifest* manifest = findManifest(binding.driver);
+  Report report{binding.driver, manifest == nullptr ? "" : manifest->about, {}};
   try {
     const DevicePlugin& driver = devicePlugin(binding.driver);
-    report.summary = driver.summary;
     if (driver.diagnose != nullptr)
       report.findings = driver.diagnose(binding);
     else

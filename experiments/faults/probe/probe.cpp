@@ -64,7 +64,6 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World&, Diagn
 }
 
 const DevicePlugin kPlugin{.name = "fault_probe",
-                           .summary = "stands in for hardware and logs the forces that reach it",
                            .create = createEach<create>,
                            .rating = {.force = 10},
                            .hardware = true};

@@ -48,7 +48,7 @@ void* openPlugin(const std::string& name) {
            "install the library it needs, or build it again with this version of Presa");
   }
   refuse(590, "", "there is no plug-in '" + name + "' (tried " + tried + ")",
-         "build it, or name its folder in the environment variable PRESA_PLUGIN_PATH");
+         "build it, or name its folder with --allow-plugins or in the environment variable PRESA_PLUGIN_PATH");
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ class Checker {
           "unknown element " + tag(name) + " in " + in +
               (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
           (parent.content.empty() ? in + " has no elements in it" : "allowed: " + joined(parent.childNames())) +
-              (nearest.empty() ? schema_.ifUnknown() : ""));
+              (nearest.empty() ? schema_.ifUnknown(name, where.file) : ""));
     }
     if (!nearest.empty()) corrections_.emplace_back(node, nearest);
     return nearest;

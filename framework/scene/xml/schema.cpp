@@ -55,7 +55,7 @@ bool ElementRule::mayBeEmpty() const {
          std::all_of(content.begin(), content.end(), [](const ContentRule& rule) { return rule.min == 0; });
 }
 
-Schema::Schema(const std::string& xsd, std::string if_unknown)
+Schema::Schema(const std::string& xsd, IfUnknown if_unknown)
     : compiled_(std::make_unique<Compiled>()), if_unknown_(std::move(if_unknown)) {
   prepareLibrary();
   std::string errors;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -50,15 +51,18 @@ struct ElementRule {
 /// p:implied="false" is there only if it is written.
 class Schema {
  public:
-  /// `if_unknown`: added to the help for an unknown element that resembles no known one.
-  explicit Schema(const std::string& xsd, std::string if_unknown = {});
+  /// Added to the help for an unknown element, of this name in this file, that resembles no known one.
+  using IfUnknown = std::function<std::string(const std::string& element, const std::string& file)>;
+  explicit Schema(const std::string& xsd, IfUnknown if_unknown = {});
   ~Schema();
   Schema(const Schema&) = delete;
   Schema& operator=(const Schema&) = delete;
 
   const ElementRule& root() const { return *root_; }
   const std::vector<std::unique_ptr<ElementRule>>& elements() const { return elements_; }
-  const std::string& ifUnknown() const { return if_unknown_; }
+  std::string ifUnknown(const std::string& element, const std::string& file) const {
+    return if_unknown_ ? if_unknown_(element, file) : std::string{};
+  }
 
  private:
   friend class Document;
@@ -67,7 +71,7 @@ class Schema {
   std::unique_ptr<Compiled> compiled_;
   std::vector<std::unique_ptr<ElementRule>> elements_;
   const ElementRule* root_ = nullptr;
-  std::string if_unknown_;
+  IfUnknown if_unknown_;
 };
 
 }  // namespace presa::xml

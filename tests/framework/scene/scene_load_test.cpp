@@ -45,7 +45,7 @@ std::string contentOf(const Scene& scene) {
   text << scene.rates.haptic << " " << scene.rates.collision << " " << scene.rates.dynamics << " " << scene.rates.view
        << "\n";
   const DynamicsSettings& settings = scene.dynamics;
-  text << static_cast<int>(settings.engine) << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver)
+  text << settings.engine << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver)
        << static_cast<int>(settings.friction) << static_cast<int>(settings.rotation) << settings.sleeping << " "
        << settings.iterations << " " << settings.substeps << "\n";
   text << scene.haptics.renderer << static_cast<int>(scene.haptics.pose) << " "

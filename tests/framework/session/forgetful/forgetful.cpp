@@ -5,7 +5,6 @@ namespace {
 
 /// A driver that makes no device and says nothing.
 const DevicePlugin kPlugin{.name = "forgetful",
-                           .summary = "makes no device, for tests",
                            .create = [](const std::vector<DeviceBinding>&, const std::shared_ptr<const World>&,
                                         const RunOptions&, Diagnostics&) { return DeviceList{}; },
                            .rating = kImaginedRating};
