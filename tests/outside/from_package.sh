@@ -65,6 +65,15 @@ refused "scene/lift.xml:7:12: error[E116]" "${bare[@]}" presa check scene/lift.x
 project device fingertip
 shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "presa_fingertip.so"
 refused "E590" "${bare[@]}" presa check scene/lift.xml
+shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa device list)" "fingertip: simulated fingertip that lifts a cube"
+sed -i 's/key="finger"/key="fingr"/' scene/rig.xml
+refused "driver 'fingertip' has no setting 'fingr'" env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa check scene/lift.xml
+
+project module height_watch
+# a library beside a scene is found, but runs only if the user says so
+refused "plug-in 'height_watch' in build/lib/presa brings it: --allow-plugins build/lib/presa" "${bare[@]}" presa check scene/lift.xml
+shows "$(run presa explain scene/lift.xml --allow-plugins build/lib/presa)" "height_watch"
+shows "$(run presa run scene/lift.xml --lockstep --allow-plugins build/lib/presa)" "cube was above 0.05 m for"
 
 cd "$work"
 refused "error[E597]: there is a plug-in 'magnet' already" "${bare[@]}" presa new effect magnet

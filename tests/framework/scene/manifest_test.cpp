@@ -103,7 +103,7 @@ TEST_F(Manifests, OfRenderersAddAValueToHaptics) {
   const auto all = readManifests({folder_.path().string()}, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors());
   ASSERT_EQ(all.size(), 1U);
-  EXPECT_TRUE(all[0].proxy);
+  EXPECT_TRUE(all[0].hasProxy());
   const std::string xsd = sceneSchemaWith(all);
   EXPECT_NE(xsd.find("<xs:enumeration value=\"rays\"/>"), std::string::npos);
   EXPECT_NE(xsd.find("<xs:element name=\"rays\" p:implied=\"false\" minOccurs=\"0\">"), std::string::npos);
@@ -142,6 +142,64 @@ TEST_F(Manifests, OnlyOfRenderersGiveAProxy) {
 TEST_F(Manifests, AreCheckedLikeAnyFile) {
   write("presa_wind.xml", "<plugin name=\"wind\" version=\"1.0\" kind=\"forse_effect\" about=\"a test\"/>");
   EXPECT_NE(errors().find("forse_effect"), std::string::npos) << errors();
+}
+
+std::string module(const std::string& attributes, const std::string& children) {
+  return "<plugin name=\"tide\" version=\"1.0\" kind=\"module\" about=\"a test\" " + attributes + ">" + children +
+         "</plugin>";
+}
+
+TEST_F(Manifests, OfModulesSayWhenARunNeedsThem) {
+  write("presa_tide.xml", module("rate=\"dynamics\" engine=\"waves\" fingers=\"false\"",
+                                 "<wanted when=\"fingers free_body\"/><wanted when=\"assembly\"/>"));
+  Diagnostics diagnostics;
+  const auto all = readManifests({folder_.path().string()}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.all()[0].message;
+  const Manifest::ModuleRole& role = all.at(0).module;
+  EXPECT_EQ(role.rate, RateGroup::kDynamics);
+  EXPECT_FALSE(role.fingers);
+  EXPECT_TRUE(role.snap);
+  EXPECT_EQ(role.wanted, (std::vector<std::vector<std::string>>{{"fingers", "free_body"}, {"assembly"}}));
+  // scenes may choose it
+  EXPECT_NE(sceneSchemaWith(all).find("<xs:enumeration value=\"waves\"/>"), std::string::npos);
+}
+
+TEST_F(Manifests, OfModulesThatAreNeverNeededAreRefused) {
+  write("presa_tide.xml", module("rate=\"view\"", ""));
+  EXPECT_EQ(errors(), "595 the module 'tide' is never needed\n");
+  write("presa_tide.xml", module("", "<element name=\"tide\" in=\"scene\"/>"));
+  EXPECT_EQ(errors(), "595 the module 'tide' has no rate\n");
+  write("presa_tide.xml", module("rate=\"view\"", "<wanted when=\"free_bodies\"/>"));
+  EXPECT_EQ(errors(), "595 no fact 'free_bodies' (did you mean 'free_body'?)\n");
+}
+
+// Otherwise a misplaced line would be ignored.
+TEST_F(Manifests, OfOtherKindsSayNothingOfModulesAndDevices) {
+  const auto wind = [](const std::string& attributes, const std::string& children) {
+    return "<plugin name=\"wind\" version=\"1.0\" kind=\"friction_law\" about=\"a test\" " + attributes + ">" +
+           children + "</plugin>";
+  };
+  write("presa_wind.xml", wind("rate=\"view\"", "<wanted when=\"view\"/><setting name=\"a\" type=\"text\" about=\"b\"/>"));
+  EXPECT_EQ(errors(),
+            "595 the friction law 'wind' says rate=\"…\"\n"
+            "595 the friction law 'wind' has <wanted>\n"
+            "595 the friction law 'wind' has <setting>\n");
+  write("presa_wind.xml", wind("gives=\"view\"", ""));
+  EXPECT_EQ(errors(), "595 the friction law 'wind' says gives=\"view\"\n");
+}
+
+TEST_F(Manifests, OfDevicesListTheirSettings) {
+  const auto device = [](const std::string& children) {
+    return "<plugin name=\"pen\" version=\"1.0\" kind=\"device\" about=\"a test\">" + children + "</plugin>";
+  };
+  write("presa_pen.xml", device("<setting name=\"path\" type=\"file\" about=\"what it draws\"/>"));
+  Diagnostics diagnostics;
+  const auto all = readManifests({folder_.path().string()}, diagnostics);
+  ASSERT_EQ(all.size(), 1U);
+  ASSERT_EQ(all[0].settings.size(), 1U);
+  EXPECT_EQ(all[0].settings[0].type, "file");
+  write("presa_pen.xml", device("<element name=\"pen\" in=\"scene\"/>"));
+  EXPECT_EQ(errors(), "595 <pen> of the device 'pen' cannot stand in=\"scene\"\n");
 }
 
 }  // namespace
