@@ -137,13 +137,13 @@ bool Import::checkNumbers() {
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t index = mesh_.triangles[t][i];
-      const std::string corner = "corner " + std::to_string(i) + " of triangle " + std::to_string(t);
+      const auto corner = [&] { return "corner " + std::to_string(i) + " of triangle " + std::to_string(t); };
       if (index < 0 || static_cast<std::size_t>(index) >= mesh_.vertices.size()) {
-        return fail(306, corner + " (counting from 0) names a vertex that does not exist", "export the mesh again");
+        return fail(306, corner() + " (counting from 0) names a vertex that does not exist", "export the mesh again");
       }
       const Vec3& vertex = mesh_.vertices[static_cast<std::size_t>(index)];
       if (!vertex.allFinite()) {
-        return fail(305, corner + " (counting from 0) is at " + text(vertex),
+        return fail(305, corner() + " (counting from 0) is at " + text(vertex),
                     "every coordinate must be a finite number");
       }
     }
@@ -162,7 +162,7 @@ bool Import::repair() {
   weld(mesh_, kWeldTolerance * diagonal);
   dropUnused(mesh_);
   const std::size_t vanished = before - mesh_.triangles.size();
-  const std::size_t degenerate = vanished + checkMesh(mesh_).degenerate;
+  const std::size_t degenerate = vanished + degenerateTriangles(mesh_);
   if (mesh_.triangles.empty()) {
     return fail(307, "all its " + std::to_string(before) + " triangles are degenerate (no area)",
                 "check the scale and the export");

@@ -25,22 +25,37 @@ bool validIndices(const TriMesh& mesh, const TriMesh::Triangle& triangle) {
       triangle, [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < mesh.vertices.size(); });
 }
 
-std::vector<HalfEdge> sortedHalfEdges(const TriMesh& mesh) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
+/// Calls visit(half-edge) for each side of each triangle with valid indices, in their order.
+template <class Visitor>
+void forEachHalfEdge(const TriMesh& mesh, const Visitor& visit) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const TriMesh::Triangle& triangle = mesh.triangles[t];
     if (!validIndices(mesh, triangle)) continue;
     for (std::size_t side = 0; side < 3; ++side) {
       const std::int32_t from = triangle[side], to = triangle[(side + 1) % 3];
       if (from == to) continue;
-      edges.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(t),
-                       static_cast<std::int8_t>(side), from < to});
+      visit(HalfEdge{std::min(from, to), std::max(from, to), static_cast<std::int32_t>(t),
+                     static_cast<std::int8_t>(side), from < to});
     }
   }
-  std::ranges::sort(edges, [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
-  });
+}
+
+/// Sorted by low, high, triangle, side. Each half-edge goes straight to the few of its low vertex, so that the time grows
+/// with their number only.
+std::vector<HalfEdge> sortedHalfEdges(const TriMesh& mesh) {
+  std::vector<std::size_t> end(mesh.vertices.size() + 1, 0);  // of each low vertex
+  forEachHalfEdge(mesh, [&](const HalfEdge& edge) { ++end[static_cast<std::size_t>(edge.low) + 1]; });
+  for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
+  std::vector<HalfEdge> edges(end.back());
+  forEachHalfEdge(mesh, [&](const HalfEdge& edge) { edges[end[static_cast<std::size_t>(edge.low)]++] = edge; });
+  auto first = edges.begin();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto last = edges.begin() + static_cast<std::ptrdiff_t>(end[v]);
+    std::sort(first, last, [](const HalfEdge& a, const HalfEdge& b) {
+      return std::tie(a.high, a.triangle, a.side) < std::tie(b.high, b.triangle, b.side);
+    });
+    first = last;
+  }
   return edges;
 }
 
@@ -74,6 +89,12 @@ void countVerticesAndTriangles(const TriMesh& mesh, MeshReport& report) {
 }
 
 }  // namespace
+
+std::size_t degenerateTriangles(const TriMesh& mesh) {
+  MeshReport report;
+  countVerticesAndTriangles(mesh, report);
+  return report.degenerate;
+}
 
 void buildAdjacency(TriMesh& mesh) {
   mesh.adjacency.assign(mesh.triangles.size(), {-1, -1, -1});

@@ -56,6 +56,8 @@ struct MeshReport {
   bool closed() const { return open_edges == 0 && non_manifold == 0; }
 };
 MeshReport checkMesh(const TriMesh& mesh);
+/// MeshReport::degenerate alone.
+std::size_t degenerateTriangles(const TriMesh& mesh);
 
 /// Triangulations of the primitives, closed, centred at the origin; chord error below 0.12 % of the radius.
 TriMesh makeBox(const Vec3& size);

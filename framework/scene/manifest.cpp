@@ -48,7 +48,8 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}},
       {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}},
       {PluginKind::kModule, "module", "module", {Place::kBody, Place::kScene}},
-      {PluginKind::kDevice, "device", "device", {}}};
+      {PluginKind::kDevice, "device", "device", {}},
+      {PluginKind::kViewPart, "view_part", "view part", {Place::kBody, Place::kScene}}};
   return kRules;
 }
 

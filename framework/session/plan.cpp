@@ -63,14 +63,25 @@ void planSurfaceEffects(const Scene& scene, Plan& plan) {
   }
 }
 
+void planViewParts(const Scene& scene, const RunOptions& options, Plan& plan) {
+  if (options.view == RunOptions::View::kNone) return;
+  for (const PluginElement& element : scene.plugin_elements) {
+    if (element.kind != PluginKind::kViewPart) continue;
+    if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; })) continue;
+    plan.effects.push_back({element.plugin, ownerOf(element, scene) + " has <" + element.element + ">"});
+  }
+}
+
 /// Why the scene does not call for that plug-in.
 std::string whyNot(const Manifest& manifest, const Scene& scene) {
   const auto of_it = [&](const PluginElement& element) { return element.plugin == manifest.name; };
+  const bool has_it = std::ranges::any_of(scene.plugin_elements, of_it);
+  if (manifest.kind == PluginKind::kViewPart) return has_it ? "no view is wanted" : withoutItsElements(manifest);
   if (scene.devices.empty()) return "the scene has no device";
   if (manifest.kind == PluginKind::kRenderer) return "the scene's renderer is '" + scene.haptics.renderer + "'";
   if (manifest.needs_proxy && !scene.haptics.proxy) return "the renderer '" + scene.haptics.renderer + "' has no proxy";
   if (!manifest.left_out.empty()) return manifest.left_out;
-  if (std::ranges::any_of(scene.plugin_elements, of_it)) return "nothing touchable needs it";
+  if (has_it) return "nothing touchable needs it";
   return withoutItsElements(manifest);
 }
 
@@ -200,6 +211,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
   planEffects(scene, plan);
   planFriction(scene, plan);
   planSurfaceEffects(scene, plan);
+  planViewParts(scene, options, plan);
   leaveOutOthers(scene, plan);
   return plan;
 }

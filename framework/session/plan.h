@@ -19,7 +19,7 @@ struct PlannedDevice {
   std::string role, driver;
 };
 
-/// A plug-in that another one hosts: a force effect in the haptic tick.
+/// A plug-in that another one hosts: a force effect in the haptic tick, a part of the picture.
 struct PlannedEffect {
   std::string plugin, reason;  ///< "body 'cube' has <magnet>"
 };

@@ -51,9 +51,7 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOpti
 }
 
 const ModulePlugin kPlugin{
-    kPluginAbi, "dynamics_ode",
-    "moves free bodies: gravity, collision, friction and the fingers' grip (Open Dynamics Engine)", create,
-    [] { return std::string("ODE " PRESA_ODE_VERSION); }};
+    .name = "dynamics_ode", .create = create, .library = [] { return std::string("ODE " PRESA_ODE_VERSION); }};
 
 }  // namespace
 

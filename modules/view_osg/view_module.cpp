@@ -21,7 +21,10 @@ std::string timeStamp(double time) {
 }  // namespace
 
 ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& options)
-    : View("view_osg", RateGroup::kView), world_(std::move(world)), options_(options) {
+    : View("view_osg", RateGroup::kView),
+      world_(std::move(world)),
+      options_(options),
+      plugin_parts_(PluginParts::of(world_)) {
   // Mesa's software renderer would use all cores, including the haptic thread's. Set before any thread starts.
   setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
@@ -36,15 +39,20 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
 ViewModule::~ViewModule() = default;
 
 std::vector<std::string> ViewModule::stages() const {
-  if (windowed()) return {"take the latest states, poses interpolated to now", "handle keys and mouse, draw a frame"};
-  if (!options_.screenshots.empty()) return {"keep the latest state", "draw the pictures that are due"};
-  return {"keep the latest state", "draw the picture once, when it is due"};
+  std::vector<std::string> all{"take the latest states, poses interpolated to now",
+                               "handle keys and mouse, draw a frame"};
+  if (!windowed())
+    all = {"keep the latest state", options_.screenshots.empty() ? "draw the picture once, when it is due"
+                                                                 : "draw the pictures that are due"};
+  if (plugin_parts_) std::ranges::copy(plugin_parts_->what(), std::back_inserter(all));
+  return all;
 }
 
 void ViewModule::start() {
   osg::setNotifyLevel(osg::FATAL);
   try {
     picture_ = std::make_unique<Picture>(world_, options_);
+    if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
     renderer_ = windowed()
                     ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
@@ -64,6 +72,7 @@ void ViewModule::step(const Tick& tick) noexcept {
   try {
     copyPorts(tick);
     picture_->follow(frame_, timings_);
+    if (plugin_parts_) plugin_parts_->follow(frame_);
     if (windowed()) drawWindow();
     if (video_ && video_->due(frame_.time)) film();
     if (screenshotDue()) saveScreenshot();
@@ -118,8 +127,13 @@ void ViewModule::copyPorts(const Tick& tick) {
   }
 }
 
-void ViewModule::drawWindow() {
+void ViewModule::show() {
+  if (plugin_parts_) plugin_parts_->draw(frame_);
   picture_->show(frame_, timings_);
+}
+
+void ViewModule::drawWindow() {
+  show();
   if (pointer_) pointer_->begin(frame_.device);
   renderer_->render();
   if (pointer_) pointer_out_->value = pointer_->state();
@@ -148,7 +162,7 @@ void ViewModule::saveScreenshot() {
 }
 
 void ViewModule::film() {
-  picture_->show(frame_, timings_);
+  show();
   if (const osg::ref_ptr<osg::Image> image = renderer_->capture()) video_->add(*image, frame_.time);
 }
 
@@ -162,7 +176,7 @@ void ViewModule::saveSeries() {
 }
 
 std::string ViewModule::savePicture(const std::string& file) {
-  picture_->show(frame_, timings_);
+  show();
   const osg::ref_ptr<osg::Image> image = renderer_->capture();
   return image ? writePng(*image, file) : "the window is closed";
 }

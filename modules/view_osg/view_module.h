@@ -10,6 +10,7 @@
 #include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 #include "framework/session/view.h"
+#include "modules/view_osg/plugin_parts.h"
 #include "modules/view_osg/renderer.h"
 #include "modules/view_osg/video.h"
 
@@ -45,6 +46,7 @@ class ViewModule final : public View {
   bool windowed() const { return options_.view == RunOptions::View::kWindow; }
   void copyPorts(const Tick& tick);
   void drawWindow();
+  void show();
   bool screenshotDue() const;
   void film();
   void saveSeries();
@@ -69,6 +71,7 @@ class ViewModule final : public View {
   ViewFrame frame_;
   double next_picture_ = 0;  // next time for RunOptions::screenshots [s]
   GroupTimings timings_{};
+  std::unique_ptr<PluginParts> plugin_parts_;  // only if the scene names some
   std::unique_ptr<Picture> picture_;
   std::unique_ptr<Renderer> renderer_;
   Screenshot screenshot_;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/input/folders.h"
 #include "modules/collision_fcl/collision_module.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 #include "tests/bench/lap_timer.h"
@@ -51,6 +52,7 @@ std::string writeObj(const TriMesh& mesh) {
 
 /// Loads a scene with this single fixed body; false: it failed.
 bool load(const std::string& file) {
+  input::allowFolder(std::filesystem::path(file).parent_path().string());
   Scene scene = worldOf({{}}, 8e-3)->scene;
   scene.bodies[0].haptic = Geometry{MeshRef{.file = file}, {}, {}};
   Diagnostics diagnostics;

@@ -69,6 +69,9 @@ shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/l
 sed -i 's/key="finger"/key="fingr"/' scene/rig.xml
 refused "driver 'fingertip' has no setting 'fingr'" env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa check scene/lift.xml
 
+project view drop_lines
+shows "$(run presa explain scene/lift.xml --view offscreen --allow-plugins build/lib/presa)" "drop a line from each fingertip"
+
 project module height_watch
 # a library beside a scene is found, but runs only if the user says so
 refused "plug-in 'height_watch' in build/lib/presa brings it: --allow-plugins build/lib/presa" "${bare[@]}" presa check scene/lift.xml

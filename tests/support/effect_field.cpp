@@ -1,33 +1,11 @@
 #include "tests/support/effect_field.h"
 
 #include "framework/haptics/force_effects.h"
-#include "framework/scene/manifest.h"
 #include "tests/support/finger_world.h"
 
 namespace presa::test {
-namespace {
-
-bool standsInBody(const std::string& element) {
-  const std::string name = element.substr(1, element.find_first_of(" />") - 1);
-  const Manifest::Element* known = findElement(name);
-  return known != nullptr && known->place == Manifest::Place::kBody;  // null: reading the scene reports it
-}
-
-std::shared_ptr<const World> worldWith(const std::string& element) {
-  const bool in_body = standsInBody(element);
-  const std::string scene = R"(<scene version="1.0" name="effect">)" + (in_body ? "" : element) +
-                            R"(<world gravity="0 0 0"/><materials><material name="any" stiffness="1000"/></materials>
-    <body name="cube" material="any">)" +
-                            (in_body ? element : "") +
-                            R"(<physics mass="0.2"><box size="0.07 0.07 0.07"/></physics></body>
-    <devices><device role="finger" fingertip_radius="0.008"/></devices></scene>)";
-  return fingerWorld(scene);
-}
-
-}  // namespace
-
 struct EffectField::Parts {
-  explicit Parts(const std::string& element) : world(worldWith(element)) {}
+  explicit Parts(const std::string& element) : world(elementWorld(element)) {}
   std::shared_ptr<const World> world;
   ForceEffects effects{*world};
   Touchables touchables{*world};

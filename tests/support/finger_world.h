@@ -9,4 +9,8 @@ namespace presa::test {
 /// The world of a scene whose only device role is "finger", which no device plays. Throws InputError.
 std::shared_ptr<const World> fingerWorld(const std::string& scene_xml);
 
+/// The world of one element of a plug-in: a free cube of 70 mm at W's origin, which has the element if its manifest says
+/// in="body", and one fingertip of 8 mm. Throws InputError with every finding.
+std::shared_ptr<const World> elementWorld(const std::string& element);
+
 }  // namespace presa::test

@@ -65,8 +65,10 @@ std::string liftingScene(const Arguments& arguments) {
   replaceIn(scene, R"(name="cube" rig="../rigs/pinch_cube.xml")", R"(name="lift" rig="rig.xml")");
   const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
   if (arguments.kind == "effect") replaceIn(scene, cube, cube + "\n    <" + arguments.name + " max_force=\"0.5\"/>");
-  if (arguments.kind == "module")
-    replaceIn(scene, "  <materials>", "  <" + arguments.name + " body=\"cube\"/>\n  <materials>");
+  if (arguments.kind == "module" || arguments.kind == "view") {
+    const std::string body = arguments.kind == "module" ? " body=\"cube\"" : "";
+    replaceIn(scene, "  <materials>", "  <" + arguments.name + body + "/>\n  <materials>");
+  }
   if (arguments.kind == "surface") replaceIn(scene, cube, cube + "\n    <" + arguments.name + "/>");
   if (arguments.kind == "renderer")
     replaceIn(scene, "  <materials>", "  <haptics renderer=\"" + arguments.name + "\"/>\n  <materials>");
@@ -183,9 +185,10 @@ void addNew(Command app, int& status) {
           "KIND", arguments->kind,
           "effect: a force on the fingertips, with its reaction on a body; friction: a law of friction between fingers "
           "and bodies; surface: a texture or a layer of a body; renderer: where surfaces hold the fingertips; device: "
-          "a driver that measures fingertips and renders forces; module: a part of the graph with a rate and ports")
+          "a driver that measures fingertips and renders forces; module: a part of the graph with a rate and ports; "
+          "view: something drawn in the picture")
       .required()
-      .oneOf({"effect", "friction", "surface", "renderer", "device", "module"});
+      .oneOf({"effect", "friction", "surface", "renderer", "device", "module", "view"});
   command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
   command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
   command.footer(

@@ -5,11 +5,14 @@
 #include <assimp/scene.h>
 
 #include <array>
+#include <bit>
 #include <assimp/Importer.hpp>
+#include <cstdint>
 #include <cmath>
 #include <limits>
 #include <new>
 #include <set>
+#include <vector>
 
 #include "framework/geometry/mesh_import_plugin/input_system.h"
 
@@ -63,19 +66,50 @@ std::array<double, 3> place(const aiMatrix4x4& m, const aiVector3D& v) {
           m.c1 * x + m.c2 * y + m.c3 * z + m.c4};
 }
 
+/// Numbers the vertices of a mesh so that equal ones get one number. Assimp delivers a corner of n triangles n times in
+/// most formats; what is not sent through the pipe need not be welded.
+class EqualVertices {
+ public:
+  explicit EqualVertices(const aiMesh& mesh) : mesh_(mesh), table_(std::bit_ceil(2 * std::size_t{mesh.mNumVertices} + 1), kNone) {}
+
+  /// The first vertex that is equal to v, bit for bit; v itself if there was none before.
+  unsigned firstOf(unsigned v) {
+    const Bits bits = bitsOf(v);
+    std::uint64_t h = 0;
+    for (const std::uint32_t word : bits) h = (h ^ word) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+    const std::size_t mask = table_.size() - 1;
+    for (std::size_t at = h & mask;; at = (at + 1) & mask) {
+      if (table_[at] == kNone) return table_[at] = v;
+      if (bitsOf(table_[at]) == bits) return table_[at];
+    }
+  }
+
+ private:
+  using Bits = std::array<std::uint32_t, 3>;
+  static constexpr unsigned kNone = ~0U;
+  Bits bitsOf(unsigned v) const {
+    const aiVector3D& p = mesh_.mVertices[v];
+    return {std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(p.z)};
+  }
+  const aiMesh& mesh_;
+  std::vector<unsigned> table_;  // open addressing; at most half full
+};
+
 /// Appends one instance of a mesh, placed by the accumulated transforms of its node.
 void append(const aiMesh& mesh, const aiMatrix4x4& placement, RawMesh& out) {
   if ((out.coordinates.size() / 3) + mesh.mNumVertices > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
     throw std::bad_alloc();
   }
-  const auto base = static_cast<std::int32_t>(out.coordinates.size() / 3);
-  const auto number = [&](unsigned index) {
-    return index < mesh.mNumVertices ? base + static_cast<std::int32_t>(index) : -1;  // -1: does not exist
-  };
+  EqualVertices equal(mesh);
+  std::vector<std::int32_t> numbers(mesh.mNumVertices);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+    const unsigned first = equal.firstOf(v);
+    numbers[v] = first == v ? static_cast<std::int32_t>(out.coordinates.size() / 3) : numbers[first];
+    if (first != v) continue;
     const std::array<double, 3> p = place(placement, mesh.mVertices[v]);
     out.coordinates.insert(out.coordinates.end(), p.begin(), p.end());
   }
+  const auto number = [&](unsigned index) { return index < mesh.mNumVertices ? numbers[index] : -1; };  // -1: none
   const bool mirrored = placement.Determinant() < 0;
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     const aiFace& face = mesh.mFaces[f];
