@@ -38,7 +38,8 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kForceEffect, "force_effect", "force effect", {Place::kBody, Place::kScene}},
       {PluginKind::kFrictionLaw, "friction_law", "friction law", {Place::kFriction}},
       {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}},
-      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}}};
+      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}},
+      {PluginKind::kBodyEffect, "body_effect", "body effect", {Place::kBody, Place::kScene}}};
   return kRules;
 }
 
@@ -86,7 +87,7 @@ void checkPlace(const Manifest& manifest, const Manifest::Element& element, Diag
                     allowed);
 }
 
-/// The scene must bound every force effect.
+/// The scene must bound every force effect and body effect.
 void checkBound(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
   const bool bounded = std::ranges::any_of(element.attributes, [](const Manifest::Attribute& attribute) {
     const bool bound = attribute.name == "max_force" || attribute.name == "max_torque";
@@ -94,9 +95,9 @@ void checkBound(const Manifest& manifest, const Manifest::Element& element, Diag
   });
   if (bounded) return;
   diagnostics.error(kAgainstKind, element.where,
-                    "<" + element.name + "> of the force effect '" + manifest.name +
+                    "<" + element.name + "> of the " + nameOf(manifest.kind) + " '" + manifest.name +
                         "' has no required number max_force or max_torque",
-                    "the scene must bound every force effect, one that gives a torque by max_torque; add <attribute "
+                    "the scene must bound every effect, one that gives a torque by max_torque; add <attribute "
                     "name=\"max_force\" type=\"number\" "
                     "unit=\"N\" above=\"0\" about=\"…\"/>");
 }
@@ -115,7 +116,8 @@ void checkSettings(const Manifest& manifest, const Manifest::Element& element, D
 void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
   for (const Manifest::Element& element : manifest.elements) {
     checkPlace(manifest, element, diagnostics);
-    if (manifest.kind == PluginKind::kForceEffect) checkBound(manifest, element, diagnostics);
+    if (manifest.kind == PluginKind::kForceEffect || manifest.kind == PluginKind::kBodyEffect)
+      checkBound(manifest, element, diagnostics);
     if (manifest.kind == PluginKind::kRenderer) checkSettings(manifest, element, diagnostics);
   }
   if (manifest.kind == PluginKind::kRenderer && manifest.elements.size() > 1) {

@@ -37,7 +37,7 @@ struct Manifest {
 /// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.
 /// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
 /// plug-in brings already, E595 what a plug-in of its kind may not have or must have: the place of an element, the
-/// required max_force or max_torque of a force effect, the defaults of a renderer's settings.
+/// required max_force or max_torque of a force or body effect, the defaults of a renderer's settings.
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.

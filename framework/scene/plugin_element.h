@@ -9,7 +9,7 @@
 
 namespace presa {
 
-enum class PluginKind { kForceEffect, kFrictionLaw, kRenderer, kSurfaceEffect };
+enum class PluginKind { kForceEffect, kFrictionLaw, kRenderer, kSurfaceEffect, kBodyEffect };
 
 /// An element of the scene that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
 struct PluginElement {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/haptics/body_effects.h"
 #include "framework/haptics/friction_laws.h"
 #include "framework/haptics/surface_effects.h"
 #include "framework/scene/manifest.h"
@@ -70,15 +71,34 @@ void planSurfaceEffects(const Scene& scene, Plan& plan) {
   }
 }
 
+/// Only the dynamics of ODE applies body effects.
+void planBodyEffects(const Scene& scene, Plan& plan, Diagnostics& diagnostics) {
+  for (const PluginElement& element : scene.plugin_elements) {
+    if (element.kind != PluginKind::kBodyEffect || !actsOnFreeBody(scene, element)) continue;
+    if (scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
+      diagnostics.error(226, element.where,
+                        "<" + element.element + "> is a body effect, which " + dynamicsPlugin(scene) + " does not support",
+                        "engine=\"ode\"");
+    }
+    if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; })) continue;
+    const std::string owner = element.body == kNoBody
+                                  ? "the scene"
+                                  : "body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
+    plan.effects.push_back({element.plugin, owner + " has <" + element.element + ">"});
+  }
+}
+
 /// Why the scene does not call for that plug-in.
 std::string whyNot(const Manifest& manifest, const Scene& scene) {
   const auto of_it = [&](const PluginElement& element) { return element.plugin == manifest.name; };
-  if (scene.devices.empty()) return "the scene has no device";
+  const bool in_scene = std::ranges::any_of(scene.plugin_elements, of_it);
+  if (manifest.kind == PluginKind::kBodyEffect && in_scene) return "no free body has it";
+  if (scene.devices.empty() && manifest.kind != PluginKind::kBodyEffect) return "the scene has no device";
   if (manifest.kind == PluginKind::kRenderer) return "the scene's renderer is '" + scene.haptics.renderer + "'";
   if (manifest.needs_proxy && !scene.haptics.proxy) return "the renderer '" + scene.haptics.renderer + "' has no proxy";
   if (manifest.name == kShading) return "no touchable mesh says shading=\"smooth\"";
   if (manifest.name == kDefaultFrictionLaw) return "no touchable material has friction that names no law";
-  if (std::ranges::any_of(scene.plugin_elements, of_it)) return "nothing touchable needs it";
+  if (in_scene) return "nothing touchable needs it";
   std::string elements;
   for (const Manifest::Element& element : manifest.elements)
     elements += (elements.empty() ? "<" : ", <") + element.name + ">";
@@ -168,6 +188,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
   planEffects(scene, plan);
   planFriction(scene, plan);
   planSurfaceEffects(scene, plan);
+  planBodyEffects(scene, plan, diagnostics);
   leaveOutOthers(scene, plan);
   call(!free.empty(), dynamics, RateGroup::kDynamics, "body '" + free + "' is free", "every body is fixed");
   call(!options.record.empty() || !options.flight.empty(), "record", RateGroup::kHaptic,

@@ -157,7 +157,10 @@ void Session::offerPointer() {
 }
 
 std::optional<std::string> Session::brokenPlugin() const {
-  return plugin_host_ == nullptr ? std::nullopt : plugin_host_->brokenPlugin();
+  for (const PluginHost* host : plugin_hosts_) {
+    if (auto broken = host->brokenPlugin()) return broken;
+  }
+  return std::nullopt;
 }
 
 Session::~Session() {
@@ -194,7 +197,7 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   }
   auto module = pluginTable<ModulePlugin>(planned.plugin, "presaModulePlugin").create(world_, options_);
   if (planned.group == RateGroup::kView) view_ = dynamic_cast<View*>(module.get());
-  if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_host_ = host;
+  if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_hosts_.push_back(host);
   if (planned.plugin == "assembly") assembly_ = dynamic_cast<AssemblyControl*>(module.get());
   return module;
 }

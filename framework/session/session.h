@@ -78,7 +78,7 @@ class Session {
   Monitor* monitor_ = nullptr;
   Recorder* recorder_ = nullptr;
   View* view_ = nullptr;
-  const PluginHost* plugin_host_ = nullptr;
+  std::vector<const PluginHost*> plugin_hosts_;
   AssemblyControl* assembly_ = nullptr;
 };
 
