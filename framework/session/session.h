@@ -2,6 +2,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "framework/assembly/assembly_control.h"
 #include "framework/core/schedule/executor.h"
