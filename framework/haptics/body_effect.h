@@ -9,15 +9,15 @@ namespace presa {
 
 /// A free body at the start of one sub-step of the dynamics.
 struct BodyEffectInput {
-  double time = 0, step = 0;       ///< [s]; `step` is the length of the sub-step
-  std::int32_t body = kNoBody;     ///< index of the body in the scene
-  Pose X_WB;                       ///< pose of the body
-  Vec3 p_WCm = Vec3::Zero();       ///< centre of mass [m]
-  Vec3 v_WCm = Vec3::Zero();       ///< its velocity [m/s]
-  Vec3 w_WB = Vec3::Zero();        ///< angular velocity [rad/s]
-  double mass = 0;                 ///< [kg]
-  Mat3 inertia_B = Mat3::Zero();   ///< about the centre of mass, in the axes of B [kg m^2]
-  Vec3 gravity_W = Vec3::Zero();   ///< [m/s^2]
+  double time = 0, step = 0;      ///< [s]; `step` is the length of the sub-step
+  std::int32_t body = kNoBody;    ///< index of the body in the scene
+  Pose X_WB;                      ///< pose of the body
+  Vec3 p_WCm = Vec3::Zero();      ///< centre of mass [m]
+  Vec3 v_WCm = Vec3::Zero();      ///< its velocity [m/s]
+  Vec3 w_WB = Vec3::Zero();       ///< angular velocity [rad/s]
+  double mass = 0;                ///< [kg]
+  Mat3 inertia_B = Mat3::Zero();  ///< about the centre of mass, in the axes of B [kg m^2]
+  Vec3 gravity_W = Vec3::Zero();  ///< [m/s^2]
 };
 
 /// How fast a wrench answers a change, as the largest rate in any direction; all >= 0. Zero: the wrench is constant over the step.

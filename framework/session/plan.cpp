@@ -76,9 +76,10 @@ void planBodyEffects(const Scene& scene, Plan& plan, Diagnostics& diagnostics) {
   for (const PluginElement& element : scene.plugin_elements) {
     if (element.kind != PluginKind::kBodyEffect || !actsOnFreeBody(scene, element)) continue;
     if (scene.dynamics.engine != DynamicsSettings::Engine::kOde) {
-      diagnostics.error(226, element.where,
-                        "<" + element.element + "> is a body effect, which " + dynamicsPlugin(scene) + " does not support",
-                        "engine=\"ode\"");
+      diagnostics.error(
+          226, element.where,
+          "<" + element.element + "> is a body effect, which " + dynamicsPlugin(scene) + " does not support",
+          "engine=\"ode\"");
     }
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; })) continue;
     const std::string owner = element.body == kNoBody

@@ -34,15 +34,15 @@ class Drag final : public BodyEffect {
   }
 
  private:
-  Vec3 flow_;                             // [m/s]
-  double linear_, quadratic_, turning_;   // [N s/m], [N s^2/m^2], [N m s]
-  double max_force_, max_torque_;         // [N], [N m]
+  Vec3 flow_;                            // [m/s]
+  double linear_, quadratic_, turning_;  // [N s/m], [N s^2/m^2], [N m s]
+  double max_force_, max_torque_;        // [N], [N m]
 };
 
-const BodyEffectPlugin kPlugin{
-    .name = "drag", .create = [](const PluginElement& element, std::size_t) -> std::unique_ptr<BodyEffect> {
-      return std::make_unique<Drag>(element);
-    }};
+const BodyEffectPlugin kPlugin{.name = "drag",
+                               .create = [](const PluginElement& element, std::size_t) -> std::unique_ptr<BodyEffect> {
+                                 return std::make_unique<Drag>(element);
+                               }};
 
 }  // namespace
 }  // namespace presa

@@ -188,8 +188,7 @@ void BodySet::setAddedInertia(std::size_t i, double mass, double inertia) {
   if (entry.added_mass == mass && entry.added_inertia == inertia) return;
   entry.added_mass = mass;
   entry.added_inertia = inertia;
-  const dMass sum =
-      massOf({entry.mass + mass, Vec3::Zero(), entry.inertia + inertia * Mat3(Mat3::Identity())});
+  const dMass sum = massOf({entry.mass + mass, Vec3::Zero(), entry.inertia + inertia * Mat3(Mat3::Identity())});
   dBodySetMass(entry.body, &sum);
 }
 

@@ -118,8 +118,8 @@ class BodySet {
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0;
     double added_mass = 0, added_inertia = 0;  // in the solves alone
-    bool still = false;   // an obstacle: frozen or put
-    bool frozen = false;  // permanently still after a fault
+    bool still = false;                        // an obstacle: frozen or put
+    bool frozen = false;                       // permanently still after a fault
     bool asleep = false, enabled = true;
     Pose X_CmG;  // geometry frame in the centre-of-mass frame
     Vec3 constant_force_W = Vec3::Zero();

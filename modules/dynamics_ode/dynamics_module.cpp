@@ -67,8 +67,7 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
       options_(optionsOf(*world_, seed)) {
   objects_.value.bodies.resize(world_->scene.bodies.size());
   if (world_->scene.assembly) snap_constraints_.emplace(*this, "attractions", In<SnapConstraints>::Optional{});
-  if (world_->scene.hasForceEffects())
-    reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::Optional{});
+  if (world_->scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::Optional{});
   if (hasBodyEffects(world_->scene)) body_effects_.emplace(*world_);
 }
 

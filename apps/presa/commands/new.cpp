@@ -181,7 +181,8 @@ void addNew(Command app, int& status) {
       .option(
           "KIND", arguments->kind,
           "effect: a force on the fingertips, with its reaction on a body; friction: a law of friction between fingers "
-          "and bodies; body: a force on a body in the dynamics, such as drag; surface: a texture or a layer of a body; renderer: where surfaces hold the fingertips; device: "
+          "and bodies; body: a force on a body in the dynamics, such as drag; surface: a texture or a layer of a body; "
+          "renderer: where surfaces hold the fingertips; device: "
           "a driver that measures fingertips and "
           "renders "
           "forces")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "framework/haptics/body_effects.h"
@@ -36,8 +37,7 @@ World falling(const Values& drag) {
 }
 
 struct Fall {
-  explicit Fall(World made)
-      : world(std::make_shared<World>(std::move(made))), effects(*world), bodies(world) {
+  explicit Fall(World made) : world(std::make_shared<World>(std::move(made))), effects(*world), bodies(world) {
     bodies.use(effects);
     objects.bodies.resize(1);
     bodies.write(0, objects);
@@ -86,7 +86,8 @@ TEST(Drag, FallsAsTheClosedFormSays) {
     worst = std::max(worst, std::abs(v - v_t * std::tanh(kGravity * kStep * i / v_t)));
   }
   EXPECT_LT(worst, kStep * kGravity / 2);
-  EXPECT_NEAR(v, v_t, 4 * v_t * std::exp(-2 * kGravity * 2.0 / v_t) + 1e-12);  // 2 s, rate 2 g / v_t; 4: twice that of tanh
+  EXPECT_NEAR(v, v_t,
+              4 * v_t * std::exp(-2 * kGravity * 2.0 / v_t) + 1e-12);  // 2 s, rate 2 g / v_t; 4: twice that of tanh
 }
 
 // v = v_t (1 - exp(-b t / m)). Linearly implicit Euler is exact for v_t; a step errs by h^2 / 2 g b / m exp(-b t / m), sum h g / 2.
@@ -152,6 +153,27 @@ TEST(Drag, CarriesTheBodyWithTheFlow) {
   Fall fall(falling({{"linear", "1000"}, {"flow", "0.3 0 0"}}));
   for (int i = 0; i < 50; ++i) fall.step();
   EXPECT_NEAR(fall.objects.bodies[0].v_WB.x(), 0.3, 1e-12);
+}
+
+// A box at rest without gravity sleeps within 2 s. It wakes in the step in which a push sets in.
+TEST(BodyEffects, WakeASleepingBodyWhenTheirWrenchChanges) {
+  ASSERT_EQ(::setenv("PRESA_PLUGIN_PATH", PRESA_BINARY_DIR "/tests/plugins", 1), 0);
+  Fall fall([] {
+    World world = falling({});
+    world.scene.gravity.setZero();
+    world.scene.plugin_elements = {{"faulty_body",
+                                    "faulty_body",
+                                    kNoBody,
+                                    {{"max_force", "1"}, {"fault", "push"}, {"after", "3"}},
+                                    {},
+                                    PluginKind::kBodyEffect}};
+    return world;
+  }());
+  for (int i = 0; i < 600; ++i) fall.step();
+  EXPECT_TRUE(fall.objects.bodies[0].asleep);
+  for (int i = 0; i < 20; ++i) fall.step();
+  EXPECT_FALSE(fall.objects.bodies[0].asleep);
+  EXPECT_NEAR(fall.objects.bodies[0].v_WB.x(), 0.5 / kMass * 20 * kStep, 0.5 / kMass * kStep);  // within a step
 }
 
 TEST(Drag, StepsWithoutAllocation) {

@@ -14,6 +14,7 @@ class FaultyBody final : public BodyEffect {
     if (fault_ == "nan") wrench_.f_W.x() = std::numeric_limits<double>::quiet_NaN();
     if (fault_ == "too_much") wrench_.f_W.z() = 1.01 * max_;
     if (fault_ == "torque") wrench_.torque_W.z() = 1e-6;  // its bound is zero, as the element has no max_torque
+    if (fault_ == "push") wrench_.f_W.x() = 0.5 * max_;
     if (fault_ == "rate") wrench_.rates.damping = -1;
   }
   BodyEffectWrench apply(const BodyEffectInput& input) noexcept override {
@@ -27,10 +28,10 @@ class FaultyBody final : public BodyEffect {
   BodyEffectWrench wrench_;
 };
 
-const BodyEffectPlugin kPlugin{
-    .name = "faulty_body", .create = [](const PluginElement& element, std::size_t) -> std::unique_ptr<BodyEffect> {
-      return std::make_unique<FaultyBody>(element);
-    }};
+const BodyEffectPlugin kPlugin{.name = "faulty_body",
+                               .create = [](const PluginElement& element, std::size_t) -> std::unique_ptr<BodyEffect> {
+                                 return std::make_unique<FaultyBody>(element);
+                               }};
 
 }  // namespace
 }  // namespace presa
