@@ -62,9 +62,9 @@ void BodyEffectForces::push(BodySet& bodies, double time, double h) {
     const double mass = h * (sum.rates.damping + h * sum.rates.stiffness);
     const double inertia = h * (sum.rates.turn_damping + h * sum.rates.turn_stiffness);
     bodies.setAddedInertia(i, mass, inertia);
-    // the engine's gravity acts on the added mass, too
-    bodies.addAtCentre(i, sum.f_W - h * sum.rates.stiffness * motion.v_WCm - mass * gravity_W_,
+    bodies.addAtCentre(i, sum.f_W - h * sum.rates.stiffness * motion.v_WCm,
                        sum.torque_W - h * sum.rates.turn_stiffness * motion.w_WB);
+    if (mass > 0) bodies.addAtCentre(i, bodies.mass(i) * gravity_W_, Vec3::Zero());
   }
 }
 

@@ -190,6 +190,8 @@ void BodySet::setAddedInertia(std::size_t i, double mass, double inertia) {
   entry.added_inertia = inertia;
   const dMass sum = massOf({entry.mass + mass, Vec3::Zero(), entry.inertia + inertia * Mat3(Mat3::Identity())});
   dBodySetMass(entry.body, &sum);
+  // m g would drown in the rounding of a gravity that acts on a large added mass
+  dBodySetGravityMode(entry.body, mass > 0 ? 0 : 1);
 }
 
 void BodySet::applyForces() {

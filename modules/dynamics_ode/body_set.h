@@ -86,7 +86,7 @@ class BodySet {
   /// Adds a force at the centre of mass [N] and a torque about it [N m] to moving body `i` for this step.
   void addAtCentre(std::size_t i, const Vec3& f_W, const Vec3& torque_W);
   /// Lets the solves see moving body `i` with this much more mass [kg] and, about every axis, moment of inertia
-  /// [kg m^2], until the next call; ODE's gravity acts on it, too.
+  /// [kg m^2], until the next call. ODE leaves out the gravity of a body with added mass.
   void setAddedInertia(std::size_t i, double mass, double inertia);
   /// Passes the external forces of all enabled bodies to ODE, which clears them in every solve.
   void applyForces();
