@@ -265,6 +265,8 @@ void TerminalRun::noteObjectFaults() {
     fail(time, "the dynamics engine failed: all bodies were frozen, forces faded to zero");
   if ((faults & kFaultBadFinger) != 0)
     fail(time, "the dynamics received an invalid finger contact, forces faded to zero");
+  if ((faults & kFaultBadEffect) != 0)
+    fail(time, "a body effect broke its contract: all of them are off, forces faded to zero");
 }
 
 void TerminalRun::finish() {

@@ -15,7 +15,7 @@ foreach(room IN ITEMS core haptics geometry scene device)
   list(APPEND presa_headers ${headers})
 endforeach()
 list(APPEND presa_headers framework/session/module_plugin.h framework/session/view_part.h
-  tests/support/alloc_lock_guard.h tests/support/drawn_part.h tests/support/effect_field.h tests/support/friction_track.h tests/support/lockstep_run.h tests/support/rendered_body.h)
+  tests/support/alloc_lock_guard.h tests/support/body_effect_field.h tests/support/drawn_part.h tests/support/effect_field.h tests/support/friction_track.h tests/support/lockstep_run.h tests/support/rendered_body.h)
 foreach(header IN LISTS presa_headers)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION include/presa/${folder})

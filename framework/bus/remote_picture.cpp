@@ -29,6 +29,7 @@ std::string print(const char* format, Values... values) {
 
 const char* wordsOf(const Event& event) {
   if (event.kind == Event::Kind::kObjectFault) {
+    if ((event.bits & kFaultBadEffect) != 0) return "a body effect broke its bound";
     return (event.bits & kFaultEngineFailed) != 0 ? "the dynamics engine failed" : "a body froze";
   }
   const char* fault = latchedFault(event.bits);

@@ -4,7 +4,7 @@
 
 namespace presa {
 
-/// A module that hosts plug-ins of the haptic tick.
+/// A module that hosts plug-ins: of the haptic tick, or of the dynamics.
 class PluginHost {
  public:
   virtual ~PluginHost() = default;

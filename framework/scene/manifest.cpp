@@ -49,6 +49,7 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}},
       {PluginKind::kModule, "module", "module", {Place::kBody, Place::kScene}},
       {PluginKind::kDevice, "device", "device", {}},
+      {PluginKind::kBodyEffect, "body_effect", "body effect", {Place::kBody, Place::kScene}},
       {PluginKind::kViewPart, "view_part", "view part", {Place::kBody, Place::kScene}}};
   return kRules;
 }
@@ -78,6 +79,7 @@ Manifest::ModuleRole readRole(const xml::Element& root) {
   Manifest::ModuleRole role{.rate = rateOf(root.attribute("rate")), .engine = root.attribute("engine"), .wanted = {}};
   role.fingers = root.attribute("fingers") != "false";
   role.snap = root.attribute("snap") != "false";
+  role.body_effects = root.attribute("body_effects") != "false";
   for (const xml::Element& wanted : root.children("wanted"))
     role.wanted.push_back(xml::splitWords(wanted.attribute("when")));
   return role;
@@ -117,7 +119,7 @@ void checkPlace(const Manifest& manifest, const Manifest::Element& element, Diag
                     allowed.empty() ? "a rig sets it: write <setting> instead of <element>" : allowed);
 }
 
-/// The scene must bound every force effect.
+/// The scene must bound every force effect and body effect.
 void checkBound(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
   const bool bounded = std::ranges::any_of(element.attributes, [](const Manifest::Attribute& attribute) {
     const bool bound = attribute.name == "max_force" || attribute.name == "max_torque";
@@ -125,9 +127,9 @@ void checkBound(const Manifest& manifest, const Manifest::Element& element, Diag
   });
   if (bounded) return;
   diagnostics.error(kAgainstKind, element.where,
-                    "<" + element.name + "> of the force effect '" + manifest.name +
+                    "<" + element.name + "> of the " + nameOf(manifest.kind) + " '" + manifest.name +
                         "' has no required number max_force or max_torque",
-                    "the scene must bound every force effect, one that gives a torque by max_torque; add <attribute "
+                    "the scene must bound every effect, one that gives a torque by max_torque; add <attribute "
                     "name=\"max_force\" type=\"number\" "
                     "unit=\"N\" above=\"0\" about=\"…\"/>");
 }
@@ -146,7 +148,8 @@ void checkSettings(const Manifest& manifest, const Manifest::Element& element, D
 void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
   for (const Manifest::Element& element : manifest.elements) {
     checkPlace(manifest, element, diagnostics);
-    if (manifest.kind == PluginKind::kForceEffect) checkBound(manifest, element, diagnostics);
+    if (manifest.kind == PluginKind::kForceEffect || manifest.kind == PluginKind::kBodyEffect)
+      checkBound(manifest, element, diagnostics);
     if (manifest.kind == PluginKind::kRenderer) checkSettings(manifest, element, diagnostics);
   }
   if (manifest.kind == PluginKind::kRenderer && manifest.elements.size() > 1) {
@@ -169,7 +172,7 @@ void checkSettings(const Manifest& manifest, const xml::Element& root, Diagnosti
 void checkRole(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
   const bool module = manifest.kind == PluginKind::kModule;
   const std::string who = "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "'";
-  for (const char* word : {"rate", "engine", "fingers", "snap"}) {
+  for (const char* word : {"rate", "engine", "fingers", "snap", "body_effects"}) {
     if (!module && root.hasAttribute(word))
       diagnostics.error(kAgainstKind, root.where(word), who + " says " + word + "=\"…\"", "only a module does");
   }

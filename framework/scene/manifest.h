@@ -31,7 +31,8 @@ struct Manifest {
     RateGroup rate = RateGroup::kHaptic;
     /// One of several engines: scenes choose it by <dynamics engine>. Empty: no engine.
     std::string engine;
-    bool fingers = true, snap = true;  ///< an engine that supports fingers, and snap constraints of an assembly
+    /// What an engine supports: fingers, snap constraints of an assembly, body effects.
+    bool fingers = true, snap = true, body_effects = true;
     /// Alternatives. Each lists the facts (framework/scene/scene_facts.h) that must hold together. Empty: the module is
     /// needed where one of its elements stands.
     std::vector<std::vector<std::string>> wanted;
@@ -55,7 +56,8 @@ struct Manifest {
 /// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.
 /// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
 /// plug-in brings already, E595 what a plug-in of its kind may not have or must have: the place of an element, the
-/// required max_force or max_torque of a force effect, the defaults of a renderer's settings, the rate of a module.
+/// required max_force or max_torque of a force or body effect, the defaults of a renderer's settings, the rate of a
+/// module.
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.

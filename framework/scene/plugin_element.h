@@ -9,7 +9,7 @@
 
 namespace presa {
 
-enum class PluginKind { kForceEffect, kFrictionLaw, kRenderer, kSurfaceEffect, kModule, kDevice, kViewPart };
+enum class PluginKind { kForceEffect, kFrictionLaw, kRenderer, kSurfaceEffect, kModule, kDevice, kViewPart, kBodyEffect };
 
 /// An element of the scene that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
 struct PluginElement {

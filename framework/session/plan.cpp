@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/haptics/body_effects.h"
 #include "framework/haptics/friction_laws.h"
 #include "framework/haptics/surface_effects.h"
 #include "framework/scene/manifest.h"
@@ -24,16 +25,6 @@ std::string withoutItsElements(const Manifest& manifest) {
   for (const Manifest::Element& element : manifest.elements)
     elements += (elements.empty() ? "<" : ", <") + element.name + ">";
   return "the scene has no " + elements + ": " + manifest.about;
-}
-
-void planEffects(const Scene& scene, Plan& plan) {
-  for (const PluginElement& element : scene.plugin_elements) {
-    const bool known =
-        std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; });
-    if (known || scene.devices.empty()) continue;
-    if (element.kind != PluginKind::kForceEffect) continue;  // the others are planned below
-    plan.effects.push_back({element.plugin, ownerOf(element, scene) + " has <" + element.element + ">"});
-  }
 }
 
 void planRenderer(const Scene& scene, Plan& plan) {
@@ -63,10 +54,11 @@ void planSurfaceEffects(const Scene& scene, Plan& plan) {
   }
 }
 
-void planViewParts(const Scene& scene, const RunOptions& options, Plan& plan) {
-  if (options.view == RunOptions::View::kNone) return;
+/// Adds the plug-ins of that kind whose elements the scene has.
+void planElements(const Scene& scene, PluginKind kind, Plan& plan) {
   for (const PluginElement& element : scene.plugin_elements) {
-    if (element.kind != PluginKind::kViewPart) continue;
+    if (element.kind != kind) continue;
+    if (kind == PluginKind::kBodyEffect && !actsOnFreeBody(scene, element)) continue;
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == element.plugin; })) continue;
     plan.effects.push_back({element.plugin, ownerOf(element, scene) + " has <" + element.element + ">"});
   }
@@ -77,6 +69,7 @@ std::string whyNot(const Manifest& manifest, const Scene& scene) {
   const auto of_it = [&](const PluginElement& element) { return element.plugin == manifest.name; };
   const bool has_it = std::ranges::any_of(scene.plugin_elements, of_it);
   if (manifest.kind == PluginKind::kViewPart) return has_it ? "no view is wanted" : withoutItsElements(manifest);
+  if (manifest.kind == PluginKind::kBodyEffect) return has_it ? "no free body has it" : withoutItsElements(manifest);
   if (scene.devices.empty()) return "the scene has no device";
   if (manifest.kind == PluginKind::kRenderer) return "the scene's renderer is '" + scene.haptics.renderer + "'";
   if (manifest.needs_proxy && !scene.haptics.proxy) return "the renderer '" + scene.haptics.renderer + "' has no proxy";
@@ -88,7 +81,7 @@ std::string whyNot(const Manifest& manifest, const Scene& scene) {
 /// What the scene could call for.
 void leaveOutOthers(const Scene& scene, Plan& plan) {
   for (const Manifest& manifest : manifests()) {
-    if (manifest.kind == PluginKind::kModule) continue;
+    if (manifest.kind == PluginKind::kModule || manifest.kind == PluginKind::kDevice) continue;
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == manifest.name; })) continue;
     plan.left_out.push_back({manifest.name, whyNot(manifest, scene)});
   }
@@ -153,6 +146,12 @@ void checkEngine(const Scene& scene, const Plan& plan, Diagnostics& diagnostics)
     if (!role.fingers && !scene.devices.empty())
       diagnostics.error(407, where, "the scene has devices, and " + planned.plugin + " does not support fingers",
                         "engines that do: " + enginesThat(&Manifest::ModuleRole::fingers));
+    for (const PluginElement& element : scene.plugin_elements) {
+      if (role.body_effects || element.kind != PluginKind::kBodyEffect || !actsOnFreeBody(scene, element)) continue;
+      diagnostics.error(226, element.where,
+                        "<" + element.element + "> is a body effect, which " + planned.plugin + " does not support",
+                        "engines that do: " + enginesThat(&Manifest::ModuleRole::body_effects));
+    }
     if (!role.snap && scene.assembly)
       diagnostics.error(409, where,
                         "the scene has an assembly, and " + planned.plugin + " does not support snap constraints",
@@ -208,10 +207,11 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
                       "use --lockstep, in which finer steps serve as a reference for coarser ones");
   }
   planRenderer(scene, plan);
-  planEffects(scene, plan);
+  if (!scene.devices.empty()) planElements(scene, PluginKind::kForceEffect, plan);
   planFriction(scene, plan);
   planSurfaceEffects(scene, plan);
-  planViewParts(scene, options, plan);
+  planElements(scene, PluginKind::kBodyEffect, plan);
+  if (options.view != RunOptions::View::kNone) planElements(scene, PluginKind::kViewPart, plan);
   leaveOutOthers(scene, plan);
   return plan;
 }

@@ -190,7 +190,10 @@ void Session::offerPointer() {
 }
 
 std::optional<std::string> Session::brokenPlugin() const {
-  return plugin_host_ == nullptr ? std::nullopt : plugin_host_->brokenPlugin();
+  for (const PluginHost* host : plugin_hosts_) {
+    if (auto broken = host->brokenPlugin()) return broken;
+  }
+  return std::nullopt;
 }
 
 Session::~Session() {
@@ -227,7 +230,7 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   }
   auto module = makeModule(planned, world_, options_);
   if (auto* view = dynamic_cast<View*>(module.get())) view_ = view;
-  if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_host_ = host;
+  if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_hosts_.push_back(host);
   if (auto* assembly = dynamic_cast<AssemblyControl*>(module.get())) assembly_ = assembly;
   return module;
 }

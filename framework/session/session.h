@@ -2,6 +2,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "framework/assembly/assembly_control.h"
 #include "framework/core/schedule/executor.h"
@@ -78,7 +79,7 @@ class Session {
   Monitor* monitor_ = nullptr;
   Recorder* recorder_ = nullptr;
   View* view_ = nullptr;
-  const PluginHost* plugin_host_ = nullptr;
+  std::vector<const PluginHost*> plugin_hosts_;
   AssemblyControl* assembly_ = nullptr;
 };
 

@@ -178,6 +178,22 @@ void BodySet::addForceAndTorque(std::size_t i, const Vec3& f_W, const Vec3& torq
   entry.torque_W += torque_W - (toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm).cross(f_W);
 }
 
+void BodySet::addAtCentre(std::size_t i, const Vec3& f_W, const Vec3& torque_W) {
+  bodies_[i].force_W += f_W;
+  bodies_[i].torque_W += torque_W;
+}
+
+void BodySet::setAddedInertia(std::size_t i, double mass, double inertia) {
+  Entry& entry = bodies_[i];
+  if (entry.added_mass == mass && entry.added_inertia == inertia) return;
+  entry.added_mass = mass;
+  entry.added_inertia = inertia;
+  const dMass sum = massOf({entry.mass + mass, Vec3::Zero(), entry.inertia + inertia * Mat3(Mat3::Identity())});
+  dBodySetMass(entry.body, &sum);
+  // m g would drown in the rounding of a gravity that acts on a large added mass
+  dBodySetGravityMode(entry.body, mass > 0 ? 0 : 1);
+}
+
 void BodySet::applyForces() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Entry& entry = bodies_[i];

@@ -55,6 +55,8 @@ class BodySet {
   Motion motion(std::size_t i) const { return read(bodies_[i]); }           ///< current; only for bodies that move
   Pose pose(std::size_t i) const { return poseOf(bodies_[i], motion(i)); }  ///< current X_WB; not for fixed bodies
   double mass(std::size_t i) const noexcept { return bodies_[i].mass; }     ///< [kg]
+  /// About the centre of mass, in the axes of B [kg m^2].
+  const Mat3& inertia(std::size_t i) const noexcept { return bodies_[i].inertia; }
   /// Pose of the centre of mass, with the body's axes, for a body at X_WB.
   Pose centreOf(std::size_t i, const Pose& X_WB) const { return {X_WB * bodies_[i].p_BCm, X_WB.q}; }
 
@@ -81,6 +83,11 @@ class BodySet {
   void addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP);
   /// Adds a force f_W [N] at the origin of B and a torque about it [N m] to moving body `i` for this step.
   void addForceAndTorque(std::size_t i, const Vec3& f_W, const Vec3& torque_W);
+  /// Adds a force at the centre of mass [N] and a torque about it [N m] to moving body `i` for this step.
+  void addAtCentre(std::size_t i, const Vec3& f_W, const Vec3& torque_W);
+  /// Lets the solves see moving body `i` with this much more mass [kg] and, about every axis, moment of inertia
+  /// [kg m^2], until the next call. ODE leaves out the gravity of a body with added mass.
+  void setAddedInertia(std::size_t i, double mass, double inertia);
   /// Passes the external forces of all enabled bodies to ODE, which clears them in every solve.
   void applyForces();
 
@@ -110,8 +117,9 @@ class BodySet {
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0;
-    bool still = false;   // an obstacle: frozen or put
-    bool frozen = false;  // permanently still after a fault
+    double added_mass = 0, added_inertia = 0;  // in the solves alone
+    bool still = false;                        // an obstacle: frozen or put
+    bool frozen = false;                       // permanently still after a fault
     bool asleep = false, enabled = true;
     Pose X_CmG;  // geometry frame in the centre-of-mass frame
     Vec3 constant_force_W = Vec3::Zero();

@@ -8,7 +8,8 @@ namespace {
 
 static_assert(std::uint32_t{Faults::kBodyFrozen} == kFaultBodyFrozen &&
               std::uint32_t{Faults::kEngineFailed} == kFaultEngineFailed &&
-              std::uint32_t{Faults::kBadFinger} == kFaultBadFinger);
+              std::uint32_t{Faults::kBadFinger} == kFaultBadFinger &&
+              std::uint32_t{Faults::kBadEffect} == kFaultBadEffect);
 
 OdeOptions optionsOf(const World& world, std::uint64_t seed) {
   OdeOptions options;
@@ -64,13 +65,14 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
       options_(optionsOf(*world_, seed)) {
   objects_.value.bodies.resize(world_->scene.bodies.size());
   if (world_->scene.assembly) snap_constraints_.emplace(*this, "attractions", In<SnapConstraints>::Optional{});
-  if (world_->scene.hasForceEffects())
-    reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::Optional{});
+  if (world_->scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::Optional{});
+  if (hasBodyEffects(world_->scene)) body_effects_.emplace(*world_);
 }
 
 void DynamicsModule::start() {
   attachThread();
   bodies_ = std::make_unique<OdeWorld>(world_, options_);
+  if (body_effects_) bodies_->use(*body_effects_);
   bodies_->write(0, objects_.value);
 }
 
@@ -91,7 +93,17 @@ void DynamicsModule::stop() {
   detachThread();
 }
 
-std::vector<std::string> DynamicsModule::stages() const { return listStages(options_); }
+std::vector<std::string> DynamicsModule::stages() const {
+  std::vector<std::string> stages = listStages(options_);
+  if (!body_effects_) return stages;
+  for (const std::string& name : body_effects_->names())
+    stages.insert(stages.begin(), "body effect " + name + ", implicit in its own damping");
+  return stages;
+}
+
+std::optional<std::string> DynamicsModule::brokenPlugin() const {
+  return body_effects_ ? body_effects_->brokenName() : std::nullopt;
+}
 
 }  // namespace presa::ode
 

@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "framework/core/graph/port.h"
+#include "framework/haptics/body_effects.h"
 #include "framework/haptics/effect_reactions.h"
+#include "framework/haptics/plugin_host.h"
 #include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/ode_world.h"
 
 namespace presa::ode {
 
 /// Module of the free bodies: contact exchange in, object state out. Thread: dynamics.
-class DynamicsModule final : public Module {
+class DynamicsModule final : public Module, public PluginHost {
  public:
   /// `seed`: of the order in which ODE's iterative solver visits the constraints.
   DynamicsModule(std::shared_ptr<const World> world, std::uint64_t seed);
@@ -21,6 +23,7 @@ class DynamicsModule final : public Module {
   void step(const Tick& tick) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
+  std::optional<std::string> brokenPlugin() const override;
 
   const Faults& faults() const noexcept { return bodies_->faults(); }  ///< valid between start and stop
 
@@ -31,6 +34,7 @@ class DynamicsModule final : public Module {
   Out<ObjectState> objects_;
   std::optional<In<SnapConstraints>> snap_constraints_;  // only in scenes with an assembly
   std::optional<In<EffectReactions>> reactions_;         // only if force effects act on free bodies
+  std::optional<BodyEffects> body_effects_;              // only if they act on free bodies
   std::uint64_t snap_constraints_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;

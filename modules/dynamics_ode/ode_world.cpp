@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "modules/dynamics_ode/body_contacts.h"
+#include "modules/dynamics_ode/body_effect_forces.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/effect_forces.h"
 #include "modules/dynamics_ode/engine.h"
@@ -53,6 +54,9 @@ struct OdeWorld::Impl {
 
   void step(const ContactExchange& exchange, double time, double period);
   void substep(const ContactExchange& exchange, double time, double h, int substeps);
+  void pushBodyEffects(double time, double h);
+  void wakeStirred(double time, double period);
+  void noteBrokenEffect();
   void lookAhead();
   void findIslands(const ContactExchange& exchange);
   void wakeTouched(const ContactExchange& exchange);
@@ -72,6 +76,7 @@ struct OdeWorld::Impl {
   std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
   std::optional<SnapDrive> snap_drive_;  // empty without an assembly
   EffectForces effects;
+  std::optional<BodyEffectForces> body_effects;  // empty when the scene has none
   Islands islands;
   Layers layers;
   std::vector<BodyContact> contacts;
@@ -162,6 +167,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   bodies.resetForces();
   if (snap_drive_) snap_drive_->drive(bodies, h);
   effects.push(bodies);
+  if (body_effects) pushBodyEffects(time, h);
   fingers.read(exchange, time, h, bodies);
   if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) ++fallback_steps;
   for (std::size_t f = 0; f < kMaxFingers; ++f) {
@@ -171,6 +177,20 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   }
   bodies.driftRotations(h);
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
+}
+
+void OdeWorld::Impl::pushBodyEffects(double time, double h) {
+  body_effects->push(bodies, time, h);
+  noteBrokenEffect();
+}
+
+void OdeWorld::Impl::wakeStirred(double time, double period) {
+  body_effects->wakeStirred(bodies, sleep ? &*sleep : nullptr, time, period);
+  noteBrokenEffect();
+}
+
+void OdeWorld::Impl::noteBrokenEffect() {
+  if (body_effects->broken() && (faults.bits & Faults::kBadEffect) == 0) fault(Faults::kBadEffect);
 }
 
 void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
@@ -184,6 +204,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   finger_force.fill(Vec3::Zero());
   wakeTouched(exchange);
   if (snap_drive_) snap_drive_->carry(bodies, sleep ? &*sleep : nullptr, period);
+  if (body_effects) wakeStirred(time, period);
   if (!bodies.anyAwake()) {
     contacts.clear();
     return;
@@ -224,6 +245,8 @@ void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
   if (!impl_->snap_drive_) impl_->snap_drive_.emplace(impl_->bodies, impl_->engine.world());
   impl_->snap_drive_->read(snap_constraints, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);
 }
+
+void OdeWorld::use(BodyEffects& effects) { impl_->body_effects.emplace(effects, *impl_->world); }
 
 void OdeWorld::addReactions(const EffectReactions& reactions, double period) noexcept {
   if (!impl_->failed) impl_->effects.read(reactions, period, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);

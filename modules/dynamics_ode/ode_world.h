@@ -6,6 +6,7 @@
 #include "framework/assembly/snap_constraint.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
+#include "framework/haptics/body_effects.h"
 #include "framework/haptics/effect_reactions.h"
 #include "framework/scene/world.h"
 #include "modules/dynamics_ode/body_contact.h"
@@ -19,6 +20,7 @@ struct Faults {
     kBodyFrozen = 1,    ///< a state was not finite or not plausible: the body is now a fixed obstacle
     kEngineFailed = 2,  ///< an assertion inside ODE failed: all bodies are frozen
     kBadFinger = 4,     ///< a finger contact named no body or was not finite: ignored
+    kBadEffect = 8,     ///< a body effect broke its contract: all of them are off
   };
   std::uint32_t bits = 0;
   std::uint64_t count = 0;
@@ -41,6 +43,8 @@ class OdeWorld {
   void setSnapConstraints(const SnapConstraints& snap_constraints);
   /// Sets the mean forces of force effects in the next step: what was added to their impulses since the last call.
   void addReactions(const EffectReactions& reactions, double period) noexcept;
+  /// Applies body effects from the next step on; they must outlive this. Never called: none.
+  void use(BodyEffects& effects);
   /// Writes the current poses as a state valid from `time` on [s].
   void write(double time, ObjectState& out) noexcept;
 

@@ -54,6 +54,12 @@ project friction slick
 shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "friction: friction_cone, slick"
 refused "scene/lift.xml:8:117: error[E111]: unknown element <slick>" "${bare[@]}" presa check scene/lift.xml
 
+project body float_up
+found=("${bare[@]}" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa")
+shows "$("${found[@]}" presa explain scene/lift.xml)" "body effect <float_up> of body 'cube'"
+shows "$("${found[@]}" presa plugins)" "float_up 0.1.0 (body effect), $PWD/build/lib/presa"
+refused "scene/lift.xml:16:5: error[E111]: unknown element <float_up>" "${bare[@]}" presa check scene/lift.xml
+
 project surface ripples
 shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa explain scene/lift.xml)" "ripples of 0.05 mm"
 refused "scene/lift.xml:16:5: error[E111]: unknown element <ripples>" "${bare[@]}" presa check scene/lift.xml

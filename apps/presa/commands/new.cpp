@@ -64,7 +64,8 @@ std::string liftingScene(const Arguments& arguments) {
   std::string scene = shipped("config/scenes/cube.xml");
   replaceIn(scene, R"(name="cube" rig="../rigs/pinch_cube.xml")", R"(name="lift" rig="rig.xml")");
   const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
-  if (arguments.kind == "effect") replaceIn(scene, cube, cube + "\n    <" + arguments.name + " max_force=\"0.5\"/>");
+  if (arguments.kind == "effect" || arguments.kind == "body")
+    replaceIn(scene, cube, cube + "\n    <" + arguments.name + " max_force=\"0.5\"/>");
   if (arguments.kind == "module" || arguments.kind == "view") {
     const std::string body = arguments.kind == "module" ? " body=\"cube\"" : "";
     replaceIn(scene, "  <materials>", "  <" + arguments.name + body + "/>\n  <materials>");
@@ -184,11 +185,11 @@ void addNew(Command app, int& status) {
       .option(
           "KIND", arguments->kind,
           "effect: a force on the fingertips, with its reaction on a body; friction: a law of friction between fingers "
-          "and bodies; surface: a texture or a layer of a body; renderer: where surfaces hold the fingertips; device: "
-          "a driver that measures fingertips and renders forces; module: a part of the graph with a rate and ports; "
-          "view: something drawn in the picture")
+          "and bodies; body: a force on a body in the dynamics, such as drag; surface: a texture or a layer of a body; "
+          "renderer: where surfaces hold the fingertips; device: a driver that measures fingertips and renders forces; "
+          "module: a part of the graph with a rate and ports; view: something drawn in the picture")
       .required()
-      .oneOf({"effect", "friction", "surface", "renderer", "device", "module", "view"});
+      .oneOf({"effect", "body", "friction", "surface", "renderer", "device", "module", "view"});
   command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
   command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
   command.footer(

@@ -57,9 +57,8 @@ std::vector<std::string> pluginFolders() {
   std::vector<std::string> folders;
   if (const char* list = std::getenv("PRESA_PLUGIN_PATH")) {
     std::istringstream stream(list);
-    for (std::string folder; std::getline(stream, folder, ':');) {
+    for (std::string folder; std::getline(stream, folder, ':');)
       if (!folder.empty()) folders.push_back(folder);
-    }
   }
   folders.push_back(frameworkFolder());
   return folders;

@@ -25,6 +25,7 @@ enum ObjectFault : std::uint32_t {
   kFaultBodyFrozen = 1,    ///< a body's state was not finite or implausible: the body is frozen
   kFaultEngineFailed = 2,  ///< the engine failed: all bodies are frozen
   kFaultBadFinger = 4,     ///< a finger contact was implausible and was ignored
+  kFaultBadEffect = 8,     ///< a body effect gave no number or a wrench above its bound: all of them are off
 };
 
 /// Penetration depth over all contact points between bodies (fixed ones included, fingers not) at the start of the last
