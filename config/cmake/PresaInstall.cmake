@@ -15,7 +15,8 @@ foreach(room IN ITEMS core haptics geometry scene device)
   list(APPEND presa_headers ${headers})
 endforeach()
 list(APPEND presa_headers framework/session/module_plugin.h
-  tests/support/alloc_lock_guard.h tests/support/effect_field.h tests/support/friction_track.h tests/support/lockstep_run.h tests/support/rendered_body.h)
+  experiments/runner/psychophysics/axis.h experiments/runner/psychophysics/method.h experiments/runner/psychophysics/method_plugin.h
+  tests/support/alloc_lock_guard.h tests/support/effect_field.h tests/support/friction_track.h tests/support/lockstep_run.h tests/support/method_run.h tests/support/rendered_body.h)
 foreach(header IN LISTS presa_headers)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION include/presa/${folder})

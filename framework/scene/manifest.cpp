@@ -38,7 +38,8 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kForceEffect, "force_effect", "force effect", {Place::kBody, Place::kScene}},
       {PluginKind::kFrictionLaw, "friction_law", "friction law", {Place::kFriction}},
       {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}},
-      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}}};
+      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}},
+      {PluginKind::kMethod, "method", "method", {Place::kProcedure}}};
   return kRules;
 }
 
@@ -46,7 +47,8 @@ constexpr std::pair<Place, const char*> kPlaces[] = {{Place::kBody, "body"},
                                                      {Place::kScene, "scene"},
                                                      {Place::kMaterial, "material"},
                                                      {Place::kFriction, "friction"},
-                                                     {Place::kHaptics, "haptics"}};
+                                                     {Place::kHaptics, "haptics"},
+                                                     {Place::kProcedure, "procedure"}};
 
 const KindRule& ruleOf(PluginKind kind) { return *std::ranges::find(kindRules(), kind, &KindRule::kind); }
 
@@ -226,7 +228,7 @@ std::string declarationOf(const Manifest::Element& element, std::string& types) 
 
 void insertAt(std::string& xsd, const std::string& mark, const std::string& text) {
   const std::size_t at = xsd.find("<!-- " + mark + " -->");
-  if (at == std::string::npos) throw std::logic_error("scene.xsd has no comment '" + mark + "'");
+  if (at == std::string::npos) throw std::logic_error("the schema has no comment '" + mark + "'");
   xsd.insert(at, text);
 }
 
@@ -274,6 +276,7 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
   std::string xsd = schemas::scene, types;
   std::map<Manifest::Place, std::string> declarations;
   for (const Manifest& manifest : all) {
+    if (manifest.kind == PluginKind::kMethod) continue;  // of experiments
     for (const Manifest::Element& element : manifest.elements)
       declarations[element.place] += declarationOf(element, types);
   }
@@ -286,6 +289,26 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
   for (const auto& [place, text] : declarations)
     insertAt(xsd, std::string("elements of plug-ins: ") + nameOf(place), text);
   return xsd;
+}
+
+std::string experimentSchemaWith(const std::string& xsd, const std::vector<Manifest>& all) {
+  std::string declarations, types, whole = xsd;
+  Diagnostics diagnostics;
+  for (const Manifest& manifest : all) {
+    if (manifest.kind != PluginKind::kMethod) continue;
+    for (const Manifest::Element& element : manifest.elements) {
+      declarations += declarationOf(element, types);
+      if (xsd.find("<xs:element name=\"" + element.name + "\"") == std::string::npos) continue;
+      diagnostics.error(kTaken, element.where,
+                        "plug-in '" + manifest.name + "' brings <" + element.name +
+                            ">, which is an element of experiments already",
+                        "rename the element, or remove the plug-in");
+    }
+  }
+  if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
+  insertAt(whole, "types of plug-ins", types);
+  insertAt(whole, "elements of plug-ins: procedure", declarations);
+  return whole;
 }
 
 }  // namespace presa

@@ -88,6 +88,7 @@ std::string whyNot(const Manifest& manifest, const Scene& scene) {
 /// What the scene could call for.
 void leaveOutOthers(const Scene& scene, Plan& plan) {
   for (const Manifest& manifest : manifests()) {
+    if (manifest.kind == PluginKind::kMethod) continue;  // no scene calls for it
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == manifest.name; })) continue;
     plan.left_out.push_back({manifest.name, whyNot(manifest, scene)});
   }
