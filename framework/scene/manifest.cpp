@@ -43,12 +43,9 @@ const std::vector<KindRule>& kindRules() {
   return kRules;
 }
 
-constexpr std::pair<Place, const char*> kPlaces[] = {{Place::kBody, "body"},
-                                                     {Place::kScene, "scene"},
-                                                     {Place::kMaterial, "material"},
-                                                     {Place::kFriction, "friction"},
-                                                     {Place::kHaptics, "haptics"},
-                                                     {Place::kProcedure, "procedure"}};
+constexpr std::pair<Place, const char*> kPlaces[] = {{Place::kBody, "body"},         {Place::kScene, "scene"},
+                                                     {Place::kMaterial, "material"}, {Place::kFriction, "friction"},
+                                                     {Place::kHaptics, "haptics"},   {Place::kProcedure, "procedure"}};
 
 const KindRule& ruleOf(PluginKind kind) { return *std::ranges::find(kindRules(), kind, &KindRule::kind); }
 
@@ -299,10 +296,10 @@ std::string experimentSchemaWith(const std::string& xsd, const std::vector<Manif
     for (const Manifest::Element& element : manifest.elements) {
       declarations += declarationOf(element, types);
       if (xsd.find("<xs:element name=\"" + element.name + "\"") == std::string::npos) continue;
-      diagnostics.error(kTaken, element.where,
-                        "plug-in '" + manifest.name + "' brings <" + element.name +
-                            ">, which is an element of experiments already",
-                        "rename the element, or remove the plug-in");
+      diagnostics.error(
+          kTaken, element.where,
+          "plug-in '" + manifest.name + "' brings <" + element.name + ">, which is an element of experiments already",
+          "rename the element, or remove the plug-in");
     }
   }
   if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));

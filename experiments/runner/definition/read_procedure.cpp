@@ -103,7 +103,8 @@ void checkPluginMethod(const PluginElement& element, const Procedure& procedure,
   try {
     makePluginMethod(element, procedure.stimulus.axis, RandomStream(1, "method"));
   } catch (const InputError& error) {
-    for (const Diagnostic& one : error.diagnostics().all()) diagnostics.add(one);
+    for (const Diagnostic& one : error.diagnostics().all())
+      diagnostics.error(one.code, one.where, one.message, one.help);
   }
 }
 

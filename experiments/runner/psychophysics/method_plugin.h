@@ -26,7 +26,7 @@ struct MethodPlugin {
 
 }  // namespace presa::psychophysics
 
-#define PRESA_METHOD_PLUGIN(table)                                                                                   \
+#define PRESA_METHOD_PLUGIN(table)                                                                                  \
   extern "C" __attribute__((visibility("default"))) const presa::psychophysics::MethodPlugin* presaMethodPlugin() { \
     return &(table);                                                                                                \
   }

@@ -29,7 +29,8 @@ class PluginMethod : public testing::Test {
   ~PluginMethod() override { fs::remove_all(folder_); }
 
   std::optional<Experiment> read(const std::string& method) {
-    const std::string own = R"(<constant_stimuli values="600 740 870 1000 1150 1350 1660" per_level="36" per_block="4"/>)";
+    const std::string own =
+        R"(<constant_stimuli values="600 740 870 1000 1150 1350 1660" per_level="36" per_block="4"/>)";
     std::ostringstream text;
     text << std::ifstream(folder_ / "experiment.xml").rdbuf();
     std::string changed = text.str();
@@ -84,12 +85,14 @@ TEST_F(PluginMethod, MistakeThatOnlyItsLibraryKnows) {
 }
 
 TEST_F(PluginMethod, OneOfPresaAndOneOfAPluginAreTwo) {
-  EXPECT_FALSE(read(R"(<constant_stimuli values="600" per_level="4"/><weighted_up_down start="1" step="1" trials="3"/>)"));
+  EXPECT_FALSE(
+      read(R"(<constant_stimuli values="600" per_level="4"/><weighted_up_down start="1" step="1" trials="3"/>)"));
   EXPECT_THAT(findings(), HasSubstr("error[E908]: <procedure> needs one method, found 2"));
 }
 
 TEST(MethodManifest, CannotTakeTheNameOfAnElementOfExperiments) {
-  Manifest manifest{.name = "mine", .version = "1", .kind = PluginKind::kMethod, .about = "a", .elements = {}, .file = ""};
+  Manifest manifest{
+      .name = "mine", .version = "1", .kind = PluginKind::kMethod, .about = "a", .elements = {}, .file = ""};
   manifest.elements.push_back({"staircase", Manifest::Place::kProcedure, {}, {"presa_mine.xml", 3, 3}});
   try {
     experimentSchemaWith("<xs:element name=\"staircase\"/>", {manifest});
@@ -131,7 +134,9 @@ TEST_F(BrokenContract, MoreAnswersThanAnnounced) {
   EXPECT_THAT(refusal([&] { method->respond({}); }), HasSubstr("has not finished after the 3 answers"));
 }
 
-TEST_F(BrokenContract, NoMethod) { EXPECT_THAT(refusal([] { make({{"nothing", "1"}}); }), HasSubstr("e.xml:4:5: error[E596]")); }
+TEST_F(BrokenContract, NoMethod) {
+  EXPECT_THAT(refusal([] { make({{"nothing", "1"}}); }), HasSubstr("e.xml:4:5: error[E596]"));
+}
 
 }  // namespace
 }  // namespace presa::experiment

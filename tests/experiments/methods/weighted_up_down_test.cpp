@@ -63,7 +63,8 @@ TEST(WeightedUpDown, ResumesFromItsAnswers) {
 }
 
 TEST(WeightedUpDown, RefusesAStartOutsideItsBounds) {
-  EXPECT_THROW(MethodRun("weighted_up_down", {{"start", "2"}, {"step", "0.3"}, {"max", "1"}, {"trials", "4"}}), InputError);
+  EXPECT_THROW(MethodRun("weighted_up_down", {{"start", "2"}, {"step", "0.3"}, {"max", "1"}, {"trials", "4"}}),
+               InputError);
 }
 
 }  // namespace
