@@ -15,7 +15,11 @@ foreach(room IN ITEMS core haptics geometry scene device)
   list(APPEND presa_headers ${headers})
 endforeach()
 list(APPEND presa_headers framework/session/module_plugin.h framework/session/view_part.h
-  tests/support/alloc_lock_guard.h tests/support/body_effect_field.h tests/support/drawn_part.h tests/support/effect_field.h tests/support/friction_track.h tests/support/lockstep_run.h tests/support/rendered_body.h)
+  apps/studies/cost/metric.h apps/studies/cost/trace.h
+  experiments/runner/psychophysics/axis.h experiments/runner/psychophysics/method.h experiments/runner/psychophysics/method_plugin.h)
+foreach(support IN ITEMS alloc_lock_guard body_effect_field drawn_part effect_field friction_track lockstep_run method_run rendered_body)
+  list(APPEND presa_headers tests/support/${support}.h)
+endforeach()
 foreach(header IN LISTS presa_headers)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION include/presa/${folder})

@@ -49,16 +49,16 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}},
       {PluginKind::kModule, "module", "module", {Place::kBody, Place::kScene}},
       {PluginKind::kDevice, "device", "device", {}},
+      {PluginKind::kMethod, "method", "method", {Place::kProcedure}},
+      {PluginKind::kMetric, "metric", "metric", {}},
       {PluginKind::kBodyEffect, "body_effect", "body effect", {Place::kBody, Place::kScene}},
       {PluginKind::kViewPart, "view_part", "view part", {Place::kBody, Place::kScene}}};
   return kRules;
 }
 
-constexpr std::pair<Place, const char*> kPlaces[] = {{Place::kBody, "body"},
-                                                     {Place::kScene, "scene"},
-                                                     {Place::kMaterial, "material"},
-                                                     {Place::kFriction, "friction"},
-                                                     {Place::kHaptics, "haptics"}};
+constexpr std::pair<Place, const char*> kPlaces[] = {{Place::kBody, "body"},         {Place::kScene, "scene"},
+                                                     {Place::kMaterial, "material"}, {Place::kFriction, "friction"},
+                                                     {Place::kHaptics, "haptics"},   {Place::kProcedure, "procedure"}};
 
 const KindRule& ruleOf(PluginKind kind) { return *std::ranges::find(kindRules(), kind, &KindRule::kind); }
 
@@ -116,7 +116,7 @@ void checkPlace(const Manifest& manifest, const Manifest::Element& element, Diag
   diagnostics.error(kAgainstKind, element.where,
                     "<" + element.name + "> of the " + nameOf(manifest.kind) + " '" + manifest.name +
                         "' cannot stand in=\"" + nameOf(element.place) + "\"",
-                    allowed.empty() ? "a rig sets it: write <setting> instead of <element>" : allowed);
+                    allowed.empty() ? "it brings no elements; the keys of a device are <setting>" : allowed);
 }
 
 /// The scene must bound every force effect and body effect.
@@ -304,7 +304,7 @@ std::string choice(const std::string& value) { return "<xs:enumeration value=\""
 
 void insertAt(std::string& xsd, const std::string& mark, const std::string& text) {
   const std::size_t at = xsd.find("<!-- " + mark + " -->");
-  if (at == std::string::npos) throw std::logic_error("scene.xsd has no comment '" + mark + "'");
+  if (at == std::string::npos) throw std::logic_error("the schema has no comment '" + mark + "'");
   xsd.insert(at, text);
 }
 
@@ -360,6 +360,7 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
   std::string xsd = schemas::scene, types;
   std::map<Manifest::Place, std::string> declarations;
   for (const Manifest& manifest : all) {
+    if (manifest.kind == PluginKind::kMethod) continue;  // of experiments
     for (const Manifest::Element& element : manifest.elements)
       declarations[element.place] += declarationOf(element, types);
   }
@@ -374,6 +375,26 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
   for (const auto& [place, text] : declarations)
     insertAt(xsd, std::string("elements of plug-ins: ") + nameOf(place), text);
   return xsd;
+}
+
+std::string experimentSchemaWith(const std::string& xsd, const std::vector<Manifest>& all) {
+  std::string declarations, types, whole = xsd;
+  Diagnostics diagnostics;
+  for (const Manifest& manifest : all) {
+    if (manifest.kind != PluginKind::kMethod) continue;
+    for (const Manifest::Element& element : manifest.elements) {
+      declarations += declarationOf(element, types);
+      if (xsd.find("<xs:element name=\"" + element.name + "\"") == std::string::npos) continue;
+      diagnostics.error(
+          kTaken, element.where,
+          "plug-in '" + manifest.name + "' brings <" + element.name + ">, which is an element of experiments already",
+          "rename the element, or remove the plug-in");
+    }
+  }
+  if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
+  insertAt(whole, "types of plug-ins", types);
+  insertAt(whole, "elements of plug-ins: procedure", declarations);
+  return whole;
 }
 
 }  // namespace presa

@@ -8,10 +8,10 @@
 
 namespace presa {
 
-/// What a plug-in adds to scenes, from the file `presa_NAME.xml` beside its library `presa_NAME.so`. Manifests are read
+/// What a plug-in adds to scenes or experiments, from the file `presa_NAME.xml` beside its library `presa_NAME.so`. Manifests are read
 /// without loading any library, so that a scene costs nothing for plug-ins that it does not name.
 struct Manifest {
-  enum class Place { kBody, kScene, kMaterial, kFriction, kHaptics };
+  enum class Place { kBody, kScene, kMaterial, kFriction, kHaptics, kProcedure };
 
   struct Attribute {
     std::string name, type, unit, about;
@@ -79,5 +79,9 @@ const char* nameOf(Manifest::Place place);
 
 /// The schema of scenes with the elements of these plug-ins.
 std::string sceneSchemaWith(const std::vector<Manifest>& all);
+
+/// The schema of experiments with the elements of the methods among these plug-ins. Throws InputError: E594 when `xsd`
+/// has an element of that name already.
+std::string experimentSchemaWith(const std::string& xsd, const std::vector<Manifest>& all);
 
 }  // namespace presa

@@ -9,9 +9,21 @@
 
 namespace presa {
 
-enum class PluginKind { kForceEffect, kFrictionLaw, kRenderer, kSurfaceEffect, kModule, kDevice, kViewPart, kBodyEffect };
+/// What a plug-in gives.
+enum class PluginKind {
+  kForceEffect,
+  kFrictionLaw,
+  kRenderer,
+  kSurfaceEffect,
+  kBodyEffect,
+  kViewPart,
+  kModule,
+  kDevice,
+  kMethod,
+  kMetric
+};
 
-/// An element of the scene that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
+/// An element of the scene, or of an experiment, that a plug-in brings, with the values that its manifest allows. Defaults are filled in.
 struct PluginElement {
   std::string plugin;           ///< its name, from the manifest
   std::string element;          ///< name of the element

@@ -78,10 +78,16 @@ std::string whyNot(const Manifest& manifest, const Scene& scene) {
   return withoutItsElements(manifest);
 }
 
+/// Whether scenes call for plug-ins of that kind by an element or a name; modules are planned apart.
+bool servesScenes(PluginKind kind) {
+  using enum PluginKind;
+  return kind != kModule && kind != kDevice && kind != kMethod && kind != kMetric;
+}
+
 /// What the scene could call for.
 void leaveOutOthers(const Scene& scene, Plan& plan) {
   for (const Manifest& manifest : manifests()) {
-    if (manifest.kind == PluginKind::kModule || manifest.kind == PluginKind::kDevice) continue;
+    if (!servesScenes(manifest.kind)) continue;
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == manifest.name; })) continue;
     plan.left_out.push_back({manifest.name, whyNot(manifest, scene)});
   }

@@ -65,6 +65,8 @@ const std::vector<Arrows>& arrows() {
       // a model of a device implements the narrow interface of the device's driver
       {"devices/falcon_model/", {"framework/", "devices/hand/", "devices/novint_falcon/transport.h"}},
       {"experiments/runner/", {"framework/"}},
+      // methods are plug-ins; they know the contract of methods alone
+      {"experiments/methods/", {"framework/", "experiments/runner/psychophysics/"}},
       {"experiments/study/", {"framework/"}},
       {"experiments/stability/", {"framework/", "experiments/study/"}},
       // fault rehearsals use the driver and a model of its device

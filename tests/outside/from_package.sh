@@ -84,6 +84,13 @@ refused "plug-in 'height_watch' in build/lib/presa brings it: --allow-plugins bu
 shows "$(run presa explain scene/lift.xml --allow-plugins build/lib/presa)" "height_watch"
 shows "$(run presa run scene/lift.xml --lockstep --allow-plugins build/lib/presa)" "cube was above 0.05 m for"
 
+project experiment jittered
+found=("${bare[@]}" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa")
+shows "$("${found[@]}" presa plugins)" "jittered 0.1.0 (method), $PWD/build/lib/presa"
+shows "$("${found[@]}" presa experiment dry-run scene/experiment.xml)" "40 at most"
+refused "scene/experiment.xml:7:5: error[E111]: unknown element <jittered>" "${bare[@]}" presa experiment dry-run scene/experiment.xml
+"${found[@]}" presa experiment run scene/experiment.xml --subject S01 --data data --lockstep --no-recording >/dev/null
+
 cd "$work"
 refused "error[E597]: there is a plug-in 'magnet' already" "${bare[@]}" presa new effect magnet
 refused "error[E597]: <body> is an element of scenes already" "${bare[@]}" presa new effect body

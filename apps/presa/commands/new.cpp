@@ -87,6 +87,20 @@ std::vector<NewFile> scriptedFingers() {
   return {{"scene/rig.xml", rig}, {"scene/motion.xml", shipped("config/motions/pinch_cube.xml")}};
 }
 
+/// The shipped comparison of two stiffnesses, with the project's method.
+std::vector<NewFile> stiffnessExperiment(const Arguments& arguments) {
+  const std::string from = "experiments/stiffness_2afc/";
+  std::string experiment = shipped(from + "experiment.xml");
+  replaceIn(experiment, R"(name="stiffness_2afc")", "name=\"" + arguments.name + "\"");
+  replaceIn(experiment, R"(<constant_stimuli values="600 740 870 1000 1150 1350 1660" per_level="36" per_block="4"/>)",
+            "<" + arguments.name + "/>");
+  replaceIn(experiment, "Seven constant stimuli about 1000 N/m.", "The method is this project's own.");
+  std::vector<NewFile> files{{"scene/experiment.xml", experiment}};
+  for (const char* name : {"scene.xml", "rig_scripted.xml", "press.csv"})
+    files.push_back({std::string("scene/") + name, shipped(from + name)});
+  return files;
+}
+
 /// The templates of that folder, with the project's name in the place of "KIND" in file names and of @name@ in texts.
 std::vector<NewFile> fromTemplates(const std::string& folder, const Arguments& arguments) {
   const std::string start = "apps/presa/templates/" + folder + "/";
@@ -107,8 +121,12 @@ std::vector<NewFile> projectOf(const Arguments& arguments) {
   std::vector<NewFile> files = fromTemplates("any", arguments);
   const auto add = [&](std::vector<NewFile> more) { std::ranges::move(more, std::back_inserter(files)); };
   add(fromTemplates(arguments.kind, arguments));
-  files.push_back({"scene/lift.xml", liftingScene(arguments)});
-  if (arguments.kind != "device") add(scriptedFingers());
+  if (arguments.kind == "experiment") {
+    add(stiffnessExperiment(arguments));
+  } else {
+    files.push_back({"scene/lift.xml", liftingScene(arguments)});
+    if (arguments.kind != "device") add(scriptedFingers());
+  }
   std::ranges::sort(files, {}, &NewFile::path);
   return files;
 }
@@ -154,6 +172,18 @@ std::string prefixArgument() {
   return prefix == "/usr" || prefix == "/usr/local" ? "" : " -DCMAKE_PREFIX_PATH=" + prefix.string();
 }
 
+const char* nextSteps(const std::string& kind) {
+  if (kind == "experiment")
+    return "See its trials, and let simulated subjects do them:\n"
+           "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
+           "  presa experiment dry-run scene/experiment.xml\n"
+           "  presa experiment run scene/experiment.xml --subject S01 --data data --lockstep\n";
+  return "See it in the scene, and feel it:\n"
+         "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
+         "  presa explain scene/lift.xml\n"
+         "  presa run scene/lift.xml --view window\n";
+}
+
 int writeNew(const Arguments& arguments) {
   checkName(arguments.name);
   const fs::path project = (fs::path(arguments.folder) / arguments.name).lexically_normal();
@@ -166,11 +196,8 @@ int writeNew(const Arguments& arguments) {
       "\nBuild and test it:\n"
       "  cd %s\n"
       "  cmake -B build%s && cmake --build build && ctest --test-dir build\n"
-      "See it in the scene, and feel it:\n"
-      "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
-      "  presa explain scene/lift.xml\n"
-      "  presa run scene/lift.xml --view window\n",
-      project.c_str(), prefix.c_str());
+      "%s",
+      project.c_str(), prefix.c_str(), nextSteps(arguments.kind));
   if (prefix.ends_with("PREFIX"))
     std::printf("Presa is not installed: cmake --install build --prefix PREFIX, in its source tree, comes first.\n");
   return kExitOk;
@@ -187,9 +214,11 @@ void addNew(Command app, int& status) {
           "effect: a force on the fingertips, with its reaction on a body; friction: a law of friction between fingers "
           "and bodies; body: a force on a body in the dynamics, such as drag; surface: a texture or a layer of a body; "
           "renderer: where surfaces hold the fingertips; device: a driver that measures fingertips and renders forces; "
-          "module: a part of the graph with a rate and ports; view: something drawn in the picture")
+          "module: a part of the graph with a rate and ports; view: something drawn in the picture; "
+          "metric: an error that presa cost draws over time; experiment: a comparison of two stiffnesses with a method of "
+          "its own")
       .required()
-      .oneOf({"effect", "body", "friction", "surface", "renderer", "device", "module", "view"});
+      .oneOf({"effect", "body", "friction", "surface", "renderer", "device", "module", "view", "metric", "experiment"});
   command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
   command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
   command.footer(

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "experiments/runner/definition/plugin_method.h"
+
 namespace presa::experiment {
 namespace {
 
@@ -22,7 +24,9 @@ ForcedChoicePlan planOf(const Procedure& procedure) {
 
 std::vector<std::string> mistakes(const Procedure& procedure) {
   std::vector<std::string> found =
-      std::visit([](const auto& plan) { return psychophysics::mistakes(plan); }, procedure.plan);
+      std::visit(Overloaded{[](const PluginElement&) { return std::vector<std::string>(); },  // its library tells them
+                            [](const auto& plan) { return psychophysics::mistakes(plan); }},
+                 procedure.plan);
   const bool adjusts = std::holds_alternative<AdjustmentPlan>(procedure.plan);
   if (adjusts != (procedure.task == Task::kAdjust))
     found.emplace_back("the method of adjustment needs the task \"adjust\", and the other way round");
@@ -46,6 +50,9 @@ std::unique_ptr<Method> makeMethod(const Procedure& procedure, std::uint64_t see
           },
           [&](const AdjustmentPlan& plan) -> std::unique_ptr<Method> {
             return std::make_unique<Adjustment>(plan, stream);
+          },
+          [&](const PluginElement& element) -> std::unique_ptr<Method> {
+            return makePluginMethod(element, procedure.stimulus.axis, stream);
           }},
       procedure.plan);
   if (procedure.task == Task::kAdjust) return method;
@@ -60,7 +67,8 @@ std::size_t maxTrials(const Procedure& procedure) {
                                  return static_cast<std::size_t>(static_cast<double>(trials) / (1 - plan.catch_rate));
                                },
                                [](const ConstantStimuliPlan& plan) { return plan.levels.size() * plan.per_level; },
-                               [](const AdjustmentPlan& plan) { return plan.trials; }},
+                               [](const AdjustmentPlan& plan) { return plan.trials; },
+                               [](const PluginElement& element) { return maxTrials(element); }},
                     procedure.plan);
 }
 

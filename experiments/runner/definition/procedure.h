@@ -13,6 +13,7 @@
 #include "experiments/runner/psychophysics/forced_choice.h"
 #include "experiments/runner/psychophysics/interleaved.h"
 #include "experiments/runner/psychophysics/quest_plus.h"
+#include "framework/scene/plugin_element.h"
 
 /// The psychophysical procedure of an experiment: method, stimulus, task, and the simulated observer for dry runs.
 /// Plain data, immutable after reading. Thread: any.
@@ -55,8 +56,9 @@ struct SimulatedObserver {
   double criterion = 0;              ///< yes/no: the percept at which both answers are equally likely
 };
 
+/// The last one is the element of a method that a plug-in brings.
 using MethodPlan = std::variant<psychophysics::InterleavedPlan, psychophysics::ConstantStimuliPlan,
-                                psychophysics::QuestPlusPlan, psychophysics::AdjustmentPlan>;
+                                psychophysics::QuestPlusPlan, psychophysics::AdjustmentPlan, PluginElement>;
 
 struct Procedure {
   Task task = Task::kTwoIntervals;
@@ -73,7 +75,8 @@ struct Procedure {
   std::size_t presentations() const { return task == Task::kTwoIntervals ? 2 : task == Task::kAdjust ? 2 * rounds : 1; }
 };
 
-/// The method wrapped in its task, at its first trial. Throws std::invalid_argument that lists every mistake.
+/// The method wrapped in its task, at its first trial. Throws std::invalid_argument that lists every
+/// mistake; InputError for a plug-in that cannot make its method.
 std::unique_ptr<psychophysics::Method> makeMethod(const Procedure& procedure, std::uint64_t seed);
 /// Upper bound on the trials until the method has finished.
 std::size_t maxTrials(const Procedure& procedure);

@@ -10,6 +10,7 @@
 #include "experiments/runner/definition/presentation.h"
 #include "experiments/runner/definition/read_parts.h"
 #include "framework/input/folders.h"
+#include "framework/scene/manifest.h"
 #include "framework/scene/xml/schema.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
@@ -97,7 +98,7 @@ void checkConditions(const Experiment& experiment, Diagnostics& diagnostics) {
 }  // namespace
 
 const xml::Schema& experimentSchema() {
-  static const xml::Schema compiled(schemas::experiment);
+  static const xml::Schema compiled(experimentSchemaWith(schemas::experiment, manifests()));
   return compiled;
 }
 

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <array>
 
+#include "experiments/runner/definition/plugin_method.h"
 #include "experiments/runner/definition/read_parts.h"
+#include "framework/scene/manifest.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa::experiment {
@@ -79,16 +82,45 @@ AdjustmentPlan adjustmentOf(const Element& element) {
 
 constexpr std::array kMethods{"staircase", "constant_stimuli", "quest_plus", "adjustment"};
 
+/// The plug-in that brings this element of a procedure, or null.
+const Manifest* pluginOf(const std::string& element) {
+  for (const Manifest& manifest : manifests()) {
+    if (manifest.kind != PluginKind::kMethod) continue;
+    if (std::ranges::find(manifest.elements, element, &Manifest::Element::name) != manifest.elements.end())
+      return &manifest;
+  }
+  return nullptr;
+}
+
+PluginElement pluginElementOf(const Element& method, const Manifest& manifest) {
+  PluginElement element{manifest.name, method.name(), kNoBody, {}, method.where(), manifest.kind, -1};
+  for (const std::string& name : method.attributeNames()) element.attributes[name] = method.attribute(name);
+  return element;
+}
+
+/// Makes the method once, so that a mistake that only its library knows is found before any trial.
+void checkPluginMethod(const PluginElement& element, const Procedure& procedure, Diagnostics& diagnostics) {
+  try {
+    makePluginMethod(element, procedure.stimulus.axis, RandomStream(1, "method"));
+  } catch (const InputError& error) {
+    for (const Diagnostic& one : error.diagnostics().all())
+      diagnostics.error(one.code, one.where, one.message, one.help);
+  }
+}
+
 /// Reads the method; reports when there is none or more than one.
 void readMethod(const Element& element, Procedure& procedure, Diagnostics& diagnostics) {
   std::vector<Element> found;
   for (const char* name : kMethods) {
     for (const Element& method : element.children(name)) found.push_back(method);
   }
+  for (const Element& child : element.children()) {
+    if (pluginOf(child.name()) != nullptr) found.push_back(child);
+  }
   if (found.size() != 1) {
     diagnostics.error(kNoMethod, (found.empty() ? element : found.back()).where(),
                       "<procedure> needs one method, found " + std::to_string(found.size()),
-                      "staircase, constant_stimuli, quest_plus or adjustment");
+                      "staircase, constant_stimuli, quest_plus, adjustment, or one of a plug-in (presa plugins)");
     return;
   }
   const Element& method = found.front();
@@ -98,6 +130,10 @@ void readMethod(const Element& element, Procedure& procedure, Diagnostics& diagn
                                          countOf(method, "per_block", 1)};
   if (method.name() == "quest_plus") procedure.plan = questOf(method, procedure.stimulus);
   if (method.name() == "adjustment") procedure.plan = adjustmentOf(method);
+  if (const Manifest* manifest = pluginOf(method.name())) {
+    procedure.plan = pluginElementOf(method, *manifest);
+    checkPluginMethod(std::get<PluginElement>(procedure.plan), procedure, diagnostics);
+  }
   for (const std::string& mistake : mistakes(procedure)) diagnostics.error(kImpossibleMethod, method.where(), mistake);
 }
 

@@ -4,25 +4,6 @@
 
 namespace presa::psychophysics {
 
-void Method::respond(const Response& response) {
-  if (!next_) throw std::logic_error("an answer to a method that has finished");
-  Trial trial{*next_, response};
-  update(trial);
-  trials_.push_back(trial);
-  offer(choose());
-}
-
-void Method::discard() {
-  if (!next_) throw std::logic_error("nothing to discard: the method has finished");
-  trials_.push_back({*next_, std::nullopt});
-  offer(again(*next_));
-}
-
-void Method::offer(std::optional<Stimulus> stimulus) {
-  if (stimulus) stimulus->trial = trials_.size();
-  next_ = stimulus;
-}
-
 void replay(Method& method, std::span<const Trial> log) {
   for (const Trial& trial : log) {
     if (method.next() != trial.stimulus) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,26 @@ class Method {
   std::optional<Stimulus> next_;
   std::vector<Trial> trials_;
 };
+
+// inline, so that a method outside the tree needs no library
+inline void Method::respond(const Response& response) {
+  if (!next_) throw std::logic_error("an answer to a method that has finished");
+  Trial trial{*next_, response};
+  update(trial);
+  trials_.push_back(trial);
+  offer(choose());
+}
+
+inline void Method::discard() {
+  if (!next_) throw std::logic_error("nothing to discard: the method has finished");
+  trials_.push_back({*next_, std::nullopt});
+  offer(again(*next_));
+}
+
+inline void Method::offer(std::optional<Stimulus> stimulus) {
+  if (stimulus) stimulus->trial = trials_.size();
+  next_ = stimulus;
+}
 
 /// Rebuilds a fresh method from its log. Throws std::runtime_error at the first trial that differs from the method's
 /// own stimulus: the log then belongs to another definition or seed. (A text log needs 17 digits per double.)
