@@ -75,6 +75,11 @@ shows "$(env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/l
 sed -i 's/key="finger"/key="fingr"/' scene/rig.xml
 refused "driver 'fingertip' has no setting 'fingr'" env -i "PATH=$prefix/bin:/usr/bin:/bin" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa" presa check scene/lift.xml
 
+project metric force_jump
+refused "did you mean 'force_jump'?" "${bare[@]}" presa cost scene/lift.xml --metric force_jmp --allow-plugins build/lib/presa
+run presa cost scene/lift.xml --metric force_jump --quick --out study --allow-plugins build/lib/presa >cost.log 2>&1 || fail "$(tail -5 cost.log)"
+shows "$(cat study/*.csv)" "force_jump_N"
+
 project view drop_lines
 shows "$(run presa explain scene/lift.xml --view offscreen --allow-plugins build/lib/presa)" "drop a line from each fingertip"
 

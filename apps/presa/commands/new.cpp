@@ -178,6 +178,10 @@ const char* nextSteps(const std::string& kind) {
            "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
            "  presa experiment dry-run scene/experiment.xml\n"
            "  presa experiment run scene/experiment.xml --subject S01 --data data --lockstep\n";
+  if (kind == "metric")
+    return "See it over processor time:\n"
+           "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
+           "  presa cost scene/lift.xml --quick --metric ${PWD##*/}\n";
   return "See it in the scene, and feel it:\n"
          "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
          "  presa explain scene/lift.xml\n"

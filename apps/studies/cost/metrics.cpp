@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+
+#include "framework/core/diagnostics/refuse.h"
+#include "framework/scene/manifest.h"
 
 namespace presa::cost {
 namespace {
@@ -175,7 +179,7 @@ Value none(const Evidence&) { return std::nullopt; }
 
 }  // namespace
 
-const std::vector<Metric>& allMetrics() {
+const std::vector<Metric>& ownMetrics() {
   static const std::vector<Metric> metrics{
       {"force_rms", "Force, RMS error", "N",
        "root of the mean square of |force − reference| of the worst finger, while one of the two touches",
@@ -248,14 +252,26 @@ const std::vector<Metric>& allMetrics() {
 }
 
 const Metric* findMetric(const std::string& name) {
-  const auto& all = allMetrics();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Metric& metric) { return metric.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  const auto own = std::ranges::find(ownMetrics(), name, &Metric::name);
+  if (own != ownMetrics().end()) return &*own;
+  const Manifest* manifest = findManifest(name);
+  if (manifest == nullptr || manifest->kind != PluginKind::kMetric) return nullptr;
+  static std::map<std::string, Metric> loaded;
+  const auto known = loaded.find(name);
+  if (known != loaded.end()) return &known->second;
+  Metric metric = pluginTable<MetricPlugin>(name, "presaMetricPlugin").metric;
+  if (metric.error == nullptr)
+    refuse(596, manifest->file, "metric '" + name + "' computes no error", "report this to the author of the plug-in");
+  metric.name = name;
+  if (metric.noticeable == nullptr) metric.noticeable = none;
+  return &loaded.emplace(name, std::move(metric)).first->second;
 }
 
 std::vector<std::string> metricNames() {
   std::vector<std::string> names;
-  for (const Metric& metric : allMetrics()) names.push_back(metric.name);
+  for (const Metric& metric : ownMetrics()) names.push_back(metric.name);
+  for (const Manifest& manifest : manifests())
+    if (manifest.kind == PluginKind::kMetric) names.push_back(manifest.name);
   return names;
 }
 

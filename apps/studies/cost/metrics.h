@@ -1,33 +1,17 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/studies/cost/evidence.h"
+#include "apps/studies/cost/metric.h"
 
 namespace presa::cost {
 
-/// An error metric in units that a person can judge.
-struct Metric {
-  std::string name;   ///< name for --metric
-  std::string title;  ///< such as "Force, RMS error"
-  std::string unit;
-  std::string meaning;
-  /// The error of a setting; no value when the metric does not apply to the scene. Absolute metrics ignore the
-  /// reference.
-  std::optional<double> (*error)(const Evidence& setting, const Evidence& reference) = nullptr;
-  bool absolute = false;  ///< the right value is zero, independent of the reference
-  /// Just-noticeable difference in the metric's unit; no value when it is unknown.
-  std::optional<double> (*noticeable)(const Evidence& reference) = nullptr;
-};
-
-const std::vector<Metric>& allMetrics();
+/// Presa's own metrics, which a study computes that names none.
+const std::vector<Metric>& ownMetrics();
+/// The metric of that name, Presa's own or that of a plug-in, which this loads; null if there is none. The address stays
+/// valid. Thread: main. Throws InputError when the plug-in cannot be loaded.
 const Metric* findMetric(const std::string& name);
+/// Names of all metrics: Presa's own, then those of plug-ins, none of which this loads.
 std::vector<std::string> metricNames();
-
-/// Weber fraction of force [Pang1991, Jones1992: 7 to 10 %].
-inline constexpr double kForceStep = 0.10;
-/// Below this force [N], near the threshold, Weber's law fails: steps are computed as at this force.
-inline constexpr double kMinForce = 0.5;
 
 }  // namespace presa::cost

@@ -109,7 +109,8 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   if (study.name.empty()) study.name = scene.name;
   chooseFolder(request, study);
   if (study.title.empty()) study.title = "What accuracy costs: " + scene.name;
-  if (study.metrics.empty()) study.metrics = metricNames();
+  if (study.metrics.empty())
+    for (const Metric& metric : ownMetrics()) study.metrics.push_back(metric.name);
   if (study.reference_kind == Study::Reference::kNone) {
     std::erase_if(study.metrics, [](const std::string& name) {
       const Metric* metric = findMetric(name);
