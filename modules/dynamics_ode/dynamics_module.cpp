@@ -1,5 +1,8 @@
 #include "modules/dynamics_ode/dynamics_module.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "framework/scene/ages.h"
 #include "modules/dynamics_ode/engine.h"
 
@@ -94,10 +97,12 @@ void DynamicsModule::stop() {
 }
 
 std::vector<std::string> DynamicsModule::stages() const {
-  std::vector<std::string> stages = listStages(options_);
-  if (!body_effects_) return stages;
-  for (const std::string& name : body_effects_->names())
-    stages.insert(stages.begin(), "body effect " + name + ", implicit in its own damping");
+  std::vector<std::string> stages;
+  if (body_effects_) {
+    for (const std::string& name : body_effects_->names())
+      stages.push_back("body effect " + name + ", implicit in its own damping and stiffness");
+  }
+  std::ranges::move(listStages(options_), std::back_inserter(stages));
   return stages;
 }
 

@@ -126,8 +126,8 @@ TEST(Drag, DoesNotTurnTheBodyRoundAtItsBound) {
     world.scene.gravity.setZero();
     return world;
   }());
-  fall.bodies.setVelocity(0, Vec3(1, 0, 0), Vec3::Zero());
-  double last = 1;
+  fall.bodies.setVelocity(0, Vec3(1.1, 0, 0), Vec3::Zero());
+  double last = 1.1;
   for (int i = 0; i < 200; ++i) {
     const double v = fall.step().v_WB.x();
     EXPECT_GE(v, 0);

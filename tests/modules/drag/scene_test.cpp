@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/apps/presa/support.h"
 #include "tests/support/lockstep_run.h"
 
@@ -27,7 +29,6 @@ TEST(SceneWithDrag, LoadsItsPlugInAndShowsIt) {
   EXPECT_EQ(explained.status, 0) << explained.err;
   EXPECT_NE(explained.out.find("body effect <drag> of body 'cube'"), std::string::npos) << explained.out;
   EXPECT_NE(explained.out.find("presa_drag.so"), std::string::npos) << explained.out;
-  EXPECT_NE(explained.out.find("body 'cube' has <drag>"), std::string::npos) << explained.out;
   EXPECT_EQ(run(scene).status, 0);
 }
 
@@ -64,8 +65,10 @@ TEST(SceneWithDrag, TakesValuesFromTheCommandLineByItsManifest) {
 
 TEST(SceneWithDrag, IsRefusedByEnginesWithoutBodyEffects) {
   const std::string scene = test::scratch("bullet.xml");
-  test::shell("sed 's|<world |<dynamics engine=\"bullet\"/><world |' " + test::source("config/scenes/sinking.xml") +
-              " > " + scene);
+  std::ofstream(scene) << R"(<scene version="1.0" name="bullet"><world gravity="0 0 -9.81"/><dynamics engine="bullet"/>
+    <materials><material name="any" stiffness="1000"/></materials>
+    <body name="ball"><physics mass="0.1"><sphere radius="0.03"/></physics><drag max_force="1" linear="1"/></body>
+    </scene>)";
   const Outcome outcome = test::presa("explain " + scene);
   EXPECT_NE(outcome.err.find("error[E226]: <drag> is a body effect, which dynamics_bullet does not support"),
             std::string::npos)
