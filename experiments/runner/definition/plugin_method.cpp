@@ -10,7 +10,7 @@ namespace {
 
 using namespace psychophysics;
 
-enum Code { kAgainstContract = 617 };
+enum MethodCode { kAgainstContract = 617 };
 
 const MethodPlugin& tableOf(const PluginElement& element) {
   return pluginTable<MethodPlugin>(element.plugin, "presaMethodPlugin");
