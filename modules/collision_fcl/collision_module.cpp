@@ -52,12 +52,13 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
   }
   broad_phase_.refresh();
   found_.reserve(touchables_.size());
+  finger_neighbourhoods.value.fingers.resize(world_->scene.devices.size());
 }
 
 void CollisionModule::step(const Tick& tick) noexcept {
   FingerNeighbourhoods& neighbourhoods = finger_neighbourhoods.value;
   neighbourhoods.time = tick.time;
-  neighbourhoods.count = device_state->count;
+  neighbourhoods.count = std::min(device_state->count, static_cast<std::int32_t>(neighbourhoods.fingers.size()));
   if (any_moves_) placeBodies(tick);
   for (std::size_t f = 0; f < static_cast<std::size_t>(neighbourhoods.count); ++f) {
     const Ball needed = ballOf(f, tick);

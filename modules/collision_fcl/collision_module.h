@@ -16,8 +16,8 @@ namespace presa {
 /// its hierarchy, from which the haptic tick continues. A neighbourhood is kept as long as it covers the finger's
 /// reach; nothing is then searched or copied. A late or too small neighbourhood costs time but no accuracy: the tick
 /// then examines all bodies and starts from the roots. In: contact_exchange, device_state, object_state (optional;
-/// absent: bodies stay at their start pose). Out: finger_neighbourhoods. Thread: collision; allocates at construction
-/// only.
+/// absent: bodies stay at their start pose). Out: finger_neighbourhoods, sized by the devices. Thread: collision;
+/// allocates at construction only.
 class CollisionModule final : public Module {
  public:
   explicit CollisionModule(std::shared_ptr<const World> world);

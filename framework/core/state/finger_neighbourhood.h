@@ -1,7 +1,9 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "framework/core/math/spatial.h"
 #include "framework/core/state/limits.h"
@@ -29,19 +31,22 @@ struct FingerNeighbourhood {
   std::array<NearBody, kMaxNearBodies> bodies;
 };
 
-/// Bodies near every finger, and the nodes at which to start in their meshes. Written by: collision thread.
+/// Bodies near every finger, and the nodes at which to start in their meshes. The collision query sizes it by the
+/// scene's devices at load, one finger each; its length then stays constant. Written by: collision thread.
 struct FingerNeighbourhoods {
-  double time = 0;         ///< simulated time of the query [s]
-  std::int32_t count = 0;  ///< fingers
-  std::array<FingerNeighbourhood, kMaxFingers> fingers;
+  double time = 0;                           ///< simulated time of the query [s]
+  std::int32_t count = 0;                    ///< fingers in use, 0 <= count <= fingers.size()
+  std::vector<FingerNeighbourhood> fingers;  ///< in the order of the scene's devices
 
   FingerNeighbourhoods() = default;
   FingerNeighbourhoods(const FingerNeighbourhoods& other) { *this = other; }
-  /// Copies only the fingers in use, and only neighbourhoods whose serial differs.
+  /// Copies only the fingers in use, and only neighbourhoods whose serial differs. Allocates only when the lengths
+  /// differ.
   FingerNeighbourhoods& operator=(const FingerNeighbourhoods& other) {
     if (this == &other) return *this;
     time = other.time;
     count = other.count;
+    if (fingers.size() != other.fingers.size()) fingers.resize(other.fingers.size());
     for (std::size_t f = 0; f < static_cast<std::size_t>(count); ++f) {
       FingerNeighbourhood& mine = fingers[f];
       const FingerNeighbourhood& theirs = other.fingers[f];
@@ -54,6 +59,9 @@ struct FingerNeighbourhoods {
     }
     return *this;
   }
+
+  /// Heap memory that it owns [bytes] (SizedAtLoad).
+  std::size_t roomBytes() const noexcept { return fingers.capacity() * sizeof(FingerNeighbourhood); }
 };
 
 }  // namespace presa

@@ -205,10 +205,25 @@ TEST_F(CollisionModuleTest, ACrowdIsLeftToTheTick) {
   EXPECT_LT(query(Vec3::Zero()).radius, 0);
 }
 
+// Room is taken for the scene's devices only, and a finger beyond them is left to the tick.
+TEST_F(CollisionModuleTest, RoomIsThatOfTheScenesDevices) {
+  addBody(Sphere{0.01}, {});
+  query(Vec3::Zero());
+  const FingerNeighbourhoods& neighbourhoods = module_->finger_neighbourhoods.value;
+  EXPECT_EQ(neighbourhoods.fingers.size(), 1u);
+  EXPECT_EQ(neighbourhoods.roomBytes(), sizeof(FingerNeighbourhood));
+  device_.out.value.count = 2;
+  device_bridge_->push(0);
+  device_bridge_->pull();
+  module_->step(tick_);
+  EXPECT_EQ(neighbourhoods.count, 1);
+}
+
 // Three slots of a triple buffer, copied to in turn while neighbourhoods change one by one: every copy equals its
 // source.
 TEST(FingerNeighbourhoods, ACopyIsWhatItsSourceWasWhateverItHeldBefore) {
   auto source = std::make_unique<FingerNeighbourhoods>();
+  source->fingers.resize(3);
   std::array<std::unique_ptr<FingerNeighbourhoods>, 3> slots;
   for (auto& slot : slots) slot = std::make_unique<FingerNeighbourhoods>();
   for (std::uint64_t round = 1; round < 30; ++round) {
@@ -225,6 +240,7 @@ TEST(FingerNeighbourhoods, ACopyIsWhatItsSourceWasWhateverItHeldBefore) {
     FingerNeighbourhoods& slot = *slots[round / 2 % 3];
     slot = *source;
     ASSERT_EQ(slot.count, source->count);
+    ASSERT_EQ(slot.fingers.size(), source->fingers.size());
     for (std::size_t f = 0; f < static_cast<std::size_t>(slot.count); ++f) {
       const FingerNeighbourhood &copy = slot.fingers[f], &original = source->fingers[f];
       ASSERT_EQ(copy.serial, original.serial);

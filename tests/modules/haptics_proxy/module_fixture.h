@@ -74,6 +74,7 @@ class OneFinger {
     GraphBuilder builder;
     device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
     neighbourhoods_ = &builder.add(std::make_unique<Source<FingerNeighbourhoods>>("contact_patches"));
+    neighbourhoods_->out.value.fingers.resize(1);
     surfaces_ = &builder.add(std::make_unique<Source<SurfaceChange>>("surface_change"));
     settings_ = &builder.add(std::make_unique<Source<SurfaceSettings>>("surface_settings"));
     objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));

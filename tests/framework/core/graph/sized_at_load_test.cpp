@@ -7,13 +7,15 @@
 #include "framework/assembly/assembly_state.h"
 #include "framework/assembly/snap_constraint.h"
 #include "framework/core/graph/graph_builder.h"
+#include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {
 namespace {
 
-static_assert(SizedAtLoad<ObjectState> && SizedAtLoad<SnapConstraints> && SizedAtLoad<AssemblyState>);
+static_assert(SizedAtLoad<ObjectState> && SizedAtLoad<SnapConstraints> && SizedAtLoad<AssemblyState> &&
+              SizedAtLoad<FingerNeighbourhoods>);
 static_assert(!ExchangedData<std::vector<int>>, "what says nothing of its room may take some at any time");
 
 constexpr std::size_t kBodies = 5000;
@@ -64,6 +66,25 @@ TEST(SizedAtLoad, TakesNoMemoryFromTheFirstPublicationOn) {
   }
   EXPECT_EQ(guard.violations(), 0) << guard.first();
   EXPECT_EQ(pair.reader->count, static_cast<std::int32_t>(kBodies));
+}
+
+// A value that copies by its own rules takes memory for all fingers at once, although only the first is in use.
+TEST(SizedAtLoad, NeighbourhoodsOfMoreFingersInUseTakeNoMemory) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  FingerNeighbourhoods source;
+  source.fingers.resize(20);
+  source.count = 1;
+  LatestValue<FingerNeighbourhoods> latest(source);
+  const RealTimeGuard guard;
+  for (std::int32_t count = 1; count <= 20; ++count) {
+    source.count = count;
+    source.fingers[static_cast<std::size_t>(count - 1)].serial = 1;
+    latest.publish(source, 0);
+    ASSERT_TRUE(latest.update());
+    EXPECT_EQ(latest.value().fingers[static_cast<std::size_t>(count - 1)].serial, 1u);
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+  EXPECT_GE(source.roomBytes(), 20 * kMaxNearBodies * sizeof(NearBody));
 }
 
 // Before the first step a reader finds no bodies, although memory is already allocated.
