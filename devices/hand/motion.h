@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "framework/core/diagnostics/diagnostics.h"
-#include "framework/core/math/minimum_jerk.h"
 #include "framework/core/math/spatial.h"
+#include "framework/device/minimum_jerk.h"
 
 namespace presa {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/core/math/minimum_jerk.h"
+#include "framework/device/minimum_jerk.h"
 
 namespace presa {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "framework/core/graph/graph_builder.h"
-#include "framework/core/math/minimum_jerk.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/device/minimum_jerk.h"
 #include "modules/collision_fcl/collision_module.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 

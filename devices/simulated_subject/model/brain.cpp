@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/core/math/minimum_jerk.h"
+#include "framework/device/minimum_jerk.h"
 
 namespace presa::subject {
 namespace {
