@@ -25,9 +25,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_p
                             .model = "fingers that assemble by a plan: no person"});
 }
 
-const DevicePlugin kPlugin{.name = "assembling_hand",
-                           .create = createEach<create>,
-                           .rating = kImaginedRating};
+const DevicePlugin kPlugin{.name = "assembling_hand", .create = createEach<create>, .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::assembling

@@ -27,9 +27,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const std::shared_p
        .model = "fingers that grab at random: no person"});
 }
 
-const DevicePlugin kPlugin{.name = "clumsy_hand",
-                           .create = createEach<create>,
-                           .rating = kImaginedRating};
+const DevicePlugin kPlugin{.name = "clumsy_hand", .create = createEach<create>, .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::clumsy

@@ -187,9 +187,7 @@ DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_
   return fingers;
 }
 
-const DevicePlugin kPlugin{.name = "pointer",
-                           .create = create,
-                           .rating = kImaginedRating};
+const DevicePlugin kPlugin{.name = "pointer", .create = create, .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::pointer

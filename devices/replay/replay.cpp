@@ -64,9 +64,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   return std::make_unique<ReplayedFinger>(std::move(settings));
 }
 
-const DevicePlugin kPlugin{.name = "replay",
-                           .create = createEach<create>,
-                           .rating = kImaginedRating};
+const DevicePlugin kPlugin{.name = "replay", .create = createEach<create>, .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa

@@ -78,9 +78,7 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world,
   return std::make_unique<ScriptedFinger>(std::move(hand), RateTable(world.scene.rates).period(RateGroup::kHaptic));
 }
 
-const DevicePlugin kPlugin{.name = "scripted",
-                           .create = createEach<create>,
-                           .rating = kImaginedRating};
+const DevicePlugin kPlugin{.name = "scripted", .create = createEach<create>, .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa

@@ -93,9 +93,7 @@ DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_
   return digits;
 }
 
-const DevicePlugin kPlugin{.name = "simulated_subject",
-                           .create = create,
-                           .rating = kImaginedRating};
+const DevicePlugin kPlugin{.name = "simulated_subject", .create = create, .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa

@@ -197,10 +197,10 @@ void checkGift(const Manifest& manifest, const xml::Element& root, Diagnostics& 
   if (manifest.gives.empty()) return;
   const PluginKind giver = manifest.hasProxy() ? PluginKind::kRenderer : PluginKind::kModule;
   if (manifest.kind == giver) return;
-  diagnostics.error(kAgainstKind, root.where("gives"),
-                    "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "' says gives=\"" +
-                        manifest.gives + "\"",
-                    "only a " + std::string(nameOf(giver)) + " has a " + manifest.gives);
+  diagnostics.error(
+      kAgainstKind, root.where("gives"),
+      "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "' says gives=\"" + manifest.gives + "\"",
+      "only a " + std::string(nameOf(giver)) + " has a " + manifest.gives);
 }
 
 std::optional<Manifest> readManifest(const fs::path& path, Diagnostics& diagnostics) {

@@ -44,9 +44,10 @@ struct Manifest {
   /// "proxy": a renderer with a proxy; "view", "bus": the module that draws, that publishes; empty: nothing others ask for
   std::string gives;
   bool needs_proxy = false;  ///< a surface effect of renderers with a proxy: needs="proxy"
-  std::string left_out;      ///< why a scene leaves it out, where its kind does not say; empty: derived from its elements
+  std::string left_out;  ///< why a scene leaves it out, where its kind does not say; empty: derived from its elements
   std::vector<Element> elements;
-  std::vector<Attribute> settings;  ///< of a device: keys that a rig may set; type "file" is a path below the rig's folder
+  std::vector<Attribute>
+      settings;       ///< of a device: keys that a rig may set; type "file" is a path below the rig's folder
   ModuleRole module;  ///< of a module
   std::string file;
 

@@ -22,11 +22,11 @@ struct RunOptions {
   std::uint64_t seed = 1;
   View view = View::kNone;
   std::string screenshot{};         ///< PNG path, may be empty
-  double screenshot_time = -1;    ///< simulated time [s]; -1: at the end
+  double screenshot_time = -1;      ///< simulated time [s]; -1: at the end
   std::string screenshots{};        ///< folder for a series of pictures, one per `screenshot_every`; may be empty
-  double screenshot_every = 0;    ///< interval in simulated time [s]
+  double screenshot_every = 0;      ///< interval in simulated time [s]
   std::string record{};             ///< HDF5 path, may be empty
-  bool overwrite = false;         ///< `record` may replace an existing file
+  bool overwrite = false;           ///< `record` may replace an existing file
   std::vector<std::string> show{};  ///< overlays to show or hide in the picture: "haptic", "no-cones"
   std::string video{};              ///< MP4 path, may be empty
   std::string flight{};  ///< HDF5 path for the last seconds before a fault, when `record` is empty; may be empty

@@ -115,7 +115,7 @@ inline constexpr const char* kDefaultEngine = "ode";
 struct HapticSettings {
   enum class PoseUse { kInterpolate, kHold };
   std::string renderer = kDefaultRenderer;  ///< plug-in (framework/haptics/renderer.h)
-  bool proxy = true;                    ///< its manifest gives a proxy that friction can hold
+  bool proxy = true;                        ///< its manifest gives a proxy that friction can hold
   PoseUse pose = PoseUse::kInterpolate;
 };
 

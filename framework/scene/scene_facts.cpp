@@ -17,9 +17,7 @@ struct Run {
 };
 
 bool isTouchable(const Body& body) { return body.haptic.has_value(); }
-bool isTouchableMesh(const Body& body) {
-  return body.haptic && std::holds_alternative<MeshRef>(body.haptic->shape);
-}
+bool isTouchableMesh(const Body& body) { return body.haptic && std::holds_alternative<MeshRef>(body.haptic->shape); }
 bool isFree(const Body& body) { return !body.fixed; }
 
 /// "body 'cube' <says>" of the first such body; a fact that does not hold, for the reason `otherwise`, without one.
@@ -78,9 +76,14 @@ struct Rule {
   SceneFact (*of)(const Run&);
 };
 
-constexpr Rule kRules[] = {{"fingers", fingers},     {"touchable_mesh", touchableMesh}, {"many_touchables", manyTouchables},
-                           {"free_body", freeBody},  {"assembly", assembly},            {"recording", recording},
-                           {"view", view},           {"bus", bus}};
+constexpr Rule kRules[] = {{"fingers", fingers},
+                           {"touchable_mesh", touchableMesh},
+                           {"many_touchables", manyTouchables},
+                           {"free_body", freeBody},
+                           {"assembly", assembly},
+                           {"recording", recording},
+                           {"view", view},
+                           {"bus", bus}};
 
 }  // namespace
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "framework/assembly/guide_module.h"
-#include "framework/core/graph/graph_builder.h"
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/core/graph/graph_builder.h"
 #include "framework/core/plugin/plugin_loader.h"
 #include "framework/device/device_modules.h"
 #include "framework/device/device_plugin.h"
@@ -85,7 +85,8 @@ DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOpt
 }
 
 std::unique_ptr<View> makeView(std::shared_ptr<const World> world, const RunOptions& options) {
-  auto module = pluginTable<ModulePlugin>(manifestGiving("view").name, "presaModulePlugin").create(std::move(world), options);
+  auto module =
+      pluginTable<ModulePlugin>(manifestGiving("view").name, "presaModulePlugin").create(std::move(world), options);
   return std::unique_ptr<View>(&dynamic_cast<View&>(*module.release()));
 }
 

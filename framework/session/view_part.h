@@ -13,9 +13,9 @@ namespace presa {
 
 /// One moment of a run, for what is drawn in it.
 struct ViewMoment {
-  double time;                     ///< [s]
-  const std::vector<Pose>& X_WB;   ///< in the order of Scene::bodies
-  const DeviceState& device;       ///< measured fingertips
+  double time;                    ///< [s]
+  const std::vector<Pose>& X_WB;  ///< in the order of Scene::bodies
+  const DeviceState& device;      ///< measured fingertips
   const ContactExchange& contacts;
 };
 

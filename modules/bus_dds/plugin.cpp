@@ -17,9 +17,7 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOpti
 
 std::string library() { return "Cyclone DDS " DDS_VERSION; }
 
-const ModulePlugin kPlugin{.name = "bus_dds",
-                           .create = &create,
-                           .library = &library};
+const ModulePlugin kPlugin{.name = "bus_dds", .create = &create, .library = &library};
 
 }  // namespace
 }  // namespace presa::bus_dds

@@ -20,8 +20,8 @@ class Trail final : public ViewPart {
       std::deque<Point>& path = paths_[tool];
       while (!path.empty() && path.front().time < moment.time - length_) path.pop_front();
       if (!moment.device.fingers[tool].valid) continue;
-      const bool touching = static_cast<int>(tool) < moment.contacts.count &&
-                            moment.contacts.fingers[tool].mode != ContactMode::kNone;
+      const bool touching =
+          static_cast<int>(tool) < moment.contacts.count && moment.contacts.fingers[tool].mode != ContactMode::kNone;
       path.push_back({moment.time, moment.device.fingers[tool].p_WH, touching});
     }
   }
@@ -41,8 +41,8 @@ class Trail final : public ViewPart {
     Vec3 p_WH;    // [m]
     bool touching;
   };
-  double length_;      // [s]
-  double last_ = 0;    // [s]
+  double length_;                         // [s]
+  double last_ = 0;                       // [s]
   std::vector<std::deque<Point>> paths_;  // of each tool
 };
 

@@ -42,8 +42,8 @@ std::vector<std::string> ViewModule::stages() const {
   std::vector<std::string> all{"take the latest states, poses interpolated to now",
                                "handle keys and mouse, draw a frame"};
   if (!windowed())
-    all = {"keep the latest state", options_.screenshots.empty() ? "draw the picture once, when it is due"
-                                                                 : "draw the pictures that are due"};
+    all = {"keep the latest state",
+           options_.screenshots.empty() ? "draw the picture once, when it is due" : "draw the pictures that are due"};
   if (plugin_parts_) std::ranges::copy(plugin_parts_->what(), std::back_inserter(all));
   return all;
 }
@@ -192,8 +192,7 @@ std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOpti
   return std::make_unique<ViewModule>(std::move(world), options);
 }
 
-const ModulePlugin kPlugin{
-    .name = "view_osg", .create = &create};
+const ModulePlugin kPlugin{.name = "view_osg", .create = &create};
 
 }  // namespace
 }  // namespace presa::view

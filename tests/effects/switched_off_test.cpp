@@ -104,7 +104,8 @@ TickCount lockstep(const std::string& program, const std::string& arguments) {
 // body. (Nothing moves here: ODE's heap use costs some instructions more or less depending on the address of the heap.)
 TEST_F(SwitchedOff, RecordingAndViewAreFree) {
   const TickCount whole = lockstep(std::string(PRESA_BINARY_DIR) + "/bin/presa", ballScene());
-  const TickCount bare = lockstep(programWith({"friction_cone", "god_object", "haptics_proxy", "scripted"}), ballScene());
+  const TickCount bare =
+      lockstep(programWith({"friction_cone", "god_object", "haptics_proxy", "scripted"}), ballScene());
   EXPECT_NEAR(whole.instructions, bare.instructions, kNothing);
   EXPECT_EQ(whole.out, bare.out);
   EXPECT_NE(whole.out, "no hash");

@@ -219,7 +219,8 @@ void addNew(Command app, int& status) {
           "and bodies; body: a force on a body in the dynamics, such as drag; surface: a texture or a layer of a body; "
           "renderer: where surfaces hold the fingertips; device: a driver that measures fingertips and renders forces; "
           "module: a part of the graph with a rate and ports; view: something drawn in the picture; "
-          "metric: an error that presa cost draws over time; experiment: a comparison of two stiffnesses with a method of "
+          "metric: an error that presa cost draws over time; experiment: a comparison of two stiffnesses with a method "
+          "of "
           "its own")
       .required()
       .oneOf({"effect", "body", "friction", "surface", "renderer", "device", "module", "view", "metric", "experiment"});

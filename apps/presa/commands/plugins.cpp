@@ -86,7 +86,8 @@ int listPlugins() {
 }  // namespace
 
 void addPlugins(Command app, int& status) {
-  Command command = app.command("plugins", "List the plug-ins, the elements that they bring to scenes, and the settings of drivers");
+  Command command =
+      app.command("plugins", "List the plug-ins, the elements that they bring to scenes, and the settings of drivers");
   command.footer(
       "Plug-ins are looked for in the folders of --allow-plugins and of PRESA_PLUGIN_PATH (separated by colons), then\n"
       "beside Presa's own.\n"

@@ -63,10 +63,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World&, Diagn
   return std::make_unique<Probe>(log->second.value, p);
 }
 
-const DevicePlugin kPlugin{.name = "fault_probe",
-                           .create = createEach<create>,
-                           .rating = {.force = 10},
-                           .hardware = true};
+const DevicePlugin kPlugin{
+    .name = "fault_probe", .create = createEach<create>, .rating = {.force = 10}, .hardware = true};
 
 }  // namespace
 }  // namespace presa::faults

@@ -5,10 +5,10 @@
 #include <assimp/scene.h>
 
 #include <array>
-#include <bit>
 #include <assimp/Importer.hpp>
-#include <cstdint>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <new>
 #include <set>
@@ -70,7 +70,8 @@ std::array<double, 3> place(const aiMatrix4x4& m, const aiVector3D& v) {
 /// most formats; what is not sent through the pipe need not be welded.
 class EqualVertices {
  public:
-  explicit EqualVertices(const aiMesh& mesh) : mesh_(mesh), table_(std::bit_ceil(2 * std::size_t{mesh.mNumVertices} + 1), kNone) {}
+  explicit EqualVertices(const aiMesh& mesh)
+      : mesh_(mesh), table_(std::bit_ceil(2 * std::size_t{mesh.mNumVertices} + 1), kNone) {}
 
   /// The first vertex that is equal to v, bit for bit; v itself if there was none before.
   unsigned firstOf(unsigned v) {

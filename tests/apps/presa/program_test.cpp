@@ -46,7 +46,8 @@ TEST(Run, NamesThePlugInsThatItWouldLoad) {
   EXPECT_EQ(plain.status, 0) << plain.err;
   EXPECT_EQ(plain.out, "dynamics_ode\nfriction_cone\ngod_object\nhaptics_proxy\nscripted\n");
   const auto recorded = presa("run " + kCube + " --view offscreen --record never.h5 --plug-ins");
-  EXPECT_EQ(recorded.out, "checksum\ndynamics_ode\nfriction_cone\ngod_object\nhaptics_proxy\nrecord\nscripted\nview_osg\n");
+  EXPECT_EQ(recorded.out,
+            "checksum\ndynamics_ode\nfriction_cone\ngod_object\nhaptics_proxy\nrecord\nscripted\nview_osg\n");
   EXPECT_EQ(presa("run no_such_scene.xml --plug-ins").status, 2);
 }
 

@@ -179,7 +179,8 @@ TEST_F(Manifests, OfOtherKindsSayNothingOfModulesAndDevices) {
     return "<plugin name=\"wind\" version=\"1.0\" kind=\"friction_law\" about=\"a test\" " + attributes + ">" +
            children + "</plugin>";
   };
-  write("presa_wind.xml", wind("rate=\"view\"", "<wanted when=\"view\"/><setting name=\"a\" type=\"text\" about=\"b\"/>"));
+  write("presa_wind.xml",
+        wind("rate=\"view\"", "<wanted when=\"view\"/><setting name=\"a\" type=\"text\" about=\"b\"/>"));
   EXPECT_EQ(errors(),
             "595 the friction law 'wind' says rate=\"…\"\n"
             "595 the friction law 'wind' has <wanted>\n"

@@ -48,8 +48,8 @@ std::string contentOf(const Scene& scene) {
   text << settings.engine << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver)
        << static_cast<int>(settings.friction) << static_cast<int>(settings.rotation) << settings.sleeping << " "
        << settings.iterations << " " << settings.substeps << "\n";
-  text << scene.haptics.renderer << static_cast<int>(scene.haptics.pose) << " "
-       << scene.collision.margin << " " << scene.collision.max_triangles << "\n";
+  text << scene.haptics.renderer << static_cast<int>(scene.haptics.pose) << " " << scene.collision.margin << " "
+       << scene.collision.max_triangles << "\n";
   for (const Material& m : scene.materials) {
     text << m.name << " " << m.stiffness << " " << m.damping << " " << m.friction_static << " " << m.friction_dynamic
          << " " << (m.changed_friction ? m.changed_friction->mu_static : -1) << " "
