@@ -11,7 +11,7 @@ namespace presa {
 struct BodyEffectInput {
   double time = 0, step = 0;      ///< [s]; `step` is the length of the sub-step
   std::int32_t body = kNoBody;    ///< index of the body in the scene
-  Pose X_WB;                      ///< pose of the body
+  Pose X_WB{};                    ///< pose of the body
   Vec3 p_WCm = Vec3::Zero();      ///< centre of mass [m]
   Vec3 v_WCm = Vec3::Zero();      ///< its velocity [m/s]
   Vec3 w_WB = Vec3::Zero();       ///< angular velocity [rad/s]
@@ -37,7 +37,7 @@ struct BodyEffectWrench {
   /// the linearly implicit Euler step, with one scalar for the Jacobian. It is first-order accurate with any rates,
   /// a state of rest or of constant speed is exact without stiffness, and a damper or a spring with its own rates is stable at any step.
   /// A wrench whose rates are left at zero is stable only below 2 mass / step of damping.
-  BodyEffectRates rates;
+  BodyEffectRates rates{};
 };
 
 /// A force and a torque that the dynamics applies to bodies: drag, buoyancy, a spring to the world, a fan. One object per element of the
