@@ -34,7 +34,7 @@ TEST(BadDriver, ThatMakesTooFewDevicesIsRefusedAtEachRole) {
 /// Findings about a rig in which this driver plays the thumb.
 std::string findingsOf(const std::string& driver, const std::string& setting) {
   const std::string scene = R"(<scene version="1.0" name="touch">
-    <materials><material name="soft" stiffness="500"/></materials>
+    <world gravity="0 0 0"/><materials><material name="soft" stiffness="500"/></materials>
     <body name="block" material="soft"><haptic><box size="0.1 0.1 0.1"/></haptic>
       <physics mass="0.1"><box size="0.1 0.1 0.1"/></physics></body>
     <devices><device role="thumb"/></devices></scene>)";
