@@ -6,7 +6,6 @@
 
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/firmware.h"
-#include "framework/device/device_settings.h"
 #include "framework/input/folders.h"
 #include "framework/scene/xml/value_rule.h"
 

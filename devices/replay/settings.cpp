@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "framework/core/schedule/rates.h"
-#include "framework/device/device_settings.h"
 #include "framework/input/folders.h"
 #include "framework/record/record_plugin.h"
 

@@ -25,10 +25,11 @@ std::shared_ptr<const World> fingerWorld(const std::string& scene_xml) {
   return loaded.world;
 }
 
-std::shared_ptr<const World> elementWorld(const std::string& element) {
+std::shared_ptr<const World> elementWorld(const std::string& element, const std::string& gravity) {
   const bool in_body = standsInBody(element);
   const std::string scene = R"(<scene version="1.0" name="element">)" + (in_body ? "" : element) +
-                            R"(<world gravity="0 0 0"/><materials><material name="any" stiffness="1000"/></materials>
+                            R"(<world gravity=")" + gravity +
+                            R"("/><materials><material name="any" stiffness="1000"/></materials>
     <body name="cube" material="any">)" +
                             (in_body ? element : "") +
                             R"(<physics mass="0.2"><box size="0.07 0.07 0.07"/></physics></body>

@@ -10,7 +10,7 @@ namespace presa::test {
 std::shared_ptr<const World> fingerWorld(const std::string& scene_xml);
 
 /// The world of one element of a plug-in: a free cube of 70 mm at W's origin, which has the element if its manifest says
-/// in="body", and one fingertip of 8 mm. Throws InputError with every finding.
-std::shared_ptr<const World> elementWorld(const std::string& element);
+/// in="body", and one fingertip of 8 mm; gravity [m/s^2]. Throws InputError with every finding.
+std::shared_ptr<const World> elementWorld(const std::string& element, const std::string& gravity = "0 0 0");
 
 }  // namespace presa::test
