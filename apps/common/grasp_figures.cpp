@@ -12,7 +12,7 @@ constexpr double kRippleWindow = 2.0;  // [s] at the end of the hold, when the l
 
 using Samples = std::span<const TraceSample>;
 
-Samples between(const std::vector<TraceSample>& trace, double begin, double end) {
+Samples between(const BoundedList<TraceSample>& trace, double begin, double end) {
   const auto earlier = [](const TraceSample& sample, double time) { return sample.time < time; };
   const auto first = std::lower_bound(trace.begin(), trace.end(), begin, earlier);
   const auto last = std::lower_bound(first, trace.end(), end, earlier);

@@ -1,6 +1,7 @@
 #pragma once
-#include <array>
 #include <atomic>
+#include <cstddef>
+#include <vector>
 
 #include "framework/record/haptic_observer.h"
 
@@ -9,12 +10,18 @@ namespace presa {
 /// Values for the status line. Written by the haptic thread, read by the main thread a few times a second;
 /// each value is consistent, but the values may come from two different ticks.
 struct LiveValues {
+  /// Before the run.
+  void size(std::size_t fingers) {
+    normal_force = std::vector<std::atomic<double>>(fingers);
+    mode = std::vector<std::atomic<std::int32_t>>(fingers);
+  }
+
   std::atomic<std::int32_t> phase{-1};
-  std::array<std::atomic<double>, kMaxFingers> normal_force{};
-  std::array<std::atomic<std::int32_t>, kMaxFingers> mode{};
-  std::atomic<std::uint32_t> losses{0};         ///< ContactExchange::coverage_lost and pop_through
-  std::atomic<std::uint32_t> object_faults{0};  ///< ObjectFault bits seen
-  std::atomic<double> object_fault_time{-1};    ///< time of the last new fault [s]
+  std::vector<std::atomic<double>> normal_force;  ///< by finger [N]
+  std::vector<std::atomic<std::int32_t>> mode;    ///< by finger
+  std::atomic<std::uint32_t> losses{0};           ///< ContactExchange::coverage_lost and pop_through
+  std::atomic<std::uint32_t> object_faults{0};    ///< ObjectFault bits seen
+  std::atomic<double> object_fault_time{-1};      ///< time of the last new fault [s]
 };
 
 /// Copies forces and modes for the status line.
@@ -24,8 +31,8 @@ class LiveObserver final : public HapticObserver {
 
   void observe(const HapticSample& sample) noexcept override {
     const ContactExchange& contact = sample.contact;
-    values_.phase.store(sample.device.fingers[0].phase, std::memory_order_relaxed);
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    if (sample.device.count() > 0) values_.phase.store(sample.device.fingers[0].phase, std::memory_order_relaxed);
+    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count()); ++f) {
       values_.normal_force[f].store(contact.fingers[f].normal_force, std::memory_order_relaxed);
       values_.mode[f].store(static_cast<std::int32_t>(contact.fingers[f].mode), std::memory_order_relaxed);
     }

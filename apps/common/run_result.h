@@ -74,7 +74,7 @@ struct RunResult {
   std::vector<Object> objects;
   std::optional<Assembly> assembly;                 ///< none: the scene has none
   std::vector<Phase> phases;                        ///< empty for a real hand
-  const std::vector<TraceSample>* trace = nullptr;  ///< null: none
+  const BoundedList<TraceSample>* trace = nullptr;  ///< null: none
   std::vector<Fault> faults;
   std::vector<std::string> notes;   ///< stiffness bounds, raised damping, skipped parts, …
   std::string screenshot;           ///< PNG path, may be empty

@@ -110,6 +110,7 @@ TerminalRun::~TerminalRun() = default;
 
 std::vector<std::unique_ptr<Module>> TerminalRun::observers(const Loaded& loaded) {
   std::vector<std::unique_ptr<Module>> modules = std::move(settings_.more);
+  live_->values.size(loaded.world->scene.devices.size());
   modules.push_back(std::make_unique<LiveObserver>(live_->values));
   if (loaded.world->scene.assembly) modules.push_back(std::make_unique<AssemblyObserver>(live_->filled));
   if (paced_) modules.push_back(std::make_unique<Pacer>(time_control_, view_, control_, while_held_));

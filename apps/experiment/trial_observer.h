@@ -20,7 +20,7 @@ class TrialObserver final : public HapticObserver {
         trial_(trial),
         control_(control),
         reader_(scene, experiment.askedSamples()),
-        fingers_(scene.devices.size()) {}
+        silent_(scene.devices.size()) {}
 
   void observe(const HapticSample& sample) noexcept override {
     if (trial_.state() != Trial::State::kRunning || lost_finger_ >= 0) return;
@@ -45,7 +45,7 @@ class TrialObserver final : public HapticObserver {
     time_ = tick.time;
     if ((sample.command.status & kOutputMagnitude) != 0) clipped_ += tick.period;
     bool lost = false;
-    for (std::size_t f = 0; f < fingers_; ++f) {
+    for (std::size_t f = 0; f < silent_.size(); ++f) {
       silent_[f] = sample.device.fingers[f].valid ? 0 : silent_[f] + tick.period;
       lost = lost || silent_[f] > 0;
       if (silent_[f] > kLost && lost_finger_ < 0) lost_finger_ = static_cast<int>(f);
@@ -57,8 +57,7 @@ class TrialObserver final : public HapticObserver {
   Trial& trial_;
   RunControl& control_;
   SampleReader reader_;
-  std::size_t fingers_;
-  std::array<double, kMaxFingers> silent_{};  // [s] since the last sample
+  std::vector<double> silent_;  // by finger [s] since the last sample
   int lost_finger_ = -1;
   double clipped_ = 0, lost_ = 0, max_force_ = 0, time_ = 0;
 };

@@ -76,8 +76,9 @@ class TrialRun {
     observer_ = observer.get();
     options.more.push_back(std::move(observer));
     if (setting.live != nullptr) {
-      setting.live->roles.clear();
-      for (const DeviceRole& role : scene.devices) setting.live->roles.push_back(role.role);
+      std::vector<std::string> roles;
+      for (const DeviceRole& role : scene.devices) roles.push_back(role.role);
+      setting.live->setRoles(std::move(roles));
       options.more.push_back(std::make_unique<OperatorObserver>(trial_, experiment, *setting.live));
     }
     if (experiment.changesFriction()) options.more.push_back(std::make_unique<SurfaceSwitch>(trial_));

@@ -21,7 +21,7 @@ void VisitObserver::step(const Tick& tick) noexcept {
   const std::lock_guard lock(mutex_);
   snapshot_.time = tick.time;
   snapshot_.now = guidance_->now;
-  for (std::int32_t f = 0; f < contact_->count; ++f) {
+  for (std::int32_t f = 0; f < contact_->count(); ++f) {
     if (contact_->fingers[static_cast<std::size_t>(f)].mode != ContactMode::kNone) snapshot_.touched = tick.time;
   }
   for (std::size_t i = 0; i < snapshot_.X_WB.size(); ++i) snapshot_.X_WB[i] = objects_->bodies[i].X_WB_end;

@@ -32,8 +32,8 @@ std::vector<Finding> settle(const Resting& resting, DeviceList fingers) {
     double now = motion.v_WB.norm() + motion.w_WB.norm() * radius;
     if (sample.objects->faults != 0) now = std::numeric_limits<double>::infinity();  // a frozen body is not at rest
     double force = 0;
-    for (std::int32_t f = 0; f < sample.contact.count; ++f) {
-      force += sample.contact.fingers[static_cast<std::size_t>(f)].normal_force / sample.contact.count;
+    for (std::int32_t f = 0; f < sample.contact.count(); ++f) {
+      force += sample.contact.fingers[static_cast<std::size_t>(f)].normal_force / sample.contact.count();
     }
     if (sample.tick.time >= judged_from) {
       speed = std::max(speed, now);

@@ -8,8 +8,8 @@ namespace presa {
 EnergyLedger::EnergyLedger(std::shared_ptr<const World> world)
     : world_(std::move(world)),
       last_(world_->scene.bodies.size()),
-      p_WH_(kMaxFingers, Vec3::Zero()),
-      f_H_W_(kMaxFingers, Vec3::Zero()) {
+      p_WH_(world_->scene.devices.size(), Vec3::Zero()),
+      f_H_W_(world_->scene.devices.size(), Vec3::Zero()) {
   for (std::size_t i = 0; i < last_.size(); ++i) {
     const Body& body = world_->scene.bodies[i];
     last_[i].w_WB = body.w_WB;
@@ -47,7 +47,7 @@ void EnergyLedger::close(double energy) noexcept {
 
 void EnergyLedger::observe(const HapticSample& sample) noexcept {
   double springs = 0;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(sample.device.count); ++f) {
+  for (std::size_t f = 0; f < static_cast<std::size_t>(sample.device.count()); ++f) {
     const Vec3& p_WH = sample.device.fingers[f].p_WH;
     // the force of the previous tick was held until now
     if (ticked_) work_ -= f_H_W_[f].dot(p_WH - p_WH_[f]);

@@ -47,7 +47,7 @@ void AssemblyGuide::tell(Kind kind, std::int32_t goal, std::int32_t body) {
 void AssemblyGuide::noteFingers(const ObjectState& objects, const ContactExchange& contacts) {
   std::ranges::fill(touching_, 0);
   std::int32_t grasped = kNoBody;
-  for (std::size_t f = 0; f < index(contacts.count); ++f) {
+  for (std::size_t f = 0; f < index(contacts.count()); ++f) {
     const FingerContact& finger = contacts.fingers[f];
     if (finger.mode == ContactMode::kNone || finger.body < 0 || index(finger.body) >= touching_.size()) continue;
     if (finger.normal_force < kTouchForce) continue;
@@ -59,7 +59,7 @@ void AssemblyGuide::noteFingers(const ObjectState& objects, const ContactExchang
   if (grasped != kNoBody) {
     if (!begun_) begun_ = time_;
     now_.body = grasped;
-    now_.held = touching_[index(grasped)] >= std::min(2, contacts.count);
+    now_.held = touching_[index(grasped)] >= std::min(2, contacts.count());
     let_go_ = time_;
   } else {
     now_.held = false;

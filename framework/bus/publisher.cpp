@@ -32,7 +32,7 @@ Publisher::Publisher(std::shared_ptr<const World> world, const RunOptions& optio
     sample.X_WB = bodies[b].X_WB;
     object_samples_.push_back(sample);
   }
-  finger_samples_.resize(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers));
+  finger_samples_.resize(world_->scene.devices.size());
 }
 
 Publisher::~Publisher() = default;
@@ -102,14 +102,14 @@ void Publisher::fillFingers(const Stamp& stamp) noexcept {
     sample = {};
     sample.stamp = stamp;
     sample.finger = finger;
-    if (finger < device_->count) {
+    if (finger < device_->count()) {
       sample.valid = device_->fingers[f].valid;
       sample.p_WH = device_->fingers[f].p_WH;
       sample.oriented = device_->fingers[f].oriented;
       sample.q_WT = device_->fingers[f].q_WT;
     }
-    if (finger < contact_->count) sample.contact = contact_->fingers[f];
-    if (finger < command_->count) sample.f_H_W = command_->f_H_W[f], sample.t_H_W = command_->t_H_W[f];
+    if (finger < contact_->count()) sample.contact = contact_->fingers[f];
+    if (finger < command_->count()) sample.f_H_W = command_->f_H_W[f], sample.t_H_W = command_->t_H_W[f];
   }
 }
 

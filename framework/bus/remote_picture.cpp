@@ -38,8 +38,7 @@ const char* wordsOf(const Event& event) {
 
 }  // namespace
 
-RemotePicture::RemotePicture(const World& world)
-    : hash_(sceneHash(world)), finger_count_(static_cast<std::int32_t>(world.scene.devices.size())) {
+RemotePicture::RemotePicture(const World& world) : hash_(sceneHash(world)), fingers_(world.scene.devices.size()) {
   for (const Body& body : world.scene.bodies) start_.push_back(body.X_WB);
   objects_.resize(start_.size());
 }
@@ -72,7 +71,7 @@ void RemotePicture::beginRun(const RunInfo& run) noexcept {
   waiting_ = {};
   wrong_scene_ = run.scene_hash != hash_;
   objects_.assign(start_.size(), {});
-  fingers_ = {};
+  fingers_.assign(fingers_.size(), {});
   heartbeats_ = {};
   clock_known_ = false;
   time_ = newest_ = 0;
@@ -206,8 +205,11 @@ void RemotePicture::fill(ObjectState& objects, DeviceState& device, ContactExcha
       motion.asleep = newest->asleep;
     }
   }
-  device.count = contact.count = command.count = std::min<std::int32_t>(finger_count_, kMaxFingers);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device.count); ++f) {
+  device.fingers.resize(fingers_.size());
+  contact.fingers.resize(fingers_.size());
+  command.f_H_W.resize(fingers_.size());
+  command.t_H_W.resize(fingers_.size());
+  for (std::size_t f = 0; f < static_cast<std::size_t>(device.count()); ++f) {
     const auto [before, after] = fingers_[f].around(time_);
     const FingerSample* sample = before != nullptr ? before : after;
     device.fingers[f] = {};

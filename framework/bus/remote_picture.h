@@ -86,13 +86,12 @@ class RemotePicture final : public Listener {
 
   std::vector<Pose> start_;  // by body of the scene
   std::uint64_t hash_;
-  std::int32_t finger_count_;
   State state_ = State::kWaiting;
   bool wrong_scene_ = false;
   RunInfo run_;      // the run that is followed
   RunInfo waiting_;  // announced while another run is followed
   std::vector<Track<ObjectSample>> objects_;
-  std::array<Track<FingerSample>, kMaxFingers> fingers_;
+  std::vector<Track<FingerSample>> fingers_;
   Track<Heartbeat> heartbeats_;
   Health counted_;
   DurationHistogram latency_;

@@ -10,6 +10,7 @@ namespace presa {
 
 DeviceInput::DeviceInput(DeviceList& devices, const RunControl& control)
     : Module("device_input", RateGroup::kHaptic), devices_(devices), control_(control), checks_(devices.size()) {
+  state_.value = DeviceState(devices.size());
   if (std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device->looks(); }))
     seen_.emplace(*this, "object_state", In<ObjectState>::Optional{});
   if (std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device->points(); }))
@@ -19,7 +20,6 @@ DeviceInput::DeviceInput(DeviceList& devices, const RunControl& control)
 void DeviceInput::step(const Tick& tick) noexcept {
   DeviceState& state = state_.value;
   state.time = tick.time;
-  state.count = static_cast<std::int32_t>(devices_.size());
   state.stop_requested = control_.stop_requested.load(std::memory_order_relaxed);
   if (seen_ && seen_->hasValue()) {
     for (const auto& device : devices_) device->see(seen_->value(), tick);
@@ -60,6 +60,7 @@ DeviceOutput::DeviceOutput(DeviceList& devices, const std::vector<FingerSafety>&
       realtime_(realtime),
       neighbourhood_age_(ages::neighbourhoods(rates)),
       objects_(*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kFadeToZero, firstWatchdog(safety)) {
+  command_.value = ForceCommand(devices.size());
   for (const FingerSafety& finger : safety) {
     stages_.emplace_back(finger.limits);
     watchdog_.push_back(finger.watchdog);
@@ -80,7 +81,6 @@ void DeviceOutput::step(const Tick& tick) noexcept {
   last_tick_ = tick;
   ForceCommand& command = command_.value;
   command.time = tick.time;
-  command.count = static_cast<std::int32_t>(devices_.size());
   command.status = 0;
   int lost = 0;
   for (std::size_t f = 0; f < devices_.size(); ++f) lost += device_->fingers[f].lost ? 1 : 0;

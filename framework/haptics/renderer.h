@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "framework/core/exchange/bounded_list.h"
 #include "framework/core/plugin/plugin_loader.h"
 #include "framework/haptics/surroundings.h"
 #include "framework/scene/plugin_element.h"
@@ -54,6 +55,14 @@ struct ProxyContact {
   bool crossed = false;  ///< not swept: the renderer itself knows that the tool went through a surface
 };
 
+/// One of the contacts of a tool that touches in more places than an ActiveSet holds, in A. The force acts at the
+/// proxy.
+struct RenderedContact {
+  std::int32_t body = kNoBody;
+  Vec3 nhat = Vec3::UnitZ();  ///< body into tool
+  double depth = 0;           ///< > 0 [m]
+};
+
 /// One tool in one haptic tick. The tool is a sphere. Working frame A: the body that was next to the tool at the start of
 /// the tick, so that a tool at rest on a moving body is at rest.
 struct RenderInput {
@@ -63,6 +72,9 @@ struct RenderInput {
   const ProxyState& last;  ///< end of the last tick, after friction
   const Pose& X_WA;
   Surroundings& near;  ///< the pieces of bodies that the tool can reach in this tick
+  /// Empty, with room for Renderer::maxOwnContacts(). Not left empty, it takes the place of ProxyContact::active; then
+  /// the contact without friction has x - g = sum of depth * nhat.
+  BoundedList<RenderedContact>& contacts;
 };
 
 /// Moves a proxy from x towards g without passing through a piece.
@@ -84,6 +96,8 @@ class Renderer {
   /// The contact without friction: state.slipping is true where it touches. A contact that is not finite, or of no body
   /// in reach, ends the run: forces go to zero, and the fault is reported with the renderer's name.
   virtual ProxyContact touch(const RenderInput& input) noexcept = 0;
+  /// Maximum number of contacts that touch() adds to RenderInput::contacts. A tick with more counts as lost coverage.
+  virtual std::size_t maxOwnContacts() const noexcept { return 0; }
   /// Moves the proxy that friction holds. Null: there is none, and the manifest does not say gives="proxy"; friction and
   /// force shading are then left out of the scene.
   virtual const ProxyMover* mover() const noexcept { return nullptr; }

@@ -40,7 +40,8 @@ std::unique_ptr<Renderer> makeRenderer(const World& world) {
   });
 }
 
-bool keepsContract(const ProxyContact& contact, const Touchables& touchables) noexcept {
+bool keepsContract(const ProxyContact& contact, const BoundedList<RenderedContact>& own,
+                   const Touchables& touchables) noexcept {
   const ProxyState& state = contact.state;
   // a number that is not finite makes the sum so
   double sum = contact.depth + contact.x.sum() + state.x.sum() + state.god_object.sum() + contact.nhat.sum();
@@ -49,6 +50,10 @@ bool keepsContract(const ProxyContact& contact, const Touchables& touchables) no
     const ActiveSet::Member& member = contact.active.member[static_cast<std::size_t>(a)];
     sum += member.weight + member.nhat.sum();
     touchable = touchable && touchables.has(member.body);
+  }
+  for (const RenderedContact& one : own) {
+    sum += one.depth + one.nhat.sum();
+    touchable = touchable && one.depth > 0 && touchables.has(one.body);
   }
   return std::isfinite(sum) && touchable;
 }

@@ -11,6 +11,7 @@ namespace presa {
 std::unique_ptr<Renderer> makeRenderer(const World& world);
 
 /// Whether a contact keeps Renderer's contract. Haptic thread.
-bool keepsContract(const ProxyContact& contact, const Touchables& touchables) noexcept;
+bool keepsContract(const ProxyContact& contact, const BoundedList<RenderedContact>& own,
+                   const Touchables& touchables) noexcept;
 
 }  // namespace presa

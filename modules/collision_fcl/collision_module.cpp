@@ -58,7 +58,7 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
 void CollisionModule::step(const Tick& tick) noexcept {
   FingerNeighbourhoods& neighbourhoods = finger_neighbourhoods.value;
   neighbourhoods.time = tick.time;
-  neighbourhoods.count = std::min(device_state->count, static_cast<std::int32_t>(neighbourhoods.fingers.size()));
+  neighbourhoods.count = std::min(device_state->count(), static_cast<std::int32_t>(neighbourhoods.fingers.size()));
   if (any_moves_) placeBodies(tick);
   for (std::size_t f = 0; f < static_cast<std::size_t>(neighbourhoods.count); ++f) {
     const Ball needed = ballOf(f, tick);
@@ -97,7 +97,7 @@ void CollisionModule::placeBodies(const Tick& tick) noexcept {
 CollisionModule::Ball CollisionModule::ballOf(std::size_t finger, const Tick& tick) const noexcept {
   const FingerInput& input = device_state->fingers[finger];
   double stretch = 0;
-  if (contact_exchange.hasValue() && static_cast<int>(finger) < contact_exchange->count) {
+  if (contact_exchange.hasValue() && static_cast<int>(finger) < contact_exchange->count()) {
     const double length = (contact_exchange->fingers[finger].p_WP - input.p_WH).norm();
     if (std::isfinite(length)) stretch = length;
   }

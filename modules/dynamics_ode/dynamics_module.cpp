@@ -5,6 +5,7 @@
 
 #include "framework/scene/ages.h"
 #include "modules/dynamics_ode/engine.h"
+#include "modules/dynamics_ode/finger_impulses.h"
 
 namespace presa::ode {
 namespace {
@@ -67,6 +68,7 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
       world_(std::move(world)),
       options_(optionsOf(*world_, seed)) {
   objects_.value.bodies.resize(world_->scene.bodies.size());
+  FingerImpulses(world_->scene).write(objects_.value);
   if (world_->scene.assembly) snap_constraints_.emplace(*this, "attractions", In<SnapConstraints>::Optional{});
   if (world_->scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::Optional{});
   if (hasBodyEffects(world_->scene)) body_effects_.emplace(*world_);
@@ -76,6 +78,7 @@ void DynamicsModule::start() {
   attachThread();
   bodies_ = std::make_unique<OdeWorld>(world_, options_);
   if (body_effects_) bodies_->use(*body_effects_);
+  bodies_->makeRoom(fingers_.sized());
   bodies_->write(0, objects_.value);
 }
 

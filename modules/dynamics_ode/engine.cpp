@@ -102,9 +102,8 @@ constinit std::atomic_flag OneAtATime::taken;
 
 Engine::Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts)
     : world_(createWorld(gravity, contacts)), random_state_(static_cast<unsigned long>(seed)) {
-  const std::size_t room = contacts + kMaxFingers;
-  for (std::size_t joints = 0; joints < room; joints += kJointsPerGroup) groups_.push_back(dJointGroupCreate(0));
-  takeMemory(room);
+  for (std::size_t joints = 0; joints < contacts; joints += kJointsPerGroup) groups_.push_back(dJointGroupCreate(0));
+  takeMemory(contacts);
 }
 
 // Makes ODE allocate in advance the memory that it keeps: joints in their groups, working memory and jobs of both

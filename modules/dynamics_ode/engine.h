@@ -29,7 +29,7 @@ std::uint64_t messageCount() noexcept;
 /// created, used and destroyed on one thread. Failures inside ODE are thrown as OdeFailure.
 class Engine {
  public:
-  /// Reserves memory for `contacts` and the fingers; more contacts allocate once.
+  /// Reserves memory for `contacts`; more contacts allocate once.
   Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts);
   ~Engine();
   Engine(const Engine&) = delete;

@@ -35,13 +35,20 @@ bool isUsable(const FingerContact& c) {
          c.nhat_B.squaredNorm() > 0.25;
 }
 
-FingerContact contactOf(const FingerContact& contact, const ContactPart& part) {
+FingerContact contactOf(const FingerContact& contact, const ToolContact& part) {
   FingerContact own = contact;
   own.body = part.body;
   own.p_WH = contact.p_WP - part.stretch_W;
+  own.v_WH = part.v_WH;
+  own.stiffness = part.stiffness;
+  own.damping = part.damping;
   own.p_BP = own.p_BC = part.p_BP;
   own.nhat_B = part.nhat_B;
-  own.part_count = 0;
+  const double of_friction = part.share * contact.stiffness / part.stiffness;
+  own.tangential_ratio *= of_friction;
+  own.damped_W *= of_friction;
+  own.tangential_damping *= part.share;
+  own.contact_count = 1;
   return own;
 }
 

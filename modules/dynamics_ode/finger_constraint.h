@@ -56,8 +56,8 @@ double fingerWeight(double age, double old_after);
 /// Whether all numbers of the contact are finite and its normal is not degenerate.
 bool isUsable(const FingerContact& contact);
 
-/// One part of a shared contact as a separate contact: its body, and the HIP for that part's share of the spring.
-FingerContact contactOf(const FingerContact& contact, const ContactPart& part);
+/// One body's part of a contact that several bodies share as the contact of a finger of its own.
+FingerContact contactOf(const FingerContact& contact, const ToolContact& part);
 
 /// The rows of a usable `contact`, sampled `age` [s] before the step, for a step of `h` [s]. The HIP is extrapolated
 /// with its velocity over at most `old_after`. None when there is no contact or it has faded.

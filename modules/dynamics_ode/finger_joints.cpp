@@ -36,12 +36,11 @@ constexpr double kTorsionCfm = 1;  // [rad/s / (N m)]
 
 FingerJoints::FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world)
     : coupling_(coupling), old_after_(ages::fingers(scene.rates)) {
-  active_.reserve(kMaxFingers * kMaxContactParts);
   const auto soft = [](const Material& material) { return material.torsional_radius > 0; };
   if (coupling == DynamicsSettings::Coupling::kExplicit || scene.devices.empty()) return;
   if (std::ranges::none_of(scene.materials, soft)) return;
   for (const Body& body : scene.bodies) torsional_radius_.push_back(scene.materialOf(body).torsional_radius);
-  for (int finger = 0; finger < kMaxFingers; ++finger) {
+  for (std::size_t finger = 0; finger < scene.devices.size(); ++finger) {
     motors_.push_back(dJointCreateAMotor(ode_world, nullptr));
     dJointSetAMotorMode(motors_.back(), dAMotorUser);
     dJointSetAMotorNumAxes(motors_.back(), 1);
@@ -63,8 +62,16 @@ void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const Fin
   dJointSetAMotorParam(motors_[finger], dParamFMax, torsional_radius_[body] * row.mu * normal);
 }
 
+void FingerJoints::makeRoom(const ContactExchange& exchange) {
+  const std::size_t contacts = std::max(exchange.fingers.size(), exchange.contacts.capacity());
+  if (feedback_.size() >= contacts) return;
+  feedback_.resize(contacts);
+  active_.reserve(contacts);
+}
+
 std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
   active_.clear();
+  makeRoom(exchange);
   for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
   return forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
     const auto row = makeFingerConstraint(contact, bodies.inertiaState(body), time - exchange.time, old_after_, h);
@@ -105,14 +112,9 @@ bool FingerJoints::stickToSlip(Islands& islands, std::vector<char>& wanted) {
   return any;
 }
 
-Vec3 FingerJoints::force(std::size_t f) const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    if (active_[i].finger != f) continue;
-    sum +=
-        coupling_ == DynamicsSettings::Coupling::kExplicit ? active_[i].row.expected_force_W : toVec3(feedback_[i].f1);
-  }
-  return sum;
+Vec3 FingerJoints::force(std::size_t i) const {
+  const bool external = coupling_ == DynamicsSettings::Coupling::kExplicit;
+  return external ? active_[i].row.expected_force_W : toVec3(feedback_[i].f1);
 }
 
 }  // namespace presa::ode

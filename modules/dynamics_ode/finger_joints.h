@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "framework/core/state/contact_exchange.h"
@@ -20,6 +21,8 @@ class FingerJoints {
   FingerJoints(const FingerJoints&) = delete;
   FingerJoints& operator=(const FingerJoints&) = delete;
 
+  /// Makes room for as many contacts as the exchange has room for.
+  void makeRoom(const ContactExchange& exchange);
   /// Builds the rows of every finger that touches a moving body, for a step of `h` [s] starting at `time`. Forces of
   /// the explicit coupling are added to `bodies` at once. Returns the number of invalid finger contacts, which are
   /// ignored.
@@ -30,8 +33,12 @@ class FingerJoints {
   /// their dynamic coefficient, as on the haptic side, and their islands are marked in `wanted`. False when there are
   /// none.
   bool stickToSlip(Islands& islands, std::vector<char>& wanted);
-  /// After the solve: mean force of finger `f` on all its bodies over the step [N]; zero without contact.
-  Vec3 force(std::size_t f) const;
+  std::size_t count() const noexcept { return active_.size(); }
+  /// Finger and moving body of contact i, 0 <= i < count().
+  std::size_t finger(std::size_t i) const noexcept { return active_[i].finger; }
+  std::size_t body(std::size_t i) const noexcept { return active_[i].body; }
+  /// After the solve: mean force of contact i on its body over the step [N].
+  Vec3 force(std::size_t i) const;
 
  private:
   void resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies);
@@ -43,13 +50,13 @@ class FingerJoints {
   const DynamicsSettings::Coupling coupling_;
   const double old_after_;  ///< maximum age of a finger sample before it fades [s]
   std::vector<Active> active_;
-  std::array<dJointFeedback, kMaxFingers * kMaxContactParts> feedback_{};  // as active_
+  std::vector<dJointFeedback> feedback_;  // as active_, with room for all contacts of the exchange
   std::vector<double> torsional_radius_;  // torsional friction radius by body [m]; empty if no material has torsion
   std::vector<dJointID> motors_;          // by finger: torsional friction
 };
 
-/// Calls use(finger, contact, body) for each contact of a finger with a moving body: once, or once per part when
-/// several bodies share the finger. Returns the number of invalid contacts.
+/// Calls use(finger, contact, body) for each contact of a finger with a moving body. Returns the number of invalid
+/// contacts.
 template <class Use>
 std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies, Use use) {
   std::size_t invalid = 0;
@@ -61,13 +68,13 @@ std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies,
       use(finger, contact, body);
     }
   };
-  const auto count = static_cast<std::size_t>(std::clamp(exchange.count, 0, kMaxFingers));
-  for (std::size_t f = 0; f < count; ++f) {
+  for (std::size_t f = 0; f < exchange.fingers.size(); ++f) {
     const FingerContact& contact = exchange.fingers[f];
     if (contact.mode == ContactMode::kNone) continue;
-    if (contact.part_count < 2) judge(f, contact);
-    for (std::int32_t p = 0; p < contact.part_count && contact.part_count > 1; ++p) {
-      judge(f, contactOf(contact, contact.parts[static_cast<std::size_t>(p)]));
+    if (contact.contact_count < 2) {
+      judge(f, contact);
+    } else {
+      for (const ToolContact& part : exchange.contactsOf(contact)) judge(f, contactOf(contact, part));
     }
   }
   return invalid;

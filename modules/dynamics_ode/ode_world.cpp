@@ -1,7 +1,6 @@
 #include "modules/dynamics_ode/ode_world.h"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <optional>
 
@@ -10,6 +9,7 @@
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/effect_forces.h"
 #include "modules/dynamics_ode/engine.h"
+#include "modules/dynamics_ode/finger_impulses.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/islands.h"
 #include "modules/dynamics_ode/sleep.h"
@@ -38,17 +38,17 @@ struct OdeWorld::Impl {
   Impl(std::shared_ptr<const World> world_, const OdeOptions& options_)
       : world(std::move(world_)),
         options(options_),
-        engine(world->scene.gravity, options.seed, kContactsPerBody * world->scene.bodies.size()),
+        engine(world->scene.gravity, options.seed,
+               kContactsPerBody * world->scene.bodies.size() + world->scene.devices.size()),
         bodies(*world, options.method.rotation, engine.world()),
         fingers(options.method.coupling, world->scene, engine.world()),
+        impulses(world->scene),
         collider(bodies, world->scene.gravity),
         solver(world->scene, engine, bodies, options),
         islands(bodies.size()),
         layers(bodies.size()),
         ahead(bodies.size()) {
     contacts.reserve(kContactsPerBody * bodies.size());
-    finger_force.fill(Vec3::Zero());
-    finger_impulse.fill(Vec3::Zero());
     if (options.method.sleeping) sleep.emplace(bodies);
   }
 
@@ -71,6 +71,7 @@ struct OdeWorld::Impl {
   Engine engine;
   BodySet bodies;  // declared after the engine, so destroyed before it
   FingerJoints fingers;
+  FingerImpulses impulses;
   BodyContacts collider;
   StepSolver solver;
   std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
@@ -81,7 +82,6 @@ struct OdeWorld::Impl {
   Layers layers;
   std::vector<BodyContact> contacts;
   std::vector<char> ahead;  // by body: create contacts one step ahead of the touch
-  std::array<Vec3, kMaxFingers> finger_force, finger_impulse;
   Faults faults;
   std::uint64_t fallback_steps = 0;
   bool failed = false;  // ODE failed: all bodies are frozen
@@ -98,7 +98,7 @@ void OdeWorld::Impl::giveUp() {
   bodies.freezeAll();
   contacts.clear();
   engine.clearContacts();
-  finger_force.fill(Vec3::Zero());
+  impulses.setForcesToZero();
 }
 
 // Contacts ahead of the touch only for directly solved islands, judged by the last step: in an iteratively solved heap
@@ -170,11 +170,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   if (body_effects) pushBodyEffects(time, h);
   fingers.read(exchange, time, h, bodies);
   if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) ++fallback_steps;
-  for (std::size_t f = 0; f < kMaxFingers; ++f) {
-    const Vec3 force = fingers.force(f);
-    finger_force[f] += force / substeps;
-    finger_impulse[f] += h * force;
-  }
+  impulses.add(fingers, h, substeps);
   bodies.driftRotations(h);
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
 }
@@ -201,13 +197,14 @@ void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
 }
 
 void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period) {
-  finger_force.fill(Vec3::Zero());
+  impulses.makeRoom(exchange.fingers.size());
+  impulses.begin(time);
   wakeTouched(exchange);
   if (snap_drive_) snap_drive_->carry(bodies, sleep ? &*sleep : nullptr, period);
   if (body_effects) wakeStirred(time, period);
   if (!bodies.anyAwake()) {
     contacts.clear();
-    return;
+    return impulses.end();
   }
   int substeps = 1;
   for (int s = 0; s < substeps; ++s) {
@@ -219,6 +216,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
     if (s == 0) substeps = substepsNow();
     substep(exchange, time + s * period / substeps, period / substeps, substeps);
   }
+  impulses.end();
   if (sleep) sleep->afterStep(bodies, islands, period);
 }
 
@@ -246,6 +244,11 @@ void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
   impl_->snap_drive_->read(snap_constraints, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);
 }
 
+void OdeWorld::makeRoom(const ContactExchange& fingers) {
+  impl_->fingers.makeRoom(fingers);
+  impl_->impulses.makeRoom(fingers.fingers.size());
+}
+
 void OdeWorld::use(BodyEffects& effects) { impl_->body_effects.emplace(effects, *impl_->world); }
 
 void OdeWorld::addReactions(const EffectReactions& reactions, double period) noexcept {
@@ -258,7 +261,7 @@ void OdeWorld::write(double time, ObjectState& out) noexcept {
   out.faults = impl_->faults.bits;
   out.fallback_steps = impl_->fallback_steps;
   out.penetration = penetrationOf(impl_->contacts);
-  out.finger_impulse_W = impl_->finger_impulse;
+  impl_->impulses.write(out);
 }
 
 void OdeWorld::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) noexcept {
@@ -266,7 +269,7 @@ void OdeWorld::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) no
   impl_->bodies.setVelocity(i, v_WB, w_WB);
 }
 
-Vec3 OdeWorld::fingerForce(std::size_t i) const noexcept { return impl_->finger_force[i]; }
+Vec3 OdeWorld::fingerForce(std::size_t i) const noexcept { return impl_->impulses.force(i); }
 const std::vector<BodyContact>& OdeWorld::contacts() const noexcept { return impl_->contacts; }
 const Faults& OdeWorld::faults() const noexcept { return impl_->faults; }
 std::uint64_t OdeWorld::fallbackSteps() const noexcept { return impl_->fallback_steps; }

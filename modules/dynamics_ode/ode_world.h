@@ -39,6 +39,8 @@ class OdeWorld {
   /// Advances all bodies from `time` to time + period [s]. `fingers` is the last contact exchange with its time; it is
   /// extrapolated to `time` and fades when older than ages::fingers. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept;
+  /// Allocates for the fingers and contacts that this exchange has room for. Not called: the first step allocates.
+  void makeRoom(const ContactExchange& fingers);
   /// Sets the snap constraints from the next step on. Never called: none.
   void setSnapConstraints(const SnapConstraints& snap_constraints);
   /// Sets the mean forces of force effects in the next step: what was added to their impulses since the last call.

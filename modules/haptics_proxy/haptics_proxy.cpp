@@ -5,6 +5,7 @@
 
 #include "framework/haptics/renderers.h"
 #include "framework/session/module_plugin.h"
+#include "modules/haptics_proxy/contact_set.h"
 
 namespace presa {
 namespace {
@@ -32,6 +33,8 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   }
   const SurfacesInForce in_force = surfaces(effects);
   renderer_ = makeRenderer(*world_);
+  own_contacts_ = BoundedList<RenderedContact>(renderer_->maxOwnContacts());
+  contact_.value = ContactExchange(fingers_.size(), std::max(ActiveSet{}.member.size(), own_contacts_.capacity()));
   if (effects.friction) {
     auto friction = frictionOf(effects, in_force);
     friction_ = friction.get();
@@ -66,8 +69,8 @@ void HapticsProxy::step(const Tick& tick) noexcept {
   }
   ContactExchange& out = contact_.value;
   out.time = tick.time;
-  out.count = device_->count;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device_->count); ++f) stepFinger(f, tick);
+  out.contacts.clear();
+  for (std::size_t f = 0; f < fingers_.size(); ++f) stepFinger(f, tick);
 }
 
 void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
@@ -83,7 +86,15 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
     finger.tip.x = finger.tip.god_object = finger.p_WH = input.p_WH;
   }
 
-  FingerTick tick{f, input, finger, out, contact_.value, touchables_, now.period, finger.radius};
+  FingerTick tick{.index = f,
+                  .input = input,
+                  .finger = finger,
+                  .out = out,
+                  .all = contact_.value,
+                  .touchables = touchables_,
+                  .period = now.period,
+                  .r = finger.radius,
+                  .own_contacts = own_contacts_};
   tick.X_WA = touchables_.frameOf(finger.frame);
   tick.g = tick.X_WA.inverseTimes(input.p_WH);
   const double way = std::max((finger.tip.x - tick.g).norm(), (finger.tip.god_object - tick.g).norm());
@@ -98,6 +109,7 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
   for (const auto& stage : finger_stages_) stage->apply(tick);
   if (tick.next_frame != finger.frame) changeFrame(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
+  finishContacts(tick);
   if (tick.broken) out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (const auto& added : force_effects_)
     added->effects.apply(f, now, input, world_->scene.devices[f].fingertip_radius, touchables_, out,
@@ -105,11 +117,15 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
 }
 
 void HapticsProxy::touch(FingerTick& tick) noexcept {
-  tick.contact = renderer_->touch({tick.index, tick.g, tick.r, tick.finger.tip, tick.X_WA, *tick.finger.near});
-  if (keepsContract(tick.contact, touchables_)) [[likely]]
+  own_contacts_.clear();
+  tick.contact =
+      renderer_->touch({tick.index, tick.g, tick.r, tick.finger.tip, tick.X_WA, *tick.finger.near, own_contacts_});
+  if (own_contacts_.lost() > 0) ++contact_.value.coverage_lost;
+  if (keepsContract(tick.contact, own_contacts_, touchables_)) [[likely]]
     return;
   renderer_broken_.store(true, std::memory_order_release);
   tick.broken = true;
+  own_contacts_.clear();
   tick.contact = {};
   tick.contact.x = tick.contact.state.x = tick.contact.state.god_object = tick.g;
 }

@@ -63,6 +63,7 @@ class HapticsProxy final : public Module, public PluginHost {
   std::vector<RenderedFinger> fingers_;
   std::vector<PlaceBodies> place_bodies_;  ///< none or one
   std::unique_ptr<Renderer> renderer_;
+  BoundedList<RenderedContact> own_contacts_;  ///< of the renderer, in this finger's tick
   std::atomic<bool> renderer_broken_{false};
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;
   const FrictionStage* friction_ = nullptr;        ///< null: no friction

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "modules/haptics_proxy/finger_stage.h"
+#include "modules/haptics_proxy/contact_set.h"
 
 namespace presa {
 namespace {
@@ -18,7 +18,6 @@ class Spring : public FingerStage {
   static std::int32_t nearestBody(const FingerTick& tick) noexcept;
   static void countWhatWentWrong(FingerTick& tick) noexcept;
   static bool leaps(const FingerTick& tick) noexcept;
-  static void share(const FingerTick& tick, FingerContact& out) noexcept;
 
   const SurfacesInForce surfaces_;
 };
@@ -33,7 +32,7 @@ void Spring::apply(FingerTick& tick) noexcept {
   if (touching) {
     contact.x -= finger.lift * contact.nhat;
     contact.depth -= finger.lift;
-    share(tick, out);
+    divideContact(tick);
   }
   finger.tip = contact.state;
   out.p_WP = tick.X_WA * contact.x;
@@ -58,46 +57,6 @@ void Spring::apply(FingerTick& tick) noexcept {
   out.stiffness = material.stiffness;
   out.normal_force = std::max(0.0, material.stiffness * contact.depth);
   out.tangential_force_W = material.stiffness * (tick.X_WA.q * contact.tangential_displacement);
-}
-
-// Divides the contact among the bodies that hold the finger: the multipliers of each body's constraints, and a share of
-// the friction proportional to its share of the normal force.
-void Spring::share(const FingerTick& tick, FingerContact& out) noexcept {
-  const ProxyContact& contact = tick.contact;
-  const ActiveSet& active = contact.active;
-  double total = 0;
-  for (int a = 0; a < active.count; ++a) {
-    const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
-    if (!(member.weight > 0)) continue;
-    total += member.weight;
-    std::size_t p = 0;
-    while (p < static_cast<std::size_t>(out.part_count) && out.parts[p].body != member.body) ++p;
-    if (p == static_cast<std::size_t>(out.part_count)) {
-      out.parts[p] = {};
-      out.parts[p].body = member.body;
-      ++out.part_count;
-    }
-    out.parts[p].stretch_W += member.weight * member.nhat;  // still in A; rotated to W below
-  }
-  if (out.part_count < 2) {
-    out.part_count = 0;
-    return;
-  }
-  Vec3 normal = Vec3::Zero();
-  for (std::size_t p = 0; p < static_cast<std::size_t>(out.part_count); ++p) normal += out.parts[p].stretch_W;
-  const Vec3 rest = contact.x - tick.g - normal;
-  for (std::size_t p = 0; p < static_cast<std::size_t>(out.part_count); ++p) {
-    ContactPart& part = out.parts[p];
-    double weight = 0;
-    for (int a = 0; a < active.count; ++a) {
-      const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
-      if (member.body == part.body) weight += member.weight;
-    }
-    const Pose X_BA = tick.touchables.frameOf(part.body).inverse() * tick.X_WA;
-    part.nhat_B = X_BA.q * part.stretch_W.normalized();
-    part.p_BP = X_BA * contact.x;
-    part.stretch_W = tick.X_WA.q * (part.stretch_W + weight / total * rest);
-  }
 }
 
 // The body next to a free fingertip, or about to be: in its coordinates the proxy sees the surface approach.

@@ -16,12 +16,12 @@ class Trail final : public ViewPart {
   void follow(const ViewMoment& moment) override {
     if (moment.time < last_) paths_.assign(paths_.size(), {});  // a recording went back
     last_ = moment.time;
-    for (std::size_t tool = 0; tool < paths_.size() && static_cast<int>(tool) < moment.device.count; ++tool) {
+    for (std::size_t tool = 0; tool < paths_.size() && static_cast<int>(tool) < moment.device.count(); ++tool) {
       std::deque<Point>& path = paths_[tool];
       while (!path.empty() && path.front().time < moment.time - length_) path.pop_front();
       if (!moment.device.fingers[tool].valid) continue;
       const bool touching =
-          static_cast<int>(tool) < moment.contacts.count && moment.contacts.fingers[tool].mode != ContactMode::kNone;
+          static_cast<int>(tool) < moment.contacts.count() && moment.contacts.fingers[tool].mode != ContactMode::kNone;
       path.push_back({moment.time, moment.device.fingers[tool].p_WH, touching});
     }
   }

@@ -32,20 +32,20 @@ void placeContact(const FingerContact& contact, const std::vector<Pose>& X_WB, F
 
 std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame) {
   const auto& roles = world.scene.devices;
-  std::vector<FingerView> fingers(std::min<std::size_t>(roles.size(), kMaxFingers));
+  std::vector<FingerView> fingers(roles.size());
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     FingerView& finger = fingers[i];
     const auto index = static_cast<std::int32_t>(i);
     finger.role = roles[i].role;
     finger.radius = roles[i].fingertip_radius;
     finger.force_limit = roles[i].limits.force;
-    if (index < frame.device.count) {
+    if (index < frame.device.count()) {
       finger.valid = frame.device.fingers[i].valid;
       finger.p_WH = finger.p_WP = frame.device.fingers[i].p_WH;
       finger.oriented = frame.device.fingers[i].oriented;
       finger.q_WT = frame.device.fingers[i].q_WT;
     }
-    if (index < frame.contacts.count) placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
+    if (index < frame.contacts.count()) placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
   }
   return fingers;
 }

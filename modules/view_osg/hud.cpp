@@ -91,7 +91,7 @@ Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
   center_->addChild(help_);
 
   addTitle(world);
-  for (std::size_t i = 0; i < world.scene.devices.size() && i < kMaxFingers; ++i) addCard(i);
+  for (std::size_t i = 0; i < world.scene.devices.size(); ++i) addCard(i);
   if (cards_.size() > 1) addGrip();
   for (const DeviceRole& role : world.scene.devices) grip_scale_ = std::min(grip_scale_, role.limits.force);
   addRates(world, options.bus.has_value());

@@ -27,7 +27,7 @@ std::vector<Pose> startPoses(const World& world) {
 Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
     : world_(std::move(world)),
       bodies_(*world_),
-      glyphs_(std::min<std::size_t>(world_->scene.devices.size(), kMaxFingers)),
+      glyphs_(world_->scene.devices.size()),
       parts_(options.show),
       overlays_(*world_),
       neighbourhoods_(*world_),

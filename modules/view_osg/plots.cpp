@@ -26,8 +26,7 @@ osg::ref_ptr<osg::Geometry> curve(const osg::Vec4& color) {
 }  // namespace
 
 Plots::Plots(osg::Group& left, const World& world)
-    : fingers_(std::min<std::size_t>(world.scene.devices.size(), kMaxFingers)),
-      nominal_rate_(world.scene.rates.haptic) {
+    : fingers_(world.scene.devices.size()), nominal_rate_(world.scene.rates.haptic) {
   left.addChild(group_);
   group_->setNodeMask(0);
   for (std::size_t q = 0; q < kQuantities; ++q) {
@@ -58,14 +57,16 @@ double Plots::haptic(const GroupTimings& timings) {
 void Plots::add(const ViewFrame& frame, const GroupTimings& timings) {
   if (!moments_.empty() && frame.time < moments_.back().time) moments_.clear();
   Moment moment{frame.time, {}};
-  for (std::size_t f = 0; f < fingers_; ++f) {
+  moment.values[kForce].resize(fingers_);
+  moment.values[kDepth].resize(fingers_);
+  for (std::size_t f = 0; f < std::min(fingers_, frame.contacts.fingers.size()); ++f) {
     const FingerContact& contact = frame.contacts.fingers[f];
     const bool touches = contact.mode != ContactMode::kNone;
     moment.values[kForce][f] = touches ? contact.normal_force : 0;
     moment.values[kDepth][f] = touches ? 1e3 * contact.depth : 0;
   }
-  moment.values[kRate][0] = haptic(timings);
-  moments_.push_back(moment);
+  moment.values[kRate] = {haptic(timings)};
+  moments_.push_back(std::move(moment));
   while (moments_.front().time < frame.time - kSeconds) moments_.pop_front();
 }
 

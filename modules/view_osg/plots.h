@@ -25,7 +25,7 @@ class Plots {
   enum Quantity : std::size_t { kForce, kDepth, kRate, kQuantities };
   struct Moment {
     double time;
-    std::array<std::array<double, kMaxFingers>, kQuantities> values;  ///< [N], [mm], [Hz] (first entry only)
+    std::array<std::vector<double>, kQuantities> values;  ///< [N] and [mm] by finger, [Hz] (first entry only)
   };
   struct Panel {
     Label title;

@@ -15,7 +15,7 @@ void PointerControl::begin(const DeviceState& device) {
   if (begun_ || fingers_.empty()) return;
   Vec3 sum = Vec3::Zero();
   for (std::size_t f : fingers_) {
-    if (f >= static_cast<std::size_t>(device.count) || !device.fingers[f].valid) return;
+    if (f >= static_cast<std::size_t>(device.count()) || !device.fingers[f].valid) return;
     sum += device.fingers[f].p_WH;
     stylus_ = device.fingers[f].oriented;
   }

@@ -144,6 +144,7 @@ constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGr
 Rig::Rig(std::shared_ptr<const World> world, Motion motion) : world_(std::move(world)), motion_(std::move(motion)) {
   GraphBuilder builder;
   hands_ = &builder.add(std::make_unique<Hands>());
+  hands_->out.value = DeviceState(world_->scene.devices.size());
   bodies_ = &builder.add(std::make_unique<Bodies>(world_->scene.bodies.size()));
   builder.add(std::make_unique<HapticsProxy>(world_, RunOptions{}));
   builder.add(std::make_unique<CollisionModule>(world_));
@@ -175,7 +176,6 @@ Pose Rig::swung(std::size_t body, std::ptrdiff_t tick) const {
 
 void Rig::fillPass() {
   const std::size_t fingers = world_->scene.devices.size();
-  hands_->out.value.count = static_cast<std::int32_t>(fingers);
   for (std::size_t f = 0; f < fingers; ++f) hands_->out.value.fingers[f].valid = true;
   const std::ptrdiff_t lap = this->lap(), sliding = kDown + kSteady;
   const bool swings = std::ranges::find(motion_.swinging, motion_.carrier) != motion_.swinging.end();
@@ -229,7 +229,7 @@ void Rig::moveBodies(std::ptrdiff_t tick) noexcept {
 
 void Rig::moveFingers(std::ptrdiff_t tick) noexcept {
   DeviceState& device = hands_->out.value;
-  const auto fingers = static_cast<std::size_t>(device.count);
+  const auto fingers = static_cast<std::size_t>(device.count());
   device.time = 1e-3 * static_cast<double>(tick + kLead);
   for (std::size_t f = 0; f < fingers; ++f) {
     const Held& held = held_[static_cast<std::size_t>(tick + kLead) * fingers + f];

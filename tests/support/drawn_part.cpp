@@ -31,12 +31,10 @@ DrawnPart::DrawnPart(const std::string& element) : parts_(std::make_unique<Parts
 DrawnPart::~DrawnPart() = default;
 
 std::vector<DrawnPart::Line> DrawnPart::follow(double time, const Vec3& p_WT, bool touching) {
-  DeviceState device;
-  device.count = 1;
+  DeviceState device(1);
   device.fingers[0].p_WH = p_WT;
   device.fingers[0].valid = true;
-  ContactExchange contacts;
-  contacts.count = 1;
+  ContactExchange contacts(1);
   contacts.fingers[0].mode = touching ? ContactMode::kStick : ContactMode::kNone;
   const std::vector<Pose> poses(1);
   const ViewMoment moment{time, poses, device, contacts};

@@ -34,6 +34,7 @@ struct RenderedBody::Parts {
   Touchables touchables;
   Surroundings near;
   SurfaceEffects surface;
+  BoundedList<RenderedContact> contacts{renderer->maxOwnContacts()};
   ProxyState proxy;
   Vec3 last_p_WH = Vec3::Zero();
   bool alive = false;
@@ -52,9 +53,10 @@ Vec3 RenderedBody::force(const Vec3& p_WH) noexcept {
   p.touchables.surround(p.near, kNoBody, p_WH, way + 1.1 * kRadius, moved, kPeriod, nullptr);
   p.near.setStep(moved);
   const Pose X_WA;
-  ProxyContact contact = p.renderer->touch({0, p_WH, kRadius, p.proxy, X_WA, p.near});
+  p.contacts.clear();
+  ProxyContact contact = p.renderer->touch({0, p_WH, kRadius, p.proxy, X_WA, p.near, p.contacts});
   const Vec3 broken = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (!keepsContract(contact, p.touchables)) return broken;
+  if (!keepsContract(contact, p.contacts, p.touchables)) return broken;
   p.proxy = contact.state;
   if (!contact.state.touching) return Vec3::Zero();
   double softness = 1;

@@ -19,7 +19,7 @@ const RunResult::Object* drawnObject(const RunResult& result, const std::optiona
 }
 
 template <class Value>
-std::vector<double> column(const std::vector<TraceSample>& trace, Value value) {
+std::vector<double> column(const BoundedList<TraceSample>& trace, Value value) {
   std::vector<double> out;
   out.reserve(trace.size());
   for (const TraceSample& sample : trace) out.push_back(value(sample));
@@ -43,7 +43,7 @@ std::string shortNumber(double value, const char* pattern = "%.3f") {
 
 svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFigures>& grasp,
                            std::size_t contact_point) {
-  const std::vector<TraceSample>& trace = *result.trace;
+  const BoundedList<TraceSample>& trace = *result.trace;
   const auto finger = [&](const TraceSample& sample) -> const FingerContact& { return sample.fingers[contact_point]; };
   svg::TimeFigure figure;
   figure.title = "Height, grip force and contact state of " + result.contact_points[contact_point].name + " over time";

@@ -1,7 +1,7 @@
 #pragma once
-#include <array>
 #include <atomic>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/runner/definition/trial.h"
@@ -13,12 +13,19 @@ namespace presa::experiment {
 /// Live values of the running trial for the operator. Written by the haptic thread, read by the main thread. Each value
 /// is atomic; the set may mix two ticks.
 struct TrialLive {
-  std::vector<std::string> roles;                                     ///< roles of the fingers, written before the run
+  /// Before the run.
+  void setRoles(std::vector<std::string> of_fingers) {
+    roles = std::move(of_fingers);
+    force = std::vector<std::atomic<double>>(roles.size());
+    mode = std::vector<std::atomic<std::int32_t>>(roles.size());
+  }
+
+  std::vector<std::string> roles;                                     ///< of the fingers
   std::atomic<double> time{0}, phase_begin{0}, watch{0}, clipped{0};  // [s], except `watch`
   std::atomic<std::size_t> phase{0};
   std::atomic<bool> device_lost{false};
-  std::array<std::atomic<double>, kMaxFingers> force{};  // normal [N]
-  std::array<std::atomic<std::int32_t>, kMaxFingers> mode{};
+  std::vector<std::atomic<double>> force;       // normal, by finger [N]
+  std::vector<std::atomic<std::int32_t>> mode;  // by finger
 };
 
 /// Writes TrialLive every tick. In the graph only when there is a display. Thread: haptic; nonblocking.
@@ -35,7 +42,7 @@ class OperatorObserver final : public HapticObserver {
     live_.phase_begin.store(trial_.stretches()[trial_.phase()].begin, kRelaxed);
     if (experiment_.watch) live_.watch.store(experiment_.watch->value.evaluate(trial_.samples()), kRelaxed);
     bool lost = false;
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count()); ++f) {
       lost = lost || !device.fingers[f].valid;
       live_.force[f].store(contact.fingers[f].normal_force, kRelaxed);
       live_.mode[f].store(static_cast<std::int32_t>(contact.fingers[f].mode), kRelaxed);

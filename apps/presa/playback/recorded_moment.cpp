@@ -64,7 +64,10 @@ void RecordedMoment::fill(double time, ObjectState& objects, DeviceState& device
     body.v_WB = at(moved.v_WB, row);
     body.w_WB = at(moved.w_WB, row);
   }
-  device.count = contacts.count = command.count = static_cast<std::int32_t>(fingers_.size());
+  device.fingers.resize(fingers_.size());
+  contacts.fingers.resize(fingers_.size());
+  command.f_H_W.resize(fingers_.size(), Vec3::Zero());
+  command.t_H_W.resize(fingers_.size(), Vec3::Zero());
   command.status = samples_.status[row];
   for (std::size_t f = 0; f < fingers_.size(); ++f) {
     fillFinger(fingers_[f], row, objects, device.fingers[f], contacts.fingers[f]);

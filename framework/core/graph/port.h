@@ -90,6 +90,8 @@ class In final : public InPortBase {
   /// Before the writer's first step: across groups a default T, within a group the output's initial value.
   const T& value() const noexcept { return *value_; }
   const T* operator->() const noexcept { return value_; }
+  /// From build() to the end of start(): a value as large as all later ones, by which the reader may size itself.
+  const T& sized() const noexcept { return *sized_; }
   /// Across groups: 0 until the first value, then its number, counted by the writer. Within a group: always 0.
   std::uint64_t version() const noexcept { return version_; }
   bool hasValue() const noexcept { return direct_ || version_ > 0; }
@@ -104,6 +106,7 @@ class In final : public InPortBase {
   friend class Bridge;
   inline static const T kDefault{};
   const T* value_ = &kDefault;
+  const T* sized_ = &kDefault;
   std::uint64_t version_ = 0;
   double time_ = 0;
   bool direct_ = false;
@@ -115,7 +118,10 @@ class Bridge final : public BridgeBase {
   /// `source` already has its final size: the slots are copies of it.
   explicit Bridge(const T& source) : source_(source), latest_(source) {}
 
-  void addReader(InPortBase& reader) override { readers_.push_back(static_cast<In<T>*>(&reader)); }
+  void addReader(InPortBase& reader) override {
+    readers_.push_back(static_cast<In<T>*>(&reader));
+    readers_.back()->sized_ = &latest_.value();
+  }
   std::uint64_t pull() noexcept override {
     if (latest_.update()) show(latest_.value(), latest_.version(), latest_.time());
     return latest_.version();
@@ -173,7 +179,7 @@ class Out final : public OutPortBase {
   std::unique_ptr<BridgeBase> makeBridge() override { return std::make_unique<Bridge<T>>(value); }
   void connectDirect(InPortBase& reader) override {
     auto& in = static_cast<In<T>&>(reader);
-    in.value_ = &value;
+    in.value_ = in.sized_ = &value;
     in.direct_ = true;
   }
 };

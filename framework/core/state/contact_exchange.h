@@ -1,8 +1,10 @@
 #pragma once
-#include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "framework/core/exchange/bounded_list.h"
 #include "framework/core/math/spatial.h"
 #include "framework/core/state/limits.h"
 
@@ -11,16 +13,23 @@ namespace presa {
 /// Numbers as in figure 12 of the PERCRO paper: 0 no contact, 1 not slipping, 2 slipping.
 enum class ContactMode : std::int32_t { kNone = 0, kStick = 1, kSlip = 2 };
 
-/// One body's share of a contact force that several bodies bear. The shares add up to the spring from HIP to proxy.
-struct ContactPart {
+/// A finger's contact with one body: a spring-damper of its own. The forces of all contacts of a finger add up to its
+/// own; mode and friction are the finger's.
+struct ToolContact {
   std::int32_t body = kNoBody;
-  Vec3 p_BP = Vec3::Zero();       ///< proxy, coordinates of `body` [m]
-  Vec3 nhat_B = Vec3::UnitZ();    ///< direction of its normal force on the finger, coordinates of `body`
-  Vec3 stretch_W = Vec3::Zero();  ///< force on the body: -stiffness * stretch_W; sum over parts: p_WP - p_WH [m]
+  Vec3 p_BP = Vec3::Zero();       ///< where the force acts: the proxy, coordinates of `body` [m]
+  Vec3 nhat_B = Vec3::UnitZ();    ///< direction of the normal force on the finger, coordinates of `body`
+  Vec3 v_WH = Vec3::Zero();       ///< velocity of the spring's end at the finger [m/s]
+  Vec3 stretch_W = Vec3::Zero();  ///< spring force on the finger: stiffness * stretch_W [m]
+  double depth = 0;               ///< part of stretch_W along the normal [m]
+  double stiffness = 0;           ///< [N/m]
+  double damping = 0;             ///< along the normal [N s/m]
+  double share = 1;               ///< of the finger's friction [-]
+  Vec3 f_H_W = Vec3::Zero();      ///< rendered force on the finger, damping and friction included [N]
 };
-inline constexpr std::size_t kMaxContactParts = 3;  ///< three planes fix a point in space
 
-/// Contact of one finger. nhat points from the body into the finger; depth >= 0 when they overlap.
+/// Contact of one finger. nhat points from the body into the finger; depth >= 0 when they overlap. Where several bodies
+/// hold the finger, `body` bears the largest share, and depth and forces are those of the whole contact.
 struct FingerContact {
   ContactMode mode = ContactMode::kNone;
   std::int32_t body = kNoBody;
@@ -43,38 +52,38 @@ struct FingerContact {
   Vec3 tangential_force_W = Vec3::Zero();  ///< f_H_W without its normal part [N]
   Vec3 f_H_W = Vec3::Zero();               ///< rendered force on the finger, before the output stage [N]
   Vec3 t_H_W = Vec3::Zero();               ///< rendered torque about H on an oriented tool [N m]; 0 on others
-  /// Above 1: several bodies hold the finger, `body` the largest share; `parts` lists them. Otherwise `body` bears all.
-  std::int32_t part_count = 0;
-  std::array<ContactPart, kMaxContactParts> parts;
+  std::uint32_t first_contact = 0;         ///< index into ContactExchange::contacts
+  std::uint32_t contact_count = 0;         ///< bodies that hold the finger
 };
 
 /// Contacts and rendered forces of one haptic tick, for the dynamics, the collision query, the
-/// output stage, the view and the recorder. Written by: haptic thread.
+/// output stage, the view and the recorder. The haptic module sizes it by the scene at load. Written by: haptic thread.
 struct ContactExchange {
-  double time = 0;         ///< [s]
-  std::int32_t count = 0;  ///< fingers in use
+  double time = 0;  ///< [s]
   /// Since start: ticks in which a fingertip missed surfaces in its reach, because they exceeded a fixed capacity.
   std::uint32_t coverage_lost = 0;
   std::uint32_t pop_through = 0;  ///< since start: how often the centre of a fingertip crossed a surface
-  std::array<std::uint32_t, kMaxFingers> pop_through_by_finger{};  ///< the same for each finger
+  std::vector<std::uint32_t> pop_through_by_finger;  ///< the same for each finger
   /// Ticks in which the proxy lost its hold on the surface (out of a fold, over a ridge) and slid along a free path to
   /// the next place that holds it, farther than the motion of the HIP and the bodies explains.
-  std::array<std::uint32_t, kMaxFingers> leaps_by_finger{};
-  std::array<FingerContact, kMaxFingers> fingers;
+  std::vector<std::uint32_t> leaps_by_finger;
+  std::vector<FingerContact> fingers;  ///< in the order of the scene's roles
+  BoundedList<ToolContact> contacts;   ///< of all fingers, those of one finger in a row
 
   ContactExchange() = default;
-  ContactExchange(const ContactExchange& other) { *this = other; }
-  /// Copies only the fingers in use.
-  ContactExchange& operator=(const ContactExchange& other) {
-    if (this == &other) return *this;
-    time = other.time;
-    count = other.count;
-    coverage_lost = other.coverage_lost;
-    pop_through = other.pop_through;
-    pop_through_by_finger = other.pop_through_by_finger;
-    leaps_by_finger = other.leaps_by_finger;
-    std::copy_n(other.fingers.begin(), std::clamp(other.count, 0, kMaxFingers), fingers.begin());
-    return *this;
+  explicit ContactExchange(std::size_t finger_count, std::size_t contacts_per_finger = 1)
+      : pop_through_by_finger(finger_count),
+        leaps_by_finger(finger_count),
+        fingers(finger_count),
+        contacts(finger_count * contacts_per_finger) {}
+
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(fingers.size()); }
+  std::span<const ToolContact> contactsOf(const FingerContact& finger) const noexcept {
+    return {contacts.begin() + finger.first_contact, finger.contact_count};
+  }
+  /// Heap memory that it owns [bytes] (SizedAtLoad).
+  std::size_t roomBytes() const noexcept {
+    return fingers.capacity() * (sizeof(FingerContact) + 2 * sizeof(std::uint32_t)) + contacts.roomBytes();
   }
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "framework/core/math/spatial.h"
-#include "framework/core/state/limits.h"
 
 namespace presa {
 
@@ -22,22 +22,34 @@ struct FingerInput {
 };
 
 /// Device State: the samples of all devices in one haptic tick, after the checks of SampleCheck.
-/// Written by: haptic thread (device input). Order: the order of the roles in the scene.
+/// Sized by the scene at load, one finger each role, in the order of the scene. Written by: haptic thread (device input).
 struct DeviceState {
   double time = 0;              ///< simulated time of the sample [s]
-  std::int32_t count = 0;       ///< fingers in use
   bool stop_requested = false;  ///< the run is being stopped: forces fade
   std::uint32_t rearms = 0;     ///< number of re-arms since the start; each one clears latched faults
-  std::array<FingerInput, kMaxFingers> fingers;
+  std::vector<FingerInput> fingers;
+
+  DeviceState() = default;
+  explicit DeviceState(std::size_t finger_count) : fingers(finger_count) {}
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(fingers.size()); }
+  /// Heap memory that it owns [bytes] (SizedAtLoad).
+  std::size_t roomBytes() const noexcept { return fingers.capacity() * sizeof(FingerInput); }
 };
 
-/// Wrenches that go to the devices, after the output stage. Written by: haptic thread (device output).
+/// Wrenches that go to the devices, after the output stage; sized as DeviceState. Written by: haptic thread (device
+/// output).
 struct ForceCommand {
-  double time = 0;                      ///< [s]
-  std::int32_t count = 0;               ///< fingers in use
-  std::uint32_t status = 0;             ///< OutputStatus bits of all fingers together
-  std::array<Vec3, kMaxFingers> f_H_W;  ///< force that each device holds from this tick on [N]
-  std::array<Vec3, kMaxFingers> t_H_W;  ///< torque about H that it holds [N m]
+  double time = 0;           ///< [s]
+  std::uint32_t status = 0;  ///< OutputStatus bits of all fingers together
+  std::vector<Vec3> f_H_W;   ///< force that each device holds from this tick on [N]
+  std::vector<Vec3> t_H_W;   ///< torque about H that it holds [N m]
+
+  ForceCommand() = default;
+  explicit ForceCommand(std::size_t finger_count)
+      : f_H_W(finger_count, Vec3::Zero()), t_H_W(finger_count, Vec3::Zero()) {}
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(f_H_W.size()); }
+  /// Heap memory that it owns [bytes] (SizedAtLoad).
+  std::size_t roomBytes() const noexcept { return (f_H_W.capacity() + t_H_W.capacity()) * sizeof(Vec3); }
 };
 
 }  // namespace presa

@@ -1,11 +1,11 @@
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "framework/core/exchange/bounded_list.h"
 #include "framework/core/math/spatial.h"
 #include "framework/core/state/limits.h"
 
@@ -37,6 +37,13 @@ struct BodyPenetration {
   double worst = std::numeric_limits<double>::quiet_NaN();  ///< [m]; 0 where nothing touches
 };
 
+/// Impulse that one finger gave to one body since the finger came to it.
+struct FingerImpulse {
+  std::int32_t finger = 0, body = kNoBody;
+  double since = 0;               ///< time_begin of the first step with this contact [s]
+  Vec3 impulse_W = Vec3::Zero();  ///< on the body [N s]
+};
+
 /// Object State: motion of every body of the scene (fixed ones too, in scene order) over the step just solved.
 /// A reader interpolates between time_begin and time_end to its own "now", so that no pose jumps when a new state
 /// is published (a jump of one 5 ms step costs a factor five in stable stiffness).
@@ -50,14 +57,15 @@ struct ObjectState {
   std::uint64_t fallback_steps = 0;
   BodyPenetration penetration;
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
-  std::array<Vec3, kMaxFingers> finger_impulse_W;
+  std::vector<Vec3> finger_impulse_W;
+  BoundedList<FingerImpulse> touches;  ///< the same by finger and moving body, of the contacts of the step just solved
   std::vector<BodyMotion> bodies;
-
-  ObjectState() { finger_impulse_W.fill(Vec3::Zero()); }
 
   std::int32_t count() const noexcept { return static_cast<std::int32_t>(bodies.size()); }
   /// Heap memory that it owns [bytes] (SizedAtLoad).
-  std::size_t roomBytes() const noexcept { return bodies.capacity() * sizeof(BodyMotion); }
+  std::size_t roomBytes() const noexcept {
+    return bodies.capacity() * sizeof(BodyMotion) + finger_impulse_W.capacity() * sizeof(Vec3) + touches.roomBytes();
+  }
 
   /// Pose X_WB of body i, 0 <= i < count(), at time t [s]; t is clamped to [time_begin, time_end].
   Pose poseAt(std::int32_t i, double t) const {

@@ -4,15 +4,24 @@
 #include <cmath>
 
 namespace presa {
+namespace {
+
+template <class List>
+auto* find(List& list, std::int32_t finger, std::int32_t body) noexcept {
+  auto* found = std::ranges::find_if(list, [&](const auto& one) { return one.finger == finger && one.body == body; });
+  return found == list.end() ? nullptr : found;
+}
+
+}  // namespace
 
 ActionReaction::ActionReaction(const Scene& scene)
-    : span_(static_cast<std::size_t>(std::max(1.0, std::round(kWindow * scene.rates.dynamics)))), ring_(span_ + 1) {
+    : span_(static_cast<std::size_t>(std::max(1.0, std::round(kWindow * scene.rates.dynamics)))),
+      ring_(span_ + 1),
+      touches_(scene.devices.size() * std::min<std::size_t>(scene.bodies.size(), kMaxNearBodies)),
+      results_(scene.devices.size()) {
   for (const Body& body : scene.bodies) free_.push_back(body.fixed ? 0 : 1);
-  sums_.rendered.fill(Vec3::Zero());
-  sums_.given.fill(Vec3::Zero());
-  sums_.grasp.fill(0);
-  body_.fill(kNoBody);
-  force_.fill(Vec3::Zero());
+  for (Sums& sums : ring_) sums.touches = touches_;
+  for (Given& given : pending_) given.impulses = BoundedList<FingerImpulse>(touches_.capacity());
 }
 
 bool ActionReaction::moves(std::int32_t body) const noexcept {
@@ -21,50 +30,75 @@ bool ActionReaction::moves(std::int32_t body) const noexcept {
 
 void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const ObjectState& objects,
                          bool fresh) noexcept {
-  fingers_ = contact.count;
   // a late dynamics thread may publish a step that has already ended; its sums are not comparable, so the step is
   // skipped
   if (fresh && objects.time_end >= tick.time && pending_count_ < pending_.size()) {
     const double half_step = (objects.time_end - objects.time_begin) / 2;
-    pending_[pending_count_++] = {objects.time_end + half_step + tick.period / 2, objects.finger_impulse_W};
+    Given& given = pending_[(pending_begin_ + pending_count_++) % pending_.size()];
+    given.time = objects.time_end + half_step + tick.period / 2;
+    given.impulses.clear();
+    for (const FingerImpulse& one : objects.touches) given.impulses.add(one);
   }
   pair(tick);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(fingers_); ++f) {
+  sum(tick, contact);
+}
+
+void ActionReaction::sum(const Tick& tick, const ContactExchange& contact) noexcept {
+  for (Touch& touch : touches_) touch.renewed = false;
+  for (std::size_t f = 0; f < contact.fingers.size(); ++f) {
     const FingerContact& finger = contact.fingers[f];
-    // a finger in contact with several bodies splits its force among them: the rendered sum is not comparable
-    if (finger.body != body_[f] || finger.mode == ContactMode::kNone || finger.part_count > 1) ++sums_.grasp[f];
-    body_[f] = finger.body;
-    force_[f] = finger.f_H_W;
-    sums_.rendered[f] += tick.period * finger.f_H_W;
+    if (finger.mode == ContactMode::kNone) continue;
+    for (const ToolContact& one : contact.contactsOf(finger)) {
+      if (moves(one.body)) sum(tick, static_cast<std::int32_t>(f), one);
+    }
   }
+  for (std::size_t i = touches_.size(); i-- > 0;) {
+    if (!touches_[i].renewed) touches_.remove(i);  // the last one, renewed, takes its place
+  }
+}
+
+void ActionReaction::sum(const Tick& tick, std::int32_t finger, const ToolContact& contact) noexcept {
+  Touch* touch = find(touches_, finger, contact.body);
+  if (touch == nullptr) touch = touches_.add({.finger = finger, .body = contact.body, .since = tick.time});
+  if (touch == nullptr) return;
+  // a renderer may have several contacts of one body
+  touch->force = touch->renewed ? Vec3(touch->force + contact.f_H_W) : contact.f_H_W;
+  touch->rendered += tick.period * contact.f_H_W;
+  touch->renewed = true;
 }
 
 // Compares every step end that the rendered sums have reached by this tick.
 void ActionReaction::pair(const Tick& tick) noexcept {
-  std::size_t done = 0;
-  while (done < pending_count_ && pending_[done].time <= tick.time + 1e-3 * tick.period) {
-    Sums now = sums_;
-    now.time = pending_[done].time;
-    now.given = pending_[done].impulse;
-    // the force is held over a tick: subtract the part of the last tick that lies after the time of comparison
-    for (std::size_t f = 0; f < now.rendered.size(); ++f) now.rendered[f] -= (tick.time - now.time) * force_[f];
+  while (pending_count_ > 0 && pending_[pending_begin_].time <= tick.time + 1e-3 * tick.period) {
+    const Given& given = pending_[pending_begin_];
+    Sums& now = ring_[count_ % ring_.size()];
+    now.time = given.time;
+    now.touches.clear();
+    for (const Touch& touch : touches_) {
+      const FingerImpulse* impulse = find(given.impulses, touch.finger, touch.body);
+      if (impulse == nullptr) continue;
+      Touch* sums = now.touches.add(touch);
+      // the force is held over a tick: subtract the part of the last tick that lies after the time of comparison
+      sums->rendered -= (tick.time - now.time) * touch.force;
+      sums->given = impulse->impulse_W;
+      sums->given_since = impulse->since;
+    }
     compare(now);
-    ring_[count_++ % ring_.size()] = now;
-    ++done;
+    ++count_;
+    pending_begin_ = (pending_begin_ + 1) % pending_.size();
+    --pending_count_;
   }
-  std::copy(pending_.begin() + static_cast<std::ptrdiff_t>(done),
-            pending_.begin() + static_cast<std::ptrdiff_t>(pending_count_), pending_.begin());
-  pending_count_ -= done;
 }
 
 void ActionReaction::compare(const Sums& now) noexcept {
   if (count_ < span_) return;
   const Sums& before = ring_[(count_ - span_) % ring_.size()];
-  for (std::size_t f = 0; f < static_cast<std::size_t>(fingers_); ++f) {
-    if (!moves(body_[f]) || now.grasp[f] != before.grasp[f]) continue;
-    const Vec3 rendered = now.rendered[f] - before.rendered[f], given = now.given[f] - before.given[f];
+  for (const Touch& end : now.touches) {
+    const Touch* begin = find(before.touches, end.finger, end.body);
+    if (begin == nullptr || begin->since != end.since || begin->given_since != end.given_since) continue;
+    const Vec3 rendered = end.rendered - begin->rendered, given = end.given - begin->given;
     const double size = std::max(rendered.norm(), kMinForce * (now.time - before.time));
-    Result& result = results_[f];
+    Result& result = results_[static_cast<std::size_t>(end.finger)];
     ++result.windows;
     const double error = (given + rendered).norm() / size;
     if (error > result.worst || result.time < 0) {

@@ -10,9 +10,9 @@
 
 namespace presa {
 
-/// Compares the impulse that the dynamics gives to the objects with the impulse rendered to the fingers. Both are
-/// summed. At the end of every dynamics step the sums over the preceding 0.1 s are compared, for each finger that
-/// touched the same free body all that time. The two come from different threads: the haptic side renders k (p_WP -
+/// Compares the impulse that the dynamics gives to the objects with the impulse rendered to the fingers, body by body.
+/// Both are summed. At the end of every dynamics step the sums over the preceding 0.1 s are compared, for each finger
+/// and free body that touched all that time. The two come from different threads: the haptic side renders k (p_WP -
 /// p_WH), the dynamics solves an implicit constraint row. Each force is counted around the instant for which it was
 /// computed: a tick's force around its sample, an implicit step's force around the end of the step. (Counted over the
 /// interval in which it is held, the sums would differ by half a step and half a tick times the change of the force;
@@ -32,34 +32,40 @@ class ActionReaction {
     double time = -1;  ///< end of that window [s]; -1: no window was compared
     std::uint64_t windows = 0;
   };
+  /// Over all bodies that the finger touched.
   const Result& of(std::size_t finger) const noexcept { return results_[finger]; }
 
  private:
+  /// One finger on one body, from the tick in which they met.
+  struct Touch {
+    std::int32_t finger = 0, body = kNoBody;
+    double since = 0, given_since = 0;                   // first tick, first dynamics step [s]
+    Vec3 force = Vec3::Zero();                           // rendered in the last tick [N]
+    Vec3 rendered = Vec3::Zero(), given = Vec3::Zero();  // [N s]
+    bool renewed = false;
+  };
   struct Sums {
     double time = 0;
-    std::array<Vec3, kMaxFingers> rendered, given;  // [N s]
-    std::array<std::uint64_t, kMaxFingers> grasp;  // counter of contact changes: equal counts mean an unchanged contact
+    BoundedList<Touch> touches;
   };
-  struct BodyImpulse {
+  struct Given {
     double time = 0;
-    std::array<Vec3, kMaxFingers> impulse;
+    BoundedList<FingerImpulse> impulses;
   };
+  void sum(const Tick& tick, const ContactExchange& contact) noexcept;
+  void sum(const Tick& tick, std::int32_t finger, const ToolContact& contact) noexcept;
   void pair(const Tick& tick) noexcept;
   void compare(const Sums& now) noexcept;
-
   bool moves(std::int32_t body) const noexcept;
 
-  std::vector<char> free_;               // by body
-  std::size_t span_;                     // dynamics steps in a window
-  std::vector<Sums> ring_;               // at the ends of dynamics steps
-  std::uint64_t count_ = 0;              // entries put into ring_ so far
-  std::array<BodyImpulse, 64> pending_;  // impulses whose time the haptic side has not reached
-  std::size_t pending_count_ = 0;
-  Sums sums_;                            // rendered impulse so far
-  std::array<Vec3, kMaxFingers> force_;  // force rendered in the last tick [N]
-  std::array<std::int32_t, kMaxFingers> body_;
-  std::array<Result, kMaxFingers> results_;
-  std::int32_t fingers_ = 0;
+  std::vector<char> free_;         // by body
+  std::size_t span_;               // dynamics steps in a window
+  std::vector<Sums> ring_;         // at the ends of dynamics steps
+  std::uint64_t count_ = 0;        // entries put into ring_ so far
+  std::array<Given, 64> pending_;  // impulses whose time the haptic side has not reached
+  std::size_t pending_begin_ = 0, pending_count_ = 0;
+  BoundedList<Touch> touches_;
+  std::vector<Result> results_;  // by finger
 };
 
 }  // namespace presa

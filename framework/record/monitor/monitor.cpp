@@ -9,13 +9,17 @@
 namespace presa {
 namespace {
 
-// a sample has 2.6 kB: limits the trace of a run of any length to about 100 MB
-constexpr double kMaxTraceSamples = 40'000;
+// Limits the trace of a run of any length and any number of fingers to about 100 MB.
+double maxTraceSamples(const World& world) {
+  constexpr double kBytes = 100e6, kSamples = 40'000;
+  const std::size_t finger = sizeof(FingerContact) + sizeof(Vec3);
+  return std::min(kSamples, kBytes / static_cast<double>(sizeof(TraceSample) + world.scene.devices.size() * finger));
+}
 
 std::uint64_t traceStride(const World& world, double duration, double trace_rate) {
   const double haptic = world.scene.rates.haptic;
   const double wanted = std::round(haptic / trace_rate);
-  const double fitting = std::ceil(duration * haptic / kMaxTraceSamples);
+  const double fitting = std::ceil(duration * haptic / maxTraceSamples(world));
   const double stride = std::max({1.0, wanted, std::isfinite(fitting) ? fitting : wanted});
   return static_cast<std::uint64_t>(stride);
 }
@@ -23,7 +27,7 @@ std::uint64_t traceStride(const World& world, double duration, double trace_rate
 bool touches(const FingerContact& finger) noexcept { return finger.mode != ContactMode::kNone; }
 
 std::int32_t scriptedPhase(const DeviceState& device) noexcept {
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device.count); ++f) {
+  for (std::size_t f = 0; f < device.fingers.size(); ++f) {
     if (device.fingers[f].phase >= 0) return device.fingers[f].phase;
   }
   return -1;
@@ -35,6 +39,12 @@ struct Monitor::Impl {
   Impl(std::shared_ptr<const World> shared_world, double duration, double loosen, double trace_rate)
       : world(std::move(shared_world)), loosen_time(loosen), reaction(world->scene) {
     const std::vector<Body>& bodies = world->scene.bodies;
+    const std::size_t finger_count = world->scene.devices.size();
+    fingers.resize(finger_count);
+    force_sum.resize(finger_count);
+    ticks_in_contact.resize(finger_count);
+    previous.resize(finger_count);
+    slip_onsets.resize(finger_count);
     objects.resize(bodies.size());
     fingers_on.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -49,8 +59,12 @@ struct Monitor::Impl {
     if (!(trace_rate > 0)) return;
     stride = traceStride(*world, duration, trace_rate);
     const double samples = duration * world->scene.rates.haptic / static_cast<double>(stride) + 2;
-    // touch every page now, so that the haptic loop pays for no page fault
-    trace.resize(static_cast<std::size_t>(std::clamp(samples, 1.0, kMaxTraceSamples)));
+    // every page is touched now, so that the haptic loop pays for no page fault
+    trace = BoundedList<TraceSample>(static_cast<std::size_t>(std::clamp(samples, 1.0, maxTraceSamples(*world))));
+    while (TraceSample* sample = trace.add()) {
+      sample->fingers.resize(finger_count);
+      sample->f_command.resize(finger_count);
+    }
     trace.clear();
   }
 
@@ -78,17 +92,17 @@ struct Monitor::Impl {
   std::uint32_t pop_through = 0, coverage_lost = 0;
   double first_coverage_lost = -1;
   StateHash hash;
-  std::array<FingerSummary, kMaxFingers> fingers;
-  std::array<double, kMaxFingers> force_sum{};
-  std::array<std::uint64_t, kMaxFingers> ticks_in_contact{};
-  std::array<FingerContact, kMaxFingers> previous;
-  std::array<std::vector<SlipOnset>, kMaxFingers> slip_onsets;
+  std::vector<FingerSummary> fingers;
+  std::vector<double> force_sum;
+  std::vector<std::uint64_t> ticks_in_contact;
+  std::vector<FingerContact> previous;
+  std::vector<std::vector<SlipOnset>> slip_onsets;
   std::vector<ObjectSummary> objects;
   std::vector<std::int32_t> fingers_on;  ///< number of fingers by body, in this tick
   // few of thousands of bodies move or are held: each tick visits only those
   std::vector<std::size_t> free, moving, grasped;
   std::vector<std::int32_t> traced;
-  std::vector<TraceSample> trace;
+  BoundedList<TraceSample> trace;
 };
 
 void Monitor::Impl::sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept {
@@ -156,7 +170,7 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact,
       if (motion.X_WB_begin.p != motion.X_WB_end.p) moving.push_back(i);
     }
   }
-  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+  for (std::size_t f = 0; f < contact.fingers.size(); ++f) {
     const auto i = static_cast<std::size_t>(contact.fingers[f].body);
     if (i >= objects.size() || fingers_on[i] < 2 || objects[i].grasped || world->scene.bodies[i].fixed) continue;
     objects[i].grasped = true;
@@ -168,12 +182,11 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact,
 void Monitor::Impl::keep(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
                          const ForceCommand& command, const ObjectState* state) noexcept {
   if (tick.index % stride != 0 || trace.size() == trace.capacity()) return;
-  TraceSample& now = trace.emplace_back();
+  TraceSample& now = *trace.add();
   now.time = tick.time;
   now.phase = scriptedPhase(device);
-  std::copy_n(contact.fingers.begin(), contact.count, now.fingers.begin());
-  now.f_command.fill(Vec3::Zero());
-  std::copy_n(command.f_H_W.begin(), command.count, now.f_command.begin());
+  now.fingers = contact.fingers;
+  now.f_command = command.f_H_W;
   for (std::size_t slot = 0; slot < traced.size(); ++slot)
     now.bodies[slot] = poseOf(world->scene, state, traced[slot], tick.time);
 }
@@ -194,7 +207,7 @@ void Monitor::Impl::sumFingers(const Tick& tick, const ContactExchange& contact,
                                bool fresh) noexcept {
   if (state != nullptr) reaction.add(tick, contact, *state, fresh);
   std::fill(fingers_on.begin(), fingers_on.end(), 0);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count); ++f) {
+  for (std::size_t f = 0; f < contact.fingers.size(); ++f) {
     sumFinger(f, contact.fingers[f], tick);
     if (fingers[f].pop_through == 0 && contact.pop_through_by_finger[f] > 0) fingers[f].first_pop_through = tick.time;
     fingers[f].pop_through = contact.pop_through_by_finger[f];
@@ -232,13 +245,13 @@ std::vector<std::string> Monitor::stages() const {
   return stages;
 }
 
-const std::array<FingerSummary, kMaxFingers>& Monitor::fingers() const noexcept { return impl_->fingers; }
+const std::vector<FingerSummary>& Monitor::fingers() const noexcept { return impl_->fingers; }
 const std::vector<ObjectSummary>& Monitor::objects() const noexcept { return impl_->objects; }
 const std::vector<SlipOnset>& Monitor::slipOnsets(std::size_t finger) const noexcept {
   return impl_->slip_onsets[finger];
 }
 std::uint64_t Monitor::hash() const noexcept { return impl_->hash.value(); }
-const std::vector<TraceSample>& Monitor::trace() const noexcept { return impl_->trace; }
+const BoundedList<TraceSample>& Monitor::trace() const noexcept { return impl_->trace; }
 const std::vector<std::int32_t>& Monitor::tracedBodies() const noexcept { return impl_->traced; }
 std::uint32_t Monitor::popThrough() const noexcept { return impl_->pop_through; }
 std::uint32_t Monitor::coverageLost() const noexcept { return impl_->coverage_lost; }

@@ -52,9 +52,9 @@ struct ObjectSummary {
 struct TraceSample {
   double time = 0;
   std::int32_t phase = -1;
-  std::array<FingerContact, kMaxFingers> fingers;  ///< HIP, proxy, mode, forces
-  std::array<Vec3, kMaxFingers> f_command;         ///< after the output stage [N]
-  std::array<Pose, 4> bodies;                      ///< poses of the first four free bodies
+  std::vector<FingerContact> fingers;  ///< HIP, proxy, mode, forces
+  std::vector<Vec3> f_command;         ///< after the output stage [N]
+  std::array<Pose, 4> bodies;          ///< poses of the first four free bodies
 };
 
 /// Haptic-rate observer: summaries, state hash and a decimated trace. Allocates all memory at construction. Read the
@@ -69,14 +69,15 @@ class Monitor final : public HapticObserver {
   void observe(const HapticSample& sample) noexcept override;
   std::vector<std::string> stages() const override;
 
-  const std::array<FingerSummary, kMaxFingers>& fingers() const noexcept;
+  /// In the order of the scene's roles.
+  const std::vector<FingerSummary>& fingers() const noexcept;
   /// Same order as Scene::bodies.
   const std::vector<ObjectSummary>& objects() const noexcept;
   /// The first kMaxSlipOnsets of one finger, in time order.
   const std::vector<SlipOnset>& slipOnsets(std::size_t finger) const noexcept;
   /// State hash of the run, see StateHash.
   std::uint64_t hash() const noexcept;
-  const std::vector<TraceSample>& trace() const noexcept;
+  const BoundedList<TraceSample>& trace() const noexcept;
   /// Scene indices of the bodies in TraceSample::bodies.
   const std::vector<std::int32_t>& tracedBodies() const noexcept;
   std::uint32_t popThrough() const noexcept;

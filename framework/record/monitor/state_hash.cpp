@@ -1,6 +1,11 @@
 #include "framework/record/monitor/state_hash.h"
 
 namespace presa {
+namespace {
+
+constexpr std::size_t kHashedFingers = 8;
+
+}  // namespace
 
 void StateHash::add(const Vec3& v) noexcept {
   add(v.x());
@@ -18,9 +23,9 @@ void StateHash::add(const Pose& pose) noexcept {
 
 void StateHash::add(const DeviceState& state) noexcept {
   add(state.time);
-  add(state.count);
+  add(state.count());
   add(state.stop_requested);
-  for (std::size_t f = 0; f < static_cast<std::size_t>(state.count); ++f) {
+  for (std::size_t f = 0; f < state.fingers.size(); ++f) {
     const FingerInput& finger = state.fingers[f];
     add(finger.p_WH);
     add(finger.v_WH);
@@ -55,10 +60,10 @@ void StateHash::add(const FingerContact& finger) noexcept {
 
 void StateHash::add(const ContactExchange& state) noexcept {
   add(state.time);
-  add(state.count);
+  add(state.count());
   add(state.coverage_lost);
   add(state.pop_through);
-  const auto count = static_cast<std::size_t>(state.count);
+  const auto count = state.fingers.size();
   for (std::size_t f = 0; f < count; ++f) add(state.pop_through_by_finger[f]);
   for (std::size_t f = 0; f < count; ++f) add(state.fingers[f]);
 }
@@ -72,7 +77,10 @@ void StateHash::add(const ObjectState& state) noexcept {
   add(state.penetration.points);
   add(state.penetration.mean);
   add(state.penetration.worst);
-  for (const Vec3& impulse_W : state.finger_impulse_W) add(impulse_W);
+  const std::vector<Vec3>& impulses = state.finger_impulse_W;
+  for (const Vec3& impulse_W : impulses) add(impulse_W);
+  // zeros for the fingers of a fixed-size state keep the hashes of earlier versions
+  for (std::size_t f = impulses.size(); f < kHashedFingers; ++f) add(Vec3(Vec3::Zero()));
   for (const BodyMotion& body : state.bodies) {
     add(body.X_WB_begin);
     add(body.X_WB_end);

@@ -18,6 +18,13 @@ FingerInput inputOf(const FingerRow& row) {
           .lost = (row.valid & 2) != 0};
 }
 
+void makeRoom(std::size_t fingers, DeviceState& device, ForceCommand& command) {
+  if (device.fingers.size() >= fingers) return;
+  device.fingers.resize(fingers);
+  command.f_H_W.resize(fingers, Vec3::Zero());
+  command.t_H_W.resize(fingers, Vec3::Zero());
+}
+
 /// Copies the per-tick values that do not belong to a finger.
 void takeTicks(const Contents& contents, Recording& recording) {
   for (std::size_t i = 0; i < contents.count; ++i) {
@@ -25,12 +32,10 @@ void takeTicks(const Contents& contents, Recording& recording) {
     recording.time.push_back(tick.time);
     DeviceState& device = recording.device[i];
     device.time = tick.device_time;
-    device.count = tick.device_count;
     device.stop_requested = tick.stop_requested != 0;
     device.rearms = static_cast<std::uint32_t>(tick.rearms);
     ForceCommand& command = recording.command[i];
     command.time = tick.command_time;
-    command.count = tick.command_count;
     command.status = tick.output_status;
     recording.surfaces_changed.push_back(tick.surfaces_changed != 0 ? 1 : 0);
     if (tick.commanded != 0)
@@ -67,8 +72,7 @@ Recording readRecording(const std::string& file) {
       recording.command.resize(rows.size());
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (table.place == 0)
-        recording.command[i].f_H_W.fill(Vec3::Zero()), recording.command[i].t_H_W.fill(Vec3::Zero());
+      makeRoom(table.place + 1, recording.device[i], recording.command[i]);
       recording.device[i].fingers[table.place] = inputOf(rows[i]);
       recording.command[i].f_H_W[table.place] = Vec3(rows[i].f_command_W);
     }
@@ -97,8 +101,6 @@ Recording readRecording(const std::string& file) {
   recording.left_out = contents.stored.ticks.rows - contents.count;
   recording.device.resize(contents.count);
   recording.command.resize(contents.count);
-  if (recording.fingers == 0)
-    for (ForceCommand& command : recording.command) command.f_H_W.fill(Vec3::Zero()), command.t_H_W.fill(Vec3::Zero());
   takeTicks(contents, recording);
   return recording;
 }

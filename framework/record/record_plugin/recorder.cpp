@@ -104,8 +104,8 @@ void FileRecorder::fillRow(const Tick& tick) noexcept {
   row.device_time = device_->time;
   row.command_time = command_->time;
   row.object_time_end = objects_->time_end;
-  row.device_count = device_->count;
-  row.command_count = command_->count;
+  row.device_count = device_->count();
+  row.command_count = command_->count();
   row.stop_requested = device_->stop_requested ? 1 : 0;
   row.rearms = device_->rearms;
   row.surfaces_changed = surfaces_.hasValue() && surfaces_->happened ? 1 : 0;

@@ -83,7 +83,7 @@ Table scheduleTable() {
 
 RowLayout layoutOf(const World& world, const std::vector<std::size_t>& tools) {
   RowLayout layout;
-  layout.fingers = std::min<std::size_t>(world.scene.devices.size(), kMaxFingers);
+  layout.fingers = world.scene.devices.size();
   layout.bodies = static_cast<std::size_t>(std::count_if(world.scene.bodies.begin(), world.scene.bodies.end(),
                                                          [](const Body& body) { return !body.fixed; }));
   layout.tools = tools;

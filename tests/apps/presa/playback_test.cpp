@@ -40,7 +40,7 @@ TEST(Playback, AMomentIsWhatWasRecorded) {
   ForceCommand command;
   for (const std::size_t row : {0u, 1000u, 2300u, 2499u}) {
     moment.fill(recording.time[row] + 0.5e-3, objects, device, contacts, command);  // between ticks: the earlier one
-    ASSERT_EQ(device.count, 2);
+    ASSERT_EQ(device.count(), 2);
     for (std::size_t f = 0; f < 2; ++f) {
       EXPECT_EQ(device.fingers[f].p_WH, recording.device[row].fingers[f].p_WH);
       EXPECT_EQ(device.fingers[f].v_WH, recording.device[row].fingers[f].v_WH);

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "experiments/study/prescribed_finger.h"
-#include "framework/core/state/object_state.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
+#include "tests/experiments/study/eye.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {
@@ -36,14 +36,6 @@ std::string crowdXml() {
          "\"/></devices></scene>";
 }
 
-class Eye final : public Module {
- public:
-  Eye() : Module("eye", RateGroup::kHaptic) {}
-  void step(const Tick&) noexcept override {}
-  In<ObjectState> objects{*this, "object_state"};
-  In<ContactExchange> contact{*this, "contact_exchange"};
-};
-
 // The finger presses on the last free cube and feels its material's spring, k times the depth; the other cubes stay in
 // place. No tick of the haptic group allocates or takes a lock, the first one included.
 TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
@@ -62,8 +54,8 @@ TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
     const double height = std::max(-kDepth, 0.01 - 0.05 * time);
     return PrescribedFinger::State{top + Vec3(0, 0, height), Vec3(0, 0, height > -kDepth ? -0.05 : 0)};
   }));
-  auto made = std::make_unique<Eye>();
-  const Eye& eye = *made;
+  auto made = std::make_unique<test::Eye>();
+  const test::Eye& eye = *made;
   session_options.more.push_back(std::move(made));
   RunControl control;
   const RateTable rates(loaded.world->scene.rates);

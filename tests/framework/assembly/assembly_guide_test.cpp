@@ -28,7 +28,7 @@ class GuideTest : public testing::Test {
     scene_.assembly = assembly;
     state_.goals.resize(3);
     objects_.bodies.resize(4);
-    contacts_.count = 2;
+    contacts_ = ContactExchange(2);
     place(0, 0.2, 0.03);
     place(1, 0.3, 0.03);
     place(2, 0.4, 0.03);

@@ -11,10 +11,11 @@ namespace presa::test {
 /// Replaces the rendering: commands a given wrench.
 class Commands final : public Module {
  public:
-  explicit Commands(const Wrench& wish = {}) : Module("rendering", RateGroup::kHaptic), wanted(wish) {}
+  explicit Commands(const Wrench& wish = {}) : Module("rendering", RateGroup::kHaptic), wanted(wish) {
+    out.value = ContactExchange(1);
+  }
   void step(const Tick& tick) noexcept override {
     out.value.time = tick.time;
-    out.value.count = 1;
     out.value.fingers[0].f_H_W = wanted.f;
     out.value.fingers[0].t_H_W = wanted.t;
   }

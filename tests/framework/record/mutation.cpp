@@ -187,9 +187,8 @@ std::string judgeRecording(const Recording& r, std::uint64_t specimen_ticks) {
   const std::size_t ticks = r.time.size();
   if (ticks == 0 || r.device.size() != ticks || r.command.size() != ticks || r.surfaces_changed.size() != ticks)
     return "lists of different length";
-  if (r.fingers > static_cast<std::size_t>(kMaxFingers)) return "more fingers than there is room for";
   for (std::size_t i = 0; i < ticks; ++i) {
-    if (r.device[i].count != static_cast<int>(r.fingers) || r.command[i].count != static_cast<int>(r.fingers))
+    if (r.device[i].fingers.size() != r.fingers || r.command[i].f_H_W.size() != r.fingers)
       return "a tick with other fingers";
     if (!std::isfinite(r.time[i]) || (i > 0 && r.time[i] <= r.time[i - 1])) return "a time that does not rise";
     for (const FingerInput& finger : r.device[i].fingers)

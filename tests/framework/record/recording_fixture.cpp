@@ -13,8 +13,8 @@ bool sameBits(const Vec3& a, const Vec3& b) {
 }
 
 bool same(const DeviceState& a, const DeviceState& b) {
-  bool equal =
-      sameBits(a.time, b.time) && a.count == b.count && a.stop_requested == b.stop_requested && a.rearms == b.rearms;
+  bool equal = sameBits(a.time, b.time) && a.count() == b.count() && a.stop_requested == b.stop_requested &&
+               a.rearms == b.rearms;
   for (std::size_t f = 0; f < 2; ++f) {
     const FingerInput &x = a.fingers[f], &y = b.fingers[f];
     equal = equal && sameBits(x.p_WH, y.p_WH) && sameBits(x.v_WH, y.v_WH) && x.phase == y.phase && x.valid == y.valid;
@@ -23,16 +23,12 @@ bool same(const DeviceState& a, const DeviceState& b) {
 }
 
 bool same(const ForceCommand& a, const ForceCommand& b) {
-  return sameBits(a.time, b.time) && a.count == b.count && a.status == b.status && sameBits(a.f_H_W[0], b.f_H_W[0]) &&
-         sameBits(a.f_H_W[1], b.f_H_W[1]);
+  return sameBits(a.time, b.time) && a.count() == b.count() && a.status == b.status &&
+         sameBits(a.f_H_W[0], b.f_H_W[0]) && sameBits(a.f_H_W[1], b.f_H_W[1]);
 }
 
-}  // namespace
-
-DeviceState deviceAt(std::uint64_t tick) {
-  DeviceState state;
+void set(DeviceState& state, std::uint64_t tick) {
   state.time = fractionAt(tick, 0);
-  state.count = 2;
   state.stop_requested = bitsAt(tick, 2) % 2 == 1;
   state.rearms = static_cast<std::uint32_t>(bitsAt(tick, 6));
   for (std::size_t f = 0; f < 2; ++f) {
@@ -40,16 +36,26 @@ DeviceState deviceAt(std::uint64_t tick) {
                         static_cast<std::int32_t>(bitsAt(tick, 16 + 20 * f) % 65537) - 1,
                         bitsAt(tick, 17 + 20 * f) % 2 == 1};
   }
+}
+
+void set(ForceCommand& command, std::uint64_t tick) {
+  command.time = fractionAt(tick, 3);
+  command.status = static_cast<std::uint32_t>(bitsAt(tick, 5));
+  command.f_H_W[0] = vectorAt(tick, 20);
+  command.f_H_W[1] = vectorAt(tick, 40);
+}
+
+}  // namespace
+
+DeviceState deviceAt(std::uint64_t tick) {
+  DeviceState state(2);
+  set(state, tick);
   return state;
 }
 
 ForceCommand commandAt(std::uint64_t tick) {
-  ForceCommand command;
-  command.time = fractionAt(tick, 3);
-  command.count = 2;
-  command.status = static_cast<std::uint32_t>(bitsAt(tick, 5));
-  command.f_H_W[0] = vectorAt(tick, 20);
-  command.f_H_W[1] = vectorAt(tick, 40);
+  ForceCommand command(2);
+  set(command, tick);
   return command;
 }
 
@@ -65,10 +71,9 @@ void setObjects(ObjectState& state, std::uint64_t tick, double time) {
 }
 
 void Source::step(const Tick& tick) noexcept {
-  device.value = deviceAt(tick.index);
-  command.value = commandAt(tick.index);
+  set(device.value, tick.index);
+  set(command.value, tick.index);
   setObjects(objects.value, tick.index, tick.time);
-  contact.value.count = 2;
   contact.value.fingers[0].mode = ContactMode::kSlip;
   contact.value.fingers[0].body = 1;
   contact.value.fingers[0].depth = 0.25;

@@ -36,7 +36,12 @@ void setObjects(ObjectState& state, std::uint64_t tick, double time);
 /// Stands in for all modules of the haptic and dynamics groups.
 class Source final : public Module {
  public:
-  Source() : Module("source", RateGroup::kHaptic) { objects.value.bodies.resize(2); }
+  Source() : Module("source", RateGroup::kHaptic) {
+    device.value = DeviceState(2);
+    contact.value = ContactExchange(2);
+    command.value = ForceCommand(2);
+    objects.value.bodies.resize(2);
+  }
   void step(const Tick& tick) noexcept override;
   Out<DeviceState> device{*this, "device_state"};
   Out<ContactExchange> contact{*this, "contact_exchange"};

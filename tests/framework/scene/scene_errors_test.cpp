@@ -190,10 +190,10 @@ TEST(SceneErrors, BodiesNeedAMaterialInTheScene) {
   EXPECT_EQ(codesOf(findings), std::vector<int>{205}) << findings.text();
 }
 
-// The exchange buffers have a fixed capacity: one device too many must be refused here, not overrun them later.
+// The scene sizes all memory, so a typing error must not ask for any amount of it.
 TEST(SceneErrors, CapacityIsAHardLimit) {
   std::string devices;
-  for (int i = 0; i < 6; ++i) devices += "<device role=\"d" + std::to_string(i) + "\"/>\n";
+  for (int i = 2; i < kMaxFingers; ++i) devices += "<device role=\"d" + std::to_string(i) + "\"/>\n";
   std::string scene = edited(kScene, "  <devices>\n", "<devices>\n" + devices);
   EXPECT_TRUE(findingsOf(scene).all().empty()) << findingsOf(scene).text();
   scene = edited(scene, "<devices>\n", "<devices>\n<device role=\"last\"/>");

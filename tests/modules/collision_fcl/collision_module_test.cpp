@@ -59,7 +59,7 @@ class CollisionModuleTest : public testing::Test {
   }
   const FingerNeighbourhood& query(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero()) {
     if (!module_) start();
-    device_.out.value.count = 1;
+    device_.out.value.fingers.resize(1);
     device_.out.value.fingers[0].p_WH = p_WH;
     device_.out.value.fingers[0].v_WH = v_WH;
     for (BridgeBase* bridge : std::initializer_list<BridgeBase*>{device_bridge_.get(), objects_bridge_.get()}) {
@@ -212,7 +212,7 @@ TEST_F(CollisionModuleTest, RoomIsThatOfTheScenesDevices) {
   const FingerNeighbourhoods& neighbourhoods = module_->finger_neighbourhoods.value;
   EXPECT_EQ(neighbourhoods.fingers.size(), 1u);
   EXPECT_EQ(neighbourhoods.roomBytes(), sizeof(FingerNeighbourhood));
-  device_.out.value.count = 2;
+  device_.out.value.fingers.resize(2);
   device_bridge_->push(0);
   device_bridge_->pull();
   module_->step(tick_);

@@ -52,6 +52,7 @@ TEST_P(PileAllocation, NoneWhileItIsAwake) {
 
 TEST_P(PileAllocation, NoneWhileItFallsAsleepAndIsWoken) {
   Runner runner(pile(GetParam(), 0.001));
+  runner.bodies.makeRoom(ContactExchange(1));
   runner.run(0.1);
   expectNone(runner, 1.9);
   ASSERT_TRUE(runner[1].asleep);

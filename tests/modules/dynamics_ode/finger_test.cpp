@@ -177,8 +177,7 @@ TEST(Finger, OldSampleIsExtrapolatedWithItsVelocity) {
     std::vector<ReferenceFinger> fingers{{0, {0, 0, -kEdge / 2}, -Vec3::UnitZ()}};
     fingers[0].p_WH = fingers[0].p_BP + Vec3(0.0005, 0, 0.002) - age * v;
     fingers[0].v_WH = v;
-    ContactExchange exchange;
-    exchange.count = 1;
+    ContactExchange exchange(1);
     exchange.time = -age;
     exchange.fingers[0] = fingers[0].contact({-age * v, Quat::Identity()});
     runner.step(exchange);
@@ -200,8 +199,7 @@ TEST(Finger, SlipsInTheStepInWhichItsStaticBoundIsReached) {
     ReferenceFinger finger(0, {0, 0, kEdge / 2}, Vec3::UnitZ());
     finger.p_WH = finger.p_BP - Vec3(0.0014, 0, 0.002);
     finger.v_WH = Vec3(-(end - 0.0014) / kStep, 0, 0);
-    ContactExchange exchange;
-    exchange.count = 1;
+    ContactExchange exchange(1);
     exchange.fingers[0] = finger.contact({});
     exchange.fingers[0].mode = ContactMode::kStick;
     exchange.fingers[0].friction_static = 0.8;
@@ -287,8 +285,7 @@ TEST(Finger, GivesNoForceAcrossAGap) {
     Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, 0.1, {}).world());
     ReferenceFinger finger(0, {0, 0, kEdge / 2}, Vec3::UnitZ());
     finger.p_WH = finger.p_BP - 1e-6 * Vec3::UnitZ();
-    ContactExchange exchange;
-    exchange.count = 1;
+    ContactExchange exchange(1);
     exchange.fingers[0] = finger.contact({});
     exchange.fingers[0].p_WH = finger.p_BP + 0.001 * Vec3::UnitZ();  // 1 mm away; closes 0.5 mm at 0.1 m/s
     exchange.fingers[0].v_WH = -speed * Vec3::UnitZ();

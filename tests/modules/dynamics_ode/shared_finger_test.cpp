@@ -15,25 +15,27 @@ TEST(SharedFinger, EachBodyGetsItsOwnPart) {
   Runner runner(maker.world());
   const Vec3 on_left(0.4, 0, 0.5), on_right(-0.4, 0, 0.5);  // forces of the bodies on the finger
   for (int n = 0; n < std::lround(kTime / kStep); ++n) {
-    ContactExchange exchange;
+    ContactExchange exchange(1, 2);
     exchange.time = runner.time;
-    exchange.count = 1;
     FingerContact& contact = exchange.fingers[0];
     contact.mode = ContactMode::kSlip;
     contact.stiffness = kStiffness;
     contact.body = 0;
     contact.p_WP = Vec3(0, 0, 0.00624);
     contact.p_WH = contact.p_WP - (on_left + on_right) / kStiffness;
-    contact.part_count = 2;
+    contact.contact_count = 2;
     for (const std::int32_t body : {0, 1}) {
-      ContactPart& part = contact.parts[static_cast<std::size_t>(body)];
       const Pose& X_WB = runner[static_cast<std::size_t>(body)].X_WB_end;
       const Vec3 force = body == 0 ? on_left : on_right;
-      part = {body, X_WB.inverseTimes(contact.p_WP), X_WB.q.conjugate() * force.normalized(), force / kStiffness};
+      exchange.contacts.add({.body = body,
+                             .p_BP = X_WB.inverseTimes(contact.p_WP),
+                             .nhat_B = X_WB.q.conjugate() * force.normalized(),
+                             .stretch_W = force / kStiffness,
+                             .stiffness = kStiffness,
+                             .share = 0.5});
     }
-    contact.p_BP = contact.parts[0].p_BP;
-    contact.p_BC = contact.p_BP;
-    contact.nhat_B = contact.parts[0].nhat_B;
+    contact.p_BP = contact.p_BC = exchange.contacts[0].p_BP;
+    contact.nhat_B = exchange.contacts[0].nhat_B;
     runner.step(exchange);
     EXPECT_NEAR((runner.bodies.fingerForce(0) + on_left + on_right).norm(), 0, 0.01);
   }

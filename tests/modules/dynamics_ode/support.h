@@ -152,9 +152,8 @@ struct ReferenceFinger {
 
 /// The contact exchange that the haptic thread would publish at the runner's time.
 inline ContactExchange exchangeOf(std::vector<ReferenceFinger>& fingers, const Runner& runner) {
-  ContactExchange exchange;
+  ContactExchange exchange(fingers.size());
   exchange.time = runner.time;
-  exchange.count = static_cast<std::int32_t>(fingers.size());
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     exchange.fingers[i] = fingers[i].contact(runner.state.poseAt(fingers[i].body, runner.time));
   }

@@ -53,7 +53,6 @@ class OneFinger {
   OneFinger(World world, const HapticEffects& effects) : world_(indexed(std::move(world))) { build(effects); }
 
   const FingerContact& tick(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero(), double time = 0) {
-    device_->out.value.count = 1;
     device_->out.value.fingers[0] = {p_WH, v_WH, -1, true};
     graph_.step(RateGroup::kHaptic, {index_++, time, 1e-3});
     return sink_->contact->fingers[0];
@@ -73,6 +72,7 @@ class OneFinger {
   void build(const HapticEffects& effects) {
     GraphBuilder builder;
     device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
+    device_->out.value = DeviceState(1);
     neighbourhoods_ = &builder.add(std::make_unique<Source<FingerNeighbourhoods>>("contact_patches"));
     neighbourhoods_->out.value.fingers.resize(1);
     surfaces_ = &builder.add(std::make_unique<Source<SurfaceChange>>("surface_change"));

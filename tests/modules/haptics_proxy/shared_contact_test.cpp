@@ -33,18 +33,18 @@ World boxes(const std::vector<std::pair<Vec3, Pose>>& all, bool mesh, double mu 
   return world;
 }
 
-Vec3 partOf(const FingerContact& contact, std::int32_t body) {
-  for (std::int32_t p = 0; p < contact.part_count; ++p) {
-    const ContactPart& part = contact.parts[static_cast<std::size_t>(p)];
-    if (part.body == body) return kStiffness * part.stretch_W;
+Vec3 partOf(const test::OneFinger& finger, std::int32_t body) {
+  Vec3 sum = Vec3::Zero();
+  for (const ToolContact& part : finger.all().contactsOf(finger.all().fingers[0])) {
+    if (part.body == body) sum += part.f_H_W;
   }
-  return Vec3::Zero();
+  return sum;
 }
 
-Vec3 sumOfParts(const FingerContact& contact) {
+Vec3 sumOfParts(const test::OneFinger& finger) {
   Vec3 sum = Vec3::Zero();
-  for (std::int32_t p = 0; p < contact.part_count; ++p) sum += contact.parts[static_cast<std::size_t>(p)].stretch_W;
-  return kStiffness * sum;
+  for (const ToolContact& part : finger.all().contactsOf(finger.all().fingers[0])) sum += part.f_H_W;
+  return sum;
 }
 
 // Two cubes 10 mm apart hold the fingertip between their upper edges: each pushes along the line from its edge to the
@@ -57,12 +57,12 @@ TEST(SharedContact, TwoEdgesShareAForceAlike) {
     FingerContact contact;
     const double top = std::sqrt(kR * kR - 0.005 * 0.005);
     for (int i = 0; i <= 100; ++i) contact = finger.tick({0, 0, top + 0.001 - 2e-5 * i});
-    ASSERT_EQ(contact.part_count, 2) << mesh;
+    ASSERT_EQ(contact.contact_count, 2U) << mesh;
     EXPECT_NEAR((contact.f_H_W - Vec3(0, 0, 1)).norm(), 0, 0.001);
-    EXPECT_NEAR((sumOfParts(contact) - contact.f_H_W).norm(), 0, 1e-9);
+    EXPECT_NEAR((sumOfParts(finger) - contact.f_H_W).norm(), 0, 1e-9);
     const double sideways = 0.5 * 0.005 / top;  // F / 2 tan
-    EXPECT_NEAR((partOf(contact, 0) - Vec3(sideways, 0, 0.5)).norm(), 0, 0.01 * 0.64) << mesh;
-    EXPECT_NEAR((partOf(contact, 1) - Vec3(-sideways, 0, 0.5)).norm(), 0, 0.01 * 0.64) << mesh;
+    EXPECT_NEAR((partOf(finger, 0) - Vec3(sideways, 0, 0.5)).norm(), 0, 0.01 * 0.64) << mesh;
+    EXPECT_NEAR((partOf(finger, 1) - Vec3(-sideways, 0, 0.5)).norm(), 0, 0.01 * 0.64) << mesh;
   }
 }
 
@@ -89,12 +89,12 @@ TEST(SharedContact, AWedgeSharesByItsMultipliers) {
       FingerContact contact;
       for (int i = 0; i <= 150; ++i) contact = finger.tick(rest - 0.001 * in + 2e-5 * i * in);
       const Vec3 load = contact.f_H_W;
-      ASSERT_EQ(contact.part_count, 2) << mesh << toward;
+      ASSERT_EQ(contact.contact_count, 2U) << mesh << toward;
       Mat3 normals;
       normals << floor_nhat, wall_nhat, Vec3::UnitY();
       const Vec3 multipliers = normals.inverse() * load;
-      EXPECT_NEAR((partOf(contact, 0) - multipliers[0] * floor_nhat).norm(), 0, 0.01 * load.norm()) << mesh << toward;
-      EXPECT_NEAR((partOf(contact, 1) - multipliers[1] * wall_nhat).norm(), 0, 0.01 * load.norm()) << mesh << toward;
+      EXPECT_NEAR((partOf(finger, 0) - multipliers[0] * floor_nhat).norm(), 0, 0.01 * load.norm()) << mesh << toward;
+      EXPECT_NEAR((partOf(finger, 1) - multipliers[1] * wall_nhat).norm(), 0, 0.01 * load.norm()) << mesh << toward;
     }
   }
 }
@@ -110,11 +110,11 @@ TEST(SharedContact, ThreeBodiesInACornerEachBearTheirAxis) {
     const Vec3 rest = Vec3::Constant(kR), in(-1e-3, -2e-3, -3e-3);
     FingerContact contact;
     for (int i = 0; i <= 200; ++i) contact = finger.tick(rest - in + 0.01 * i * in);
-    ASSERT_EQ(contact.part_count, 3);
-    EXPECT_NEAR((sumOfParts(contact) - contact.f_H_W).norm(), 0, 1e-6);
+    ASSERT_EQ(contact.contact_count, 3U);
+    EXPECT_NEAR((sumOfParts(finger) - contact.f_H_W).norm(), 0, 1e-6);
     if (mu > 0) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_NEAR((partOf(contact, axis) + kStiffness * in[axis] * Vec3::Unit(axis)).norm(), 0, 0.01 * 3) << axis;
+      EXPECT_NEAR((partOf(finger, axis) + kStiffness * in[axis] * Vec3::Unit(axis)).norm(), 0, 0.01 * 3) << axis;
     }
   }
 }

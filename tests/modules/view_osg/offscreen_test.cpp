@@ -126,7 +126,8 @@ TEST_F(Offscreen, MovingTheObjectMovesItsPixels) {
     }
     run.world->meshes.resize(4);
     PinchStates states = makePinchStates(*run.world, {i == 0 ? -0.03 : 0.03, 0, kCubeEdge / 2});
-    states.device.count = states.contacts.count = 0;
+    states.device = DeviceState();
+    states.contacts = ContactExchange();
     ASSERT_EQ(drawOnce(run, states).outcome, View::Screenshot::Outcome::kWritten);
     blobs[i] = redBlob(PngPicture(file));
     ASSERT_GT(blobs[i].pixels, 500);
@@ -204,7 +205,8 @@ TEST_F(Offscreen, ShowsWhatIsAskedFor) {
     auto run = makePinchRun(RunOptions::View::kOffscreen, file);
     run.options.show = std::move(show);
     PinchStates states = makePinchStates(*run.world, {0, 0, 0.08});
-    states.device.count = states.contacts.count = 0;
+    states.device = DeviceState();
+    states.contacts = ContactExchange();
     EXPECT_EQ(drawOnce(run, states).outcome, View::Screenshot::Outcome::kWritten);
     return PngPicture(file);
   };

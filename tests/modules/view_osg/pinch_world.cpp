@@ -50,7 +50,9 @@ PinchStates makePinchStates(const World& world, const Vec3& p_WO, double yaw) {
   states.objects.bodies[0].X_WB_begin = states.objects.bodies[0].X_WB_end = world.scene.bodies[0].X_WB;
   states.objects.bodies[1].X_WB_begin = states.objects.bodies[1].X_WB_end = X_WO;
 
-  states.device.count = states.contacts.count = states.forces.count = 2;
+  states.device = DeviceState(2);
+  states.contacts = ContactExchange(2);
+  states.forces = ForceCommand(2);
   const double radius = world.scene.devices[0].fingertip_radius;
   for (std::size_t i = 0; i < 2; ++i) {
     const double side = i == 0 ? -1 : 1;

@@ -15,11 +15,10 @@ namespace {
 /// Replaces the rendering: a constant force for both fingers.
 class ConstantForce final : public Module {
  public:
-  ConstantForce() : Module("rendering", RateGroup::kHaptic) {}
+  ConstantForce() : Module("rendering", RateGroup::kHaptic) { out.value = ContactExchange(2); }
   void step(const Tick& tick) noexcept override {
     for (std::size_t f : {0UL, 1UL}) late += device->fingers[f].valid ? 0 : 1;
     out.value.time = tick.time;
-    out.value.count = 2;
     for (std::size_t f : {0UL, 1UL}) out.value.fingers[f].f_H_W = {0, 0, 3};
   }
   In<DeviceState> device{*this, "device_state"};

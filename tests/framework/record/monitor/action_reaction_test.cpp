@@ -12,6 +12,7 @@ constexpr double kTick = 0.001, kStep = 0.005;
 
 Scene sceneWithOneBody(bool fixed) {
   Scene scene;
+  scene.devices.resize(1);
   scene.bodies.resize(1);
   scene.bodies[0].fixed = fixed;
   return scene;
@@ -22,10 +23,11 @@ Scene sceneWithOneBody(bool fixed) {
 /// `touch` on.
 ActionReaction::Result run(double share, bool fixed = false, double touch = 0) {
   ActionReaction reaction(sceneWithOneBody(fixed));
-  ContactExchange contact;
-  contact.count = 1;
+  ContactExchange contact(1);
   auto objects = std::make_unique<ObjectState>();
   objects->bodies.resize(1);
+  objects->touches = BoundedList<FingerImpulse>(1);
+  FingerImpulse& impulse = *objects->touches.add({.finger = 0, .body = 0});
   const auto force = [touch](double t) { return t < touch ? 0.0 : 2 + std::sin(40 * t); };
   for (int i = 0; i < 500; ++i) {
     const double time = i * kTick;
@@ -33,12 +35,14 @@ ActionReaction::Result run(double share, bool fixed = false, double touch = 0) {
     if (fresh) {
       objects->time_begin = time;
       objects->time_end = time + kStep;
-      for (int k = 3; k <= 7; ++k) objects->finger_impulse_W[0] += Vec3(0, 0, -share * kTick * force((i + k) * kTick));
+      for (int k = 3; k <= 7; ++k) impulse.impulse_W += Vec3(0, 0, -share * kTick * force((i + k) * kTick));
     }
     FingerContact& finger = contact.fingers[0];
     finger.mode = time < touch ? ContactMode::kNone : ContactMode::kStick;
     finger.body = time < touch ? kNoBody : 0;
-    finger.f_H_W = Vec3(0, 0, force(time));
+    finger.contact_count = time < touch ? 0 : 1;
+    contact.contacts.clear();
+    if (time >= touch) contact.contacts.add({.body = 0, .f_H_W = Vec3(0, 0, force(time))});
     Tick tick;
     tick.index = static_cast<std::uint64_t>(i);
     tick.time = time;

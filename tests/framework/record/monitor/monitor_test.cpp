@@ -174,7 +174,7 @@ TEST(Monitor, WithoutDynamicsObjectsRest) {
   EXPECT_EQ(cube.final, Vec3(0, 0, 0.035));
   EXPECT_EQ(cube.highest, Vec3(0, 0, 0.035));
   EXPECT_EQ(cube.peak_speed, 0);
-  EXPECT_EQ(feed.monitor.trace().back().bodies[0].p, Vec3(0, 0, 0.035));
+  EXPECT_EQ(feed.monitor.trace().end()[-1].bodies[0].p, Vec3(0, 0, 0.035));
 }
 
 // The trace is decimated, slip detection is not: the onset carries the forces of its tick and of the tick before.

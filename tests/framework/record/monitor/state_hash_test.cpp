@@ -30,7 +30,9 @@ struct States {
 
 States filledStates() {
   States s;
-  s.device.count = s.contact.count = 2;
+  s.device = DeviceState(2);
+  s.contact = ContactExchange(2);
+  s.objects.finger_impulse_W.assign(2, Vec3::Zero());
   s.objects.bodies.resize(2);
   return s;
 }
@@ -40,7 +42,7 @@ TEST(StateHash, EveryFieldCounts) {
   const std::vector<std::function<void(States&)>> changes{
       [](States& s) { s.device.time = 1e-300; },
       [](States& s) { s.device.stop_requested = true; },
-      [](States& s) { s.device.count = 1; },
+      [](States& s) { s.device.fingers.resize(1); },
       [](States& s) { s.device.fingers[1].p_WH.z() = 1e-9; },
       [](States& s) { s.device.fingers[1].v_WH.x() = 1e-9; },
       [](States& s) { s.device.fingers[0].phase = 3; },
@@ -111,12 +113,15 @@ TEST(StateHash, PaddingAndUnusedEntriesDoNotCount) {
     std::memset(memory.data(), fill, memory.size());
     // default-initialised, so that padding keeps the fill pattern
     States* s = new (memory.data()) States;
-    s->device.count = s->contact.count = 1;
     s->objects.bodies.resize(2);
     s->objects.bodies[1].v_WB = Vec3::Constant(fill);
     s->objects.bodies.resize(1);
-    s->device.fingers[5].p_WH = Vec3::Constant(fill);
-    s->contact.fingers[6].depth = fill;
+    s->device.fingers.resize(2);
+    s->device.fingers[1].p_WH = Vec3::Constant(fill);
+    s->device.fingers.resize(1);
+    s->contact = ContactExchange(1, 3);
+    s->contact.contacts.add()->depth = fill;
+    s->contact.contacts.clear();
     hashes.push_back(s->hash());
     s->~States();
   }

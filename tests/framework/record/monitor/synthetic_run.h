@@ -45,8 +45,6 @@ struct Feed {
   Feed(std::shared_ptr<const World> shared_world, double duration,
        double loosen_time = std::numeric_limits<double>::infinity(), double trace_rate = 0)
       : world(std::move(shared_world)), monitor(world, duration, loosen_time, trace_rate) {
-    device.count = contact.count = command.count = 2;
-    for (auto& force : command.f_H_W) force.setZero();
     objects.bodies.resize(2);
     place(Vec3(0, 0, 0.035));
   }
@@ -76,9 +74,9 @@ struct Feed {
 
   std::shared_ptr<const World> world;
   Monitor monitor;
-  DeviceState device;
-  ContactExchange contact;
-  ForceCommand command;
+  DeviceState device{2};
+  ContactExchange contact{2};
+  ForceCommand command{2};
   ObjectState objects;
   std::uint64_t index = 0;
   std::uint64_t version = 0;

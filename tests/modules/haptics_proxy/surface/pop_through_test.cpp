@@ -56,7 +56,7 @@ Way follow(const std::string& motion) {
   StudyRun run({.scene = (folder / "man.xml").string()});
   run.observe([&](const HapticSample& sample) {
     const FingerContact& finger = sample.contact.fingers[0];
-    if (sample.contact.count == 0) return;
+    if (sample.contact.count() == 0) return;
     way.min_distance = std::min(way.min_distance, oracle.nearest(finger.p_WP, 0.01).distance);
     if (watch.update(finger.p_WP) && way.first_inside < 0) way.first_inside = sample.tick.time;
     way.popped = sample.contact.pop_through;

@@ -61,6 +61,7 @@ FingerRig::FingerRig(std::shared_ptr<const TriMesh> mesh, const Touch& touch)
     : touch_(touch), world_(std::make_shared<const World>(worldOf(std::move(mesh), touch))) {
   GraphBuilder builder;
   device_ = &builder.add(std::make_unique<Source<DeviceState>>("device_state"));
+  device_->out.value = DeviceState(1);
   objects_ = &builder.add(std::make_unique<Source<ObjectState>>("object_state"));
   objects_->out.value.bodies.resize(1);
   builder.add(std::make_unique<HapticsProxy>(world_, RunOptions{}));
@@ -84,7 +85,6 @@ const FingerContact& FingerRig::tick(const Vec3& p_WH) {
                 {index_ / ticks_per_query, time, static_cast<double>(ticks_per_query) * kPeriod});
   }
   device_->out.value.time = time;
-  device_->out.value.count = 1;
   const Vec3 v_WH = index_ == 0 ? Vec3(Vec3::Zero()) : Vec3((p_WH - last_) / kPeriod);
   device_->out.value.fingers[0] = {p_WH, v_WH, -1, true};
   last_ = p_WH;

@@ -1,0 +1,159 @@
+#include "modules/haptics_proxy/contact_set.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace presa {
+namespace {
+
+constexpr std::size_t kMaxPlanes = std::tuple_size_v<decltype(ActiveSet::member)>;
+// Planes of several bodies may be parallel. Their cosines times this keep M positive definite, at most 5.3.
+constexpr double kIndependent = 0.9;
+
+std::span<ToolContact> contactsOf(const FingerTick& tick) noexcept {
+  return {tick.all.contacts.begin() + tick.out.first_contact, tick.out.contact_count};
+}
+
+// The contacts without friction, still in A: the renderer's own, or else one for each body of the active set.
+std::span<ToolContact> gather(FingerTick& tick) noexcept {
+  BoundedList<ToolContact>& contacts = tick.all.contacts;
+  tick.out.first_contact = static_cast<std::uint32_t>(contacts.size());
+  const auto mine = [&] { return std::span(contacts.begin() + tick.out.first_contact, contacts.end()); };
+  for (const RenderedContact& own : tick.own_contacts) {
+    contacts.add({.body = own.body, .stretch_W = own.depth * own.nhat, .share = own.depth});
+  }
+  const ActiveSet& active = tick.contact.active;
+  for (int a = 0; a < active.count && tick.own_contacts.empty(); ++a) {
+    const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
+    if (!(member.weight > 0)) continue;
+    const auto same = std::ranges::find(mine(), member.body, &ToolContact::body);
+    ToolContact& one = same != mine().end() ? *same : *contacts.add({.body = member.body, .share = 0});
+    one.stretch_W += member.weight * member.nhat;
+    one.share += member.weight;
+  }
+  tick.out.contact_count = static_cast<std::uint32_t>(mine().size());
+  return mine();
+}
+
+/// Normals and motion of the planes that hold a finger.
+struct Planes {
+  std::array<Vec3, kMaxPlanes> nhat_W, v_WB;
+  std::array<double, kMaxPlanes> closing;  // n . (velocity of the body - velocity of the finger) [m/s]
+  Mat3 M = Mat3::Identity();
+  Mat3 along = Mat3::Identity();  // projection on the directions along all planes: only there is friction
+};
+
+void addTo(Mat3& along, const Vec3& nhat) noexcept {
+  constexpr double kParallel = 0.05;  // sine of planes that count as one, squared
+  const Vec3 rest = along * nhat;
+  if (rest.squaredNorm() > kParallel) along -= rest * rest.transpose() / rest.squaredNorm();
+}
+
+Planes planesOf(const FingerTick& tick, std::span<const ToolContact> contacts) noexcept {
+  Planes planes;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Vec3 nhat = tick.touchables.frameOf(contacts[i].body).q * contacts[i].nhat_B;
+    const Vec3 v_WB = tick.touchables.velocityAt(contacts[i].body, tick.out.p_WP);
+    planes.nhat_W[i] = nhat;
+    planes.v_WB[i] = v_WB;
+    addTo(planes.along, nhat);
+    planes.closing[i] = nhat.dot(v_WB - tick.out.v_WH);
+  }
+  Mat3 products = Mat3::Identity();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+      products(a, b) = products(b, a) = kIndependent * planes.nhat_W[i].dot(planes.nhat_W[j]);
+    }
+  }
+  planes.M = products.inverse();
+  return planes;
+}
+
+// `rate`: ds/dt of the multiplier; `stiffer`: M_ii.
+void finish(const FingerContact& finger, const Vec3& nhat_W, double rate, double stiffer, ToolContact& one) noexcept {
+  one.f_H_W = finger.stiffness * one.stretch_W + finger.damping * rate * nhat_W;
+  // a damper does not pull
+  one.f_H_W -= std::min(0.0, one.f_H_W.dot(nhat_W)) * nhat_W;
+  one.stiffness = stiffer * finger.stiffness;
+  one.damping = stiffer * finger.damping;
+  one.stretch_W /= stiffer;
+  one.depth /= stiffer;
+}
+
+void finishSeveral(FingerTick& tick, std::span<ToolContact> contacts) noexcept {
+  FingerContact& out = tick.out;
+  Vec3 sum = Vec3::Zero();
+  if (tick.own_contacts.empty()) {
+    const Planes planes = planesOf(tick, contacts);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      double rate = 0;
+      for (std::size_t j = 0; j < contacts.size(); ++j)
+        rate += planes.M(row, static_cast<Eigen::Index>(j)) * planes.closing[j];
+      const double stiffer = planes.M(row, row);
+      const Vec3 &v_WB = planes.v_WB[i], &nhat = planes.nhat_W[i];
+      contacts[i].v_WH = v_WB + planes.along * (out.v_WH - v_WB) - rate / stiffer * nhat;
+      finish(out, nhat, rate, stiffer, contacts[i]);
+      sum += contacts[i].f_H_W;
+    }
+  } else {
+    for (ToolContact& one : contacts) {  // springs of their own already
+      const Vec3 nhat = tick.touchables.frameOf(one.body).q * one.nhat_B;
+      one.v_WH = out.v_WH;
+      finish(out, nhat, nhat.dot(tick.touchables.velocityAt(one.body, out.p_WP) - out.v_WH), 1, one);
+      sum += one.f_H_W;
+    }
+  }
+  out.f_H_W = sum;
+  out.normal_force = std::max(0.0, sum.dot(out.nhat_W));
+  out.tangential_force_W = sum - out.normal_force * out.nhat_W;
+}
+
+}  // namespace
+
+void divideContact(FingerTick& tick) noexcept {
+  const ProxyContact& contact = tick.contact;
+  const std::span<ToolContact> mine = gather(tick);
+  if (mine.size() < 2) {
+    if (mine.empty()) tick.all.contacts.add({});
+    tick.out.contact_count = 1;
+    return;
+  }
+  double total = 0;
+  Vec3 normal = Vec3::Zero();
+  for (const ToolContact& one : mine) {
+    total += one.share;
+    normal += one.stretch_W;
+  }
+  const Vec3 rest = contact.x - tick.g - normal;
+  for (ToolContact& one : mine) {
+    const Pose X_BA = tick.touchables.frameOf(one.body).inverse() * tick.X_WA;
+    const Vec3 nhat = one.stretch_W.normalized();
+    one.share /= total;
+    one.stretch_W += one.share * rest;
+    one.depth = one.stretch_W.dot(nhat);
+    one.nhat_B = X_BA.q * nhat;
+    one.p_BP = X_BA * contact.x;
+    one.stretch_W = tick.X_WA.q * one.stretch_W;
+  }
+}
+
+void finishContacts(FingerTick& tick) noexcept {
+  FingerContact& out = tick.out;
+  const std::span<ToolContact> mine = contactsOf(tick);
+  if (mine.size() > 1) return finishSeveral(tick, mine);
+  if (mine.empty()) return;
+  mine[0] = {.body = out.body,
+             .p_BP = out.p_BP,
+             .nhat_B = out.nhat_B,
+             .v_WH = out.v_WH,
+             .stretch_W = out.p_WP - out.p_WH,
+             .depth = out.depth,
+             .stiffness = out.stiffness,
+             .damping = out.damping,
+             .f_H_W = out.f_H_W};
+}
+
+}  // namespace presa
