@@ -1,4 +1,4 @@
-# find_package(Presa): the targets Presa::core, haptics, geometry, scene, device (one library, a target for each room of headers),
+# find_package(Presa): the targets Presa::core, plugin, haptics, geometry, scene, device (one library, a target for each room of headers),
 # Presa::testing, the program Presa::presa, and the functions of PresaPlugin.cmake.
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)

@@ -1,6 +1,6 @@
 #include "framework/bus/state_bus.h"
 
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/manifest.h"
 
 namespace presa::bus {

@@ -5,9 +5,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/device/device.h"
 #include "framework/device/device_rating.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/geometry/closest_point.h"
 #include "framework/geometry/mesh_decimate_abi.h"
+#include "framework/plugin/plugin_loader.h"
 
 namespace presa {
 namespace {

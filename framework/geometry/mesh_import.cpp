@@ -4,10 +4,10 @@
 #include <memory>
 #include <sstream>
 
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/geometry/mesh_import_abi.h"
 #include "framework/geometry/tri_mesh.h"
 #include "framework/input/input.h"
+#include "framework/plugin/plugin_loader.h"
 
 namespace presa {
 namespace {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "framework/core/math/spatial.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/plugin_element.h"
 
 namespace presa {

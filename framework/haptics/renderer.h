@@ -5,8 +5,8 @@
 #include <string>
 
 #include "framework/core/exchange/bounded_list.h"
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/haptics/surroundings.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/plugin_element.h"
 #include "framework/scene/world.h"
 

@@ -2,9 +2,9 @@
 #include <memory>
 #include <string>
 
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/haptics/renderer.h"
 #include "framework/haptics/touchables.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/plugin_element.h"
 #include "framework/scene/world.h"
 

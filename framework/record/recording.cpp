@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/record/record_plugin.h"
 
 namespace presa {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/scene_facts.h"
 #include "framework/scene/schemas.h"
 #include "framework/scene/xml/schema.h"

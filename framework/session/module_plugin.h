@@ -3,7 +3,7 @@
 #include <string>
 
 #include "framework/core/graph/module.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/plugin_element.h"
 #include "framework/scene/world.h"
 

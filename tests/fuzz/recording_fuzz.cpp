@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/record/checksum/checksum.h"
 #include "tests/framework/record/mutation.h"
 

@@ -10,7 +10,7 @@
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/templates/templates.h"
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/manifest.h"
 
 namespace presa {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "apps/presa/commands/commands.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/manifest.h"
 
 namespace presa {

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/device/device_plugin.h"
+#include "framework/plugin/plugin_loader.h"
 
 namespace presa::device {
 

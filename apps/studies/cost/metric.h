@@ -3,7 +3,7 @@
 #include <string>
 
 #include "apps/studies/cost/trace.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 
 namespace presa::cost {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "devices/percro_arm/calibration/linked_bases.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 
 namespace presa {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 
 namespace presa {
 

@@ -5,7 +5,7 @@
 #include "experiments/runner/psychophysics/axis.h"
 #include "experiments/runner/psychophysics/method.h"
 #include "framework/core/math/random.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/scene/plugin_element.h"
 
 /// A psychophysical method as a plug-in: its manifest (kind="method") brings one element that stands in <procedure>; its

@@ -8,8 +8,8 @@
 
 #include <cstring>
 
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/plugin/plugin_loader.h"
 
 extern char** environ;  // NOLINT: POSIX declares it nowhere
 

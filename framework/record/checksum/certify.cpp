@@ -1,6 +1,6 @@
 #include "framework/record/checksum/certify.h"
 
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 
 namespace presa {
 

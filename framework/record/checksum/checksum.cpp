@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/core/plugin/plugin_loader.h"
 #include "framework/input/input.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/record/checksum/plugin.h"
 
 namespace presa {

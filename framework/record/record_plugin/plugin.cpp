@@ -1,4 +1,4 @@
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/record/record_plugin.h"
 #include "framework/record/record_plugin/reader.h"
 #include "framework/record/record_plugin/recorder.h"

@@ -68,7 +68,8 @@ TEST(ManyFingers, TwentyPressOnTwentyCubes) {
   constexpr int kFingers = 20;
   const std::vector<Vec3> cubes = row(kFingers);
   std::vector<Path> paths;
-  for (int f = 0; f < kFingers; ++f) paths.push_back(pressAt(cubes[static_cast<std::size_t>(f)] + Vec3(0, 0, 0.033), 1e-4 * (f + 1)));
+  for (int f = 0; f < kFingers; ++f)
+    paths.push_back(pressAt(cubes[static_cast<std::size_t>(f)] + Vec3(0, 0, 0.033), 1e-4 * (f + 1)));
   Loaded loaded = cubesOnAFloor(cubes, kFingers);
   Session::Options options;
   options.devices = fingersOn(paths);

@@ -3,7 +3,7 @@
 #include <semaphore>
 
 #include "framework/core/diagnostics/diagnostics.h"
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 #include "framework/record/record_plugin.h"
 #include "framework/record/record_plugin/reader.h"
 #include "tests/framework/record/recording_fixture.h"

@@ -1,4 +1,4 @@
-#include "framework/core/plugin/plugin_loader.h"
+#include "framework/plugin/plugin_loader.h"
 
 #include <dlfcn.h>
 
