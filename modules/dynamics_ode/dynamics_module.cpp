@@ -32,7 +32,8 @@ std::vector<std::string> listStages(const OdeOptions& options) {
   if (method.sleeping) all.emplace_back("wake bodies that a finger or a moving body touches; bodies at rest sleep");
   all.emplace_back(
       "collide the physics geometries, a step ahead of the contact (sort and sweep, at most 8 contacts per pair)");
-  all.emplace_back("extrapolate each finger to the start of the step; a finger without a sample for 20 ms fades");
+  all.emplace_back(
+      "extrapolate each finger with its velocity and acceleration; a finger without a sample for 20 ms fades");
   all.emplace_back(method.coupling == D::Coupling::kSoft
                        ? "fingers as implicit spring-dampers (soft contact joints) inside their friction cone"
                        : "fingers as forces that act for one step");

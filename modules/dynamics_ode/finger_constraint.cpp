@@ -12,6 +12,18 @@ namespace {
 
 constexpr double kNoStretch = 1e-12;  // smaller displacements have no direction [m]
 
+// The mean velocity over a step is that in its middle. Less h / 12: on the haptic side the body moves along the chord of
+// its path, in the mean a h^2 / 12 from it.
+constexpr double kMeanAhead = 1.0 / 2 - 1.0 / 12;
+
+// The force that the extrapolation adds comes back as acceleration of a finger with some mass: a loop of gain
+// kMeanAhead h^2 k / mass, which hums above 1. At a low gain the whole acceleration counts, above it as much as keeps it.
+Vec3 usable(const Vec3& a_WH, double k, double h) {
+  constexpr double kFingerMass = 0.1;  // small hand on a light device [kg]
+  constexpr double kGain = 0.25;
+  return std::min(1.0, kGain * kFingerMass / (kMeanAhead * h * h * k)) * a_WH;
+}
+
 // Tangential displacement of the sample: stiffness times it is the rendered force.
 Vec3 sampledStretch(const FingerContact& contact, const Vec3& nhat) {
   const Vec3 stretch = contact.p_WP - contact.p_WH;
@@ -54,8 +66,9 @@ FingerContact contactOf(const FingerContact& contact, const ToolContact& part) {
 
 double fingerWeight(double age, double old_after) { return std::clamp(1 - (age - old_after) / kFingerFade, 0.0, 1.0); }
 
-std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const BodyInertiaState& body,
-                                                     double age, double old_after, double h) {
+std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const Vec3& acceleration_W,
+                                                     const BodyInertiaState& body, double age, double old_after,
+                                                     double h) {
   if (contact.mode == ContactMode::kNone) return std::nullopt;
   const double weight = fingerWeight(age, old_after);
   const double k = weight * contact.stiffness;
@@ -65,7 +78,10 @@ std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contac
   FingerConstraint row;
   row.p_WP = body.X_WB * contact.p_BP;
   const Vec3 nhat = (body.X_WB.q * contact.nhat_B).normalized();
-  const Vec3 p_WH = contact.p_WH + std::clamp(age, 0.0, old_after) * contact.v_WH;
+  const Vec3 a_WH = usable(acceleration_W, k, h);
+  const double ahead = std::clamp(age, 0.0, old_after);
+  const Vec3 p_WH = contact.p_WH + ahead * (contact.v_WH + ahead / 2 * a_WH);
+  const Vec3 v_WH = contact.v_WH + (ahead + kMeanAhead * h) * a_WH;
   const Vec3 stretch = row.p_WP - p_WH;
   const double depth = stretch.dot(nhat);
   const double k_t = contact.tangential_ratio * k, d_t = weight * contact.tangential_damping;
@@ -80,12 +96,12 @@ std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contac
   row.erp = h * k / hk_d;
   row.cfm = 1 / hk_d;
   row.depth = std::max(0.0, depth);
-  row.motion_n = row.n_in.dot(contact.v_WH) + row.erp / h * std::min(0.0, depth);
+  row.motion_n = row.n_in.dot(v_WH) + row.erp / h * std::min(0.0, depth);
   const double hk_t_d = h * k_t + d_t;
   const bool rubs = hk_t_d > 0;
   row.slip = rubs ? 1 / hk_t_d : 1 / (h * k);
-  row.motion_1 = (rubs ? h * k_t / hk_t_d : 0.0) * (length / h) + row.t1.dot(contact.v_WH);
-  row.motion_2 = t2.dot(contact.v_WH);
+  row.motion_1 = (rubs ? h * k_t / hk_t_d : 0.0) * (length / h) + row.t1.dot(v_WH);
+  row.motion_2 = t2.dot(v_WH);
   row.mu = std::max(0.0, contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static);
   if (!rubs) row.mu = 0;
   row.mu_dynamic = std::clamp(contact.friction_dynamic, 0.0, row.mu);

@@ -22,9 +22,11 @@ struct BodyInertiaState {
 ///   n_in . v+ + cfm f_n = erp/h depth + n_in . v_H     erp = hk/(hk+d), cfm = 1/(hk+d)
 ///   t1   . v+ + slip f_1 = |t|/h      + t1   . v_H     |f_1| <= mu f_n,  slip = 1/(hk)
 ///   t2   . v+ + slip f_2 =              t2   . v_H     |f_2| <= mu f_n,  t2 = n_in x t1
-/// where v+ is the velocity of P at the end of the step. A friction law may give the tangential rows a stiffness k_t and a
-/// damping d_t of their own (FingerContact::tangential_ratio); then slip = 1/(h k_t + d_t), |t|/h is weighted by
-/// h k_t/(h k_t + d_t), and t is the displacement at which k_t gives the force of the sample. The solution is
+/// where v+ is the velocity of P at the end of the step and v_H the mean velocity of the HIP in it. With that at its
+/// start, the force would lack k h^2 a / 2 at the finger's acceleration a: 5 % of the grip on a cube that is shaken.
+/// A friction law may give the tangential rows a stiffness k_t and a damping d_t of their own
+/// (FingerContact::tangential_ratio); then slip = 1/(h k_t + d_t), |t|/h is weighted by h k_t/(h k_t + d_t), and t is
+/// the displacement at which k_t gives the force of the sample. The solution is
 ///   f_n = k (depth at the end of the step) + d (closing velocity),
 /// an implicit spring-damper; tangentially the spring alone, as on the haptic side. At rest f_n = k depth and
 /// f_1 = k |t| exactly. A finger that left the surface since its sample (depth < 0) either closes the gap within the
@@ -59,9 +61,11 @@ bool isUsable(const FingerContact& contact);
 /// One body's part of a contact that several bodies share as the contact of a finger of its own.
 FingerContact contactOf(const FingerContact& contact, const ToolContact& part);
 
-/// The rows of a usable `contact`, sampled `age` [s] before the step, for a step of `h` [s]. The HIP is extrapolated
-/// with its velocity over at most `old_after`. None when there is no contact or it has faded.
-std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const BodyInertiaState& body,
-                                                     double age, double old_after, double h);
+/// The rows of a usable `contact`, sampled `age` [s] before the step, for a step of `h` [s]. The HIP is extrapolated with
+/// its velocity and acceleration [m/s^2], to the step over at most `old_after`. None when there is no contact
+/// or it has faded.
+std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contact, const Vec3& acceleration_W,
+                                                     const BodyInertiaState& body, double age, double old_after,
+                                                     double h);
 
 }  // namespace presa::ode

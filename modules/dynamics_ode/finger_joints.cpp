@@ -67,14 +67,28 @@ void FingerJoints::makeRoom(const ContactExchange& exchange) {
   if (feedback_.size() >= contacts) return;
   feedback_.resize(contacts);
   active_.reserve(contacts);
+  motions_.resize(exchange.fingers.size());
+}
+
+void FingerJoints::estimateMotion(const ContactExchange& exchange) {
+  for (std::size_t f = 0; f < exchange.fingers.size(); ++f) {
+    Motion& motion = motions_[f];
+    if (motion.time == exchange.time) continue;  // a further sub-step
+    const Vec3& v_WH = exchange.fingers[f].v_WH;
+    const double since = exchange.time - motion.time;
+    const bool known = motion.time >= 0 && since > 0 && since <= old_after_;
+    motion = {exchange.time, v_WH, known ? Vec3((v_WH - motion.v_WH) / since) : Vec3(Vec3::Zero())};
+  }
 }
 
 std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
   active_.clear();
   makeRoom(exchange);
+  estimateMotion(exchange);
   for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
   return forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
-    const auto row = makeFingerConstraint(contact, bodies.inertiaState(body), time - exchange.time, old_after_, h);
+    const auto row =
+        makeFingerConstraint(contact, motions_[f].a_WH, bodies.inertiaState(body), time - exchange.time, old_after_, h);
     if (!row) return;
     const bool first = active_.empty() || active_.back().finger != f;
     feedback_[active_.size()] = {};

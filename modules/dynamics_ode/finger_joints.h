@@ -41,14 +41,21 @@ class FingerJoints {
   Vec3 force(std::size_t i) const;
 
  private:
+  void estimateMotion(const ContactExchange& exchange);
   void resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies);
 
+  /// The newest sample of a finger, and the acceleration since the one before.
+  struct Motion {
+    double time = -1;  // -1: no sample yet [s]
+    Vec3 v_WH = Vec3::Zero(), a_WH = Vec3::Zero();
+  };
   struct Active {
     std::size_t finger = 0, body = 0;
     FingerConstraint row;
   };
   const DynamicsSettings::Coupling coupling_;
-  const double old_after_;  ///< maximum age of a finger sample before it fades [s]
+  const double old_after_;       ///< maximum age of a finger sample before it fades [s]
+  std::vector<Motion> motions_;  // by finger
   std::vector<Active> active_;
   std::vector<dJointFeedback> feedback_;  // as active_, with room for all contacts of the exchange
   std::vector<double> torsional_radius_;  // torsional friction radius by body [m]; empty if no material has torsion

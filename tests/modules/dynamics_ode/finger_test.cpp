@@ -188,6 +188,28 @@ TEST(Finger, OldSampleIsExtrapolatedWithItsVelocity) {
   EXPECT_NEAR(force(0).x(), 0.5, 1e-6);
 }
 
+// A finger that accelerates into a body at rest. The force of a step is that at its end, k a t^2 / 2; less k a h^2 / 12,
+// which the haptic side does not see. The first step does not know the acceleration.
+TEST(Finger, IsExtrapolatedWithItsAcceleration) {
+  constexpr double kStiffness = 1000, kAcceleration = 20;
+  WorldMaker maker;
+  maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+  Runner runner(maker.world());
+  ReferenceFinger finger(0, {0, 0, kEdge / 2}, Vec3::UnitZ());
+  finger.stiffness = kStiffness;
+  for (int n = 0; n < 4; ++n) {
+    const double time = runner.time, end = time + kStep;
+    finger.p_WH = finger.p_BP - kAcceleration * time * time / 2 * Vec3::UnitZ();
+    finger.v_WH = -kAcceleration * time * Vec3::UnitZ();
+    ContactExchange exchange(1);
+    exchange.time = time;
+    exchange.fingers[0] = finger.contact({});
+    runner.step(exchange);
+    const double depth = n == 0 ? 0 : kAcceleration * (end * end / 2 - kStep * kStep / 12);
+    EXPECT_NEAR(-runner.bodies.fingerForce(0).z(), kStiffness * depth, 1e-6) << n;
+  }
+}
+
 // A sticking proxy that reaches its static bound within the step slips there: from then on sliding friction is
 // rendered, and the body gets no more than that. mu 0.8 and 0.6 at 2 N; displaced by 1.5 and by 1.7 mm at the end of
 // the step.

@@ -28,7 +28,7 @@ FingerContact contactOf(double ratio, double damping, double force, double dampe
 /// Force along x on the finger when the body moves with `v` along x and the finger with `v_WH`, from the row
 /// t . v+ + slip f = motion.
 double forceOf(const FingerContact& contact, double v, double h) {
-  const auto row = makeFingerConstraint(contact, {}, 0, 0.02, h);
+  const auto row = makeFingerConstraint(contact, Vec3::Zero(), {}, 0, 0.02, h);
   EXPECT_TRUE(row);
   const Vec3 t2 = row->n_in.cross(row->t1), velocity(v, 0, 0);
   const double f_1 = (row->motion_1 - row->t1.dot(velocity)) / row->slip;
@@ -62,7 +62,7 @@ TEST(FrictionRow, OfAViscousLawIsDampingAlone) {
 }
 
 TEST(FrictionRow, OfALawWithoutStiffnessAndDampingIsFrictionless) {
-  const auto row = makeFingerConstraint(contactOf(0, 0, 0, 0), {}, 0, 0.02, 0.005);
+  const auto row = makeFingerConstraint(contactOf(0, 0, 0, 0), Vec3::Zero(), {}, 0, 0.02, 0.005);
   ASSERT_TRUE(row);
   EXPECT_EQ(row->mu, 0);
   EXPECT_TRUE(std::isfinite(row->slip));
