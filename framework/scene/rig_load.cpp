@@ -56,6 +56,7 @@ DeviceBinding readBinding(const Element& device, Diagnostics& diagnostics) {
   DeviceBinding binding;
   binding.role = device.attribute("role");
   binding.driver = device.attribute("driver");
+  binding.frame = device.attribute("in");
   binding.where = device.where();
   if (device.hasAttribute("serial")) {
     const SourceLocation where = device.where("serial");
@@ -102,6 +103,7 @@ Rig readDocument(xml::Document& document, const std::string& directory, Diagnost
   if (root.name() == rigSchema().root().name) {
     checkVersion(root, "rig", kVersion, diagnostics);
     checkRoles(root.children("device"), diagnostics);
+    checkFrames(root, diagnostics);
     document.writeDefaults(rigSchema());
     rig.name = root.attribute("name");
     for (const Element& device : root.children("device")) {
@@ -110,6 +112,7 @@ Rig readDocument(xml::Document& document, const std::string& directory, Diagnost
     }
     for (Element bus : root.children("bus"))
       if (bus.hasAttribute("keys")) bus.setAttribute("keys", resolvePath(bus.attribute("keys"), directory));
+    rig.frames = readFrames(root);
     rig.bus = readBus(root);
     rig.resolved_xml = document.text();
   }

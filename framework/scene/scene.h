@@ -203,6 +203,19 @@ struct Scene {
   bool surfacesChange() const;
 };
 
+/// A frame of a rig, such as a desk, a user who walks, or a head.
+struct Frame {
+  struct Key {
+    double time = 0;  ///< [s]
+    Pose X_PF;        ///< relative to Frame::X_PF
+  };
+  std::string name;
+  std::string parent;     ///< "world", a frame, or a role: then the frame moves with that role's tool
+  Pose X_PF;              ///< in the parent
+  std::vector<Key> keys;  ///< minimum-jerk from one to the next; empty: fixed
+  SourceLocation where;
+};
+
 /// One role bound to a driver, with the driver's own settings.
 struct DeviceBinding {
   struct Setting {
@@ -211,6 +224,7 @@ struct DeviceBinding {
   };
   std::string role;
   std::string driver;                       ///< folder name under devices/
+  std::string frame = "world";              ///< in which the driver's samples and forces are, as Frame::parent
   std::map<std::string, Setting> settings;  ///< <set key= value=/>; the driver checks keys and values
   /// Limits of this installation, beside those of the scene. Absent values: the driver's rating applies.
   struct Limits {
@@ -229,6 +243,7 @@ struct Rig {
   std::string file;
   std::optional<BusSettings> bus;  ///< takes precedence over the scene's
   std::vector<DeviceBinding> devices;
+  std::vector<Frame> frames;
   std::string resolved_xml;
 };
 

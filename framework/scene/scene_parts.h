@@ -41,6 +41,12 @@ void checkWords(const xml::Element& words, Diagnostics& diagnostics);
 AssemblyWords readWords(const xml::Element& words);
 /// Reports two orientations on one element (E211) and a zero quaternion (E212).
 void checkOrientation(const xml::Element& element, Diagnostics& diagnostics);
+/// Pose of an element with attributes pos, euler_deg, quat.
+Pose readPose(const xml::Element& element);
+/// Checks the <frame>s of a rig and what stands in them (E416 to E419).
+void checkFrames(const xml::Element& root, Diagnostics& diagnostics);
+/// The frames of a rig with written defaults, without errors.
+std::vector<Frame> readFrames(const xml::Element& root);
 /// Writes defaults, implied materials and absolute paths into a document without errors.
 void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory);
 

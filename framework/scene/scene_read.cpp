@@ -44,21 +44,6 @@ Quat unitQuat(const std::vector<double>& wxyz) {
   return {v[0], v[1], v[2], v[3]};
 }
 
-Pose readPose(const Element& element) {
-  Pose pose;
-  pose.p = readVec3(element, "pos", Vec3::Zero());
-  const std::vector<double> quat = element.numbers("quat");
-  if (quat.size() == 4) {
-    pose.q = unitQuat(quat);
-  } else if (element.hasAttribute("euler_deg")) {
-    const Vec3 turn = readVec3(element, "euler_deg", Vec3::Zero());
-    pose.q =
-        turnAbout(Vec3::UnitX(), turn.x()) * turnAbout(Vec3::UnitY(), turn.y()) * turnAbout(Vec3::UnitZ(), turn.z());
-    pose.q.normalize();
-  }
-  return pose;
-}
-
 Shape readShape(const Element& shape, const std::string& directory) {
   const std::string kind = shape.name();
   const double radius = shape.number("radius", 0), length = shape.number("length", 0);
@@ -224,6 +209,21 @@ DynamicsSettings readDynamics(const Element& element) {
 }
 
 }  // namespace
+
+Pose readPose(const Element& element) {
+  Pose pose;
+  pose.p = readVec3(element, "pos", Vec3::Zero());
+  const std::vector<double> quat = element.numbers("quat");
+  if (quat.size() == 4) {
+    pose.q = unitQuat(quat);
+  } else if (element.hasAttribute("euler_deg")) {
+    const Vec3 turn = readVec3(element, "euler_deg", Vec3::Zero());
+    pose.q =
+        turnAbout(Vec3::UnitX(), turn.x()) * turnAbout(Vec3::UnitY(), turn.y()) * turnAbout(Vec3::UnitZ(), turn.z());
+    pose.q.normalize();
+  }
+  return pose;
+}
 
 bool Scene::surfacesChange() const {
   return haptics.proxy && std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {

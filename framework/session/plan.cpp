@@ -176,6 +176,18 @@ void planModules(const Scene& scene, const std::vector<SceneFact>& facts, Plan& 
   }
 }
 
+std::vector<std::string> framesAbove(const Rig& rig, const DeviceBinding& device) {
+  std::vector<std::string> names;
+  std::string at = device.frame;
+  while (at != "world") {
+    names.push_back(at);
+    const auto frame = std::ranges::find(rig.frames, at, &Frame::name);
+    const auto tool = std::ranges::find(rig.devices, at, &DeviceBinding::role);
+    at = frame != rig.frames.end() ? frame->parent : tool != rig.devices.end() ? tool->frame : "world";
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<PlannedDevice> bindDevices(const Scene& scene, const Rig& rig, Diagnostics& diagnostics) {
@@ -193,7 +205,7 @@ std::vector<PlannedDevice> bindDevices(const Scene& scene, const Rig& rig, Diagn
                                          : "add <device role=\"" + role.role + "\" driver=\"…\"/> to " + rig.file);
       continue;
     }
-    devices.push_back({role.role, binding->driver});
+    devices.push_back({role.role, binding->driver, framesAbove(rig, *binding)});
   }
   return devices;
 }

@@ -17,6 +17,7 @@ struct PlannedModule {
 
 struct PlannedDevice {
   std::string role, driver;
+  std::vector<std::string> frames;  ///< in which it stands, from the next one to the last before the world
 };
 
 /// A plug-in that another one hosts: a force effect in the haptic tick, a part of the picture.

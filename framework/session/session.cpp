@@ -9,6 +9,7 @@
 #include "framework/device/device_modules.h"
 #include "framework/device/device_plugin.h"
 #include "framework/device/device_settings.h"
+#include "framework/device/framed_device.h"
 #include "framework/device/supervision/supervised_device.h"
 #include "framework/device/transport_watch.h"
 #include "framework/haptics/plugin_host.h"
@@ -67,6 +68,14 @@ DeviceList createOf(const std::string& driver, const std::vector<DeviceBinding>&
   }
 }
 
+void checkFrame(const Device* device, const DeviceBinding& binding, Diagnostics& diagnostics) {
+  if (device == nullptr || binding.frame == "world" || !(device->looks() || device->points())) return;
+  diagnostics.error(428, binding.where,
+                    "role '" + binding.role + "': driver '" + binding.driver +
+                        "' sees the world and moves in it, found in=\"" + binding.frame + "\"",
+                    "such a driver stands in the world");
+}
+
 }  // namespace
 
 DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOptions& options, const Plan& plan,
@@ -78,7 +87,10 @@ DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOpt
     std::vector<DeviceBinding> bindings;
     for (const std::size_t f : roles) bindings.push_back(*bindingOf(world->rig, plan.devices[f].role));
     DeviceList made = createOf(driver, bindings, world, options, diagnostics);
-    for (std::size_t i = 0; i < roles.size(); ++i) devices[roles[i]] = std::move(made[i]);
+    for (std::size_t i = 0; i < roles.size(); ++i) {
+      checkFrame(made[i].get(), bindings[i], diagnostics);
+      devices[roles[i]] = std::move(made[i]);
+    }
   }
   std::erase(devices, nullptr);
   return devices;
@@ -154,6 +166,7 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
   if (devices_.empty()) {
     devices_ = std::move(loaded.devices);
     if (options.open_devices) openDevices();
+    putIntoFrames();
   }
   if (options.wrap) devices_ = options.wrap(std::move(devices_));
   for (std::size_t f = 0; f < devices_.size(); ++f) {
@@ -221,6 +234,16 @@ void Session::openDevices() {
     devices_[f] = std::make_unique<SupervisedDevice>(std::move(devices_[f]), binding, world_->rig.file);
   }
   for (const auto& device : devices_) device->open();
+}
+
+void Session::putIntoFrames() {
+  const auto tree = std::make_shared<FrameTree>(world_->rig, world_->scene.devices);
+  for (std::size_t f = 0; f < devices_.size(); ++f) {
+    const DeviceBinding* binding = bindingOf(world_->rig, world_->scene.devices[f].role);
+    const int frame = binding == nullptr ? FrameTree::kWorld : tree->find(binding->frame);
+    if (frame == FrameTree::kWorld && !tree->carries(f)) continue;
+    devices_[f] = std::make_unique<FramedDevice>(std::move(devices_[f]), tree, frame, f);
+  }
 }
 
 std::unique_ptr<Module> Session::load(const PlannedModule& planned) {

@@ -64,6 +64,7 @@ class Session {
 
  private:
   void openDevices();
+  void putIntoFrames();
   void offerPointer();
   std::vector<std::size_t> orientedTools() const;
   std::unique_ptr<Module> load(const PlannedModule& planned);

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/presa/explain/module_times.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/session/session.h"
@@ -128,6 +130,25 @@ TEST(ExplainCost, MeasuringChangesNoBit) {
   const auto plain = sessionOf(control, rates);
   LockstepExecutor(plain->graph(), rates, control).run(kLength);
   EXPECT_EQ(measured->monitor().hash(), plain->monitor().hash());
+}
+
+TEST(Explain, SaysInWhichFramesADeviceStands) {
+  const json walking = explain(source("config/scenes/cube.xml") + " --rig " + source("config/rigs/walking_pair.xml"));
+  EXPECT_EQ(walking["devices"][0]["frames"], json({"desk", "user"}));
+  EXPECT_TRUE(explain(source("config/scenes/cube.xml"))["devices"][0]["frames"].empty());
+}
+
+// A driver that sees the world moves in it. Its samples would be taken for those of the frame.
+TEST(Explain, RefusesADriverThatSeesTheWorldInAFrame) {
+  const ScratchFolder folder;
+  std::ofstream(folder.file("rig.xml")) << R"(<rig version="1.0" name="desk"><frame name="desk" pos="1 0 0"/>
+<device role="thumb" driver="clumsy_hand" in="desk"/><device role="index" driver="clumsy_hand"/></rig>)";
+  const auto outcome =
+      test::presa("run " + source("config/scenes/cube.xml") + " --lockstep --for 1 --rig " + folder.file("rig.xml"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("rig.xml:2:1: error[E428]: role 'thumb': driver 'clumsy_hand' sees the world"),
+            std::string::npos)
+      << outcome.err;
 }
 
 }  // namespace

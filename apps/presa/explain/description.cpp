@@ -88,7 +88,7 @@ json describeSession(Session& session, const std::set<std::string>& before) {
   for (const PlannedEffect& effect : session.plan().effects)
     out["effects"].push_back({{"plugin", effect.plugin}, {"reason", effect.reason}});
   for (const PlannedDevice& device : session.plan().devices)
-    out["devices"].push_back({{"role", device.role}, {"driver", device.driver}});
+    out["devices"].push_back({{"role", device.role}, {"driver", device.driver}, {"frames", device.frames}});
   for (const std::string& library : mappedLibraries()) {
     out["libraries"].push_back({{"name", library},
                                 {"plugin", library.starts_with("presa_")},

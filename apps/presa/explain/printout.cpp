@@ -89,8 +89,11 @@ std::string explainText(const json& run) {
   threads(out, run);
   if (run.contains("cost")) out += "\n  " + text(run["cost"]["time"]) + '\n';
   out += "\nDevices\n";
-  for (const json& device : run["devices"])
-    out += "  " + padded(text(device["role"]), 18) + "driver " + text(device["driver"]) + '\n';
+  for (const json& device : run["devices"]) {
+    out += "  " + padded(text(device["role"]), 18) + "driver " + text(device["driver"]);
+    for (const json& frame : device["frames"]) out += " in " + text(frame);
+    out += '\n';
+  }
   out += "\nValues that cross threads\n";
   crossings(out, run);
   out += "\nLeft out\n";

@@ -18,15 +18,17 @@ TEST_P(Impulse, RenderedIsGiven) {
     EXPECT_LT(finger.reaction.worst, 0.01) << "at " << finger.reaction.time << " s";
   }
 }
-INSTANTIATE_TEST_SUITE_P(
-    Of, Impulse,
-    testing::Values("config/scenes/cube.xml", "config/scenes/pinch_and_lift.xml", "config/scenes/stylus_on_cube.xml",
-                    "experiments/stability/scenes/grasp_shaken.xml", "experiments/stability/scenes/endurance.xml",
-                    "experiments/stability/scenes/block_tower.xml", "experiments/stability/scenes/pressed_in_corner.xml"),
-    [](const auto& param) {
-      const std::string path = param.param;
-      return path.substr(path.rfind('/') + 1, path.rfind('.') - path.rfind('/') - 1);
-    });
+INSTANTIATE_TEST_SUITE_P(Of, Impulse,
+                         testing::Values("config/scenes/cube.xml", "config/scenes/pinch_and_lift.xml",
+                                         "config/scenes/stylus_on_cube.xml",
+                                         "experiments/stability/scenes/grasp_shaken.xml",
+                                         "experiments/stability/scenes/endurance.xml",
+                                         "experiments/stability/scenes/block_tower.xml",
+                                         "experiments/stability/scenes/pressed_in_corner.xml"),
+                         [](const auto& param) {
+                           const std::string path = param.param;
+                           return path.substr(path.rfind('/') + 1, path.rfind('.') - path.rfind('/') - 1);
+                         });
 
 }  // namespace
 }  // namespace presa

@@ -36,6 +36,24 @@ TEST(Rig, ReadsBindingsAndResolvesFiles) {
   EXPECT_EQ(where.column, expected.column);
 }
 
+TEST(Rig, ReadsFrames) {
+  Diagnostics findings;
+  const std::string text = edited(kRig, "  <device role=\"thumb\"",
+                                  "  <frame name=\"head\" in=\"user\" pos=\"0 0 1.6\" quat=\"2 0 0 0\"/>\n"
+                                  "  <frame name=\"user\"><key time=\"1\" pos=\"1 2 3\"/></frame>\n"
+                                  "  <device in=\"head\" role=\"thumb\"");
+  const Rig rig = parseRig(text, "rig.xml", "/lab/rigs", findings);
+  ASSERT_TRUE(findings.all().empty()) << findings.text();
+  ASSERT_EQ(rig.frames.size(), 2U);
+  EXPECT_EQ(rig.frames[0].parent, "user");
+  EXPECT_EQ(rig.frames[0].X_PF.p, Vec3(0, 0, 1.6));
+  EXPECT_EQ(rig.frames[1].parent, "world");
+  ASSERT_EQ(rig.frames[1].keys.size(), 1U);
+  EXPECT_EQ(rig.frames[1].keys[0].X_PF.p, Vec3(1, 2, 3));
+  EXPECT_EQ(rig.devices[0].frame, "head");
+  EXPECT_EQ(rig.devices[1].frame, "world");
+}
+
 TEST(Rig, ResolvedTextReadsBackAsTheSameRig) {
   Diagnostics findings;
   const Rig rig = parseRig(kRig, "rig.xml", "/lab/rigs", findings);
@@ -63,6 +81,13 @@ TEST(Rig, MistakesGiveOneMessageAtTheirPlace) {
       {413, "role=\"index\"", "@role=\"thumb\""},
       {414, "key=\"gain\"", "@key=\"motion\""},
       {414, "key=\"gain\"", "@key=\"serial\""},
+      {416, "role=\"index\"", "role=\"index\" @in=\"dsk\""},
+      {416, "</rig>", "<frame name=\"a\" @in=\"b\"/></rig>"},
+      {417, "</rig>", "<frame name=\"a\" @in=\"a\"/></rig>"},
+      {418, "</rig>", "<frame @name=\"thumb\"/></rig>"},
+      {418, "</rig>", "<frame @name=\"world\"/></rig>"},
+      {419, "</rig>", "<frame name=\"a\"><key time=\"1\"/><key @time=\"1\"/></frame></rig>"},
+      {212, "</rig>", "<frame name=\"a\" @quat=\"0 0 0 0\"/></rig>"},
       {115, "<device role=\"index\" driver=\"replay\">", "@<device role=\"index\">"},
       {114, "driver=\"replay\"", "@drivr=\"replay\""},
       {116, "serial=\"A1\"", "@serial=\"\""},
