@@ -31,8 +31,7 @@ FrameMotion inParent(const Frame& frame, double time) noexcept {
 
 FrameMotion operator*(const FrameMotion& parent, const FrameMotion& child) noexcept {
   const Vec3 arm = parent.X_WF.q * child.X_WF.p;
-  return {parent.X_WF * child.X_WF,
-          parent.v_WF + parent.w_WF.cross(arm) + parent.X_WF.q * child.v_WF,
+  return {parent.X_WF * child.X_WF, parent.v_WF + parent.w_WF.cross(arm) + parent.X_WF.q * child.v_WF,
           parent.w_WF + parent.X_WF.q * child.w_WF};
 }
 
@@ -53,7 +52,8 @@ FrameTree::FrameTree(const Rig& rig, const std::vector<DeviceRole>& roles)
 int FrameTree::find(const std::string& name) const {
   const auto role = std::ranges::find(roles_, name);
   if (role != roles_.end()) return static_cast<int>(role - roles_.begin());
-  const auto node = std::ranges::find(nodes_, name, [](const Node& one) -> const std::string& { return one.frame.name; });
+  const auto node =
+      std::ranges::find(nodes_, name, [](const Node& one) -> const std::string& { return one.frame.name; });
   return node == nodes_.end() ? kWorld : static_cast<int>(roles_.size()) + static_cast<int>(node - nodes_.begin());
 }
 

@@ -39,9 +39,9 @@ class FrameTree {
     int parent = kWorld;
   };
   std::vector<std::string> roles_;
-  std::vector<Node> nodes_;          // find() gives them indices from roles_.size() on
-  std::vector<FrameMotion> tools_;   // by role
-  std::vector<char> carries_;        // by role
+  std::vector<Node> nodes_;         // find() gives them indices from roles_.size() on
+  std::vector<FrameMotion> tools_;  // by role
+  std::vector<char> carries_;       // by role
 };
 
 }  // namespace presa

@@ -53,7 +53,8 @@ class FrameCheck {
     std::string at = parent;
     for (std::size_t steps = 0; at != kWorld && steps < named_.size(); ++steps) {
       path += " in " + quote(at);
-      if (at == name) return diagnostics_.error(kFrameInItself, element.where("in"), quote(name) + " is in itself", path);
+      if (at == name)
+        return diagnostics_.error(kFrameInItself, element.where("in"), quote(name) + " is in itself", path);
       const auto next = named_.find(at);
       if (next == named_.end()) return;
       at = parentOf(next->second);

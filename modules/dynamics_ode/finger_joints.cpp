@@ -77,6 +77,10 @@ void FingerJoints::estimateMotion(const ContactExchange& exchange) {
     const Vec3& v_WH = exchange.fingers[f].v_WH;
     const double since = exchange.time - motion.time;
     const bool known = motion.time >= 0 && since > 0 && since <= old_after_;
+    if (!v_WH.allFinite()) {
+      motion = {};
+      continue;
+    }
     motion = {exchange.time, v_WH, known ? Vec3((v_WH - motion.v_WH) / since) : Vec3(Vec3::Zero())};
   }
 }

@@ -13,7 +13,8 @@ namespace {
 // axis of the grasp, 5 mm above the cube's centre. About that axis the cube swings, as by a string, by up to a / g = 0.09
 // rad; it is put down swinging. Tolerance: proxies creep by 0.1 mm in a hold (CubeGrasp), and two of them are 70 mm apart.
 TEST(WalkingPair, CarriesTheCubeAlong) {
-  StudyRun run({.scene = PRESA_SOURCE_DIR "/config/scenes/cube.xml", .rig = PRESA_SOURCE_DIR "/config/rigs/walking_pair.xml"});
+  StudyRun run(
+      {.scene = PRESA_SOURCE_DIR "/config/scenes/cube.xml", .rig = PRESA_SOURCE_DIR "/config/rigs/walking_pair.xml"});
   constexpr std::size_t kCube = 1;
   Pose there, start;
   bool slipped = false;

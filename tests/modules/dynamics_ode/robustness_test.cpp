@@ -100,6 +100,19 @@ TEST(Faults, BadFingerContactIsIgnoredAndCounted) {
   EXPECT_TRUE(runner[0].X_WB_end.p.allFinite());
 }
 
+// A sample without a velocity spoils neither its own step nor the acceleration of the next.
+TEST(Faults, VelocityThatIsNoNumberIsForgotten) {
+  Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, 0.1, {}).world());
+  std::vector<ReferenceFinger> fingers = pinch(0, 0.05, 0.002, 1000, 1);
+  for (int n = 0; n < 4; ++n) {
+    ContactExchange exchange = exchangeOf(fingers, runner);
+    if (n == 1) exchange.fingers[0].v_WH.x() = kNan;
+    runner.step(exchange);
+    EXPECT_EQ(runner.bodies.faults().bits, n == 0 ? 0U : Faults::kBadFinger);
+    EXPECT_TRUE(runner.bodies.fingerForce(0).allFinite()) << n;
+  }
+}
+
 // A runaway finger (1 m inside at 1e9 N/m) throws a body out of all bounds: it freezes at its last good pose, as an
 // obstacle on which the others still rest.
 TEST(Faults, RunawayBodyFreezesAtItsLastGoodPose) {
