@@ -32,7 +32,7 @@ class LiveObserver final : public HapticObserver {
   void observe(const HapticSample& sample) noexcept override {
     const ContactExchange& contact = sample.contact;
     if (sample.device.count() > 0) values_.phase.store(sample.device.fingers[0].phase, std::memory_order_relaxed);
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count()); ++f) {
+    for (std::size_t f = 0; f < contact.fingers.size(); ++f) {
       values_.normal_force[f].store(contact.fingers[f].normal_force, std::memory_order_relaxed);
       values_.mode[f].store(static_cast<std::int32_t>(contact.fingers[f].mode), std::memory_order_relaxed);
     }

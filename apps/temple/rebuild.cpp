@@ -72,7 +72,7 @@ RebuildObserver::RebuildObserver(std::shared_ptr<const World> world)
 void RebuildObserver::step(const Tick&) noexcept {
   if (!objects_.hasValue() || !assembly_.hasValue()) return;
   blocks_.see(objects_.value());
-  for (std::size_t f = 0; f < static_cast<std::size_t>(contact_->count()); ++f) {
+  for (std::size_t f = 0; f < contact_->fingers.size(); ++f) {
     const FingerContact& finger = contact_->fingers[f];
     if (finger.mode == ContactMode::kNone) continue;
     depth_ += finger.depth;

@@ -47,7 +47,7 @@ void EnergyLedger::close(double energy) noexcept {
 
 void EnergyLedger::observe(const HapticSample& sample) noexcept {
   double springs = 0;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(sample.device.count()); ++f) {
+  for (std::size_t f = 0; f < sample.device.fingers.size(); ++f) {
     const Vec3& p_WH = sample.device.fingers[f].p_WH;
     // the force of the previous tick was held until now
     if (ticked_) work_ -= f_H_W_[f].dot(p_WH - p_WH_[f]);

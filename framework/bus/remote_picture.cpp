@@ -209,7 +209,7 @@ void RemotePicture::fill(ObjectState& objects, DeviceState& device, ContactExcha
   contact.fingers.resize(fingers_.size());
   command.f_H_W.resize(fingers_.size());
   command.t_H_W.resize(fingers_.size());
-  for (std::size_t f = 0; f < static_cast<std::size_t>(device.count()); ++f) {
+  for (std::size_t f = 0; f < device.fingers.size(); ++f) {
     const auto [before, after] = fingers_[f].around(time_);
     const FingerSample* sample = before != nullptr ? before : after;
     device.fingers[f] = {};

@@ -10,8 +10,6 @@ using xml::Element;
 
 enum Code { kUnknownFrame = 416, kFrameInItself = 417, kDuplicateFrame = 418, kFrameKeys = 419 };
 
-constexpr const char* kWorld = "world";
-
 /// The frames and roles of a rig by name, with the element that says in which of them it stands.
 class FrameCheck {
  public:
@@ -20,7 +18,7 @@ class FrameCheck {
     for (const Element& frame : root.children("frame")) {
       if (!frame.hasAttribute("name") || frame.flawed("name")) continue;
       const std::string name = frame.attribute("name");
-      if (name == kWorld || !named_.try_emplace(name, frame).second)
+      if (name == kWorldFrame || !named_.try_emplace(name, frame).second)
         diagnostics.error(kDuplicateFrame, frame.where("name"), "the name " + quote(name) + " is taken",
                           "frames and roles have different names, and 'world' is the frame of the scene");
     }
@@ -37,13 +35,13 @@ class FrameCheck {
 
  private:
   std::string parentOf(const Element& element) const {
-    return element.hasAttribute("in") && !element.flawed("in") ? element.attribute("in") : kWorld;
+    return element.hasAttribute("in") && !element.flawed("in") ? element.attribute("in") : kWorldFrame;
   }
 
   void checkParent(const std::string& name, const Element& element) {
     const std::string parent = parentOf(element);
-    if (parent != kWorld && !named_.contains(parent)) {
-      std::vector<std::string> names{kWorld};
+    if (parent != kWorldFrame && !named_.contains(parent)) {
+      std::vector<std::string> names{kWorldFrame};
       for (const auto& [other, unused] : named_) names.push_back(other);
       diagnostics_.error(kUnknownFrame, element.where("in"), "there is no frame " + quote(parent),
                          "'world', a <frame> or a role of this rig" + didYouMean(parent, names));
@@ -51,7 +49,7 @@ class FrameCheck {
     }
     std::string path = quote(name);
     std::string at = parent;
-    for (std::size_t steps = 0; at != kWorld && steps < named_.size(); ++steps) {
+    for (std::size_t steps = 0; at != kWorldFrame && steps < named_.size(); ++steps) {
       path += " in " + quote(at);
       if (at == name)
         return diagnostics_.error(kFrameInItself, element.where("in"), quote(name) + " is in itself", path);
@@ -84,7 +82,6 @@ Frame readFrame(const Element& element) {
   frame.parent = element.attribute("in");
   frame.X_PF = readPose(element);
   for (const Element& key : element.children("key")) frame.keys.push_back({key.number("time", 0), readPose(key)});
-  frame.where = element.where();
   return frame;
 }
 

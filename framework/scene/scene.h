@@ -203,6 +203,8 @@ struct Scene {
   bool surfacesChange() const;
 };
 
+inline constexpr const char* kWorldFrame = "world";
+
 /// A frame of a rig, such as a desk, a user who walks, or a head.
 struct Frame {
   struct Key {
@@ -210,10 +212,9 @@ struct Frame {
     Pose X_PF;        ///< relative to Frame::X_PF
   };
   std::string name;
-  std::string parent;     ///< "world", a frame, or a role: then the frame moves with that role's tool
+  std::string parent;     ///< kWorldFrame, a frame, or a role: then the frame moves with that role's tool
   Pose X_PF;              ///< in the parent
   std::vector<Key> keys;  ///< minimum-jerk from one to the next; empty: fixed
-  SourceLocation where;
 };
 
 /// One role bound to a driver, with the driver's own settings.
@@ -224,7 +225,7 @@ struct DeviceBinding {
   };
   std::string role;
   std::string driver;                       ///< folder name under devices/
-  std::string frame = "world";              ///< in which the driver's samples and forces are, as Frame::parent
+  std::string frame = kWorldFrame;          ///< in which the driver's samples and forces are, as Frame::parent
   std::map<std::string, Setting> settings;  ///< <set key= value=/>; the driver checks keys and values
   /// Limits of this installation, beside those of the scene. Absent values: the driver's rating applies.
   struct Limits {

@@ -179,11 +179,11 @@ void planModules(const Scene& scene, const std::vector<SceneFact>& facts, Plan& 
 std::vector<std::string> framesAbove(const Rig& rig, const DeviceBinding& device) {
   std::vector<std::string> names;
   std::string at = device.frame;
-  while (at != "world") {
+  while (at != kWorldFrame) {
     names.push_back(at);
     const auto frame = std::ranges::find(rig.frames, at, &Frame::name);
     const auto tool = std::ranges::find(rig.devices, at, &DeviceBinding::role);
-    at = frame != rig.frames.end() ? frame->parent : tool != rig.devices.end() ? tool->frame : "world";
+    at = frame != rig.frames.end() ? frame->parent : tool != rig.devices.end() ? tool->frame : kWorldFrame;
   }
   return names;
 }

@@ -69,7 +69,7 @@ DeviceList createOf(const std::string& driver, const std::vector<DeviceBinding>&
 }
 
 void checkFrame(const Device* device, const DeviceBinding& binding, Diagnostics& diagnostics) {
-  if (device == nullptr || binding.frame == "world" || !(device->looks() || device->points())) return;
+  if (device == nullptr || binding.frame == kWorldFrame || !(device->looks() || device->points())) return;
   diagnostics.error(428, binding.where,
                     "role '" + binding.role + "': driver '" + binding.driver +
                         "' sees the world and moves in it, found in=\"" + binding.frame + "\"",

@@ -63,11 +63,11 @@ void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const Fin
 }
 
 void FingerJoints::makeRoom(const ContactExchange& exchange) {
+  if (motions_.size() < exchange.fingers.size()) motions_.resize(exchange.fingers.size());
   const std::size_t contacts = std::max(exchange.fingers.size(), exchange.contacts.capacity());
   if (feedback_.size() >= contacts) return;
   feedback_.resize(contacts);
   active_.reserve(contacts);
-  motions_.resize(exchange.fingers.size());
 }
 
 void FingerJoints::estimateMotion(const ContactExchange& exchange) {

@@ -35,7 +35,7 @@ Rig& rigOf(const std::string& name, const MakeRig& make) {
 struct Watched {
   explicit Watched(std::size_t ticks) : first(ticks, Vec3::Zero()) {}
   void look(std::size_t tick, const ContactExchange& contacts, bool first_pass) {
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contacts.count()); ++f) {
+    for (std::size_t f = 0; f < contacts.fingers.size(); ++f) {
       touching += contacts.fingers[f].mode != ContactMode::kNone;
       slipping += contacts.fingers[f].mode == ContactMode::kSlip;
       ++looks;

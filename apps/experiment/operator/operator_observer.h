@@ -42,7 +42,7 @@ class OperatorObserver final : public HapticObserver {
     live_.phase_begin.store(trial_.stretches()[trial_.phase()].begin, kRelaxed);
     if (experiment_.watch) live_.watch.store(experiment_.watch->value.evaluate(trial_.samples()), kRelaxed);
     bool lost = false;
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contact.count()); ++f) {
+    for (std::size_t f = 0; f < contact.fingers.size(); ++f) {
       lost = lost || !device.fingers[f].valid;
       live_.force[f].store(contact.fingers[f].normal_force, kRelaxed);
       live_.mode[f].store(static_cast<std::int32_t>(contact.fingers[f].mode), kRelaxed);

@@ -70,7 +70,7 @@ struct Watch {
 void Watch::see(const HapticSample& sample, const World& world, std::size_t cube, bool quiet) {
   const Scene& scene = world.scene;
   bool bad = sample.objects->faults != 0 || (sample.command.status & (kOutputNotFinite | kOutputWatchdog)) != 0;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(sample.contact.count()); ++f) {
+  for (std::size_t f = 0; f < sample.contact.fingers.size(); ++f) {
     const FingerContact& finger = sample.contact.fingers[f];
     bad = bad || !sample.command.f_H_W[f].allFinite() ||
           sample.command.f_H_W[f].norm() > scene.devices[f].limits.force * (1 + 1e-12);

@@ -32,7 +32,7 @@ namespace {
 struct ForceSum final : Module {
   ForceSum() : Module("force_sum", RateGroup::kHaptic) {}
   void step(const Tick&) noexcept override {
-    for (std::size_t f = 0; f < static_cast<std::size_t>(contact->count()); ++f) sum += contact->fingers[f].f_H_W;
+    for (std::size_t f = 0; f < contact->fingers.size(); ++f) sum += contact->fingers[f].f_H_W;
   }
   In<ContactExchange> contact{*this, "contact_exchange"};
   Vec3 sum = Vec3::Zero();

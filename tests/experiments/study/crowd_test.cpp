@@ -5,7 +5,7 @@
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
 #include "tests/experiments/study/eye.h"
-#include "tests/support/alloc_lock_guard.h"
+#include "tests/support/guarded_steps.h"
 
 namespace presa {
 namespace {
@@ -58,25 +58,10 @@ TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
   const test::Eye& eye = *made;
   session_options.more.push_back(std::move(made));
   RunControl control;
-  const RateTable rates(loaded.world->scene.rates);
   Session session(std::move(loaded), control, std::move(session_options));
-  Graph& graph = session.graph();
-  const std::array groups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
-  for (const RateGroup group : groups) graph.start(group);
-  int forbidden = 0;
-  std::string first;
-  for (std::int64_t n = 0; n < 500; ++n) {
-    for (const RateGroup group : groups) {
-      if (n % rates.divisor(group) != 0) continue;
-      const Tick tick = rates.tick(group, static_cast<std::uint64_t>(n / rates.divisor(group)));
-      const RealTimeGuard guard;
-      graph.step(group, tick);
-      if (group != RateGroup::kHaptic || guard.violations() == 0) continue;
-      if (forbidden == 0) first = guard.first();
-      forbidden += guard.violations();
-    }
-  }
-  EXPECT_EQ(forbidden, 0) << first;
+  test::GuardedSteps steps(session);
+  steps.run(500);
+  EXPECT_EQ(steps.violation(RateGroup::kHaptic), "");
   const ObjectState& objects = eye.objects.value();
   ASSERT_EQ(objects.count(), kBodies);
   EXPECT_EQ(objects.faults, 0U);
@@ -86,7 +71,6 @@ TEST(Crowd, OfFiveThousandBodiesOneIsTouched) {
   EXPECT_NEAR(finger.normal_force, kStiffness * kDepth, kStiffness * 1e-4);
   for (int b = 1; b < kBodies; ++b)
     ASSERT_LT((objects.bodies[static_cast<std::size_t>(b)].X_WB_end.p - placeOf(b)).norm(), 1e-4) << b;
-  for (const RateGroup group : groups) graph.stop(group);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "framework/session/load_world.h"
 #include "framework/session/run.h"
 #include "tests/experiments/study/eye.h"
-#include "tests/support/alloc_lock_guard.h"
+#include "tests/support/guarded_steps.h"
 
 namespace presa {
 namespace {
@@ -77,21 +77,11 @@ TEST(ManyFingers, TwentyPressOnTwentyCubes) {
   const test::Eye& eye = *made;
   options.more.push_back(std::move(made));
   RunControl control;
-  const RateTable rates(loaded.world->scene.rates);
   Session session(std::move(loaded), control, std::move(options));
-  Graph& graph = session.graph();
-  const std::array groups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
-  for (const RateGroup group : groups) graph.start(group);
-  int forbidden = 0;
-  for (std::int64_t n = 0; n < 1500; ++n) {
-    for (const RateGroup group : groups) {
-      if (n % rates.divisor(group) != 0) continue;
-      const Tick tick = rates.tick(group, static_cast<std::uint64_t>(n / rates.divisor(group)));
-      const RealTimeGuard guard;
-      graph.step(group, tick);
-      EXPECT_TRUE(guard.violations() == 0 || forbidden++ > 0) << guard.first() << " at " << tick.time;
-    }
-  }
+  test::GuardedSteps steps(session);
+  steps.run(1500);
+  for (const RateGroup group : {RateGroup::kHaptic, RateGroup::kCollision, RateGroup::kDynamics})
+    EXPECT_EQ(steps.violation(group), "") << toString(group);
   ASSERT_EQ(eye.contact->count(), kFingers);
   for (int f = 0; f < kFingers; ++f) {
     const FingerContact& finger = eye.contact->fingers[static_cast<std::size_t>(f)];
@@ -99,7 +89,6 @@ TEST(ManyFingers, TwentyPressOnTwentyCubes) {
     // the floor deflects by the depth at which the cube rests, less than 0.05 mm
     EXPECT_NEAR(finger.normal_force, 0.1 * (f + 1), 1000 * 5e-5) << f;
   }
-  for (const RateGroup group : groups) graph.stop(group);
 }
 
 // A finger between two free cubes pushes both aside, and each gets the impulse that is rendered for it, within 1 % over

@@ -18,11 +18,10 @@ Quat turn(double degrees, const Vec3& axis) {
 /// A user who walks and turns, a head on it, and a lamp on the tool of the first role.
 Rig walkingRig() {
   Rig rig;
-  Frame user{.name = "user", .parent = "world", .X_PF = {{1, 0, 0}, turn(90, Vec3::UnitZ())}, .keys = {}, .where = {}};
+  Frame user{.name = "user", .parent = "world", .X_PF = {{1, 0, 0}, turn(90, Vec3::UnitZ())}, .keys = {}};
   user.keys = {{1, {}}, {3, {{0.5, 0.2, 0}, turn(-70, {1, 2, 3})}}, {4, {{0.5, 0, 0}, turn(100, Vec3::UnitX())}}};
-  const Frame head{
-      .name = "head", .parent = "user", .X_PF = {{0, 0, 1.6}, turn(30, Vec3::UnitY())}, .keys = {}, .where = {}};
-  const Frame lamp{.name = "lamp", .parent = "thumb", .X_PF = {{0, 0.1, 0}, Quat::Identity()}, .keys = {}, .where = {}};
+  const Frame head{.name = "head", .parent = "user", .X_PF = {{0, 0, 1.6}, turn(30, Vec3::UnitY())}, .keys = {}};
+  const Frame lamp{.name = "lamp", .parent = "thumb", .X_PF = {{0, 0.1, 0}, Quat::Identity()}, .keys = {}};
   rig.frames = {head, user, lamp};  // a parent may stand below
   return rig;
 }

@@ -7,6 +7,8 @@
 #include "framework/assembly/assembly_state.h"
 #include "framework/assembly/snap_constraint.h"
 #include "framework/core/graph/graph_builder.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/device_state.h"
 #include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
 #include "tests/support/alloc_lock_guard.h"
@@ -15,7 +17,8 @@ namespace presa {
 namespace {
 
 static_assert(SizedAtLoad<ObjectState> && SizedAtLoad<SnapConstraints> && SizedAtLoad<AssemblyState> &&
-              SizedAtLoad<FingerNeighbourhoods>);
+              SizedAtLoad<FingerNeighbourhoods> && SizedAtLoad<ContactExchange> && SizedAtLoad<DeviceState> &&
+              SizedAtLoad<ForceCommand>);
 static_assert(!ExchangedData<std::vector<int>>, "what says nothing of its room may take some at any time");
 
 constexpr std::size_t kBodies = 5000;
