@@ -13,13 +13,15 @@ struct FrictionState {
   double number = 0;
 };
 
-/// One contact of one finger in one haptic tick. Vectors in the working frame A, which is fixed to the touched body; q_BA
+/// One finger against one body in one haptic tick. Of several bodies that hold the finger, each has a share of the
+/// stiffness, and is asked as if it held the finger alone: the normal force of the body is its share of stiffness * depth.
+/// Vectors in the working frame A, which is fixed to the touched body; q_BA
 /// turns them into the body's own axes, for laws that differ by direction.
 /// The finger F is tied to an anchor on the surface by the spring of the surface: f_t = stiffness * stretch.
 struct FrictionInput {
   double period = 0;                     ///< [s]
   bool fresh = false;                    ///< first tick of the contact
-  bool slipping = false;                 ///< answer of the last tick; false in a fresh contact
+  bool slipping = false;                 ///< answer of the last tick; fresh: whether the finger already slips
   double mu_static = 0, mu_dynamic = 0;  ///< of the material, as in force in this tick [-]
   double stiffness = 0;                  ///< of the surface [N/m]
   double depth = 0;                      ///< > 0; the normal force is stiffness * depth [m]

@@ -56,10 +56,12 @@ FingerContact contactOf(const FingerContact& contact, const ToolContact& part) {
   own.damping = part.damping;
   own.p_BP = own.p_BC = part.p_BP;
   own.nhat_B = part.nhat_B;
-  const double of_friction = part.share * contact.stiffness / part.stiffness;
-  own.tangential_ratio *= of_friction;
-  own.damped_W *= of_friction;
-  own.tangential_damping *= part.share;
+  own.mode = part.mode;
+  own.friction_static = part.friction_static;
+  own.friction_dynamic = part.friction_dynamic;
+  own.tangential_ratio = part.tangential_ratio;
+  own.tangential_damping = part.tangential_damping;
+  own.damped_W = part.damped_W;
   own.contact_count = 1;
   return own;
 }

@@ -15,22 +15,23 @@ std::span<ToolContact> contactsOf(const FingerTick& tick) noexcept {
   return {tick.all.contacts.begin() + tick.out.first_contact, tick.out.contact_count};
 }
 
-// The contacts without friction, still in A: the renderer's own, or else one for each body of the active set.
+// The contacts without friction, still in A: the renderer's own, or else one for each body of the active set. `depth`
+// is the sum of the multipliers.
 std::span<ToolContact> gather(FingerTick& tick) noexcept {
   BoundedList<ToolContact>& contacts = tick.all.contacts;
   tick.out.first_contact = static_cast<std::uint32_t>(contacts.size());
   const auto mine = [&] { return std::span(contacts.begin() + tick.out.first_contact, contacts.end()); };
   for (const RenderedContact& own : tick.own_contacts) {
-    contacts.add({.body = own.body, .stretch_W = own.depth * own.nhat, .share = own.depth});
+    contacts.add({.body = own.body, .stretch_W = own.depth * own.nhat, .depth = own.depth});
   }
   const ActiveSet& active = tick.contact.active;
   for (int a = 0; a < active.count && tick.own_contacts.empty(); ++a) {
     const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
     if (!(member.weight > 0)) continue;
     const auto same = std::ranges::find(mine(), member.body, &ToolContact::body);
-    ToolContact& one = same != mine().end() ? *same : *contacts.add({.body = member.body, .share = 0});
+    ToolContact& one = same != mine().end() ? *same : *contacts.add({.body = member.body});
     one.stretch_W += member.weight * member.nhat;
-    one.share += member.weight;
+    one.depth += member.weight;
   }
   tick.out.contact_count = static_cast<std::uint32_t>(mine().size());
   return mine();
@@ -80,6 +81,8 @@ void finish(const FingerContact& finger, const Vec3& nhat_W, double rate, double
   one.damping = stiffer * finger.damping;
   one.stretch_W /= stiffer;
   one.depth /= stiffer;
+  one.tangential_ratio /= stiffer;
+  one.damped_W /= stiffer;
 }
 
 void finishSeveral(FingerTick& tick, std::span<ToolContact> contacts) noexcept {
@@ -111,33 +114,72 @@ void finishSeveral(FingerTick& tick, std::span<ToolContact> contacts) noexcept {
   out.tangential_force_W = sum - out.normal_force * out.nhat_W;
 }
 
+const BodyFriction* frictionWith(std::int32_t body, const FingerTick& tick) noexcept {
+  const auto found = std::ranges::find(tick.friction, body, &BodyFriction::body);
+  return found == tick.friction.end() ? nullptr : &*found;
+}
+
+/// The part of the body's friction that one of its contacts has.
+void addFriction(const FingerTick& tick, const BodyFriction& friction, double part, ToolContact& one) noexcept {
+  const FrictionAnswer& answer = friction.answer;
+  const double share = part * friction.share;
+  one.stretch_W += share * answer.stretch;
+  one.mode = friction.slipping ? ContactMode::kSlip : ContactMode::kStick;
+  one.friction_static = answer.bound;
+  one.friction_dynamic = answer.bound_sliding;
+  one.tangential_ratio = share * answer.ratio;
+  one.tangential_damping = share * answer.damping;
+  one.damped_W = share * (tick.X_WA.q * answer.damped);
+}
+
+/// Friction with the body that bears the largest share, as the finger's own.
+void writeFriction(FingerTick& tick) noexcept {
+  const BodyFriction* main = frictionWith(tick.contact.body, tick);
+  if (main == nullptr) main = tick.friction.data();
+  const FrictionAnswer& answer = main->answer;
+  tick.out.friction_static = answer.bound;
+  tick.out.friction_dynamic = answer.bound_sliding;
+  tick.out.tangential_ratio = answer.ratio;
+  tick.out.tangential_damping = answer.damping;
+  if (answer.damping > 0) tick.out.damped_W = tick.X_WA.q * answer.damped;
+}
+
+/// Displacement between proxy and HIP that neither the normals nor friction explain; effects cause it.
+Vec3 unexplained(const FingerTick& tick, std::span<const ToolContact> contacts) noexcept {
+  Vec3 rest = tick.contact.x - tick.g;
+  for (const ToolContact& one : contacts) rest -= one.stretch_W;
+  for (const BodyFriction& one : tick.friction) rest -= one.share * one.answer.stretch;
+  return rest;
+}
+
 }  // namespace
 
 void divideContact(FingerTick& tick) noexcept {
-  const ProxyContact& contact = tick.contact;
+  if (!tick.friction.empty()) writeFriction(tick);
   const std::span<ToolContact> mine = gather(tick);
   if (mine.size() < 2) {
     if (mine.empty()) tick.all.contacts.add({});
     tick.out.contact_count = 1;
     return;
   }
-  double total = 0;
-  Vec3 normal = Vec3::Zero();
-  for (const ToolContact& one : mine) {
-    total += one.share;
-    normal += one.stretch_W;
-  }
-  const Vec3 rest = contact.x - tick.g - normal;
+  const Vec3 rest = unexplained(tick, mine);
+  const auto multipliersOf = [&](const ToolContact* same) {
+    double sum = 0;
+    for (const ToolContact& one : mine) sum += same == nullptr || one.body == same->body ? one.depth : 0;
+    return sum;
+  };
+  const double total = multipliersOf(nullptr);
   for (ToolContact& one : mine) {
     const Pose X_BA = tick.touchables.frameOf(one.body).inverse() * tick.X_WA;
-    const Vec3 nhat = one.stretch_W.normalized();
-    one.share /= total;
-    one.stretch_W += one.share * rest;
-    one.depth = one.stretch_W.dot(nhat);
-    one.nhat_B = X_BA.q * nhat;
-    one.p_BP = X_BA * contact.x;
+    one.nhat_B = X_BA.q * one.stretch_W.normalized();
+    one.p_BP = X_BA * tick.contact.x;
+    one.mode = ContactMode::kSlip;
+    one.stretch_W += one.depth / total * rest;
+    if (const BodyFriction* friction = frictionWith(one.body, tick))
+      addFriction(tick, *friction, one.depth / multipliersOf(&one), one);
     one.stretch_W = tick.X_WA.q * one.stretch_W;
   }
+  for (ToolContact& one : mine) one.depth = one.stretch_W.dot(tick.touchables.frameOf(one.body).q * one.nhat_B);
 }
 
 void finishContacts(FingerTick& tick) noexcept {
@@ -153,6 +195,12 @@ void finishContacts(FingerTick& tick) noexcept {
              .depth = out.depth,
              .stiffness = out.stiffness,
              .damping = out.damping,
+             .mode = out.mode,
+             .friction_static = out.friction_static,
+             .friction_dynamic = out.friction_dynamic,
+             .tangential_ratio = out.tangential_ratio,
+             .tangential_damping = out.tangential_damping,
+             .damped_W = out.damped_W,
              .f_H_W = out.f_H_W};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "framework/haptics/touchables.h"
 #include "framework/scene/surface_change.h"
 #include "framework/scene/world.h"
+#include "modules/haptics_proxy/friction.h"
 
 namespace presa {
 
@@ -49,6 +51,7 @@ struct FingerTick {
   Vec3 g = Vec3::Zero();  ///< HIP in A
   ProxyContact contact = {};
   const BoundedList<RenderedContact>& own_contacts;  ///< of the renderer, in A
+  std::span<const BodyFriction> friction = {};  ///< with each body that holds the finger; empty without friction
   double softness = 1;  ///< stiffness of the surface over that of its material, from surface effects
   bool broken = false;  ///< a plug-in broke its contract: no force
   /// Body whose coordinates hold the finger's state from the next tick on; X_BA, if it is another.
@@ -82,11 +85,11 @@ class SurfaceStage : public FingerStage {
   virtual std::string broken() const = 0;
 };
 
-// Each stage is in the file of its name; spring and damping are in render_stages.cpp.
-/// `mover` must outlive the stage.
-std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const ProxyMover& mover);
+// Each stage is in the file of its name, friction in law_stage.cpp; spring and damping are in render_stages.cpp.
+/// `renderer` has a mover, and must outlive the stage.
+std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const Renderer& renderer);
 /// `change` must outlive the stage, too.
-std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const ProxyMover& mover,
+std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const Renderer& renderer,
                                                     const In<SurfaceChange>& change);
 /// `world` must outlive the stage.
 std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces);

@@ -1,15 +1,12 @@
-// Friction on the god-object (PERCRO paper, section 3.3). The law (framework/haptics/friction_law.h) says how far the
+// Friction on the god-object (PERCRO paper, section 3.3). The laws (framework/haptics/friction_law.h) say how far the
 // proxy may lag behind the frictionless point; this file moves the proxy there. A sticking proxy is not moved at all. The
-// tangential displacement is stored at the HIP (state.stick_anchor), not recomputed from the proxy, which would drift on
-// curved surfaces. Invariants: a touching proxy lies on a surface, and every motion of it is swept (ProxyMover).
+// tangential displacement is stored at the HIP (anchor), not recomputed from the proxy, which would drift on curved
+// surfaces. Several bodies that hold a finger are springs in parallel: each has its own anchor and its share of the
+// stiffness, its share of the force is bounded by its own normal force, and the proxy is the mean of all.
+// Invariants: a touching proxy lies on a surface, and every motion of it is swept (ProxyMover).
 #include "modules/haptics_proxy/friction.h"
 
-#include <array>
-#include <atomic>
-#include <vector>
-
-#include "framework/haptics/friction_laws.h"
-#include "modules/haptics_proxy/finger_stage.h"
+#include <algorithm>
 
 namespace presa {
 namespace {
@@ -17,22 +14,78 @@ namespace {
 /// One finger in one tick.
 struct Holding {
   ProxyContact& contact;
+  std::span<const RenderedContact> own;
   const Vec3& g;
   double r;
+  const Friction& friction;
   const ProxyMover& mover;
   Surroundings& near;
+  Held& held;
 
   ProxyMove move(const Vec3& from, const Vec3& to) const noexcept { return mover.move(from, to, r, near); }
 };
 
+/// Calls `use(body, depth * nhat)` for each constraint that holds the finger.
+template <class Use>
+void forEachConstraint(const Holding& now, const Use& use) noexcept {
+  const ActiveSet& active = now.contact.active;
+  for (const RenderedContact& one : now.own) use(one.body, one.depth * one.nhat);
+  if (!now.own.empty()) return;
+  for (int a = 0; a < active.count; ++a) {
+    const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
+    if (member.weight > 0) use(member.body, member.weight * member.nhat);
+  }
+}
+
+BodyFriction begin(std::int32_t body, const Held& held, bool slipping) noexcept {
+  return {.body = body, .anchor = held.anchor, .slipping = slipping};
+}
+
+void holdBy(std::int32_t only, Held& held, double depth, bool slipping) noexcept {
+  if (held.bodies.size() != 1 || held.bodies[0].body != only) {
+    BodyFriction* const known = std::ranges::find(held.bodies, only, &BodyFriction::body);
+    const BodyFriction kept = known != held.bodies.end() ? *known : begin(only, held, slipping);
+    held.bodies.clear();
+    held.bodies.add(kept);
+  }
+  held.bodies[0].depth = held.depth = depth;
+  held.bodies[0].share = 1;
+}
+
+/// Lists the bodies that hold the finger. A new one holds it where the others do, and slips if the finger does.
+void gather(const Holding& now, bool slipping) noexcept {
+  Held& held = now.held;
+  const std::int32_t main = now.contact.body;
+  bool alone = true;
+  forEachConstraint(now, [&](std::int32_t body, const Vec3&) { alone = alone && body == main; });
+  if (alone) return holdBy(main, held, now.contact.depth, slipping);
+  const auto depthOf = [&](std::int32_t body) {
+    Vec3 sum = Vec3::Zero();
+    forEachConstraint(now, [&](std::int32_t other, const Vec3& part) {
+      if (other == body) sum += part;
+    });
+    return sum.norm();
+  };
+  for (std::size_t i = held.bodies.size(); i-- > 0;) {
+    if (!(depthOf(held.bodies[i].body) > 0)) held.bodies.remove(i);
+  }
+  forEachConstraint(now, [&](std::int32_t body, const Vec3&) {
+    if (std::ranges::find(held.bodies, body, &BodyFriction::body) == held.bodies.end())
+      held.bodies.add(begin(body, held, slipping));
+  });
+  held.depth = 0;
+  for (BodyFriction& one : held.bodies) held.depth += one.depth = depthOf(one.body);
+  for (BodyFriction& one : held.bodies) one.share = one.depth / held.depth;
+}
+
 /// Restarts both points from the fingertip at `x`, without friction. Needed where the frictionless point took another
 /// path, round an edge or out of a fold that the fingertip is still in.
-void startAgainFrom(const Vec3& x, const Holding& now, Held& held) noexcept {
+void startAgainFrom(const Vec3& x, const Holding& now) noexcept {
   const ProxyMove free = now.move(x, now.g);
   ProxyContact& contact = now.contact;
-  contact.state.x = contact.state.god_object = held.stick_anchor = free.x;
+  contact.state.x = contact.state.god_object = now.held.anchor = free.x;
   contact.state.touching = contact.state.slipping = free.touching;
-  held.fresh = true;
+  now.held.fresh = true;
   contact.depth = free.touching ? (free.x - now.g).norm() : 0;
   contact.body = free.body;
   contact.first_touch = free.first_touch;
@@ -42,18 +95,35 @@ void startAgainFrom(const Vec3& x, const Holding& now, Held& held) noexcept {
 
 constexpr double kSameSide = 0.5;  // minimum cosine between normals on the same side of a body
 
-/// The law's answer for a contact whose tangential displacement is `displacement` if the proxy sticks.
-FrictionAnswer ask(const Friction& friction, const Holding& now, bool fresh, bool slipped, Held& held,
-                   const Vec3& displacement) noexcept {
+/// Asks the law of every body that holds the finger. Returns the body whose law broke its contract, or kNoBody.
+std::int32_t ask(const Holding& now, bool fresh) noexcept {
   const ProxyContact& contact = now.contact;
-  if (fresh) held.law = {};
-  Vec3 slide = fresh ? Vec3(-displacement) : Vec3(now.g - held.g);
+  Held& held = now.held;
+  Vec3 slide = now.g - held.g;
   slide -= slide.dot(contact.nhat) * contact.nhat;
+  std::int32_t broken = kNoBody;
+  for (BodyFriction& one : held.bodies) {
+    const BodyLaw with = now.friction.of(one.body);
+    // a body with a share of the stiffness and the same share of the normal force: as if it held the finger alone
+    const double depth = held.depth;
+    one.answer = with.law->hold(
+        {now.friction.period(), one.fresh, one.slipping, with.mu_static, with.mu_dynamic, now.friction.stiffness(),
+         depth, contact.nhat, one.displacement, fresh ? Vec3(-one.displacement) : slide, with.q_BA},
+        one.law);
+    if (!keepsContract(one.answer, depth)) broken = one.body;
+    one.fresh = false;
+    one.slipping = one.answer.slipping;
+  }
   held.fresh = false;
   held.g = now.g;
-  return friction.law.hold({friction.period, fresh, slipped, friction.mu_static, friction.mu_dynamic,
-                            friction.stiffness, contact.depth, contact.nhat, displacement, slide, friction.q_BA},
-                           held.law);
+  return broken;
+}
+
+/// A contact that begins without a motion: nothing is stretched yet, but the dynamics needs the bounds of the laws.
+std::int32_t beginAnew(const Holding& now) noexcept {
+  now.held.bodies.clear();
+  gather(now, false);
+  return ask(now, true);
 }
 
 bool meets(const Vec3& a, const Vec3& b, double r) noexcept {
@@ -62,172 +132,85 @@ bool meets(const Vec3& a, const Vec3& b, double r) noexcept {
 }
 
 /// No contact: the fingertip follows the frictionless point, if a path leads there.
-bool letGo(const Vec3& from, const Friction& friction, const Holding& now, Held& held,
-           FrictionAnswer& answer) noexcept {
+std::int32_t letGo(const Vec3& from, const Holding& now) noexcept {
   ProxyContact& contact = now.contact;
   const ProxyMove back = now.move(from, contact.state.god_object);
-  if (!meets(back.x, contact.state.god_object, now.r)) startAgainFrom(back.x, now, held);
+  if (!meets(back.x, contact.state.god_object, now.r)) startAgainFrom(back.x, now);
   contact.x = contact.state.x;
-  if (!contact.state.touching) return true;
-  // a contact that begins here: nothing is stretched yet, but the dynamics needs the law's bounds
-  answer = ask(friction, now, true, false, held, Vec3::Zero());
-  return keepsContract(answer, contact.depth);
+  return contact.state.touching ? beginAnew(now) : kNoBody;
 }
 
-/// Moves the goal sideways to where the law allows it, and the proxy there; also when the body that friction held on to
+/// Moves the goal sideways to where the laws allow it, and the proxy there; also when a body that friction held on to
 /// is gone.
-void follow(const Vec3& from, const Vec3& stretch, const Holding& now, Held& held) noexcept {
+void follow(const Vec3& from, const Vec3& stretch, const Holding& now) noexcept {
   ProxyState& state = now.contact.state;
-  held.stick_anchor = now.g + stretch;
-  const ProxyMove moved = now.move(from, held.stick_anchor);
+  Held& held = now.held;
+  held.anchor = now.g + stretch;
+  for (BodyFriction& one : held.bodies) one.anchor = now.g + one.answer.stretch;
+  const ProxyMove moved = now.move(from, held.anchor);
   state.x = moved.x;
-  const Vec3 normal = moved.x - held.stick_anchor;
+  const Vec3 normal = moved.x - held.anchor;
   if (!moved.touching) {
     // no surface on the path, hence no normal force and no friction
+    held.anchor = state.god_object;
     state.slipping = true;
-    held.stick_anchor = state.god_object;
+    for (BodyFriction& one : held.bodies) {
+      one.anchor = held.anchor;
+      one.slipping = true;
+    }
     const ProxyMove back = now.move(moved.x, state.god_object);
     state.x = state.god_object;
-    if (!meets(back.x, state.god_object, now.r)) startAgainFrom(back.x, now, held);
+    if (!meets(back.x, state.god_object, now.r)) startAgainFrom(back.x, now);
   } else if (normal.dot(now.contact.nhat) < kSameSide * normal.norm()) {
-    startAgainFrom(moved.x, now, held);
+    startAgainFrom(moved.x, now);
   }
+}
+
+/// Whether every body lets its anchor be where it is, and all anchors are one point of the surface.
+bool allStick(const Held& held) noexcept {
+  return std::ranges::all_of(held.bodies, [&](const BodyFriction& one) {
+    return !one.slipping && one.answer.stretch == one.displacement && one.anchor == held.bodies[0].anchor;
+  });
 }
 
 }  // namespace
 
-bool holdByFriction(ProxyContact& contact, const ProxyState& last, Held& held, const Vec3& g, double r,
-                    const Friction& friction, const ProxyMover& mover, Surroundings& near,
-                    FrictionAnswer& answer) noexcept {
-  if (!contact.state.touching && !last.touching) return true;
-  const Holding now{contact, g, r, mover, near};
+std::int32_t holdByFriction(ProxyContact& contact, std::span<const RenderedContact> own, const ProxyState& last,
+                            Held& held, const Vec3& g, double r, const Friction& friction, const ProxyMover& mover,
+                            Surroundings& near) noexcept {
+  if (!contact.state.touching && !last.touching) return kNoBody;
+  const Holding now{contact, own, g, r, friction, mover, near, held};
   near.use(Point::kHeld);
-  if (!contact.state.touching) return letGo(last.x, friction, now, held, answer);
+  if (!contact.state.touching) return letGo(last.x, now);
   const Vec3 from = last.touching ? last.x : contact.first_touch;
-  if (!last.touching) held.stick_anchor = contact.first_touch;
-  Vec3 displacement = held.stick_anchor - contact.state.god_object;
-  displacement -= displacement.dot(contact.nhat) * contact.nhat;
+  if (!last.touching) held.anchor = contact.first_touch;
   const bool fresh = !last.touching || held.fresh;
-  answer = ask(friction, now, fresh, last.touching && last.slipping, held, displacement);
-  if (!keepsContract(answer, contact.depth)) return false;
-  contact.state.slipping = answer.slipping;
+  if (fresh) held.bodies.clear();
+  gather(now, last.touching && last.slipping);
+  for (BodyFriction& one : held.bodies) {
+    one.displacement = one.anchor - contact.state.god_object;
+    one.displacement -= one.displacement.dot(contact.nhat) * contact.nhat;
+  }
+  const std::int32_t broken = ask(now, fresh);
+  if (broken != kNoBody) return broken;
+  Vec3 stretch = Vec3::Zero();
+  contact.state.slipping = true;
+  for (const BodyFriction& one : held.bodies) {
+    stretch += one.share * one.answer.stretch;
+    contact.state.slipping = contact.state.slipping && one.slipping;
+  }
 
   // a sticking proxy stays fixed in the body's coordinates, so there is no drift to correct
-  if (!contact.state.slipping && answer.stretch == displacement && mover.isSupported(from, r, near)) {
+  if (allStick(held) && mover.isSupported(from, r, near)) {
     contact.state.x = from;
   } else {
-    follow(from, answer.stretch, now, held);
+    follow(from, stretch, now);
   }
   contact.x = contact.state.x;
   const Vec3 away = contact.x - g;
   contact.depth = away.dot(contact.nhat);
   contact.tangential_displacement = away - contact.depth * contact.nhat;
-  return true;
-}
-
-namespace {
-
-/// The laws of the scene, and what both stages below do with them.
-class LawStage : public FrictionStage {
- public:
-  LawStage(const SurfacesInForce& surfaces, const ProxyMover& mover)
-      : surfaces_(surfaces), laws_(surfaces.scene), mover_(mover), held_(surfaces.scene.devices.size()) {}
-
-  void changeFrame(std::size_t finger, const Pose& X_BA) noexcept override {
-    Held& held = held_[finger];
-    held.stick_anchor = X_BA * held.stick_anchor;
-    held.g = X_BA * held.g;
-    held.law.vector = X_BA.q * held.law.vector;
-  }
-
-  std::optional<std::string> brokenLaw() const override {
-    const int body = broken_.load(std::memory_order_acquire);
-    if (body < 0) return std::nullopt;
-    const Material& material = surfaces_.scene.materialOf(surfaces_.scene.bodies[static_cast<std::size_t>(body)]);
-    return "friction law '" + laws_.nameOf(body) + "' of material '" + material.name + "'";
-  }
-
- protected:
-  static std::int32_t bodyOf(const FingerTick& tick) noexcept {
-    return tick.contact.body != kNoBody ? tick.contact.body : tick.finger.frame;
-  }
-  void hold(FingerTick& tick, std::int32_t body, double mu_static, double mu_dynamic) noexcept {
-    Friction friction{*laws_.of(body), mu_static, mu_dynamic, surfaces_.of(body).stiffness, tick.period};
-    if (body != tick.finger.frame) friction.q_BA = tick.touchables.frameOf(body).q.conjugate() * tick.X_WA.q;
-    FrictionAnswer answer;
-    if (!holdByFriction(tick.contact, tick.finger.tip, held_[tick.index], tick.g, tick.r, friction, mover_,
-                        *tick.finger.near, answer)) {
-      int none = -1;
-      broken_.compare_exchange_strong(none, body, std::memory_order_acq_rel);
-    }
-    tick.broken = tick.broken || broken_.load(std::memory_order_relaxed) >= 0;
-    if (!tick.contact.state.touching) return;
-    tick.out.friction_static = answer.bound;
-    tick.out.friction_dynamic = answer.bound_sliding;
-    tick.out.tangential_ratio = answer.ratio;
-    tick.out.tangential_damping = answer.damping;
-    if (answer.damping > 0) tick.out.damped_W = tick.X_WA.q * answer.damped;
-  }
-  std::string names() const {
-    std::string all;
-    for (const std::string& name : laws_.names()) all += (all.empty() ? "" : ", ") + name;
-    return all;
-  }
-  const SurfacesInForce surfaces_;
-
- private:
-  const FrictionLaws laws_;
-  const ProxyMover& mover_;
-  std::vector<Held> held_;       // by finger
-  std::atomic<int> broken_{-1};  // body
-};
-
-class SteadyFriction final : public LawStage {
- public:
-  using LawStage::LawStage;
-  void apply(FingerTick& tick) noexcept override {
-    const std::int32_t body = bodyOf(tick);
-    if (body == kNoBody) return;
-    const Material& material = surfaces_.of(body);
-    hold(tick, body, material.friction_static, material.friction_dynamic);
-  }
-  std::string what() const override { return "friction: " + names(); }
-};
-
-/// Uses the changed coefficients from the tick of the change on; a sticking finger outside the new bound then slips.
-class ChangingFriction final : public LawStage {
- public:
-  ChangingFriction(const SurfacesInForce& surfaces, const ProxyMover& mover, const In<SurfaceChange>& change)
-      : LawStage(surfaces, mover), change_(change) {
-    for (const Body& body : surfaces.scene.bodies) {
-      const Material& material = surfaces.scene.materialOf(body);
-      const FrictionCoefficients before{material.friction_static, material.friction_dynamic};
-      coefficients_.push_back({before, material.changed_friction.value_or(before)});
-    }
-  }
-  void apply(FingerTick& tick) noexcept override {
-    const std::int32_t body = bodyOf(tick);
-    if (body == kNoBody) return;
-    const FrictionCoefficients& now = coefficients_[static_cast<std::size_t>(body)][change_->happened ? 1 : 0];
-    hold(tick, body, now.mu_static, now.mu_dynamic);
-  }
-  std::string what() const override {
-    return "friction: " + names() + ", with other coefficients after the surface change";
-  }
-
- private:
-  std::vector<std::array<FrictionCoefficients, 2>> coefficients_;  // by body: before and after
-  const In<SurfaceChange>& change_;
-};
-
-}  // namespace
-
-std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const ProxyMover& mover) {
-  return std::make_unique<SteadyFriction>(surfaces, mover);
-}
-std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const ProxyMover& mover,
-                                                    const In<SurfaceChange>& change) {
-  return std::make_unique<ChangingFriction>(surfaces, mover, change);
+  return kNoBody;
 }
 
 }  // namespace presa

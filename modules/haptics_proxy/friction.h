@@ -1,33 +1,64 @@
 #pragma once
+#include <span>
+
+#include "framework/core/exchange/bounded_list.h"
 #include "framework/haptics/friction_law.h"
 #include "framework/haptics/renderer.h"
 
 namespace presa {
 
-/// The friction of one contact.
-struct Friction {
-  const FrictionLaw& law;
-  double mu_static, mu_dynamic;
-  double stiffness;  ///< of the surface [N/m]
-  double period;     ///< [s]
+/// The law between a finger and a body, with the coefficients in force in this tick.
+struct BodyLaw {
+  const FrictionLaw* law = nullptr;
+  double mu_static = 0, mu_dynamic = 0;
   Quat q_BA = Quat::Identity();
 };
 
-/// What friction keeps of a finger's contact from tick to tick, in the working frame A. Without a contact it has no
-/// meaning.
+/// The friction of a finger in one tick.
+class Friction {
+ public:
+  Friction(double stiffness, double period) : stiffness_(stiffness), period_(period) {}
+  virtual BodyLaw of(std::int32_t body) const noexcept = 0;
+  double stiffness() const noexcept { return stiffness_; }  ///< of the finger's spring [N/m]
+  double period() const noexcept { return period_; }        ///< [s]
+
+ protected:
+  ~Friction() = default;
+
+ private:
+  double stiffness_, period_;
+};
+
+/// Friction between a finger and one of the bodies that hold it, in the working frame A: a spring of its own, which has
+/// `share` of the finger's stiffness, from the HIP to an anchor of its own.
+struct BodyFriction {
+  std::int32_t body = kNoBody;
+  double depth = 0;                  ///< times stiffness: normal force of the body [m]
+  double share = 1;                  ///< depth / sum over the bodies that hold the finger
+  Vec3 anchor = Vec3::Zero();        ///< friction pulls the HIP towards it
+  Vec3 displacement = Vec3::Zero();  ///< tangential, if the anchor stays [m]
+  bool fresh = true;                 ///< no tick with this body yet
+  bool slipping = false;
+  FrictionState law{};  ///< the law's own
+  FrictionAnswer answer{};
+};
+
+/// What friction keeps of a finger from tick to tick, in the working frame A. Without a contact it has no meaning.
 struct Held {
-  Vec3 stick_anchor = Vec3::Zero();  ///< friction pulls the HIP towards it; its image on the surface is the proxy
+  /// `max_bodies`: of those that can hold the finger at the same time.
+  explicit Held(std::size_t max_bodies = std::tuple_size_v<decltype(ActiveSet::member)>) : bodies(max_bodies) {}
+  BoundedList<BodyFriction> bodies;  ///< that hold the finger
+  double depth = 0;                  ///< sum over the bodies [m]
+  Vec3 anchor = Vec3::Zero();        ///< mean of theirs, weighted by share; its image on the surface is the proxy
   Vec3 g = Vec3::Zero();             ///< HIP of the last tick
   bool fresh = true;                 ///< friction begins anew in the next tick
-  FrictionState law{};               ///< the law's own
 };
 
 /// Applies friction to a sliding `contact`: a sticking proxy stays at its last position or at the first touch, a
-/// slipping one goes where the law's tangential force puts it. The tangential displacement is stored at the HIP, below
-/// the surface, not recomputed from the proxy: on a curved surface the two differ, and the difference would accumulate
-/// tick by tick. Writes the law's `answer` if there is a contact. False: the law broke its contract.
-bool holdByFriction(ProxyContact& contact, const ProxyState& last, Held& held, const Vec3& g, double r,
-                    const Friction& friction, const ProxyMover& mover, Surroundings& near,
-                    FrictionAnswer& answer) noexcept;
+/// slipping one goes where the tangential forces of the laws put it. `own`: contacts of the renderer, or empty. Writes
+/// the answers to `held`. Returns the body whose law broke its contract, or kNoBody.
+std::int32_t holdByFriction(ProxyContact& contact, std::span<const RenderedContact> own, const ProxyState& last,
+                            Held& held, const Vec3& g, double r, const Friction& friction, const ProxyMover& mover,
+                            Surroundings& near) noexcept;
 
 }  // namespace presa

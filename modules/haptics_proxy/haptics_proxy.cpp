@@ -57,8 +57,8 @@ SurfacesInForce HapticsProxy::surfaces(const HapticEffects& effects) {
 }
 
 std::unique_ptr<FrictionStage> HapticsProxy::frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces) {
-  if (!effects.surface_change) return makeFriction(surfaces, *renderer_->mover());
-  return makeChangingFriction(surfaces, *renderer_->mover(),
+  if (!effects.surface_change) return makeFriction(surfaces, *renderer_);
+  return makeChangingFriction(surfaces, *renderer_,
                               surface_change_.emplace(*this, "surface_change", In<SurfaceChange>::Optional{}));
 }
 

@@ -13,8 +13,8 @@ namespace presa {
 /// Numbers as in figure 12 of the PERCRO paper: 0 no contact, 1 not slipping, 2 slipping.
 enum class ContactMode : std::int32_t { kNone = 0, kStick = 1, kSlip = 2 };
 
-/// A finger's contact with one body: a spring-damper of its own. The forces of all contacts of a finger add up to its
-/// own; mode and friction are the finger's.
+/// A finger's contact with one body: a spring-damper with a friction of its own. The forces of all contacts of a finger
+/// add up to its own.
 struct ToolContact {
   std::int32_t body = kNoBody;
   Vec3 p_BP = Vec3::Zero();       ///< where the force acts: the proxy, coordinates of `body` [m]
@@ -24,12 +24,18 @@ struct ToolContact {
   double depth = 0;               ///< part of stretch_W along the normal [m]
   double stiffness = 0;           ///< [N/m]
   double damping = 0;             ///< along the normal [N s/m]
-  double share = 1;               ///< of the finger's friction [-]
-  Vec3 f_H_W = Vec3::Zero();      ///< rendered force on the finger, damping and friction included [N]
+  // friction, as in FingerContact
+  ContactMode mode = ContactMode::kNone;
+  double friction_static = 0, friction_dynamic = 0;
+  double tangential_ratio = 1;
+  double tangential_damping = 0;
+  Vec3 damped_W = Vec3::Zero();
+  Vec3 f_H_W = Vec3::Zero();  ///< rendered force on the finger, damping and friction included [N]
 };
 
 /// Contact of one finger. nhat points from the body into the finger; depth >= 0 when they overlap. Where several bodies
-/// hold the finger, `body` bears the largest share, and depth and forces are those of the whole contact.
+/// hold the finger, `body` bears the largest share, friction is that with it, and mode, depth and forces are those of the
+/// whole contact: it slips if all bodies slip.
 struct FingerContact {
   ContactMode mode = ContactMode::kNone;
   std::int32_t body = kNoBody;

@@ -32,7 +32,8 @@ TEST(SharedFinger, EachBodyGetsItsOwnPart) {
                              .nhat_B = X_WB.q.conjugate() * force.normalized(),
                              .stretch_W = force / kStiffness,
                              .stiffness = kStiffness,
-                             .share = 0.5});
+                             .mode = ContactMode::kSlip,
+                             .tangential_ratio = 0.5});
     }
     contact.p_BP = contact.p_BC = exchange.contacts[0].p_BP;
     contact.nhat_B = exchange.contacts[0].nhat_B;

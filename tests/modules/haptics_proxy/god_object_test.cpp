@@ -231,7 +231,7 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
       ASSERT_TRUE(c.state.slipping);
     }
     const double phi = 2 * std::atan(std::tan(phi_0 / 2) * std::exp(-way / length));
-    const Vec3 displacement = tip.held.stick_anchor - (from + Vec3(0, 0, way));
+    const Vec3 displacement = tip.held.anchor - (from + Vec3(0, 0, way));
     const double seen = std::acos(std::clamp(-displacement.z() / displacement.norm(), -1.0, 1.0));
     EXPECT_NEAR(seen, phi, 0.01 + step / length) << step;
   }

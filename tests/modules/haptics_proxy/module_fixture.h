@@ -24,10 +24,15 @@ inline FrictionAnswer holdByCone(ProxyContact& contact, Tip& tip, const Vec3& g,
                                  Surroundings& surroundings) {
   static const auto kLaw = pluginTable<FrictionLawPlugin>(kDefaultFrictionLaw, "presaFrictionLawPlugin").create({});
   static const auto kRenderer = pluginTable<RendererPlugin>("god_object", "presaRendererPlugin").create({}, World{});
-  FrictionAnswer answer;
-  EXPECT_TRUE(holdByFriction(contact, tip, tip.held, g, kR, {*kLaw, cone.mu_static, cone.mu_dynamic, kStiffness, 1e-3},
-                             *kRenderer->mover(), surroundings, answer));
-  return answer;
+  struct One final : Friction {
+    explicit One(const BodyLaw& law) : Friction(kStiffness, 1e-3), with(law) {}
+    BodyLaw of(std::int32_t) const noexcept override { return with; }
+    BodyLaw with;
+  };
+  EXPECT_EQ(holdByFriction(contact, {}, tip, tip.held, g, kR, One({kLaw.get(), cone.mu_static, cone.mu_dynamic}),
+                           *kRenderer->mover(), surroundings),
+            kNoBody);
+  return tip.held.bodies.empty() ? FrictionAnswer{} : tip.held.bodies[0].answer;
 }
 
 /// Publishes a value set by the test, at haptic rate, so that the module under test reads it in the same tick.

@@ -54,7 +54,6 @@ TEST(OwnContacts, EachBodyBearsItsOwn) {
       EXPECT_NEAR((one.f_H_W - (kStiffness * depthAt(z) - damping * v_WH.dot(nhat)) * nhat).norm(), 0, 1e-9);
       EXPECT_NEAR((one.nhat_B - nhat).norm(), 0, 1e-12);
       EXPECT_NEAR((one.p_BP - apart - Vec3(0, 0, contact.p_WP.z() - z)).norm(), 0, 1e-12);
-      EXPECT_DOUBLE_EQ(one.share, 0.25);
       sum += one.f_H_W;
     }
     EXPECT_NEAR((contact.f_H_W - sum).norm(), 0, 1e-9);
