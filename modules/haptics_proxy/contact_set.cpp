@@ -45,12 +45,6 @@ struct Planes {
   Mat3 along = Mat3::Identity();  // projection on the directions along all planes: only there is friction
 };
 
-void addTo(Mat3& along, const Vec3& nhat) noexcept {
-  constexpr double kParallel = 0.05;  // sine of planes that count as one, squared
-  const Vec3 rest = along * nhat;
-  if (rest.squaredNorm() > kParallel) along -= rest * rest.transpose() / rest.squaredNorm();
-}
-
 Planes planesOf(const FingerTick& tick, std::span<const ToolContact> contacts) noexcept {
   Planes planes;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -58,7 +52,7 @@ Planes planesOf(const FingerTick& tick, std::span<const ToolContact> contacts) n
     const Vec3 v_WB = tick.touchables.velocityAt(contacts[i].body, tick.out.p_WP);
     planes.nhat_W[i] = nhat;
     planes.v_WB[i] = v_WB;
-    addTo(planes.along, nhat);
+    keepAlong(nhat, planes.along);
     planes.closing[i] = nhat.dot(v_WB - tick.out.v_WH);
   }
   Mat3 products = Mat3::Identity();

@@ -95,12 +95,21 @@ void startAgainFrom(const Vec3& x, const Holding& now) noexcept {
 
 constexpr double kSameSide = 0.5;  // minimum cosine between normals on the same side of a body
 
+/// Motion of the finger over the bodies since the last tick; between several only along the planes of all.
+Vec3 slideOf(const Holding& now) noexcept {
+  const Vec3 motion = now.g - now.held.g;
+  const Vec3& nhat = now.contact.nhat;
+  if (now.held.bodies.size() == 1) return motion - motion.dot(nhat) * nhat;
+  Mat3 along = Mat3::Identity();
+  forEachConstraint(now, [&](std::int32_t, const Vec3& part) { keepAlong(part.normalized(), along); });
+  return along * motion;
+}
+
 /// Asks the law of every body that holds the finger. Returns the body whose law broke its contract, or kNoBody.
 std::int32_t ask(const Holding& now, bool fresh) noexcept {
   const ProxyContact& contact = now.contact;
   Held& held = now.held;
-  Vec3 slide = now.g - held.g;
-  slide -= slide.dot(contact.nhat) * contact.nhat;
+  const Vec3 slide = slideOf(now);
   std::int32_t broken = kNoBody;
   for (BodyFriction& one : held.bodies) {
     const BodyLaw with = now.friction.of(one.body);

@@ -54,6 +54,14 @@ struct Held {
   bool fresh = true;                 ///< friction begins anew in the next tick
 };
 
+/// Takes from the projection `along` the directions that leave the plane of normal nhat, so that the rest lies in all
+/// planes.
+inline void keepAlong(const Vec3& nhat, Mat3& along) noexcept {
+  constexpr double kParallel = 0.05;  // sine of planes that count as one, squared
+  const Vec3 rest = along * nhat;
+  if (rest.squaredNorm() > kParallel) along -= rest * rest.transpose() / rest.squaredNorm();
+}
+
 /// Applies friction to a sliding `contact`: a sticking proxy stays at its last position or at the first touch, a
 /// slipping one goes where the tangential forces of the laws put it. `own`: contacts of the renderer, or empty. Writes
 /// the answers to `held`. Returns the body whose law broke its contract, or kNoBody.

@@ -44,5 +44,45 @@ TEST(SharedFinger, EachBodyGetsItsOwnPart) {
   EXPECT_NEAR((kMass * runner[1].v_WB + on_right * kTime).norm(), 0, 0.01 * 0.64 * kTime);
 }
 
+// A fingertip in a groove of two cubes slides along it at 0.1 m/s, its friction on the rough one alone: of the two, only
+// that one is taken along, with mu f_n. Same tolerance.
+TEST(SharedFinger, EachBodyGetsItsOwnFriction) {
+  constexpr double kMass = 50, kStiffness = 1000, kTime = 0.02, kMu = 0.5, kNormal = 1;
+  for (const std::int32_t rough : {0, 1}) {
+    WorldMaker maker;
+    maker.gravity(Vec3::Zero()).friction(0);
+    maker.box({0.05, 0.05, 0.05}, kMass, {{0.03, 0, -0.025}, Quat::Identity()});
+    maker.box({0.05, 0.05, 0.05}, kMass, {{-0.03, 0, 0.03}, Quat::Identity()});
+    Runner runner(maker.world());
+    for (int n = 0; n < std::lround(kTime / kStep); ++n) {
+      ContactExchange exchange(1, 2);
+      exchange.time = runner.time;
+      FingerContact& contact = exchange.fingers[0];
+      contact = {.mode = ContactMode::kSlip, .body = 0, .v_WH = Vec3(0, 0.1, 0), .stiffness = kStiffness};
+      contact.contact_count = 2;
+      for (const std::int32_t body : {0, 1}) {
+        const Pose& X_WB = runner[static_cast<std::size_t>(body)].X_WB_end;
+        const Vec3 nhat = body == 0 ? Vec3::UnitZ() : Vec3::UnitX();
+        const double mu = body == rough ? kMu : 0;
+        exchange.contacts.add({.body = body,
+                               .p_BP = X_WB.inverseTimes(contact.p_WP),
+                               .nhat_B = X_WB.q.conjugate() * nhat,
+                               .v_WH = contact.v_WH,
+                               .stretch_W = (kNormal * nhat - mu * kNormal * Vec3::UnitY()) / kStiffness,
+                               .stiffness = kStiffness,
+                               .mode = ContactMode::kSlip,
+                               .friction_static = mu,
+                               .friction_dynamic = mu,
+                               .tangential_ratio = 0.5});
+      }
+      runner.step(exchange);
+    }
+    for (const std::int32_t body : {0, 1}) {
+      const double given = kMass * runner[static_cast<std::size_t>(body)].v_WB.y();
+      EXPECT_NEAR(given, body == rough ? kMu * kNormal * kTime : 0, 0.01 * kMu * kNormal * kTime) << rough << body;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace presa::ode
