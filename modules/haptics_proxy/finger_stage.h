@@ -51,7 +51,7 @@ struct FingerTick {
   Vec3 g = Vec3::Zero();  ///< HIP in A
   ProxyContact contact = {};
   const BoundedList<RenderedContact>& own_contacts;  ///< of the renderer, in A
-  std::span<const BodyFriction> friction = {};  ///< with each body that holds the finger; empty without friction
+  std::span<const BodyFriction> friction = {};       ///< with each body that holds the finger; empty without friction
   double softness = 1;  ///< stiffness of the surface over that of its material, from surface effects
   bool broken = false;  ///< a plug-in broke its contract: no force
   /// Body whose coordinates hold the finger's state from the next tick on; X_BA, if it is another.

@@ -23,9 +23,9 @@ class LawStage : public FrictionStage {
     const std::int32_t main = tick.contact.body != kNoBody ? tick.contact.body : tick.finger.frame;
     if (main == kNoBody) return;
     Held& held = held_[tick.index];
-    const std::int32_t body = holdByFriction(tick.contact, {tick.own_contacts.begin(), tick.own_contacts.end()},
-                                             tick.finger.tip, held, tick.g, tick.r, InTick(*this, tick, main), mover_,
-                                             *tick.finger.near);
+    const std::int32_t body =
+        holdByFriction(tick.contact, {tick.own_contacts.begin(), tick.own_contacts.end()}, tick.finger.tip, held,
+                       tick.g, tick.r, InTick(*this, tick, main), mover_, *tick.finger.near);
     if (body != kNoBody) {
       int none = -1;
       broken_.compare_exchange_strong(none, body, std::memory_order_acq_rel);
