@@ -106,6 +106,30 @@ TEST(RunningProcess, HasOnlyTheThreadsAndLibrariesOfItsScene) {
     EXPECT_EQ(maps.find(absent), std::string::npos) << absent;
 }
 
+std::set<std::string> pluginsIn(const std::string& maps) {
+  std::set<std::string> names;
+  std::istringstream lines(maps);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string file = fs::path(line.substr(line.find_last_of(' ') + 1)).filename().string();
+    if (file.starts_with("presa_") && file.ends_with(".so")) names.insert(file.substr(6, file.size() - 9));
+  }
+  return names;
+}
+
+// Of everything that is installed, of any kind, a process has what its scene calls for and no more. All names, so that a
+// plug-in that comes to the tree and loads itself is found.
+TEST(RunningProcess, HasNoOtherPlugIn) {
+  {
+    const RunningChild child({fixedScene()});
+    ASSERT_TRUE(child.waitUntilItRuns());
+    EXPECT_EQ(pluginsIn(child.maps()), (std::set<std::string>{"god_object", "haptics_proxy", "scripted"}));
+  }
+  const RunningChild child({source("config/scenes/cube.xml")});
+  ASSERT_TRUE(child.waitUntilItRuns());
+  EXPECT_EQ(pluginsIn(child.maps()),
+            (std::set<std::string>{"dynamics_ode", "friction_cone", "god_object", "haptics_proxy", "scripted"}));
+}
+
 // The check is sensitive: a full scene has all of these threads and libraries.
 TEST(RunningProcess, HasWhatAFullSceneCallsFor) {
   const std::string file = scratch("full.h5");
