@@ -23,6 +23,20 @@ const MethodPlugin& tableOf(const PluginElement& element) {
   throw InputError(std::move(diagnostics));
 }
 
+/// Calls the plug-in; what it throws becomes E617.
+template <class Call>
+auto guarded(const PluginElement& element, const Call& call) -> decltype(call()) {
+  std::string why;
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    why = std::string(": ") + error.what();
+  } catch (...) {
+    why = " what is no std::exception";
+  }
+  refuseMethod(element, "throws during the session" + why);
+}
+
 class PluginMethod final : public Method {
  public:
   PluginMethod(const PluginElement& element, const Axis& axis, const RandomStream& stream)
@@ -30,12 +44,14 @@ class PluginMethod final : public Method {
     start();
   }
 
-  Response responseFor(bool positive) const override { return inner_->responseFor(positive); }
+  Response responseFor(bool positive) const override {
+    return guarded(element_, [&] { return inner_->responseFor(positive); });
+  }
 
  private:
   void update(Trial& trial) override {
     ++answers_;
-    inner_->respond(*trial.response);
+    guarded(element_, [&] { inner_->respond(*trial.response); });
     trial.response = inner_->trials().back().response;
   }
 
@@ -48,7 +64,7 @@ class PluginMethod final : public Method {
   }
 
   Stimulus again(const Stimulus&) override {
-    inner_->discard();
+    guarded(element_, [&] { inner_->discard(); });
     return *choose();  // Method::discard always offers a trial
   }
 

@@ -134,6 +134,13 @@ TEST_F(BrokenContract, MoreAnswersThanAnnounced) {
   EXPECT_THAT(refusal([&] { method->respond({}); }), HasSubstr("has not finished after the 3 answers"));
 }
 
+TEST_F(BrokenContract, ExceptionInTheSession) {
+  const auto method = make({{"level", "0.5"}, {"throws", "1"}});
+  EXPECT_THAT(
+      refusal([&] { method->respond({}); }),
+      testing::AllOf(HasSubstr("e.xml:4:5: error[E617]"), HasSubstr("throws during the session: no level left")));
+}
+
 TEST_F(BrokenContract, NoMethod) {
   EXPECT_THAT(refusal([] { make({{"nothing", "1"}}); }), HasSubstr("e.xml:4:5: error[E596]"));
 }

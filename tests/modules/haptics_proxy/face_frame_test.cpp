@@ -19,7 +19,10 @@ constexpr double kHalf = 0.05;  // of the cube [m]
 class Cube {
  public:
   Cube(bool mesh, const Pose& X_BG)
-      : world_(make(mesh, X_BG)), renderer_(makeRenderer(world_)), touchables_(world_), near_(touchables_.meshCount()) {}
+      : world_(make(mesh, X_BG)),
+        renderer_(makeRenderer(world_)),
+        touchables_(world_),
+        near_(touchables_.meshCount()) {}
 
   /// Touches the cube at a point p_G of its surface, from outside along nhat_G. X_GT.
   Pose touch(const Vec3& p_G, const Vec3& nhat_G) {
@@ -89,7 +92,8 @@ TEST(FaceFrame, OfAnEdgeIsThatOfTheSideItLeansTo) {
   const Vec3 edge(kHalf, 0, kHalf);
   for (const double angle : {0.2, 0.7, 0.9, 1.4}) {
     const Pose X_GT = cube.touch(edge, {std::sin(angle), 0, std::cos(angle)});
-    EXPECT_NEAR((X_GT.q * Vec3::UnitZ() - (angle < std::numbers::pi / 4 ? Vec3::UnitZ() : Vec3::UnitX())).norm(), 0, 1e-6);
+    EXPECT_NEAR((X_GT.q * Vec3::UnitZ() - (angle < std::numbers::pi / 4 ? Vec3::UnitZ() : Vec3::UnitX())).norm(), 0,
+                1e-6);
   }
 }
 
