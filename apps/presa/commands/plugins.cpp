@@ -45,9 +45,21 @@ std::string roleOf(const Manifest::ModuleRole& role) {
   return text;
 }
 
+/// A plug-in of this name in a later folder is not used: a stale copy in PRESA_PLUGIN_PATH must not go unnoticed.
+void printHidden(const Manifest& manifest) {
+  const fs::path own(manifest.file);
+  for (const std::string& folder : pluginFolders()) {
+    const fs::path other = fs::path(folder) / own.filename();
+    std::error_code ignored;
+    if (fs::exists(other, ignored) && !fs::equivalent(other, own, ignored))
+      std::printf("  hides %s\n", other.lexically_normal().c_str());
+  }
+}
+
 void print(const Manifest& manifest) {
   std::printf("%s %s (%s), %s\n  %s\n", manifest.name.c_str(), manifest.version.c_str(), nameOf(manifest.kind),
               fs::path(manifest.file).parent_path().lexically_normal().c_str(), manifest.about.c_str());
+  printHidden(manifest);
   if (manifest.kind == PluginKind::kModule) std::printf("    %s\n", roleOf(manifest.module).c_str());
   for (const Manifest::Attribute& setting : manifest.settings) printSetting(setting);
   for (const Manifest::Element& element : manifest.elements) {

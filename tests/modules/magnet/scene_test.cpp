@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/apps/presa/support.h"
 
 // From the command line: the shipped cube with force effects, from XML alone.
@@ -49,6 +51,17 @@ TEST(Plugins, AreListedWithWhatTheyBringAndNotLoaded) {
             std::string::npos);
   EXPECT_NE(listed.out.find("faulty " PRESA_VERSION " (force effect), " PRESA_BINARY_DIR "/tests/plugins\n"),
             std::string::npos);
+}
+
+TEST(Plugins, SayWhichCopyTheFirstOneHides) {
+  namespace fs = std::filesystem;
+  const fs::path own = PRESA_BINARY_DIR "/lib/presa", first = test::scratch("first");
+  fs::create_directories(first);
+  for (const char* file : {"presa_magnet.so", "presa_magnet.xml"})
+    fs::copy_file(own / file, first / file, fs::copy_options::overwrite_existing);
+  const Outcome listed =
+      test::shell("PRESA_PLUGIN_PATH=" + first.string() + " " PRESA_BINARY_DIR "/bin/presa plugins | grep hides");
+  EXPECT_EQ(listed.out, "  hides " + (own / "presa_magnet.xml").string() + "\n");
 }
 
 TEST(SceneWithMagnet, ErrorsAreLikeThoseOfAnyElement) {
