@@ -45,7 +45,7 @@ TEST(Signature, FitsOneMessageAndOneKey) {
     changed[i] = changed[i] == '0' ? '1' : '0';
     EXPECT_FALSE(isSignedBy(keys.open, "message", changed)) << i;
   }
-  for (const std::string wrong : {std::string(), signature + "0", std::string(128, 'x')})
+  for (const std::string& wrong : {std::string(), signature + "0", std::string(128, 'x')})
     EXPECT_FALSE(isSignedBy(keys.open, "message", wrong));
   EXPECT_THROW(signMessage(keys.open, "message"), std::invalid_argument);
   EXPECT_THROW(isSignedBy(keys.secret, "message", signature), std::invalid_argument);

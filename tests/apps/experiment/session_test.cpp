@@ -302,7 +302,9 @@ TEST_F(SessionTest, AFullDiskStopsItAndItGoesOn) {
     EXPECT_FALSE(validate(folderOf(data, "S01", 1)).altered);
     EXPECT_EQ(program({"experiment", "resume", data}), 0) << output;
     EXPECT_THAT(validate(folderOf(data, "S01", 1)).findings, IsEmpty());
-    if (recording) EXPECT_EQ(essence(logOf(data)), essence(logOf(whole)));
+    if (recording) {
+      EXPECT_EQ(essence(logOf(data)), essence(logOf(whole)));
+    }
   }
 }
 

@@ -53,11 +53,13 @@ TEST_P(EveryBlock, IsEnclosedByItsPhysicsShape) {
   for (const Block& block : shippedBuilding(GetParam()).blocks) {
     for (const TriMesh* mesh : {&block.visual, &block.haptic}) {
       for (const Vec3& p : mesh->vertices) {
-        if (const Box* box = std::get_if<Box>(&block.physics))
+        if (const Box* box = std::get_if<Box>(&block.physics)) {
           ASSERT_LE((p.cwiseAbs() - box->size / 2).maxCoeff(), kRounding) << block.name;
-        if (const Cylinder* rod = std::get_if<Cylinder>(&block.physics))
+        }
+        if (const Cylinder* rod = std::get_if<Cylinder>(&block.physics)) {
           ASSERT_LE(std::max(p.head<2>().norm() - rod->radius, std::abs(p.z()) - rod->length / 2), kRounding)
               << block.name;
+        }
       }
     }
   }
@@ -69,7 +71,9 @@ TEST_P(EveryBlock, IsAsHeavyAsTwoFingersHold) {
     EXPECT_GE(block.mass, 0.05) << block.name;
     EXPECT_LE(block.mass, 0.3) << block.name;
     const double weighed = p.stone.density * massProperties(block.haptic).volume;
-    if (weighed > 0.05 && weighed < 0.3) EXPECT_NEAR(block.mass, weighed, 1e-12) << block.name;
+    if (weighed > 0.05 && weighed < 0.3) {
+      EXPECT_NEAR(block.mass, weighed, 1e-12) << block.name;
+    }
   }
 }
 

@@ -144,7 +144,9 @@ TEST(FalconPlugin, MakesADeviceFromARig) {
   world->scene.devices.emplace_back().role = "thumb";
   world->rig = rigWith(set("scale", "2"));
   Plan plan;
-  plan.devices.push_back({.role = "thumb", .driver = "novint_falcon"});
+  plan.devices.emplace_back();
+  plan.devices.back().role = "thumb";
+  plan.devices.back().driver = "novint_falcon";
   Diagnostics diagnostics;
   const DeviceList devices = createDevices(world, {}, plan, diagnostics);
   EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();

@@ -13,10 +13,9 @@ constexpr double kPeriod = 1e-3, kRadius = 0.008, kSpan = 0.12, kGrip = 6, kPush
 constexpr double kOpenHalf = kSpan / 2 + kRadius;
 const FingerImpedance kFinger{.mass = 0.1, .stiffness = 300, .damping = 8};
 
-/// Two fingers at 1 kHz around a fixed body of the given half width, with a wall of stiffness `wall` [N/m] on each
-/// side.
+/// Two fingers at 1 kHz around a fixed body of half width `half`, with a wall of `stiffness` [N/m] on each side.
 struct Bench {
-  explicit Bench(double half_width = -1, double wall = 1000) : half_width(half_width), wall(wall) {
+  explicit Bench(double half = -1, double stiffness = 1000) : half_width(half), wall(stiffness) {
     pair.add(Pair::kThumb, kFinger, kPeriod);
     pair.add(Pair::kIndex, kFinger, kPeriod);
   }

@@ -91,8 +91,9 @@ TEST_F(PluginMethod, OneOfPresaAndOneOfAPluginAreTwo) {
 }
 
 TEST(MethodManifest, CannotTakeTheNameOfAnElementOfExperiments) {
-  Manifest manifest{
-      .name = "mine", .version = "1", .kind = PluginKind::kMethod, .about = "a", .elements = {}, .file = ""};
+  Manifest manifest;
+  manifest.name = "mine";
+  manifest.kind = PluginKind::kMethod;
   manifest.elements.push_back({"staircase", Manifest::Place::kProcedure, {}, {"presa_mine.xml", 3, 3}});
   try {
     experimentSchemaWith("<xs:element name=\"staircase\"/>", {manifest});

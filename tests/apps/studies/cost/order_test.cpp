@@ -113,12 +113,12 @@ struct Ride {
 };
 
 Ride ride(const std::string& scene_file, double dynamics_rate, const std::string& coupling) {
-  constexpr double kMass = 0.2, kStiffness = 1000, kDamping = 2, kAmplitude = 0.002, kOmega = 12, kRadius = 0.008;
+  constexpr double kMass = 0.2, kStiffness = 1000, kDamping = 2, kStroke = 0.002, kOmega = 12, kRadius = 0.008;
   const double depth = kMass * 9.81 / kStiffness;
   DeviceList devices;
   devices.push_back(std::make_unique<PrescribedFinger>([=](double t) {
-    return PrescribedFinger::State{Vec3(0, 0, depth - kRadius + kAmplitude * (1 - std::cos(kOmega * t))),
-                                   Vec3(0, 0, kAmplitude * kOmega * std::sin(kOmega * t))};
+    return PrescribedFinger::State{Vec3(0, 0, depth - kRadius + kStroke * (1 - std::cos(kOmega * t))),
+                                   Vec3(0, 0, kStroke * kOmega * std::sin(kOmega * t))};
   }));
   StudyRun run({.scene = scene_file,
                 .sets = {"rates/haptic=8000", "rates/dynamics=" + std::to_string(dynamics_rate),
@@ -133,7 +133,7 @@ Ride ride(const std::string& scene_file, double dynamics_rate, const std::string
     const double time = sample.objects->time_begin;
     if (std::abs(time - sample.tick.time) > 1e-9) return;
     const double error = sample.objects->bodies[0].X_WB_begin.p.z() - 0.03 -
-                         massOnFinger(kMass, kStiffness, kDamping, kAmplitude, kOmega, time);
+                         massOnFinger(kMass, kStiffness, kDamping, kStroke, kOmega, time);
     squares += error * error;
     ++count;
   });
