@@ -217,7 +217,11 @@ TEST(Friction, TurnsAsATractrixOnACurvedSurfaceAtEveryRate) {
     Surroundings s;
     s.add({.body = 0,
            .id = -1,
-           .shape = Primitive{.kind = Primitive::Kind::kCylinder, .radius = radius, .half_length = 0.1}});
+           .shape = Primitive{.kind = Primitive::Kind::kCylinder,
+                              .X_AG = {},
+                              .half = Vec3::Zero(),
+                              .radius = radius,
+                              .half_length = 0.1}});
     Tip tip{{radius + kR, 0, 0}, {radius + kR, 0, 0}};
     const double inside = radius + kR - depth;
     ProxyContact c = stepProxy(tip, {inside, 0, 0}, s, {mu, mu});

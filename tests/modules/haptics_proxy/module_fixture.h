@@ -15,7 +15,7 @@ inline constexpr double kStiffness = 1000;  // of the surface [N/m]
 
 /// A fingertip from tick to tick, as friction and the god-object keep it.
 struct Tip : ProxyState {
-  Tip(const Vec3& x, const Vec3& god_object) : ProxyState{x, god_object, false, false} {}
+  Tip(const Vec3& at, const Vec3& free) : ProxyState{at, free, false, false} {}
   Held held;
 };
 
