@@ -184,11 +184,7 @@ void TerminalRun::execute() {
 
 // Called regularly on the main thread: faults, a closed window, the status line.
 void TerminalRun::poll() {
-  if (const auto name = run_->session().brokenPlugin(); name && !effect_reported_) {
-    effect_reported_ = true;
-    fail(control_.time.load(std::memory_order_relaxed),
-         *name + ": its plug-in computed a force above its bound or no number; every force went to zero");
-  }
+  noteBrokenPlugin();
   FaultEvent event;
   while (run_->session().output() != nullptr && run_->session().output()->nextEvent(event)) {
     const std::string role = run_->world().scene.devices[static_cast<std::size_t>(event.finger)].role;
@@ -255,6 +251,14 @@ void TerminalRun::showStatus() {
   live_->line.show(status);
 }
 
+void TerminalRun::noteBrokenPlugin() {
+  const auto name = run_->session().brokenPlugin();
+  if (!name || effect_reported_) return;
+  effect_reported_ = true;
+  fail(control_.time.load(std::memory_order_relaxed),
+       *name + ": its plug-in computed a force above its bound or no number; every force went to zero");
+}
+
 void TerminalRun::noteObjectFaults() {
   const std::uint32_t all = live_->values.object_faults.load(std::memory_order_acquire);
   const std::uint32_t faults = all & ~reported_object_faults_;
@@ -266,8 +270,7 @@ void TerminalRun::noteObjectFaults() {
     fail(time, "the dynamics engine failed: all bodies were frozen, forces faded to zero");
   if ((faults & kFaultBadFinger) != 0)
     fail(time, "the dynamics received an invalid finger contact, forces faded to zero");
-  if ((faults & kFaultBadEffect) != 0)
-    fail(time, "a body effect broke its contract: all of them are off, forces faded to zero");
+  if ((faults & kFaultBadEffect) != 0) noteBrokenPlugin();
 }
 
 void TerminalRun::finish() {

@@ -41,6 +41,7 @@ class TerminalRun {
   void poll();
   void showStatus();
   void finish();
+  void noteBrokenPlugin();
   void noteObjectFaults();
   void fail(double time, std::string what);
   void rearm();
