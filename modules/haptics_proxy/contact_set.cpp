@@ -15,6 +15,16 @@ std::span<ToolContact> contactsOf(const FingerTick& tick) noexcept {
   return {tick.all.contacts.begin() + tick.out.first_contact, tick.out.contact_count};
 }
 
+bool heldByOne(const FingerTick& tick) noexcept {
+  const ActiveSet& active = tick.contact.active;
+  bool one = tick.own_contacts.empty();
+  for (int a = 0; a < active.count; ++a) {
+    const ActiveSet::Member& member = active.member[static_cast<std::size_t>(a)];
+    one = one && (member.body == tick.contact.body || !(member.weight > 0));
+  }
+  return one;
+}
+
 // The contacts without friction, still in A: the renderer's own, or else one for each body of the active set. `depth`
 // is the sum of the multipliers.
 std::span<ToolContact> gather(FingerTick& tick) noexcept {
@@ -150,12 +160,14 @@ Vec3 unexplained(const FingerTick& tick, std::span<const ToolContact> contacts) 
 
 void divideContact(FingerTick& tick) noexcept {
   if (!tick.friction.empty()) writeFriction(tick);
-  const std::span<ToolContact> mine = gather(tick);
-  if (mine.size() < 2) {
-    if (mine.empty()) tick.all.contacts.add({});
+  if (heldByOne(tick)) {  // finishContacts writes all of it
+    tick.out.first_contact = static_cast<std::uint32_t>(tick.all.contacts.size());
     tick.out.contact_count = 1;
+    tick.all.contacts.add();
     return;
   }
+  const std::span<ToolContact> mine = gather(tick);
+  if (mine.size() < 2) return;
   const Vec3 rest = unexplained(tick, mine);
   const auto multipliersOf = [&](const ToolContact* same) {
     double sum = 0;
