@@ -19,7 +19,8 @@ class ModuleManifest : public testing::Test {
   void SetUp() override { setenv("PRESA_PLUGIN_PATH", PRESA_BINARY_DIR "/tests/plugins", 1); }
   static Loaded load(const std::string& elements) {
     Diagnostics diagnostics;
-    Loaded loaded = loadWithoutDevices({.scene_xml = sceneWith(elements), .name = "scene.xml"}, {}, diagnostics);
+    Loaded loaded =
+        loadWithoutDevices({.scene_xml = sceneWith(elements), .name = "scene.xml", .rig_xml = {}}, {}, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
     return loaded;
   }
