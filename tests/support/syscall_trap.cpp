@@ -68,7 +68,7 @@ bool installFilter() {
   return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-[[noreturn]] void runChild(const std::function<void()>& function) {
+[[noreturn, maybe_unused]] void runChild(const std::function<void()>& function) {
   if (!installFilter()) report(kNoFilter);
   try {
     function();
@@ -79,7 +79,7 @@ bool installFilter() {
 }
 
 /// The outcome as text; "" for a clean run.
-std::string inWords(int outcome) {
+[[maybe_unused]] std::string inWords(int outcome) {
   switch (outcome) {
     case kClean:
       return "";

@@ -70,6 +70,12 @@ bool receive(int descriptor, RawMesh& mesh) {
          readAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kLimitsMemory = false;  // sanitizers reserve terabytes of shadow memory
+#else
+constexpr bool kLimitsMemory = true;
+#endif
+
 /// Writable memory that this process has mapped already [bytes]; the child's limit is added to it.
 std::size_t mappedData() {
   std::ifstream statm("/proc/self/statm");
@@ -91,9 +97,7 @@ void limit(int resource, std::size_t value) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // die with the parent
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.seconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of shadow memory
-  limit(RLIMIT_DATA, mappedData() + limits.memory);
-#endif
+  if (kLimitsMemory) limit(RLIMIT_DATA, mappedData() + limits.memory);
   RawMesh mesh;
   try {
     work(mesh);

@@ -101,7 +101,9 @@ TEST(FramedDevice, TurnsSamplesAndWrenchesWithTheSamePower) {
     EXPECT_NEAR(stylus.wrench.f.norm(), F_H_W.f.norm(), 1e-12);
     EXPECT_LT((tree->at(tree->find("thumb"), 0).X_WF.p - sample.p_WH).norm(), 1e-15);
   }
-  if (RealTimeGuard::active()) EXPECT_EQ(guard.violations(), 0) << guard.first();
+  if (RealTimeGuard::active()) {
+    EXPECT_EQ(guard.violations(), 0) << guard.first();
+  }
 }
 
 }  // namespace

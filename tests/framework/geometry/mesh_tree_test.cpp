@@ -102,7 +102,9 @@ TEST(MeshTree, CutsAndQueriesAreComplete) {
         for (const std::int32_t node : cut) collect(tree, node, facets);
         cut_near.clear();
         for (const std::int32_t f : facets) {
-          if (distanceOf(tree, f, p) <= radius) EXPECT_TRUE(cut_near.insert(f).second) << "twice";
+          if (distanceOf(tree, f, p) <= radius) {
+            EXPECT_TRUE(cut_near.insert(f).second) << "twice";
+          }
         }
         EXPECT_EQ(cut_near, near) << room;
       }

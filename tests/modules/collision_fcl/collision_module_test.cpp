@@ -85,7 +85,9 @@ class CollisionModuleTest : public testing::Test {
       const auto at = [&](std::size_t k) -> Vec3 { return X_BG * tree.corner(tree.facet(f), k); };
       const double distance = (near.center_B - closestOnTriangle(near.center_B, at(0), at(1), at(2))).norm();
       // tolerance: rounding of two orders of transformation, a few ulp of a decimetre
-      if (distance < near.radius - 1e-15) EXPECT_TRUE(held.contains(f)) << "facet " << f << " at " << distance;
+      if (distance < near.radius - 1e-15) {
+        EXPECT_TRUE(held.contains(f)) << "facet " << f << " at " << distance;
+      }
     }
   }
 
@@ -187,7 +189,9 @@ TEST_F(CollisionModuleTest, EveryBodyInReachIsListedWhereverItGoes) {
       there.insert(neighbourhood.bodies[static_cast<std::size_t>(i)].body);
     for (std::size_t b = 0; b < world_.scene.bodies.size(); ++b) {
       const double gap = (motionOf(b).X_WB_end.p - neighbourhood.center_W).norm() - radiusOf(b);
-      if (gap <= neighbourhood.radius) EXPECT_TRUE(there.contains(static_cast<std::int32_t>(b))) << round << ' ' << b;
+      if (gap <= neighbourhood.radius) {
+        EXPECT_TRUE(there.contains(static_cast<std::int32_t>(b))) << round << ' ' << b;
+      }
     }
     listed += there.size();
     for (std::size_t b = 10; b < world_.scene.bodies.size(); ++b) {

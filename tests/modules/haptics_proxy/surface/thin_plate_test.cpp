@@ -84,13 +84,13 @@ class Plate {
 
   /// Moves far from the plate, round it, and to the start, with a collision query in every tick and the plate at rest.
   void comeTo(const Vec3& start, Count& count) {
-    constexpr double kFar = 0.3;
+    constexpr double kAbove = 0.3;
     pose_ = {};
-    const Vec3 above = last_P_ + Vec3(0, 0, std::copysign(kFar, last_P_.z()));
+    const Vec3 above = last_P_ + Vec3(0, 0, std::copysign(kAbove, last_P_.z()));
     rig_.place(above);
     if (moving_) rig_.moveBody({}, {}, Vec3::Zero());
-    const Vec3 begin = (Vec3(above.x() * 0.1, above.y() * 0.1, above.z())).normalized() * kFar;
-    const Vec3 end = start.normalized() * kFar;
+    const Vec3 begin = (Vec3(above.x() * 0.1, above.y() * 0.1, above.z())).normalized() * kAbove;
+    const Vec3 end = start.normalized() * kAbove;
     const Quat turn = rotationBetween(begin, end);
     for (int i = 0; i <= 6; ++i) rig_.place(Quat::Identity().slerp(i / 6.0, turn) * begin);
     proxy_ = rig_.place(start).p_WP;
