@@ -19,7 +19,7 @@ struct Outcome {
   double energy = 0;                ///< max energy delivered to the hand from the fault until its end [J]
   double energy_allowed = 0;        ///< energy that sampling a spring may add [J]
   std::vector<std::string> broken;  ///< other violated requirements, in words
-  /// Preceding runs that were discarded because the moment of the fault is unknown, each with its reason.
+  /// Preceding runs that were discarded because the machine decided their times, each with its reason.
   std::vector<std::string> discarded;
 };
 

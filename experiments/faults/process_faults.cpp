@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kRuns = 100;            // runs take wall time
 constexpr int kTries = 20;            // attempts to get one run with a known moment
-constexpr double kSent = 0.5e-3;      // [s]: if sending a signal took longer, its moment is unknown
+constexpr double kSent = 0.5e-3;      // [s]: if it took longer until the program got a signal, its moment is unknown
+constexpr double kHeldUp = 1e-3;      // [s]: the supervisor writes every 0.25 ms; a longer pause is the machine's
 constexpr double kLoss = 20e-3;       // [s]: a supervisor that was not scheduled for this long counts as a lost device
 constexpr double kSoftStart = 0.5;    // [s]
 constexpr double kReturn = 2;         // [s]: max wait for the force after the program resumes
@@ -59,24 +60,26 @@ class RealTimeMoment {
 
 struct Sent {
   std::int64_t at_ns = 0;  ///< begin of the call
-  double took = 0;         ///< [s]
+  double took = 0;         ///< until the last thread of a stopped program stood; until the call returned else [s]
 };
 Sent sendSignal(pid_t process, int signal) {
   const RealTimeMoment moment;
   const std::int64_t before = monotonicNs();
   kill(process, signal);
+  if (signal == SIGSTOP) waitpid(process, nullptr, WUNTRACED);
   return {before, secondsBetween(before, monotonicNs())};
 }
 
-/// Longest time between two writes of the supervisor since `begin` [s].
-double longestPause(const ProbeLog& log, std::int64_t begin) {
+/// Longest time between two writes of the supervisor since `begin`, up to the entry `end` [s].
+double longestPause(const ProbeLog& log, std::int64_t begin, std::uint64_t end) {
   double longest = 0;
-  for (std::uint64_t i = 1; i < log.written; ++i) {
+  for (std::uint64_t i = 1; i < end; ++i) {
     if (log.entries[i].time_ns < begin) continue;
     longest = std::max(longest, secondsBetween(log.entries[i - 1].time_ns, log.entries[i].time_ns));
   }
   return longest;
 }
+double longestPause(const ProbeLog& log, std::int64_t begin) { return longestPause(log, begin, log.written); }
 
 /// Result for a program that does not press: broken, unless the machine delayed the supervisor so long that it had to
 /// count as lost.
@@ -176,7 +179,9 @@ Outcome stopped(RandomStream& random) {
     const std::int64_t resumed = monotonicNs();
     kill(program.pid(), SIGCONT);
     sleepFor(0.1);
-    if (sent.took > kSent) return discarded("SIGSTOP took %.2f ms to send", 1e3 * sent.took);
+    if (sent.took > kSent) return discarded("the program took %.2f ms to stop", 1e3 * sent.took);
+    if (const double pause = longestPause(program.log(), sent.at_ns, end); pause > kHeldUp)
+      return discarded("the machine held up the supervisor for %.2f ms after the stop", 1e3 * pause);
     // if the machine delayed the supervisor once more, wait for its restart
     while (!pushes(program.log()) && secondsBetween(resumed, monotonicNs()) < kReturn) sleepFor(0.01);
     Outcome outcome = judged(program.log(), sent.at_ns, end);

@@ -40,7 +40,7 @@ std::vector<std::string> cellsOf(const Row& row) {
 /// Number of discarded runs with their reasons; empty when all runs count.
 std::string discardedText(const Row& row, const char* line_end) {
   if (row.discarded.empty()) return {};
-  std::string text = format("row %d: %zu more runs are discarded, because the time of their fault is unknown:%s",
+  std::string text = format("row %d: %zu more runs are discarded, because the machine decided their times:%s",
                             row.fault.row, row.discarded.size(), line_end);
   for (const std::string& why : row.discarded) text += "  " + svg::escape(why) + line_end;
   return text;
