@@ -24,8 +24,8 @@ struct SurfaceInput {
   Pose X_BA(std::int32_t body) const noexcept { return touchables.frameOf(body).inverse() * X_WA; }
   /// Touched point of the body without friction, in the body's coordinates [m].
   Vec3 touched_B() const noexcept { return X_BA(contact.body) * (contact.state.god_object - radius * contact.nhat); }
-  /// Tangent frame of the touched face (framework/geometry/tangent_frame.h), of one of them on an edge. x and y of X_BT().inverse() * touched_B()
-  /// are the place on the face [m].
+  /// Tangent frame of the touched face (framework/geometry/tangent_frame.h), of one of them on an edge. x and y of
+  /// X_BT().inverse() * touched_B() are the place on the face [m].
   Pose X_BT() const noexcept;
 };
 

@@ -148,11 +148,15 @@ void writeFriction(FingerTick& tick) noexcept {
   if (answer.damping > 0) tick.out.damped_W = tick.X_WA.q * answer.damped;
 }
 
-/// Displacement between proxy and HIP that neither the normals nor friction explain; effects cause it.
+/// Displacement between proxy and HIP that neither the normals nor the friction of the contacts explain: effects cause
+/// it, and friction with a body that held the finger when the tick began but is no contact any more.
 Vec3 unexplained(const FingerTick& tick, std::span<const ToolContact> contacts) noexcept {
   Vec3 rest = tick.contact.x - tick.g;
   for (const ToolContact& one : contacts) rest -= one.stretch_W;
-  for (const BodyFriction& one : tick.friction) rest -= one.share * one.answer.stretch;
+  for (const BodyFriction& one : tick.friction) {
+    const bool holds = std::ranges::find(contacts, one.body, &ToolContact::body) != contacts.end();
+    if (holds) rest -= one.share * one.answer.stretch;
+  }
   return rest;
 }
 

@@ -9,8 +9,8 @@
 namespace presa::experiment {
 
 /// A method that a plug-in brings, held to its contract: E617 (InputError, with the element's place) when a level is no
-/// finite number, when it wants more answers than its max_trials, or when it throws. Throws the errors of pluginTable, and E596 when the
-/// plug-in cannot make it.
+/// finite number, when it wants more answers than its max_trials, or when it throws. Throws the errors of pluginTable,
+/// and E596 when the plug-in cannot make it.
 std::unique_ptr<psychophysics::Method> makePluginMethod(const PluginElement& element, const psychophysics::Axis& axis,
                                                         const RandomStream& stream);
 

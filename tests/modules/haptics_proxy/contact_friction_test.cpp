@@ -1,9 +1,11 @@
 // Friction of a finger that two bodies hold: each has its own law, coefficients and memory.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "framework/core/math/random.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
 
 namespace presa {
@@ -146,6 +148,47 @@ TEST(ContactFriction, ABodyThatLetsGoForgets) {
   groove.press(kDown, kAside, 0.0015);
   EXPECT_NEAR(groove.along(), 0, kForce);
   EXPECT_EQ(groove.with(1)->mode, ContactMode::kStick);
+}
+
+/// Blocks at random places and angles, some of which overlap.
+World rubble(RandomStream& random) {
+  World world = test::worldOf(Box{{0.02, 0.02, 0.02}});
+  constexpr std::size_t kBlocks = 8;
+  world.scene.bodies.resize(kBlocks, world.scene.bodies[0]);
+  world.meshes.resize(kBlocks);
+  world.inertias.resize(kBlocks);
+  world.scene.materials[0].friction_static = world.scene.materials[0].friction_dynamic = 1;
+  for (auto& body : world.scene.bodies) {
+    body.X_WB.p = {random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02)};
+    body.X_WB.q = Quat(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+  }
+  return world;
+}
+
+// The contacts of a finger explain its whole displacement, also in a tick in which friction starts again on other
+// bodies than before. Of 50 piles of rubble, with a finger that moves 2 mm in a tick.
+TEST(ContactFriction, TheContactsExplainTheWholeDisplacement) {
+  int several = 0;
+  for (std::uint64_t pile = 0; pile < 50; ++pile) {
+    RandomStream random(1, "displacement", pile);
+    test::OneFinger finger(rubble(random));
+    const auto anywhere = [&] {
+      return Vec3(random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03));
+    };
+    Vec3 p(0, 0, 0.06), goal = p;
+    for (int i = 0; i < 5000; ++i) {
+      if (i % 25 == 0) goal = anywhere();
+      p += (goal - p).normalized() * std::min((goal - p).norm(), 0.002);
+      const FingerContact contact = finger.tick(p);
+      if (contact.contact_count < 2) continue;
+      ++several;
+      Vec3 sum = Vec3::Zero();
+      for (const ToolContact& one : finger.all().contactsOf(contact))
+        sum += one.stiffness / contact.stiffness * one.stretch_W;
+      ASSERT_NEAR((sum - (contact.p_WP - contact.p_WH)).norm(), 0, 1e-12) << pile << ", " << i;
+    }
+  }
+  EXPECT_GT(several, 1000);
 }
 
 }  // namespace
