@@ -8,6 +8,7 @@ Case graspInAir();
 Case graspOnTable();
 Case pressedOnTable();
 Case pressedInCorner();
+Case graspByLaw();
 Case graspShaken();
 Case needleSpun();
 Case graspAnySize();

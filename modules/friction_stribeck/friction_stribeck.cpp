@@ -18,8 +18,7 @@ class Stribeck final : public FrictionLaw {
 
   FrictionAnswer hold(const FrictionInput& input, FrictionState& state) const noexcept override {
     const double at_speed = smoothedSpeed(input, state) / speed_;
-    const double mu =
-        input.mu_dynamic + (input.mu_static - input.mu_dynamic) * std::exp(-at_speed * at_speed);
+    const double mu = input.mu_dynamic + (input.mu_static - input.mu_dynamic) * std::exp(-at_speed * at_speed);
     FrictionAnswer answer;
     answer.stretch = input.stretch;
     answer.bound = input.mu_static;

@@ -36,9 +36,7 @@ double breakAway(FrictionTrack&& finger) {
 
 constexpr double kStep = kStiffness * 5e-4 * 1e-3;  // change of the force in one tick of breakAway [N]
 
-double stribeck(double v, double v_s) {
-  return kNormal * (kMuD + (kMuS - kMuD) * std::exp(-v * v / (v_s * v_s)));
-}
+double stribeck(double v, double v_s) { return kNormal * (kMuD + (kMuS - kMuD) * std::exp(-v * v / (v_s * v_s))); }
 
 TEST(Viscous, AddsTheSameForceAtEveryRate) {
   for (const double period : kPeriods) {
@@ -151,7 +149,8 @@ TEST(LuGre, FollowsItsDifferentialEquationAtEveryRate) {
 // z tends to its steady value with the way slid; 20 mm are more than 20 times the longest bristle.
 TEST(LuGre, SlidesSteadilyOnStribecksCurve) {
   for (const double v : {1e-3, 5e-3, 0.02, 0.2}) {
-    EXPECT_NEAR(steady(track(kBristles.element()), v, 1e-3, 0.02 + 0.02 / v) / (stribeck(v, 0.01) + 0.8 * v), 1, 1e-3) << v;
+    EXPECT_NEAR(steady(track(kBristles.element()), v, 1e-3, 0.02 + 0.02 / v) / (stribeck(v, 0.01) + 0.8 * v), 1, 1e-3)
+        << v;
   }
 }
 

@@ -18,13 +18,13 @@ using test::kR;
 using test::kStiffness;
 
 constexpr double kMuS = 0.8, kMuD = 0.6, kNormal = 2, kSpeed = 0.05;  // [-], [-], [N], [m/s]
-constexpr double kCreep = 2e-3;                                       // speed at which the static coefficient is sought [m/s]
+constexpr double kCreep = 2e-3;  // speed at which the static coefficient is sought [m/s]
 
 /// A law with some attributes, and what it should render for a slide by the angle to the x axis of the body.
 struct Case {
   const char *plugin, *element;
   std::map<std::string, std::string> attributes;
-  double (*peak)(double angle);     ///< max of tangential over normal force in a slow slide
+  double (*peak)(double angle);  ///< max of tangential over normal force in a slow slide
   double (*sliding)(double angle);
   friend std::ostream& operator<<(std::ostream& out, const Case& law) { return out << law.plugin; }
 };
@@ -40,9 +40,15 @@ double slidingAcross(double angle) {
 
 const Case kCases[] = {
     {"friction_cone", "friction", {}, [](double) { return kMuS; }, [](double) { return kMuD; }},
-    {"friction_viscous", "viscous", {{"damping", "4"}}, [](double) { return kMuS; },
+    {"friction_viscous",
+     "viscous",
+     {{"damping", "4"}},
+     [](double) { return kMuS; },
      [](double) { return kMuD + 4 * kSpeed / kNormal; }},
-    {"friction_stribeck", "stribeck", {{"speed", "0.05"}, {"viscosity", "0"}}, [](double) { return kMuS; },
+    {"friction_stribeck",
+     "stribeck",
+     {{"speed", "0.05"}, {"viscosity", "0"}},
+     [](double) { return kMuS; },
      [](double) { return kMuD + (kMuS - kMuD) * std::exp(-1.0); }},
     {"friction_dahl", "dahl", {{"stiffness", "2000"}}, [](double) { return kMuD; }, [](double) { return kMuD; }},
     {"friction_lugre",
@@ -51,8 +57,11 @@ const Case kCases[] = {
      [](double) { return kMuD + (kMuS - kMuD) * std::exp(-std::pow(kCreep / 0.05, 2)) + 0.5 * kCreep / kNormal; },
      [](double) { return kMuD + (kMuS - kMuD) * std::exp(-1.0) + 0.5 * kSpeed / kNormal; }},
     {"friction_membrane", "membrane", {{"stiffness", "400"}}, [](double) { return kMuS; }, [](double) { return kMuD; }},
-    {"friction_anisotropic", "anisotropic", {{"grain", "1 0 0"}, {"across", "0.5"}},
-     [](double angle) { return std::max(stickingAcross(angle), slidingAcross(angle)); }, slidingAcross},
+    {"friction_anisotropic",
+     "anisotropic",
+     {{"grain", "1 0 0"}, {"across", "0.5"}},
+     [](double angle) { return std::max(stickingAcross(angle), slidingAcross(angle)); },
+     slidingAcross},
 };
 
 class EveryLaw : public testing::TestWithParam<Case> {
