@@ -34,7 +34,8 @@ std::vector<Law> laws() {
 }
 
 std::vector<Finding> hold(const Law& law, double mass, const Method& method) {
-  std::vector<std::string> sets{"body/cube/physics/mass=" + number(mass), "material/skin/stiffness=" + number(kStiffness)};
+  std::vector<std::string> sets{"body/cube/physics/mass=" + number(mass),
+                                "material/skin/stiffness=" + number(kStiffness)};
   sets.insert(sets.end(), law.sets.begin(), law.sets.end());
   Pinch pinch;
   pinch.center = {0, 0, 0.035};
