@@ -30,16 +30,24 @@ NearestSurface surfaceOf(const NearPiece& piece, const Surroundings::Triangle& t
 
 /// Penalty method, the baseline without a proxy: the force is proportional to the depth below the *nearest* surface,
 /// and nothing is remembered. Beyond the middle of a thin part the nearest surface is the far one, and the finger is
-/// pushed out there.
+/// pushed out there. With `sum` the forces of all bodies add up, as in the textbooks; otherwise the deepest one acts.
 class Penalty final : public Renderer {
  public:
-  explicit Penalty(std::size_t tools) : last_nhat_W_(tools, Vec3::Zero()) {}
+  Penalty(std::size_t tools, bool sum) : sum_(sum), last_nhat_W_(tools, Vec3::Zero()) {}
 
   ProxyContact touch(const RenderInput& input) noexcept override {
     ProxyContact contact;
     contact.swept = false;
-    contact.x = contact.state.x = contact.state.god_object = input.g;
-    const NearestSurface deepest = deepestUnder(input.g, input.radius, input.near);
+    NearestSurface deepest;
+    deepest.signed_distance = input.radius;
+    Vec3 push = Vec3::Zero();
+    forEachBody(input.g, input.radius, input.near, [&](const NearestSurface& surface) {
+      const double depth = input.radius - surface.signed_distance;
+      if (sum_ && input.contacts.add({surface.body, surface.nhat, depth}) != nullptr) push += depth * surface.nhat;
+      if (surface.signed_distance < deepest.signed_distance) deepest = surface;
+    });
+    if (!sum_) push = (input.radius - deepest.signed_distance) * deepest.nhat;
+    contact.x = contact.state.x = contact.state.god_object = input.g + push;
     Vec3& last_nhat_W = last_nhat_W_[input.tool];
     if (deepest.body == kNoBody) {
       last_nhat_W.setZero();
@@ -47,22 +55,27 @@ class Penalty final : public Renderer {
     }
     contact.state.touching = contact.state.slipping = true;
     contact.body = deepest.body;
-    contact.nhat = deepest.nhat;
-    contact.depth = input.radius - deepest.signed_distance;
-    contact.x = contact.state.x = contact.state.god_object = input.g + contact.depth * contact.nhat;
+    contact.depth = push.norm();
+    contact.nhat = contact.depth > 0 ? Vec3(push / contact.depth) : deepest.nhat;
     // a force that reverses from one tick to the next: the finger went through, as this method lets it
     const Vec3 nhat_W = input.X_WA.q * contact.nhat;
     contact.crossed = nhat_W.dot(last_nhat_W) < 0;
     last_nhat_W = nhat_W;
     return contact;
   }
-  std::string what() const override { return "push towards the nearest surface (penalty, no memory)"; }
+  std::size_t maxOwnContacts() const noexcept override { return sum_ ? kMaxBodies : 0; }
+  std::string what() const override {
+    return sum_ ? "push out of every body (penalty, forces added up, no memory)"
+                : "push towards the nearest surface (penalty, no memory)";
+  }
 
  private:
-  static NearestSurface deepestUnder(const Vec3& g, double r, Surroundings& near) noexcept {
+  static constexpr std::size_t kMaxBodies = 16;
+
+  /// Calls use(NearestSurface) for each body that the tool overlaps.
+  template <class Use>
+  static void forEachBody(const Vec3& g, double r, Surroundings& near, const Use& use) noexcept {
     near.focus(g, std::numeric_limits<double>::infinity());
-    NearestSurface deepest;
-    deepest.signed_distance = r;
     for (int source = -1; source < near.meshCount(); ++source) {
       // a mesh contributes its nearest surface only; each primitive is a body of its own
       NearestSurface nearest;
@@ -70,7 +83,7 @@ class Penalty final : public Renderer {
       near.forEachWithin(source, g, limit, [&](const NearPiece& piece) {
         const NearestSurface found = surfaceOf(piece, near.triangleOf(piece.ref, g), near.turnOf(piece.ref));
         if (source < 0) {
-          if (found.signed_distance < deepest.signed_distance) deepest = found;
+          if (found.signed_distance < r) use(found);
           return;
         }
         const bool first = nearest.body == kNoBody;
@@ -78,18 +91,18 @@ class Penalty final : public Renderer {
         if (first || shared || found.distance < nearest.distance * (1 - kTie)) nearest = found;
         limit = nearest.distance * (1 + kTie);
       });
-      if (nearest.body != kNoBody && nearest.signed_distance < deepest.signed_distance) deepest = nearest;
+      if (nearest.body != kNoBody && nearest.signed_distance < r) use(nearest);
     }
-    return deepest;
   }
 
+  bool sum_;
   std::vector<Vec3> last_nhat_W_;  // by tool; zero: no contact
 };
 
-const RendererPlugin kPlugin{.name = "penalty",
-                             .create = [](const PluginElement&, const World& world) -> std::unique_ptr<Renderer> {
-                               return std::make_unique<Penalty>(world.scene.devices.size());
-                             }};
+const RendererPlugin kPlugin{
+    .name = "penalty", .create = [](const PluginElement& settings, const World& world) -> std::unique_ptr<Renderer> {
+      return std::make_unique<Penalty>(world.scene.devices.size(), settings.boolean("sum"));
+    }};
 
 }  // namespace
 }  // namespace presa

@@ -24,7 +24,8 @@ BENCHMARK_CAPTURE(slide, cone, "")->Name("friction/cone");
 BENCHMARK_CAPTURE(slide, viscous, R"(<viscous damping="5"/>)")->Name("friction/viscous");
 BENCHMARK_CAPTURE(slide, stribeck, R"(<stribeck speed="0.02" viscosity="1"/>)")->Name("friction/stribeck");
 BENCHMARK_CAPTURE(slide, dahl, R"(<dahl stiffness="2000"/>)")->Name("friction/dahl");
-BENCHMARK_CAPTURE(slide, lugre, R"(<lugre stiffness="2000" speed="0.02" damping="1" viscosity="1"/>)")->Name("friction/lugre");
+BENCHMARK_CAPTURE(slide, lugre, R"(<lugre stiffness="2000" speed="0.02" damping="1" viscosity="1"/>)")
+    ->Name("friction/lugre");
 BENCHMARK_CAPTURE(slide, membrane, R"(<membrane stiffness="400"/>)")->Name("friction/membrane");
 BENCHMARK_CAPTURE(slide, anisotropic, R"(<anisotropic grain="1 0 0" across="0.3"/>)")->Name("friction/anisotropic");
 

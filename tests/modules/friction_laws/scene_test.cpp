@@ -33,7 +33,8 @@ TEST(LawScene, ErrorsNameWhatIsAllowed) {
   const test::Outcome slow = boardWith("stribeck/speed=0");
   EXPECT_EQ(slow.status, 2) << slow.out;
   EXPECT_NE(slow.err.find("error[E"), std::string::npos) << slow.err;
-  const test::Outcome no_grain = boardWith("anisotropic/grain='0 0 0' --set material/wood/friction/anisotropic/across=2");
+  const test::Outcome no_grain =
+      boardWith("anisotropic/grain='0 0 0' --set material/wood/friction/anisotropic/across=2");
   EXPECT_EQ(no_grain.status, 2) << no_grain.out;
   EXPECT_NE(no_grain.err.find("grain must not be 0 0 0"), std::string::npos) << no_grain.err;
 }
