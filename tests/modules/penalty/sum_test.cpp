@@ -17,7 +17,8 @@ World boxes(const std::vector<Pose>& poses, const std::string& renderer) {
   world.scene.bodies.resize(poses.size(), world.scene.bodies[0]);
   world.meshes.resize(poses.size());
   world.inertias.resize(poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) world.scene.bodies[i].X_WB = poses[i] * Pose{{0, 0, -0.5}, Quat::Identity()};
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    world.scene.bodies[i].X_WB = poses[i] * Pose{{0, 0, -0.5}, Quat::Identity()};
   world.scene.haptics.renderer = renderer;
   world.scene.haptics.proxy = renderer == "god_object";
   if (renderer != "penalty") return world;
