@@ -1,0 +1,120 @@
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "framework/haptics/renderer.h"
+#include "modules/fca_mesh/mesh_walk.h"
+
+namespace presa {
+namespace {
+
+/// A place on a mesh near the tool.
+struct Place {
+  const TriMesh* mesh = nullptr;
+  std::int32_t body = kNoBody, triangle = -1;
+  Pose X_AG;
+};
+
+/// One tool: where it touches, or the triangle that it faces.
+struct Tool {
+  Place place;
+  bool touching = false;
+};
+
+/// The triangle nearest to x within `limit`.
+Place nearestTo(const Vec3& x, double limit, Surroundings& near) noexcept {
+  Place place;
+  near.focus(x, limit);
+  near.forEachWithin(x, limit, [&](const NearPiece& piece) {
+    const Surroundings::Triangle found = near.triangleOf(piece.ref, x);
+    if (piece.at.distance > limit || found.facet == nullptr) return;
+    limit = piece.at.distance;
+    place.mesh = &found.tree->mesh();
+    place.body = piece.body;
+    place.triangle = found.facet->id;
+    place.X_AG.q = Quat(near.turnOf(piece.ref));
+    place.X_AG.p = x - place.X_AG.q * found.x_G;
+  });
+  return place;
+}
+
+ProxyMove freeAt(const Vec3& g) noexcept {
+  ProxyMove moved{};
+  moved.x = moved.first_touch = g;
+  return moved;
+}
+
+/// Walks to the surface point nearest to g; touching when g lies below the surface there.
+ProxyMove walkTo(const Vec3& g, Place& place) noexcept {
+  const Vec3 g_G = place.X_AG.inverseTimes(g);
+  const fca::SurfacePoint at = fca::walk(*place.mesh, place.triangle, g_G);
+  place.triangle = at.triangle;
+  ProxyMove moved{};
+  moved.touching = (g_G - at.q).dot(fca::outwardAt(*place.mesh, at)) < 0;
+  moved.body = moved.touching ? place.body : kNoBody;
+  moved.x = moved.first_touch = moved.touching ? place.X_AG * at.q : g;
+  return moved;
+}
+
+class FcaMesh final : public Renderer, public ProxyMover {
+ public:
+  explicit FcaMesh(const World& world) : tools_(world.scene.devices.size()) {
+    for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
+      const Body& body = world.scene.bodies[b];
+      if (!body.haptic) continue;
+      if (!world.meshes[b].haptic) throw std::runtime_error("the haptic geometry of '" + body.name + "' is no mesh");
+      if (world.meshes[b].haptic->adjacency.empty())
+        throw std::runtime_error("the haptic mesh of '" + body.name + "' has no adjacency");
+    }
+  }
+
+  ProxyContact touch(const RenderInput& in) noexcept override {
+    Tool& tool = tools_[in.tool];
+    in.near.use(Point::kGodObject);
+    if (!tool.touching || !in.last.touching) face(in, tool);
+    const ProxyMove moved = tool.place.triangle >= 0 ? walkTo(in.g, tool.place) : freeAt(in.g);
+    tool.touching = moved.touching;
+    ProxyContact contact = contactOf(moved, in.g);
+    contact.swept = false;
+    return contact;
+  }
+  const ProxyMover* mover() const noexcept override { return this; }
+
+  /// Over the surface from x, which lies on it, to the point nearest to g.
+  ProxyMove move(const Vec3& x, const Vec3& g, double r, Surroundings& near) const noexcept override {
+    Place place = nearestTo(x, r, near);
+    return place.triangle >= 0 ? walkTo(g, place) : freeAt(g);
+  }
+  bool isSupported(const Vec3& x, double r, Surroundings& near) const noexcept override {
+    constexpr double kOn = 1e-6;
+    return nearestTo(x, kOn * r, near).triangle >= 0;
+  }
+  void changeFrame(std::size_t tool, const Pose& X_BA) noexcept override {
+    tools_[tool].place.X_AG = X_BA * tools_[tool].place.X_AG;
+  }
+  std::string what() const override { return "walk over the mesh from triangle to triangle (friction cone algorithm)"; }
+
+ private:
+  /// In free space: on the mesh that the tool faced in the last tick it starts from the triangle there, to enter by the
+  /// side where it was; else from the nearest one.
+  static void face(const RenderInput& in, Tool& tool) noexcept {
+    const Place nearest = nearestTo(in.g, std::numeric_limits<double>::infinity(), in.near);
+    const std::int32_t faced = tool.place.mesh == nearest.mesh && tool.place.body == nearest.body ? tool.place.triangle : -1;
+    tool.place = nearest;
+    if (faced >= 0) tool.place.triangle = faced;
+    if (faced < 0 || walkTo(in.g, tool.place).touching) return;
+    tool.place = nearest;
+  }
+
+  std::vector<Tool> tools_;
+};
+
+const RendererPlugin kPlugin{.name = "fca_mesh",
+                             .create = [](const PluginElement&, const World& world) -> std::unique_ptr<Renderer> {
+                               return std::make_unique<FcaMesh>(world);
+                             }};
+
+}  // namespace
+}  // namespace presa
+
+PRESA_RENDERER_PLUGIN(presa::kPlugin)

@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+
+#include "framework/geometry/tri_mesh.h"
+
+namespace presa::fca {
+
+/// A point of a mesh's surface, in mesh coordinates.
+struct SurfacePoint {
+  std::int32_t triangle = -1;
+  Vec3 q = Vec3::Zero();
+};
+
+/// Walks over the mesh from a triangle towards g: to the point of the triangle nearest to g, then across the edge or
+/// around the vertex where that lies to whichever neighbour is nearer, until none is. The way never leaves the surface, and
+/// |q - g| falls all along it; the end is a local minimum. At most kMaxSteps triangles; needs TriMesh::adjacency.
+/// Thread: any; nonblocking.
+SurfacePoint walk(const TriMesh& mesh, std::int32_t from, const Vec3& g) noexcept;
+inline constexpr int kMaxSteps = 256;
+
+/// Normal of the surface at the point: of its triangle, the mean of both on an edge, weighted by angle around a vertex.
+/// Its sign says on which side a point lies whose nearest point this is [Baerentzen2005]. Not a unit vector.
+Vec3 outwardAt(const TriMesh& mesh, const SurfacePoint& point) noexcept;
+
+}  // namespace presa::fca
