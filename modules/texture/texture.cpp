@@ -1,8 +1,9 @@
 // The stored energy of a fingertip in a textured face is E = k max(0, d + h)^2 / 2: d is its depth below the face, k
 // the stiffness, and h(x, y) <= 0 the height over the face at the touched point. The force is its negative gradient,
 //   f = k (d + h) (nhat - grad h),
-// because a motion along nhat lowers d, and one across it moves the touched point alike. With h <= 0 it is zero where
-// the contact with the face begins: no loop gains energy, nor one that leaves the face at another place than it came.
+// because a motion along nhat lowers d, and one across it moves the touched point alike; on an edge, only along the
+// edge. With h <= 0 it is zero where the contact with the face begins: no loop gains energy, nor one that leaves the
+// face at another place than it came.
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -14,6 +15,7 @@
 namespace presa {
 namespace {
 
+constexpr double kEdge = 1e-4;   // sine of the angle between the normals of contact and face, from which it is an edge
 constexpr double kMaxSlope = 1;  // the force leans by at most 45 degrees
 
 std::string inMillimetres(double length) {
@@ -34,6 +36,16 @@ double acrossOf(const PluginElement& element, const Pattern& pattern) {
   if (across > 0 && !pattern.two_wavelengths)
     throw std::runtime_error(std::string("shape '") + pattern.name + "' has no wavelength across; grid and noise have");
   return across > 0 ? across : element.number("wavelength");
+}
+
+/// Normal of the contact before force shading.
+Vec3 normalOf(const ProxyContact& contact) noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < contact.active.count; ++i) {
+    const ActiveSet::Member& member = contact.active.member[static_cast<std::size_t>(i)];
+    sum += member.weight * member.nhat;
+  }
+  return sum.norm() > 0 ? Vec3(sum.normalized()) : contact.nhat;
 }
 
 std::uint64_t seedOf(const PluginElement& element) {
@@ -67,7 +79,11 @@ class Texture final : public SurfaceEffect {
     const Vec3 p_T = X_BT.inverseTimes(input.touched_B());
     const PatternValue at = pattern_.at(p_T.dot(along_T_) / wavelength_, p_T.dot(across_T_) / across_, seed_);
     const Vec3 slope_T = amplitude_ * (at.ds_du / wavelength_ * along_T_ + at.ds_dv / across_ * across_T_);
-    const Vec3 slope = input.X_BA(input.contact.body).q.conjugate() * (X_BT.q * slope_T);
+    const Quat q_AT = input.X_BA(input.contact.body).q.conjugate() * X_BT.q;
+    Vec3 slope = q_AT * slope_T;
+    // on an edge the touched point moves along the edge only
+    const Vec3 edge = normalOf(input.contact).cross(q_AT * Vec3::UnitZ());
+    if (edge.norm() > kEdge) slope = slope.dot(edge) / edge.squaredNorm() * edge;
     const Vec3 tilted = contact.nhat - (slope - slope.dot(contact.nhat) * contact.nhat);
     contact.depth = std::fmax(0, contact.depth + amplitude_ * (at.s - 1)) * tilted.norm();
     contact.nhat = tilted.normalized();

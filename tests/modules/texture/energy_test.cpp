@@ -95,5 +95,59 @@ INSTANTIATE_TEST_SUITE_P(Textures, ClosedLoop,
                          testing::Combine(testing::Values("sine", "grid", "noise"), testing::Values(1e-3, 2.7e-3),
                                           testing::Values(circle, rectangle, touchAndGo)));
 
+/// Net work of a loop over the edge between the sides z and x of a cube at W: from 5 mm before the edge until the
+/// finger leans by `lean` [rad] over it, along the edge, back, and along the side to the start.
+Work workRoundEdge(bool mesh, const std::string& shape, double lean, double step) {
+  constexpr double kDepth = 1e-3, kAway = test::kR - kDepth, kSide = 0.005;
+  const TextureValues texture{.shape = shape, .direction = 30};
+  test::OneFinger finger(mesh ? test::texturedMeshCube(texture, {}) : test::texturedCube(texture, {}));
+  const auto at = [&](double way, double y) {
+    const double angle = std::max(0.0, way - kSide) / kAway;
+    return Vec3(test::kHalf + std::min(0.0, way - kSide) + kAway * std::sin(angle), y,
+                test::kHalf + kAway * std::cos(angle));
+  };
+  const double over = kSide + kAway * lean, along = 1.3e-3, length = 2 * (over + along);
+  const auto loop = [&](double way) {
+    if (way < over) return at(way, 0);
+    if (way < over + along) return at(over, way - over);
+    return way < 2 * over + along ? at(2 * over + along - way, along) : at(0, length - way);
+  };
+  finger.tick(loop(0) + Vec3(0, 0, 2 * kDepth));
+  Vec3 p = loop(0), f = finger.tick(p).f_H_W;
+  Work work;
+  const int steps = static_cast<int>(length / step);
+  for (int i = 1; i <= steps; ++i) {
+    const Vec3 next = loop(length * (i % steps) / steps), force = finger.tick(next).f_H_W;
+    const double d = 0.5 * (f + force).dot(next - p);
+    work.net += d;
+    work.moved += std::abs(d);
+    p = next;
+    f = force;
+  }
+  return work;
+}
+
+// The slope across ends at the edge, where the touched point stays. Each of the two crossings errs by half a step times
+// the tangential force that ends there, k d times a slope of 1 at most.
+TEST(LoopOverAnEdge, GainsNoEnergyWhileItLeansToOneSide) {
+  for (const std::string shape : {"sine", "grid", "noise"}) {
+    for (const auto& [mesh, step] : {std::pair(false, 2e-5), {false, 5e-6}, {true, 2e-5}, {true, 5e-6}}) {
+      const Work work = workRoundEdge(mesh, shape, 0.7, step);
+      EXPECT_LT(std::abs(work.net), test::kStiffness * 1e-3 * step) << shape << ' ' << mesh << ' ' << step;
+      EXPECT_GT(work.moved, 5e-4) << shape;
+    }
+  }
+}
+
+// Round the edge the height jumps from that of one side to that of the other, by two amplitudes at most, twice.
+TEST(LoopOverAnEdge, GainsAtMostTheJumpsOfTheHeight) {
+  for (const std::string shape : {"sine", "grid", "noise"}) {
+    for (const bool mesh : {false, true}) {
+      const Work work = workRoundEdge(mesh, shape, 1.5, 5e-6);
+      EXPECT_LT(std::abs(work.net), test::kStiffness * 1e-3 * (4 * 1e-4 + 5e-6)) << shape << ' ' << mesh;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace presa

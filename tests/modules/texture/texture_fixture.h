@@ -21,7 +21,7 @@ inline constexpr double kHalf = 0.05;  // of the cube [m]
 inline Pose oddPose() { return {Vec3(0.1, -0.2, 0.3), Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()))}; }
 
 /// A body with the texture, without friction or damping.
-inline World textured(const Shape& shape, const TextureValues& values, const Pose& X_WB = oddPose()) {
+inline World textured(const Shape& shape, const TextureValues& values, const Pose& X_WB) {
   World world = worldOf(shape);
   world.scene.bodies[0].X_WB = X_WB;
   const auto text = [](double number) {
@@ -40,11 +40,13 @@ inline World textured(const Shape& shape, const TextureValues& values, const Pos
   return world;
 }
 
-inline World texturedCube(const TextureValues& values) { return textured(Box{Vec3::Constant(2 * kHalf)}, values); }
+inline World texturedCube(const TextureValues& values, const Pose& X_WB = oddPose()) {
+  return textured(Box{Vec3::Constant(2 * kHalf)}, values, X_WB);
+}
 
 /// A cube whose sides are cut into eight triangles each.
-inline World texturedMeshCube(const TextureValues& values) {
-  World world = textured(MeshRef{}, values);
+inline World texturedMeshCube(const TextureValues& values, const Pose& X_WB = oddPose()) {
+  World world = textured(MeshRef{}, values, X_WB);
   const TriMesh box = makeBox(Vec3::Constant(2 * kHalf));
   TriMesh cut;
   for (const TriMesh::Triangle& t : box.triangles) {
