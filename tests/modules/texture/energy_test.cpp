@@ -26,15 +26,15 @@ struct Work {
 /// the places where the contact begins and ends fall anywhere in a step.
 Work workOver(const World& world, int side, const Loop& loop, int steps) {
   OnSide finger(world, side);
-  const auto forceAt = [&](const Vec3& p) {
+  const auto force_at = [&](const Vec3& p) {
     const Vec3 f = finger.force(p.x(), p.y(), p.z());
     return Vec3(f.x(), f.y(), -f.z());  // the depth grows against z
   };
   Work work;
   const auto at = [&](int i) { return loop(std::fmod((i + side / 6.0) / steps, 1)); };
-  Vec3 p = at(0), f = forceAt(p);
+  Vec3 p = at(0), f = force_at(p);
   for (int i = 1; i <= steps; ++i) {
-    const Vec3 next = at(i), force = forceAt(next);
+    const Vec3 next = at(i), force = force_at(next);
     const double d = 0.5 * (f + force).dot(next - p);
     work.net += d;
     work.moved += std::abs(d);
