@@ -99,7 +99,8 @@ class FcaMesh final : public Renderer, public ProxyMover {
   /// side where it was; else from the nearest one.
   static void face(const RenderInput& in, Tool& tool) noexcept {
     const Place nearest = nearestTo(in.g, std::numeric_limits<double>::infinity(), in.near);
-    const std::int32_t faced = tool.place.mesh == nearest.mesh && tool.place.body == nearest.body ? tool.place.triangle : -1;
+    const std::int32_t faced =
+        tool.place.mesh == nearest.mesh && tool.place.body == nearest.body ? tool.place.triangle : -1;
     tool.place = nearest;
     if (faced >= 0) tool.place.triangle = faced;
     if (faced < 0 || walkTo(in.g, tool.place).touching) return;

@@ -181,6 +181,12 @@ std::unique_ptr<Rig> sphereRig(int triangles, double radius, bool moving, int fi
   return std::make_unique<Rig>(worldOf({body}, radius, fingers), std::move(motion));
 }
 
+/// Another renderer, with a fingertip of 0.1 mm: fca_mesh holds a point.
+std::unique_ptr<Rig> renderedSphere(const std::string& renderer, int triangles) {
+  constexpr double kRadius = 1e-4;
+  return std::make_unique<Rig>(worldOf({{.mesh = sphereMesh(triangles)}}, kRadius, 1, renderer), aroundSphere(kRadius));
+}
+
 using Measure = void (*)(benchmark::State&, const std::string&, const MakeRig&);
 void add(const std::string& name, Measure measure, const MakeRig& make) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
@@ -197,6 +203,9 @@ const bool kRegistered = [] {
         add("proxy_tick/" + sphere + "/" + size + (moving ? "/moving" : "/still"), hapticTick,
             [=, radius = radius] { return sphereRig(n, radius, moving); });
       }
+    }
+    for (const std::string renderer : {"god_object", "scp", "fca_mesh", "penalty", "intermediate"}) {
+      add("renderer/" + renderer + "/" + sphere, hapticTick, [=] { return renderedSphere(renderer, n); });
     }
     add("patch_gather/" + sphere, collisionStep, [=] { return sphereRig(n, 8e-3, false); });
   }

@@ -12,6 +12,7 @@
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
 #include "framework/device/minimum_jerk.h"
+#include "framework/scene/manifest.h"
 #include "modules/collision_fcl/collision_module.h"
 #include "modules/haptics_proxy/haptics_proxy.h"
 
@@ -49,12 +50,16 @@ std::shared_ptr<const TriMesh> sphereMesh(int triangles, bool bumpy) {
   for (Vec3& v : mesh.vertices) {
     if (bumpy) v *= 1 + 0.01 * std::sin(300 * v.x()) * std::sin(300 * v.y()) * std::sin(300 * v.z());
   }
+  buildAdjacency(mesh);
   made = std::make_shared<const TriMesh>(std::move(mesh));
   return made;
 }
 
-std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers) {
+std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers,
+                                     const std::string& renderer) {
   auto world = std::make_shared<World>();
+  world->scene.haptics.renderer = renderer;
+  world->scene.haptics.proxy = findManifest(renderer)->hasProxy();
   Material material;
   material.stiffness = 1000;
   material.friction_static = 0.6;

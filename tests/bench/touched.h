@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "framework/core/graph/graph.h"
@@ -27,8 +28,9 @@ struct Touched {
   bool fixed = true;
 };
 /// A world with these bodies of one material (1 N/mm, friction 0.6/0.4) and `fingers` fingertips of this radius [m].
-/// The only place where the benchmarks make a World.
-std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers = 1);
+/// The only place where the benchmarks make a World. `renderer` with friction only if its proxy can be held.
+std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers = 1,
+                                     const std::string& renderer = "god_object");
 
 /// A smooth closed path around the unit sphere, up and down, that never comes close to itself: one point per haptic
 /// tick at constant speed, which is kSpeed on a sphere of this radius [m]. Its length is a whole number of collision
