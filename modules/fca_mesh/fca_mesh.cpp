@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -15,10 +16,12 @@ struct Place {
   Pose X_AG;
 };
 
-/// One tool: where it touches, or the triangle that it faces.
+/// One tool: where it touches, or the triangle that it faces; and where friction holds it.
 struct Tool {
   Place place;
   bool touching = false;
+  const Surroundings* near = nullptr;  ///< the tool's own
+  std::int32_t held = -1;              ///< triangle of place.mesh
 };
 
 /// The triangle nearest to x within `limit`.
@@ -71,6 +74,7 @@ class FcaMesh final : public Renderer, public ProxyMover {
   ProxyContact touch(const RenderInput& in) noexcept override {
     Tool& tool = tools_[in.tool];
     in.near.use(Point::kGodObject);
+    tool.near = &in.near;
     if (!tool.touching || !in.last.touching) face(in, tool);
     const ProxyMove moved = tool.place.triangle >= 0 ? walkTo(in.g, tool.place) : freeAt(in.g);
     tool.touching = moved.touching;
@@ -82,12 +86,14 @@ class FcaMesh final : public Renderer, public ProxyMover {
 
   /// Over the surface from x, which lies on it, to the point nearest to g.
   ProxyMove move(const Vec3& x, const Vec3& g, double r, Surroundings& near) const noexcept override {
-    Place place = nearestTo(x, r, near);
-    return place.triangle >= 0 ? walkTo(g, place) : freeAt(g);
+    Place place = placeOf(x, r, near);
+    if (place.triangle < 0) return freeAt(g);
+    const ProxyMove moved = walkTo(g, place);
+    if (Tool* tool = toolOf(near)) tool->held = place.triangle;
+    return moved;
   }
   bool isSupported(const Vec3& x, double r, Surroundings& near) const noexcept override {
-    constexpr double kOn = 1e-6;
-    return nearestTo(x, kOn * r, near).triangle >= 0;
+    return placeOf(x, r, near).triangle >= 0;
   }
   void changeFrame(std::size_t tool, const Pose& X_BA) noexcept override {
     tools_[tool].place.X_AG = X_BA * tools_[tool].place.X_AG;
@@ -95,6 +101,30 @@ class FcaMesh final : public Renderer, public ProxyMover {
   std::string what() const override { return "walk over the mesh from triangle to triangle (friction cone algorithm)"; }
 
  private:
+  static constexpr double kOn = 1e-6;  // relative to r: a point nearer than this lies on the surface
+
+  Tool* toolOf(const Surroundings& near) const noexcept {
+    const auto tool = std::ranges::find(tools_, &near, &Tool::near);
+    return tool == tools_.end() ? nullptr : &*tool;
+  }
+
+  /// The place of x on the surface; no triangle when it is not on it. Friction's point is where it was left, or else where
+  /// the tool touches; only after both the surroundings are searched.
+  Place placeOf(const Vec3& x, double r, Surroundings& near) const noexcept {
+    if (const Tool* tool = toolOf(near); tool != nullptr && tool->touching) {
+      for (const std::int32_t triangle : {tool->held, tool->place.triangle}) {
+        if (triangle < 0) continue;
+        const Vec3 x_G = tool->place.X_AG.inverseTimes(x);
+        const fca::SurfacePoint at = fca::walk(*tool->place.mesh, triangle, x_G);
+        if (!((at.q - x_G).norm() <= kOn * r)) continue;
+        Place place = tool->place;
+        place.triangle = at.triangle;
+        return place;
+      }
+    }
+    return nearestTo(x, kOn * r, near);
+  }
+
   /// In free space: on the mesh that the tool faced in the last tick it starts from the triangle there, to enter by the
   /// side where it was; else from the nearest one.
   static void face(const RenderInput& in, Tool& tool) noexcept {
@@ -103,11 +133,12 @@ class FcaMesh final : public Renderer, public ProxyMover {
         tool.place.mesh == nearest.mesh && tool.place.body == nearest.body ? tool.place.triangle : -1;
     tool.place = nearest;
     if (faced >= 0) tool.place.triangle = faced;
+    tool.held = -1;
     if (faced < 0 || walkTo(in.g, tool.place).touching) return;
     tool.place = nearest;
   }
 
-  std::vector<Tool> tools_;
+  mutable std::vector<Tool> tools_;  // move() remembers where it ended: the next one begins there
 };
 
 const RendererPlugin kPlugin{.name = "fca_mesh",
