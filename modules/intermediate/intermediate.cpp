@@ -77,7 +77,9 @@ class Intermediate final : public Renderer {
 
  private:
   void handOver(const RenderInput& input, Tool& tool) const noexcept {
-    const Local found = nearest(tool.now.proxyAt(input.g, input.radius), input.near);
+    constexpr double kMargin = 1e-3;  // on top of the radius: what the last plane may be off [m]
+    const Vec3 x = tool.now.proxyAt(input.g, input.radius);
+    const Local found = nearest(x, input.radius + kMargin, input.near);
     tool.before = tool.now;
     tool.now = found;
     tool.since = 0;
@@ -97,9 +99,17 @@ class Intermediate final : public Renderer {
     return turn.norm() > kMaxTurn ? 0 : turn.dot(way) / way.squaredNorm();
   }
 
-  static Local nearest(const Vec3& x, Surroundings& near) noexcept {
+  /// The surface nearest to x. Searches a small ball first, because far more of a mesh lies in a large one.
+  static Local nearest(const Vec3& x, double near_by, Surroundings& near) noexcept {
+    constexpr double kFar = 0.1;  // [m]
+    for (double radius = near_by; radius < kFar; radius *= 4) {
+      const Local found = nearestWithin(x, radius, near);
+      if (found.body != kNoBody) return found;
+    }
+    return nearestWithin(x, std::numeric_limits<double>::infinity(), near);
+  }
+  static Local nearestWithin(const Vec3& x, double limit, Surroundings& near) noexcept {
     Local found;
-    double limit = std::numeric_limits<double>::infinity();
     near.focus(x, limit);
     near.forEachWithin(x, limit, [&](const NearPiece& piece) {
       if (piece.at.distance > limit) return;
