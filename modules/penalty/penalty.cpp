@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "framework/haptics/renderer.h"
@@ -33,7 +32,7 @@ NearestSurface surfaceOf(const NearPiece& piece, const Surroundings::Triangle& t
 /// pushed out there. With `sum` the forces of all bodies add up, as in the textbooks; otherwise the deepest one acts.
 class Penalty final : public Renderer {
  public:
-  Penalty(std::size_t tools, bool sum) : sum_(sum), last_nhat_W_(tools, Vec3::Zero()) {}
+  Penalty(std::size_t tools, bool sum) : sum_(sum), last_(tools) {}
 
   ProxyContact touch(const RenderInput& input) noexcept override {
     ProxyContact contact;
@@ -41,16 +40,18 @@ class Penalty final : public Renderer {
     NearestSurface deepest;
     deepest.signed_distance = input.radius;
     Vec3 push = Vec3::Zero();
-    forEachBody(input.g, input.radius, input.near, [&](const NearestSurface& surface) {
+    Last& last = last_[input.tool];
+    // a surface that is farther away can neither be touched nor have been crossed in this tick
+    const double reach = 2 * input.radius + last.depth + input.near.step();
+    forEachBody(input.g, input.radius, reach, input.near, [&](const NearestSurface& surface) {
       const double depth = input.radius - surface.signed_distance;
       if (sum_ && input.contacts.add({surface.body, surface.nhat, depth}) != nullptr) push += depth * surface.nhat;
       if (surface.signed_distance < deepest.signed_distance) deepest = surface;
     });
     if (!sum_) push = (input.radius - deepest.signed_distance) * deepest.nhat;
     contact.x = contact.state.x = contact.state.god_object = input.g + push;
-    Vec3& last_nhat_W = last_nhat_W_[input.tool];
     if (deepest.body == kNoBody) {
-      last_nhat_W.setZero();
+      last = {};
       return contact;
     }
     contact.state.touching = contact.state.slipping = true;
@@ -59,8 +60,8 @@ class Penalty final : public Renderer {
     contact.nhat = contact.depth > 0 ? Vec3(push / contact.depth) : deepest.nhat;
     // a force that reverses from one tick to the next: the finger went through, as this method lets it
     const Vec3 nhat_W = input.X_WA.q * contact.nhat;
-    contact.crossed = nhat_W.dot(last_nhat_W) < 0;
-    last_nhat_W = nhat_W;
+    contact.crossed = nhat_W.dot(last.nhat_W) < 0;
+    last = {nhat_W, input.radius - deepest.signed_distance};
     return contact;
   }
   std::size_t maxOwnContacts() const noexcept override { return sum_ ? kMaxBodies : 0; }
@@ -72,14 +73,20 @@ class Penalty final : public Renderer {
  private:
   static constexpr std::size_t kMaxBodies = 16;
 
-  /// Calls use(NearestSurface) for each body that the tool overlaps.
+  /// Contact of the last tick.
+  struct Last {
+    Vec3 nhat_W = Vec3::Zero();
+    double depth = 0;  ///< [m]
+  };
+
+  /// Calls use(NearestSurface) for each body that the tool overlaps and whose surface is within `reach`.
   template <class Use>
-  static void forEachBody(const Vec3& g, double r, Surroundings& near, const Use& use) noexcept {
-    near.focus(g, std::numeric_limits<double>::infinity());
+  static void forEachBody(const Vec3& g, double r, double reach, Surroundings& near, const Use& use) noexcept {
+    near.focus(g, reach);
     for (int source = -1; source < near.meshCount(); ++source) {
       // a mesh contributes its nearest surface only; each primitive is a body of its own
       NearestSurface nearest;
-      double limit = std::numeric_limits<double>::infinity();
+      double limit = reach;
       near.forEachWithin(source, g, limit, [&](const NearPiece& piece) {
         const NearestSurface found = surfaceOf(piece, near.triangleOf(piece.ref, g), near.turnOf(piece.ref));
         if (source < 0) {
@@ -96,7 +103,7 @@ class Penalty final : public Renderer {
   }
 
   bool sum_;
-  std::vector<Vec3> last_nhat_W_;  // by tool; zero: no contact
+  std::vector<Last> last_;  // by tool
 };
 
 const RendererPlugin kPlugin{
