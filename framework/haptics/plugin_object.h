@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "framework/core/diagnostics/refuse.h"
@@ -8,7 +9,8 @@
 namespace presa {
 
 /// The object that a plug-in makes for an element of the scene. Throws InputError: E596 with the element's place when
-/// `create` throws or makes nothing.
+/// `create` throws or makes nothing. std::invalid_argument says what is wrong with the element's values; any other
+/// exception is the plug-in's own failure.
 template <class Create>
 auto madeFor(const PluginElement& element, const Create& create) -> decltype(create()) {
   enum Code { kCannotBeMade = 596 };
@@ -19,6 +21,8 @@ auto madeFor(const PluginElement& element, const Create& create) -> decltype(cre
                       "plug-in '" + element.plugin + "' made nothing for <" + element.element + ">");
   } catch (const InputError&) {
     throw;
+  } catch (const std::invalid_argument& error) {  // the scene's author can mend it
+    diagnostics.error(kCannotBeMade, element.where, "<" + element.element + ">: " + error.what());
   } catch (const std::exception& error) {
     diagnostics.error(kCannotBeMade, element.where,
                       "plug-in '" + element.plugin + "' cannot make <" + element.element + ">: " + error.what(),

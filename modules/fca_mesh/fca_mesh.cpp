@@ -65,9 +65,9 @@ class FcaMesh final : public Renderer, public ProxyMover {
     for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
       const Body& body = world.scene.bodies[b];
       if (!body.haptic) continue;
-      if (!world.meshes[b].haptic) throw std::runtime_error("the haptic geometry of '" + body.name + "' is no mesh");
+      if (!world.meshes[b].haptic) throw std::invalid_argument("the haptic geometry of '" + body.name + "' is no mesh");
       if (world.meshes[b].haptic->adjacency.empty())
-        throw std::runtime_error("the haptic mesh of '" + body.name + "' has no adjacency");
+        throw std::invalid_argument("the haptic mesh of '" + body.name + "' has no adjacency");
     }
   }
 

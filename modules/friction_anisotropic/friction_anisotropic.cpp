@@ -35,7 +35,7 @@ class Anisotropic final : public FrictionLaw {
  public:
   explicit Anisotropic(const PluginElement& element)
       : grain_B_(element.vector3("grain")), across_(element.number("across")) {
-    if (!(grain_B_.norm() > 0)) throw std::runtime_error("grain must not be 0 0 0");
+    if (!(grain_B_.norm() > 0)) throw std::invalid_argument("grain must not be 0 0 0");
     grain_B_.normalize();
   }
 

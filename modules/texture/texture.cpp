@@ -27,14 +27,15 @@ std::string inMillimetres(double length) {
 const Pattern& patternOf(const PluginElement& element) {
   const std::string& shape = element.text("shape");
   const Pattern* pattern = findPattern(shape);
-  if (pattern == nullptr) throw std::runtime_error("no shape '" + shape + "'; there are sine, grid and noise");
+  if (pattern == nullptr) throw std::invalid_argument("no shape '" + shape + "'; there are sine, grid and noise");
   return *pattern;
 }
 
 double acrossOf(const PluginElement& element, const Pattern& pattern) {
   const double across = element.number("across");
   if (across > 0 && !pattern.two_wavelengths)
-    throw std::runtime_error(std::string("shape '") + pattern.name + "' has no wavelength across; grid and noise have");
+    throw std::invalid_argument(std::string("shape '") + pattern.name +
+                                "' has no wavelength across; grid and noise have");
   return across > 0 ? across : element.number("wavelength");
 }
 
@@ -50,7 +51,7 @@ Vec3 normalOf(const ProxyContact& contact) noexcept {
 
 std::uint64_t seedOf(const PluginElement& element) {
   const double seed = element.number("seed");
-  if (seed != std::floor(seed)) throw std::runtime_error("the seed must be a whole number");
+  if (seed != std::floor(seed)) throw std::invalid_argument("the seed must be a whole number");
   return static_cast<std::uint64_t>(seed);
 }
 
@@ -70,7 +71,7 @@ class Texture final : public SurfaceEffect {
       std::ostringstream text;
       text << "its slope reaches " << slope << ", above 1; an amplitude of " << inMillimetres(amplitude_ / slope)
            << " would be the largest for these wavelengths";
-      throw std::runtime_error(text.str());
+      throw std::invalid_argument(text.str());
     }
   }
 
@@ -108,7 +109,7 @@ const SurfaceEffectPlugin kPlugin{
       const Shape& shape = body.haptic->shape;
       // a curved primitive has another tangent frame at each point, so no place on it
       if (!std::holds_alternative<Box>(shape) && !std::holds_alternative<MeshRef>(shape))
-        throw std::runtime_error("body '" + body.name + "' has no flat sides; a texture needs a box or a mesh");
+        throw std::invalid_argument("body '" + body.name + "' has no flat sides; a texture needs a box or a mesh");
       return std::make_unique<Texture>(element);
     }};
 
