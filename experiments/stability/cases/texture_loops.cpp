@@ -1,0 +1,92 @@
+#include <cmath>
+#include <numbers>
+
+#include "experiments/stability/cases.h"
+#include "experiments/stability/methods.h"
+#include "experiments/study/prescribed_finger.h"
+
+namespace presa::stability {
+namespace {
+
+constexpr double kRadius = 0.008, kLoop = 0.004;       // of the fingertip; of its path [m]
+constexpr double kPeriod = 4, kRest = 1, kLaps = 5;    // of a lap; before the first one [s]; laps
+constexpr double kDeep = 0.0015, kHigh = -0.0005;      // deepest and highest point of the path below the face [m]
+
+/// Round in 4 s; `touch_and_go` leaves the face and comes back elsewhere in each lap.
+PrescribedFinger::State circle(double time, bool touch_and_go) {
+  const double omega = 2 * std::numbers::pi / kPeriod, angle = omega * std::max(0.0, time - kRest);
+  const double middle = touch_and_go ? (kDeep + kHigh) / 2 : kDeep, swing = touch_and_go ? (kDeep - kHigh) / 2 : 0;
+  const double depth = middle + swing * std::sin(angle + 0.7);
+  PrescribedFinger::State state;
+  state.p_WH = {kLoop * std::cos(angle), kLoop * std::sin(angle), kRadius - depth};
+  if (time < kRest) return state;
+  state.v_WH = {-kLoop * omega * std::sin(angle), kLoop * omega * std::cos(angle), -swing * omega * std::cos(angle + 0.7)};
+  return state;
+}
+
+struct Texture {
+  std::string name, amplitude, wavelength;
+};
+
+std::vector<Finding> stroke(const Texture& texture, bool touch_and_go, const std::string& rate) {
+  const std::string element = "material/stone/texture/";
+  std::vector<std::string> sets{element + "shape=" + texture.name, element + "amplitude=" + texture.amplitude,
+                                element + "wavelength=" + texture.wavelength, "rates/haptic=" + rate};
+  DeviceList devices;
+  devices.push_back(std::make_unique<PrescribedFinger>([=](double time) { return circle(time, touch_and_go); }));
+  StudyRun run(specOf("texture_loops.xml", std::move(sets), kRest + kLaps * kPeriod), std::move(devices));
+  double net = 0, moved = 0;
+  Vec3 last_p = Vec3::Zero(), last_f = Vec3::Zero();
+  Curve gained{"energy that the finger has gained", {}, {}};
+  run.observe([&](const HapticSample& sample) {
+    const FingerContact& contact = sample.contact.fingers[0];
+    if (sample.tick.time > kRest) {
+      const double work = 0.5 * (contact.f_H_W + last_f).dot(contact.p_WH - last_p);
+      net += work;
+      moved += std::abs(work);
+      gained.x.push_back(sample.tick.time);
+      gained.y.push_back(1e6 * net);
+    }
+    last_p = contact.p_WH;
+    last_f = contact.f_H_W;
+  });
+  run.run();
+  Finding share = finding("energy gained in five laps, of the work moved", 100 * net / moved, "%", 0.05,
+                          "none: the force is the gradient of a stored energy");
+  share.plot_x = "time [s]";
+  share.plot_y = "energy gained [uJ]";
+  share.curves.push_back(decimated(std::move(gained)));
+  return {share};
+}
+
+}  // namespace
+
+Case textureLoops() {
+  Case result;
+  result.name = "texture_loops";
+  result.title = "A finger strokes textures in circles";
+  result.source =
+      "A texture that changes the depth and not the direction of the force, or begins with a step, feeds a hand that "
+      "goes round: stored energy is the only height field that does not.";
+  result.oracle = "Over a closed path the finger gains no energy; the trapezium rule and the ticks leave a rest.";
+  result.scene = "texture_loops.xml";
+  for (const Texture& texture : {Texture{"sine", "0.0001", "0.002"}, {"sine", "0.0001", "0.001"}, {"grid", "0.0001", "0.002"},
+                                 {"noise", "0.0002", "0.002"}}) {
+    for (const bool touch_and_go : {false, true}) {
+      for (const std::string rate : {"1000", "2000"}) {
+        Trial trial;
+        trial.parameters = {{"texture", texture.name},
+                            {"wavelength", number(1000 * std::stod(texture.wavelength)) + " mm"},
+                            {"path", touch_and_go ? "touch and go" : "on the face"},
+                            {"rate", number(std::stod(rate) / 1000) + " kHz"}};
+        trial.method = kPresa;
+        trial.run = [=] { return stroke(texture, touch_and_go, rate); };
+        trial.quick = rate == "1000";
+        result.trials.push_back(std::move(trial));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace presa::stability
