@@ -21,8 +21,12 @@ void openStandardStreams() {
 }
 
 bool outputLost() {
-  errno = 0;
   const bool failed_before = std::ferror(stdout) != 0;
+  if (failed_before) {  // the reason is no longer known: it is that of one more byte
+    std::clearerr(stdout);
+    std::fputc('\n', stdout);
+  }
+  errno = 0;
   if (std::fflush(stdout) == 0 && !failed_before) return false;
   std::fprintf(stderr, "presa: error: standard output could not be written: %s\n",
                errno != 0 ? std::strerror(errno) : "part of it is lost");
