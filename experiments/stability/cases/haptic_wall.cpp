@@ -24,6 +24,9 @@ double observedTime(double radius, double period) {
   return std::min(120.0, period * std::log(kFactor) / std::abs(std::log(radius)));
 }
 
+/// The limit of a delay that is short against m / b [Gil2009].
+double shortDelayLimit(const WallPlant& plant) { return plant.damping / ((plant.delay + 0.5) * plant.period); }
+
 /// Max |depth - rest| in a time interval.
 double amplitude(const Curve& depth, double rest, double from, double to) {
   double largest = 0;
@@ -62,7 +65,8 @@ std::vector<Finding> lean(const Wall& wall) {
   const double grown = last / (1000 * kDisturbance);
   Finding verdict =
       finding(decays ? "amplitude, end over start" : "amplitude, start over end", decays ? grown : 1 / grown, "", 1,
-              "limit " + number(limit) + " N/m: it " + (decays ? "settles" : "grows"));
+              "limit " + number(limit) + " N/m (b / ((n + 1/2) T) = " + number(shortDelayLimit(wall.plant)) +
+                  " N/m): it " + (decays ? "settles" : "grows"));
   verdict.plot_x = "time [s]";
   verdict.plot_y = "depth of the fingertip [mm]";
   verdict.curves.push_back(decimated(std::move(depth)));
@@ -75,7 +79,7 @@ std::vector<Finding> lean(const Wall& wall) {
 Case hapticWall() {
   Case result;
   result.name = "haptic_wall";
-  result.title = "A finger leans on a wall at the stability limit of a sampled loop";
+  result.title = "A finger leans on a wall at the stability limit of a sampled loop, with up to 100 ms of delay";
   result.source =
       "Stability of a sampled spring on a mass with damping [Colgate 1997, Gil 2009: about b / ((d + 1/2) T)]; "
       "the limit is computed exactly from the eigenvalues of the discrete loop.";
@@ -86,7 +90,7 @@ Case hapticWall() {
     double mass, damping, period;
   };
   for (const Device& device : {Device{0.1, 1, 0.001}, {0.05, 5, 0.001}, {0.3, 2, 0.001}, {0.1, 2, 0.00025}}) {
-    for (const int delay : {0, 1, 2}) {
+    for (const int delay : {0, 1, 2, 10, 30, 100}) {
       for (const double share : {0.98, 1.02}) {
         for (const bool late : {false, true}) {
           if (late && share > 1) continue;  // this loop grows without the extra delay

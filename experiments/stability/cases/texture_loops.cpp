@@ -8,9 +8,9 @@
 namespace presa::stability {
 namespace {
 
-constexpr double kRadius = 0.008, kLoop = 0.004;       // of the fingertip; of its path [m]
-constexpr double kPeriod = 4, kRest = 1, kLaps = 5;    // of a lap; before the first one [s]; laps
-constexpr double kDeep = 0.0015, kHigh = -0.0005;      // deepest and highest point of the path below the face [m]
+constexpr double kRadius = 0.008, kLoop = 0.004;     // of the fingertip; of its path [m]
+constexpr double kPeriod = 4, kRest = 1, kLaps = 5;  // of a lap; before the first one [s]; laps
+constexpr double kDeep = 0.0015, kHigh = -0.0005;    // deepest and highest point of the path below the face [m]
 
 /// Round in 4 s; `touch_and_go` leaves the face and comes back elsewhere in each lap.
 PrescribedFinger::State circle(double time, bool touch_and_go) {
@@ -20,7 +20,8 @@ PrescribedFinger::State circle(double time, bool touch_and_go) {
   PrescribedFinger::State state;
   state.p_WH = {kLoop * std::cos(angle), kLoop * std::sin(angle), kRadius - depth};
   if (time < kRest) return state;
-  state.v_WH = {-kLoop * omega * std::sin(angle), kLoop * omega * std::cos(angle), -swing * omega * std::cos(angle + 0.7)};
+  state.v_WH = {-kLoop * omega * std::sin(angle), kLoop * omega * std::cos(angle),
+                -swing * omega * std::cos(angle + 0.7)};
   return state;
 }
 
@@ -70,7 +71,9 @@ Case textureLoops() {
       "goes round: stored energy is the only height field that does not.";
   result.oracle = "Over a closed path the finger gains no energy; the trapezium rule and the ticks leave a rest.";
   result.scene = "texture_loops.xml";
-  for (const Texture& texture : {Texture{"sine", "0.0001", "0.002"}, {"sine", "0.0001", "0.001"}, {"grid", "0.0001", "0.002"},
+  for (const Texture& texture : {Texture{"sine", "0.0001", "0.002"},
+                                 {"sine", "0.0001", "0.001"},
+                                 {"grid", "0.0001", "0.002"},
                                  {"noise", "0.0002", "0.002"}}) {
     for (const bool touch_and_go : {false, true}) {
       for (const std::string rate : {"1000", "2000"}) {
