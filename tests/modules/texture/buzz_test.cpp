@@ -15,7 +15,9 @@ constexpr double kBuzz = 80, kWavelength = 0.001, kAmplitude = 0.0001, kDeep = 0
 double heldError(double rate) {
   test::OnSide finger(test::texturedCube({.shape = "sine", .amplitude = kAmplitude, .wavelength = kWavelength}), 0);
   const double speed = kBuzz * kWavelength;
-  const auto forceAt = [&](double time) { return finger.force(std::fmod(speed * time, 20 * kWavelength), 0, kDeep).z(); };
+  const auto forceAt = [&](double time) {
+    return finger.force(std::fmod(speed * time, 20 * kWavelength), 0, kDeep).z();
+  };
   constexpr int kFine = 50, kTicks = 1000;  // whole waves later the place is the same
   double sum = 0;
   for (int tick = 0; tick < kTicks; ++tick) {
