@@ -46,7 +46,8 @@ class Anisotropic final : public FrictionLaw {
     const double used = stretch.cwiseQuotient(shape).norm();  // coefficient along the grain that holds it, times depth
     FrictionAnswer answer;
     answer.stretch = input.stretch;
-    answer.slipping = used > (input.slipping ? input.mu_dynamic : input.mu_static) * input.depth;
+    // a finger that stops on the border sticks, however its stretch is rounded
+    answer.slipping = used > (input.slipping ? kBorder * input.mu_dynamic : input.mu_static) * input.depth;
     if (answer.slipping && input.mu_dynamic > 0) {
       const Vec2 left = nearestOnEllipse(input.mu_dynamic * input.depth * shape, stretch);
       answer.stretch = left.x() * along + left.y() * beside;
@@ -62,6 +63,7 @@ class Anisotropic final : public FrictionLaw {
   }
 
  private:
+  static constexpr double kBorder = 1 + 1e-10;  // beyond what nearestOnEllipse leaves
   /// Unit vector in the plane of contact, frame A.
   Vec3 grainIn(const FrictionInput& input) const noexcept {
     constexpr double kAcross = 0.1;  // a grain nearer to the normal has no direction in the face

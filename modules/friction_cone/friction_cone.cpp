@@ -10,11 +10,15 @@ class Cone final : public FrictionLaw {
     answer.bound = input.mu_static;
     answer.bound_sliding = input.mu_dynamic;
     const double length = input.stretch.norm();
-    answer.slipping = length > (input.slipping ? input.mu_dynamic : input.mu_static) * input.depth;
+    // a finger that stops on the border sticks, however its stretch is rounded
+    answer.slipping = length > (input.slipping ? kBorder * input.mu_dynamic : input.mu_static) * input.depth;
     answer.stretch = input.stretch;
     if (answer.slipping) answer.stretch *= input.mu_dynamic * input.depth / length;
     return answer;
   }
+
+ private:
+  static constexpr double kBorder = 1 + 1e-10;
 };
 
 const FrictionLawPlugin kPlugin{

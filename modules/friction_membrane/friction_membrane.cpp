@@ -18,13 +18,15 @@ class Membrane final : public FrictionLaw {
     answer.bound = input.mu_static;
     answer.bound_sliding = input.mu_dynamic;
     const double force = answer.ratio * l.norm();  // over k, like the depth
-    answer.slipping = force > (input.slipping ? input.mu_dynamic : input.mu_static) * input.depth;
+    // a finger that stops on the border sticks, however its stretch is rounded
+    answer.slipping = force > (input.slipping ? kBorder * input.mu_dynamic : input.mu_static) * input.depth;
     if (answer.slipping) l *= input.mu_dynamic * input.depth / force;
     answer.stretch = answer.ratio * l;
     return answer;
   }
 
  private:
+  static constexpr double kBorder = 1 + 1e-10;
   double stiffness_;  // k_T [N/m]
 };
 

@@ -9,6 +9,7 @@
 namespace presa {
 namespace {
 
+constexpr double kBorder = 1 + 1e-10;
 constexpr double kSmoothing = 5e-3;  // time constant of the speed [s]
 
 class Stribeck final : public FrictionLaw {
@@ -24,7 +25,8 @@ class Stribeck final : public FrictionLaw {
     answer.bound = input.mu_static;
     answer.bound_sliding = mu;
     const double length = input.stretch.norm(), sliding = mu * input.depth;
-    answer.slipping = length > (input.slipping ? sliding : input.mu_static * input.depth);
+    // a finger that stops on the border sticks, however its stretch is rounded
+    answer.slipping = length > (input.slipping ? kBorder * sliding : input.mu_static * input.depth);
     if (!answer.slipping) return answer;
     const double fraction = 1 / (1 + viscosity_ / (input.stiffness * input.period));
     const double kept = length - fraction * (length - sliding);
