@@ -24,7 +24,7 @@ struct Row {
   int broken = 0;            ///< runs that violated a bound or a requirement
   std::string reason;        ///< reason of the first such run
   std::vector<std::string>
-      discarded;        ///< runs discarded because the time of the fault is unknown: their reasons, with figures
+      discarded;        ///< runs discarded because the machine decided their times: reasons, with figures
   bool watched = true;  ///< no run violated one of the four invariants (device/transport_watch.h)
 };
 

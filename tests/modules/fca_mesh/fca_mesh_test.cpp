@@ -8,6 +8,7 @@
 #include "modules/fca_mesh/mesh_walk.h"
 #include "tests/apps/presa/support.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
+#include "tests/modules/haptics_proxy/renderer_scene.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {
@@ -145,15 +146,7 @@ TEST(FcaMesh, NeitherAllocatesNorLocks) {
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 
-TEST(SceneWithFcaMesh, LoadsItAndNotTheGodObject) {
-  const std::string scene = test::source("config/scenes/renderer_fca_mesh.xml");
-  const test::Outcome explained = test::presa("explain " + scene);
-  EXPECT_EQ(explained.status, 0) << explained.err;
-  EXPECT_NE(explained.out.find("presa_fca_mesh.so"), std::string::npos) << explained.out;
-  EXPECT_EQ(explained.out.find("presa_god_object.so"), std::string::npos) << explained.out;
-  const test::Outcome run = test::presa("run " + scene + " --lockstep");
-  EXPECT_EQ(run.status, 0) << run.out << run.err;
-}
+TEST(SceneWithFcaMesh, LoadsItAndNotTheGodObject) { test::expectOwnRenderer("fca_mesh"); }
 
 TEST(SceneWithFcaMesh, RefusesGeometryThatIsNoMesh) {
   const test::Outcome run = test::presa("run " + test::source("config/scenes/cube.xml") +

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/apps/presa/support.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
+#include "tests/modules/haptics_proxy/renderer_scene.h"
 #include "tests/support/alloc_lock_guard.h"
 #include "tests/support/rendered_body.h"
 
@@ -101,15 +101,7 @@ TEST(Intermediate, NeitherAllocatesNorLocks) {
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 
-TEST(SceneWithIntermediate, LoadsItAndNotTheGodObject) {
-  const std::string scene = test::source("config/scenes/renderer_intermediate.xml");
-  const test::Outcome explained = test::presa("explain " + scene);
-  EXPECT_EQ(explained.status, 0) << explained.err;
-  EXPECT_NE(explained.out.find("presa_intermediate.so"), std::string::npos) << explained.out;
-  EXPECT_EQ(explained.out.find("presa_god_object.so"), std::string::npos) << explained.out;
-  const test::Outcome run = test::presa("run " + scene + " --lockstep");
-  EXPECT_EQ(run.status, 0) << run.out << run.err;
-}
+TEST(SceneWithIntermediate, LoadsItAndNotTheGodObject) { test::expectOwnRenderer("intermediate"); }
 
 }  // namespace
 }  // namespace presa

@@ -20,6 +20,10 @@ using Loop = std::function<Vec3(double)>;
 
 struct Work {
   double net = 0, moved = 0;  ///< sum of the work, and of its magnitude [J]
+  void add(const Vec3& force, const Vec3& way) {
+    net += force.dot(way);
+    moved += std::abs(force.dot(way));
+  }
 };
 
 /// Work of the force on the finger, by the trapezoidal rule. Each side's loop starts at another part of a step, so that
@@ -35,9 +39,7 @@ Work workOver(const World& world, int side, const Loop& loop, int steps) {
   Vec3 p = at(0), f = force_at(p);
   for (int i = 1; i <= steps; ++i) {
     const Vec3 next = at(i), force = force_at(next);
-    const double d = 0.5 * (f + force).dot(next - p);
-    work.net += d;
-    work.moved += std::abs(d);
+    work.add(0.5 * (f + force), next - p);
     p = next;
     f = force;
   }
@@ -118,9 +120,7 @@ Work workRoundEdge(bool mesh, const std::string& shape, double lean, double step
   const int steps = static_cast<int>(length / step);
   for (int i = 1; i <= steps; ++i) {
     const Vec3 next = loop(length * (i % steps) / steps), force = finger.tick(next).f_H_W;
-    const double d = 0.5 * (f + force).dot(next - p);
-    work.net += d;
-    work.moved += std::abs(d);
+    work.add(0.5 * (f + force), next - p);
     p = next;
     f = force;
   }
