@@ -180,11 +180,12 @@ Outcome stopped(RandomStream& random) {
     kill(program.pid(), SIGCONT);
     sleepFor(0.1);
     if (sent.took > kSent) return discarded("the program took %.2f ms to stop", 1e3 * sent.took);
-    if (const double pause = longestPause(program.log(), sent.at_ns, end); pause > kHeldUp)
-      return discarded("the machine held up the supervisor for %.2f ms after the stop", 1e3 * pause);
     // if the machine delayed the supervisor once more, wait for its restart
     while (!pushes(program.log()) && secondsBetween(resumed, monotonicNs()) < kReturn) sleepFor(0.01);
     Outcome outcome = judged(program.log(), sent.at_ns, end);
+    if (const double pause = longestPause(program.log(), sent.at_ns, end); pause > kHeldUp)
+      return discarded("the supervisor was held up for %.2f ms after the stop; zero after %.1f ms", 1e3 * pause,
+                       1e3 * outcome.zero);
     if (const double pause = longestPause(program.log(), resumed); !pushes(program.log()) && pause > kLoss)
       return discarded("the machine held up the supervisor for %.1f ms after the return", 1e3 * pause);
     judgeReturn(program.log(), resumed, outcome);
