@@ -40,6 +40,23 @@ std::string lossSentence(const RunResult::Object& object) {
   return object.summary.dropped ? "Dropped at " + at + ", before it was to be released." : "Released at " + at + ".";
 }
 
+// The bound that action and reaction are held to. A force that changes within a dynamics step, as with the steps of an
+// encoder under a light grip, exceeds it: the dynamics learns of it one step later.
+constexpr double kImpulseBound = 0.01;
+
+std::optional<std::string> impulseSentence(const RunResult& result) {
+  const RunResult::ContactPoint* worst = nullptr;
+  for (const RunResult::ContactPoint& point : result.contact_points) {
+    const double error = point.summary.reaction.worst;
+    if (error > kImpulseBound && (worst == nullptr || error > worst->summary.reaction.worst)) worst = &point;
+  }
+  if (worst == nullptr) return std::nullopt;
+  const ActionReaction::Result& reaction = worst->summary.reaction;
+  return "The impulse on the object and the one that " + worst->name + " felt differed by up to " +
+         fixed(100 * reaction.worst, 1) + " % over 0.1 s (until " + fixed(reaction.time, 3) +
+         " s). A higher rate of the dynamics follows the force better.";
+}
+
 Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {
   const RunResult::Object& object = result.objects[figures.object];
   Verdict verdict;
@@ -75,6 +92,7 @@ Verdict verdictOf(const RunResult& result) {
   Verdict verdict = figures ? graspVerdict(result, *figures) : plainVerdict(result);
   if (result.interrupted)
     verdict.details.push_back("Stopped by the user at " + fixed(result.simulated_seconds, 3) + " s.");
+  if (const auto sentence = impulseSentence(result)) verdict.details.push_back(*sentence);
   verdict.warnings = lossesOf(result);
   if (!verdict.warnings.empty() && verdict.outcome == Verdict::Outcome::kGood)
     verdict.outcome = Verdict::Outcome::kNeutral;

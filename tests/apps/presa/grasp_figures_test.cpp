@@ -211,5 +211,21 @@ TEST(Verdict, DropOrFaultIsBad) {
   EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kBad);
 }
 
+// An impulse on the object that differs from the felt one by over 1 % is told, with finger, size and time.
+TEST(Verdict, TellsOfImpulsesThatDiffer) {
+  Grasp grasp;
+  const auto details = [&] {
+    std::string all;
+    for (const std::string& one : verdictOf(grasp.result).details) all += one + "\n";
+    return all;
+  };
+  ActionReaction::Result& reaction = grasp.result.contact_points[1].summary.reaction;
+  reaction = {.worst = 0.0099, .time = 2.5, .windows = 10};
+  EXPECT_EQ(details().find("impulse"), std::string::npos) << details();
+  reaction.worst = 0.0323;
+  EXPECT_NE(details().find("index felt differed by up to 3.2 % over 0.1 s (until 2.500 s)"), std::string::npos)
+      << details();
+}
+
 }  // namespace
 }  // namespace presa
