@@ -19,8 +19,12 @@ struct Outcome {
   double energy = 0;                ///< max energy delivered to the hand from the fault until its end [J]
   double energy_allowed = 0;        ///< energy that sampling a spring may add [J]
   std::vector<std::string> broken;  ///< other violated requirements, in words
-  /// Preceding runs that were discarded because the machine decided their times, each with its reason.
-  std::vector<std::string> discarded;
+  /// Part of `detection` and of `zero` in which the machine ran neither the supervisor nor a witness beside it, plus the
+  /// time in which the fault's moment is uncertain. The bounds are longer by it [s].
+  double held_up_detection = 0, held_up_zero = 0;
+  std::string delayed;  ///< a run that was within its bounds only thanks to that, in words; empty: none
+  /// Attempts before this run in which the program never pressed, so that there was nothing to stop or kill.
+  std::vector<std::string> not_started;
 };
 
 /// Bounds for every run; 0: none.
@@ -46,7 +50,8 @@ std::string brokenBy(const Fault& fault, const Outcome& outcome);
 std::vector<Fault> holdFaults();
 
 /// Faults of the whole program: real processes in real time, with a supervisor that survives the program (press.h).
-std::vector<Fault> processFaults();
+/// `stall`: the supervisor itself is late with its first lower force by that time [s], to see the rows turn red.
+std::vector<Fault> processFaults(double stall);
 
 /// Faults of a Novint Falcon: its driver on a model of the device (devices/falcon_model), judged by the forces at the
 /// model.

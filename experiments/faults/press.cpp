@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <new>
@@ -46,13 +47,32 @@ std::string sceneText(const std::string& file, const std::string& limits) {
   return text.replace(text.find(plain), plain.size(), "<device role=\"finger\">" + limitsElement(limits) + "</device>");
 }
 
+std::string rigText(const std::string& log, const PressingProgram::Limits& limits) {
+  const auto set = [](const std::string& key, const std::string& value) {
+    return "<set key=\"" + key + "\" value=\"" + value + "\"/>";
+  };
+  return "<rig version=\"1.0\" name=\"probe\"><device role=\"finger\" driver=\"fault_probe\">" + set("log", log) +
+         set("pos", "0 0 0.004") + set("stall", std::to_string(limits.stall)) + limitsElement(limits.rig) +
+         "</device></rig>";
+}
+
+/// Becomes `presa`, which lies beside this program, as a user would start it.
+[[noreturn]] void becomePresa(const std::string& rig) {
+  const std::string presa = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "presa").string();
+  const std::string scene = experimentFile("faults/press.xml");
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  for (const int stream : {0, 1}) dup2(nowhere, stream);
+  execl(presa.c_str(), presa.c_str(), "run", scene.c_str(), "--rig", rig.c_str(), "--realtime", "--for", "3600",
+        "--quiet", static_cast<char*>(nullptr));
+  throw std::runtime_error(presa + " cannot be started");
+}
+
 /// Runs the program under test until it is killed.
-[[noreturn]] void runProgram(const std::string& log, const PressingProgram::Limits& limits) {
+[[noreturn]] void runProgram(const std::string& log, const std::string& rig_file,
+                             const PressingProgram::Limits& limits) {
   try {
-    const std::string scene = experimentFile("faults/press.xml");
-    const std::string rig =
-        "<rig version=\"1.0\" name=\"probe\"><device role=\"finger\" driver=\"fault_probe\"><set key=\"log\" value=\"" +
-        log + "\"/><set key=\"pos\" value=\"0 0 0.004\"/>" + limitsElement(limits.rig) + "</device></rig>";
+    if (limits.presa) becomePresa(rig_file);
+    const std::string scene = experimentFile("faults/press.xml"), rig = rigText(log, limits);
     RunOptions options;
     options.realtime = true;
     options.duration = 3600;
@@ -78,12 +98,12 @@ void nap() { sleepUntilNs(monotonicNs() + 1'000'000); }
 
 }  // namespace
 
-PressingProgram::PressingProgram(const Limits& limits) : file_(makeLog(log_)) {
+PressingProgram::PressingProgram(const Limits& limits) : file_(makeLog(log_)), rig_(rigText(file_, limits), ".xml") {
   program_ = fork();
   if (program_ < 0) throw std::runtime_error("no process for the pressing program");
   if (program_ == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // end with the parent, so that nobody is left pressing
-    runProgram(file_, limits);
+    runProgram(file_, rig_.path(), limits);
   }
   problem_ = waitUntilPressed();
 }

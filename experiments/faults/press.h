@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/faults/probe/probe_log.h"
+#include "experiments/faults/temporary_file.h"
 
 namespace presa::faults {
 
@@ -13,12 +14,15 @@ namespace presa::faults {
 /// Thread: main, with no other thread in the process, because the program is a fork.
 class PressingProgram {
  public:
-  /// Attributes of `<limits …/>` in the scene and in the rig; empty: no element.
+  /// `scene`, `rig`: attributes of their `<limits …/>`; empty: no element.
   struct Limits {
-    std::string scene, rig;
+    std::string scene{}, rig{};
+    double stall = 0;    ///< the supervisor is late with its first lower force by that time [s]
+    bool presa = false;  ///< run `presa` beside this program instead of a fork of this one; needs no limits
   };
   /// Starts the program and waits until the finger presses, at most five seconds.
-  explicit PressingProgram(const Limits& limits = {});
+  PressingProgram() : PressingProgram(Limits()) {}
+  explicit PressingProgram(const Limits& limits);
   ~PressingProgram();
   PressingProgram(const PressingProgram&) = delete;
   PressingProgram& operator=(const PressingProgram&) = delete;
@@ -37,6 +41,7 @@ class PressingProgram {
 
   ProbeLog* log_ = nullptr;
   std::string file_;  // path of the log, for the program under test
+  TemporaryFile rig_;
   pid_t program_ = -1;
   std::string problem_;
 };

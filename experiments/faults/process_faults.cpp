@@ -6,19 +6,18 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <string>
 
 #include "experiments/faults/fault.h"
 #include "experiments/faults/press.h"
+#include "experiments/faults/witness.h"
 #include "framework/core/schedule/clock.h"
 
 namespace presa::faults {
 namespace {
 
 constexpr int kRuns = 100;            // runs take wall time
-constexpr int kTries = 20;            // attempts to get one run with a known moment
-constexpr double kSent = 0.5e-3;      // [s]: if it took longer until the program got a signal, its moment is unknown
-constexpr double kHeldUp = 1e-3;      // [s]: the supervisor writes every 0.25 ms; a longer pause is the machine's
+constexpr int kTries = 20;            // attempts to start a program that presses
 constexpr double kLoss = 20e-3;       // [s]: a supervisor that was not scheduled for this long counts as a lost device
 constexpr double kSoftStart = 0.5;    // [s]
 constexpr double kReturn = 2;         // [s]: max wait for the force after the program resumes
@@ -28,17 +27,10 @@ constexpr double kTick = 1e-3;        // [s]: a force may change by 1 N in this 
 void sleepFor(double seconds) { sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(seconds * 1e9)); }
 double secondsBetween(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
 
-/// A valid run, or the reason why it was discarded.
-struct Try {
-  std::optional<Outcome> outcome;
-  std::string reason;
-};
-
-template <class... Numbers>
-Try discarded(const char* pattern, Numbers... numbers) {
-  std::array<char, 120> text;
-  std::snprintf(text.data(), text.size(), pattern, numbers...);
-  return {std::nullopt, text.data()};
+std::string text(const char* pattern, auto... numbers) {
+  std::array<char, 160> line;
+  std::snprintf(line.data(), line.size(), pattern, numbers...);
+  return line.data();
 }
 
 /// Raises this thread's priority above the program's haptic thread and below the supervisor, so that sending a signal
@@ -70,25 +62,27 @@ Sent sendSignal(pid_t process, int signal) {
   return {before, secondsBetween(before, monotonicNs())};
 }
 
-/// Longest time between two writes of the supervisor since `begin`, up to the entry `end` [s].
-double longestPause(const ProbeLog& log, std::int64_t begin, std::uint64_t end) {
+/// Longest time between two writes of the supervisor since `begin` [s].
+double longestPause(const ProbeLog& log, std::int64_t begin) {
   double longest = 0;
-  for (std::uint64_t i = 1; i < end; ++i) {
+  for (std::uint64_t i = 1; i < log.written; ++i) {
     if (log.entries[i].time_ns < begin) continue;
     longest = std::max(longest, secondsBetween(log.entries[i - 1].time_ns, log.entries[i].time_ns));
   }
   return longest;
 }
-double longestPause(const ProbeLog& log, std::int64_t begin) { return longestPause(log, begin, log.written); }
 
-/// Result for a program that does not press: broken, unless the machine delayed the supervisor so long that it had to
-/// count as lost.
-Try notPressing(const PressingProgram& program) {
-  if (const double pause = longestPause(program.log(), 0); pause > kLoss)
-    return discarded("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause);
-  Outcome outcome;
-  outcome.broken.push_back(program.problem());
-  return {outcome, {}};
+/// Time within [begin, begin + duration] in which neither the supervisor wrote nor a witness ran [s].
+double heldUp(const ProbeLog& log, const Witness& witness, std::int64_t begin, double duration) {
+  const std::int64_t end = begin + static_cast<std::int64_t>(duration * 1e9);
+  constexpr auto kDue = static_cast<std::int64_t>(Witness::kPeriod * 1e9);
+  double sum = 0;
+  for (std::uint64_t i = 1; i < log.written; ++i) {
+    const std::int64_t from = log.entries[i - 1].time_ns, to = log.entries[i].time_ns;
+    if (secondsBetween(from, to) > Witness::kGap)
+      sum += witness.heldUp(std::max(from + kDue, begin), std::min(to, end));
+  }
+  return sum;
 }
 
 /// Max change of the force per tick at the probe [N].
@@ -119,35 +113,58 @@ Outcome judged(const ProbeLog& log, std::int64_t begin, std::uint64_t end) {
   return outcome;
 }
 
-/// Repeats a run until its moment is known; the discarded runs are reported with their reasons.
+/// Makes the bounds longer by what the machine did, and says so where the run needs it.
+void excuse(const ProbeLog& log, const Witness& witness, const Sent& sent, const Bounds& bounds, Outcome& outcome) {
+  outcome.held_up_detection = sent.took + heldUp(log, witness, sent.at_ns, std::max(0.0, outcome.detection));
+  outcome.held_up_zero = sent.took + heldUp(log, witness, sent.at_ns, outcome.zero);
+  if (outcome.detection <= bounds.detection && outcome.zero <= bounds.zero) return;
+  outcome.delayed = text(
+      "detected after %.1f ms, zero after %.1f ms; the machine ran nobody for %.1f ms of them, and the signal took "
+      "%.2f ms",
+      1e3 * outcome.detection, 1e3 * outcome.zero, 1e3 * (outcome.held_up_zero - sent.took), 1e3 * sent.took);
+}
+
+/// Runs `fault` on a program that presses. The program is a child of this one in half of the runs, and `presa` itself in
+/// the others.
 template <class Run>
-Outcome tried(const Run& run) {
-  std::vector<std::string> discarded;
+Outcome onPressing(RandomStream& random, double stall, const Run& fault) {
+  const bool presa = random.uniform(0, 1) < 0.5;
+  std::vector<std::string> not_started;
   for (int i = 0; i < kTries; ++i) {
-    Try one = run();
-    if (one.outcome) {
-      one.outcome->discarded = std::move(discarded);
-      return *one.outcome;
+    PressingProgram program({.stall = stall, .presa = presa});
+    Outcome outcome;
+    if (program.problem().empty()) {
+      outcome = fault(program);
+    } else if (const double pause = longestPause(program.log(), 0); pause > kLoss) {
+      not_started.push_back(text("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause));
+      continue;
+    } else {
+      outcome.broken.push_back(program.problem());
     }
-    discarded.push_back(std::move(one.reason));
+    outcome.not_started = std::move(not_started);
+    return outcome;
   }
   Outcome outcome;
-  outcome.broken.push_back("all 20 tries were discarded; the last: " + discarded.back());
-  outcome.discarded = std::move(discarded);
+  outcome.broken.push_back("the program did not press in 20 tries; the last: " + not_started.back());
+  outcome.not_started = std::move(not_started);
   return outcome;
 }
 
-Outcome killed(RandomStream& random) {
-  return tried([&]() -> Try {
-    PressingProgram program;
-    if (!program.problem().empty()) return notPressing(program);
+constexpr Bounds kKilled{kDetected, 0.020, false};
+// 4 N at 1 N/ms, one cycle to begin and one to be seen
+constexpr Bounds kStopped{kDetected, kDetected + 0.004 + 2 * 0.25e-3, false};
+
+Outcome killed(RandomStream& random, double stall) {
+  return onPressing(random, stall, [&](PressingProgram& program) {
+    Witness witness;
     sleepFor(random.uniform(0, 0.05));
     const Sent sent = sendSignal(program.pid(), SIGKILL);
     const bool released = program.isReleased();
-    if (sent.took > kSent) return discarded("SIGKILL took %.2f ms to send", 1e3 * sent.took);
+    witness.stop();
     Outcome outcome = judged(program.log(), sent.at_ns, program.log().written);
+    excuse(program.log(), witness, sent, kKilled, outcome);
     if (!released) outcome.broken.emplace_back("the supervisor did not end");
-    return {outcome, {}};
+    return outcome;
   });
 }
 
@@ -165,52 +182,39 @@ void judgeReturn(const ProbeLog& log, std::int64_t resumed, Outcome& outcome) {
     if (entry.force > soft) outcome.broken.emplace_back("the force did not return softly");
   }
   outcome.step = steepest(log, log.written);
-  if (!pushes(log)) outcome.broken.emplace_back("the force never returned");
+  // a supervisor that was held up for long on the way back holds its device for lost
+  if (!pushes(log) && longestPause(log, resumed) <= kLoss) outcome.broken.emplace_back("the force never returned");
 }
 
-Outcome stopped(RandomStream& random) {
-  return tried([&]() -> Try {
-    PressingProgram program;
-    if (!program.problem().empty()) return notPressing(program);
+Outcome stopped(RandomStream& random, double stall) {
+  return onPressing(random, stall, [&](PressingProgram& program) {
+    Witness witness;
     sleepFor(random.uniform(0, 0.05));
     const Sent sent = sendSignal(program.pid(), SIGSTOP);
     sleepFor(random.uniform(0.03, 0.3));
+    witness.stop();
     const std::uint64_t end = program.log().written;
     const std::int64_t resumed = monotonicNs();
     kill(program.pid(), SIGCONT);
     sleepFor(0.1);
-    if (sent.took > kSent) return discarded("the program took %.2f ms to stop", 1e3 * sent.took);
     // if the machine delayed the supervisor once more, wait for its restart
     while (!pushes(program.log()) && secondsBetween(resumed, monotonicNs()) < kReturn) sleepFor(0.01);
     Outcome outcome = judged(program.log(), sent.at_ns, end);
-    if (const double pause = longestPause(program.log(), sent.at_ns, end); pause > kHeldUp)
-      return discarded("the supervisor was held up for %.2f ms after the stop; zero after %.1f ms", 1e3 * pause,
-                       1e3 * outcome.zero);
-    if (const double pause = longestPause(program.log(), resumed); !pushes(program.log()) && pause > kLoss)
-      return discarded("the machine held up the supervisor for %.1f ms after the return", 1e3 * pause);
+    excuse(program.log(), witness, sent, kStopped, outcome);
     judgeReturn(program.log(), resumed, outcome);
-    return {outcome, {}};
+    return outcome;
   });
 }
 
 }  // namespace
 
-std::vector<Fault> processFaults() {
+std::vector<Fault> processFaults(double stall) {
   return {
-      {7,
-       "program stopped (SIGSTOP) for 30 to 300 ms",
-       "its supervisor takes the force to zero; back from zero, softly",
-       {kDetected, kDetected + 0.004 + 2 * 0.25e-3, false},  // 4 N at 1 N/ms, one cycle to begin and one to be seen
-       stopped,
-       kRuns,
-       true},
-      {8,
-       "program killed (SIGKILL) in the grasp",
-       "its supervisor takes the force to zero, and lets go",
-       {kDetected, 0.020, false},
-       killed,
-       kRuns,
-       true},
+      {7, "program stopped (SIGSTOP) for 30 to 300 ms",
+       "its supervisor takes the force to zero; back from zero, softly", kStopped,
+       [stall](RandomStream& random) { return stopped(random, stall); }, kRuns, true},
+      {8, "program killed (SIGKILL) in the grasp", "its supervisor takes the force to zero, and lets go", kKilled,
+       [stall](RandomStream& random) { return killed(random, stall); }, kRuns, true},
   };
 }
 

@@ -22,8 +22,15 @@ constexpr int kBlock = 50;  // runs per process
 
 /// Does a block of runs of one fault; returns the worst figures as JSON, for the pipe to the parent process.
 std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int count) {
-  Json block{{"runs", 0},   {"broken", 0}, {"reason", ""},   {"detection", -1.0},
-             {"zero", 0.0}, {"step", 0.0}, {"beyond", -1.0}, {"discarded", Json::array()}};
+  Json block{{"runs", 0},
+             {"broken", 0},
+             {"reason", ""},
+             {"detection", -1.0},
+             {"zero", 0.0},
+             {"step", 0.0},
+             {"beyond", -1.0},
+             {"delayed", Json::array()},
+             {"not_started", Json::array()}};
   const auto keepMax = [&](const char* name, double value) {
     block[name] = std::max(block[name].get<double>(), value);
   };
@@ -31,7 +38,8 @@ std::string runBlock(const Fault& fault, std::uint64_t seed, int first, int coun
     RandomStream random(seed, fault.name, static_cast<std::uint64_t>(i));
     const Outcome outcome = fault.run(random);
     block["runs"] = block["runs"].get<int>() + 1;
-    for (const std::string& why : outcome.discarded) block["discarded"].push_back(why);
+    if (!outcome.delayed.empty()) block["delayed"].push_back("run " + std::to_string(i) + ": " + outcome.delayed);
+    for (const std::string& why : outcome.not_started) block["not_started"].push_back(why);
     keepMax("detection", outcome.detection);
     keepMax("zero", outcome.zero);
     keepMax("step", outcome.step);
@@ -56,7 +64,8 @@ void add(const JobResult& result, int count, Row& row) {
   row.runs += block["runs"].get<int>();
   row.broken += block["broken"].get<int>();
   if (row.reason.empty()) row.reason = block["reason"];
-  for (const Json& why : block["discarded"]) row.discarded.push_back(why);
+  for (const Json& one : block["delayed"]) row.delayed.push_back(one);
+  for (const Json& why : block["not_started"]) row.not_started.push_back(why);
   row.worst.detection = std::max(row.worst.detection, block["detection"].get<double>());
   row.worst.zero = std::max(row.worst.zero, block["zero"].get<double>());
   row.worst.step = std::max(row.worst.step, block["step"].get<double>());

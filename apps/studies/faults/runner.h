@@ -19,13 +19,13 @@ struct RunnerOptions {
 struct Row {
   Fault fault;
   int runs = 0;
-  Outcome worst;             ///< largest value of each figure
-  double energy_beyond = 0;  ///< max energy given to the hand beyond the allowance for sampling [J]
-  int broken = 0;            ///< runs that violated a bound or a requirement
-  std::string reason;        ///< reason of the first such run
-  std::vector<std::string>
-      discarded;        ///< runs discarded because the machine decided their times: reasons, with figures
-  bool watched = true;  ///< no run violated one of the four invariants (device/transport_watch.h)
+  Outcome worst;                         ///< largest value of each figure
+  double energy_beyond = 0;              ///< max energy given to the hand beyond the allowance for sampling [J]
+  int broken = 0;                        ///< runs that violated a bound or a requirement
+  std::string reason;                    ///< reason of the first such run
+  std::vector<std::string> delayed;      ///< runs beyond a bound by no more than the machine held them up, with figures
+  std::vector<std::string> not_started;  ///< attempts in which the program never pressed, with the reasons
+  bool watched = true;                   ///< no run violated one of the four invariants (device/transport_watch.h)
 };
 
 /// Runs the faults in separate processes and returns the exit status. Throws InputError.

@@ -37,13 +37,17 @@ std::vector<std::string> cellsOf(const Row& row) {
           row.broken == 0 ? "0" : format("%d: %s", row.broken, row.reason.c_str())};
 }
 
-/// Number of discarded runs with their reasons; empty when all runs count.
-std::string discardedText(const Row& row, const char* line_end) {
-  if (row.discarded.empty()) return {};
-  std::string text = format("row %d: %zu more runs are discarded, because the machine decided their times:%s",
-                            row.fault.row, row.discarded.size(), line_end);
-  for (const std::string& why : row.discarded) text += "  " + svg::escape(why) + line_end;
+std::string listed(const Row& row, const char* what, const std::vector<std::string>& lines, const char* line_end) {
+  if (lines.empty()) return {};
+  std::string text = format("row %d: %zu %s:%s", row.fault.row, lines.size(), what, line_end);
+  for (const std::string& line : lines) text += "  " + svg::escape(line) + line_end;
   return text;
+}
+
+/// What the machine had to do with the runs of a row; empty: nothing.
+std::string machineText(const Row& row, const char* line_end) {
+  return listed(row, "of these runs were late because the machine ran nobody for a while", row.delayed, line_end) +
+         listed(row, "attempts in which the program never pressed", row.not_started, line_end);
 }
 
 }  // namespace
@@ -64,7 +68,8 @@ nlohmann::ordered_json toJson(const std::vector<Row>& rows) {
                    {"invariants_held", row.watched},
                    {"broken", row.broken},
                    {"reason", row.reason},
-                   {"discarded", row.discarded}});
+                   {"delayed", row.delayed},
+                   {"not_started", row.not_started}});
   }
   return {{"format", 1}, {"presa", kVersion}, {"faults", all}};
 }
@@ -78,7 +83,7 @@ std::string tableText(const std::vector<Row>& rows) {
                    cells[3].c_str(), cells[4].c_str(), cells[5].c_str(), cells[6].c_str(), cells[7].c_str(),
                    cells[8].c_str(), cells[9].c_str());
   }
-  for (const Row& row : rows) text += discardedText(row, "\n");
+  for (const Row& row : rows) text += machineText(row, "\n");
   return text +
          "worst of all runs (bound); steps may be 1 N in a tick; energy beyond what sampling a spring may add;\n"
          "invariants: every force finite, below the limit, within the slew limit, zero before the first sample and "
@@ -112,7 +117,7 @@ std::string pageHtml(const std::vector<Row>& rows, const RunnerOptions& options)
   }
   html += "</tbody></table></div>\n";
   for (const Row& row : rows)
-    if (!row.discarded.empty()) html += "<p>" + discardedText(row, "<br>\n") + "</p>\n";
+    if (const std::string text = machineText(row, "<br>\n"); !text.empty()) html += "<p>" + text + "</p>\n";
   return html + page::tail();
 }
 

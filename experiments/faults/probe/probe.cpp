@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
 
 #include "experiments/faults/probe/probe_log.h"
 #include "framework/core/diagnostics/refuse.h"
@@ -15,7 +17,7 @@ namespace {
 /// Replacement for hardware: a finger at a fixed position that logs every force it receives.
 class Probe final : public Device {
  public:
-  Probe(std::string file, const Vec3& p_WH) : file_(std::move(file)), p_WH_(p_WH) {}
+  Probe(std::string file, const Vec3& p_WH, double stall) : file_(std::move(file)), p_WH_(p_WH), stall_(stall) {}
   ~Probe() override { close(); }
 
   void open() override {
@@ -38,6 +40,8 @@ class Probe final : public Device {
     return finger;
   }
   void write(const Wrench& F_H_W, const Tick&) noexcept override {
+    const bool falls = F_H_W.f.norm() < 0.99 * sent_.norm();
+    if (falls && stall_ > 0) sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(1e9 * std::exchange(stall_, 0)));
     const std::uint64_t entry = log_->written.load(std::memory_order_relaxed);
     if (entry < ProbeLog::kEntries) {
       log_->entries[entry] = {monotonicNs(), F_H_W.f.norm(), (F_H_W.f - sent_).norm()};
@@ -49,10 +53,12 @@ class Probe final : public Device {
  private:
   std::string file_;
   Vec3 p_WH_, sent_ = Vec3::Zero();
+  double stall_ = 0;  // before the first lower force [s]
   ProbeLog* log_ = nullptr;
 };
 
 std::unique_ptr<Device> create(const DeviceBinding& binding, const World&, Diagnostics& diagnostics) {
+  const auto stall = binding.settings.find("stall");
   const auto log = binding.settings.find("log"), pos = binding.settings.find("pos");
   Vec3 p = Vec3::Zero();
   if (log == binding.settings.end() || pos == binding.settings.end() ||
@@ -60,7 +66,8 @@ std::unique_ptr<Device> create(const DeviceBinding& binding, const World&, Diagn
     diagnostics.error(479, binding.where, "a probe needs the settings log (a file) and pos (three numbers)");
     return nullptr;
   }
-  return std::make_unique<Probe>(log->second.value, p);
+  const double late = stall == binding.settings.end() ? 0 : std::atof(stall->second.value.c_str());
+  return std::make_unique<Probe>(log->second.value, p, late);
 }
 
 const DevicePlugin kPlugin{

@@ -21,6 +21,30 @@ TEST_P(Faults, KeepTheirBounds) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, Faults, testing::Range<std::size_t>(0, allFaults().size()));
 
+// A supervisor that is late by itself is not excused: its witness was not held up.
+TEST(ProcessFaults, AStallingSupervisorBreaksItsRow) {
+  if (!realtimeRights().fifo.empty()) GTEST_SKIP() << "SCHED_FIFO: " << realtimeRights().fifo;
+  for (const Fault& fault : processFaults(0.03)) {
+    RandomStream random(1000, fault.name, 0);
+    const Outcome outcome = fault.run(random);
+    EXPECT_EQ(brokenBy(fault, outcome), "detected too late") << fault.name << ": " << outcome.detection;
+    EXPECT_GT(outcome.detection, 0.03);
+  }
+}
+
+// Time in which the machine ran nobody makes the bounds longer by just that.
+TEST(FaultJudge, GivesTheMachineItsTime) {
+  const Fault fault{0, "", "", {.detection = 0.003, .zero = 0.005, .energy = true}, {}};
+  Outcome late;
+  late.detection = 0.0049;
+  late.zero = 0.0069;
+  EXPECT_EQ(brokenBy(fault, late), "detected too late");
+  late.held_up_detection = late.held_up_zero = 0.002;
+  EXPECT_EQ(brokenBy(fault, late), "");
+  late.zero = 0.0071;
+  EXPECT_EQ(brokenBy(fault, late), "zero too late");
+}
+
 // The judge reports each kind of violation.
 TEST(FaultJudge, FindsWhatIsBroken) {
   const Fault fault{0, "", "", {.detection = 0.003, .zero = 0.005, .energy = true}, {}};
