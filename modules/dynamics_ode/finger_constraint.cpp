@@ -44,6 +44,7 @@ bool isUsable(const FingerContact& c) {
          std::isfinite(c.stiffness) && std::isfinite(c.damping) && std::isfinite(c.friction_static) &&
          std::isfinite(c.friction_dynamic) && std::isfinite(c.tangential_ratio) && c.tangential_ratio >= 0 &&
          c.damped_W.allFinite() && std::isfinite(c.tangential_damping) && c.tangential_damping >= 0 &&
+         std::isfinite(c.twist) && std::isfinite(c.twist_stiffness) && std::isfinite(c.spin) &&
          c.nhat_B.squaredNorm() > 0.25;
 }
 

@@ -59,7 +59,28 @@ void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const Fin
   dJointAttach(motors_[finger], bodies.body(body), nullptr);
   dJointSetAMotorAxis(motors_[finger], 0, 0, row.n_in.x(), row.n_in.y(), row.n_in.z());
   dJointSetAMotorParam(motors_[finger], dParamVel, 0);
+  dJointSetAMotorParam(motors_[finger], dParamCFM, kTorsionCfm);
   dJointSetAMotorParam(motors_[finger], dParamFMax, torsional_radius_[body] * row.mu * normal);
+}
+
+// The torque of an oriented tool, the negative of what it feels. As with the tangential spring, the row is implicit:
+// torque = k (twist + h (spin of the tool - spin of the body)), bounded by friction.
+void FingerJoints::twist(std::size_t finger, std::size_t body, const FingerContact& contact, double age, double h,
+                         BodySet& bodies) {
+  const Vec3 nhat_W = bodies.pose(body).q * contact.nhat_B;
+  const double k = contact.twist_stiffness, w_B = bodies.motion(body).w_WB.dot(nhat_W);
+  const double twist = contact.twist + std::clamp(age, 0.0, old_after_) * (contact.spin - w_B);
+  if (coupling_ == DynamicsSettings::Coupling::kExplicit) {
+    bodies.addAtCentre(body, Vec3::Zero(), k * contact.twist * nhat_W);
+    return;
+  }
+  const double mu = contact.twist_slips ? contact.friction_dynamic : contact.friction_static;
+  const double bound = torsional_radius_[body] * mu * contact.stiffness * std::max(0.0, contact.depth);
+  dJointAttach(motors_[finger], bodies.body(body), nullptr);
+  dJointSetAMotorAxis(motors_[finger], 0, 0, nhat_W.x(), nhat_W.y(), nhat_W.z());
+  dJointSetAMotorParam(motors_[finger], dParamCFM, 1 / (h * k));
+  dJointSetAMotorParam(motors_[finger], dParamVel, twist / h + contact.spin);
+  dJointSetAMotorParam(motors_[finger], dParamFMax, bound);
 }
 
 void FingerJoints::makeRoom(const ContactExchange& exchange) {
@@ -97,8 +118,11 @@ std::size_t FingerJoints::read(const ContactExchange& exchange, double time, dou
     const bool first = active_.empty() || active_.back().finger != f;
     feedback_[active_.size()] = {};
     active_.push_back({f, body, *row});
-    // a soft fingertip's motor acts on the first body that the finger touches
-    if (!motors_.empty() && first) resistTurning(f, body, *row, bodies);
+    if (contact.twist_stiffness > 0) {
+      if (exchange.fingers[f].body == contact.body) twist(f, body, contact, time - exchange.time, h, bodies);
+    } else if (!motors_.empty() && first) {  // a soft fingertip's motor acts on the first body that the finger touches
+      resistTurning(f, body, *row, bodies);
+    }
     if (coupling_ == DynamicsSettings::Coupling::kExplicit) bodies.addForce(body, row->expected_force_W, row->p_WP);
   });
 }

@@ -43,6 +43,7 @@ class FingerJoints {
  private:
   void estimateMotion(const ContactExchange& exchange);
   void resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies);
+  void twist(std::size_t finger, std::size_t body, const FingerContact& contact, double age, double h, BodySet& bodies);
 
   /// The newest sample of a finger, and the acceleration since the one before.
   struct Motion {

@@ -32,6 +32,8 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
   effects.commanded = options.bus_commands && !openSurfaces(scene).empty();
   effects.surface_effects = !surfaceEffectsOf(scene).empty();
   effects.damping = any_touchable([&](const Body& body) { return scene.materialOf(body).damping > 0; });
+  effects.torsion =
+      effects.friction && any_touchable([&](const Body& body) { return scene.materialOf(body).torsional_radius > 0; });
   return effects;
 }
 
@@ -49,6 +51,7 @@ std::vector<LeftOut> effectsLeftOut(const HapticEffects& effects) {
   }
   if (!effects.commanded) left_out.push_back({"commanded surfaces", "the run takes no commands (--bus-commands)"});
   if (!effects.damping) left_out.push_back({"surface damping", "no touchable material has damping"});
+  if (!effects.torsion) left_out.push_back({"torsional friction", "no touchable material with friction has torsion"});
   return left_out;
 }
 

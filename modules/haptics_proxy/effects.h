@@ -19,6 +19,7 @@ struct HapticEffects {
   bool commanded = false;        ///< surface parameters open to commands
   bool surface_effects = false;  ///< force shading and those of plug-ins
   bool damping = false;
+  bool torsion = false;  ///< torsional friction of oriented tools
 };
 
 /// The effects that the scene uses: only those that some touchable body needs.

@@ -98,5 +98,7 @@ std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);
 /// The same for scenes with surface effects, which may leave less than the material's stiffness.
 std::unique_ptr<FingerStage> makeSoftSpring(const SurfacesInForce& surfaces);
 std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces);
+/// Last of all: it needs the spring's depth and the coefficients of friction.
+std::unique_ptr<FingerStage> makeTorsion(const SurfacesInForce& surfaces);
 
 }  // namespace presa

@@ -47,6 +47,7 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   }
   finger_stages_.push_back(effects.surface_effects ? makeSoftSpring(in_force) : makeSpring(in_force));
   if (effects.damping) finger_stages_.push_back(makeDamping(in_force));
+  if (effects.torsion) finger_stages_.push_back(makeTorsion(in_force));
   if (world_->scene.hasForceEffects()) force_effects_.push_back(std::make_unique<Effects>(*this, *world_));
 }
 

@@ -58,8 +58,13 @@ struct FingerContact {
   Vec3 tangential_force_W = Vec3::Zero();  ///< f_H_W without its normal part [N]
   Vec3 f_H_W = Vec3::Zero();               ///< rendered force on the finger, before the output stage [N]
   Vec3 t_H_W = Vec3::Zero();               ///< rendered torque about H on an oriented tool [N m]; 0 on others
-  std::uint32_t first_contact = 0;         ///< index into ContactExchange::contacts
-  std::uint32_t contact_count = 0;         ///< bodies that hold the finger
+  // Torsional friction of an oriented tool on a soft fingertip's material: torque -twist_stiffness * twist about nhat_W.
+  double twist = 0;                 ///< turn of the tool over `body` about nhat_W that the contact holds [rad]
+  double twist_stiffness = 0;       ///< [N m/rad]; 0: no such torque
+  double spin = 0;                  ///< angular velocity of the tool about nhat_W [rad/s]
+  bool twist_slips = false;         ///< the torque is that of dynamic friction
+  std::uint32_t first_contact = 0;  ///< index into ContactExchange::contacts
+  std::uint32_t contact_count = 0;  ///< bodies that hold the finger
 };
 
 /// Contacts and rendered forces of one haptic tick, for the dynamics, the collision query, the

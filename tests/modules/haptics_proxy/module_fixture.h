@@ -58,7 +58,10 @@ class OneFinger {
   OneFinger(World world, const HapticEffects& effects) : world_(indexed(std::move(world))) { build(effects); }
 
   const FingerContact& tick(const Vec3& p_WH, const Vec3& v_WH = Vec3::Zero(), double time = 0) {
-    device_->out.value.fingers[0] = {p_WH, v_WH, -1, true};
+    return tick(FingerInput{p_WH, v_WH, -1, true}, time);
+  }
+  const FingerContact& tick(const FingerInput& input, double time = 0) {
+    device_->out.value.fingers[0] = input;
     graph_.step(RateGroup::kHaptic, {index_++, time, 1e-3});
     return sink_->contact->fingers[0];
   }
