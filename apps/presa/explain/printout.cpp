@@ -17,7 +17,7 @@ constexpr std::size_t kWidth = 100;
 std::string text(const json& value) { return value.get<std::string>(); }
 
 std::string padded(std::string line, std::size_t width) {
-  line.resize(std::max(width, line.size()), ' ');
+  line.resize(std::max(width, line.size() + 1), ' ');
   return line;
 }
 
@@ -61,7 +61,7 @@ void threads(std::string& out, const json& run) {
 void crossings(std::string& out, const json& run) {
   for (const json& c : run["connections"]) {
     if (!c["across_rates"].get<bool>()) continue;
-    out += "  " + padded(text(c["value"]), 18) + text(c["from"]) + " -> " + text(c["to"]);
+    out += "  " + padded(text(c["value"]), 22) + text(c["from"]) + " -> " + text(c["to"]);
     if (c.contains("when_old"))
       out += format(", older than %.0f ms: ", c["old_after_s"].get<double>() * 1e3) + text(c["when_old"]);
     out += '\n';
@@ -90,7 +90,7 @@ std::string explainText(const json& run) {
   if (run.contains("cost")) out += "\n  " + text(run["cost"]["time"]) + '\n';
   out += "\nDevices\n";
   for (const json& device : run["devices"]) {
-    out += "  " + padded(text(device["role"]), 18) + "driver " + text(device["driver"]);
+    out += "  " + padded(text(device["role"]), 22) + "driver " + text(device["driver"]);
     for (const json& frame : device["frames"]) out += " in " + text(frame);
     out += '\n';
   }
@@ -98,7 +98,7 @@ std::string explainText(const json& run) {
   crossings(out, run);
   out += "\nLeft out\n";
   for (const json& left_out : run["left_out"])
-    out += "  " + padded(text(left_out["what"]), 18) + text(left_out["why"]) + '\n';
+    out += "  " + padded(text(left_out["what"]), 22) + text(left_out["why"]) + '\n';
   out += "\nPlug-ins loaded\n";
   libraries(out, run, true, "the scene");
   out += "\nSystem libraries that came with them\n";
