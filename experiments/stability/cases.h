@@ -9,6 +9,7 @@ Case graspOnTable();
 Case pressedOnTable();
 Case pressedInCorner();
 Case graspByLaw();
+Case turnedDisc();
 Case textureLoops();
 Case graspShaken();
 Case needleSpun();
