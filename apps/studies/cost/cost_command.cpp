@@ -69,7 +69,7 @@ void addCost(Command app, int& status) {
       .required();
   command
       .option("--knob", a->request.factors,
-              "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, coupling, …\n"
+              "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, law, …\n"
               "or a path as after --set (default: a sweep of what the scene uses)")
       .oneValueEach();
   command.option("--metric", a->request.metrics, "error to show (default: all that the scene has)").oneValueEach();

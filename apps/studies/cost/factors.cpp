@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "apps/studies/cost/hash.h"
+#include "apps/studies/cost/law_factor.h"
 #include "framework/scene/load.h"
 #include "framework/scene/manifest.h"
 
@@ -170,6 +171,7 @@ std::vector<std::string> factorNames() {
   std::vector<std::string> names;
   for (const KnownFactor& factor : kFactors) names.emplace_back(factor.name);
   names.emplace_back(kMeshFactor);
+  names.emplace_back(kLawFactor);
   return names;
 }
 
@@ -189,17 +191,20 @@ Factor makeFactor(const std::string& name, const std::vector<std::string>& value
                   const std::string& folder, const SourceLocation& where, Diagnostics& diagnostics) {
   const auto known =
       std::find_if(std::begin(kFactors), std::end(kFactors), [&](const KnownFactor& k) { return k.name == name; });
-  if (known == std::end(kFactors) && name.find('/') == std::string::npos && name != kMeshFactor) {
+  const bool special = name == kMeshFactor || name == kLawFactor;
+  if (known == std::end(kFactors) && name.find('/') == std::string::npos && !special) {
     std::string list;
     for (const std::string& each : factorNames()) list += (list.empty() ? "" : ", ") + each;
     diagnostics.error(801, where, "there is no knob " + quote(name) + didYouMean(name, factorNames()),
                       "a knob is a path as after --set, such as material/rubber/damping, or one of: " + list);
     return {};
   }
-  Factor factor = name == kMeshFactor ? meshFactor(values, scene, folder, where, diagnostics) : Factor{name, {}};
+  Factor factor = name == kMeshFactor  ? meshFactor(values, scene, folder, where, diagnostics)
+                  : name == kLawFactor ? lawFactor(values, scene, where, diagnostics)
+                                       : Factor{name, {}};
   const std::vector<std::string> paths = pathsOf(known == std::end(kFactors) ? name : known->path, scene);
   for (const std::string& value : values) {
-    if (value.empty() || name == kMeshFactor) continue;
+    if (value.empty() || special) continue;
     FactorValue& added = factor.values.emplace_back();
     added.name = value;
     for (const std::string& path : paths) added.sets.push_back(path + "=" + value);
