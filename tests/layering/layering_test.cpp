@@ -122,7 +122,8 @@ TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
 TEST(Layering, TheProgramHoldsNothingOfTheOtherUses) {
   const std::set<std::string> mapped = nameSpaces(std::filesystem::path(PRESA_BINARY_DIR) / "bin/presa");
   EXPECT_TRUE(mapped.contains("terminal")) << "the names of the program's functions were not read";
-  for (const char* use : {"temple", "experiment", "cost", "stability", "faults", "psychophysics", "statistics"}) {
+  for (const char* use :
+       {"temple", "experiment", "cost", "stability", "lectures", "faults", "psychophysics", "statistics"}) {
     EXPECT_FALSE(mapped.contains(use)) << use;
   }
 }

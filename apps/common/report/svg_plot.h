@@ -91,6 +91,7 @@ struct WorkFigure {
   std::vector<Level> x_levels{};  ///< the period
   std::vector<Level> y_levels{};  ///< just-noticeable differences
   double floor = 0;               ///< error of the reference itself; 0: none
+  std::string legend{};           ///< line of text inside the plot, at its top
 };
 
 /// The panels over one time axis, with legend, bands and the data for the page's hover read-out.

@@ -123,6 +123,7 @@ std::string render(const WorkFigure& figure) {
   std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) +
                     "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" + levels(figure, x, y) +
                     axes(figure, x, y);
+  if (!figure.legend.empty()) out += textAt(kLeft + 10, kTop + 14, "legend", escape(figure.legend));
   std::string path;
   for (const Point& point : figure.front)
     path +=
