@@ -7,14 +7,14 @@
 #include "framework/haptics/surface_effects.h"
 #include "tests/support/finger_world.h"
 
-// Cost of a texture in a haptic tick in which a finger touches a box: the floor is 0.5 us.
+// Cost of a texture, or of layers, in a haptic tick in which a finger touches a box: the floor is 0.5 us.
 namespace presa {
 namespace {
 
-void texture(benchmark::State& state, const std::string& attributes) {
+void effect(benchmark::State& state, const std::string& element) {
   const auto world = test::fingerWorld(R"(<scene version="1.0" name="block"><world gravity="0 0 0"/>
-    <materials><material name="any" stiffness="1000"><texture amplitude="0.0001" wavelength="0.002" )" +
-                                       attributes +
+    <materials><material name="any" stiffness="1000"><friction static="0.5"/><)" +
+                                       element +
                                        R"(/></material></materials>
     <body name="block" fixed="true"><haptic><box size="0.1 0.1 0.1"/></haptic></body>
     <devices><device role="finger"/></devices></scene>)");
@@ -36,15 +36,23 @@ void texture(benchmark::State& state, const std::string& attributes) {
     phase += 0.01;
     ProxyContact contact = touched;
     contact.state.god_object.x() = 0.02 * std::sin(phase);
+    contact.tangential_displacement.x() = 1e-3 * std::sin(phase);
     double softness = 1;
     const SurfaceInput input{0, 1e-3, kRadius, g, contact, X_WA, touchables, near};
     effects.act(input, 1000, contact, softness);
     benchmark::DoNotOptimize(contact);
   }
 }
-BENCHMARK_CAPTURE(texture, sine, "shape=\"sine\"");
-BENCHMARK_CAPTURE(texture, grid, "shape=\"grid\"");
-BENCHMARK_CAPTURE(texture, noise, "shape=\"noise\"");
+
+void texture(benchmark::State& state, const std::string& shape) {
+  effect(state, "texture amplitude=\"0.0001\" wavelength=\"0.002\" shape=\"" + shape + "\"");
+}
+BENCHMARK_CAPTURE(texture, sine, "sine");
+BENCHMARK_CAPTURE(texture, grid, "grid");
+BENCHMARK_CAPTURE(texture, noise, "noise");
+
+void layers(benchmark::State& state) { effect(state, "layers skin=\"0.2\" thickness=\"0.001\""); }
+BENCHMARK(layers);
 
 }  // namespace
 }  // namespace presa

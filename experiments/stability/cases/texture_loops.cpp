@@ -25,14 +25,33 @@ PrescribedFinger::State circle(double time, bool touch_and_go) {
   return state;
 }
 
-struct Texture {
-  std::string name, amplitude, wavelength;
+constexpr const char* kNone = "none";
+
+/// What the block feels like, as overrides of its material.
+struct Surface {
+  std::string name, wavelength;
+  std::vector<std::string> sets;
 };
 
-std::vector<Finding> stroke(const Texture& texture, bool touch_and_go, const std::string& rate) {
+Surface texture(const std::string& shape, const std::string& amplitude, const std::string& wavelength) {
   const std::string element = "material/stone/texture/";
-  std::vector<std::string> sets{element + "shape=" + texture.name, element + "amplitude=" + texture.amplitude,
-                                element + "wavelength=" + texture.wavelength, "rates/haptic=" + rate};
+  return {shape,
+          number(1000 * std::stod(wavelength)) + " mm",
+          {element + "shape=" + shape, element + "amplitude=" + amplitude, element + "wavelength=" + wavelength}};
+}
+
+/// With a soft skin below it.
+Surface overLayers(Surface surface) {
+  const std::string element = "material/stone/layers/";
+  for (const char* value : {"skin=0.2", "thickness=0.0005", "transition=0.0005"})
+    surface.sets.push_back(element + value);
+  surface.name += surface.name.empty() ? "layers" : " over layers";
+  return surface;
+}
+
+std::vector<Finding> stroke(const Surface& surface, bool touch_and_go, const std::string& rate) {
+  std::vector<std::string> sets = surface.sets;
+  sets.push_back("rates/haptic=" + rate);
   DeviceList devices;
   devices.push_back(std::make_unique<PrescribedFinger>([=](double time) { return circle(time, touch_and_go); }));
   StudyRun run(specOf("texture_loops.xml", std::move(sets), kRest + kLaps * kPeriod), std::move(devices));
@@ -65,25 +84,26 @@ std::vector<Finding> stroke(const Texture& texture, bool touch_and_go, const std
 Case textureLoops() {
   Case result;
   result.name = "texture_loops";
-  result.title = "A finger strokes textures in circles";
+  result.title = "A finger strokes textures and layers in circles";
   result.source =
       "A texture that changes the depth and not the direction of the force, or begins with a step, feeds a hand that "
       "goes round: stored energy is the only height field that does not.";
   result.oracle = "Over a closed path the finger gains no energy; the trapezium rule and the ticks leave a rest.";
   result.scene = "texture_loops.xml";
-  for (const Texture& texture : {Texture{"sine", "0.0001", "0.002"},
-                                 {"sine", "0.0001", "0.001"},
-                                 {"grid", "0.0001", "0.002"},
-                                 {"noise", "0.0002", "0.002"}}) {
+  for (const Surface& surface : {texture("sine", "0.0001", "0.002"), texture("sine", "0.0001", "0.001"),
+                                 texture("grid", "0.0001", "0.002"), texture("noise", "0.0002", "0.002"),
+                                 overLayers({"", kNone, {}}), overLayers(texture("sine", "0.0001", "0.002"))}) {
     for (const bool touch_and_go : {false, true}) {
+      // on a smooth face, a circle moves no work
+      if (surface.wavelength == kNone && !touch_and_go) continue;
       for (const std::string rate : {"1000", "2000"}) {
         Trial trial;
-        trial.parameters = {{"texture", texture.name},
-                            {"wavelength", number(1000 * std::stod(texture.wavelength)) + " mm"},
+        trial.parameters = {{"surface", surface.name},
+                            {"wavelength", surface.wavelength},
                             {"path", touch_and_go ? "touch and go" : "on the face"},
                             {"rate", number(std::stod(rate) / 1000) + " kHz"}};
         trial.method = kPresa;
-        trial.run = [=] { return stroke(texture, touch_and_go, rate); };
+        trial.run = [=] { return stroke(surface, touch_and_go, rate); };
         trial.quick = rate == "1000";
         result.trials.push_back(std::move(trial));
       }
