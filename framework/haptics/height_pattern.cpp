@@ -1,4 +1,4 @@
-#include "modules/texture/pattern.h"
+#include "framework/haptics/height_pattern.h"
 
 #include <cmath>
 #include <numbers>
