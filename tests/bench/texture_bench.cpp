@@ -7,7 +7,7 @@
 #include "framework/haptics/surface_effects.h"
 #include "tests/support/finger_world.h"
 
-// Cost of a texture, or of layers, in a haptic tick in which a finger touches a box: the floor is 0.5 us.
+// Cost of a surface effect in a haptic tick in which a finger touches a box: the floor is 0.5 us.
 namespace presa {
 namespace {
 
@@ -50,6 +50,12 @@ void texture(benchmark::State& state, const std::string& shape) {
 BENCHMARK_CAPTURE(texture, sine, "sine");
 BENCHMARK_CAPTURE(texture, grid, "grid");
 BENCHMARK_CAPTURE(texture, noise, "noise");
+
+void perturbation(benchmark::State& state, const std::string& form) {
+  effect(state, "perturbation shape=\"sine\" amplitude=\"0.0001\" wavelength=\"0.002\" form=\"" + form + "\"");
+}
+BENCHMARK_CAPTURE(perturbation, conservative, "conservative");
+BENCHMARK_CAPTURE(perturbation, printed, "printed");
 
 void layers(benchmark::State& state) { effect(state, "layers skin=\"0.2\" thickness=\"0.001\""); }
 BENCHMARK(layers);
