@@ -9,7 +9,7 @@
 
 #include "framework/input/folders.h"
 #include "framework/record/checksum/checksum.h"
-#include "framework/scene/load.h"
+#include "framework/scene/manifest.h"
 
 namespace presa::bus {
 namespace {
@@ -61,15 +61,27 @@ class MeshStore {
   std::map<std::string, std::string> found_;
 };
 
-std::vector<MeshRef*> meshesOf(Scene& scene) {
-  std::vector<MeshRef*> meshes;  // in the order of filesNamedBy
-  for (Body& body : scene.bodies) {
+/// Of a Scene or a const Scene, in the order of RunInfo::mesh_sums.
+template <class SceneOrConst>
+auto meshesOf(SceneOrConst& scene) {
+  std::vector<decltype(std::get_if<MeshRef>(&scene.bodies[0].visual->shape))> meshes;
+  for (auto& body : scene.bodies) {
     for (auto* geometry : {&body.visual, &body.haptic, &body.physics}) {
       if (!geometry->has_value()) continue;
       if (auto* mesh = std::get_if<MeshRef>(&(*geometry)->shape)) meshes.push_back(mesh);
     }
   }
   return meshes;
+}
+
+/// A viewer makes no effects, so it needs none of the files that elements of plug-ins name.
+void forgetPluginFiles(Scene& scene) {
+  for (PluginElement& element : scene.plugin_elements) {
+    const Manifest::Element* known = findElement(element.element);
+    if (known == nullptr) continue;
+    for (const Manifest::Attribute& attribute : known->attributes)
+      if (attribute.type == "file") element.attributes[attribute.name].clear();
+  }
 }
 
 std::string listOf(const std::vector<std::string>& folders) {
@@ -83,7 +95,8 @@ std::string listOf(const std::vector<std::string>& folders) {
 std::string sumsOfMeshes(const Scene& scene) {
   std::map<std::string, std::string> known;  // bodies share files
   std::string sums;
-  for (const std::string& file : filesNamedBy(scene)) {
+  for (const MeshRef* mesh : meshesOf(scene)) {
+    const std::string& file = mesh->file;
     std::string& sum = known[file];
     try {
       if (sum.empty()) sum = sha256OfFile(file);
@@ -97,6 +110,7 @@ std::string sumsOfMeshes(const Scene& scene) {
 
 void takeFromMeshStore(Scene& scene, const RunInfo& run, const std::vector<std::string>& folders,
                        Diagnostics& diagnostics) {
+  forgetPluginFiles(scene);
   const std::vector<MeshRef*> meshes = meshesOf(scene);
   if (meshes.empty()) return;
   for (const std::string& folder : folders) input::allowFolder(folder);  // named by the user, not by the run

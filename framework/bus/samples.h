@@ -104,9 +104,9 @@ struct RunInfo {
   std::string scene_name;
   std::string scene_xml;  ///< resolved scene; meshes are given by their file names
   bool commands = false;  ///< the run takes commands
-  /// SHA-256 of every file of filesNamedBy(scene), in that order, 64 digits each, separated by spaces. A viewer looks
-  /// up the files among its own (takeFromMeshStore) and opens no path received over the bus. Empty when the scene has
-  /// no meshes.
+  /// SHA-256 of every mesh of the scene, body by body: visual, haptic, physics; 64 digits each, separated by spaces. A
+  /// viewer looks up the files among its own (takeFromMeshStore) and opens no path received over the bus. Empty when
+  /// the scene has no meshes.
   std::string mesh_sums{};
 };
 

@@ -145,12 +145,23 @@ void checkSettings(const Manifest& manifest, const Manifest::Element& element, D
   }
 }
 
+/// Files are relative to the scene; an experiment has several folders.
+void checkFiles(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
+  for (const Manifest::Attribute& attribute : element.attributes) {
+    if (attribute.type != "file") continue;
+    diagnostics.error(kAgainstKind, element.where,
+                      "<" + element.name + " " + attribute.name + "> of the method '" + manifest.name + "' is a file",
+                      "only elements of scenes name files");
+  }
+}
+
 void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
   for (const Manifest::Element& element : manifest.elements) {
     checkPlace(manifest, element, diagnostics);
     if (manifest.kind == PluginKind::kForceEffect || manifest.kind == PluginKind::kBodyEffect)
       checkBound(manifest, element, diagnostics);
     if (manifest.kind == PluginKind::kRenderer) checkSettings(manifest, element, diagnostics);
+    if (manifest.kind == PluginKind::kMethod) checkFiles(manifest, element, diagnostics);
   }
   if (manifest.kind == PluginKind::kRenderer && manifest.elements.size() > 1) {
     diagnostics.error(kAgainstKind, manifest.elements[1].where,
@@ -277,6 +288,7 @@ std::string typeOf(const Manifest::Element& element, const Manifest::Attribute& 
   if (attribute.type == "boolean") return "xs:boolean";
   if (attribute.type == "name") return "xs:NCName";
   if (attribute.type == "text") return "xs:string";
+  if (attribute.type == "file") return attribute.required ? "path" : "xs:string";
   const std::string facets = boundOf("minExclusive", attribute.above) + boundOf("minInclusive", attribute.min) +
                              boundOf("maxInclusive", attribute.max);
   if (facets.empty()) return "xs:double";

@@ -13,6 +13,7 @@ namespace presa {
 struct Manifest {
   enum class Place { kBody, kScene, kMaterial, kFriction, kHaptics, kProcedure };
 
+  /// Type "file": in an element, a path relative to the scene; in a setting, to the rig.
   struct Attribute {
     std::string name, type, unit, about;
     bool required = true;
@@ -46,9 +47,8 @@ struct Manifest {
   bool needs_proxy = false;  ///< a surface effect of renderers with a proxy: needs="proxy"
   std::string left_out;  ///< why a scene leaves it out, where its kind does not say; empty: derived from its elements
   std::vector<Element> elements;
-  std::vector<Attribute>
-      settings;       ///< of a device: keys that a rig may set; type "file" is a path below the rig's folder
-  ModuleRole module;  ///< of a module
+  std::vector<Attribute> settings;  ///< of a device: keys that a rig may set
+  ModuleRole module;                ///< of a module
   std::string file;
 
   bool hasProxy() const { return gives == "proxy"; }
@@ -58,7 +58,7 @@ struct Manifest {
 /// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
 /// plug-in brings already, E595 what a plug-in of its kind may not have or must have: the place of an element, the
 /// required max_force or max_torque of a force or body effect, the defaults of a renderer's settings, the rate of a
-/// module.
+/// module; a method that names a file.
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.

@@ -47,19 +47,19 @@ bool Scene::hasForceEffects() const {
                              [](const PluginElement& element) { return element.kind == PluginKind::kForceEffect; });
 }
 
-std::vector<PluginElement> readPluginElements(const xml::Element& root) {
+namespace {
+
+/// Calls visit(element, manifest, body, material) for each element that a plug-in brings, in the order of the document
+/// within materials, haptics, and scene and bodies.
+template <class Visit>
+void forEachPluginElement(const xml::Element& root, const Visit& visit) {
   std::map<std::string, const Manifest*> manifest_of;  // by element
   for (const Manifest& manifest : manifests()) {
     for (const Manifest::Element& element : manifest.elements) manifest_of[element.name] = &manifest;
   }
-  std::vector<PluginElement> all;
   const auto add = [&](const xml::Element& element, std::int32_t body, std::int32_t material = -1) {
     const auto found = manifest_of.find(element.name());
-    if (found == manifest_of.end()) return;
-    const Manifest& manifest = *found->second;
-    PluginElement& added = all.emplace_back(
-        PluginElement{manifest.name, element.name(), body, {}, element.where(), manifest.kind, material});
-    for (const std::string& name : element.attributeNames()) added.attributes[name] = element.attribute(name);
+    if (found != manifest_of.end()) visit(element, *found->second, body, material);
   };
   std::int32_t material = 0;
   for (const xml::Element& element : materialElements(root)) {
@@ -79,7 +79,46 @@ std::vector<PluginElement> readPluginElements(const xml::Element& root) {
     for (const xml::Element& inner : child.children()) add(inner, body);
     ++body;
   }
+}
+
+/// Names of the attributes of type "file".
+std::vector<std::string> fileAttributes(const std::string& element) {
+  std::vector<std::string> names;
+  const Manifest::Element* found = findElement(element);
+  if (found == nullptr) return names;
+  for (const Manifest::Attribute& attribute : found->attributes) {
+    if (attribute.type == "file") names.push_back(attribute.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<PluginElement> readPluginElements(const xml::Element& root) {
+  std::vector<PluginElement> all;
+  forEachPluginElement(
+      root, [&](const xml::Element& element, const Manifest& manifest, std::int32_t body, std::int32_t material) {
+        PluginElement& added = all.emplace_back(
+            PluginElement{manifest.name, element.name(), body, {}, element.where(), manifest.kind, material});
+        for (const std::string& name : element.attributeNames()) added.attributes[name] = element.attribute(name);
+      });
   return all;
+}
+
+void resolvePluginFiles(const xml::Element& root, const std::string& directory) {
+  forEachPluginElement(root, [&](xml::Element element, const Manifest&, std::int32_t, std::int32_t) {
+    for (const std::string& name : fileAttributes(element.name()))
+      element.setAttribute(name, resolvePath(element.attribute(name), directory));
+  });
+}
+
+std::vector<std::string> filesNamedBy(const PluginElement& element) {
+  std::vector<std::string> files;
+  for (const std::string& name : fileAttributes(element.element)) {
+    const auto file = element.attributes.find(name);
+    if (file != element.attributes.end() && !file->second.empty()) files.push_back(file->second);
+  }
+  return files;
 }
 
 }  // namespace presa

@@ -33,8 +33,8 @@ struct PluginElement {
   PluginKind kind = PluginKind::kForceEffect;
   std::int32_t material = -1;  ///< index of the material in which, or in whose <friction>, it stands; -1: in none
 
-  /// Value of an attribute of type number, vector3, boolean or text. Throws std::logic_error when the manifest has none
-  /// of that name or type.
+  /// Value of an attribute of type number, vector3, boolean or text; `text` of a file is its absolute path, or empty.
+  /// Throws std::logic_error when the manifest has none of that name or type.
   double number(const std::string& attribute) const;
   Vec3 vector3(const std::string& attribute) const;
   bool boolean(const std::string& attribute) const;

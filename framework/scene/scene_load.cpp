@@ -117,6 +117,10 @@ std::vector<std::string> filesNamedBy(const Scene& scene) {
       if (const auto* mesh = std::get_if<MeshRef>(&(*geometry)->shape)) files.push_back(mesh->file);
     }
   }
+  for (const PluginElement& element : scene.plugin_elements) {
+    const std::vector<std::string> named = filesNamedBy(element);
+    files.insert(files.end(), named.begin(), named.end());
+  }
   return files;
 }
 

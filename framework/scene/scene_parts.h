@@ -52,6 +52,10 @@ void resolveScene(xml::Document& document, const xml::Schema& schema, const std:
 
 /// The elements that plug-ins bring, in the scene itself and in its bodies.
 std::vector<PluginElement> readPluginElements(const xml::Element& root);
+/// Makes the files that such elements name absolute.
+void resolvePluginFiles(const xml::Element& root, const std::string& directory);
+/// Attributes of type "file" of the element that have a value.
+std::vector<std::string> filesNamedBy(const PluginElement& element);
 
 /// The <bus> of a scene or a rig, or none.
 std::optional<BusSettings> readBus(const xml::Element& root);

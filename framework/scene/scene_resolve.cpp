@@ -73,6 +73,7 @@ void resolveScene(xml::Document& document, const xml::Schema& schema, const std:
       }
     }
   }
+  resolvePluginFiles(root, directory);
   for (const Element& assembly : root.children("assembly")) {
     for (const Element& goal : assembly.children("goal")) resolveOrientation(goal);
   }

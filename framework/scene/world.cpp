@@ -5,6 +5,7 @@
 
 #include "framework/input/folders.h"
 #include "framework/scene/inertia.h"
+#include "framework/scene/scene_parts.h"
 
 namespace presa {
 namespace {
@@ -71,6 +72,10 @@ World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
                         library.request(body.physics, solid)});
   }
   library.importAll(diagnostics);
+  // the plug-ins read them, when a run makes their objects
+  for (const PluginElement& element : world.scene.plugin_elements) {
+    for (const std::string& file : filesNamedBy(element)) input::checkNamed(element.where, file, diagnostics);
+  }
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
     const Body& body = world.scene.bodies[b];
     const auto& [visual, haptic, physics] = requests[b];

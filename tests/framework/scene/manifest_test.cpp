@@ -41,6 +41,21 @@ TEST_F(Manifests, BringTheirElementsIntoTheSchema) {
   EXPECT_NE(xsd.find("how fast [m/s]"), std::string::npos);
 }
 
+// An element of a scene may name a file, but not an empty name; one of an experiment may not.
+TEST_F(Manifests, SayWhichAttributesAreFiles) {
+  write("presa_wind.xml", effect("wind", "wind", "<attribute name=\"map\" type=\"file\" about=\"how strong\"/>"));
+  Diagnostics diagnostics;
+  const auto all = readManifests({folder_.path().string()}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors());
+  EXPECT_EQ(all.at(0).elements.at(0).attributes.at(1).type, "file");
+  EXPECT_NE(sceneSchemaWith(all).find("<xs:attribute name=\"map\" type=\"path\" use=\"required\">"), std::string::npos);
+  write(
+      "presa_wind.xml",
+      "<plugin name=\"wind\" version=\"1.0\" kind=\"method\" about=\"a test\"><element name=\"wind\" in=\"procedure\">"
+      "<attribute name=\"map\" type=\"file\" about=\"how strong\"/></element></plugin>");
+  EXPECT_EQ(errors(), "595 <wind map> of the method 'wind' is a file\n");
+}
+
 TEST_F(Manifests, OfTheFirstFolderCount) {
   write("presa_wind.xml", effect("wind", "wind"));
   const ScratchFolder other;
