@@ -33,7 +33,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/PresaConfigVersion.cmake 
 install(FILES config/cmake/PresaConfig.cmake config/cmake/PresaPlugin.cmake ${PROJECT_BINARY_DIR}/PresaConfigVersion.cmake
   DESTINATION lib/cmake/Presa)
 
-install(DIRECTORY config/meshes config/motions config/pictures config/rigs config/scenes config/schema config/temple
+install(DIRECTORY config/meshes config/motions config/pictures config/rigs config/scenes config/schema config/temple config/textures
   DESTINATION share/presa/config PATTERN "*.py" EXCLUDE)
 install(DIRECTORY experiments/ DESTINATION share/presa/experiments FILES_MATCHING
   PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.obj" PATTERN "README.md")

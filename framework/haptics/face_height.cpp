@@ -66,13 +66,8 @@ FacePattern::FacePattern(const PluginElement& element)
   const double direction = element.number("direction") * std::numbers::pi / 180;
   along_T_ = {std::cos(direction), std::sin(direction), 0};
   across_T_ = {-along_T_.y(), along_T_.x(), 0};
-  const double slope = amplitude_ * std::hypot(pattern_.max_ds_du / wavelength_, pattern_.max_ds_dv / across_);
-  if (slope > kMaxSlope) {
-    std::ostringstream text;
-    text << "its slope reaches " << slope << ", above 1; an amplitude of " << inMillimetres(amplitude_ / slope)
-         << " would be the largest for these wavelengths";
-    throw std::invalid_argument(text.str());
-  }
+  requireGentle(amplitude_ * std::hypot(pattern_.max_ds_du / wavelength_, pattern_.max_ds_dv / across_), amplitude_,
+                "these wavelengths");
 }
 
 PatternOnFace FacePattern::at(const SurfaceInput& input) const noexcept {
@@ -93,6 +88,14 @@ void requireFlatSides(const PluginElement& element, const World& world) {
   if (!std::holds_alternative<Box>(shape) && !std::holds_alternative<MeshRef>(shape))
     throw std::invalid_argument("body '" + body.name + "' has no flat sides; a " + element.element +
                                 " needs a box or a mesh");
+}
+
+void requireGentle(double slope, double amplitude, const std::string& of) {
+  if (!(slope > kMaxSlope)) return;
+  std::ostringstream text;
+  text << "its slope reaches " << slope << ", above 1; an amplitude of " << inMillimetres(amplitude / slope)
+       << " would be the largest for " << of;
+  throw std::invalid_argument(text.str());
 }
 
 std::string inMillimetres(double length) {

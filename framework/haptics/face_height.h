@@ -53,6 +53,10 @@ class FacePattern {
 /// another tangent frame at each point, so no place on it.
 void requireFlatSides(const PluginElement& element, const World& world);
 
+/// Throws std::invalid_argument if a slope is above 1: the force would lean by more than 45 degrees. `of`: for what the
+/// text gives the largest amplitude, "these wavelengths".
+void requireGentle(double slope, double amplitude, const std::string& of);
+
 /// "0.1 mm"
 std::string inMillimetres(double length);
 

@@ -51,6 +51,12 @@ BENCHMARK_CAPTURE(texture, sine, "sine");
 BENCHMARK_CAPTURE(texture, grid, "grid");
 BENCHMARK_CAPTURE(texture, noise, "noise");
 
+void textureImage(benchmark::State& state) {
+  effect(state,
+         "texture_image file=\"" PRESA_SOURCE_DIR "/config/textures/weave.png\" width=\"0.006\" amplitude=\"0.0001\"");
+}
+BENCHMARK(textureImage)->Name("texture/image");
+
 void perturbation(benchmark::State& state, const std::string& form) {
   effect(state, "perturbation shape=\"sine\" amplitude=\"0.0001\" wavelength=\"0.002\" form=\"" + form + "\"");
 }

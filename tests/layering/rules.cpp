@@ -29,6 +29,7 @@ constexpr std::array kLibraries{
     Library{"openssl/.*", "framework/record/checksum/checksum_plugin/"},
     Library{"(dds/.*|RunState\\.h)", "modules/bus_dds/"},
     Library{"libxml/.*", "framework/scene/xml/"},
+    Library{"(libpng16/)?png(conf|libconf)?\\.h", "modules/texture_image/"},
     Library{"(libusb-1.0/)?libusb\\.h", "devices/novint_falcon/"},
     Library{"assimp/.*", "framework/geometry/mesh_import_plugin/"},
     Library{"meshoptimizer.*", "framework/geometry/mesh_decimate_plugin/"},

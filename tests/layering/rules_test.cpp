@@ -18,6 +18,7 @@ TEST(LayeringRules, ALibraryHasOneHome) {
   EXPECT_TRUE(includesForeignLibrary({"framework/session/x.h", include("nlohmann/json.hpp")}));
   EXPECT_TRUE(includesForeignLibrary({"devices/scripted/x.h", include("gtest/gtest.h")}));
   EXPECT_TRUE(includesForeignLibrary({"framework/device/x.h", include("libusb-1.0/libusb.h")}));
+  EXPECT_TRUE(includesForeignLibrary({"modules/view_osg/x.h", include("png.h")}));
   EXPECT_TRUE(includesForeignLibrary({"modules/effects/x.h", include("osgViewer/Viewer")}));
   EXPECT_TRUE(includesForeignLibrary({"apps/presa/x.cpp", include("boost/math/distributions/normal.hpp")}));
   EXPECT_FALSE(includesForeignLibrary({"modules/dynamics_ode/x.cpp", include("ode/ode.h")}));

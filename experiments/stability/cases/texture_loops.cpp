@@ -41,6 +41,14 @@ Surface texture(const std::string& shape, const std::string& amplitude, const st
           {element + "shape=" + shape, element + "amplitude=" + amplitude, element + "wavelength=" + wavelength}};
 }
 
+/// The shipped weave.
+Surface image() {
+  const std::string element = "material/stone/texture_image/";
+  return {"image",
+          "6 mm",
+          {element + "file=../../../config/textures/weave.png", element + "width=0.006", element + "amplitude=0.0001"}};
+}
+
 /// Force perturbation of a sine.
 Surface perturbation(const Method& form) {
   Surface surface{"perturbation", "2 mm", {}, form};
@@ -101,7 +109,7 @@ Case textureLoops() {
   result.scene = "texture_loops.xml";
   for (const Surface& surface :
        {texture("sine", "0.0001", "0.002"), texture("sine", "0.0001", "0.001"), texture("grid", "0.0001", "0.002"),
-        texture("noise", "0.0002", "0.002"), overLayers({"", kNone, {}}),
+        texture("noise", "0.0002", "0.002"), image(), overLayers({"", kNone, {}}),
         overLayers(texture("sine", "0.0001", "0.002")), perturbation(ours()),
         perturbation({"printed formula", {"material/stone/perturbation/form=printed"}})}) {
     for (const bool touch_and_go : {false, true}) {

@@ -72,6 +72,22 @@ TEST(MeshShelf, FindsTheBytesUnderAnyName) {
   EXPECT_EQ(fileOf(scene, 1), jug);
 }
 
+// A file that the element of a plug-in names is neither sent nor opened: effects are those of the run.
+TEST(MeshShelf, ForgetsTheFilesOfPlugins) {
+  Diagnostics diagnostics;
+  Scene scene = parseScene(R"(<scene version="1.0" name="s"><world gravity="0 0 0"/>
+    <materials><material name="wood" stiffness="1000"><texture_image file="weave.png" width="0.01" amplitude="0"/>
+    </material></materials><body name="a" fixed="true"><haptic><box size="1 1 1"/></haptic></body></scene>)",
+                           "scene", "elsewhere", {}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  EXPECT_EQ(filesNamedBy(scene).size(), 1U);
+  const RunInfo run = runOf(scene);
+  EXPECT_EQ(run.mesh_sums, "");
+  takeFromMeshStore(scene, run, {}, diagnostics);
+  EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  EXPECT_TRUE(filesNamedBy(scene).empty());
+}
+
 // The path sent over the bus exists and has the right bytes, but is not opened, because its folder is not allowed.
 TEST(MeshShelf, OpensNothingOutsideItsFolders) {
   const Folders folders;
