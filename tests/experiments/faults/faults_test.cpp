@@ -6,10 +6,19 @@
 namespace presa::faults {
 namespace {
 
+// What a rating promises a hand in wall time: the force is zero within 20 ms of any fault. Rows of real processes are
+// tested against this, also under sanitizers and on a shared machine; `presa device faults` holds their own bounds.
+constexpr double kPromised = 20e-3;  // [s]
+
+Fault tested(Fault fault) {
+  if (fault.real_time) fault.bounds.detection = fault.bounds.zero = kPromised;
+  return fault;
+}
+
 class Faults : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Faults, KeepTheirBounds) {
-  const Fault fault = allFaults()[GetParam()];
+  const Fault fault = tested(allFaults()[GetParam()]);
   if (fault.real_time && !realtimeRights().fifo.empty()) GTEST_SKIP() << "SCHED_FIFO: " << realtimeRights().fifo;
   for (std::uint64_t run = 0; run < 6; ++run) {
     RandomStream random(1000, fault.name, run);
@@ -24,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, Faults, testing::Range<std::size_t>(0, allFaults(
 // A supervisor that is late by itself is not excused: its witness was not held up.
 TEST(ProcessFaults, AStallingSupervisorBreaksItsRow) {
   if (!realtimeRights().fifo.empty()) GTEST_SKIP() << "SCHED_FIFO: " << realtimeRights().fifo;
-  for (const Fault& fault : processFaults(0.03)) {
+  for (const Fault& row : processFaults(0.03)) {
+    const Fault fault = tested(row);
     RandomStream random(1000, fault.name, 0);
     const Outcome outcome = fault.run(random);
     EXPECT_EQ(brokenBy(fault, outcome), "detected too late") << fault.name << ": " << outcome.detection;
