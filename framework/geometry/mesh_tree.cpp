@@ -33,8 +33,6 @@ float roundUp(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
-float sizeOf(const Node& node) { return std::max({node.half[0], node.half[1], node.half[2]}); }
-
 /// Splits at the median of the centroids along the longest axis. Ids break ties: the same tree with every standard
 /// library.
 class Builder {
@@ -247,33 +245,12 @@ MeshTree::MeshTree(std::shared_ptr<const TriMesh> mesh) : mesh_(std::move(mesh))
 }
 
 std::size_t MeshTree::cut(const Vec3& center, double radius, std::span<std::int32_t> out) const noexcept {
-  if (out.empty()) return 0;
-  std::size_t count = 1;
-  out[0] = kRoot;
-  while (true) {
-    std::size_t largest = count;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Node& n = node(out[i]);
-      if (n.isLeaf()) continue;
-      if (largest == count || sizeOf(n) > sizeOf(node(out[largest]))) largest = i;
-    }
-    if (largest == count) return count;
-    const std::int32_t left = node(out[largest]).first;
-    double to_left = 0, to_right = 0;
-    bound(left, center, to_left);
-    bound(left + 1, center, to_right);
-    const bool keep_left = to_left <= radius, keep_right = to_right <= radius;
-    if (keep_left && keep_right && count == out.size()) return count;
-    if (keep_left && keep_right) {
-      out[largest] = left;
-      out[count++] = left + 1;
-    } else if (keep_left || keep_right) {
-      out[largest] = keep_left ? left : left + 1;
-    } else {
-      out[largest] = out[--count];
-      if (count == 0) return 0;
-    }
-  }
+  const auto within = [&](std::int32_t node) {
+    double distance = 0;
+    bound(node, center, distance);
+    return distance <= radius;
+  };
+  return cutWhere(within, out);
 }
 
 }  // namespace presa

@@ -37,6 +37,7 @@ class MeshTree {
     std::int32_t first = 0;       ///< inner node: left child, the right child follows it; leaf: first facet
     std::int32_t count = 0;       ///< number of facets of a leaf; 0: inner node
     bool isLeaf() const noexcept { return count > 0; }
+    float size() const noexcept { return std::max({half[0], half[1], half[2]}); }
   };
   /// A triangle, stored in the order of the leaves.
   struct Facet {
@@ -72,6 +73,9 @@ class MeshTree {
   /// A cut through the tree that holds every triangle within `radius` of `center`: at most out.size() nodes, refined by
   /// splitting the largest node first. Returns their number. Room for one node gives the root.
   std::size_t cut(const Vec3& center, double radius, std::span<std::int32_t> out) const noexcept;
+  /// The same for any set of triangles: keep(node) says whether a child may hold one of them. The root is kept unasked.
+  template <class Keep>
+  std::size_t cutWhere(const Keep& keep, std::span<std::int32_t> out) const;
 
   /// Calls visit(facet index) for every triangle of each leaf whose bound is within `radius` of `center`.
   template <class Visit>
@@ -98,6 +102,34 @@ class MeshTree {
   Vec3 sphere_center_ = Vec3::Zero();
   double sphere_radius_ = 0;
 };
+
+template <class Keep>
+std::size_t MeshTree::cutWhere(const Keep& keep, std::span<std::int32_t> out) const {
+  if (out.empty()) return 0;
+  std::size_t count = 1;
+  out[0] = kRoot;
+  while (true) {
+    std::size_t largest = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Node& n = node(out[i]);
+      if (n.isLeaf()) continue;
+      if (largest == count || n.size() > node(out[largest]).size()) largest = i;
+    }
+    if (largest == count) return count;
+    const std::int32_t left = node(out[largest]).first;
+    const bool keep_left = keep(left), keep_right = keep(left + 1);
+    if (keep_left && keep_right && count == out.size()) return count;
+    if (keep_left && keep_right) {
+      out[largest] = left;
+      out[count++] = left + 1;
+    } else if (keep_left || keep_right) {
+      out[largest] = keep_left ? left : left + 1;
+    } else {
+      out[largest] = out[--count];
+      if (count == 0) return 0;
+    }
+  }
+}
 
 inline TangentBound MeshTree::bound(std::int32_t index, const Vec3& p, double& distance) const noexcept {
   // The axes are unit vectors only to single precision; this factor [-] keeps the bound below the true distance.

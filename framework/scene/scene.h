@@ -120,6 +120,10 @@ struct HapticSettings {
 };
 
 struct CollisionSettings {
+  /// How the collision thread finds the triangles near a finger: the hierarchy of the haptic tick alone, a tree of
+  /// oriented boxes, or a uniform grid of such trees (H-COLLIDE).
+  enum class Index { kTree, kObb, kHcollide };
+  Index index = Index::kTree;
   double margin = 0;  ///< extent of the neighbourhood beyond the fingertip [m]; 0: chosen from the finger's motion
   std::size_t max_triangles = 0;  ///< no effect; accepted for older scenes
 };

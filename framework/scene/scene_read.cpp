@@ -186,7 +186,13 @@ HapticSettings readHaptics(const Element& element) {
 }
 
 CollisionSettings readCollision(const Element& element) {
-  return {element.number("margin", 0), static_cast<std::size_t>(element.number("max_triangles", 0))};
+  using C = CollisionSettings;
+  C settings;
+  settings.index =
+      choose(element, "index", settings.index, {{"obb", C::Index::kObb}, {"hcollide", C::Index::kHcollide}});
+  settings.margin = element.number("margin", 0);
+  settings.max_triangles = static_cast<std::size_t>(element.number("max_triangles", 0));
+  return settings;
 }
 
 DynamicsSettings readDynamics(const Element& element) {

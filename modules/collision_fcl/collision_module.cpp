@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "modules/collision_fcl/reach.h"
@@ -9,12 +10,36 @@
 namespace presa {
 namespace {
 
-/// A neighbourhood is made larger than needed by this factor, so that it serves for several queries.
+/// A neighbourhood is made larger than needed by this factor, so that it serves for several queries. Only where its
+/// size costs nothing: a cut of the tree has at most 16 nodes, but the other indices visit each triangle within reach.
 constexpr double kFarther = 1.5;
 
 std::size_t touchableCount(const World& world) {
   return static_cast<std::size_t>(
       std::ranges::count_if(world.scene.bodies, [](const Body& body) { return body.haptic.has_value(); }));
+}
+
+using Index = CollisionSettings::Index;
+
+/// Triangles of the largest touchable mesh; 0 where no index needs them.
+std::size_t facetRoom(const World& world) {
+  std::size_t most = 0;
+  for (const BodyMeshes& meshes : world.meshes) {
+    if (meshes.haptic_tree) most = std::max(most, meshes.haptic_tree->mesh().triangles.size());
+  }
+  return world.scene.collision.index == Index::kTree ? 0 : most;
+}
+
+std::string how(Index index) {
+  switch (index) {
+    case Index::kObb:
+      return ", around the triangles that a tree of oriented boxes finds (index=\"obb\")";
+    case Index::kHcollide:
+      return ", around the triangles that a hashed grid of trees of oriented boxes finds (index=\"hcollide\")";
+    case Index::kTree:
+      break;
+  }
+  return "";
 }
 
 bool same(const Pose& a, const Pose& b) { return a.p == b.p && a.q.coeffs() == b.q.coeffs(); }
@@ -25,7 +50,8 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
     : Module("collision_fcl", RateGroup::kCollision),
       world_(std::move(world)),
       dynamics_period_(1 / world_->scene.rates.dynamics),
-      broad_phase_(touchableCount(*world_)) {
+      broad_phase_(touchableCount(*world_)),
+      facets_(facetRoom(*world_)) {
   for (std::size_t b = 0; b < world_->scene.bodies.size(); ++b) {
     const Body& body = world_->scene.bodies[b];
     touchable_of_.push_back(-1);
@@ -39,6 +65,11 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
       const auto& tree = world_->meshes[b].haptic_tree;
       if (!tree) throw std::invalid_argument("a haptic mesh needs its hierarchy");
       touchable.tree = tree.get();
+      if (world_->scene.collision.index != Index::kTree) {
+        std::unique_ptr<MeshIndex>& index = indices_[tree.get()];
+        if (!index) index = makeMeshIndex(world_->scene.collision.index, *tree);
+        touchable.index = index.get();
+      }
       touchable.center_B = body.haptic->X_BG * tree->sphereCenter();
       touchable.radius = tree->sphereRadius();
     } else {
@@ -53,6 +84,7 @@ CollisionModule::CollisionModule(std::shared_ptr<const World> world)
   broad_phase_.refresh();
   found_.reserve(touchables_.size());
   finger_neighbourhoods.value.fingers.resize(world_->scene.devices.size());
+  last_W_.assign(world_->scene.devices.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
 void CollisionModule::step(const Tick& tick) noexcept {
@@ -62,7 +94,8 @@ void CollisionModule::step(const Tick& tick) noexcept {
   if (any_moves_) placeBodies(tick);
   for (std::size_t f = 0; f < static_cast<std::size_t>(neighbourhoods.count); ++f) {
     const Ball needed = ballOf(f, tick);
-    if (!lastNeighbourhoodServes(f, needed)) makeNeighbourhood(needed, neighbourhoods.fingers[f]);
+    if (!lastNeighbourhoodServes(f, needed)) makeNeighbourhood(needed, last_W_[f], neighbourhoods.fingers[f]);
+    last_W_[f] = needed.center_W;
   }
 }
 
@@ -103,7 +136,8 @@ CollisionModule::Ball CollisionModule::ballOf(std::size_t finger, const Tick& ti
   }
   const double min = stretch + reach::kFingertips * world_->scene.devices[finger].fingertip_radius;
   if (world_->scene.collision.margin > 0) return {input.p_WH, min + world_->scene.collision.margin};
-  return {input.p_WH, min + reach::kMargin + reach::travel(input.v_WH.norm(), horizon(tick))};
+  const double extra = world_->scene.collision.index == Index::kTree ? reach::kMargin : 0;
+  return {input.p_WH, min + extra + reach::travel(input.v_WH.norm(), horizon(tick))};
 }
 
 bool CollisionModule::lastNeighbourhoodServes(std::size_t finger, const Ball& needed) noexcept {
@@ -130,8 +164,9 @@ bool CollisionModule::lastNeighbourhoodServes(std::size_t finger, const Ball& ne
   });
 }
 
-void CollisionModule::makeNeighbourhood(const Ball& needed, FingerNeighbourhood& neighbourhood) noexcept {
-  const bool fixed = world_->scene.collision.margin > 0;
+void CollisionModule::makeNeighbourhood(const Ball& needed, const Vec3& last_W,
+                                        FingerNeighbourhood& neighbourhood) noexcept {
+  const bool fixed = world_->scene.collision.margin > 0 || world_->scene.collision.index != Index::kTree;
   neighbourhood.serial = ++serial_;
   neighbourhood.center_W = needed.center_W;
   neighbourhood.radius = fixed ? needed.radius : kFarther * needed.radius;
@@ -153,9 +188,17 @@ void CollisionModule::makeNeighbourhood(const Ball& needed, FingerNeighbourhood&
     if (touchable.tree == nullptr) continue;
     near.center_B = touchable.X_WB.inverseTimes(neighbourhood.center_W);
     near.radius = neighbourhood.radius + std::max(touchable.travel, 0.0);
-    near.cut_count = static_cast<std::int32_t>(
-        touchable.tree->cut(touchable.X_BG.inverseTimes(near.center_B), near.radius, near.cut));
+    near.cut_count = static_cast<std::int32_t>(cutOf(touchable, last_W, near));
   }
+}
+
+std::size_t CollisionModule::cutOf(const Touchable& touchable, const Vec3& last_W, NearBody& near) noexcept {
+  const Vec3 center_G = touchable.X_BG.inverseTimes(near.center_B);
+  if (touchable.index == nullptr) return touchable.tree->cut(center_G, near.radius, near.cut);
+  const Vec3 last_G = touchable.X_BG.inverseTimes(touchable.X_WB.inverseTimes(last_W));
+  facets_.clear();
+  touchable.index->find({last_G.allFinite() ? last_G : center_G, center_G, near.radius}, facets_);
+  return cutAround(facets_, *touchable.tree, near.cut);
 }
 
 std::vector<std::string> CollisionModule::stages() const {
@@ -165,7 +208,8 @@ std::vector<std::string> CollisionModule::stages() const {
       std::string(
           "check whether each finger's last neighbourhood still covers its reach: fingertip, proxy displacement and ") +
           margin,
-      "bodies within reach, and a cut through the hierarchy of each mesh among them"};
+      "bodies within reach, and a cut through the hierarchy of each mesh among them" +
+          how(world_->scene.collision.index)};
 }
 
 }  // namespace presa

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
 #include "modules/collision_fcl/broad_phase.h"
+#include "modules/collision_fcl/mesh_index.h"
 
 namespace presa {
 
@@ -35,6 +37,7 @@ class CollisionModule final : public Module {
   struct Touchable {
     std::int32_t body = kNoBody;
     const MeshTree* tree = nullptr;  ///< null: a primitive
+    MeshIndex* index = nullptr;      ///< null: the tree is its own index
     Pose X_BG;
     Vec3 center_B = Vec3::Zero();
     double radius = 0;  ///< [m]
@@ -54,7 +57,9 @@ class CollisionModule final : public Module {
   Ball ballOf(std::size_t finger, const Tick& tick) const noexcept;
   /// Whether the finger's last neighbourhood still covers everything it needs.
   bool lastNeighbourhoodServes(std::size_t finger, const Ball& needed) noexcept;
-  void makeNeighbourhood(const Ball& needed, FingerNeighbourhood& neighbourhood) noexcept;
+  void makeNeighbourhood(const Ball& needed, const Vec3& last_W, FingerNeighbourhood& neighbourhood) noexcept;
+  /// The cut of a mesh for the finger that came from last_W; `near` has centre and radius.
+  std::size_t cutOf(const Touchable& touchable, const Vec3& last_W, NearBody& near) noexcept;
 
   std::shared_ptr<const World> world_;
   std::vector<Touchable> touchables_;
@@ -63,7 +68,10 @@ class CollisionModule final : public Module {
   double dynamics_period_;
   std::uint64_t serial_ = 0;
   BroadPhase broad_phase_;
-  std::vector<std::int32_t> found_;  // reused every step
+  std::vector<std::int32_t> found_;                                // reused every step
+  std::vector<Vec3> last_W_;                                       ///< by finger: where it was at the last step [m]
+  std::map<const MeshTree*, std::unique_ptr<MeshIndex>> indices_;  ///< of the meshes, unless the scene says tree
+  FacetSet facets_;                                                ///< what they find; reused
 };
 
 }  // namespace presa

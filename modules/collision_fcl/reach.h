@@ -8,7 +8,7 @@ namespace presa::reach {
 /// Allowance for accelerations of finger and bodies during the horizon [m/s^2]. A grasping hand stays below 10; a
 /// dropped object accelerates at 9.81.
 inline constexpr double kAcceleration = 20;
-/// Extra margin, so that a neighbourhood serves for several queries [m].
+/// Extra margin of a cut of the tree, so that a neighbourhood serves for several queries [m].
 inline constexpr double kMargin = 0.03;
 /// Radius that a tick examines around its proxy, in fingertip radii: leaves room for being pushed out of a moving body.
 inline constexpr double kFingertips = 1.1;

@@ -33,6 +33,7 @@ constexpr KnownFactor kFactors[] = {
     {"sleeping", "dynamics/sleeping"},
     {"renderer", "haptics/renderer"},
     {"pose", "haptics/pose"},
+    {"collision_index", "collision/index"},
     {"patch_margin", "collision/margin"},
     {"fingertip_radius", "device/*/fingertip_radius"},
 };

@@ -77,6 +77,8 @@ const Slip kValues[] = {
     {"Word", 116, "mass=\"0.2\"", "@mass=\"heavy\"", "a number > 0, found 'heavy'"},
     {"Unit", 116, "mass=\"0.2\"", "@mass=\"200g\"", "without a unit"},
     {"DecimalComma", 116, "static=\"0.8\"", "@static=\"0,8\"", "0.8"},
+    {"CollisionIndex", 116, "<body name=\"table\"", "<collision @index=\"hcolide\"/><body name=\"table\"",
+     "did you mean 'hcollide'"},
     {"Empty", 116, "mass=\"0.2\"", "@mass=\"\"", "found ''"},
     {"Boolean", 116, "fixed=\"true\"", "@fixed=\"yes\"", "'true' or 'false', found 'yes'"},
     {"Name", 116, "<body name=\"table\"", "<body @name=\"my table\"", "a name"},

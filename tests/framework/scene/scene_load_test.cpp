@@ -48,7 +48,8 @@ std::string contentOf(const Scene& scene) {
   text << settings.engine << static_cast<int>(settings.coupling) << static_cast<int>(settings.solver)
        << static_cast<int>(settings.friction) << static_cast<int>(settings.rotation) << settings.sleeping << " "
        << settings.iterations << " " << settings.substeps << "\n";
-  text << scene.haptics.renderer << static_cast<int>(scene.haptics.pose) << " " << scene.collision.margin << " "
+  text << scene.haptics.renderer << static_cast<int>(scene.haptics.pose) << " "
+       << static_cast<int>(scene.collision.index) << " " << scene.collision.margin << " "
        << scene.collision.max_triangles << "\n";
   for (const Material& m : scene.materials) {
     text << m.name << " " << m.stiffness << " " << m.damping << " " << m.friction_static << " " << m.friction_dynamic
@@ -137,13 +138,15 @@ TEST(SceneLoad, EveryMethodCanBeNamed) {
   const Scene scene = load(edited(
       edited(
           kScene, "<body name=\"cube\"",
-          "<haptics renderer=\"penalty\" pose=\"hold\"/><collision margin=\"0.002\" max_triangles=\"64\"/>"
+          "<haptics renderer=\"penalty\" pose=\"hold\"/><collision index=\"hcollide\" margin=\"0.002\" "
+          "max_triangles=\"64\"/>"
           "<dynamics coupling=\"explicit\" solver=\"direct\" iterations=\"30\" substeps=\"4\" friction=\"pyramid\" "
           "rotation=\"matrix\" sleeping=\"false\"/><body name=\"cube\" velocity=\"1 2 3\" angular_velocity=\"4 5 6\""),
       "mass=\"0.2\"", "mass=\"0.2\" force=\"7 8 9\""));
   EXPECT_EQ(scene.haptics.renderer, "penalty");
   EXPECT_FALSE(scene.haptics.proxy);
   EXPECT_EQ(scene.haptics.pose, HapticSettings::PoseUse::kHold);
+  EXPECT_EQ(scene.collision.index, CollisionSettings::Index::kHcollide);
   EXPECT_EQ(scene.collision.margin, 0.002);
   EXPECT_EQ(scene.collision.max_triangles, 64u);
   EXPECT_EQ(scene.dynamics.coupling, DynamicsSettings::Coupling::kExplicit);

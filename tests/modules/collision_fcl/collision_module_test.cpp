@@ -115,6 +115,24 @@ TEST_F(CollisionModuleTest, TheCutHoldsEveryTriangleWithinItsRadius) {
   expectComplete(neighbourhood.bodies[0]);
 }
 
+// The same under every index, while the finger goes round the mesh.
+struct UnderIndex : CollisionModuleTest, testing::WithParamInterface<CollisionSettings::Index> {};
+
+TEST_P(UnderIndex, TheCutHoldsEveryTriangleWithinItsRadius) {
+  addMesh(makeSphere(0.05, 4), kPlaced, kInBody);
+  world_.scene.collision = {.index = GetParam(), .margin = 0.002};
+  for (double angle = 0; angle < 6; angle += 0.3) {
+    const Vec3 finger(0.056 * std::sin(angle), 0.01 * std::sin(3 * angle), 0.056 * std::cos(angle));
+    const FingerNeighbourhood& neighbourhood = query(kPlaced * (kInBody * finger));
+    ASSERT_EQ(neighbourhood.body_count, 1);
+    ASSERT_GT(neighbourhood.bodies[0].cut_count, 1);
+    expectComplete(neighbourhood.bodies[0]);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(EveryIndex, UnderIndex,
+                         testing::Values(CollisionSettings::Index::kTree, CollisionSettings::Index::kObb,
+                                         CollisionSettings::Index::kHcollide));
+
 // The path of a finger over the horizon, at constant velocity or acceleration, lies within the bound.
 TEST_F(CollisionModuleTest, RadiusGrowsByTheWayTheFingerCanGo) {
   addMesh(makeBox({0.1, 0.1, 0.1}), {});

@@ -25,6 +25,7 @@ std::shared_ptr<const MeshTree> treeOf(const std::shared_ptr<const TriMesh>& mes
 World worldOf(std::shared_ptr<const TriMesh> mesh, const Touch& touch) {
   World world;
   world.scene.rates.collision = touch.collision_hz;
+  world.scene.collision = touch.collision;
   world.scene.materials.resize(1);
   Material& material = world.scene.materials[0];
   material.stiffness = touch.stiffness;

@@ -17,6 +17,7 @@ struct Touch {
   double collision_hz = 100;  ///< collision rate; 1000 / collision_hz must be whole
   bool fixed = true;          ///< false: the test moves the body
   bool smooth = false;        ///< force shading
+  CollisionSettings collision{};
 };
 
 /// Makes the world of these tests: one body with the haptic mesh `mesh`, whose adjacency must be built.
