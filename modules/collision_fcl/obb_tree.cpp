@@ -2,7 +2,6 @@
 
 #include <fcl/geometry/bvh/BVH_model.h>
 
-
 #include <stdexcept>
 #include <unordered_map>
 
