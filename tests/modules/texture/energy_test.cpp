@@ -67,7 +67,12 @@ Vec3 touchAndGo(double share) {
 // Net work over moved work. The trapezoidal rule errs by step^2 / 12 times the second derivative of the force, which is
 // (2 pi / wavelength)^2 times the force; the hills of noise are wider than those of a sine. Halving the step leaves a
 // quarter of the error, down to what the place of the proxy gives.
-class ClosedLoop : public testing::TestWithParam<std::tuple<std::string, double, Vec3 (*)(double)>> {};
+struct NamedLoop {
+  const char* name;
+  Vec3 (*at)(double share);
+};
+
+class ClosedLoop : public testing::TestWithParam<std::tuple<std::string, double, NamedLoop>> {};
 
 TEST_P(ClosedLoop, GainsNoEnergy) {
   const auto& [shape, wavelength, loop] = GetParam();
@@ -82,7 +87,7 @@ TEST_P(ClosedLoop, GainsNoEnergy) {
     for (int side = 0; side < 6; ++side) {
       for (const int per_wave : {25, 50}) {
         const int steps = static_cast<int>(per_wave * kLength / wavelength);
-        const Work work = workOver(world, side, loop, steps);
+        const Work work = workOver(world, side, loop.at, steps);
         const double error = std::abs(work.net) / work.moved;
         EXPECT_GT(work.moved, 1e-7) << side;
         EXPECT_LT(error, std::pow(kTurn / per_wave, 2) / 12) << mesh << side << ' ' << per_wave;
@@ -93,9 +98,17 @@ TEST_P(ClosedLoop, GainsNoEnergy) {
   EXPECT_LT(fine, std::max(coarse / 3, 12 * kFloor));
 }
 
+std::string nameOfLoop(const testing::TestParamInfo<ClosedLoop::ParamType>& of) {
+  const auto& [shape, wavelength, loop] = of.param;
+  return shape + "_" + std::to_string(std::lround(1e6 * wavelength)) + "um_" + loop.name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Textures, ClosedLoop,
                          testing::Combine(testing::Values("sine", "grid", "noise"), testing::Values(1e-3, 2.7e-3),
-                                          testing::Values(circle, rectangle, touchAndGo)));
+                                          testing::Values(NamedLoop{"circle", circle},
+                                                          NamedLoop{"rectangle", rectangle},
+                                                          NamedLoop{"touch_and_go", touchAndGo})),
+                         nameOfLoop);
 
 /// Net work of a loop over the edge between the sides z and x of a cube at W: from 5 mm before the edge until the
 /// finger leans by `lean` [rad] over it, along the edge, back, and along the side to the start.
