@@ -76,9 +76,10 @@ struct RunResult {
   std::vector<Phase> phases;                        ///< empty for a real hand
   const BoundedList<TraceSample>* trace = nullptr;  ///< null: none
   std::vector<Fault> faults;
-  std::vector<std::string> notes;   ///< stiffness bounds, raised damping, skipped parts, …
-  std::string screenshot;           ///< PNG path, may be empty
-  std::optional<double> sharpness;  ///< View::sharpness of the last frame; none: no window
+  std::vector<std::string> load_warnings;  ///< repaired meshes and the like, as printed ("a.xml:1:2: warning[W307]: …")
+  std::vector<std::string> notes;          ///< stiffness bounds, raised damping, skipped parts, …
+  std::string screenshot;                  ///< PNG path, may be empty
+  std::optional<double> sharpness;         ///< View::sharpness of the last frame; none: no window
   Recording recording;
   std::vector<std::string> flight_records;  ///< files with the seconds around each fault, if the run was not recorded
   std::uint64_t solver_fallbacks = 0;       ///< dynamics steps in which the direct solver gave up on an island

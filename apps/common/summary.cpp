@@ -146,6 +146,7 @@ std::string summaryJson(const RunResult& result) {
   for (const RunResult::Fault& fault : result.faults)
     json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});
   json["warnings"] = lossesOf(result);
+  json["load_warnings"] = result.load_warnings;
   json["notes"] = result.notes;
   json["realtime_missing"] = result.realtime_missing;
   if (!result.recording.file.empty()) {

@@ -84,6 +84,7 @@ struct TerminalRun::Live {
 
 TerminalRun::TerminalRun(Loaded loaded, Settings settings)
     : settings_(std::move(settings)), live_(std::make_unique<Live>(settings_.quiet)) {
+  for (const Diagnostic& warning : settings_.found.all()) result_.load_warnings.push_back(format(warning));
   followScript(loaded, result_.phases);
   RunOptions& options = loaded.options;
   const bool hardware = drivesHardware(loaded.plan.devices);

@@ -6,6 +6,7 @@
 
 #include "apps/common/run_result.h"
 #include "framework/bus/parameter_server.h"
+#include "framework/core/diagnostics/diagnostics.h"
 #include "framework/core/schedule/realtime_rights.h"
 #include "framework/session/run.h"
 
@@ -16,12 +17,13 @@ namespace presa {
 class TerminalRun {
  public:
   struct Settings {
-    double trace_rate = 0;  ///< samples per second kept for plots
-    bool quiet = false;     ///< no status line
-    std::string command;    ///< command line, for the report
-    double speed = 1;       ///< lockstep with a window: simulated seconds per wall-clock second
-    bool paced = false;     ///< lockstep without a window: keep `speed`, too
-    bool guide = false;     ///< as Session::Options::guide
+    double trace_rate = 0;   ///< samples per second kept for plots
+    bool quiet = false;      ///< no status line
+    std::string command;     ///< command line, for the report
+    Diagnostics found = {};  ///< warnings of the load, for report and summary
+    double speed = 1;        ///< lockstep with a window: simulated seconds per wall-clock second
+    bool paced = false;      ///< lockstep without a window: keep `speed`, too
+    bool guide = false;      ///< as Session::Options::guide
     RealtimeProbe rights = realtimeRights;
     std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own observer modules
     std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap

@@ -62,6 +62,13 @@ std::string frictionSection(const RunResult& result, const std::optional<GraspFi
          "</div>\n<p class=\"caption\">A contact sticks below the slip line and slides along the dynamic one.</p>\n";
 }
 
+std::string filesSection(const RunResult& result) {
+  if (result.load_warnings.empty()) return {};
+  std::string out = "<h2>Warnings of the files</h2>\n<ul>\n";
+  for (const std::string& warning : result.load_warnings) out += "<li>" + escape(warning) + "</li>\n";
+  return out + "</ul>\n";
+}
+
 std::string screenshotSection(const RunResult& result) {
   if (result.screenshot.empty()) return {};
   const std::string bytes = contentsOf(result.screenshot);
@@ -84,7 +91,7 @@ std::string reportHtml(const RunResult& result) {
   out += "<h2>Objects</h2>\n" + html::objectTable(result);
   out += "<h2>Rates</h2>\n" + html::rateTable(result);
   out += "<h2>Faults and notes</h2>\n" + html::faultsAndNotes(result);
-  out += screenshotSection(result);
+  out += filesSection(result) + screenshotSection(result);
   out += "<h2>Provenance</h2>\n" + html::provenance(result);
   return out + page::tail();
 }

@@ -89,6 +89,7 @@ int run(Arguments arguments) {
   TerminalRun run(std::move(loaded), {.trace_rate = 250,
                                       .quiet = arguments.quiet,
                                       .command = commandLine(arguments),
+                                      .found = std::move(diagnostics),
                                       .speed = arguments.speed > 0 ? arguments.speed : 1,
                                       .paced = arguments.speed > 0});
   run.execute();

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "apps/common/file_text.h"
 #include "framework/record/record_plugin.h"
 #include "tests/apps/presa/support.h"
 
@@ -124,6 +125,27 @@ TEST(Explain, MapsOnlyWhatTheSceneCallsFor) {
   EXPECT_NE(cube.find("libode"), std::string::npos);
   EXPECT_EQ(cube.find("libfcl"), std::string::npos);
   EXPECT_NE(mesh.find("libfcl"), std::string::npos);
+}
+
+// What loading changed in a mesh is said where the results are kept: terminal, summary and report.
+TEST(Run, SaysWhatLoadingRepaired) {
+  const std::string mesh = scratch("sliver.obj"), scene = scratch("sliver.xml"), summary = scratch("sliver.json"),
+                    report = scratch("sliver.html");
+  // inside out, and one triangle twice through the same corner
+  std::ofstream(mesh) << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nv 0.1 0 0\n"
+                         "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\nf 1 2 5\n";
+  std::ofstream(scene) << R"(<scene version="1.0" name="m"><world gravity="0 0 0"/>
+    <materials><material name="wood" stiffness="500"/></materials>
+    <body name="b" fixed="true"><haptic><mesh file="sliver.obj"/></haptic></body></scene>)";
+  const auto outcome = presa("run " + scene + " --lockstep --for 0.1 --summary " + summary + " --report " + report);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto warnings = readJson(summary).at("load_warnings");
+  ASSERT_EQ(warnings.size(), 2u) << warnings.dump(2);
+  for (const std::string what : {"1 degenerate triangle was dropped", "it is inside out and was turned"}) {
+    EXPECT_NE(warnings.dump().find(what), std::string::npos) << what << warnings.dump(2);
+    EXPECT_NE(outcome.err.find(what), std::string::npos) << what;
+    EXPECT_NE(contentsOf(report).find(what), std::string::npos) << what;
+  }
 }
 
 // Every kind of bad input gives exit status 2, a position and a code, and writes nothing.
