@@ -72,9 +72,12 @@ FacePattern::FacePattern(const PluginElement& element)
 
 PatternOnFace FacePattern::at(const SurfaceInput& input) const noexcept {
   const FacePlace place(input);
-  const Vec3 p_T = place.p_T();
-  const PatternValue at = pattern_.at(p_T.dot(along_T_) / wavelength_, p_T.dot(across_T_) / across_, seed_);
+  const PatternValue at = this->at(place.p_T());
   return {at.s, place.inA(amplitude_ * (at.ds_du / wavelength_ * along_T_ + at.ds_dv / across_ * across_T_))};
+}
+
+PatternValue FacePattern::at(const Vec3& p_T) const noexcept {
+  return pattern_.at(p_T.dot(along_T_) / wavelength_, p_T.dot(across_T_) / across_, seed_);
 }
 
 std::string FacePattern::what() const {

@@ -38,6 +38,8 @@ class FacePattern {
   /// Throws std::invalid_argument: an unknown shape, values that do not fit together, slopes above 1.
   explicit FacePattern(const PluginElement& element);
   PatternOnFace at(const SurfaceInput& input) const noexcept;
+  /// At a place in the face's tangent frame; in lengths of the waves. Thread: any; nonblocking.
+  PatternValue at(const Vec3& p_T) const noexcept;
   double amplitude() const noexcept { return amplitude_; }  ///< [m]
   /// "sine of 0.1 mm, wavelength 2 mm"
   std::string what() const;

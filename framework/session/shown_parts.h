@@ -17,9 +17,11 @@ enum class ShownPart : std::size_t {
   kForces,    ///< forces on the fingers
   kSleeping,  ///< bodies that sleep in the dynamics
   kFrames,    ///< axes of world and bodies, x red, y green, z blue
-  kPlots      ///< force, penetration and haptic rate of the last seconds; key g
+  kPlots,     ///< force, penetration and haptic rate of the last seconds; key g
+  kTexture    ///< height of the felt surface around a touching finger, where a texture is felt; key t
 };
-inline constexpr std::array<std::string_view, 11> kShownPartNames{
-    "visual", "haptic", "physics", "patches", "hips", "proxies", "cones", "forces", "sleeping", "frames", "plots"};
+inline constexpr std::array<std::string_view, 12> kShownPartNames{"visual",   "haptic",  "physics", "patches",
+                                                                  "hips",     "proxies", "cones",   "forces",
+                                                                  "sleeping", "frames",  "plots",   "texture"};
 
 }  // namespace presa

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "framework/haptics/face_height.h"
+#include "framework/haptics/felt_height.h"
 
 namespace presa {
 namespace {
@@ -39,7 +40,7 @@ bool isPrinted(const std::string& form) {
   return form == "printed";
 }
 
-class Perturbation final : public SurfaceEffect {
+class Perturbation final : public SurfaceEffect, public FeltHeight {
  public:
   explicit Perturbation(const PluginElement& element)
       : pattern_(element),
@@ -58,6 +59,7 @@ class Perturbation final : public SurfaceEffect {
     contact.depth = force.norm();
     contact.nhat = force / contact.depth;
   }
+  double heightAt(const Vec3& p_T) const noexcept override { return pattern_.amplitude() * (pattern_.at(p_T).s + 1); }
   std::string what() const override {
     std::ostringstream text;
     text << "force perturbation: " << pattern_.what() << ", gain " << gain_ << (printed_ ? ", as printed" : "");

@@ -5,11 +5,12 @@
 // edge. With h <= 0 it is zero where the contact with the face begins: no loop gains energy, nor one that leaves the
 // face at another place than it came.
 #include "framework/haptics/face_height.h"
+#include "framework/haptics/felt_height.h"
 
 namespace presa {
 namespace {
 
-class Texture final : public SurfaceEffect {
+class Texture final : public SurfaceEffect, public FeltHeight {
  public:
   explicit Texture(const PluginElement& element) : pattern_(element) {}
 
@@ -17,6 +18,7 @@ class Texture final : public SurfaceEffect {
     const PatternOnFace at = pattern_.at(input);
     addHeight(pattern_.amplitude() * (at.s - 1), at.slope, contact);
   }
+  double heightAt(const Vec3& p_T) const noexcept override { return pattern_.amplitude() * (pattern_.at(p_T).s - 1); }
   std::string what() const override { return "texture: " + pattern_.what(); }
 
  private:

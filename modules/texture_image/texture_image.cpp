@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "framework/haptics/face_height.h"
+#include "framework/haptics/felt_height.h"
 #include "modules/texture_image/height_map.h"
 
 namespace presa {
@@ -20,7 +21,7 @@ std::shared_ptr<const HeightMap> mapOf(const std::string& file) {
   return map;
 }
 
-class TextureImage final : public SurfaceEffect {
+class TextureImage final : public SurfaceEffect, public FeltHeight {
  public:
   explicit TextureImage(const PluginElement& element)
       : map_(mapOf(element.text("file"))),
@@ -39,6 +40,9 @@ class TextureImage final : public SurfaceEffect {
     const PatternValue at = map_->at(p_T.x() / width_, p_T.y() / height_);
     addHeight(amplitude_ * (at.s - 1), place.inA({amplitude_ * at.ds_du / width_, amplitude_ * at.ds_dv / height_, 0}),
               contact);
+  }
+  double heightAt(const Vec3& p_T) const noexcept override {
+    return amplitude_ * (map_->at(p_T.x() / width_, p_T.y() / height_).s - 1);
   }
   std::string what() const override {
     return "texture: image " + name_ + " of " + inMillimetres(amplitude_) + ", tiles of " + inMillimetres(width_) +

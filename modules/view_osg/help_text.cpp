@@ -52,7 +52,7 @@ Lines partLines() {
           {"5  6", "HIPs, fingertips"},
           {"7  8", "friction cones, forces"},
           {"9  0", "sleeping bodies, coordinate frames"},
-          {"g", "plots of the last seconds"}};
+          {"g  t", "plots of the last seconds, felt texture"}};
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       parts_(options.show),
       overlays_(*world_),
       neighbourhoods_(*world_),
+      relief_(*world_),
       lighting_(casters_, space_->getOrCreateStateSet()),
       hud_(*world_, options),
       card_(hud_.right(), *world_),
@@ -44,9 +45,9 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
   start.X_WB = startPoses(*world_);
   updateSubject(start, {});
   const double reach = std::max(kFloorRadius, kFloorReach * enclose(subject_).radius);
-  for (osg::Node* part :
-       {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
-        static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()), neighbourhoods_.root()})
+  for (osg::Node* part : {static_cast<osg::Node*>(lighting_.passes()), static_cast<osg::Node*>(bodies_.root()),
+                          static_cast<osg::Node*>(glyphs_.root()), static_cast<osg::Node*>(overlays_.root()),
+                          neighbourhoods_.root(), relief_.root()})
     space_->addChild(part);
   if (guides_) space_->addChild(guides_->root());
   space_->addChild(makeBackground());
@@ -121,6 +122,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   glyphs_.show(parts_);
   overlays_.update(parts_, frame.X_WB, frame.asleep);
   neighbourhoods_.update(parts_[ShownPart::kPatches], frame.neighbourhoods, frame.X_WB);
+  relief_.update(parts_[ShownPart::kTexture], frame.contacts, frame.X_WB);
   hud_.update(frame, fingers, timings);
   card_.update(frame.X_WB);
   time_bar_.update(frame.time);

@@ -6,6 +6,7 @@
 #include "modules/view_osg/body_card.h"
 #include "modules/view_osg/camera.h"
 #include "modules/view_osg/contact_glyphs.h"
+#include "modules/view_osg/felt_relief.h"
 #include "modules/view_osg/guides.h"
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
@@ -57,6 +58,7 @@ class Picture {
   ShownParts parts_;
   Overlays overlays_;
   NeighbourhoodLines neighbourhoods_;
+  FeltRelief relief_;
   std::unique_ptr<Guides> guides_;  // only in scenes with an assembly
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;

@@ -128,6 +128,9 @@ bool WindowInput::key(const Event& event) {
     case 'g':
       picture_.parts().toggle(ShownPart::kPlots);
       return true;
+    case 't':
+      picture_.parts().toggle(ShownPart::kTexture);
+      return true;
     case 'u':
       inputs.undos += controls_.undo ? 1 : 0;
       return true;
