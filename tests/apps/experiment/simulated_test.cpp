@@ -99,10 +99,11 @@ TEST(Simulated, TheSessionSaysSoAndKeepsItsLevel) {
   Experiment experiment = gripStudy("L1");
   for (Factor& factor : experiment.factors) factor.levels.resize(1);
   experiment.design = {.repeats = 1};
-  const SessionStart start{.experiment_file = experiment.file,
-                           .subject = {"S03", 3},
-                           .simulated = experiment.level,
-                           .model = experiment.model};
+  SessionStart start;
+  start.experiment_file = experiment.file;
+  start.subject = {"S03", 3};
+  start.simulated = experiment.level;
+  start.model = experiment.model;
   const SessionFolder folder = SubjectSession::begin(experiment, start, scratch.file("data")).folder();
   const auto logged = [&] { return readLog(folder.journal(), Journal::read(folder.journal()).records); };
   EXPECT_EQ(logged().start.simulated, "L1");
