@@ -6,7 +6,6 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kLimit = 8;       // of the scene [N]
 constexpr double kReason = 1000;   // above this speed the dynamics freeze a body [m/s]
 constexpr double kGravity = 9.81;  // [m/s^2]

@@ -14,7 +14,6 @@ using falcon_model::FalconModel;
 using falcon_model::ReplyFate;
 using falcon_model::UploadFault;
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kAfter = 0.7;  // [s] observed after the fault
 constexpr unsigned kButtons = 2 | 8;
 

@@ -11,6 +11,8 @@
 /// the devices.
 namespace presa::faults {
 
+inline constexpr double kForever = std::numeric_limits<double>::infinity();  ///< [s]
+
 /// Result of one run. A value that does not apply is 0.
 struct Outcome {
   double detection = 0;             ///< from the fault to the first reduced force [s]

@@ -6,7 +6,6 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAfter = 0.7;  // [s] observed after the fault
 

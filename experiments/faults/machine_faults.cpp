@@ -8,8 +8,8 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kHoldLimit = 8;  // of the scene [N]
-constexpr double kLimit = 3;      // reduced limit of the scene, below the force of the grasp [N]
+constexpr double kHoldLimit = 8;     // of the scene [N]
+constexpr double kReducedLimit = 3;  // reduced limit of the scene, below the force of the grasp [N]
 
 /// All forces of a complete hold.
 std::vector<Vec3> forcesOf(double end) {
@@ -105,7 +105,7 @@ Outcome realTimeRefused(RandomStream& random) {
   }
   if (notes.empty() == concerned) outcome.broken.emplace_back("the halved forces were not reported");
   double max = 0;
-  const double limit = concerned ? kLimit / 2 : kLimit;
+  const double limit = concerned ? kReducedLimit / 2 : kReducedLimit;
   runHold(hold, [&](double, const Traffic& traffic) {
     requireBounded(traffic, limit, outcome);
     max = std::max(max, traffic.force[0].norm());

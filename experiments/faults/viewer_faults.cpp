@@ -11,8 +11,8 @@
 namespace presa::faults {
 namespace {
 
-constexpr int kRuns = 100;        // each opens a network
-constexpr double kHoldLimit = 8;  // of the scene [N]
+constexpr int kNetworkRuns = 100;  // each opens a network
+constexpr double kHoldLimit = 8;   // of the scene [N]
 
 /// Forces and energies of a complete hold, tick by tick.
 struct Trace {
@@ -118,7 +118,7 @@ std::vector<Fault> viewerFaults() {
        required,
        {},
        [](RandomStream& random) { return watched(random, true); },
-       kRuns},
+       kNetworkRuns},
   };
 }
 

@@ -5,15 +5,12 @@
 
 #include "apps/common/version.h"
 #include "apps/experiment/export/bids_session.h"
+#include "apps/experiment/export/cells.h"
 
 namespace presa::experiment {
 namespace {
 
 using BySubject = std::map<std::string, std::vector<const SourceSession*>>;
-
-constexpr const char* kNothing = "n/a";
-
-std::string text(const Json& json) { return json.dump(2) + "\n"; }
 
 BySubject bySubject(const std::vector<SourceSession>& sessions) {
   BySubject subjects;

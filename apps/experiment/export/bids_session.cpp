@@ -10,6 +10,7 @@
 #include "apps/common/delimited.h"
 #include "apps/common/file_text.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/export/cells.h"
 #include "framework/record/record_plugin.h"
 
 namespace presa::experiment {
@@ -17,11 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kNothing = "n/a";
 constexpr const char* kTracking = "presa";
 constexpr std::time_t kYear1900 = -2208988800;
 
-std::string text(const Json& json) { return json.dump(2) + "\n"; }
 std::string seconds(double value) { return terminal::format("%.6f", value); }
 
 /// Columns left out of the BIDS table: file names hold subject and session; `file` is a name in the source folder.

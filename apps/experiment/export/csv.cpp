@@ -5,6 +5,7 @@
 
 #include "apps/common/delimited.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/export/cells.h"
 #include "apps/experiment/export/motion.h"
 #include "apps/experiment/export/staging.h"
 #include "experiments/runner/definition/definition.h"
@@ -13,8 +14,6 @@
 
 namespace presa::experiment {
 namespace {
-
-constexpr const char* kNothing = "n/a";
 
 std::string lineOf(const std::vector<std::string>& cells) {
   std::string line;

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/experiment/export/cells.h"
+
 namespace presa::experiment {
 namespace {
 
-constexpr const char* kNothing = "n/a";
 constexpr const char* kAxes = "xyz";
 
 /// Appends the shortest text that reads back as the same float.
