@@ -3,10 +3,12 @@
 namespace presa::stability {
 
 std::vector<Case> allCases() {
-  return {graspInAir(),  graspByLaw(),   turnedDisc(),   graspOnTable(),      pressedOnTable(), pressedInCorner(),
-          graspShaken(), needleSpun(),   graspAnySize(), stallWhileHolding(), endurance(),      massRatio(),
-          blockTower(),  freeRotation(), coulombSlide(), coulombStick(),      rolling(),        hapticWall(),
-          thinPlate(),   grooves(),      textureLoops()};
+  return {grasp_in_air::make(),     grasp_by_law::make(),        turned_disc::make(),   grasp_on_table::make(),
+          pressed_on_table::make(), pressed_in_corner::make(),   grasp_shaken::make(),  needle_spun::make(),
+          grasp_any_size::make(),   stall_while_holding::make(), endurance::make(),     mass_ratio::make(),
+          block_tower::make(),      free_rotation::make(),       coulomb_slide::make(), coulomb_stick::make(),
+          rolling::make(),          haptic_wall::make(),         thin_plate::make(),    grooves::make(),
+          texture_loops::make()};
 }
 
 }  // namespace presa::stability

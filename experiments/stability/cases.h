@@ -1,29 +1,71 @@
 #pragma once
 #include "experiments/stability/case.h"
 
-/// One function per file under cases/.
+/// One namespace per file under cases/.
 namespace presa::stability {
 
-Case graspInAir();
-Case graspOnTable();
-Case pressedOnTable();
-Case pressedInCorner();
-Case graspByLaw();
-Case turnedDisc();
-Case textureLoops();
-Case graspShaken();
-Case needleSpun();
-Case graspAnySize();
-Case stallWhileHolding();
-Case endurance();
-Case massRatio();
-Case blockTower();
-Case freeRotation();
-Case coulombSlide();
-Case coulombStick();
-Case rolling();
-Case hapticWall();
-Case thinPlate();
-Case grooves();
+namespace grasp_in_air {
+Case make();
+}
+namespace grasp_on_table {
+Case make();
+}
+namespace pressed_on_table {
+Case make();
+}
+namespace pressed_in_corner {
+Case make();
+}
+namespace grasp_by_law {
+Case make();
+}
+namespace turned_disc {
+Case make();
+}
+namespace texture_loops {
+Case make();
+}
+namespace grasp_shaken {
+Case make();
+}
+namespace needle_spun {
+Case make();
+}
+namespace grasp_any_size {
+Case make();
+}
+namespace stall_while_holding {
+Case make();
+}
+namespace endurance {
+Case make();
+}
+namespace mass_ratio {
+Case make();
+}
+namespace block_tower {
+Case make();
+}
+namespace free_rotation {
+Case make();
+}
+namespace coulomb_slide {
+Case make();
+}
+namespace coulomb_stick {
+Case make();
+}
+namespace rolling {
+Case make();
+}
+namespace haptic_wall {
+Case make();
+}
+namespace thin_plate {
+Case make();
+}
+namespace grooves {
+Case make();
+}
 
 }  // namespace presa::stability

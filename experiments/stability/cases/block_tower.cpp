@@ -5,7 +5,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/fingers.h"
 
-namespace presa::stability {
+namespace presa::stability::block_tower {
 namespace {
 
 constexpr int kBlocks = 10;
@@ -59,7 +59,7 @@ std::vector<Finding> hold(Tower tower, bool iterative) {
 
 }  // namespace
 
-Case blockTower() {
+Case make() {
   Case result;
   result.name = "block_tower";
   result.title = "Ten blocks stand, and are lifted by the lowest block";
@@ -82,4 +82,4 @@ Case blockTower() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::block_tower

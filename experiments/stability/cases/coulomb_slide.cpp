@@ -6,7 +6,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/sliding_tile.h"
 
-namespace presa::stability {
+namespace presa::stability::coulomb_slide {
 namespace {
 
 constexpr double kDuration = 1;
@@ -79,7 +79,7 @@ std::vector<Finding> slide(const Start& start, bool pyramid) {
 
 }  // namespace
 
-Case coulombSlide() {
+Case make() {
   Case result;
   result.name = "coulomb_slide";
   result.title = "A tile slides down a slope, in every direction";
@@ -108,4 +108,4 @@ Case coulombSlide() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::coulomb_slide

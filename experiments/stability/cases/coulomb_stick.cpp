@@ -5,7 +5,7 @@
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/cases.h"
 
-namespace presa::stability {
+namespace presa::stability::coulomb_stick {
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
@@ -63,7 +63,7 @@ std::vector<Finding> slip(double heading_deg, const Method& method) {
 
 }  // namespace
 
-Case coulombStick() {
+Case make() {
   Case result;
   result.name = "coulomb_stick";
   result.title = "A tile rests on a slope just below the angle of friction";
@@ -91,4 +91,4 @@ Case coulombStick() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::coulomb_stick

@@ -12,7 +12,7 @@
 #include "experiments/study/compliant_finger.h"
 #include "framework/device/output_stage.h"
 
-namespace presa::stability {
+namespace presa::stability::endurance {
 namespace {
 
 constexpr double kDuration = 60;                                    // [s]
@@ -153,7 +153,7 @@ std::vector<Finding> play(const Play& game) {
 
 }  // namespace
 
-Case endurance() {
+Case make() {
   Case result;
   result.name = "endurance";
   result.title = "Ten minutes of grabbing, throwing, pressing, shaking and groping, one minute per seed";
@@ -178,4 +178,4 @@ Case endurance() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::endurance

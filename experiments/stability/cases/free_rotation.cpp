@@ -4,7 +4,7 @@
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/cases.h"
 
-namespace presa::stability {
+namespace presa::stability::free_rotation {
 namespace {
 
 constexpr double kDuration = 20;
@@ -77,7 +77,7 @@ std::vector<Finding> tumble(const std::string& rotation, double rate) {
 
 }  // namespace
 
-Case freeRotation() {
+Case make() {
   Case result;
   result.name = "free_rotation";
   result.title = "A box spins about its middle axis";
@@ -106,4 +106,4 @@ Case freeRotation() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::free_rotation

@@ -6,7 +6,7 @@
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/methods.h"
 
-namespace presa::stability {
+namespace presa::stability::grasp_any_size {
 namespace {
 
 constexpr double kDuration = 5;
@@ -80,7 +80,7 @@ std::vector<Finding> hold(const Grasp& grasp) {
 
 }  // namespace
 
-Case graspAnySize() {
+Case make() {
   Case result;
   result.name = "grasp_any_size";
   result.title = "The same grasp far away, tiny and huge";
@@ -110,4 +110,4 @@ Case graspAnySize() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::grasp_any_size

@@ -6,7 +6,7 @@
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/methods.h"
 
-namespace presa::stability {
+namespace presa::stability::grasp_by_law {
 namespace {
 
 constexpr double kDuration = 5, kJudged = 1;  // [s]; the last second is judged
@@ -71,7 +71,7 @@ std::vector<Finding> hold(const Law& law, double mass, const Method& method) {
 
 }  // namespace
 
-Case graspByLaw() {
+Case make() {
   Case result;
   result.name = "grasp_by_law";
   result.title = "Two fingers hold a cube by every friction law";
@@ -96,4 +96,4 @@ Case graspByLaw() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::grasp_by_law

@@ -5,7 +5,7 @@
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/methods.h"
 
-namespace presa::stability {
+namespace presa::stability::grasp_in_air {
 namespace {
 
 constexpr double kDuration = 5;
@@ -61,7 +61,7 @@ double minMassOfIterations(double stiffness) { return 4 * 0.85 * 0.005 * 0.005 *
 
 }  // namespace
 
-Case graspInAir() {
+Case make() {
   Case result;
   result.name = "grasp_in_air";
   result.title = "Two fingers hold a cube in the air";
@@ -92,4 +92,4 @@ Case graspInAir() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::grasp_in_air

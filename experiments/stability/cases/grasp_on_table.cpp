@@ -2,7 +2,7 @@
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/resting.h"
 
-namespace presa::stability {
+namespace presa::stability::grasp_on_table {
 namespace {
 
 std::vector<Finding> hold(double mass, double stiffness, const Method& method) {
@@ -24,7 +24,7 @@ std::vector<Finding> hold(double mass, double stiffness, const Method& method) {
 
 }  // namespace
 
-Case graspOnTable() {
+Case make() {
   Case result;
   result.name = "grasp_on_table";
   result.title = "Two fingers hold a cube that stands on a table";
@@ -37,4 +37,4 @@ Case graspOnTable() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::grasp_on_table

@@ -9,7 +9,7 @@
 #include "experiments/stability/held_body.h"
 #include "experiments/stability/methods.h"
 
-namespace presa::stability {
+namespace presa::stability::grasp_shaken {
 namespace {
 
 constexpr double kEdge = 0.07;                              // [m]
@@ -104,7 +104,7 @@ std::vector<Finding> follow(const Shake& shake) {
 
 }  // namespace
 
-Case graspShaken() {
+Case make() {
   Case result;
   result.name = "grasp_shaken";
   result.title = "Two fingers shake a cube at 3 Hz, 15 mm to each side";
@@ -134,4 +134,4 @@ Case graspShaken() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::grasp_shaken

@@ -12,7 +12,7 @@
 #include "framework/geometry/rotation_between.h"
 #include "framework/input/folders.h"
 
-namespace presa::stability {
+namespace presa::stability::grooves {
 namespace {
 
 constexpr double kDuration = 4;
@@ -144,7 +144,7 @@ std::vector<Named> solids() {
 
 }  // namespace
 
-Case grooves() {
+Case make() {
   Case result;
   result.name = "grooves";
   result.title = "A finger is dragged through grooves, corners, over needles and slivers";
@@ -167,4 +167,4 @@ Case grooves() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::grooves

@@ -4,7 +4,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/wall_loop.h"
 
-namespace presa::stability {
+namespace presa::stability::haptic_wall {
 namespace {
 
 constexpr double kRelease = 0.6;       // [s]: after the soft start of the output stage
@@ -76,7 +76,7 @@ std::vector<Finding> lean(const Wall& wall) {
 
 }  // namespace
 
-Case hapticWall() {
+Case make() {
   Case result;
   result.name = "haptic_wall";
   result.title = "A finger leans on a wall at the stability limit of a sampled loop, with up to 100 ms of delay";
@@ -113,4 +113,4 @@ Case hapticWall() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::haptic_wall

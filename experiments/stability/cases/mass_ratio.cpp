@@ -1,7 +1,7 @@
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/cases.h"
 
-namespace presa::stability {
+namespace presa::stability::mass_ratio {
 namespace {
 
 constexpr double kDuration = 30;
@@ -17,7 +17,7 @@ std::vector<Finding> stand(double ratio, bool iterative) {
 
 }  // namespace
 
-Case massRatio() {
+Case make() {
   Case result;
   result.name = "mass_ratio";
   result.title = "A heavy box stands on a light one";
@@ -41,4 +41,4 @@ Case massRatio() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::mass_ratio

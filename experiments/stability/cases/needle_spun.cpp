@@ -7,7 +7,7 @@
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/methods.h"
 
-namespace presa::stability {
+namespace presa::stability::needle_spun {
 namespace {
 
 constexpr double kLength = 0.1, kThickness = 0.002;  // [m]
@@ -74,7 +74,7 @@ std::vector<Finding> spin(const Spin& trial) {
 
 }  // namespace
 
-Case needleSpun() {
+Case make() {
   Case result;
   result.name = "needle_spun";
   result.title = "A needle of 100 x 2 x 2 mm and 3 g spins between two fingers";
@@ -107,4 +107,4 @@ Case needleSpun() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::needle_spun

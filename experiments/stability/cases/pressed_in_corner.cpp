@@ -2,7 +2,7 @@
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/resting.h"
 
-namespace presa::stability {
+namespace presa::stability::pressed_in_corner {
 namespace {
 
 constexpr double kHalf = 0.035, kRadius = 0.008, kOpen = 0.003, kDepth = 0.002;
@@ -35,7 +35,7 @@ std::vector<Finding> squeeze(double mass, double stiffness, const Method& method
 
 }  // namespace
 
-Case pressedInCorner() {
+Case make() {
   Case result;
   result.name = "pressed_in_corner";
   result.title = "Two fingers squeeze a cube into a corner of two walls and a floor";
@@ -48,4 +48,4 @@ Case pressedInCorner() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::pressed_in_corner

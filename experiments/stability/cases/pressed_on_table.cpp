@@ -2,7 +2,7 @@
 #include "experiments/stability/fingers.h"
 #include "experiments/stability/resting.h"
 
-namespace presa::stability {
+namespace presa::stability::pressed_on_table {
 namespace {
 
 constexpr double kTop = 0.07, kRadius = 0.008, kOpen = 0.003, kDepth = 0.002;
@@ -33,7 +33,7 @@ std::vector<Finding> press(double mass, double stiffness, const Method& method) 
 
 }  // namespace
 
-Case pressedOnTable() {
+Case make() {
   Case result;
   result.name = "pressed_on_table";
   result.title = "A finger presses a cube onto a table";
@@ -49,4 +49,4 @@ Case pressedOnTable() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::pressed_on_table

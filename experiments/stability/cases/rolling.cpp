@@ -4,7 +4,7 @@
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/cases.h"
 
-namespace presa::stability {
+namespace presa::stability::rolling {
 namespace {
 
 constexpr double kDuration = 4;
@@ -53,7 +53,7 @@ std::vector<Finding> drag(const Vec3& direction, bool pyramid) {
 
 }  // namespace
 
-Case rolling() {
+Case make() {
   Case result;
   result.name = "rolling";
   result.title = "A plate is dragged away under 25 balls";
@@ -76,4 +76,4 @@ Case rolling() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::rolling

@@ -8,7 +8,7 @@
 #include "experiments/stability/methods.h"
 #include "experiments/study/compliant_finger.h"
 
-namespace presa::stability {
+namespace presa::stability::stall_while_holding {
 namespace {
 
 constexpr double kGrip = 6, kStiffness = 1000;                  // of the scene's terracotta [N, N/m]
@@ -125,7 +125,7 @@ std::vector<Finding> judgeStall(const Stall& stall) {
 
 }  // namespace
 
-Case stallWhileHolding() {
+Case make() {
   Case result;
   result.name = "stall_while_holding";
   result.title = "A thread stalls while two compliant fingers hold an amphora";
@@ -172,4 +172,4 @@ Case stallWhileHolding() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::stall_while_holding

@@ -5,7 +5,7 @@
 #include "experiments/stability/methods.h"
 #include "experiments/study/prescribed_finger.h"
 
-namespace presa::stability {
+namespace presa::stability::texture_loops {
 namespace {
 
 constexpr double kRadius = 0.008, kLoop = 0.004;     // of the fingertip; of its path [m]
@@ -98,7 +98,7 @@ std::vector<Finding> stroke(const Surface& surface, bool touch_and_go, const std
 
 }  // namespace
 
-Case textureLoops() {
+Case make() {
   Case result;
   result.name = "texture_loops";
   result.title = "A finger strokes textures and layers in circles";
@@ -133,4 +133,4 @@ Case textureLoops() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::texture_loops

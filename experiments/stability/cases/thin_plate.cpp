@@ -6,7 +6,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/study/prescribed_finger.h"
 
-namespace presa::stability {
+namespace presa::stability::thin_plate {
 namespace {
 
 constexpr int kApproaches = 1000;
@@ -107,7 +107,7 @@ std::vector<Finding> push(const std::string& scene, const std::string& renderer)
 
 }  // namespace
 
-Case thinPlate() {
+Case make() {
   Case result;
   result.name = "thin_plate";
   result.title = "A finger is pushed 100 mm through a plate of 0.5 mm";
@@ -131,4 +131,4 @@ Case thinPlate() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::thin_plate

@@ -5,7 +5,7 @@
 #include "experiments/stability/cases.h"
 #include "experiments/stability/methods.h"
 
-namespace presa::stability {
+namespace presa::stability::turned_disc {
 namespace {
 
 constexpr double kDuration = 4, kJudged = 1;  // [s]; the last second is judged
@@ -47,7 +47,8 @@ std::vector<Finding> turn(double mass, const Method& method) {
     off = std::max(off, std::abs(std::remainder(lag, 2 * M_PI)));
   });
   run.run();
-  Finding rest = finding("spin in the last second", fastest, "rad/s", 0.01, "the stylus stands still since two seconds");
+  Finding rest =
+      finding("spin in the last second", fastest, "rad/s", 0.01, "the stylus stands still since two seconds");
   rest.plot_x = "time [s]";
   rest.plot_y = "spin [rad/s]";
   rest.curves.push_back(decimated(std::move(spin)));
@@ -57,12 +58,13 @@ std::vector<Finding> turn(double mass, const Method& method) {
 
 }  // namespace
 
-Case turnedDisc() {
+Case make() {
   Case result;
   result.name = "turned_disc";
   result.title = "A stylus turns a disc on ice by torsional friction";
   result.source =
-      "A flywheel on a rotational spring: h sqrt(k / I) is 3.5 for the disc of 1 g, above the limit of 2 of an explicit "
+      "A flywheel on a rotational spring: h sqrt(k / I) is 3.5 for the disc of 1 g, above the limit of 2 of an "
+      "explicit "
       "force.";
   result.oracle = "The disc turns with the stylus, and stands still where the stylus stops.";
   result.scene = "turned_disc.xml";
@@ -81,4 +83,4 @@ Case turnedDisc() {
   return result;
 }
 
-}  // namespace presa::stability
+}  // namespace presa::stability::turned_disc
