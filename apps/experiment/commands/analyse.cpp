@@ -10,13 +10,13 @@
 namespace presa {
 namespace {
 
-struct Arguments {
+struct AnalyseArguments {
   experiment::analysis::Request request;
   std::string out;
 };
 
 /// Default output folder: inside a dataset, but beside a single session, whose folder must hold only files of its log.
-std::string outOf(const Arguments& a) {
+std::string outOf(const AnalyseArguments& a) {
   if (!a.out.empty()) return a.out;
   std::filesystem::path data = std::filesystem::path(a.request.data).lexically_normal();
   if (!data.has_filename()) data = data.parent_path();
@@ -24,7 +24,7 @@ std::string outOf(const Arguments& a) {
   return (data / "analysis").string();
 }
 
-int analyseAll(const Arguments& a) {
+int analyseAll(const AnalyseArguments& a) {
   namespace analysis = experiment::analysis;
   std::unique_ptr<terminal::JobProgress> line;
   const analysis::Result result =
@@ -54,7 +54,7 @@ int analyseAll(const Arguments& a) {
 }  // namespace
 
 void addAnalyse(Command app, int& status) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<AnalyseArguments>();
   Command command = app.command("analyse", "Statistics and figures of a dataset, as its experiment names them");
   command.option("DIR", a->request.data, "folder of a dataset, or of one session in it").required().existingFolder();
   command.option("--out", a->out, "folder of report.html, analysis.json and tables/*.csv (default: DIR/analysis)");

@@ -20,7 +20,7 @@ struct OperatorChoice {
   std::string kind = "auto", language = "en";
 };
 
-struct Arguments {
+struct SessionArguments {
   std::string file, rig, simulated, data, subject = "S01", format = "text";
   int number = 0, session = 1;
   bool lockstep = false, no_recording = false, window = false;
@@ -28,7 +28,7 @@ struct Arguments {
   OperatorChoice operator_choice;
 };
 
-int dryRun(const Arguments& a) {
+int dryRun(const SessionArguments& a) {
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
   const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated, a.seed);
@@ -83,7 +83,7 @@ int runToEnd(SubjectSession& session, const OperatorChoice& choice) {
   return kExitOk;
 }
 
-int run(const Arguments& a) {
+int run(const SessionArguments& a) {
   Diagnostics diagnostics;
   const Subject subject = subjectOf(a.subject, a.number, diagnostics);
   const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated, a.seed);
@@ -135,7 +135,7 @@ int resume(const std::string& data, const OperatorChoice& choice) {
   return runToEnd(session, choice);
 }
 
-void addWho(Command command, Arguments& a) {
+void addWho(Command command, SessionArguments& a) {
   command.option("EXPERIMENT", a.file, "experiment file").required();
   command.option("--subject", a.subject, "pseudonym that ends in the subject's number").showDefault();
   command.option("--number", a.number, "number of the subject, from 1 (default: the pseudonym's digits)").positive();
@@ -155,7 +155,7 @@ void addOperator(Command command, OperatorChoice& choice) {
 }
 
 void addDryRun(Command app, int& status) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<SessionArguments>();
   Command command = app.command("dry-run", "List every trial with its order and seeds; nothing is run");
   addWho(command, *a);
   command.option("--format", a->format, "text, csv or json").oneOf({"text", "csv", "json"}).showDefault();
@@ -164,7 +164,7 @@ void addDryRun(Command app, int& status) {
 }
 
 void addRunSession(Command app, int& status) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<SessionArguments>();
   Command command = app.command("run", "Run a session; every trial is on disk before the next begins");
   addWho(command, *a);
   command.named("--subject").required();

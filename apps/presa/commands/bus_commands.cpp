@@ -114,7 +114,7 @@ bool tell(const FoundRun& run, const Setting& setting, const bus::Answer& answer
   return false;
 }
 
-struct Arguments {
+struct ParameterArguments {
   std::vector<std::string> words;
   std::string run;
   double wait = 3;
@@ -128,7 +128,7 @@ std::uint64_t wantedRun(const std::string& words) {
   return id;
 }
 
-int set(const Arguments& arguments, const BusSettings& bus) {
+int set(const ParameterArguments& arguments, const BusSettings& bus) {
   const std::vector<Setting> settings = parseSettings(arguments.words);
   const std::uint64_t id = wantedRun(arguments.run);
   const terminal::Interruption interruption;
@@ -170,7 +170,7 @@ nlohmann::ordered_json toJson(const FoundRun& run) {
           {"parameters", parameters}};
 }
 
-int list(const Arguments& arguments, const BusSettings& bus) {
+int list(const ParameterArguments& arguments, const BusSettings& bus) {
   const terminal::Interruption interruption;
   Commanding commanding(bus);
   const std::vector<FoundRun>& runs = commanding.look(arguments.wait, 0);
@@ -191,7 +191,7 @@ int list(const Arguments& arguments, const BusSettings& bus) {
 }  // namespace
 
 void addBusList(Command app, int& status) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ParameterArguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
   Command command = app.command("list", "The runs on the bus, and which of their parameters may be set");
   addBusOptions(command, *bus, "the network to look on");
@@ -202,7 +202,7 @@ void addBusList(Command app, int& status) {
 }
 
 void addBusSet(Command app, int& status) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ParameterArguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
   Command command = app.command("set", "Set parameters of a run that takes commands");
   command.option("NAME=VALUE", a->words, "a parameter and its new value, as presa bus list shows them").required();

@@ -8,7 +8,7 @@
 namespace presa {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   std::vector<std::string> scenes;
   std::string rig, format = "text";
   std::vector<std::string> sets;
@@ -24,7 +24,7 @@ nlohmann::json toJson(const Diagnostic& diagnostic) {
           {"help", diagnostic.help}};
 }
 
-int check(const Arguments& arguments) {
+int check(const CheckArguments& arguments) {
   bool good = true;
   nlohmann::json report = nlohmann::json::array();
   for (const std::string& scene : arguments.scenes) {
@@ -59,7 +59,7 @@ int check(const Arguments& arguments) {
 }  // namespace
 
 void addCheck(Command app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckArguments>();
   Command command = app.command("check", "Read scenes with their rigs and meshes, and report everything that is wrong");
   command.option("SCENE", arguments->scenes, "scene files").required();
   command.option("--rig", arguments->rig, "rig file instead of the scene's own");

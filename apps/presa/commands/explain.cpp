@@ -12,7 +12,7 @@
 namespace presa {
 namespace {
 
-struct Arguments {
+struct ExplainArguments {
   Inputs inputs;
   std::string format = "text";
   bool cost = false;
@@ -22,7 +22,7 @@ struct Arguments {
 };
 
 /// Output files of the run go to `scratch`, because the user did not ask for them.
-RunOptions optionsOf(const Arguments& arguments, const ScratchFolder& scratch) {
+RunOptions optionsOf(const ExplainArguments& arguments, const ScratchFolder& scratch) {
   RunOptions options;
   options.bound_stiffness = true;
   options.bus = arguments.bus;
@@ -39,7 +39,7 @@ RunOptions optionsOf(const Arguments& arguments, const ScratchFolder& scratch) {
   return options;
 }
 
-int explain(const Arguments& arguments) {
+int explain(const ExplainArguments& arguments) {
   const std::set<std::string> before = mappedLibraries();
   const ScratchFolder scratch;
   Diagnostics diagnostics;
@@ -63,7 +63,7 @@ int explain(const Arguments& arguments) {
 }  // namespace
 
 void addExplain(Command app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExplainArguments>();
   Command command = app.command("explain", "Show which parts a scene needs, why, and which are left out");
   command.option("SCENE", arguments->inputs.scene, "scene file").required();
   command.option("--rig", arguments->inputs.rig, "rig file instead of the scene's own");

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 enum Code { kBadName = 597, kCannotWrite = 598 };
 
-struct Arguments {
+struct NewArguments {
   std::string kind, name, folder = ".";
 };
 
@@ -60,7 +60,7 @@ std::string shipped(const std::string& path) {
 }
 
 /// The shipped cube with the rig of the project, and the plug-in's element where those of its kind stand.
-std::string liftingScene(const Arguments& arguments) {
+std::string liftingScene(const NewArguments& arguments) {
   std::string scene = shipped("config/scenes/cube.xml");
   replaceIn(scene, R"(name="cube" rig="../rigs/pinch_cube.xml")", R"(name="lift" rig="rig.xml")");
   const std::string cube = R"(<body name="cube" material="rubber" pos="0 0 0.035">)";
@@ -88,7 +88,7 @@ std::vector<NewFile> scriptedFingers() {
 }
 
 /// The shipped comparison of two stiffnesses, with the project's method.
-std::vector<NewFile> stiffnessExperiment(const Arguments& arguments) {
+std::vector<NewFile> stiffnessExperiment(const NewArguments& arguments) {
   const std::string from = "experiments/stiffness_2afc/";
   std::string experiment = shipped(from + "experiment.xml");
   replaceIn(experiment, R"(name="stiffness_2afc")", "name=\"" + arguments.name + "\"");
@@ -102,7 +102,7 @@ std::vector<NewFile> stiffnessExperiment(const Arguments& arguments) {
 }
 
 /// The templates of that folder, with the project's name in the place of "KIND" in file names and of @name@ in texts.
-std::vector<NewFile> fromTemplates(const std::string& folder, const Arguments& arguments) {
+std::vector<NewFile> fromTemplates(const std::string& folder, const NewArguments& arguments) {
   const std::string start = "apps/presa/templates/" + folder + "/";
   std::vector<NewFile> files;
   for (const templates::File& file : templates::files()) {
@@ -117,7 +117,7 @@ std::vector<NewFile> fromTemplates(const std::string& folder, const Arguments& a
   return files;
 }
 
-std::vector<NewFile> projectOf(const Arguments& arguments) {
+std::vector<NewFile> projectOf(const NewArguments& arguments) {
   std::vector<NewFile> files = fromTemplates("any", arguments);
   const auto add = [&](std::vector<NewFile> more) { std::ranges::move(more, std::back_inserter(files)); };
   add(fromTemplates(arguments.kind, arguments));
@@ -188,7 +188,7 @@ const char* nextSteps(const std::string& kind) {
          "  presa run scene/lift.xml --view window\n";
 }
 
-int writeNew(const Arguments& arguments) {
+int writeNew(const NewArguments& arguments) {
   checkName(arguments.name);
   const fs::path project = (fs::path(arguments.folder) / arguments.name).lexically_normal();
   const std::vector<NewFile> files = projectOf(arguments);
@@ -210,7 +210,7 @@ int writeNew(const Arguments& arguments) {
 }  // namespace
 
 void addNew(Command app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<NewArguments>();
   Command command = app.command("new", "Write a project outside the tree: a plug-in with a scene and a test");
   command
       .option(

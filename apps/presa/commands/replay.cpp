@@ -15,7 +15,7 @@
 namespace presa {
 namespace {
 
-struct Arguments {
+struct ReplayArguments {
   std::string file, page, view;
   RunOptions shown;  ///< options of the view
   double speed = 1;
@@ -23,11 +23,11 @@ struct Arguments {
 };
 
 /// A window only if the user asks for one.
-RunOptions::View viewOf(const Arguments& arguments) {
+RunOptions::View viewOf(const ReplayArguments& arguments) {
   return chooseView(arguments.view, false, !arguments.shown.screenshot.empty() || !arguments.shown.video.empty());
 }
 
-int showRecording(const Arguments& arguments, const Recording& recording, const RecordedSamples& samples) {
+int showRecording(const ReplayArguments& arguments, const Recording& recording, const RecordedSamples& samples) {
   Diagnostics diagnostics;
   RunOptions options = arguments.shown;
   options.view = viewOf(arguments);
@@ -103,7 +103,7 @@ int showFlight(const std::string& file, const RecordedSamples& samples) {
   return kExitOk;
 }
 
-int runReplay(const Arguments& arguments) {
+int runReplay(const ReplayArguments& arguments) {
   const Recording recording = recordPlugin().read(arguments.file);
   const bool shown = viewOf(arguments) != RunOptions::View::kNone;
   if (recording.first_tick > 0 || !arguments.page.empty() || shown) {
@@ -142,7 +142,7 @@ int runReplay(const Arguments& arguments) {
 }  // namespace
 
 void addReplay(Command app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReplayArguments>();
   Command command = app.command("replay", "Run a recording again from its device input, or show the record of a fault");
   command.option("FILE", arguments->file, "recording made with presa run --record, or the record of a fault (--flight)")
       .required();

@@ -17,7 +17,7 @@
 namespace presa {
 namespace {
 
-struct Arguments {
+struct RunArguments {
   Inputs inputs;
   RunOptions options;
   bool lockstep = false, realtime = false, quiet = false, plug_ins = false;
@@ -26,7 +26,7 @@ struct Arguments {
   std::string summary, report;
 };
 
-void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
+void checkOutputs(const RunArguments& arguments, Diagnostics& diagnostics) {
   for (const std::string& file : {arguments.options.record, arguments.options.flight, arguments.options.screenshot,
                                   arguments.options.video, arguments.summary, arguments.report}) {
     if (file.empty()) continue;
@@ -44,7 +44,7 @@ void checkOutputs(const Arguments& arguments, Diagnostics& diagnostics) {
   }
 }
 
-std::string commandLine(const Arguments& a) {
+std::string commandLine(const RunArguments& a) {
   std::string line = "presa run " + a.inputs.scene;
   if (!a.inputs.rig.empty()) line += " --rig " + a.inputs.rig;
   line += a.options.realtime ? " --realtime" : " --lockstep";
@@ -60,14 +60,14 @@ std::string commandLine(const Arguments& a) {
   return line;
 }
 
-int printPlugIns(const Arguments& arguments, Diagnostics& diagnostics) {
+int printPlugIns(const RunArguments& arguments, Diagnostics& diagnostics) {
   const auto names = plugInsFor(arguments.inputs, arguments.options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   for (const std::string& name : names) std::printf("%s\n", name.c_str());
   return diagnostics.hasErrors() ? kExitBadInput : kExitOk;
 }
 
-int run(Arguments arguments) {
+int run(RunArguments arguments) {
   arguments.options.realtime = !arguments.lockstep;
   arguments.options.bound_stiffness = true;
   arguments.options.view = chooseView(arguments.view, arguments.options.realtime,
@@ -104,7 +104,7 @@ int run(Arguments arguments) {
 }  // namespace
 
 void addRun(Command app, int& status) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<RunArguments>();
   a->options.duration = 0;
   Command command = app.command("run", "Run a scene, live or as fast as the machine goes");
   command.option("SCENE", a->inputs.scene, "scene file, e.g. config/scenes/cube.xml").required();

@@ -10,9 +10,9 @@
 namespace presa {
 namespace {
 
-enum Code { kNoSuchElement = 599 };
+constexpr int kNoSuchElement = 599;
 
-struct Arguments {
+struct SchemaArguments {
   std::string path;
   bool xsd = false;
 };
@@ -67,7 +67,7 @@ class Page {
   std::size_t printed_ = 0;
 };
 
-int printSchema(const Arguments& arguments) {
+int printSchema(const SchemaArguments& arguments) {
   const std::string xsd = sceneSchemaWith(manifests());
   if (arguments.xsd) {
     std::fputs(xsd.c_str(), stdout);
@@ -86,7 +86,7 @@ int printSchema(const Arguments& arguments) {
 }  // namespace
 
 void addSchema(Command app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SchemaArguments>();
   Command command = app.command("schema", "Every element and attribute of scenes, those of plug-ins included");
   command.option("PATH", arguments->path, "only the elements below this path or name, e.g. body/haptic or magnet");
   command.flag("--xsd", arguments->xsd, "the XML schema instead, for an editor that completes and checks while typing");

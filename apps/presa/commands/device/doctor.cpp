@@ -9,12 +9,12 @@
 namespace presa {
 namespace {
 
-struct Arguments {
+struct DoctorArguments {
   bool install = false;
   std::string udev = "/etc/udev/rules.d", format = "text";
 };
 
-int doctor(const Arguments& arguments) {
+int doctor(const DoctorArguments& arguments) {
   const std::vector<std::string> drivers = device::drivers();
   if (arguments.install) {
     for (const std::string& file : device::installUdevRules(drivers, arguments.udev))
@@ -34,7 +34,7 @@ int doctor(const Arguments& arguments) {
 }  // namespace
 
 void addDeviceDoctor(Command app, int& status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DoctorArguments>();
   Command command = app.command("doctor", "What this computer and its devices lack for real time, with remedies");
   command.flag("--install-udev", arguments->install, "write the rules that let users open devices (as root)");
   command.option("--udev-folder", arguments->udev, "where these rules stand").showDefault();
