@@ -74,6 +74,22 @@ TEST_P(Relief, ShowsTheRidgesOfTheTouchedSideUpToItsEdges) {
   EXPECT_NEAR(area, whole, 0.03 * whole);
 }
 
+// On the side across the body's x axis the tangent frame's x axis is the body's y axis.
+TEST_P(Relief, HasTheTangentFrameOfTheTouchedSide) {
+  const auto world = ridges(GetParam());
+  FeltRelief relief(*world);
+  relief.update(true, touching({0.06, 0.0103, 0.002}), {kPlaced});
+  const auto* corners = dynamic_cast<const osg::Vec3Array*>(geometryOf(relief).getVertexArray());
+  const auto* colors = dynamic_cast<const osg::Vec4Array*>(geometryOf(relief).getColorArray());
+  ASSERT_GT(corners->size(), 1000u);
+  for (std::size_t i = 0; i < corners->size(); ++i) {
+    const Vec3 p_B = kPlaced.inverseTimes({(*corners)[i].x(), (*corners)[i].y(), (*corners)[i].z()});
+    EXPECT_NEAR(p_B.x(), 0.06 + 2e-4, 1e-6);
+    const double ridge = (1 + std::sin(2 * std::numbers::pi * p_B.y() / 0.002)) / 2;
+    EXPECT_NEAR((*colors)[i].r(), 0.02 + 0.98 * ridge, 1e-3);
+  }
+}
+
 TEST_P(Relief, IsThereOnlyWhereATextureIsFeltAndOnDemand) {
   const auto world = ridges(GetParam());
   FeltRelief relief(*world);
