@@ -10,7 +10,7 @@
 namespace presa {
 namespace {
 
-constexpr int kNoSuchElement = 599;
+enum SchemaCode { kNoSuchElement = 599 };
 
 struct SchemaArguments {
   std::string path;
