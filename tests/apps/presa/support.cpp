@@ -1,7 +1,6 @@
 #include "tests/apps/presa/support.h"
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,13 +8,13 @@
 #include <iterator>
 
 #include "apps/common/file_text.h"
+#include "apps/common/scratch_folder.h"
 
 namespace presa::test {
 
 std::string scratch(const std::string& name) {
-  const auto folder = std::filesystem::temp_directory_path() / ("presa_app_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
-  return (folder / name).string();
+  static const ScratchFolder folder;
+  return folder.file(name);
 }
 
 std::unique_ptr<TerminalRun> runScene(const std::string& scene, const std::vector<std::string>& sets,

@@ -10,7 +10,7 @@ namespace presa::test {
 
 inline std::string source(const std::string& path) { return std::string(PRESA_SOURCE_DIR) + "/" + path; }
 
-/// Path in a temporary folder of this process, which is removed when the tests pass.
+/// Path in a temporary folder of this process, which is removed at its end.
 std::string scratch(const std::string& name);
 
 /// A lockstep run of a shipped scene without terminal output. Throws InputError.
