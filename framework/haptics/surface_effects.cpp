@@ -13,17 +13,17 @@ namespace {
 constexpr double kMinCosine = 0.5;      // of the angle by which effects may turn a force
 constexpr double kRounding = 1 + 1e-9;  // a stiffness may exceed its bound by rounding
 
-std::unique_ptr<SurfaceEffect> make(const PluginElement& element, const World& world) {
-  const auto& table = pluginTable<SurfaceEffectPlugin>(element.plugin, "presaSurfaceEffectPlugin");
-  return madeFor(element, [&] { return table.create(element, world); });
-}
-
 bool needsProxy(const std::string& plugin) {
   const Manifest* manifest = findManifest(plugin);
   return manifest != nullptr && manifest->needs_proxy;
 }
 
 }  // namespace
+
+std::unique_ptr<SurfaceEffect> makeSurfaceEffect(const PluginElement& element, const World& world) {
+  const auto& table = pluginTable<SurfaceEffectPlugin>(element.plugin, "presaSurfaceEffectPlugin");
+  return madeFor(element, [&] { return table.create(element, world); });
+}
 
 std::vector<PluginElement> surfaceEffectsOf(const Scene& scene) {
   std::vector<PluginElement> all;
@@ -47,8 +47,8 @@ std::vector<PluginElement> surfaceEffectsOf(const Scene& scene) {
 SurfaceEffects::SurfaceEffects(const World& world) : of_body_(world.scene.bodies.size()) {
   for (const PluginElement& element : surfaceEffectsOf(world.scene)) {
     const auto body = static_cast<std::size_t>(element.body);
-    of_body_[body].push_back({make(element, world), "surface effect <" + element.element + "> of body '" +
-                                                        world.scene.bodies[body].name + "'"});
+    of_body_[body].push_back({makeSurfaceEffect(element, world), "surface effect <" + element.element + "> of body '" +
+                                                                     world.scene.bodies[body].name + "'"});
   }
 }
 

@@ -41,6 +41,9 @@ class SurfaceEffects {
 /// force shading for meshes with shading="smooth". Those that need a proxy are left out if the renderer has none.
 std::vector<PluginElement> surfaceEffectsOf(const Scene& scene);
 
+/// One of them. Throws InputError: the errors of pluginTable; E596 an effect that cannot be made. Thread: main or view.
+std::unique_ptr<SurfaceEffect> makeSurfaceEffect(const PluginElement& element, const World& world);
+
 /// Plug-in of shading="smooth".
 inline constexpr const char* kShading = "shading";
 

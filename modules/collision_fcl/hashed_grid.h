@@ -16,7 +16,6 @@ class HashedGrid final : public MeshIndex {
   explicit HashedGrid(const MeshTree& mesh);
 
   void find(const ProbeWay& way, FacetSet& found) noexcept override;
-  std::size_t cellCount() const noexcept { return cells_.size(); }
 
  private:
   using Place = std::array<std::int32_t, 3>;  ///< of a cell along x, y, z; the first is 0

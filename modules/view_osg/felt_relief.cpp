@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "framework/geometry/closest_point.h"
 #include "framework/geometry/tangent_frame.h"
-#include "framework/haptics/plugin_object.h"
 #include "framework/haptics/surface_effects.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/shaders.h"
@@ -91,8 +89,7 @@ FeltRelief::FeltRelief(const World& world) : world_(world) {
 void FeltRelief::load() {
   loaded_ = true;
   for (const PluginElement& element : surfaceEffectsOf(world_.scene)) {
-    const auto& table = pluginTable<SurfaceEffectPlugin>(element.plugin, "presaSurfaceEffectPlugin");
-    auto effect = madeFor(element, [&] { return table.create(element, world_); });
+    auto effect = makeSurfaceEffect(element, world_);
     if (const auto* height = dynamic_cast<const FeltHeight*>(effect.get()))
       felt_.push_back({element.body, std::move(effect), height});
   }
