@@ -30,6 +30,7 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
   result.trace = monitor.trace().empty() ? nullptr : &monitor.trace();
   result.state_hash = monitor.hash();
   result.solver_fallbacks = monitor.solverFallbacks();
+  result.energy_created = monitor.energyCreated();
   result.simulated_seconds = monitor.simulatedTime();
 }
 

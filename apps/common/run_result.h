@@ -82,6 +82,7 @@ struct RunResult {
   std::optional<double> sharpness;         ///< View::sharpness of the last frame; none: no window
   Recording recording;
   std::vector<std::string> flight_records;  ///< files with the seconds around each fault, if the run was not recorded
+  EnergyCreated energy_created;             ///< in the dynamics; NaN: not known
   std::uint64_t solver_fallbacks = 0;       ///< dynamics steps in which the direct solver gave up on an island
   std::uint64_t state_hash = 0;
 };

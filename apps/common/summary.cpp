@@ -1,5 +1,6 @@
 #include "apps/common/summary.h"
 
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -142,6 +143,9 @@ std::string summaryJson(const RunResult& result) {
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
   if (result.assembly) json["assembly"] = {{"goals", result.assembly->goals}, {"filled", result.assembly->filled}};
   json["solver_fallbacks"] = result.solver_fallbacks;
+  const auto known = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+  json["energy_created"] = {{"sum_j", known(result.energy_created.sum)},
+                            {"worst_step_j", known(result.energy_created.worst_step)}};
   json["faults"] = Json::array();
   for (const RunResult::Fault& fault : result.faults)
     json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});

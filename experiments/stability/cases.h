@@ -67,5 +67,23 @@ Case make();
 namespace grooves {
 Case make();
 }
+namespace tall_tower {
+Case make();
+}
+namespace falling_tower {
+Case make();
+}
+namespace tower_on_tower {
+Case make();
+}
+namespace mesh_stack {
+Case make();
+}
+namespace capsule_lying {
+Case make();
+}
+namespace poured_heap {
+Case make();
+}
 
 }  // namespace presa::stability

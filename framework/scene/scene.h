@@ -131,7 +131,8 @@ struct CollisionSettings {
 /// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.
 struct DynamicsSettings {
   enum class Coupling { kSoft, kExplicit };
-  enum class Solver { kAuto, kDirect, kIterative };
+  /// kDirect, kIterative: of the engine; kNewton, kSmallSteps: Presa's own (modules/dynamics_ode).
+  enum class Solver { kAuto, kDirect, kIterative, kNewton, kSmallSteps };
   enum class Friction { kIsotropic, kPyramid };
   /// kMatrix: R (I + S(w) dt), re-orthonormalised; kEuler: one Euler step of Euler's equations.
   enum class Rotation { kExact, kEngine, kNone, kEuler, kMatrix };

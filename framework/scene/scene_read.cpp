@@ -201,7 +201,10 @@ DynamicsSettings readDynamics(const Element& element) {
   settings.engine = element.attribute("engine");
   settings.coupling = choose(element, "coupling", settings.coupling, {{"explicit", D::Coupling::kExplicit}});
   settings.solver = choose(element, "solver", settings.solver,
-                           {{"direct", D::Solver::kDirect}, {"iterative", D::Solver::kIterative}});
+                           {{"direct", D::Solver::kDirect},
+                            {"iterative", D::Solver::kIterative},
+                            {"newton", D::Solver::kNewton},
+                            {"small_steps", D::Solver::kSmallSteps}});
   settings.iterations = static_cast<std::size_t>(element.number("iterations", 0));
   settings.substeps = static_cast<std::size_t>(element.number("substeps", 0));
   settings.friction = choose(element, "friction", settings.friction, {{"pyramid", D::Friction::kPyramid}});

@@ -19,6 +19,8 @@ constexpr double kMaxGrowth = 0.2;
 // the far end of a tipping body falls faster than g (a rod: 1.5 g)
 constexpr double kRim = 2;
 constexpr double kSameCorner = 0.01;
+// points of a manifold that are kept although they touch nothing yet, so that fewer come and go
+constexpr double kNear = 1e-3;
 constexpr double kRounding = 1e-6;
 
 // Selects contacts greedily: the deepest first, then always the one farthest from all selected. These span the contact
@@ -47,13 +49,13 @@ int thin(dContactGeom* contacts, int count, int limit, double same_distance) {
 
 }  // namespace
 
-std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, const std::vector<char>& ahead, double h,
+std::optional<std::size_t> BodyContacts::collideAwake(const BodySet& bodies, double h,
                                                       std::vector<BodyContact>& contacts) {
   contacts.clear();
+  hull_contacts_.beginStep();
   for (const BroadPhase::Pair& pair : broad_phase_.find(bodies, h, kRim * h * h * gravity_.norm())) {
     const std::size_t before = contacts.size();
-    const double look = ahead[pair.first] != 0 && ahead[pair.second] != 0 ? h : 0;
-    collidePair(bodies, pair, look, contacts);
+    collidePair(bodies, pair, foresight_ == Foresight::kNone ? 0 : h, contacts);
     if (contacts.size() == before) continue;
     for (const std::size_t i : {pair.first, pair.second}) {
       if (bodies.asleep(i)) return i;
@@ -68,9 +70,30 @@ void BodyContacts::collidePair(const BodySet& bodies, const BroadPhase::Pair& pa
   const std::size_t B = bodies.moves(pair.second) ? pair.second : pair.first;
   const std::size_t A = B == pair.second ? pair.first : pair.second;
   const std::size_t before = contacts.size();
+  if (collideHulls(bodies, A, B, h, contacts)) return;
   const double same = kSamePoint * std::min(bodies.extent(A), bodies.extent(B));
   report(bodies, A, B, same, contacts);
   if (h > 0 && contacts.size() < before + kSupported) reportNearing(bodies, A, B, h, contacts, before);
+}
+
+double BodyContacts::reach(const BodySet& bodies, std::size_t A, std::size_t B, double h) const {
+  return bodies.reach(A, h) + bodies.reach(B, h) + kRim * h * h * gravity_.norm();
+}
+
+// False when they are not both polyhedra.
+bool BodyContacts::collideHulls(const BodySet& bodies, std::size_t A, std::size_t B, double h,
+                                std::vector<BodyContact>& contacts) {
+  const double near = h > 0 ? kNear * std::min(bodies.extent(A), bodies.extent(B)) : 0;
+  const Manifold* manifold = hull_contacts_.find(bodies, A, B, std::max(near, reach(bodies, A, B, h)));
+  if (manifold == nullptr) return false;
+  const bool all = foresight_ == Foresight::kAround && !bodies.asleep(A) && !bodies.asleep(B);
+  for (int i = 0; i < manifold->count; ++i) {
+    const Manifold::Point& point = manifold->points[static_cast<std::size_t>(i)];
+    const BodyContact contact{static_cast<std::int32_t>(A), static_cast<std::int32_t>(B), point.p_W,
+                              manifold->nhat_AB_W, -point.gap};
+    if (all || point.gap <= near || point.gap <= mayClose(bodies, contact, h)) contacts.push_back(contact);
+  }
+  return true;
 }
 
 void BodyContacts::report(const BodySet& bodies, std::size_t A, std::size_t B, double same,
@@ -106,8 +129,7 @@ void BodyContacts::reportNearing(const BodySet& bodies, std::size_t A, std::size
   const std::size_t grown = GrownGeom::possible(bodies.geom(B)) ? B : A;
   if (!GrownGeom::possible(bodies.geom(grown))) return;
   const double extent = std::min(bodies.extent(A), bodies.extent(B));
-  const double margin =
-      std::min(bodies.reach(A, h) + bodies.reach(B, h) + kRim * h * h * gravity_.norm(), kMaxGrowth * extent);
+  const double margin = std::min(reach(bodies, A, B, h), kMaxGrowth * extent);
   const std::size_t touching = contacts.size();
   const GrownGeom geom(bodies.geom(grown), margin);
   report(bodies, A, B, kSamePoint * extent, contacts);

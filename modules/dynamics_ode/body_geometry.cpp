@@ -24,6 +24,11 @@ void BodySet::createGeom(Entry& entry, const Geometry& geometry, const TriMesh* 
       return dCreateTriMesh(nullptr, entry.mesh_data, nullptr, nullptr, nullptr);
     }
   };
+  if (const Box* box = std::get_if<Box>(&geometry.shape)) entry.hull = boxHull(box->size);
+  if (const Capsule* capsule = std::get_if<Capsule>(&geometry.shape)) {
+    entry.hull = capsuleHull(capsule->radius, capsule->length);
+  }
+  if (std::holds_alternative<MeshRef>(geometry.shape) && mesh != nullptr) entry.hull = meshHull(*mesh);
   entry.geom = std::visit(Create{entry, mesh}, geometry.shape);
   if (entry.geom == nullptr) return;
   if (entry.body != nullptr) {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "modules/dynamics_ode/ode_types.h"
 #include "modules/dynamics_ode/rotation.h"
@@ -96,6 +97,12 @@ Pose BodySet::centrePose(std::size_t i) const {
   return {state.p_WCm, state.q_WB};
 }
 
+Pose BodySet::geomPose(std::size_t i) const {
+  dQuaternion q;
+  dGeomGetQuaternion(geom(i), q);
+  return {toVec3(dGeomGetPosition(geom(i))), toQuat(q)};
+}
+
 bool BodySet::areNear(std::size_t i, std::size_t j, double distance) const {
   if (geom(i) == nullptr || geom(j) == nullptr) return false;
   dReal a[6], b[6];
@@ -157,6 +164,51 @@ void BodySet::enable(std::size_t i, bool on) {
   if (entry.enabled == on) return;
   entry.enabled = on;
   on ? dBodyEnable(entry.body) : dBodyDisable(entry.body);
+}
+
+void BodySet::setMotion(std::size_t i, const Motion& motion) {
+  Entry& entry = bodies_[i];
+  dBodySetPosition(entry.body, motion.p_WCm.x(), motion.p_WCm.y(), motion.p_WCm.z());
+  dBodySetQuaternion(entry.body, toOde(motion.q_WB).data());
+  dBodySetLinearVel(entry.body, motion.v_WCm.x(), motion.v_WCm.y(), motion.v_WCm.z());
+  dBodySetAngularVel(entry.body, motion.w_WB.x(), motion.w_WB.y(), motion.w_WB.z());
+  entry.rotated = true;
+}
+
+BodySet::Load BodySet::load(std::size_t i, const Vec3& gravity_W) const {
+  const Entry& entry = bodies_[i];
+  Load load{entry.mass, entry.inertia, entry.inverse_inertia, entry.force_W, entry.torque_W};
+  if (entry.added_mass > 0 || entry.added_inertia > 0) {
+    load.mass += entry.added_mass;
+    load.inertia.diagonal().array() += entry.added_inertia;
+    load.inverse_inertia = load.inertia.inverse();
+  }
+  if (!(entry.added_mass > 0)) load.force_W += load.mass * gravity_W;  // else the gravity is among the forces
+  return load;
+}
+
+double BodySet::energyGain(std::size_t i, const Vec3& gravity_W) const {
+  const Entry& entry = bodies_[i];
+  const auto energy = [&](const State& state) {
+    const Vec3 w_B = state.q_WB.conjugate() * state.w_WB;
+    return entry.mass * state.v_WCm.squaredNorm() / 2 + w_B.dot(entry.inertia * w_B) / 2;
+  };
+  const State end = read(entry);
+  return energy(end) - energy(entry.begin) - entry.mass * gravity_W.dot(end.p_WCm - entry.begin.p_WCm);
+}
+
+double BodySet::externalWork(std::size_t i) const {
+  const Entry& entry = bodies_[i];
+  if (entry.force_W.isZero(0) && entry.torque_W.isZero(0)) return 0;
+  const State end = read(entry);
+  const Eigen::AngleAxisd turn(end.q_WB * entry.begin.q_WB.conjugate());
+  return entry.force_W.dot(end.p_WCm - entry.begin.p_WCm) + entry.torque_W.dot(turn.angle() * turn.axis());
+}
+
+Vec3 BodySet::movedSinceBegin(std::size_t i, const Vec3& p_WP) const {
+  const Entry& entry = bodies_[i];
+  const State end = read(entry);
+  return end.p_WCm + end.q_WB * (entry.begin.q_WB.conjugate() * (p_WP - entry.begin.p_WCm)) - p_WP;
 }
 
 void BodySet::resetForces() {
@@ -232,8 +284,8 @@ void BodySet::rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const
 void BodySet::driftRotations(double h) {
   if (rotation_ == DynamicsSettings::Rotation::kEngine || rotation_ == DynamicsSettings::Rotation::kNone) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!awake(i)) continue;
-    const Entry& entry = bodies_[i];
+    Entry& entry = bodies_[i];
+    if (std::exchange(entry.rotated, false) || !awake(i)) continue;
     Vec3 w_WB = toVec3(dBodyGetAngularVel(entry.body));
     const double angle = w_WB.norm() * h;
     if (!(angle > kMinAngle && angle < kMaxSpin)) continue;

@@ -2,10 +2,12 @@
 #include <ode/ode.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "framework/core/state/object_state.h"
 #include "framework/scene/world.h"
+#include "modules/dynamics_ode/convex/hull.h"
 #include "modules/dynamics_ode/finger_constraint.h"
 
 namespace presa::ode {
@@ -29,6 +31,9 @@ class BodySet {
   bool anyAwake() const noexcept;
   dBodyID body(std::size_t i) const noexcept { return moves(i) ? bodies_[i].body : nullptr; }
   dGeomID geom(std::size_t i) const noexcept { return bodies_[i].geom; }
+  /// The physics geometry as a convex polyhedron in the frame of `geom`; null: it is none.
+  const Hull* hull(std::size_t i) const noexcept { return bodies_[i].hull ? &*bodies_[i].hull : nullptr; }
+  Pose geomPose(std::size_t i) const;
   /// Half the diagonal of the physics geometry's bounds at the start [m].
   double extent(std::size_t i) const noexcept { return bodies_[i].extent; }
   /// Whether the bounding boxes of two physics geometries in W come within `distance` of each other [m].
@@ -79,6 +84,26 @@ class BodySet {
   void enable(std::size_t i, bool on);
   /// Resets the external forces of a step to each body's constant force.
   void resetForces();
+  /// Sets the state of awake body `i` at the end of the step; driftRotations then leaves it alone.
+  void setMotion(std::size_t i, const Motion& motion);
+  /// What the solvers see of moving body `i` in this step: with added inertia, forces at the centre of mass.
+  struct Load {
+    double mass = 0;
+    Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
+    Vec3 force_W = Vec3::Zero(), torque_W = Vec3::Zero();
+  };
+  Load load(std::size_t i, const Vec3& gravity_W) const;
+
+  /// Since beginStep, of awake body `i`: gain of kinetic energy and of energy in gravity, and work of its external
+  /// forces other than gravity [J].
+  double energyGain(std::size_t i, const Vec3& gravity_W) const;
+  double externalWork(std::size_t i) const;
+  /// Since beginStep: displacement of the point of awake body `i` that was at p_WP [m].
+  Vec3 movedSinceBegin(std::size_t i, const Vec3& p_WP) const;
+  bool hasAddedInertia(std::size_t i) const noexcept {
+    return bodies_[i].added_mass > 0 || bodies_[i].added_inertia > 0;
+  }
+
   /// Adds a force f_W [N] at p_WP to moving body `i` for this step.
   void addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP);
   /// Adds a force f_W [N] at the origin of B and a torque about it [N m] to moving body `i` for this step.
@@ -112,6 +137,7 @@ class BodySet {
     dBodyID body = nullptr;  ///< null: a fixed body of the scene
     dGeomID geom = nullptr;  ///< null: no collisions
     dTriMeshDataID mesh_data = nullptr;
+    std::optional<Hull> hull;
     std::vector<double> vertices;  // ODE keeps pointers to these
     std::vector<dTriIndex> indices;
     Vec3 p_BCm = Vec3::Zero();
@@ -121,7 +147,8 @@ class BodySet {
     bool still = false;                        // an obstacle: frozen or put
     bool frozen = false;                       // permanently still after a fault
     bool asleep = false, enabled = true;
-    Pose X_CmG;  // geometry frame in the centre-of-mass frame
+    bool rotated = false;  // by the solver of this step
+    Pose X_CmG;            // geometry frame in the centre-of-mass frame
     Vec3 constant_force_W = Vec3::Zero();
     Vec3 force_W = Vec3::Zero(), torque_W = Vec3::Zero();  // external load of this step, at the centre of mass
     State begin;

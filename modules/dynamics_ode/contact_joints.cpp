@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/dynamics_ode/index.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
-namespace {
-
-std::size_t index(std::int32_t body) { return static_cast<std::size_t>(body); }
-
-}  // namespace
 
 double pairFriction(const Material& a, const Material& b, double slip_speed) {
   return slip_speed < kRestSpeed ? std::sqrt(a.friction_static * b.friction_static)
@@ -61,23 +57,27 @@ void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySe
   recall(bodies);
 }
 
-// Warm start from the last step. Both lists are sorted by pair; within a pair the nearest past contact, relative to the
-// centre of B, is taken as the same contact.
+// Warm start from the last step. Both lists are sorted by pair; within a pair each contact takes the nearest past one
+// that is not taken yet, relative to the centre of B.
 void ContactJoints::recall(const BodySet& bodies) {
-  auto run = past_.cbegin();
+  const auto pairOf = [](const auto& x) { return std::minmax(x.A, x.B); };
+  auto run = past_.begin();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const BodyContact& c = contact(i);
-    const auto pairOf = [](const auto& x) { return std::minmax(x.A, x.B); };
-    while (run != past_.cend() && pairOf(*run) < pairOf(c)) ++run;
+    while (run != past_.end() && pairOf(*run) < pairOf(c)) ++run;
     const Vec3 p_CmC = c.p_W - bodies.centreAtBegin(index(c.B));
     double nearest = 0.1 * bodies.extent(index(c.B));
     nearest *= nearest;
-    for (auto past = run; past != past_.cend() && pairOf(*past) == pairOf(c); ++past) {
+    Past* same = nullptr;
+    for (auto past = run; past != past_.end() && pairOf(*past) == pairOf(c); ++past) {
       const double distance = (past->p_CmC_W - p_CmC).squaredNorm();
-      if (distance > nearest) continue;
+      if (distance > nearest || past->taken) continue;
       nearest = distance;
-      joints_[i].f_B_W = past->f_B_W;
+      same = &*past;
     }
+    if (same == nullptr) continue;
+    joints_[i].f_B_W = same->f_B_W;
+    same->taken = true;
   }
 }
 

@@ -48,12 +48,14 @@ class ContactJoints {
 
   std::size_t size() const noexcept { return joints_.size(); }
   Joint& operator[](std::size_t i) { return joints_[i]; }
+  const Joint& operator[](std::size_t i) const { return joints_[i]; }
   const BodyContact& contact(std::size_t i) const { return (*contacts_)[i]; }
 
  private:
   struct Past {
     std::int32_t A, B;
     Vec3 p_CmC_W, f_B_W;
+    bool taken = false;
   };
   void recall(const BodySet& bodies);
   dContact make(const BodyContact& contact, const Joint& joint, bool friction) const;

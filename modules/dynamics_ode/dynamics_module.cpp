@@ -37,14 +37,20 @@ std::vector<std::string> listStages(const OdeOptions& options) {
   all.emplace_back(method.coupling == D::Coupling::kSoft
                        ? "fingers as implicit spring-dampers (soft contact joints) inside their friction cone"
                        : "fingers as forces that act for one step");
-  if (method.friction == D::Friction::kIsotropic) {
-    all.emplace_back("for sliding contacts, solve once without friction to find the direction of slip");
+  if (usesOwnSolvers(method)) {
+    const std::string small_steps =
+        std::to_string(options.small_steps.count) + " small steps of projected Gauss-Seidel, warm-started";
+    all.push_back(method.solver == D::Solver::kSmallSteps
+                      ? "solve all islands in " + small_steps
+                      : "solve each island as a convex minimisation by Newton's method with a sparse factorisation");
+    if (method.solver == D::Solver::kAuto) all.push_back("solve heaps that fill the factorisation in " + small_steps);
+  } else {
+    if (method.friction == D::Friction::kIsotropic) {
+      all.emplace_back("for sliding contacts, solve once without friction to find the direction of slip");
+    }
+    all.push_back(method.solver == D::Solver::kIterative ? "solve all islands with " + iterations + " iterations of ODE"
+                                                         : "solve all islands directly with ODE");
   }
-  all.push_back(method.solver == D::Solver::kDirect ? "solve all islands directly"
-                : method.solver == D::Solver::kIterative
-                    ? "solve all islands with " + iterations + " iterations"
-                    : "solve: islands up to " + std::to_string(options.direct_limit) +
-                          " contacts directly, larger ones with " + iterations + " iterations");
   if (method.rotation == D::Rotation::kExact) {
     all.emplace_back("rotate free bodies by one Runge-Kutta step of Euler's equations");
   }

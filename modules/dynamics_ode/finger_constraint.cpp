@@ -108,6 +108,7 @@ std::optional<FingerConstraint> makeFingerConstraint(const FingerContact& contac
   row.mu = std::max(0.0, contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static);
   if (!rubs) row.mu = 0;
   row.mu_dynamic = std::clamp(contact.friction_dynamic, 0.0, row.mu);
+  row.spring = {k, d, k_t, d_t, depth, length, v_WH};
   row.expected_force_W =
       k * (row.depth * row.n_in + std::min(contact.tangential_ratio * length, row.mu * row.depth) * row.t1);
   if (d_t > 0) row.expected_force_W -= k * contact.damped_W;

@@ -44,9 +44,15 @@ struct FingerConstraint {
   double cfm = 0;             ///< normal row [m/(N s)]
   double motion_n = 0;        ///< [m/s]
   double motion_1 = 0, motion_2 = 0;
-  double slip = 0;                       ///< cfm of the tangential rows [m/(N s)]
-  double mu = 0;                         ///< static while the proxy sticks, dynamic while it slips [-]
-  double mu_dynamic = 0;                 ///< coefficient after a stick-to-slip transition within the step [-]
+  double slip = 0;        ///< cfm of the tangential rows [m/(N s)]
+  double mu = 0;          ///< static while the proxy sticks, dynamic while it slips [-]
+  double mu_dynamic = 0;  ///< coefficient after a stick-to-slip transition within the step [-]
+  /// The same spring-damper in plain numbers, for a solver with steps of its own.
+  struct Spring {
+    double k = 0, d = 0, k_t = 0, d_t = 0;  ///< [N/m, N s/m]
+    double depth = 0, stretch = 0;          ///< at the start, signed, and against t1 [m]
+    Vec3 v_WH = Vec3::Zero();               ///< mean velocity of the HIP in the step [m/s]
+  } spring;
   Vec3 expected_force_W = Vec3::Zero();  ///< force on the body at the start of the step, inside the friction cone [N]
 };
 

@@ -60,7 +60,9 @@ void FingerJoints::resistTurning(std::size_t finger, std::size_t body, const Fin
   dJointSetAMotorAxis(motors_[finger], 0, 0, row.n_in.x(), row.n_in.y(), row.n_in.z());
   dJointSetAMotorParam(motors_[finger], dParamVel, 0);
   dJointSetAMotorParam(motors_[finger], dParamCFM, kTorsionCfm);
-  dJointSetAMotorParam(motors_[finger], dParamFMax, torsional_radius_[body] * row.mu * normal);
+  const double bound = torsional_radius_[body] * row.mu * normal;
+  dJointSetAMotorParam(motors_[finger], dParamFMax, bound);
+  torsion_.push_back({static_cast<std::int32_t>(body), true, row.n_in, 0, kTorsionCfm, bound});
 }
 
 // The torque of an oriented tool, the negative of what it feels. As with the tangential spring, the row is implicit:
@@ -81,6 +83,7 @@ void FingerJoints::twist(std::size_t finger, std::size_t body, const FingerConta
   dJointSetAMotorParam(motors_[finger], dParamCFM, 1 / (h * k));
   dJointSetAMotorParam(motors_[finger], dParamVel, twist / h + contact.spin);
   dJointSetAMotorParam(motors_[finger], dParamFMax, bound);
+  torsion_.push_back({static_cast<std::int32_t>(body), true, nhat_W, twist / h + contact.spin, 1 / (h * k), bound});
 }
 
 void FingerJoints::makeRoom(const ContactExchange& exchange) {
@@ -89,6 +92,7 @@ void FingerJoints::makeRoom(const ContactExchange& exchange) {
   if (feedback_.size() >= contacts) return;
   feedback_.resize(contacts);
   active_.reserve(contacts);
+  torsion_.reserve(contacts);
 }
 
 void FingerJoints::estimateMotion(const ContactExchange& exchange) {
@@ -111,6 +115,7 @@ std::size_t FingerJoints::read(const ContactExchange& exchange, double time, dou
   makeRoom(exchange);
   estimateMotion(exchange);
   for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
+  torsion_.clear();
   return forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
     const auto row =
         makeFingerConstraint(contact, motions_[f].a_WH, bodies.inertiaState(body), time - exchange.time, old_after_, h);
@@ -153,6 +158,8 @@ bool FingerJoints::stickToSlip(Islands& islands, std::vector<char>& wanted) {
   }
   return any;
 }
+
+void FingerJoints::setForce(std::size_t i, const Vec3& f_W) { assign(feedback_[i].f1, f_W); }
 
 Vec3 FingerJoints::force(std::size_t i) const {
   const bool external = coupling_ == DynamicsSettings::Coupling::kExplicit;

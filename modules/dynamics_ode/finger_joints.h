@@ -5,6 +5,7 @@
 
 #include "framework/core/state/contact_exchange.h"
 #include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/contact_solver/contact_problem.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_constraint.h"
 #include "modules/dynamics_ode/islands.h"
@@ -33,10 +34,17 @@ class FingerJoints {
   /// their dynamic coefficient, as on the haptic side, and their islands are marked in `wanted`. False when there are
   /// none.
   bool stickToSlip(Islands& islands, std::vector<char>& wanted);
+  /// The torsional friction of this step, as motors of ContactProblem; bodies by their indices in the scene.
+  const std::vector<ContactProblem::Motor>& motors() const noexcept { return torsion_; }
+  /// Whether the fingers are external forces of the step and no constraints.
+  bool areForces() const noexcept { return coupling_ == DynamicsSettings::Coupling::kExplicit; }
   std::size_t count() const noexcept { return active_.size(); }
   /// Finger and moving body of contact i, 0 <= i < count().
   std::size_t finger(std::size_t i) const noexcept { return active_[i].finger; }
   std::size_t body(std::size_t i) const noexcept { return active_[i].body; }
+  const FingerConstraint& row(std::size_t i) const noexcept { return active_[i].row; }
+  /// Sets the mean force of contact i, solved elsewhere [N].
+  void setForce(std::size_t i, const Vec3& f_W);
   /// After the solve: mean force of contact i on its body over the step [N].
   Vec3 force(std::size_t i) const;
 
@@ -61,6 +69,7 @@ class FingerJoints {
   std::vector<dJointFeedback> feedback_;  // as active_, with room for all contacts of the exchange
   std::vector<double> torsional_radius_;  // torsional friction radius by body [m]; empty if no material has torsion
   std::vector<dJointID> motors_;          // by finger: torsional friction
+  std::vector<ContactProblem::Motor> torsion_;  // the same for Presa's own solvers
 };
 
 /// Calls use(finger, contact, body) for each contact of a finger with a moving body. Returns the number of invalid

@@ -1,4 +1,4 @@
-// Chooses a solver per island and recovers from failures of the direct one. ODE solves all enabled bodies at once, so
+// Recovers from failures of the direct solver. ODE solves all enabled bodies at once, so
 // islands are selected by enabling their bodies. A failed direct solve is repeated island by island: from the saved
 // state, unperturbed, then with velocity perturbations of 1e-9 and 1e-7 m/s, finally with the iterative solver. Other
 // islands are unaffected.
@@ -16,17 +16,6 @@ constexpr int kFallbackIterations = 1000;
 
 IslandSolver::IslandSolver(Engine& engine, BodySet& bodies, const OdeOptions& options)
     : engine_(engine), bodies_(bodies), options_(options) {}
-
-bool IslandSolver::isDirect(const Islands::Island& island) const noexcept {
-  switch (options_.method.solver) {
-    case DynamicsSettings::Solver::kDirect:
-      return true;
-    case DynamicsSettings::Solver::kIterative:
-      return false;
-    default:
-      return island.contacts <= (crowded_ && !island.touched ? options_.crowded_limit : options_.direct_limit);
-  }
-}
 
 int IslandSolver::iterations(std::size_t contacts, int layers, int substeps) const noexcept {
   if (options_.method.iterations > 0) return static_cast<int>(options_.method.iterations);
@@ -51,17 +40,15 @@ bool IslandSolver::enableWhere(Choose choose) {
 
 void IslandSolver::solve(Islands& islands, const std::vector<char>& wanted, double h, int iterations,
                          std::vector<char>& fell_back) {
-  const auto wants = [&](std::size_t i, bool direct) {
-    const std::size_t island = islands.of(i);
-    return wanted[island] != 0 && isDirect(islands[island]) == direct;
-  };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (wanted[i] != 0) fell_back[i] = 0;
   }
-  if (enableWhere([&](std::size_t i) { return wants(i, true); }) && !engine_.solveDirectly(h)) {
+  if (!enableWhere([&](std::size_t i) { return wanted[islands.of(i)] != 0; })) return;
+  if (!isDirect()) {
+    engine_.solveIteratively(h, iterations);
+  } else if (!engine_.solveDirectly(h)) {
     solveEachDirectly(islands, wanted, h, iterations, fell_back);
   }
-  if (enableWhere([&](std::size_t i) { return wants(i, false); })) engine_.solveIteratively(h, iterations);
 }
 
 void IslandSolver::putBack(Islands& islands, std::size_t island) {
@@ -89,7 +76,7 @@ void IslandSolver::solveEachDirectly(Islands& islands, const std::vector<char>& 
                                      std::vector<char>& fell_back) {
   for (std::size_t island = 0; island < bodies_.size(); ++island) {
     if (!bodies_.awake(island) || islands.of(island) != island) continue;
-    if (wanted[island] == 0 || !isDirect(islands[island])) continue;
+    if (wanted[island] == 0) continue;
     enableWhere([&](std::size_t i) { return islands.of(i) == island; });
     if (solveNudged(islands, island, h)) continue;
     fell_back[island] = 1;

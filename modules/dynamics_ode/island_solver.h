@@ -8,17 +8,14 @@
 
 namespace presa::ode {
 
-/// Steps islands of bodies with the solver that suits each: up to `direct_limit` contacts directly, larger ones
-/// iteratively (or all alike, if the scene says so). An island on which the direct solver fails is restored, perturbed
-/// by some nm/s and, if that fails too, solved iteratively; the other islands are not affected.
+/// Steps islands of bodies with ODE's solvers: the iterative one where the scene says so, else the direct one. An island
+/// on which the direct solver fails is restored, perturbed by some nm/s and, if that fails too, solved iteratively; the
+/// other islands are not affected.
 class IslandSolver {
  public:
   IslandSolver(Engine& engine, BodySet& bodies, const OdeOptions& options);
 
-  bool isDirect(const Islands::Island& island) const noexcept;
-  /// Set when some island is too large for the direct solver. All islands then share its sub-steps, and islands that no
-  /// finger touches are solved directly only up to `crowded_limit` contacts.
-  void setCrowded(bool crowded) noexcept { crowded_ = crowded; }
+  bool isDirect() const noexcept { return options_.method.solver != DynamicsSettings::Solver::kIterative; }
   /// Iterations for one of `substeps` sub-steps with `contacts` contacts and `layers` layers of bodies.
   int iterations(std::size_t contacts, int layers, int substeps) const noexcept;
   /// Steps the islands with `wanted[island]` set over `h` [s]; their contacts must be in the engine.
@@ -36,7 +33,6 @@ class IslandSolver {
   Engine& engine_;
   BodySet& bodies_;
   const OdeOptions options_;
-  bool crowded_ = false;
 };
 
 }  // namespace presa::ode

@@ -2,29 +2,41 @@
 #include <cstdint>
 
 #include "framework/scene/scene.h"
+#include "modules/dynamics_ode/contact_solver/newton_solver.h"
+#include "modules/dynamics_ode/contact_solver/small_steps.h"
 
 namespace presa::ode {
+
+/// Whether the scene leaves the contacts to Presa's own solvers (contact_solver/), not to ODE's. The comparison methods
+/// for friction and rotation are ODE's, too.
+inline bool usesOwnSolvers(const DynamicsSettings& method) {
+  using D = DynamicsSettings;
+  if (method.solver == D::Solver::kAuto) {
+    return method.friction == D::Friction::kIsotropic && method.rotation == D::Rotation::kExact;
+  }
+  return method.solver == D::Solver::kNewton || method.solver == D::Solver::kSmallSteps;
+}
 
 /// The methods chosen by the scene (`method`), and the parameters of the automatic choices.
 struct OdeOptions {
   DynamicsSettings method;
   std::uint64_t seed = 1;  ///< seed of the order in which the iterative solver visits its rows
-  /// Maximum contacts of a directly solved island: a tower of ten has 40. Cost is cubic: 48 contacts take half a
-  /// millisecond, 80 take 2 to 3, 150 take 20; a heap of 27 cubes is cheaper and no less accurate with iterative
-  /// sub-steps.
-  std::uint32_t direct_limit = 48;
-  /// The same for an untouched island beside a larger one, because it must share all sub-steps of that one.
-  std::uint32_t crowded_limit = 16;
-  /// Iterations for larger islands unless the scene sets them: `max_iterations`, reduced so that contacts * iterations
-  /// stays within the budget (2 ms), but at least `min_iterations`. In sub-steps at least
-  /// `min_iterations_of_substep`, and for islands without finger contact at most the square of the layers (`Layers`).
+  /// Newton's method up to so many products of blocks in an iteration (0.1 us each), small steps beyond.
+  std::size_t newton_work = 2000;
+  NewtonSolver::Options newton;
+  SmallSteps::Options small_steps;
+
+  // ODE's own solvers:
+  /// Iterations unless the scene sets them: `max_iterations`, reduced so that contacts * iterations stays within the
+  /// budget (2 ms), but at least `min_iterations`. In sub-steps at least `min_iterations_of_substep`, and for islands
+  /// without finger contact at most the square of the layers (`Layers`).
   int max_iterations = 200;
   int iteration_budget = 40000;
-  double visits_of_direct = 0.09;  ///< cost of a direct solution per contacts^3, in contacts * iterations
   int min_iterations = 50;
-  /// With an island too large for the direct solver the period is divided into this many sub-steps with fewer
-  /// iterations each: a finger's spring converges with h^2 / iterations, and a heap overlaps less for less time
-  /// (config/README.md).
+  /// With an island of more contacts, or one that a finger touches, the iterative solver divides the period into
+  /// `large_substeps` with fewer iterations each: a finger's spring converges with h^2 / iterations, and a heap overlaps
+  /// less for less time (config/README.md).
+  std::uint32_t large_island = 48;
   int large_substeps = 5;
   int min_iterations_of_substep = 20;
   /// Body-body contacts: fraction of the penetration removed per step (erp), and compliance cfm = h * softness /
@@ -32,7 +44,7 @@ struct OdeOptions {
   /// 1 um, whatever its mass. With a lower softness the iterative solver does not come to rest.
   double contact_erp = 0.2;
   double contact_softness = 2e-3;
-  double direct_softness = 2e-4;  ///< softness for the direct solver, which needs less
+  double direct_softness = 2e-4;  ///< softness for ODE's direct solver, which needs less
   double max_contact_cfm = 1e-4;
 };
 

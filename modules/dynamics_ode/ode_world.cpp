@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <optional>
 
 #include "modules/dynamics_ode/body_contacts.h"
 #include "modules/dynamics_ode/body_effect_forces.h"
 #include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/contact_solver/own_solvers.h"
 #include "modules/dynamics_ode/effect_forces.h"
+#include "modules/dynamics_ode/energy_book.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_impulses.h"
 #include "modules/dynamics_ode/finger_joints.h"
+#include "modules/dynamics_ode/index.h"
 #include "modules/dynamics_ode/islands.h"
 #include "modules/dynamics_ode/sleep.h"
 #include "modules/dynamics_ode/snap_drive.h"
@@ -32,6 +36,13 @@ BodyPenetration penetrationOf(const std::vector<BodyContact>& contacts) noexcept
   return in;
 }
 
+// For ODE's iterative solver contacts ahead of the touch cost more than they help; Presa's own take all that may meet,
+// since in a heap a body can be hit from anywhere.
+Foresight foresightOf(const DynamicsSettings& method) {
+  if (usesOwnSolvers(method)) return Foresight::kAround;
+  return method.solver == DynamicsSettings::Solver::kIterative ? Foresight::kNone : Foresight::kPath;
+}
+
 }  // namespace
 
 struct OdeWorld::Impl {
@@ -43,12 +54,16 @@ struct OdeWorld::Impl {
         bodies(*world, options.method.rotation, engine.world()),
         fingers(options.method.coupling, world->scene, engine.world()),
         impulses(world->scene),
-        collider(bodies, world->scene.gravity),
-        solver(world->scene, engine, bodies, options),
+        collider(bodies, world->scene.gravity, foresightOf(options.method)),
         islands(bodies.size()),
-        layers(bodies.size()),
-        ahead(bodies.size()) {
+        energy(world->scene.gravity, bodies.size()),
+        layers(bodies.size()) {
     contacts.reserve(kContactsPerBody * bodies.size());
+    if (usesOwnSolvers(options.method)) {
+      own_solvers.emplace(world->scene, bodies, options);
+    } else {
+      engine_solvers.emplace(world->scene, engine, bodies, options);
+    }
     if (options.method.sleeping) sleep.emplace(bodies);
   }
 
@@ -57,10 +72,9 @@ struct OdeWorld::Impl {
   void pushBodyEffects(double time, double h);
   void wakeStirred(double time, double period);
   void noteBrokenEffect();
-  void lookAhead();
   void findIslands(const ContactExchange& exchange);
   void wakeTouched(const ContactExchange& exchange);
-  bool anyLarge() const;
+  bool anyIsland(const std::function<bool(const Islands::Island&)>& is) const;
   int layersThatMatter(int substeps);
   int substepsNow();
   void fault(Faults::Bit bit, std::uint64_t count = 1);
@@ -73,15 +87,16 @@ struct OdeWorld::Impl {
   FingerJoints fingers;
   FingerImpulses impulses;
   BodyContacts collider;
-  StepSolver solver;
+  std::optional<OwnSolvers> own_solvers;  // one of these two, as the scene says
+  std::optional<StepSolver> engine_solvers;
   std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
   std::optional<SnapDrive> snap_drive_;  // empty without an assembly
   EffectForces effects;
   std::optional<BodyEffectForces> body_effects;  // empty when the scene has none
   Islands islands;
+  EnergyBook energy;
   Layers layers;
   std::vector<BodyContact> contacts;
-  std::vector<char> ahead;  // by body: create contacts one step ahead of the touch
   Faults faults;
   std::uint64_t fallback_steps = 0;
   bool failed = false;  // ODE failed: all bodies are frozen
@@ -101,65 +116,37 @@ void OdeWorld::Impl::giveUp() {
   impulses.setForcesToZero();
 }
 
-// Contacts ahead of the touch only for directly solved islands, judged by the last step: in an iteratively solved heap
-// they cost more than they help.
-void OdeWorld::Impl::lookAhead() {
-  for (std::size_t i = 0; i < bodies.size(); ++i) ahead[i] = solver.isDirect(islands[islands.of(i)]) ? 1 : 0;
-}
-
 void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
   islands.reset();
   forEachTouch(exchange, bodies,
                [&](std::size_t, const FingerContact&, std::size_t body) { islands.touchByFinger(body); });
-  const auto add = [&](const BodyContact& contact) {
-    const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
-    bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
-  };
   for (const BodyContact& contact : contacts) {
-    if (contact.depth >= 0) add(contact);
+    const std::size_t A = index(contact.A), B = index(contact.B);
+    bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
   }
-  // a contact that does not touch yet must not make an island too large for the direct solver
-  const auto useless = [&](const BodyContact& contact) {
-    if (contact.depth >= 0) return false;
-    const auto A = static_cast<std::size_t>(contact.A), B = static_cast<std::size_t>(contact.B);
-    if (!solver.isDirect(islands.joined(bodies.moves(A) ? A : B, B))) return true;
-    add(contact);
-    return false;
-  };
-  contacts.erase(std::remove_if(contacts.begin(), contacts.end(), useless), contacts.end());
 }
 
-bool OdeWorld::Impl::anyLarge() const {
-  if (options.method.solver == DynamicsSettings::Solver::kDirect) return false;
+bool OdeWorld::Impl::anyIsland(const std::function<bool(const Islands::Island&)>& is) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (islands[i].contacts > options.direct_limit) return true;
+    if (is(islands[i])) return true;
   }
   return false;
 }
 
 int OdeWorld::Impl::layersThatMatter(int substeps) {
-  if (substeps == 1) return kAllLayers;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (islands[i].touched && !solver.isDirect(islands[i])) return kAllLayers;
-  }
+  if (substeps == 1 || anyIsland([](const Islands::Island& island) { return island.touched; })) return kAllLayers;
   return layers.count(contacts, bodies);
 }
 
 int OdeWorld::Impl::substepsNow() {
   if (options.method.substeps > 0) return static_cast<int>(options.method.substeps);
-  if (options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
-  double direct = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (solver.isDirect(islands[i])) {
-      direct += std::pow(static_cast<double>(islands[i].contacts), 3);
-      continue;
-    }
-    if (islands[i].touched) return options.large_substeps;
-  }
-  if (!anyLarge()) return 1;
-  // a heap without finger contact gets as many sub-steps as fit, including the direct solutions beside it
+  const bool iterative = options.method.solver == DynamicsSettings::Solver::kIterative;
+  if (!iterative || options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
+  if (anyIsland([](const Islands::Island& island) { return island.touched; })) return options.large_substeps;
+  if (!anyIsland([&](const Islands::Island& island) { return island.contacts > options.large_island; })) return 1;
+  // a heap without finger contact gets as many sub-steps as fit
   const int iterations = std::max(options.min_iterations_of_substep, static_cast<int>(options.method.iterations));
-  const double visits = static_cast<double>(contacts.size()) * iterations + options.visits_of_direct * direct;
+  const double visits = static_cast<double>(contacts.size()) * iterations;
   return static_cast<int>(std::clamp(options.iteration_budget / visits, 1.0, double(options.large_substeps)));
 }
 
@@ -169,9 +156,14 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   effects.push(bodies);
   if (body_effects) pushBodyEffects(time, h);
   fingers.read(exchange, time, h, bodies);
-  if (solver.solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) ++fallback_steps;
+  if (own_solvers) {
+    own_solvers->solve(contacts, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr, islands, h);
+  } else if (engine_solvers->solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) {
+    ++fallback_steps;
+  }
   impulses.add(fingers, h, substeps);
   bodies.driftRotations(h);
+  energy.settle(bodies, islands, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr);
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
 }
 
@@ -209,10 +201,8 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   int substeps = 1;
   for (int s = 0; s < substeps; ++s) {
     bodies.beginStep();
-    lookAhead();
-    collider.find(bodies, ahead, period / substeps, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
+    collider.find(bodies, period / substeps, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
-    solver.setCrowded(anyLarge());
     if (s == 0) substeps = substepsNow();
     substep(exchange, time + s * period / substeps, period / substeps, substeps);
   }
@@ -247,6 +237,7 @@ void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
 void OdeWorld::makeRoom(const ContactExchange& fingers) {
   impl_->fingers.makeRoom(fingers);
   impl_->impulses.makeRoom(fingers.fingers.size());
+  if (impl_->own_solvers) impl_->own_solvers->makeRoom(std::max(fingers.fingers.size(), fingers.contacts.capacity()));
 }
 
 void OdeWorld::use(BodyEffects& effects) { impl_->body_effects.emplace(effects, *impl_->world); }
@@ -261,6 +252,7 @@ void OdeWorld::write(double time, ObjectState& out) noexcept {
   out.faults = impl_->faults.bits;
   out.fallback_steps = impl_->fallback_steps;
   out.penetration = penetrationOf(impl_->contacts);
+  out.energy = {impl_->energy.created(), impl_->energy.worstStep()};
   impl_->impulses.write(out);
 }
 

@@ -22,15 +22,19 @@ Vec3 turnBetween(const Quat& from, const Quat& to) {
   return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
 }
 
-/// Sets the three axes of a motor, the first along `way`. `set_axis`, `set_param`: ODE's functions for this kind of
-/// motor.
+/// Sets the three axes of a motor, the first along `way`, and adds them to `driven`. `set_axis`, `set_param`: ODE's
+/// functions for this kind of motor.
 template <class SetAxis, class SetParam>
-void setMotor(dJointID motor, SetAxis set_axis, SetParam set_param, const Vec3& way, double velocity, double force) {
+void setMotor(dJointID motor, SetAxis set_axis, SetParam set_param, const Vec3& way, double velocity, double force,
+              std::size_t body, bool turns, std::vector<ContactProblem::Motor>& driven) {
   const double length = way.norm();
   const Vec3 x = length > 1e-12 ? Vec3(way / length) : Vec3::UnitX();
   const Vec3 y = x.unitOrthogonal(), z = x.cross(y);
   int axis = 0;
-  for (const Vec3& direction : {x, y, z}) set_axis(motor, axis++, 0, direction.x(), direction.y(), direction.z());
+  for (const Vec3& direction : {x, y, z}) {
+    driven.push_back({static_cast<std::int32_t>(body), turns, direction, axis == 0 ? velocity : 0, 0, force});
+    set_axis(motor, axis++, 0, direction.x(), direction.y(), direction.z());
+  }
   set_param(motor, dParamVel1, velocity);
   set_param(motor, dParamVel2, 0);
   set_param(motor, dParamVel3, 0);
@@ -55,6 +59,7 @@ SnapDrive::SnapDrive(const BodySet& bodies, dWorldID ode_world)
     dJointSetAMotorMode(motors.angular, dAMotorUser);
     dJointSetAMotorNumAxes(motors.angular, 3);
   }
+  driven_.reserve(6 * bodies.size());
 }
 
 SnapDrive::~SnapDrive() {
@@ -122,6 +127,7 @@ void SnapDrive::carry(BodySet& bodies, Sleep* sleep, double h) const {
 }
 
 void SnapDrive::drive(const BodySet& bodies, double h) {
+  driven_.clear();
   for (std::size_t i = 0; i < constraint_of_.size(); ++i) {
     const Motors& motors = motors_[i];
     if (motors.linear == nullptr) continue;
@@ -134,12 +140,12 @@ void SnapDrive::drive(const BodySet& bodies, double h) {
     const Pose now = bodies.centrePose(i), goal = bodies.centreOf(i, to.X_WB);
     const Vec3 way = goal.p - now.p;
     setMotor(motors.linear, dJointSetLMotorAxis, dJointSetLMotorParam, way, towards(way.norm(), to, to.speed, h),
-             bodies.mass(i) * to.max_acceleration);
+             bodies.mass(i) * to.max_acceleration, i, false, driven_);
     if (!turns) continue;
     const double rim = std::max(bodies.extent(i), 1e-3);
     const Vec3 turn = turnBetween(now.q, goal.q);
     setMotor(motors.angular, dJointSetAMotorAxis, dJointSetAMotorParam, turn,
-             towards(turn.norm(), to, to.speed / rim, h), bodies.mass(i) * to.max_acceleration * rim);
+             towards(turn.norm(), to, to.speed / rim, h), bodies.mass(i) * to.max_acceleration * rim, i, true, driven_);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "framework/assembly/snap_constraint.h"
 #include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/contact_solver/contact_problem.h"
 #include "modules/dynamics_ode/sleep.h"
 
 namespace presa::ode {
@@ -29,6 +30,9 @@ class SnapDrive {
   /// Sets the motors for the next sub-step of `h` [s].
   void drive(const BodySet& bodies, double h);
 
+  /// The motors of this sub-step; bodies by their indices in the scene.
+  const std::vector<ContactProblem::Motor>& motors() const noexcept { return driven_; }
+
   static constexpr double kCarrySpeed = 0.01;  ///< minimum speed of a carried body [m/s]
   static constexpr double kCarrySpin = 0.2;    ///< angular speed of a carried body [rad/s]
 
@@ -43,6 +47,7 @@ class SnapDrive {
   std::vector<const SnapConstraint*> constraint_of_;   // by body, into constraints_; null: free
   std::vector<std::optional<SnapConstraint>> before_;  // by body: the constraint for which it was last woken
   std::vector<Motors> motors_;                         // by body
+  std::vector<ContactProblem::Motor> driven_;          // the same for Presa's own solvers
 };
 
 }  // namespace presa::ode

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "modules/dynamics_ode/index.h"
+
 namespace presa::ode {
 namespace {
 
@@ -20,7 +22,6 @@ constexpr double kAtLimit = 0.98;      // friction relative to its limit above w
 constexpr double kTolerance = 0.01;    // accepted excess of friction over its cone
 constexpr double kLag = 0.05;          // accepted deficit of friction caused by an outdated normal force
 
-std::size_t index(std::int32_t body) { return static_cast<std::size_t>(body); }
 bool any(const std::vector<char>& flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); }
 
 }  // namespace
@@ -42,9 +43,9 @@ bool StepSolver::solve(const std::vector<BodyContact>& contacts, FingerJoints& f
   all_.assign(bodies_.size(), 1);
   iterations_ = solver_.iterations(contacts.size(), layers, substeps);
   joints_.begin(contacts, bodies_, h);
-  soften(islands, h);
+  soften(h);
   const bool isotropic = options_.method.friction == DynamicsSettings::Friction::kIsotropic && !contacts.empty();
-  if (isotropic) startFromLastStep(islands);
+  if (isotropic) startFromLastStep();
   if (isotropic && findSliding(islands)) predict(fingers, islands, sliding_, h);
   pass(fingers, islands, all_, h, true);
   if (fingers.stickToSlip(islands, wrong_)) {
@@ -80,11 +81,10 @@ void StepSolver::pass(FingerJoints& fingers, Islands& islands, const std::vector
   engine_.clearContacts();
 }
 
-void StepSolver::soften(Islands& islands, double h) {
+void StepSolver::soften(double h) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const BodyContact& c = joints_.contact(i);
-    const bool direct = solver_.isDirect(islands[islandOf(i, islands)]);
-    const double softness = direct ? options_.direct_softness : options_.contact_softness;
+    const double softness = solver_.isDirect() ? options_.direct_softness : options_.contact_softness;
     const double inverse_mass = bodies_.inverseMass(index(c.A)) + bodies_.inverseMass(index(c.B));
     joints_[i].cfm = std::min(h * softness * inverse_mass, options_.max_contact_cfm);
   }
@@ -92,13 +92,13 @@ void StepSolver::soften(Islands& islands, double h) {
 
 // Warm start: aligns friction with the last step's load, so that a contact at its limit gives way in the right
 // direction.
-void StepSolver::startFromLastStep(Islands& islands) {
+void StepSolver::startFromLastStep() {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     ContactJoints::Joint& joint = joints_[i];
     const Vec3& nhat = joints_.contact(i).nhat_AB_W;
     const double f_n = joint.f_B_W.dot(nhat);
     joint.direction = frictionDirection(nhat, joint.f_B_W - f_n * nhat);
-    if (f_n > 0 && solver_.isDirect(islands[islandOf(i, islands)])) joint.limit = joint.mu * f_n;
+    if (f_n > 0 && solver_.isDirect()) joint.limit = joint.mu * f_n;
   }
 }
 
@@ -129,14 +129,12 @@ bool StepSolver::findSliding(Islands& islands) {
   load_.assign(bodies_.size(), {});
   forEachPatch([&](const Patch& patch) {
     const std::size_t island = islands.of(patch.body);
-    const bool direct = solver_.isDirect(islands[island]);
     load_[island].all += patch.cone;
-    if (patch.friction <= kAtLimit * patch.cone || slipOf(patch) < (direct ? kSlides : kRestSpeed)) return;
+    if (patch.friction <= kAtLimit * patch.cone || slipOf(patch) < (solver_.isDirect() ? kSlides : kRestSpeed)) return;
     load_[island].sliding += patch.cone;
   });
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Islands::Island& island = islands[i];
-    sliding_[i] = load_[i].sliding > (solver_.isDirect(island) ? 0 : kSlidingShare) * load_[i].all ? 1 : 0;
+    sliding_[i] = load_[i].sliding > (solver_.isDirect() ? 0 : kSlidingShare) * load_[i].all ? 1 : 0;
   }
   return any(sliding_);
 }
@@ -161,7 +159,7 @@ void StepSolver::predict(FingerJoints& fingers, Islands& islands, const std::vec
     if (wanted[islandOf(i, islands)] == 0) continue;
     const Vec3 slip = joints_.slip(i, bodies_);
     joints_[i].direction = frictionDirection(c.nhat_AB_W, slip);
-    joints_[i].slides = slip.norm() > kSlidesFast && solver_.isDirect(islands[islandOf(i, islands)]);
+    joints_[i].slides = slip.norm() > kSlidesFast && solver_.isDirect();
   }
   putBack(islands, wanted);
   // friction in a second direction would hold a contact on the predicted line although other contacts may deflect it,
@@ -179,7 +177,7 @@ bool StepSolver::judge(Islands& islands) {
     const std::size_t island = islands.of(patch.body);
     const bool exceeds = patch.friction > (1 + kTolerance) * patch.cone;
     const bool lags = patch.friction > kAtLimit * patch.limit && patch.friction < (1 - kLag) * patch.cone;
-    if (solver_.isDirect(islands[island]) && (exceeds || lags)) wrong_[island] = 1;
+    if (solver_.isDirect() && (exceeds || lags)) wrong_[island] = 1;
   });
   // also repeat islands on which the direct solver failed: its own friction bound at an unloaded contact may be the
   // cause

@@ -7,9 +7,9 @@
 
 namespace presa::ode {
 
-/// Solves one step with Coulomb friction between bodies: a round cone over the normal force of the same step, opposing
-/// the slip. ODE alone bounds friction by a box, and in its direct solver by the normal force of a solve without
-/// friction.
+/// Solves one step with ODE's solvers and Coulomb friction between bodies: a round cone over the normal force of the
+/// same step, opposing the slip. ODE alone bounds friction by a box, and in its direct solver by the normal force of a
+/// solve without friction.
 ///
 /// A contact starts from the direction and normal force of the last step. Where something slid, the island is first
 /// solved without friction, and friction is aligned against the predicted slip. After the solve each island is checked;
@@ -23,9 +23,6 @@ class StepSolver {
   /// fell back to the iterative solver.
   bool solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers, Islands& islands, int layers, double h,
              int substeps);
-
-  bool isDirect(const Islands::Island& island) const noexcept { return solver_.isDirect(island); }
-  void setCrowded(bool crowded) noexcept { solver_.setCrowded(crowded); }
 
   struct Counts {
     std::uint64_t predictions = 0, repeats = 0;  // number of islands
@@ -45,8 +42,8 @@ class StepSolver {
   template <class Use>
   void forEachPatch(Use use);
   double slipOf(const Patch& patch) const;
-  void soften(Islands& islands, double h);
-  void startFromLastStep(Islands& islands);
+  void soften(double h);
+  void startFromLastStep();
   void boundByNormalForce(Islands& islands);
   std::size_t islandOf(std::size_t i, Islands& islands) const {
     return islands.of(static_cast<std::size_t>(joints_.contact(i).B));

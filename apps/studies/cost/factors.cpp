@@ -347,7 +347,7 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
   if (touches) add("renderer", renderers());
   if (moves) {
     add("substeps", {"1", "2", "4", "8"});
-    add("solver", {"auto", "direct", "iterative"});
+    add("solver", {"auto", "direct", "iterative", "newton", "small_steps"});
     add("rotation", {"exact", "engine", "none", "euler", "matrix"});
   }
   if (moves && solid > 1) add("friction", {"isotropic", "pyramid"});

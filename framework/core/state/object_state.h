@@ -37,6 +37,13 @@ struct BodyPenetration {
   double worst = std::numeric_limits<double>::quiet_NaN();  ///< [m]; 0 where nothing touches
 };
 
+/// Energy that appeared from nothing since the start: what bodies gained beyond the work of fingers and external forces.
+/// Zero in nature; a method's error, or the push that separates bodies which overlapped. NaN: the engine does not say.
+struct EnergyCreated {
+  double sum = std::numeric_limits<double>::quiet_NaN();         ///< [J]
+  double worst_step = std::numeric_limits<double>::quiet_NaN();  ///< the most in one step [J]
+};
+
 /// Impulse that one finger gave to one body since the finger came to it.
 struct FingerImpulse {
   std::int32_t finger = 0, body = kNoBody;
@@ -56,6 +63,7 @@ struct ObjectState {
   /// Steps since the start in which an island had to change from the direct to the iterative solver.
   std::uint64_t fallback_steps = 0;
   BodyPenetration penetration;
+  EnergyCreated energy;
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
   std::vector<Vec3> finger_impulse_W;
   BoundedList<FingerImpulse> touches;  ///< the same by finger and moving body, of the contacts of the step just solved

@@ -84,6 +84,7 @@ struct Monitor::Impl {
   double loosen_time;
   ActionReaction reaction;
   std::uint64_t solver_fallbacks = 0;
+  EnergyCreated energy_created;
   std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
   std::uint64_t objects_version = 0;
   double simulated_time = 0;
@@ -229,7 +230,10 @@ void Monitor::Impl::observe(const HapticSample& sample) noexcept {
     if (object_faults == 0) object_fault_time = tick.time;
     object_faults |= state->faults;
   }
-  if (fresh) solver_fallbacks = state->fallback_steps;
+  if (fresh) {
+    solver_fallbacks = state->fallback_steps;
+    energy_created = state->energy;
+  }
   sumObjects(tick, contact, state, fresh);
   simulated_time = static_cast<double>(tick.index + 1) * tick.period;
   if (stride > 0) keep(tick, device, contact, command, state);
@@ -259,6 +263,7 @@ double Monitor::firstCoverageLost() const noexcept { return impl_->first_coverag
 std::uint32_t Monitor::objectFaults() const noexcept { return impl_->object_faults; }
 double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_time; }
 std::uint64_t Monitor::solverFallbacks() const noexcept { return impl_->solver_fallbacks; }
+const EnergyCreated& Monitor::energyCreated() const noexcept { return impl_->energy_created; }
 double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
 
 }  // namespace presa

@@ -91,6 +91,8 @@ class Monitor final : public HapticObserver {
   double objectFaultTime() const noexcept;
   /// Dynamics steps in which the direct solver failed on an island and the iterative solver replaced it.
   std::uint64_t solverFallbacks() const noexcept;
+  /// Energy that appeared from nothing in the dynamics; NaN where the engine does not say.
+  const EnergyCreated& energyCreated() const noexcept;
 
  private:
   struct Impl;

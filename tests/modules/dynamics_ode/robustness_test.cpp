@@ -32,11 +32,13 @@ bool sameBits(const ObjectState& a, const ObjectState& b) {
 }
 
 // Recordings are replayed to the bit: two worlds of the same scene, stepped in turn (which would mix ODE's global
-// random numbers) and with allocations in between, must agree in every bit. Both solvers.
+// random numbers) and with allocations in between, must agree in every bit, whatever solves them.
 TEST(Determinism, SameCallsGiveTheSameBits) {
-  for (const std::uint32_t limit : {0U, 150U}) {
+  using Solver = DynamicsSettings::Solver;
+  for (const Solver solver :
+       {Solver::kAuto, Solver::kDirect, Solver::kIterative, Solver::kNewton, Solver::kSmallSteps}) {
     OdeOptions options;
-    options.direct_limit = limit;
+    options.method.solver = solver;
     const auto world = heap(3);
     Runner a(world, options);
     const std::vector<std::unique_ptr<int>> elsewhere(1000);
@@ -53,17 +55,16 @@ TEST(Determinism, SameCallsGiveTheSameBits) {
   }
 }
 
-// The iterative solver is used only for an island above the limit: a light cube held elsewhere keeps the direct
-// solver's exact grip beside a heap solved with two iterations.
+// Small steps are used only for the heap: a light cube held elsewhere keeps Newton's exact grip.
 TEST(Islands, HeldCubeIsSolvedExactlyBesideALargeHeap) {
   WorldMaker maker;
   maker.table();
   for (int i = 0; i < 27; ++i)
     maker.box(kCube, 0.1, {{0.05 * (i % 3), 0.05 * (i / 3 % 3), 0.025 + 0.05 * (i / 9)}, Quat::Identity()});
   maker.box(kCube, 0.001, {{0, 0.8, 0.5}, Quat::Identity()});
-  OdeOptions options;
-  options.direct_limit = 20;
-  options.method.iterations = 2;
+  OdeOptions options = awake();
+  options.newton_work = 5;
+  options.small_steps.count = 1;
   Runner runner(maker.world(), options);
   std::vector<ReferenceFinger> fingers = pinch(28, 0.05, 0.002, 10000, 1);
   for (ReferenceFinger& finger : fingers) {
@@ -138,7 +139,9 @@ TEST(Faults, RunawayBodyFreezesAtItsLastGoodPose) {
 // is reported, permanently; another world is not affected.
 TEST(Faults, FailureInsideTheEngineFreezesThatWorldOnly) {
   const auto world = WorldMaker().box(kCube, 0.1, {{0, 0, 1}, Quat::Identity()}).world();
-  Runner broken(world), other(world);
+  OdeOptions options;
+  options.method.solver = DynamicsSettings::Solver::kDirect;
+  Runner broken(world, options), other(world, options);
   broken.step();
   const Vec3 p = broken[0].X_WB_end.p;
   broken.step({}, 0);
@@ -151,24 +154,29 @@ TEST(Faults, FailureInsideTheEngineFreezesThatWorldOnly) {
   EXPECT_EQ(other.bodies.faults().count, 0U);
 }
 
-// Contacts so redundant and squeezed that the direct solver fails are restored and solved iteratively: the state stays
-// finite and bounded, and the step is counted.
-TEST(Faults, DirectSolverInTroubleFallsBack) {
+// Contacts so redundant and squeezed that ODE's direct solver fails are restored and solved iteratively: the state
+// stays finite and bounded, and the step is counted. Presa's own solvers need no way out.
+class SqueezedUnderALid : public testing::TestWithParam<DynamicsSettings::Solver> {};
+
+TEST_P(SqueezedUnderALid, StaysFiniteAndInPlace) {
   WorldMaker maker;
   maker.table().fixedBox({2, 2, 0.1}, {{0, 0, 0.145}, Quat::Identity()});  // a lid 5 mm into everything below
   for (int i = 0; i < 12; ++i) {
     maker.box({0.1, 0.1, 0.1}, i % 2 == 0 ? 1e-4 : 1e3, {{0.095 * (i % 4), 0.095 * (i / 4), 0.05}, Quat::Identity()});
   }
   OdeOptions options;
-  options.direct_limit = 150;
+  options.method.solver = GetParam();
   options.contact_softness = 1e-9;
   Runner runner(maker.world(), options);
   for (int n = 0; n < 100; ++n) runner.step();
   RecordProperty("fallback_steps", static_cast<int>(runner.bodies.fallbackSteps()));
-  EXPECT_GT(runner.bodies.fallbackSteps(), 0U);
+  EXPECT_EQ(runner.bodies.fallbackSteps() > 0, GetParam() == DynamicsSettings::Solver::kDirect);
   EXPECT_EQ(runner.bodies.faults().count, 0U);
   for (std::size_t i = 2; i < 14; ++i) EXPECT_LT(runner[i].X_WB_end.p.norm(), 1);
 }
+INSTANTIATE_TEST_SUITE_P(SolvedBy, SqueezedUnderALid,
+                         testing::Values(DynamicsSettings::Solver::kDirect, DynamicsSettings::Solver::kNewton,
+                                         DynamicsSettings::Solver::kSmallSteps));
 
 // The module is the same world behind ports, started and stopped on an executor's thread.
 TEST(Module, PublishesTheStateOfItsWorld) {

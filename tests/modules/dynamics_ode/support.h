@@ -22,6 +22,17 @@ inline Mat3 boxInertia(double mass, const Vec3& size) {
   return Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()).asDiagonal().toDenseMatrix() * (mass / 12);
 }
 
+/// The usual cube as twelve triangles.
+inline TriMesh twelveTriangles() {
+  TriMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.push_back(kEdge / 2 * Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1));
+  }
+  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+  return mesh;
+}
+
 class WorldMaker {
  public:
   WorldMaker() {

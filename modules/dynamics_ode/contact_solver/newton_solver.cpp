@@ -1,0 +1,365 @@
+// Newton's method on a convex, piecewise smooth function; the line search makes every step a descent. Invariants: with
+// converged cones friction is inside its round cone, opposes slip, and does no positive work; energy never rises but by
+// what pushes overlaps apart. Three things make it fast: it starts from what every contact did in the step before, one
+// iteration then suffices for a pile at rest; the factorisation is sparse; nothing depends on the order of contacts.
+#include "modules/dynamics_ode/contact_solver/newton_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "modules/dynamics_ode/index.h"
+#include "modules/dynamics_ode/rotation.h"
+
+namespace presa::ode {
+namespace {
+
+constexpr double kConverged = 1e-7;      // last step [m/s, rad/s]
+constexpr double kConesStand = 1e-3;     // last change of a normal impulse, in relation to the largest
+constexpr double kTouches = 1e-3;        // a gap that this closing speed closes within the step touches [m/s]
+constexpr double kSticks = 0.98;         // friction relative to its limit below which a contact is expected to stick
+constexpr double kFlatEnough = 1e-3;     // slope at the end of a line search, in relation to that at its start
+constexpr double kMotorSoftness = 1e-8;  // as Options::softness
+constexpr int kSearchSteps = 20;
+
+Mat3 cross(const Vec3& r) {
+  Mat3 m;
+  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return m;
+}
+
+Mat3 frame(const Vec3& nhat, const Vec3& tangent) {
+  Mat3 R;
+  R.row(0) = nhat;
+  R.row(1) = tangent;
+  R.row(2) = nhat.cross(tangent);
+  return R;
+}
+
+}  // namespace
+
+NewtonSolver::NewtonSolver(const Options& options, std::size_t bodies, std::size_t contacts)
+    : options_(options), matrix_(bodies) {
+  pairs_.reserve(contacts);
+  rows_.reserve(contacts);
+  mass_.reserve(bodies);
+  inertia_W_.reserve(bodies);
+  for (Vector* vector : {&free_, &v_, &gradient_, &step_, &other_}) vector->reserve(bodies);
+}
+
+bool NewtonSolver::analyse(const ContactProblem& problem, std::size_t max_work) {
+  pairs_.clear();
+  for (const ContactProblem::Contact& c : problem.contacts) {
+    if (c.A != ContactProblem::kFixed) pairs_.emplace_back(c.A, c.B);
+  }
+  return matrix_.analyse(problem.bodies.size(), pairs_, max_work);
+}
+
+void NewtonSolver::makeMasses(const ContactProblem& problem, double h) {
+  const std::size_t count = problem.bodies.size();
+  mass_.resize(count);
+  inertia_W_.resize(count);
+  for (Vector* vector : {&free_, &v_, &gradient_, &step_, &other_}) vector->resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactProblem::Body& body = problem.bodies[i];
+    const Mat3 R = body.q_WB.toRotationMatrix();
+    mass_[i] = body.mass;
+    inertia_W_[i] = R * body.inertia_B * R.transpose();
+    v_[i] << body.v_WCm, body.w_WB;
+    free_[i] << body.v_WCm + h / body.mass * body.force_W,
+        body.w_WB + h * (R * (body.inverse_inertia_B * (R.transpose() * body.torque_W)));
+  }
+}
+
+void NewtonSolver::makeRows(const ContactProblem& problem, double h) {
+  rows_.clear();
+  motors_.clear();
+  for (const ContactProblem::Contact& contact : problem.contacts) addContact(problem, contact, h);
+  for (const ContactProblem::Finger& finger : problem.fingers) addFinger(problem, finger, h);
+  for (const ContactProblem::Motor& motor : problem.motors) addMotor(problem, motor, h);
+}
+
+void NewtonSolver::addContact(const ContactProblem& problem, const ContactProblem::Contact& c, double h) {
+  const ContactProblem::Body& B = problem.bodies[index(c.B)];
+  Row row{c.A, c.B, Vec3::Zero(), c.p_W - B.p_WCm, frame(c.nhat_AB_W, c.nhat_AB_W.unitOrthogonal())};
+  double inverse_mass = 1 / B.mass;
+  if (c.A != ContactProblem::kFixed) {
+    row.rA = c.p_W - problem.bodies[index(c.A)].p_WCm;
+    inverse_mass += 1 / problem.bodies[index(c.A)].mass;
+  }
+  row.k_n = row.k_t = 1 / (options_.softness * inverse_mass);
+  row.mu = row.mu_slip = c.mu;
+  startFrom(row, h * c.f_B_W);
+  row.goal = row.impulse / row.k_t;
+  row.goal.x() = c.gap > 0 ? -c.gap / h : std::min(-options_.erp * c.gap / h, options_.max_push);
+  rows_.push_back(row);
+}
+
+void NewtonSolver::addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h) {
+  const FingerConstraint& c = *finger.constraint;
+  Row row{ContactProblem::kFixed, finger.body, Vec3::Zero(), c.p_WP - problem.bodies[index(finger.body)].p_WCm,
+          frame(c.n_in, c.t1)};
+  row.k_n = h / c.cfm;
+  row.k_t = h / c.slip;
+  row.goal = {c.erp / h * c.depth + c.motion_n, c.motion_1, c.motion_2};
+  row.mu = c.mu;
+  row.mu_slip = c.mu_dynamic;
+  startFrom(row, h * c.expected_force_W);
+  rows_.push_back(row);
+}
+
+void NewtonSolver::addMotor(const ContactProblem& problem, const ContactProblem::Motor& motor, double h) {
+  const ContactProblem::Body& body = problem.bodies[index(motor.body)];
+  MotorRow row{motor.body, Eigen::Matrix<double, 6, 1>::Zero()};
+  row.axis.segment<3>(motor.turns ? 3 : 0) = motor.axis_W;
+  const double inertia = motor.turns ? body.inertia_B.trace() / 3 : body.mass;
+  row.k = 1 / (kMotorSoftness / inertia + motor.compliance / h);
+  row.goal = motor.velocity;
+  row.limit = h * motor.max_force;
+  motors_.push_back(row);
+}
+
+void NewtonSolver::startFrom(Row& row, const Vec3& impulse_W) {
+  row.impulse = row.R * impulse_W;
+  row.normal = std::max(0.0, row.impulse.x());
+  row.sticks = row.impulse.tail<2>().norm() < kSticks * row.mu * row.normal;
+}
+
+Vec3 NewtonSolver::velocityOf(const Row& row, const Vector& v) {
+  const Vec6& B = v[index(row.B)];
+  Vec3 u = B.head<3>() + Vec3(B.tail<3>()).cross(row.rB);
+  if (row.A != ContactProblem::kFixed) {
+    const Vec6& A = v[index(row.A)];
+    u -= A.head<3>() + Vec3(A.tail<3>()).cross(row.rA);
+  }
+  return row.R * u;
+}
+
+Vec3 NewtonSolver::springOf(const Row& row, const Vec3& u) {
+  return Vec3(row.k_n, row.k_t, row.k_t).cwiseProduct(row.goal - u);
+}
+
+Vec3 NewtonSolver::impulseOf(const Row& row, const Vec3& u) {
+  Vec3 impulse = springOf(row, u);
+  impulse.x() = std::max(0.0, impulse.x());
+  const double limit = row.mu * row.normal, length = impulse.tail<2>().norm();
+  if (length > limit) impulse.tail<2>() *= limit / length;
+  return impulse;
+}
+
+NewtonSolver::Response NewtonSolver::responseOf(const Row& row, const Vec3& u) {
+  const Vec3 spring = springOf(row, u);
+  Mat3 k = Mat3::Zero();
+  if (spring.x() > 0) k(0, 0) = row.k_n;
+  const double limit = row.mu * row.normal, length = spring.tail<2>().norm();
+  if (length <= limit) {
+    k(1, 1) = k(2, 2) = row.k_t;
+  } else {
+    const Eigen::Vector2d along = spring.tail<2>() / length;
+    k.bottomRightCorner<2, 2>() = row.k_t * limit / length * (Eigen::Matrix2d::Identity() - along * along.transpose());
+  }
+  return {impulseOf(row, u), k};
+}
+
+// What the contact does if its state is the expected one: linear.
+NewtonSolver::Response NewtonSolver::expectedOf(const Row& row, const Vec3& u) {
+  Vec3 impulse = Vec3::Zero(), k = Vec3::Zero();
+  if (row.closes) {
+    k.x() = row.k_n;
+    if (row.sticks) {
+      k.y() = k.z() = row.k_t;
+    } else {
+      impulse.tail<2>() = row.impulse.tail<2>();
+    }
+    impulse += k.cwiseProduct(row.goal - u);
+  }
+  return {impulse, Mat3(k.asDiagonal())};
+}
+
+NewtonSolver::Vec6 NewtonSolver::massTimes(std::size_t body, const Vec6& v) const {
+  Vec6 p;
+  p << mass_[body] * v.head<3>(), inertia_W_[body] * v.tail<3>();
+  return p;
+}
+
+double NewtonSolver::valueAt(const Vector& v) const {
+  double value = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vec6 dv = v[i] - free_[i];
+    value += massTimes(i, dv).dot(dv) / 2;
+  }
+  const auto huber = [](double spring, double limit, double k) {
+    return spring <= limit ? spring * spring / (2 * k) : limit * (spring - limit / 2) / k;
+  };
+  for (const Row& row : rows_) {
+    const Vec3 spring = springOf(row, velocityOf(row, v));
+    if (spring.x() > 0) value += spring.x() * spring.x() / (2 * row.k_n);
+    value += huber(spring.tail<2>().norm(), row.mu * row.normal, row.k_t);
+  }
+  for (const MotorRow& row : motors_) {
+    value += huber(row.k * std::abs(row.goal - row.axis.dot(v[index(row.body)])), row.limit, row.k);
+  }
+  return value;
+}
+
+// Gradient and factorised second derivative at v_, with contacts as `respond` says.
+bool NewtonSolver::assemble(Response (*respond)(const Row&, const Vec3&)) {
+  matrix_.setZero();
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    gradient_[i] = massTimes(i, v_[i] - free_[i]);
+    BlockCholesky::Block block = BlockCholesky::Block::Zero();
+    block.topLeftCorner<3, 3>().diagonal().setConstant(mass_[i]);
+    block.bottomRightCorner<3, 3>() = inertia_W_[i];
+    matrix_.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i), block);
+  }
+  for (const Row& row : rows_) {
+    const auto [impulse, stiffness] = respond(row, velocityOf(row, v_));
+    const Vec3 f = row.R.transpose() * impulse;
+    const Mat3 K = row.R.transpose() * stiffness * row.R;
+    Eigen::Matrix<double, 3, 6> J;
+    J << Mat3::Identity(), -cross(row.rB);
+    gradient_[index(row.B)] -= J.transpose() * f;
+    const Eigen::Matrix<double, 3, 6> KJ = K * J;
+    matrix_.add(row.B, row.B, J.transpose() * KJ);
+    if (row.A == ContactProblem::kFixed) continue;
+    J << -Mat3::Identity(), cross(row.rA);
+    gradient_[index(row.A)] -= J.transpose() * f;
+    matrix_.add(row.A, row.B, J.transpose() * KJ);
+    matrix_.add(row.A, row.A, J.transpose() * (K * J));
+  }
+  for (const MotorRow& row : motors_) {
+    const double spring = row.k * (row.goal - row.axis.dot(v_[index(row.body)]));
+    gradient_[index(row.body)] -= std::clamp(spring, -row.limit, row.limit) * row.axis;
+    if (std::abs(spring) < row.limit) matrix_.add(row.body, row.body, row.k * row.axis * row.axis.transpose());
+  }
+  return matrix_.factorise();
+}
+
+// Where every contact does what it did in the step before, and a new one that would close sticks, the problem is linear.
+// Its solution replaces v where it is better.
+bool NewtonSolver::guess() {
+  for (Row& row : rows_) {
+    row.is_new = row.normal <= 0;
+    row.closes = !row.is_new || row.goal.x() > -kTouches || velocityOf(row, free_).x() < row.goal.x();
+    row.sticks = row.sticks || row.is_new;
+  }
+  if (!assemble(expectedOf)) return false;
+  newtonStep();
+  for (std::size_t i = 0; i < v_.size(); ++i) other_[i] = v_[i] + step_[i];
+  for (Row& row : rows_) {
+    if (row.is_new && row.closes) row.normal = impulseOf(row, velocityOf(row, other_)).x();
+  }
+  if (valueAt(other_) < valueAt(v_)) std::swap(v_, other_);
+  return true;
+}
+
+void NewtonSolver::newtonStep() {
+  for (std::size_t i = 0; i < v_.size(); ++i) step_[i] = -gradient_[i];
+  matrix_.solve(step_);
+}
+
+double NewtonSolver::slopeAt(double alpha, const Vector& v, const Vector& dv, double& curvature) const {
+  double slope = 0;
+  curvature = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vec6 p = massTimes(i, dv[i]);
+    curvature += p.dot(dv[i]);
+    slope += p.dot(v[i] - free_[i]);
+  }
+  slope += alpha * curvature;
+  for (const Row& row : rows_) {
+    const Vec3 du = velocityOf(row, dv);
+    const auto [impulse, stiffness] = responseOf(row, velocityOf(row, v) + alpha * du);
+    slope -= impulse.dot(du);
+    curvature += du.dot(stiffness * du);
+  }
+  for (const MotorRow& row : motors_) {
+    const double du = row.axis.dot(dv[index(row.body)]);
+    const double spring = row.k * (row.goal - row.axis.dot(v[index(row.body)]) - alpha * du);
+    slope -= std::clamp(spring, -row.limit, row.limit) * du;
+    if (std::abs(spring) < row.limit) curvature += row.k * du * du;
+  }
+  return slope;
+}
+
+// The slope along dv rises monotonically from a negative value: its zero by safeguarded Newton steps, at most the full
+// step.
+double NewtonSolver::lineSearch(const Vector& v, const Vector& dv) const {
+  double curvature = 0, low = 0, high = 1, alpha = 1;
+  const double at_start = slopeAt(0, v, dv, curvature);
+  for (int i = 0; i < kSearchSteps; ++i) {
+    const double slope = slopeAt(alpha, v, dv, curvature);
+    if ((slope <= 0 && alpha == 1) || std::abs(slope) < kFlatEnough * std::abs(at_start)) break;
+    (slope > 0 ? high : low) = alpha;
+    const double newton = alpha - slope / curvature;
+    alpha = newton > low && newton < high ? newton : (low + high) / 2;
+  }
+  return alpha;
+}
+
+bool NewtonSolver::minimise() {
+  const std::size_t affordable = options_.max_products / std::max<std::size_t>(1, matrix_.work());
+  const std::size_t iterations = std::clamp(affordable, kMinIterations, options_.max_iterations);
+  for (std::size_t i = 0; i < iterations; ++i) {
+    ++counts.iterations;
+    if (!assemble(responseOf)) return false;
+    newtonStep();
+    double largest = 0;
+    for (const Vec6& dv : step_) largest = std::max(largest, dv.lpNorm<Eigen::Infinity>());
+    const bool converged = largest < kConverged;
+    const double alpha = converged ? 1 : lineSearch(v_, step_);
+    for (std::size_t k = 0; k < v_.size(); ++k) v_[k] += alpha * step_[k];
+    if (converged) return true;
+  }
+  return false;
+}
+
+// Lets the cones stand on the present normal impulses. Returns the largest change relative to the largest impulse.
+double NewtonSolver::standCones() {
+  double change = 0, largest = 0;
+  for (Row& row : rows_) {
+    const Vec3 impulse = impulseOf(row, velocityOf(row, v_));
+    const bool slips = impulse.x() > 0 && impulse.tail<2>().norm() >= (1 - 1e-6) * row.mu * row.normal;
+    if (slips && row.mu_slip < row.mu) {
+      row.mu = row.mu_slip;
+      change = 1e300;
+    }
+    change = std::max(change, std::abs(impulse.x() - row.normal));
+    largest = std::max(largest, impulse.x());
+    row.normal = impulse.x();
+  }
+  return largest > 0 ? change / largest : 0;
+}
+
+void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
+  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+    ContactProblem::Body& body = problem.bodies[i];
+    body.v_WCm = v_[i].head<3>();
+    body.w_WB = v_[i].tail<3>();
+    body.p_WCm += h * body.v_WCm;
+    driftRotation(body.q_WB, body.w_WB, body.inertia_B, body.inverse_inertia_B, h);
+  }
+  const auto force = [&](const Row& row) { return Vec3(row.R.transpose() * impulseOf(row, velocityOf(row, v_)) / h); };
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) problem.contacts[i].f_B_W = force(rows_[i]);
+  for (std::size_t i = 0; i < problem.fingers.size(); ++i) {
+    problem.fingers[i].f_B_W = force(rows_[problem.contacts.size() + i]);
+  }
+}
+
+bool NewtonSolver::solve(ContactProblem& problem, double h) {
+  ++counts.solves;
+  makeMasses(problem, h);
+  makeRows(problem, h);
+  bool converged = guess() && minimise();
+  for (int cone = 1; converged && cone < options_.max_cones && standCones() > kConesStand; ++cone) {
+    converged = minimise();
+  }
+  if (!converged) {
+    ++counts.failures;
+    return false;
+  }
+  giveBack(problem, h);
+  return true;
+}
+
+}  // namespace presa::ode

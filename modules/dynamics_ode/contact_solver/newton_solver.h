@@ -1,0 +1,102 @@
+#pragma once
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "modules/dynamics_ode/contact_solver/block_cholesky.h"
+#include "modules/dynamics_ode/contact_solver/contact_problem.h"
+
+namespace presa::ode {
+
+/// Direct contact solver for islands of any size whose bodies form chains rather than heaps: one implicit step as a
+/// convex minimisation over the velocities v at its end,
+///   min 1/2 (v - v*)^T M (v - v*) + sum of the potentials of contacts, fingers and motors,
+/// solved by Newton's method with a sparse factorisation [Castro2022]. v* are the velocities without any contact.
+///
+/// A contact is a stiff spring-damper along its normal; along its tangents a stiff spring whose state is the friction of
+/// the last step, so that nothing creeps, inside a round Coulomb cone. The cone stands on the normal impulse of the
+/// minimisation before. A gap counts as a spring that starts at its end.
+class NewtonSolver {
+ public:
+  struct Options {
+    double softness = 2e-4;           ///< of a contact: 1 / (reduced mass * stiffness * step^2), before damping
+    double erp = 0.2;                 ///< fraction of an overlap removed per step
+    double max_push = 1;              ///< maximum speed at which overlapping bodies are pushed apart [m/s]
+    std::size_t max_iterations = 40;  ///< of one minimisation
+    std::size_t max_products = 8000;  ///< the same, in products of blocks; at least kMinIterations
+    int max_cones = 10;               ///< minimisations, each on the cones of the one before
+  };
+  static constexpr std::size_t kMinIterations = 8;
+
+  /// Reserves memory for `bodies` and `contacts` in all.
+  NewtonSolver(const Options& options, std::size_t bodies, std::size_t contacts);
+
+  void makeRoom(std::size_t fingers, std::size_t motors) {
+    rows_.reserve(pairs_.capacity() + fingers);
+    motors_.reserve(motors);
+  }
+  /// Takes the pattern of `problem`. False when an iteration would take more than `max_work` products of 6 x 6 blocks,
+  /// or the problem has more than BlockCholesky::kMaxCount bodies.
+  bool analyse(const ContactProblem& problem, std::size_t max_work);
+  /// Solves the analysed problem for a step of `h` [s]. False when it did not converge: `problem` is then unchanged.
+  bool solve(ContactProblem& problem, double h);
+
+  struct Counts {
+    std::uint64_t solves = 0, iterations = 0, failures = 0;
+  } counts;
+
+ private:
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  using Vector = BlockCholesky::Vector;
+  struct Row {  // of a contact or a finger
+    std::int32_t A, B;
+    Vec3 rA, rB;                                         // from the centres of mass [m]
+    Mat3 R;                                              // rows: normal into B, two tangents
+    Vec3 goal = Vec3::Zero();                            // velocity in R at which the springs are relaxed [m/s]
+    double k_n = 0, k_t = 0;                             // impulse per velocity [kg]
+    double mu = 0, mu_slip = 0;                          // from rest, and once it slips
+    double normal = 0;                                   // normal impulse on which the cone stands [N s]
+    Vec3 impulse = Vec3::Zero();                         // in R, on B
+    bool is_new = false, closes = false, sticks = true;  // expected, see guess()
+  };
+  struct MotorRow {
+    std::int32_t body;
+    Vec6 axis;
+    double goal = 0, k = 0, limit = 0;  // impulse k (goal - u), at most limit
+  };
+  /// Impulse on B in R, and minus its derivative by the velocity.
+  using Response = std::pair<Vec3, Mat3>;
+
+  void makeMasses(const ContactProblem& problem, double h);
+  void makeRows(const ContactProblem& problem, double h);
+  void addContact(const ContactProblem& problem, const ContactProblem::Contact& contact, double h);
+  void addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h);
+  void addMotor(const ContactProblem& problem, const ContactProblem::Motor& motor, double h);
+  void startFrom(Row& row, const Vec3& impulse_W);
+  static Vec3 velocityOf(const Row& row, const Vector& v);
+  static Vec3 springOf(const Row& row, const Vec3& u);
+  static Vec3 impulseOf(const Row& row, const Vec3& u);
+  static Response responseOf(const Row& row, const Vec3& u);
+  static Response expectedOf(const Row& row, const Vec3& u);
+  Vec6 massTimes(std::size_t body, const Vec6& v) const;
+  double valueAt(const Vector& v) const;
+  double slopeAt(double alpha, const Vector& v, const Vector& dv, double& curvature) const;
+  double lineSearch(const Vector& v, const Vector& dv) const;
+  void newtonStep();
+  bool assemble(Response (*respond)(const Row&, const Vec3&));
+  bool guess();
+  bool minimise();
+  double standCones();
+  void giveBack(ContactProblem& problem, double h) const;
+
+  Options options_;
+  BlockCholesky matrix_;
+  std::vector<BlockCholesky::Pair> pairs_;
+  std::vector<Row> rows_;  // contacts, then fingers
+  std::vector<MotorRow> motors_;
+  std::vector<double> mass_;
+  std::vector<Mat3> inertia_W_;
+  Vector free_, v_, gradient_, step_, other_;  // free_: v*
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,170 @@
+#include "modules/dynamics_ode/contact_solver/own_solvers.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "modules/dynamics_ode/index.h"
+
+namespace presa::ode {
+namespace {
+
+constexpr std::size_t kAnyWork = static_cast<std::size_t>(-1);
+// rows of contacts for which the small steps reserve memory; more allocate once
+constexpr std::size_t kMostRows = 8192;
+
+// No bound on the cost when the scene asks for Newton's method.
+NewtonSolver::Options newtonOptions(const OdeOptions& options) {
+  NewtonSolver::Options newton = options.newton;
+  if (options.method.solver == DynamicsSettings::Solver::kNewton) newton.max_products = kAnyWork;
+  return newton;
+}
+
+}  // namespace
+
+OwnSolvers::OwnSolvers(const Scene& scene, BodySet& bodies, const OdeOptions& options)
+    : bodies_(bodies),
+      options_(options),
+      gravity_W_(scene.gravity),
+      newton_(newtonOptions(options), bodies.size(), kContactsPerBody * bodies.size()),
+      small_steps_(options.small_steps, std::min(kMostRows, kContactsPerBody * bodies.size())),
+      joints_(scene, options, kContactsPerBody * bodies.size()),
+      place_(bodies.size(), ContactProblem::kFixed),
+      back_off_(bodies.size()) {
+  const std::size_t contacts = kContactsPerBody * bodies.size();
+  problem_.bodies.reserve(bodies.size());
+  problem_.contacts.reserve(contacts);
+  for (Members* members : {&members_, &contacts_, &fingers_, &motors_}) members->first.reserve(bodies.size() + 2);
+  members_.items.reserve(bodies.size());
+  contacts_.items.reserve(contacts);
+}
+
+void OwnSolvers::makeRoom(std::size_t finger_contacts) {
+  const std::size_t motors = finger_contacts + 6 * bodies_.size();  // six axes of a snap drive
+  problem_.fingers.reserve(finger_contacts);
+  problem_.motors.reserve(motors);
+  all_motors_.reserve(motors);
+  fingers_.items.reserve(finger_contacts);
+  motors_.items.reserve(motors);
+  newton_.makeRoom(finger_contacts, motors);
+  small_steps_.makeRoom(finger_contacts, motors);
+}
+
+// Counting sort; items whose island is `islands` or more belong to none.
+template <class IslandOf>
+void OwnSolvers::Members::sort(std::size_t count, std::size_t islands, IslandOf island_of) {
+  first.assign(islands + 2, 0);
+  items.resize(count);
+  for (std::size_t i = 0; i < count; ++i) ++first[std::min(island_of(i), islands) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for (std::size_t i = 0; i < count; ++i) items[first[std::min(island_of(i), islands)]++] = i;
+  std::rotate(first.begin(), first.end() - 1, first.end());
+  first[0] = 0;
+}
+
+ContactProblem::Body OwnSolvers::bodyOf(std::size_t i) const {
+  const BodySet::Motion motion = bodies_.motion(i);
+  const BodySet::Load load = bodies_.load(i, gravity_W_);
+  return {motion.p_WCm, motion.v_WCm,         motion.w_WB,  motion.q_WB,  load.mass,
+          load.inertia, load.inverse_inertia, load.force_W, load.torque_W};
+}
+
+void OwnSolvers::gather(std::size_t island, const FingerJoints& fingers) {
+  problem_.clear();
+  for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
+    const std::size_t i = members_.items[k];
+    place_[i] = static_cast<std::int32_t>(problem_.bodies.size());
+    problem_.bodies.push_back(bodyOf(i));
+  }
+  for (std::size_t k = contacts_.first[island]; k < contacts_.first[island + 1]; ++k) {
+    const BodyContact& c = joints_.contact(contacts_.items[k]);
+    const ContactJoints::Joint& joint = joints_[contacts_.items[k]];
+    problem_.contacts.push_back(
+        {place_[index(c.A)], place_[index(c.B)], c.p_W, c.nhat_AB_W, -c.depth, joint.mu, joint.f_B_W});
+  }
+  for (std::size_t k = fingers_.first[island]; k < fingers_.first[island + 1]; ++k) {
+    const std::size_t i = fingers_.items[k];
+    if (!fingers.areForces()) problem_.fingers.push_back({place_[fingers.body(i)], &fingers.row(i), Vec3::Zero()});
+  }
+  for (std::size_t k = motors_.first[island]; k < motors_.first[island + 1]; ++k) {
+    problem_.motors.push_back(all_motors_[motors_.items[k]]);
+    problem_.motors.back().body = place_[index(problem_.motors.back().body)];
+  }
+}
+
+bool OwnSolvers::isRough(std::size_t island) const {
+  for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
+    if (back_off_[members_.items[k]].steps > 0) return true;
+  }
+  return false;
+}
+
+void OwnSolvers::backOff(std::size_t island) {
+  int steps = kMinBackOff;
+  for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
+    steps = std::max(steps, back_off_[members_.items[k]].next);
+  }
+  for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
+    back_off_[members_.items[k]] = {steps, std::min(2 * steps, kMaxBackOff)};
+  }
+}
+
+void OwnSolvers::forgive(std::size_t island) {
+  for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
+    int& next = back_off_[members_.items[k]].next;
+    next = std::max(next - 1, kMinBackOff);
+  }
+}
+
+void OwnSolvers::solveProblem(std::size_t island, double h) {
+  using Solver = DynamicsSettings::Solver;
+  const Solver solver = options_.method.solver;
+  const std::size_t max_work = solver == Solver::kNewton ? kAnyWork : options_.newton_work;
+  if (solver != Solver::kSmallSteps && !isRough(island) && newton_.analyse(problem_, max_work)) {
+    if (newton_.solve(problem_, h)) {
+      ++counts.newton;
+      forgive(island);
+      return;
+    }
+    backOff(island);
+  }
+  ++counts.small_steps;
+  small_steps_.solve(problem_, h);
+}
+
+void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers) {
+  for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
+    const std::size_t i = members_.items[k];
+    const ContactProblem::Body& body = problem_.bodies[index(place_[i])];
+    bodies_.setMotion(i, {body.p_WCm, body.v_WCm, body.w_WB, body.q_WB});
+    place_[i] = ContactProblem::kFixed;
+    if (back_off_[i].steps > 0) --back_off_[i].steps;
+  }
+  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    joints_[contacts_.items[contacts_.first[island] + k]].f_B_W = problem_.contacts[k].f_B_W;
+  }
+  for (std::size_t k = 0; k < problem_.fingers.size(); ++k) {
+    fingers.setForce(fingers_.items[fingers_.first[island] + k], problem_.fingers[k].f_B_W);
+  }
+}
+
+void OwnSolvers::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers,
+                       const std::vector<ContactProblem::Motor>* motors, Islands& islands, double h) {
+  joints_.begin(contacts, bodies_, h);
+  all_motors_.assign(fingers.motors().begin(), fingers.motors().end());
+  if (motors != nullptr) all_motors_.insert(all_motors_.end(), motors->begin(), motors->end());
+  const std::size_t count = bodies_.size();
+  const auto of = [&](std::size_t body) { return bodies_.awake(body) ? islands.of(body) : count; };
+  members_.sort(count, count, of);
+  contacts_.sort(joints_.size(), count, [&](std::size_t i) { return of(index(joints_.contact(i).B)); });
+  fingers_.sort(fingers.count(), count, [&](std::size_t i) { return of(fingers.body(i)); });
+  motors_.sort(all_motors_.size(), count, [&](std::size_t i) { return of(index(all_motors_[i].body)); });
+  for (std::size_t island = 0; island < count; ++island) {
+    if (members_.first[island] == members_.first[island + 1]) continue;
+    gather(island, fingers);
+    solveProblem(island, h);
+    giveBack(island, fingers);
+  }
+  joints_.end(bodies_);
+}
+
+}  // namespace presa::ode

@@ -1,0 +1,66 @@
+#pragma once
+#include <vector>
+
+#include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/contact_joints.h"
+#include "modules/dynamics_ode/contact_solver/newton_solver.h"
+#include "modules/dynamics_ode/contact_solver/small_steps.h"
+#include "modules/dynamics_ode/finger_joints.h"
+#include "modules/dynamics_ode/islands.h"
+#include "modules/dynamics_ode/ode_options.h"
+
+namespace presa::ode {
+
+/// Steps islands with Presa's own solvers: by Newton's method where its factorisation is cheap, as in chains and small
+/// groups; large heaps in small steps. After Newton's method has not converged on an island, its bodies are solved in
+/// small steps for a while, which doubles with every failure and shrinks with every success.
+class OwnSolvers {
+ public:
+  OwnSolvers(const Scene& scene, BodySet& bodies, const OdeOptions& options);
+
+  /// Reserves memory for the contacts of fingers and for motors.
+  void makeRoom(std::size_t finger_contacts);
+  /// Steps all awake bodies over `h` [s]. Reads and writes the forces of `fingers`. `motors` may be null; their bodies
+  /// are indices into the scene.
+  void solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers,
+             const std::vector<ContactProblem::Motor>* motors, Islands& islands, double h);
+
+  static constexpr int kMinBackOff = 20, kMaxBackOff = 640;  // steps
+  struct Counts {
+    std::uint64_t newton = 0, small_steps = 0;  ///< islands solved
+  } counts;
+  const NewtonSolver::Counts& newtonCounts() const noexcept { return newton_.counts; }
+
+ private:
+  /// The members of each island, as runs of `items`.
+  struct Members {
+    std::vector<std::size_t> items, first;
+    template <class IslandOf>
+    void sort(std::size_t count, std::size_t islands, IslandOf island_of);
+  };
+  void gather(std::size_t island, const FingerJoints& fingers);
+  void solveProblem(std::size_t island, double h);
+  void giveBack(std::size_t island, FingerJoints& fingers);
+  ContactProblem::Body bodyOf(std::size_t i) const;
+  bool isRough(std::size_t island) const;
+  void backOff(std::size_t island);
+  void forgive(std::size_t island);
+
+  BodySet& bodies_;
+  const OdeOptions options_;
+  const Vec3 gravity_W_;
+  NewtonSolver newton_;
+  SmallSteps small_steps_;
+  ContactJoints joints_;
+  std::vector<ContactProblem::Motor> all_motors_;
+  ContactProblem problem_;
+  Members members_, contacts_, fingers_, motors_;  // by island
+  std::vector<std::int32_t> place_;                // by body: its index in the problem, kFixed: none
+  struct BackOff {
+    int steps = 0;           // for which Newton's method is not tried
+    int next = kMinBackOff;  // steps after the next failure
+  };
+  std::vector<BackOff> back_off_;  // by body
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,88 @@
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "modules/dynamics_ode/contact_solver/contact_problem.h"
+
+namespace presa::ode {
+
+/// Iterative contact solver for heaps: the period is divided into small steps of equal length, and each does two sweeps
+/// of projected Gauss-Seidel from the impulses of the one before [Macklin2019, Catto2023]. Cost is linear in contacts.
+/// Collision runs once a period; gaps follow the motion of the touched points.
+///
+/// A small step of length h: velocities take the external forces and the last impulses; a sweep with feedback of the
+/// gaps; positions advance; a sweep without feedback, which takes out again what the feedback added to velocities and
+/// thus to energy. Friction is a round Coulomb cone on the normal impulse of the same sweep.
+class SmallSteps {
+ public:
+  struct Options {
+    int count = 8;           ///< per period
+    double max_push = 1;     ///< maximum speed at which overlapping bodies are pushed apart [m/s]
+    double stiffness = 0.7;  ///< of a contact: omega h of its spring-damper
+    double damping = 5;      ///< its relative damping
+  };
+  /// Reserves memory for `contacts`; more allocate once.
+  SmallSteps(const Options& options, std::size_t contacts) : options_(options) { contacts_.reserve(contacts); }
+  void makeRoom(std::size_t fingers, std::size_t motors) {
+    fingers_.reserve(fingers);
+    motors_.reserve(motors);
+  }
+
+  void solve(ContactProblem& problem, double period);
+
+ private:
+  using Body = ContactProblem::Body;
+  /// One direction d of a point of contact, with r x d and the inverse inertia times that, for A and B.
+  struct Axis {
+    Vec3 d, rA_d, rB_d, iA, iB;
+    double mass = 0;     // reduced mass along it [kg]
+    double impulse = 0;  // on B [N s]
+  };
+  struct Row {  // of a contact or a finger
+    std::int32_t A, B;
+    double inverse_mass_A = 0, inverse_mass_B = 0;
+    Vec3 rA_W, rB_W, rA_A, rB_B;  // lever arms at the start, in W and in the axes of the bodies
+    Axis n, t1, t2;
+    double mu = 0;
+  };
+  struct ContactRow : Row {
+    double gap_begin = 0, gap = 0;
+  };
+  struct FingerRow : Row {
+    const FingerConstraint* constraint = nullptr;
+    double depth = 0, u1 = 0, u2 = 0;  // stretch of the springs at the start of the small step [m]
+    Vec3 sum_W = Vec3::Zero();         // of impulses [N s]
+  };
+  struct MotorRow {
+    ContactProblem::Motor motor;
+    double mass = 0, impulse = 0;
+  };
+
+  void prepare();
+  void connect(Row& row, const Vec3& p_W, const Vec3& nhat, const Vec3& tangent) const;
+  Axis axisOf(const Row& row, const Vec3& direction) const;
+  void addForces();
+  void apply(const Row& row, Axis& axis, double impulse);
+  void warmStart();
+  double speedOf(const Row& row, const Axis& axis) const;
+  void sweep(bool feedback);
+  void solveContact(ContactRow& row, bool feedback);
+  void solveFinger(FingerRow& row);
+  void solveMotor(MotorRow& row);
+  double springImpulse(const FingerRow& row, const Axis& axis, double k, double d, double stretch) const;
+  void advance();
+  Vec3 movedAt(const Row& row) const;
+  void followFingers(double time);
+  void giveBack(double period);
+
+  const Options options_;
+  ContactProblem* problem_ = nullptr;
+  double h_ = 0, bias_rate_ = 0, mass_scale_ = 1, impulse_scale_ = 0;
+  std::vector<ContactRow> contacts_;
+  std::vector<FingerRow> fingers_;
+  std::vector<MotorRow> motors_;
+  std::vector<Mat3> inverse_inertia_W_;
+  std::vector<Vec3> begin_;  // centres of mass at the start
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "framework/core/math/spatial.h"
+#include "framework/geometry/tri_mesh.h"
+
+namespace presa::ode {
+
+/// A convex polyhedron, widened by `radius` on all sides. A capsule is a segment with a radius, a sphere a point.
+struct Hull {
+  struct Face {
+    Vec3 nhat = Vec3::Zero();        ///< outward
+    double offset = 0;               ///< nhat . p of its points
+    std::vector<std::int32_t> loop;  ///< vertices, counter-clockwise from outside
+  };
+  struct Edge {
+    std::int32_t from = 0, to = 0;
+    std::int32_t left = -1, right = -1;  ///< faces; -1: none (segment)
+    std::int32_t direction = 0;          ///< index into `directions`, up to sign
+  };
+  std::vector<Vec3> vertices;
+  std::vector<Face> faces;
+  std::vector<Edge> edges;
+  std::vector<Vec3> directions;  ///< of edges, unit, parallel ones once
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+};
+
+Hull boxHull(const Vec3& size);
+/// Along z, like Presa's capsules: `length` between the centres of its ends [m].
+Hull capsuleHull(double radius, double length);
+/// The faces of a convex mesh, coplanar triangles merged; none when the mesh is not closed and convex within
+/// `tolerance` of its radius.
+std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance = 1e-5);
+
+/// `hull` at pose X_WH, in W. Keeps the memory of `out`.
+void place(const Hull& hull, const Pose& X_WH, Hull& out);
+
+}  // namespace presa::ode

@@ -1,0 +1,33 @@
+#include "modules/dynamics_ode/convex/hull_contacts.h"
+
+#include <algorithm>
+
+namespace presa::ode {
+
+void HullContacts::beginStep() {
+  ++step_;
+  std::swap(memories_, past_);
+  memories_.clear();
+  recalled_ = 0;
+}
+
+const Hull& HullContacts::placed(const BodySet& bodies, std::size_t i) {
+  Placed& placed = placed_[i];
+  if (placed.step != step_) {
+    place(*bodies.hull(i), bodies.geomPose(i), placed.hull);
+    placed.step = step_;
+  }
+  return placed.hull;
+}
+
+const Manifold* HullContacts::find(const BodySet& bodies, std::size_t A, std::size_t B, double margin) {
+  if (bodies.hull(A) == nullptr || bodies.hull(B) == nullptr) return nullptr;
+  Memory memory{std::minmax(A, B), {}};
+  while (recalled_ < past_.size() && past_[recalled_].pair < memory.pair) ++recalled_;
+  if (recalled_ < past_.size() && past_[recalled_].pair == memory.pair) memory.axis = past_[recalled_].axis;
+  maker_.collide(placed(bodies, A), placed(bodies, B), margin, memory.axis, manifold_);
+  if (memory.axis.kind != ContactAxis::Kind::kNone) memories_.push_back(memory);
+  return &manifold_;
+}
+
+}  // namespace presa::ode

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/convex/manifold.h"
+
+namespace presa::ode {
+
+/// The contacts of bodies whose physics geometries are convex polyhedra (BodySet::hull), with a memory from step to
+/// step. Pairs must be asked for in ascending order within a step.
+class HullContacts {
+ public:
+  explicit HullContacts(std::size_t bodies) : placed_(bodies) {}
+
+  void beginStep();
+  /// The contact of A and B within `margin` [m]; null when they are not both polyhedra. Valid until the next call.
+  const Manifold* find(const BodySet& bodies, std::size_t A, std::size_t B, double margin);
+
+ private:
+  struct Placed {
+    std::uint64_t step = 0;
+    Hull hull;
+  };
+  struct Memory {
+    std::pair<std::size_t, std::size_t> pair;
+    ContactAxis axis;
+  };
+  const Hull& placed(const BodySet& bodies, std::size_t i);
+
+  ManifoldMaker maker_;
+  Manifold manifold_;
+  std::vector<Placed> placed_;           // by body: its hull in W
+  std::vector<Memory> memories_, past_;  // of this step and of the last, sorted by pair
+  std::size_t recalled_ = 0;             // into past_
+  std::uint64_t step_ = 0;
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,338 @@
+// Separating axis test with Gauss maps and clipping (Gregorius, "Robust contact creation for physics simulations",
+// GDC 2013). A face wins over a pair of edges unless the edges are separated by kPrefer more: faces give several points,
+// and their normals do not jump.
+#include "modules/dynamics_ode/convex/manifold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "modules/dynamics_ode/index.h"
+
+namespace presa::ode {
+namespace {
+
+constexpr double kPrefer = 1e-4;    // in relation to the smaller hull
+constexpr double kKeep = 5e-3;      // the same, of the axis of the step before
+constexpr double kOblique = 1e-4;   // 1 - cosine between a face and the way to a round body beside it
+constexpr double kParallel = 1e-6;  // squared sine of edges that span no plane
+constexpr double kThrough = 1e-7;   // distance from a hull's centre of an edge through it, in relation to the hull
+constexpr std::size_t kMaxPolygon = 64;
+
+double sizeOf(const Hull& hull) { return (hull.vertices.front() - hull.centre).norm() + hull.radius; }
+
+struct FaceAxis {
+  std::size_t face = 0;
+  double gap = -1e300;
+};
+
+FaceAxis separateByFaces(const Hull& A, const Hull& B) {
+  FaceAxis best;
+  for (std::size_t f = 0; f < A.faces.size(); ++f) {
+    double lowest = 1e300;
+    for (const Vec3& v : B.vertices) lowest = std::min(lowest, A.faces[f].nhat.dot(v));
+    const double gap = lowest - A.faces[f].offset;
+    if (gap > best.gap) best = {f, gap};
+  }
+  return best;
+}
+
+struct EdgeAxis {
+  const Hull::Edge *a = nullptr, *b = nullptr;
+  Vec3 nhat = Vec3::Zero();  // from A into B
+  double gap = -1e300;
+};
+
+Vec3 along(const Hull& hull, const Hull::Edge& edge) {
+  return hull.vertices[index(edge.to)] - hull.vertices[index(edge.from)];
+}
+
+/// By edge and face: along(edge) . normal of the other hull's face.
+void project(const Hull& edges, const Hull& faces, std::vector<double>& out) {
+  out.resize(edges.edges.size() * faces.faces.size());
+  std::size_t next = 0;
+  for (const Hull::Edge& edge : edges.edges) {
+    const Vec3 d = along(edges, edge);
+    for (const Hull::Face& face : faces.faces) out[next++] = d.dot(face.nhat);
+  }
+}
+
+}  // namespace
+
+// The arcs of two edges on the Gauss map of A - B cross: only such pairs make a face of it. A segment's arc is the great
+// circle square to it.
+bool ManifoldMaker::makesFace(const Hull& A, const Hull& B, std::size_t a, std::size_t b) const {
+  const Hull::Edge &ea = A.edges[a], &eb = B.edges[b];
+  const auto a_on = [&](std::int32_t face) { return -a_on_b_[a * B.faces.size() + index(face)]; };
+  const auto b_on = [&](std::int32_t face) { return b_on_a_[b * A.faces.size() + index(face)]; };
+  if (ea.left < 0 && eb.left < 0) return true;
+  if (eb.left < 0) return b_on(ea.left) * b_on(ea.right) < 0;
+  const double cba = a_on(eb.left), dba = a_on(eb.right);
+  if (ea.left < 0) return cba * dba < 0;
+  if (cba * dba >= 0) return false;
+  const double adc = b_on(ea.left), bdc = b_on(ea.right);
+  return adc * bdc < 0 && cba * bdc > 0;
+}
+
+namespace {
+
+EdgeAxis axisOf(const Hull& A, const Hull& B, const Hull::Edge& a, const Hull::Edge& b) {
+  Vec3 normal = A.directions[index(a.direction)].cross(B.directions[index(b.direction)]);
+  const double sine = normal.squaredNorm();
+  if (sine < kParallel) return {};
+  normal /= std::sqrt(sine);
+  const Vec3& p_a = A.vertices[index(a.from)];
+  double outward = normal.dot(p_a - A.centre);
+  if (std::abs(outward) < kThrough * sizeOf(A)) outward = normal.dot(B.centre - A.centre);
+  if (outward < 0) normal = -normal;
+  return {&a, &b, normal, normal.dot(B.vertices[index(b.from)] - p_a)};
+}
+
+double faceGap(const Hull& A, const Hull& B, std::int32_t face) {
+  double lowest = 1e300;
+  for (const Vec3& v : B.vertices) lowest = std::min(lowest, A.faces[index(face)].nhat.dot(v));
+  return lowest - A.faces[index(face)].offset;
+}
+
+struct Polygon {
+  std::array<Vec3, kMaxPolygon> points;
+  std::size_t count = 0;
+  void add(const Vec3& p) {
+    if (count < kMaxPolygon) points[count++] = p;
+  }
+};
+
+/// Keeps what lies behind the plane nhat . p <= offset.
+void clip(Polygon& polygon, const Vec3& nhat, double offset) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.count; ++i) {
+    const Vec3 &p = polygon.points[i], &q = polygon.points[(i + 1) % polygon.count];
+    const double at_p = nhat.dot(p) - offset, at_q = nhat.dot(q) - offset;
+    if (at_p <= 0) kept.add(p);
+    if (at_p * at_q < 0) kept.add(p + at_p / (at_p - at_q) * (q - p));
+  }
+  polygon = kept;
+}
+
+std::size_t faceAlong(const Hull& hull, const Vec3& nhat) {
+  const auto less = [&](const Hull::Face& a, const Hull::Face& b) { return a.nhat.dot(nhat) < b.nhat.dot(nhat); };
+  return static_cast<std::size_t>(std::max_element(hull.faces.begin(), hull.faces.end(), less) - hull.faces.begin());
+}
+
+/// The outline of the face along `nhat`; of a segment or point, itself.
+Polygon outlineAlong(const Hull& hull, const Vec3& nhat) {
+  Polygon polygon;
+  if (hull.faces.empty()) {
+    for (const Vec3& v : hull.vertices) polygon.add(v);
+    return polygon;
+  }
+  for (const std::int32_t v : hull.faces[faceAlong(hull, nhat)].loop) polygon.add(hull.vertices[index(v)]);
+  return polygon;
+}
+
+/// Four of many points: the deepest, the one farthest from it, and the two that make the largest area with these.
+void reduce(std::array<Manifold::Point, kMaxPolygon>& points, std::size_t& count, const Vec3& nhat, double same_depth) {
+  if (count <= Manifold::kMaxPoints) return;
+  const Vec3 along = nhat.unitOrthogonal();
+  const auto take = [&](std::size_t place, auto score) {
+    std::size_t best = place;
+    for (std::size_t i = place; i < count; ++i) {
+      if (score(points[i]) > score(points[best])) best = i;
+    }
+    std::swap(points[place], points[best]);
+  };
+  const Vec3 origin = points[0].p_W;
+  // among points of nearly one depth a fixed direction decides, so that the choice does not flicker
+  take(0, [&](const Manifold::Point& x) {
+    return -std::floor(x.gap / same_depth) * 1e3 + along.dot(x.p_W - origin) / (1 + (x.p_W - origin).norm());
+  });
+  const Vec3 p = points[0].p_W;
+  take(1, [&](const Manifold::Point& x) { return (x.p_W - p).squaredNorm(); });
+  const Vec3 side = nhat.cross(points[1].p_W - p);
+  take(2, [&](const Manifold::Point& x) { return side.dot(x.p_W - p); });
+  take(3, [&](const Manifold::Point& x) { return -side.dot(x.p_W - p); });
+  count = Manifold::kMaxPoints;
+}
+
+/// Adds the points in which the faces along `nhat`, from `reference` into `other`, cover each other as seen along it.
+/// `sign`: +1 where the reference is A. Points in `out` are kept if they are the deepest.
+void clipAlong(const Hull& reference, const Hull& other, const Vec3& nhat, double margin, double sign, Manifold& out) {
+  const Hull::Face& face = reference.faces[faceAlong(reference, nhat)];
+  Polygon polygon = outlineAlong(other, -nhat);
+  for (std::size_t i = 0; i < face.loop.size() && polygon.count > 0; ++i) {
+    const Vec3& p = reference.vertices[index(face.loop[i])];
+    const Vec3& q = reference.vertices[index(face.loop[(i + 1) % face.loop.size()])];
+    const Vec3 outward = (q - p).cross(nhat);
+    clip(polygon, outward, outward.dot(p));
+  }
+  std::array<Manifold::Point, kMaxPolygon> points;
+  auto count = static_cast<std::size_t>(out.count);
+  std::copy_n(out.points.begin(), count, points.begin());
+  const double radii = reference.radius + other.radius, slant = face.nhat.dot(nhat);
+  for (std::size_t i = 0; i < polygon.count && count < kMaxPolygon; ++i) {
+    const double above = (face.nhat.dot(polygon.points[i]) - face.offset) / slant;
+    if (above - radii > margin) continue;
+    points[count++] = {polygon.points[i] - (above + other.radius - reference.radius) / 2 * nhat, above - radii};
+  }
+  reduce(points, count, nhat, 1e-4 * std::min(sizeOf(reference), sizeOf(other)));
+  out.nhat_AB_W = sign * nhat;
+  out.count = static_cast<int>(count);
+  std::copy_n(points.begin(), count, out.points.begin());
+}
+
+Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a;
+  const double length = ab.squaredNorm();
+  return length > 0 ? Vec3(a + std::clamp((p - a).dot(ab) / length, 0.0, 1.0) * ab) : a;
+}
+
+/// Nearest points of two segments.
+std::pair<Vec3, Vec3> nearestOf(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) {
+  const Vec3 u = a1 - a0, v = b1 - b0, w = a0 - b0;
+  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
+  double s = det > 1e-12 * uu * vv ? std::clamp((uv * v.dot(w) - vv * u.dot(w)) / det, 0.0, 1.0) : 0.5;
+  const Vec3 on_b = closestOnSegment(a0 + s * u, b0, b1);
+  return {closestOnSegment(on_b, a0, a1), on_b};
+}
+
+void setPoint(const Vec3& on_a, const Vec3& on_b, double radius_a, double radius_b, double margin, const Vec3& nhat,
+              Manifold& out) {
+  const double apart = nhat.dot(on_b - on_a), gap = apart - radius_a - radius_b;
+  if (gap > margin) return;
+  out.nhat_AB_W = nhat;
+  out.points[0] = {(on_a + radius_a * nhat + on_b - radius_b * nhat) / 2, gap};
+  out.count = 1;
+}
+
+Vec3 nearestOnFace(const Hull& hull, const Hull::Face& face, const Vec3& p) {
+  const Vec3 on_plane = p - (face.nhat.dot(p) - face.offset) * face.nhat;
+  Vec3 nearest = on_plane;
+  double distance = 1e300;
+  bool inside = true;
+  for (std::size_t i = 0; i < face.loop.size(); ++i) {
+    const Vec3 &a = hull.vertices[index(face.loop[i])],
+               &b = hull.vertices[index(face.loop[(i + 1) % face.loop.size()])];
+    if ((b - a).cross(face.nhat).dot(on_plane - a) <= 0) continue;
+    inside = false;
+    const Vec3 q = closestOnSegment(p, a, b);
+    if ((q - p).squaredNorm() >= distance) continue;
+    distance = (q - p).squaredNorm();
+    nearest = q;
+  }
+  return inside ? on_plane : nearest;
+}
+
+/// Nearest points of a polyhedron and a point or segment outside it. False when they meet.
+bool nearestOutside(const Hull& hull, const Hull& core, Vec3& on_hull, Vec3& on_core) {
+  double best = 1e300;
+  const auto offer = [&](const Vec3& a, const Vec3& b) {
+    if ((a - b).squaredNorm() >= best) return;
+    best = (a - b).squaredNorm();
+    on_hull = a;
+    on_core = b;
+  };
+  for (const Vec3& v : core.vertices) {
+    for (const Hull::Face& face : hull.faces) {
+      if (face.nhat.dot(v) > face.offset) offer(nearestOnFace(hull, face, v), v);
+    }
+  }
+  if (core.vertices.size() == 2) {
+    for (const Hull::Edge& edge : hull.edges) {
+      const auto [a, b] =
+          nearestOf(hull.vertices[index(edge.from)], hull.vertices[index(edge.to)], core.vertices[0], core.vertices[1]);
+      offer(a, b);
+    }
+  }
+  return best < 1e300 && best > 0;
+}
+
+/// Two segments or points with radii.
+void collideRound(const Hull& A, const Hull& B, double margin, Manifold& out) {
+  const auto [on_a, on_b] = nearestOf(A.vertices.front(), A.vertices.back(), B.vertices.front(), B.vertices.back());
+  const Vec3 apart = on_b - on_a;
+  const Vec3 nhat = apart.norm() > 1e-12 ? Vec3(apart.normalized()) : Vec3::UnitZ();
+  const Vec3 a = A.vertices.back() - A.vertices.front(), b = B.vertices.back() - B.vertices.front();
+  const double lengths = a.squaredNorm() * b.squaredNorm();
+  if (!(lengths > 0) || a.cross(b).squaredNorm() > kParallel * lengths)
+    return setPoint(on_a, on_b, A.radius, B.radius, margin, nhat, out);
+  // lying along each other: the ends of the stretch that they share
+  const double from_b = (B.vertices.front() - A.vertices.front()).dot(a), to_b = from_b + b.dot(a);
+  Manifold both;
+  for (const double s : {std::max(0.0, std::min(from_b, to_b)), std::min(a.squaredNorm(), std::max(from_b, to_b))}) {
+    const Vec3 p = A.vertices.front() + std::clamp(s / a.squaredNorm(), 0.0, 1.0) * a;
+    setPoint(p, closestOnSegment(p, B.vertices.front(), B.vertices.back()), A.radius, B.radius, margin, nhat, out);
+    if (out.count == 1) both.points[static_cast<std::size_t>(both.count++)] = out.points[0];
+    out.count = 0;
+  }
+  both.nhat_AB_W = nhat;
+  out = both;
+}
+
+// A round body near an edge or a corner: the normal points from there to its core. False where a face or a pair of edges
+// is nearest, too.
+bool besideFaces(const Hull& A, const Hull& B, const Vec3& nhat_face, double margin, Manifold& out) {
+  Vec3 on_a, on_b;
+  const bool apart = A.faces.empty() ? nearestOutside(B, A, on_b, on_a) : nearestOutside(A, B, on_a, on_b);
+  if (!apart) return false;
+  const Vec3 nhat = (on_b - on_a).normalized();
+  if (std::abs(nhat.dot(nhat_face)) > 1 - kOblique) return false;
+  setPoint(on_a, on_b, A.radius, B.radius, margin, nhat, out);
+  return true;
+}
+
+}  // namespace
+
+// The best pair of edges.
+void ManifoldMaker::separateByEdges(const Hull& A, const Hull& B, EdgePair& best) const {
+  for (std::size_t a = 0; a < A.edges.size(); ++a) {
+    for (std::size_t b = 0; b < B.edges.size(); ++b) {
+      if (!makesFace(A, B, a, b)) continue;
+      const EdgeAxis axis = axisOf(A, B, A.edges[a], B.edges[b]);
+      if (axis.gap <= best.gap) continue;
+      best = {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), axis.nhat, axis.gap};
+    }
+  }
+}
+
+void ManifoldMaker::collide(const Hull& A, const Hull& B, double margin, ContactAxis& memory, Manifold& out) {
+  using Kind = ContactAxis::Kind;
+  const ContactAxis before = std::exchange(memory, {});
+  out.count = 0;
+  const double radii = A.radius + B.radius;
+  if (A.faces.empty() && B.faces.empty()) return collideRound(A, B, margin, out);
+  const FaceAxis a = separateByFaces(A, B);
+  if (a.gap - radii > margin) return;
+  const FaceAxis b = separateByFaces(B, A);
+  if (b.gap - radii > margin) return;
+  project(A, B, a_on_b_);
+  project(B, A, b_on_a_);
+  EdgePair edges;
+  separateByEdges(A, B, edges);
+  if (edges.gap - radii > margin) return;
+  const double size = std::min(sizeOf(A), sizeOf(B)), face_gap = std::max(a.gap, b.gap);
+  if (radii > 0 && face_gap > 0) {
+    const Vec3& nhat = a.gap > b.gap ? A.faces[a.face].nhat : B.faces[b.face].nhat;
+    if (besideFaces(A, B, nhat, margin, out)) return;
+  }
+  memory = {Kind::kFaceOfA, static_cast<std::int32_t>(a.face), 0};
+  if (b.gap > a.gap + kPrefer * size) memory = {Kind::kFaceOfB, 0, static_cast<std::int32_t>(b.face)};
+  if (edges.gap > face_gap + kPrefer * size) memory = {Kind::kEdges, edges.a, edges.b};
+  const double enough = std::max(face_gap, edges.gap) - kKeep * size;
+  if (before.kind == Kind::kFaceOfA && faceGap(A, B, before.a) > enough) memory = before;
+  if (before.kind == Kind::kFaceOfB && faceGap(B, A, before.b) > enough) memory = before;
+  if (before.kind == Kind::kEdges && makesFace(A, B, index(before.a), index(before.b)) &&
+      axisOf(A, B, A.edges[index(before.a)], B.edges[index(before.b)]).gap > enough) {
+    memory = before;
+  }
+  if (memory.kind == Kind::kFaceOfA) return clipAlong(A, B, A.faces[index(memory.a)].nhat, margin, 1, out);
+  if (memory.kind == Kind::kFaceOfB) return clipAlong(B, A, B.faces[index(memory.b)].nhat, margin, -1, out);
+  const Hull::Edge &ea = A.edges[index(memory.a)], &eb = B.edges[index(memory.b)];
+  const Vec3 nhat = axisOf(A, B, ea, eb).nhat;
+  const auto [on_a, on_b] = nearestOf(A.vertices[index(ea.from)], A.vertices[index(ea.to)], B.vertices[index(eb.from)],
+                                      B.vertices[index(eb.to)]);
+  setPoint(on_a, on_b, A.radius, B.radius, margin, nhat, out);
+  if (A.faces.empty()) return clipAlong(B, A, -nhat, margin, -1, out);
+  clipAlong(A, B, nhat, margin, 1, out);
+}
+
+}  // namespace presa::ode

@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "modules/dynamics_ode/convex/hull.h"
+
+namespace presa::ode {
+
+/// The contact of two hulls: one normal, and points that span the touching area. Eight, because two rectangles meet in
+/// at most so many corners: with fewer the choice among them would change from step to step.
+struct Manifold {
+  static constexpr int kMaxPoints = 8;
+  struct Point {
+    Vec3 p_W = Vec3::Zero();  ///< halfway between the surfaces
+    double gap = 0;           ///< along the normal; negative: overlap [m]
+  };
+  Vec3 nhat_AB_W = Vec3::UnitZ();
+  std::array<Point, kMaxPoints> points;
+  int count = 0;
+};
+
+/// What a contact's normal comes from.
+struct ContactAxis {
+  enum class Kind : std::uint8_t { kNone, kFaceOfA, kFaceOfB, kEdges } kind = Kind::kNone;
+  std::int32_t a = 0, b = 0;  ///< indices of faces or edges
+};
+
+/// Makes the contact of two hulls by the separating axis test: the normal is that of the face, or square to the pair of
+/// edges, along which they are separated most (overlap least); the points are the corners of the area in which the two
+/// faces along it cover each other [Gregorius2013].
+class ManifoldMaker {
+ public:
+  /// Points at which A and B (both in W) overlap or come within `margin` [m] of each other. `memory` is the axis of the
+  /// step before; it is kept as long as it is nearly the best, since a normal that jumps sets a pile trembling.
+  void collide(const Hull& A, const Hull& B, double margin, ContactAxis& memory, Manifold& out);
+
+ private:
+  struct EdgePair {
+    std::int32_t a = -1, b = -1;
+    Vec3 nhat = Vec3::Zero();  // from A into B
+    double gap = -1e300;
+  };
+  bool makesFace(const Hull& A, const Hull& B, std::size_t a, std::size_t b) const;
+  void separateByEdges(const Hull& A, const Hull& B, EdgePair& best) const;
+
+  std::vector<double> a_on_b_, b_on_a_;  // by edge of one hull and face of the other
+};
+
+}  // namespace presa::ode

@@ -1,0 +1,34 @@
+#include "modules/dynamics_ode/energy_book.h"
+
+#include <algorithm>
+
+#include "modules/dynamics_ode/index.h"
+
+namespace presa::ode {
+
+void EnergyBook::settle(const BodySet& bodies, Islands& islands, const FingerJoints& fingers,
+                        const std::vector<ContactProblem::Motor>* motors) {
+  std::fill(gain_.begin(), gain_.end(), 0);
+  std::fill(unknown_.begin(), unknown_.end(), 0);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies.awake(i)) continue;
+    gain_[islands.of(i)] += bodies.energyGain(i, gravity_W_) - bodies.externalWork(i);
+    if (bodies.hasAddedInertia(i)) unknown_[islands.of(i)] = 1;
+  }
+  for (std::size_t i = 0; i < fingers.count() && !fingers.areForces(); ++i) {
+    const std::size_t body = fingers.body(i);
+    gain_[islands.of(body)] -= fingers.force(i).dot(bodies.movedSinceBegin(body, fingers.row(i).p_WP));
+  }
+  for (const auto& list : {motors, &fingers.motors()}) {
+    if (list == nullptr) continue;
+    for (const ContactProblem::Motor& motor : *list) unknown_[islands.of(index(motor.body))] = 1;
+  }
+  double step = 0;
+  for (std::size_t i = 0; i < gain_.size(); ++i) {
+    if (unknown_[i] == 0) step += std::max(0.0, gain_[i]);
+  }
+  created_ += step;
+  worst_step_ = std::max(worst_step_, step);
+}
+
+}  // namespace presa::ode
