@@ -27,7 +27,7 @@ class BodyContacts {
  public:
   static constexpr int kMaxPerPair = 8;
   BodyContacts(const BodySet& bodies, const Vec3& gravity, Foresight foresight)
-      : broad_phase_(bodies), hull_contacts_(bodies.size()), gravity_(gravity), foresight_(foresight) {}
+      : broad_phase_(bodies), hull_contacts_(bodies), gravity_(gravity), foresight_(foresight) {}
   /// Fills `contacts` with every contact of an awake body. A sleeping body that is touched is passed to `wake(i)`,
   /// which must wake it; collision is then repeated with that body awake.
   template <class Wake>

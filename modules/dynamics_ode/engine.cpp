@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "framework/core/state/limits.h"
+#include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
 namespace {
@@ -115,6 +116,12 @@ void Engine::takeMemory(std::size_t joints) {
   solveDirectly(1e-3);
   solveIteratively(1e-3, 1);
   dBodyDestroy(body);
+}
+
+Vec3 Engine::gravity() const noexcept {
+  dVector3 gravity;
+  dWorldGetGravity(world_, gravity);
+  return toVec3(gravity);
 }
 
 Engine::~Engine() {

@@ -36,6 +36,7 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 
   dWorldID world() const noexcept { return world_; }
+  Vec3 gravity() const noexcept;  ///< in W [m/s^2]
 
   /// Adds a contact joint whose normal points into `first`; `second` may be null. `feedback` must outlive the solve.
   void addContact(const dContact& contact, dBodyID first, dBodyID second, dJointFeedback* feedback);

@@ -56,11 +56,11 @@ struct OdeWorld::Impl {
         impulses(world->scene),
         collider(bodies, world->scene.gravity, foresightOf(options.method)),
         islands(bodies.size()),
-        energy(world->scene.gravity, bodies.size()),
+        energy(engine.gravity(), bodies.size()),
         layers(bodies.size()) {
     contacts.reserve(kContactsPerBody * bodies.size());
     if (usesOwnSolvers(options.method)) {
-      own_solvers.emplace(world->scene, bodies, options);
+      own_solvers.emplace(world->scene, engine.gravity(), bodies, options);
     } else {
       engine_solvers.emplace(world->scene, engine, bodies, options);
     }

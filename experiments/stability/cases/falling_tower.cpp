@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "experiments/stability/cases.h"
 #include "experiments/stability/methods.h"
 #include "experiments/stability/pile.h"
@@ -18,8 +16,7 @@ std::vector<Finding> fall(double push, const Method& method) {
   Pile pile(specOf("falling_tower.xml", sets + method, kDuration), "b" + std::to_string(kBlocks - 1));
   pile.run();
   const double released = kMass * kGravity * kEdge * kBlocks * (kBlocks - 1) / 2;
-  const double chimney = std::sqrt(3 * kGravity * kBlocks * kEdge);  // the tip of a rod that falls over
-  return {pile.energy(released, 0.5), pile.fastest(1.1 * chimney, "the tip of a rod that falls: sqrt(3 g H)")};
+  return {pile.energy(released, 0.5)};
 }
 
 }  // namespace
@@ -30,8 +27,7 @@ Case make() {
   result.title = "A tower of 20 cubes is pushed over";
   result.source =
       "A solver that changes its method or its sub-steps while contacts come and go creates energy: 24 % of what can "
-      "be "
-      "set free, 2.3 J in one step, when each island chose its sub-steps.";
+      "be set free, 2.3 J in one step, when each island chose its sub-steps.";
   result.oracle = "Energy never rises: contacts without restitution and friction only take it.";
   result.scene = "falling_tower.xml";
   for (const double push : {0.03, 0.054, 0.1}) {

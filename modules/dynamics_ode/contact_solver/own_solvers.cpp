@@ -21,12 +21,12 @@ NewtonSolver::Options newtonOptions(const OdeOptions& options) {
 
 }  // namespace
 
-OwnSolvers::OwnSolvers(const Scene& scene, BodySet& bodies, const OdeOptions& options)
+OwnSolvers::OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodies, const OdeOptions& options)
     : bodies_(bodies),
       options_(options),
-      gravity_W_(scene.gravity),
+      gravity_W_(gravity_W),
       newton_(newtonOptions(options), bodies.size(), kContactsPerBody * bodies.size()),
-      small_steps_(options.small_steps, std::min(kMostRows, kContactsPerBody * bodies.size())),
+      small_steps_(options.small_steps, bodies.size(), std::min(kMostRows, kContactsPerBody * bodies.size())),
       joints_(scene, options, kContactsPerBody * bodies.size()),
       place_(bodies.size(), ContactProblem::kFixed),
       back_off_(bodies.size()) {

@@ -16,7 +16,7 @@ namespace presa::ode {
 /// small steps for a while, which doubles with every failure and shrinks with every success.
 class OwnSolvers {
  public:
-  OwnSolvers(const Scene& scene, BodySet& bodies, const OdeOptions& options);
+  OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodies, const OdeOptions& options);
 
   /// Reserves memory for the contacts of fingers and for motors.
   void makeRoom(std::size_t finger_contacts);

@@ -21,8 +21,12 @@ class SmallSteps {
     double stiffness = 0.7;  ///< of a contact: omega h of its spring-damper
     double damping = 5;      ///< its relative damping
   };
-  /// Reserves memory for `contacts`; more allocate once.
-  SmallSteps(const Options& options, std::size_t contacts) : options_(options) { contacts_.reserve(contacts); }
+  /// Reserves memory for `bodies` and `contacts`; more allocate once.
+  SmallSteps(const Options& options, std::size_t bodies, std::size_t contacts) : options_(options) {
+    contacts_.reserve(contacts);
+    inverse_inertia_W_.reserve(bodies);
+    begin_.reserve(bodies);
+  }
   void makeRoom(std::size_t fingers, std::size_t motors) {
     fingers_.reserve(fingers);
     motors_.reserve(motors);

@@ -122,6 +122,7 @@ std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance) {
       return face.nhat.dot(nhat) > 1 - 1e-10 && std::abs(face.offset - offset) < close;
     });
     if (same == hull.faces.end()) {
+      if (hull.faces.size() == kMaxMeshFaces) return std::nullopt;
       hull.faces.push_back({nhat, offset, {}});
       groups.push_back({t});
     } else {

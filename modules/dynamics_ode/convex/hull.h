@@ -31,8 +31,10 @@ struct Hull {
 Hull boxHull(const Vec3& size);
 /// Along z, like Presa's capsules: `length` between the centres of its ends [m].
 Hull capsuleHull(double radius, double length);
+/// A pair costs the product of their edges: a mesh with more faces is no hull.
+constexpr std::size_t kMaxMeshFaces = 64;
 /// The faces of a convex mesh, coplanar triangles merged; none when the mesh is not closed and convex within
-/// `tolerance` of its radius.
+/// `tolerance` of its size, or has more than kMaxMeshFaces faces.
 std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance = 1e-5);
 
 /// `hull` at pose X_WH, in W. Keeps the memory of `out`.

@@ -3,6 +3,25 @@
 #include <algorithm>
 
 namespace presa::ode {
+namespace {
+
+constexpr std::size_t kPairsPerBody = 16;
+
+}  // namespace
+
+
+HullContacts::HullContacts(const BodySet& bodies) : placed_(bodies.size()) {
+  std::size_t edges = 0, faces = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.hull(i) == nullptr) continue;
+    edges = std::max(edges, bodies.hull(i)->edges.size());
+    faces = std::max(faces, bodies.hull(i)->faces.size());
+    placed(bodies, i);  // takes its memory
+  }
+  maker_.makeRoom(edges, faces);
+  memories_.reserve(kPairsPerBody * bodies.size());
+  past_.reserve(kPairsPerBody * bodies.size());
+}
 
 void HullContacts::beginStep() {
   ++step_;

@@ -12,7 +12,7 @@ namespace presa::ode {
 /// step. Pairs must be asked for in ascending order within a step.
 class HullContacts {
  public:
-  explicit HullContacts(std::size_t bodies) : placed_(bodies) {}
+  explicit HullContacts(const BodySet& bodies);
 
   void beginStep();
   /// The contact of A and B within `margin` [m]; null when they are not both polyhedra. Valid until the next call.
@@ -34,7 +34,7 @@ class HullContacts {
   std::vector<Placed> placed_;           // by body: its hull in W
   std::vector<Memory> memories_, past_;  // of this step and of the last, sorted by pair
   std::size_t recalled_ = 0;             // into past_
-  std::uint64_t step_ = 0;
+  std::uint64_t step_ = 1;
 };
 
 }  // namespace presa::ode

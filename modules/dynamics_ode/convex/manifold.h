@@ -31,6 +31,11 @@ struct ContactAxis {
 /// faces along it cover each other [Gregorius2013].
 class ManifoldMaker {
  public:
+  /// Reserves memory for hulls of up to so many `edges` and `faces`; more allocate once.
+  void makeRoom(std::size_t edges, std::size_t faces) {
+    a_on_b_.reserve(edges * faces);
+    b_on_a_.reserve(edges * faces);
+  }
   /// Points at which A and B (both in W) overlap or come within `margin` [m] of each other. `memory` is the axis of the
   /// step before; it is kept as long as it is nearly the best, since a normal that jumps sets a pile trembling.
   void collide(const Hull& A, const Hull& B, double margin, ContactAxis& memory, Manifold& out);
