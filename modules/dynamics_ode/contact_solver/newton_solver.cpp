@@ -87,7 +87,7 @@ void NewtonSolver::addContact(const ContactProblem& problem, const ContactProble
     row.rA = c.p_W - problem.bodies[index(c.A)].p_WCm;
     inverse_mass += 1 / problem.bodies[index(c.A)].mass;
   }
-  row.k_n = row.k_t = 1 / (options_.softness * inverse_mass);
+  row.k_n = row.k_t = 1 / std::min(options_.softness * inverse_mass, options_.max_compliance / h);
   row.mu = row.mu_slip = c.mu;
   startFrom(row, h * c.f_B_W);
   row.goal = row.impulse / row.k_t;

@@ -19,7 +19,10 @@ namespace presa::ode {
 class NewtonSolver {
  public:
   struct Options {
-    double softness = 2e-4;           ///< of a contact: 1 / (reduced mass * stiffness * step^2), before damping
+    /// Of a contact: 1 / (reduced mass * stiffness * step^2), before damping. Under a light body that a finger presses
+    /// the contact is harder: its compliance is at most max_compliance [m/(N s)].
+    double softness = 2e-4;
+    double max_compliance = 1e-4;
     double erp = 0.2;                 ///< fraction of an overlap removed per step
     double max_push = 1;              ///< maximum speed at which overlapping bodies are pushed apart [m/s]
     std::size_t max_iterations = 40;  ///< of one minimisation

@@ -57,6 +57,24 @@ void SmallSteps::prepare() {
   }
 }
 
+SmallSteps::Softness SmallSteps::softnessOf(double stiffness) const {
+  const double c = stiffness * (2 * options_.damping + stiffness);
+  return {stiffness / h_ / (2 * options_.damping + stiffness), c / (1 + c), 1 / (1 + c)};
+}
+
+void SmallSteps::soften() {
+  touched_.assign(problem_->bodies.size(), 0);
+  for (const FingerRow& finger : fingers_) touched_[index(finger.B)] = 1;
+  const double stiffness = fingers_.empty() ? options_.stiffness : options_.touched;
+  const Softness usual = softnessOf(stiffness);
+  for (ContactRow& row : contacts_) {
+    const bool touched =
+        touched_[index(row.B)] != 0 || (row.A != ContactProblem::kFixed && touched_[index(row.A)] != 0);
+    const double hard = touched ? h_ * std::sqrt(options_.min_touched / row.n.mass) : 0;
+    row.soft = hard > stiffness ? softnessOf(hard) : usual;
+  }
+}
+
 void SmallSteps::connect(Row& row, const Vec3& p_W, const Vec3& nhat, const Vec3& tangent) const {
   const Body& B = problem_->bodies[index(row.B)];
   row.inverse_mass_B = 1 / B.mass;
@@ -128,9 +146,9 @@ void SmallSteps::solveContact(ContactRow& row, bool feedback) {
   if (row.gap > 0) {
     bias = row.gap / h_;
   } else if (feedback) {
-    bias = std::max(bias_rate_ * row.gap, -options_.max_push);
-    mass_scale = mass_scale_;
-    impulse_scale = impulse_scale_;
+    bias = std::max(row.soft.bias_rate * row.gap, -options_.max_push);
+    mass_scale = row.soft.mass_scale;
+    impulse_scale = row.soft.impulse_scale;
   }
   const double before = row.n.impulse;
   row.n.impulse =
@@ -238,11 +256,8 @@ void SmallSteps::giveBack(double period) {
 void SmallSteps::solve(ContactProblem& problem, double period) {
   problem_ = &problem;
   h_ = period / options_.count;
-  const double wh = options_.stiffness, c = wh * (2 * options_.damping + wh);
-  bias_rate_ = wh / h_ / (2 * options_.damping + wh);
-  mass_scale_ = c / (1 + c);
-  impulse_scale_ = 1 / (1 + c);
   prepare();
+  soften();
   for (int step = 0; step < options_.count; ++step) {
     addForces();
     warmStart();

@@ -20,12 +20,15 @@ class SmallSteps {
     double max_push = 1;     ///< maximum speed at which overlapping bodies are pushed apart [m/s]
     double stiffness = 0.7;  ///< of a contact: omega h of its spring-damper
     double damping = 5;      ///< its relative damping
+    /// The same in an island that a finger touches, and the min stiffness of a contact of the touched body [N/m].
+    double touched = 1.5, min_touched = 2e4;
   };
   /// Reserves memory for `bodies` and `contacts`; more allocate once.
   SmallSteps(const Options& options, std::size_t bodies, std::size_t contacts) : options_(options) {
     contacts_.reserve(contacts);
     inverse_inertia_W_.reserve(bodies);
     begin_.reserve(bodies);
+    touched_.reserve(bodies);
   }
   void makeRoom(std::size_t fingers, std::size_t motors) {
     fingers_.reserve(fingers);
@@ -49,8 +52,12 @@ class SmallSteps {
     Axis n, t1, t2;
     double mu = 0;
   };
+  struct Softness {  // of a contact's spring-damper over a small step [Catto2023]
+    double bias_rate = 0, mass_scale = 1, impulse_scale = 0;
+  };
   struct ContactRow : Row {
     double gap_begin = 0, gap = 0;
+    Softness soft;
   };
   struct FingerRow : Row {
     const FingerConstraint* constraint = nullptr;
@@ -63,6 +70,8 @@ class SmallSteps {
   };
 
   void prepare();
+  void soften();
+  Softness softnessOf(double stiffness) const;
   void connect(Row& row, const Vec3& p_W, const Vec3& nhat, const Vec3& tangent) const;
   Axis axisOf(const Row& row, const Vec3& direction) const;
   void addForces();
@@ -81,12 +90,13 @@ class SmallSteps {
 
   const Options options_;
   ContactProblem* problem_ = nullptr;
-  double h_ = 0, bias_rate_ = 0, mass_scale_ = 1, impulse_scale_ = 0;
+  double h_ = 0;
   std::vector<ContactRow> contacts_;
   std::vector<FingerRow> fingers_;
   std::vector<MotorRow> motors_;
   std::vector<Mat3> inverse_inertia_W_;
-  std::vector<Vec3> begin_;  // centres of mass at the start
+  std::vector<Vec3> begin_;    // centres of mass at the start
+  std::vector<char> touched_;  // by body: a finger touches it
 };
 
 }  // namespace presa::ode

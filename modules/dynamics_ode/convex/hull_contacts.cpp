@@ -9,7 +9,6 @@ constexpr std::size_t kPairsPerBody = 16;
 
 }  // namespace
 
-
 HullContacts::HullContacts(const BodySet& bodies) : placed_(bodies.size()) {
   std::size_t edges = 0, faces = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

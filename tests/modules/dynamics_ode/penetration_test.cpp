@@ -28,7 +28,7 @@ TEST(Penetration, AtRestIsTheWeightOverTheContactsStiffness) {
       OdeOptions options = awake();
       options.method.solver = solver;
       options.direct_softness = options.newton.softness = 0.2;
-      options.max_contact_cfm = 1;
+      options.max_contact_cfm = options.newton.max_compliance = 1;
       Runner runner(boxAt(kEdge / 2, mass), options);
       runner.run(3);
       const double depth = kGravity * kStep * kStep * options.direct_softness / (4 * options.contact_erp);
