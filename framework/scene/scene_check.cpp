@@ -323,6 +323,7 @@ void checkOrientation(const Element& element, Diagnostics& diagnostics) {
 void checkScene(const Element& root, Diagnostics& diagnostics) {
   SceneCheck(root, diagnostics).run();
   checkAssembly(root, diagnostics);
+  checkSaneRanges(root, diagnostics);
 }
 
 }  // namespace presa

@@ -35,6 +35,8 @@ Scene readScene(const xml::Element& root, const std::string& file, const std::st
 void checkScene(const xml::Element& root, Diagnostics& diagnostics);
 /// Checks <assembly>: the bodies and goals it refers to, and whether the goals can be filled in some order.
 void checkAssembly(const xml::Element& root, Diagnostics& diagnostics);
+/// Warns about values that can be simulated, but are hardly meant: outside of the ranges in CONTRIBUTING.md (W227).
+void checkSaneRanges(const xml::Element& element, Diagnostics& diagnostics);
 /// Checks the <words> of an assembly or of a separate file: duplicate elements (E203), unknown placeholders (E219).
 void checkWords(const xml::Element& words, Diagnostics& diagnostics);
 /// Reads <words> from a document with written defaults.

@@ -135,6 +135,29 @@ const Slip kMeaning[] = {
      "no geometry"},
     {"NewerMinor", 201, "> <scene version=\"1.0\"", "> <scene @version=\"1.7\"", "newer"},
 };
+// Accepted, with a warning that has the value and the sane range (CONTRIBUTING.md).
+const Slip kSanity[] = {
+    {"SaneGravity", 227, "gravity=\"0 0 -9.81\"", "@gravity=\"0 0 -1e6\"",
+     "found |0 0 -1e6| = 1e+06 m/s^2, sane: 0 to 100"},
+    {"SaneMass", 227, "mass=\"0.2\"", "@mass=\"1e9\"", "<physics> in body 'cube': found 1e+09 kg, sane: 1e-05 to 1000"},
+    {"SaneMassSmall", 227, "mass=\"0.2\"", "@mass=\"1e-9\"", "found 1e-09 kg"},
+    {"SaneDensity", 227, "mass=\"0.2\"", "@density=\"1e6\"", "sane: 0.1 to 25000 kg/m^3"},
+    {"SaneForce", 227, "mass=\"0.2\"", "mass=\"0.2\" @force=\"0 0 1e5\"", "sane: 0 to 10000 N"},
+    {"SaneStiffness", 227, "stiffness=\"1000\"", "@stiffness=\"1e10\"", "found 1e+10 N/m, sane: 1 to 1e+06"},
+    {"SaneDamping", 227, "damping=\"1\"", "@damping=\"1e5\"", "sane: 0 to 1000 N s/m"},
+    {"SaneFriction", 227, "static=\"0.8\"", "@static=\"80\"", "found 80, sane: 0 to 10"},
+    {"SaneTorsion", 227, "static=\"0.8\"", "static=\"0.8\" @torsion=\"4\"", "sane: 0 to 0.1 m"},
+    {"SaneBox", 227, "<physics><box size=\"0.6 0.4 0.04\"", "<physics><box @size=\"600 400 1e-6\"",
+     "found 1e-06 m, sane: 1e-05 to 1000"},
+    {"SaneSphere", 227, "radius=\"0.035\"", "@radius=\"35000\"", "sane: 1e-05 to 1000 m"},
+    {"SaneCylinder", 227, "length=\"0.07\"", "@length=\"7e4\"", "sane: 1e-05 to 1000 m"},
+    {"SaneScale", 227, "scale=\"0.001 0.001 0.001\"", "@scale=\"0.001 0.001 1e7\"", "found 1e+07, sane: 1e-06 to 1000"},
+    {"SanePlace", 227, "pos=\"0 0 0.035\"", "@pos=\"0 0 35000\"", "sane: 0 to 10000 m"},
+    {"SaneVelocity", 227, "euler_deg=\"0 0 90\"", "euler_deg=\"0 0 90\" @velocity=\"0 0 1e4\"", "sane: 0 to 100 m/s"},
+    {"SaneTurning", 227, "euler_deg=\"0 0 90\"", "euler_deg=\"0 0 90\" @angular_velocity=\"0 0 1e4\"",
+     "0 to 1000 rad/s"},
+    {"SaneFingertip", 227, "fingertip_radius=\"0.008\"", "@fingertip_radius=\"8\"", "sane: 0 to 0.1 m"},
+};
 
 std::string nameOf(const testing::TestParamInfo<Slip>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(WellFormedness, OneSlip, testing::ValuesIn(kWellFormedness), nameOf);
@@ -142,12 +165,33 @@ INSTANTIATE_TEST_SUITE_P(Names, OneSlip, testing::ValuesIn(kNames), nameOf);
 INSTANTIATE_TEST_SUITE_P(Counts, OneSlip, testing::ValuesIn(kCounts), nameOf);
 INSTANTIATE_TEST_SUITE_P(Values, OneSlip, testing::ValuesIn(kValues), nameOf);
 INSTANTIATE_TEST_SUITE_P(Meaning, OneSlip, testing::ValuesIn(kMeaning), nameOf);
+INSTANTIATE_TEST_SUITE_P(Sanity, OneSlip, testing::ValuesIn(kSanity), nameOf);
 
 std::vector<int> codesOf(const Diagnostics& findings) {
   std::vector<int> codes;
   for (const Diagnostic& finding : findings.all()) codes.push_back(finding.code);
   std::sort(codes.begin(), codes.end());
   return codes;
+}
+
+// The ends of a range are within it, and a value that the schema refuses is not judged again.
+TEST(SaneRanges, HoldTheirEnds) {
+  for (const char* set : {"world/gravity=0 0 -100", "body/cube/physics/mass=1000", "body/cube/physics/mass=1e-5",
+                          "material/rubber/stiffness=1e6", "material/rubber/stiffness=1", "material/wood/damping=1000",
+                          "device/thumb/fingertip_radius=0"}) {
+    const std::string text = set;
+    const std::size_t equals = text.find('=');
+    const Diagnostics findings = findingsOf(kScene, {{text.substr(0, equals), text.substr(equals + 1)}});
+    EXPECT_TRUE(findings.all().empty()) << findings.text();
+  }
+}
+
+TEST(SaneRanges, WarnAndKeepTheValue) {
+  Diagnostics findings;
+  const Scene scene = parseScene(kScene, "scene.xml", "/lab", {{"body/cube/physics/mass", "1e9"}}, findings);
+  ASSERT_EQ(codesOf(findings), std::vector<int>{227}) << findings.text();
+  EXPECT_FALSE(findings.hasErrors());
+  EXPECT_EQ(scene.bodies.at(1).mass, 1e9);
 }
 
 // A misspelt list must neither hide the mistakes within it nor make references to its content look wrong.
