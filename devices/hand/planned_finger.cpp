@@ -56,6 +56,7 @@ class PlannedFingerDevice final : public Device {
   std::vector<std::string> phases() const override { return finger_.phases; }
   std::string model() const override { return finger_.model; }
   double damping() const override { return finger_.settings.impedance.damping; }
+  double mass() const override { return finger_.settings.impedance.mass; }
   std::vector<std::string> notes() const override { return finger_.settings.notes; }
 
  private:

@@ -58,6 +58,7 @@ class PercroArm final : public Device {
     return {{"motor_heat", "1", arm_.maxHeat(), true}, {"least_force_share", "1", arm_.minShare(), true}};
   }
   double damping() const override { return impedance_.damping; }
+  double mass() const override { return impedance_.mass; }  // without the arm's, which changes from place to place
   std::vector<std::string> notes() const override { return notes_; }
 
  private:

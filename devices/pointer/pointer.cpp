@@ -21,7 +21,10 @@ constexpr double kAbove = 0.05;        // [m] initial height above all free bodi
 class PointedTool : public Device {
  public:
   PointedTool(HandSettings settings, bool window)
-      : damping_(settings.impedance.damping), notes_(std::move(settings.notes)), window_(window) {}
+      : damping_(settings.impedance.damping),
+        mass_(settings.impedance.mass),
+        notes_(std::move(settings.notes)),
+        window_(window) {}
 
   void open() override {
     if (window_) return;
@@ -30,10 +33,11 @@ class PointedTool : public Device {
   }
   bool points() const override { return true; }
   double damping() const override { return damping_; }
+  double mass() const override { return mass_; }
   std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  double damping_;
+  double damping_, mass_;
   std::vector<std::string> notes_;
   bool window_;
 };

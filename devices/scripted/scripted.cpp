@@ -18,6 +18,7 @@ class ScriptedFinger final : public Device {
   ScriptedFinger(HandSettings settings, double period)
       : hand_(std::move(settings.motion), settings.impedance.stiffness),
         damping_(settings.impedance.damping),
+        mass_(settings.impedance.mass),
         plant_(settings.impedance, period),
         lost_at_(settings.lost_at),
         notes_(std::move(settings.notes)) {
@@ -47,6 +48,7 @@ class ScriptedFinger final : public Device {
   bool measuresOrientation() const override { return turn_.has_value(); }
   std::string model() const override { return "scripted fingers: no person"; }
   double damping() const override { return damping_; }
+  double mass() const override { return mass_; }
   std::vector<std::string> notes() const override { return notes_; }
 
  private:
@@ -62,7 +64,7 @@ class ScriptedFinger final : public Device {
   }
 
   ScriptedHand hand_;
-  double damping_;
+  double damping_, mass_;
   FingerPlant plant_;
   double lost_at_;
   std::vector<std::string> notes_;

@@ -39,6 +39,9 @@ class SimulatedDigit final : public Device {
     return {subject::kPhaseNames.begin(), subject::kPhaseNames.end()};
   }
   double damping() const override { return subject_->settings().parameters.grip_damping; }
+  double mass() const override {
+    return subject_->settings().parameters.hand_mass + subject_->settings().parameters.device_mass;
+  }
   std::string model() const override {
     return "simulated subject, level " + std::string(subject::nameOf(subject_->settings().level)) +
            ": a model, not a person";

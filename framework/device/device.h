@@ -66,6 +66,8 @@ class Device {
   virtual std::vector<double> phaseTimes() const { return {}; }
   /// Viscous damping b of device plus hand for the stiffness bound K <= (b + B) / ((d + 1/2) T) [N s/m]; 0: unknown.
   virtual double damping() const { return 0; }
+  /// Mass m that the force moves, of device plus hand or less, for the damping bound B < 2 m / T [kg]; 0: unknown.
+  virtual double mass() const { return 0; }
   /// Notes for the user, shown at start ("finger damping raised to 10 N s/m for 10 N/mm").
   virtual std::vector<std::string> notes() const { return {}; }
 };

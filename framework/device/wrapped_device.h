@@ -26,6 +26,7 @@ class WrappedDevice : public Device {
   std::vector<std::string> phases() const override { return device_->phases(); }
   std::vector<double> phaseTimes() const override { return device_->phaseTimes(); }
   double damping() const override { return device_->damping(); }
+  double mass() const override { return device_->mass(); }
   std::vector<std::string> notes() const override { return device_->notes(); }
 
  protected:

@@ -35,7 +35,7 @@ struct RunOptions {
   bool allow_no_rt = false;  ///< hardware may run without real-time scheduling, at half the force
   double force_share = 1;    ///< fraction of the force limits that this run may use [-]
   bool bound_stiffness =
-      false;  ///< reduce materials that are too stiff for the devices; otherwise the scene's stiffness is used
+      false;  ///< reduce materials that are too stiff or too damped for the devices; otherwise the scene's are used
   std::optional<SimulatedPerson> person{};
   std::optional<BusSettings> bus{};  ///< takes precedence over rig and scene; network "none": no bus
   bool bus_commands = false;         ///< accept commands even if rig and scene do not

@@ -1,6 +1,7 @@
 #include "framework/session/load_world.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -28,14 +29,18 @@ std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostic
   return overrides;
 }
 
-/// Lowers stiffnesses above the stability bound as --set would, so that a recording holds the rendered values. Makes the
-/// devices again if it lowers one, because a simulated hand chooses its damping by the stiffness that it touches.
+/// Lowers stiffnesses and dampings above their stability bound as --set would, so that a recording holds the rendered
+/// values. Makes the devices again if it lowers one, because a simulated hand chooses its damping by the stiffness that
+/// it touches.
 void boundStiffness(Loaded& loaded, Diagnostics& diagnostics) {
   const Scene& scene = loaded.world->scene;
-  const auto lowered = boundedMaterials(scene, stiffnessBound(loaded.devices, loaded.plan, scene), diagnostics);
+  auto lowered = boundedMaterials(scene, stiffnessBound(loaded.devices, loaded.plan, scene), diagnostics);
+  std::ranges::move(boundedDampings(scene, dampingBound(loaded.devices, loaded.plan, scene), diagnostics),
+                    std::back_inserter(lowered));
   if (lowered.empty()) return;
   World world = *loaded.world;
-  world.scene = parseScene(scene.resolved_xml, scene.file, ".", lowered, diagnostics);
+  Diagnostics known;  // the scene's own findings have been reported
+  world.scene = parseScene(scene.resolved_xml, scene.file, ".", lowered, known);
   loaded.world = std::make_shared<const World>(std::move(world));
   loaded.devices = createDevices(loaded.world, loaded.options, loaded.plan, diagnostics);
 }

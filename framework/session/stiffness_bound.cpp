@@ -1,7 +1,9 @@
 #include "framework/session/stiffness_bound.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "framework/core/schedule/rates.h"
 #include "framework/device/device_plugin.h"
@@ -11,6 +13,8 @@
 
 namespace presa {
 namespace {
+
+enum StiffnessBoundCode { kStiffnessBound = 454, kDampingBound = 464 };
 
 /// Relative tolerance: above the rounding of a damping chosen to lie at the bound, too small to be felt.
 constexpr double kRounding = 1e-6;
@@ -32,6 +36,25 @@ std::string inWords(const std::string& what, double stiffness, double allowed, c
   return text.data();
 }
 
+std::string inWords(const Material& material, double allowed, const DampingBound& bound) {
+  std::array<char, 320> text;
+  std::snprintf(text.data(), text.size(),
+                "damping of material '%s' of %.4g N s/m is felt with %.4g N s/m: half of B_max = "
+                "2 m cos(d pi / (2 d + 1)) / T = %.4g N s/m, with the m = %.3g kg of '%s', d = %d and T = %.3g ms",
+                material.name.c_str(), material.damping, allowed, bound.damping, bound.mass, bound.role.c_str(),
+                bound.delay, bound.period * 1e3);
+  return text.data();
+}
+
+std::string exactly(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.17g", value);
+  return text.data();
+}
+
+/// Samples until a force acts: a model's acts at once, a command to hardware one cycle later.
+int delayOf(const Plan& plan, std::size_t device) { return devicePlugin(plan.devices[device].driver).hardware ? 1 : 0; }
+
 /// The stiffnesses of a friction law: the attributes of its element in N/m.
 std::vector<std::string> stiffnessesOf(const PluginElement& element) {
   std::vector<std::string> names;
@@ -51,7 +74,7 @@ StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const
   for (std::size_t f = 0; f < devices.size(); ++f) {
     const double damping = devices[f]->damping();
     if (!(damping > 0)) continue;
-    const int delay = devicePlugin(plan.devices[f].driver).hardware ? 1 : 0;
+    const int delay = delayOf(plan, f);
     const double stiffness = damping / ((delay + 0.5) * period);
     if (min.stiffness > 0 && min.stiffness <= stiffness) continue;
     min = {stiffness, damping, delay, period, plan.devices[f].role};
@@ -65,11 +88,9 @@ std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound&
   const double allowed = kStableShare * bound.stiffness;
   const auto lower = [&](const std::string& what, double stiffness, const SourceLocation& where, std::string path) {
     if (stiffness <= allowed * (1 + kRounding)) return;
-    diagnostics.warning(454, where, inWords(what, stiffness, allowed, bound),
+    diagnostics.warning(kStiffnessBound, where, inWords(what, stiffness, allowed, bound),
                         "more damping of hand or device, or a higher haptic rate, allows more");
-    std::array<char, 32> value;
-    std::snprintf(value.data(), value.size(), "%.17g", allowed);
-    lowered.push_back({std::move(path), value.data()});
+    lowered.push_back({std::move(path), exactly(allowed)});
   };
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Material& material = scene.materials[m];
@@ -82,6 +103,34 @@ std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound&
       lower("<" + law->element + " " + attribute + "> of " + name, law->number(attribute), law->where,
             path + "/friction/" + law->element + "/" + attribute);
     }
+  }
+  return lowered;
+}
+
+DampingBound dampingBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
+  DampingBound min;
+  const double period = RateTable(scene.rates).period(RateGroup::kHaptic);
+  for (std::size_t f = 0; f < devices.size(); ++f) {
+    const double mass = devices[f]->mass();
+    if (!(mass > 0)) continue;
+    const int delay = delayOf(plan, f);
+    const double damping = 2 * mass * std::cos(delay * std::numbers::pi / (2 * delay + 1)) / period;
+    if (min.damping > 0 && min.damping <= damping) continue;
+    min = {damping, mass, delay, period, plan.devices[f].role};
+  }
+  return min;
+}
+
+std::vector<Override> boundedDampings(const Scene& scene, const DampingBound& bound, Diagnostics& diagnostics) {
+  std::vector<Override> lowered;
+  if (!(bound.damping > 0)) return lowered;
+  const double allowed = kStableShare * bound.damping;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const Material& material = scene.materials[m];
+    if (!touchable(scene, m) || material.damping <= allowed * (1 + kRounding)) continue;
+    diagnostics.warning(kDampingBound, material.where, inWords(material, allowed, bound),
+                        "a heavier hand or device, or a higher haptic rate, allows more");
+    lowered.push_back({"material/" + material.name + "/damping", exactly(allowed)});
   }
   return lowered;
 }

@@ -23,6 +23,22 @@ StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const
 /// Share of K_max that a material may have: disturbances then die out, even if the hand lets go.
 inline constexpr double kStableShare = 0.5;
 
+/// The strongest sampled damper that the devices of a run render stably: B_max = 2 m cos(d pi / (2 d + 1)) / T
+/// [LevinMay1976], which is 2 m / T without delay, with m the moving mass (Device::mass). Springs of wall and hand do
+/// not change it for d = 0.
+struct DampingBound {
+  double damping = 0;  ///< B_max of the device with the smallest bound [N s/m]; 0: unknown, no device declares a mass
+  double mass = 0;     ///< its m [kg]
+  int delay = 0;       ///< its d
+  double period = 0;   ///< T [s]
+  std::string role;    ///< its role
+};
+DampingBound dampingBound(const DeviceList& devices, const Plan& plan, const Scene& scene);
+
+/// Overrides that lower the damping of each touchable material to kStableShare of the bound, below which the speed dies
+/// out without changing its sign from tick to tick. One warning W464 for each, with the bound.
+std::vector<Override> boundedDampings(const Scene& scene, const DampingBound& bound, Diagnostics& diagnostics);
+
 /// Overrides that lower the stiffness of each touchable material, and those of its friction law (attributes in N/m), to
 /// kStableShare of the bound; empty: none is above. One warning W454 for each, with the bound.
 std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics);

@@ -14,7 +14,7 @@ namespace presa {
 /// this process stops or dies. read and write exchange the latest values with it, wait-free, without a system call.
 class SupervisedDevice final : public Device {
  public:
-  /// `driver`: the same device, never opened here; it answers model(), facts(), damping() and measuresOrientation().
+  /// `driver`: the same device, never opened here; it answers model(), facts(), damping(), mass() and measuresOrientation().
   SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file);
   ~SupervisedDevice() override { close(); }
 
@@ -33,6 +33,7 @@ class SupervisedDevice final : public Device {
   std::vector<DeviceFact> facts() const override { return driver_->facts(); }
   bool measuresOrientation() const override { return driver_->measuresOrientation(); }
   double damping() const override { return driver_->damping(); }
+  double mass() const override { return driver_->mass(); }
   std::vector<std::string> notes() const override { return notes_; }
 
   pid_t supervisor() const noexcept { return child_; }

@@ -1,7 +1,9 @@
-// A stiffness above the rig's bound is lowered, with a note; a recording holds the lowered value.
+// A stiffness or a damping above the rig's bound is lowered, with a note; a recording holds the lowered value.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/apps/presa/support.h"
 
@@ -64,6 +66,58 @@ TEST(StiffnessBound, ARecordingHoldsWhatWasFelt) {
   EXPECT_NE(run.err.find("W454"), std::string::npos) << run.err;
   const Outcome again = presa("replay --verify " + recording);
   EXPECT_EQ(again.status, 0) << again.out << again.err;
+}
+
+double dampingOf(const std::string& rig, const std::vector<std::string>& sets, bool bounded, Diagnostics& diagnostics) {
+  RunOptions options;
+  options.bound_stiffness = bounded;
+  const Loaded loaded = loadWorld({source("config/scenes/cube.xml"), rig, sets}, options, diagnostics);
+  return loaded.world->scene.materials.at(0).damping;
+}
+
+// The scripted fingers have m = 0.1 kg. At 1 kHz a damper of 2 m / T = 200 N s/m reverses the speed at every tick, half
+// of it stops the finger in one; at 2 kHz both are twice as large.
+TEST(DampingBound, IsHalfOfWhatTheMassHolds) {
+  const std::string rig = source("config/rigs/pinch_cube.xml");
+  Diagnostics below, above, faster, study;
+  EXPECT_EQ(dampingOf(rig, {"material/rubber/damping=100"}, true, below), 100);
+  EXPECT_TRUE(below.all().empty()) << below.text();
+  EXPECT_NEAR(dampingOf(rig, {"material/rubber/damping=500"}, true, above), 100, 1e-9);
+  ASSERT_EQ(above.all().size(), 1u) << above.text();
+  EXPECT_EQ(above.all()[0].code, 464);
+  EXPECT_EQ(above.all()[0].severity, Diagnostic::Severity::kWarning);
+  EXPECT_GT(above.all()[0].where.line, 0);
+  EXPECT_NE(above.all()[0].message.find("/ T = 200 N s/m, with the m = 0.1 kg"), std::string::npos) << above.text();
+  EXPECT_NEAR(dampingOf(rig, {"material/rubber/damping=500", "rates/haptic=2000"}, true, faster), 200, 1e-9);
+  EXPECT_EQ(dampingOf(rig, {"material/rubber/damping=500"}, false, study), 500);
+}
+
+// Both are lowered at once, and nothing is said twice.
+TEST(DampingBound, StandsBesideTheStiffnessBound) {
+  Diagnostics diagnostics;
+  EXPECT_NEAR(dampingOf(softRig(6),
+                        {"material/rubber/damping=500", "material/rubber/stiffness=9000", "material/wood/stiffness=100",
+                         "body/table/physics/mass=1"},
+                        true, diagnostics),
+              100, 1e-9);
+  std::vector<int> codes;
+  for (const Diagnostic& finding : diagnostics.all()) codes.push_back(finding.code);
+  std::ranges::sort(codes);
+  EXPECT_EQ(codes, (std::vector<int>{220, 454, 464})) << diagnostics.text();
+}
+
+// Unbounded, 500 N s/m make the grip ripple by 127 %; nobody feels 0.1 %, as the just noticeable difference of force is 7
+// % and more.
+TEST(DampingBound, KeepsTheGripCalm) {
+  const std::string summary = scratch("damped.json");
+  for (const char* damping : {"100", "200", "500", "1000"}) {
+    const Outcome run = presa("run " + source("config/scenes/cube.xml") + " --set material/rubber/damping=" + damping +
+                              " --lockstep --view none --quiet --summary " + summary);
+    ASSERT_EQ(run.status, 0) << run.err;
+    std::ifstream file(summary);
+    const nlohmann::json grasp = nlohmann::json::parse(file).at("grasp");
+    for (const auto& finger : grasp.at("fingers")) EXPECT_LT(finger.at("grip_ripple").get<double>(), 1e-3) << damping;
+  }
 }
 
 }  // namespace
