@@ -141,6 +141,14 @@ std::optional<GraspFigures> graspFigures(const RunResult& result) {
   figures.lift_height = height / static_cast<double>(hold.size()) - object.summary.start.z();
   figures.held_in_stick = longestStick(hold, figures.fingers, object.body, figures.hold_end);
 
+  if (figures.fingers.size() >= 2) {
+    figures.turn = graspTurn(*result.world, between(*result.trace, 0, figures.hold_end), figures.hold_begin,
+                             {.first = figures.fingers[0].contact_point,
+                              .second = figures.fingers[1].contact_point,
+                              .body = object.body,
+                              .slot = static_cast<std::size_t>(object.trace_slot)});
+  }
+
   const double fair_share =
       object.mass * result.world->scene.gravity.norm() / static_cast<double>(figures.fingers.size());
   if (object.friction_static > 0) figures.slip_limit = fair_share / object.friction_static;

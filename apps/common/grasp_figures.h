@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/grasp_turn.h"
 #include "apps/common/run_result.h"
 
 namespace presa {
@@ -25,6 +26,7 @@ struct GraspFigures {
   double loosen_begin = 0;              ///< [s]
   double lift_height = 0;               ///< mean height of the object's origin during hold above its start [m]
   double held_in_stick = 0;             ///< longest unbroken time in hold with every holding finger in stick [s]
+  std::optional<GraspTurn> turn;        ///< of object and hand, from the begin of the grasp to the end of the hold
   /// Normal force per finger at which friction stops carrying the weight, m g / (n mu_s), for n equal fingers on
   /// upright faces [N].
   double slip_limit = 0;

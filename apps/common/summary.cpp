@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
 #include "apps/common/atomic_file.h"
@@ -14,6 +15,8 @@ namespace {
 
 // keys keep the order in which they are written here
 using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
 
 Json vector(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
@@ -97,6 +100,14 @@ Json objects(const RunResult& result) {
   return all;
 }
 
+Json turn(const GraspTurn& turn) {
+  return {{"object_deg", turn.object * kDegrees},
+          {"hand_deg", turn.hand * kDegrees},
+          {"fingers_sideways_mm", turn.sideways * 1000},
+          {"turned_in_grip", turn.objectTurned()},
+          {"hand_buckled", turn.handBuckled()}};
+}
+
 Json grasp(const RunResult& result, const GraspFigures& figures) {
   Json fingers = Json::array();
   for (const FingerGrasp& finger : figures.fingers) {
@@ -113,6 +124,7 @@ Json grasp(const RunResult& result, const GraspFigures& figures) {
           {"loosen_s", figures.loosen_begin},
           {"lift_height_m", figures.lift_height},
           {"held_in_stick_s", figures.held_in_stick},
+          {"turn", figures.turn ? turn(*figures.turn) : Json(nullptr)},
           {"slip_limit_N", figures.slip_limit},
           {"fingers", fingers}};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 
 #include "apps/common/grasp_figures.h"
@@ -20,6 +21,30 @@ std::string offsetSentence(const GraspFigures& figures) {
   double widest = 0;
   for (const FingerGrasp& finger : figures.fingers) widest = std::max(widest, finger.offset_range);
   return "Finger and object kept their offset to " + fixed(widest * 1000, 3) + " mm during the hold.";
+}
+
+std::string degrees(double angle) { return fixed(angle * 180 / std::numbers::pi, 0) + "°"; }
+
+bool turned(const GraspFigures& figures) { return figures.turn && figures.turn->objectTurned(); }
+bool buckled(const GraspFigures& figures) { return figures.turn && figures.turn->handBuckled(); }
+
+/// How the grasp came away from how it began, for the headline; empty: it did not.
+std::string turnWords(const GraspFigures& figures) {
+  if (turned(figures) && buckled(figures)) return ", but turned in the grip of a hand that buckled";
+  if (turned(figures)) return ", but turned by " + degrees(figures.turn->object) + " in the grip";
+  return buckled(figures) ? ", but the hand buckled" : "";
+}
+
+std::string buckleSentence(const GraspTurn& turn) {
+  return "The hand buckled: the line between the fingers turned by up to " + degrees(turn.hand) +
+         " after they grasped, and they went " + fixed(turn.sideways * 1000, 1) +
+         " mm sideways. A lighter grip, or fingers that are stiffer sideways, hold straight.";
+}
+
+std::string turnSentence(const GraspTurn& turn) {
+  return "The object turned by up to " + degrees(turn.object) +
+         " about the line between the fingers, which touch it in points. A grasp above its centre of mass keeps it " +
+         "upright.";
 }
 
 std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
@@ -62,8 +87,13 @@ Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {
   Verdict verdict;
   verdict.outcome = object.summary.dropped ? Verdict::Outcome::kBad : Verdict::Outcome::kGood;
   verdict.headline = object.name + " lifted by " + fixed(figures.lift_height * 1000, 1) + " mm, held in stick for " +
-                     fixed(figures.held_in_stick, 2) + " of " + fixed(figures.hold_end - figures.hold_begin, 2) + " s";
+                     fixed(figures.held_in_stick, 2) + " of " + fixed(figures.hold_end - figures.hold_begin, 2) + " s" +
+                     turnWords(figures);
+  if (verdict.outcome == Verdict::Outcome::kGood && (turned(figures) || buckled(figures)))
+    verdict.outcome = Verdict::Outcome::kNeutral;
   verdict.details = {offsetSentence(figures), slipSentence(result, figures)};
+  if (turned(figures)) verdict.details.push_back(turnSentence(*figures.turn));
+  if (buckled(figures)) verdict.details.push_back(buckleSentence(*figures.turn));
   if (object.summary.lost_at >= 0) verdict.details.push_back(lossSentence(object));
   return verdict;
 }

@@ -18,23 +18,23 @@ namespace {
 using test::Feed;
 using test::pinchWorld;
 
-/// A grasp: 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad, then loosening: 4 N falling by 2 N/s, slip below
+/// A grasp: 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad (or `turn`), then loosening: 4 N falling by 2 N/s, slip below
 /// 1.197 N.
 struct Grasp {
   Feed feed{6, 4.0, 250};
   RunResult result;
 
-  explicit Grasp(double wobble = 0) {
-    for (int i = 0; i < 6000; ++i) showTick(i, wobble);
+  explicit Grasp(double wobble = 0, double turn = 0.5) {
+    for (int i = 0; i < 6000; ++i) showTick(i, wobble, turn);
     result.world = feed.world;
     result.phases = {{"lift", 0, 1}, {"hold", 1, 4}, {"loosen", 4, 6}};
     takeMonitor(feed.monitor, result);
   }
 
-  void showTick(int i, double wobble) {
+  void showTick(int i, double wobble, double turn) {
     const double t = i * 1e-3;
     const bool up = t >= 1;
-    const Pose X_WB{Vec3(0, 0, up ? 0.135 : 0.035), Quat(Eigen::AngleAxisd(up ? 0.5 : 0.0, Vec3::UnitX()))};
+    const Pose X_WB{Vec3(0, 0, up ? 0.135 : 0.035), Quat(Eigen::AngleAxisd(up ? turn : 0.0, Vec3::UnitX()))};
     feed.objects.bodies[1].X_WB_begin = feed.objects.bodies[1].X_WB_end = X_WB;
     ++feed.version;
     // ripple of exactly 2 % peak to peak over the mean, visible at every trace sample of 4 ms
@@ -61,6 +61,10 @@ TEST(GraspFigures, MatchAGraspThatIsKnownExactly) {
   EXPECT_NEAR(figures->lift_height, 0.1, 1e-12);
   EXPECT_NEAR(figures->held_in_stick, 3.0, 1e-12);
   EXPECT_NEAR(figures->slip_limit, 0.2 * 9.81 / (2 * 0.8), 1e-12);
+  ASSERT_TRUE(figures->turn);
+  EXPECT_NEAR(figures->turn->object, 0.5, 1e-12);  // about the line between the fingers
+  EXPECT_NEAR(figures->turn->hand, 0, 1e-12);
+  EXPECT_NEAR(figures->turn->sideways, 0, 1e-15);
   EXPECT_NEAR(figures->fingers[0].weight_share, 0.75, 1e-12);
   EXPECT_NEAR(figures->fingers[1].weight_share, 1.25, 1e-12);
   for (const FingerGrasp& finger : figures->fingers) {
@@ -202,8 +206,9 @@ TEST(Losses, WhichThereAreNotAreNotToldOf) {
 
 // An early loss of the object or a fault makes the verdict bad, regardless of all other figures.
 TEST(Verdict, DropOrFaultIsBad) {
-  Grasp grasp;
+  Grasp grasp(0, 0);
   EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kGood);
+  EXPECT_EQ(verdictOf(Grasp().result).outcome, Verdict::Outcome::kNeutral);  // the object turned
   grasp.result.faults = {{1, "gone"}};
   EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kBad);
   grasp.result.faults.clear();
