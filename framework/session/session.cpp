@@ -1,6 +1,7 @@
 #include "framework/session/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "framework/assembly/guide_module.h"
@@ -15,11 +16,15 @@
 #include "framework/haptics/plugin_host.h"
 #include "framework/plugin/plugin_loader.h"
 #include "framework/record/record_plugin.h"
+#include "framework/scene/ages.h"
 #include "framework/scene/manifest.h"
+#include "framework/scene/xml/value_rule.h"
 #include "framework/session/module_plugin.h"
 
 namespace presa {
 namespace {
+
+enum SessionCode { kImpatient = 656 };
 
 /// Null if the rig has no device for the role.
 const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
@@ -141,6 +146,19 @@ const DeviceRating& ratingOf(const DeviceBinding* binding) {
   return binding == nullptr ? kImaginedRating : devicePlugin(binding->driver).rating;
 }
 
+/// Scene and rig can only shorten the watchdog of a rating, so that one below two periods of the dynamics is an error.
+void checkPatience(const Scene& scene, const DeviceRole& role, const FingerSafety& safety, Diagnostics& findings) {
+  const bool moves = std::ranges::any_of(scene.bodies, [](const Body& body) { return !body.fixed; });
+  const double shortest = ages::shortestWatchdog(scene.rates.dynamics);
+  if (!moves || safety.watchdog >= shortest * (1 - 1e-9)) return;
+  const auto shown = [](double value) { return xml::numberText(std::round(value * 1e6) * 1e-6); };
+  findings.error(kImpatient, role.where,
+                 "the force of '" + role.role + "' would fade although the dynamics is on time: its driver is rated " +
+                     "for a watchdog of " + shown(1e3 * safety.watchdog) + " ms, found dynamics at " +
+                     shown(scene.rates.dynamics) + " Hz",
+                 "rates/dynamics=\"" + shown(ages::kPeriods / safety.watchdog) + "\" or more");
+}
+
 }  // namespace
 
 std::vector<FingerSafety> safetyOf(const World& world, const RunOptions& options, std::vector<std::string>& notes,
@@ -150,6 +168,7 @@ std::vector<FingerSafety> safetyOf(const World& world, const RunOptions& options
     const DeviceBinding* binding = bindingOf(world.rig, role.role);
     safety.push_back(
         safetyFor(role, binding == nullptr ? DeviceBinding{} : *binding, ratingOf(binding), notes, findings));
+    checkPatience(world.scene, role, safety.back(), findings);
     safety.back().limits.force *= options.force_share;
     safety.back().limits.torque *= options.force_share;
   }
