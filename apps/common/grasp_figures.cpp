@@ -74,6 +74,12 @@ std::optional<SlipOnset> firstSlipFrom(const RunResult::ContactPoint& point, std
   return std::nullopt;
 }
 
+/// The object moves, and so loads the finger, once in a period of the dynamics.
+double fallBefore(const SlipOnset& slip, std::size_t finger, const BoundedList<TraceSample>& trace, double period) {
+  const Samples before = between(trace, 0, slip.time - period + 1e-9);  // the tolerance is far below a tick
+  return before.empty() ? 0 : std::max(0.0, before.back().fingers[finger].normal_force - slip.normal_force);
+}
+
 FingerGrasp fingerGrasp(Samples hold, std::size_t finger, const RunResult::Object& object) {
   FingerGrasp grasp;
   grasp.contact_point = finger;
@@ -157,6 +163,8 @@ std::optional<GraspFigures> graspFigures(const RunResult& result) {
     finger.weight_share = fair_share > 0 ? finger.weight_share / fair_share : 0;
     finger.grip_ripple = gripRipple(hold, f, figures.hold_end);
     finger.slip = firstSlipFrom(result.contact_points[f], object.body, figures.loosen_begin);
+    if (finger.slip)
+      finger.slip_step = fallBefore(*finger.slip, f, *result.trace, 1 / result.world->scene.rates.dynamics);
   }
   return figures;
 }

@@ -17,6 +17,7 @@ struct FingerGrasp {
   double weight_share = 0;            ///< mean upward force on the object over m g / n; 1 for a fair share
   std::optional<double> grip_ripple;  ///< peak to peak over mean of the normal force, last 2 s of hold
   std::optional<SlipOnset> slip;      ///< first slip from the object after loosening began
+  double slip_step = 0;               ///< fall of the normal force in the dynamics period before that slip [N]
 };
 
 /// The figures of a grasp–hold–release run, from its trace.

@@ -117,7 +117,8 @@ Json grasp(const RunResult& result, const GraspFigures& figures) {
                        {"mean_normal_force_N", finger.mean_normal_force},
                        {"weight_share", finger.weight_share},
                        {"grip_ripple", orNull(finger.grip_ripple)},
-                       {"slip_onset", finger.slip ? slipOnset(*finger.slip) : Json(nullptr)}});
+                       {"slip_onset", finger.slip ? slipOnset(*finger.slip) : Json(nullptr)},
+                       {"slip_known_to_N", finger.slip ? Json(finger.slip_step) : Json(nullptr)}});
   }
   return {{"object", result.objects[figures.object].name},
           {"hold_s", {figures.hold_begin, figures.hold_end}},

@@ -1,6 +1,7 @@
 #include "apps/common/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <optional>
@@ -60,6 +61,22 @@ std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
          std::to_string(figures.fingers.size()) + " mu_s) = " + fixed(figures.slip_limit, 3) + " N.";
 }
 
+constexpr double kSlipTold = 0.01;  // of the limit
+
+/// Names the step of the dynamics where it explains a slip that is not at the limit: the object loads the finger once in
+/// a step, and a slip is seen up to one step early or late.
+std::optional<std::string> slipStepSentence(const RunResult& result, const GraspFigures& figures) {
+  for (const FingerGrasp& finger : figures.fingers) {
+    if (!finger.slip || !(figures.slip_limit > 0)) continue;
+    const double off = std::abs(finger.slip->normal_force - figures.slip_limit);
+    if (off < kSlipTold * figures.slip_limit || off > finger.slip_step) continue;
+    return result.contact_points[finger.contact_point].name + " slipped " + fixed(100 * off / figures.slip_limit, 1) +
+           " % off that: its grip fell by " + fixed(finger.slip_step, 3) +
+           " N in the step of the dynamics before. A higher rate of the dynamics resolves it better.";
+  }
+  return std::nullopt;
+}
+
 std::string lossSentence(const RunResult::Object& object) {
   const std::string at = fixed(object.summary.lost_at, 3) + " s";
   return object.summary.dropped ? "Dropped at " + at + ", before it was to be released." : "Released at " + at + ".";
@@ -92,6 +109,7 @@ Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {
   if (verdict.outcome == Verdict::Outcome::kGood && (turned(figures) || buckled(figures)))
     verdict.outcome = Verdict::Outcome::kNeutral;
   verdict.details = {offsetSentence(figures), slipSentence(result, figures)};
+  if (const auto sentence = slipStepSentence(result, figures)) verdict.details.push_back(*sentence);
   if (turned(figures)) verdict.details.push_back(turnSentence(*figures.turn));
   if (buckled(figures)) verdict.details.push_back(buckleSentence(*figures.turn));
   if (object.summary.lost_at >= 0) verdict.details.push_back(lossSentence(object));

@@ -18,8 +18,8 @@ namespace {
 using test::Feed;
 using test::pinchWorld;
 
-/// A grasp: 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad (or `turn`), then loosening: 4 N falling by 2 N/s, slip below
-/// 1.197 N.
+/// A grasp: 1 s on the table, 3 s held 0.1 m up and turned by 0.5 rad (or `turn`), then loosening: 4 N falling by 2
+/// N/s, slip below 1.197 N.
 struct Grasp {
   Feed feed{6, 4.0, 250};
   RunResult result;
@@ -77,6 +77,8 @@ TEST(GraspFigures, MatchAGraspThatIsKnownExactly) {
     // rate
     EXPECT_NEAR(finger.slip->time, 5.402, 1e-12);
     EXPECT_NEAR(finger.slip->normal_force, 1.196, 1e-12);
+    // the trace's sample before 5.402 s - 5 ms is that at 5.396 s, 1.208 N
+    EXPECT_NEAR(finger.slip_step, 0.012, 1e-12);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/common/grasp_figures.h"
+#include "apps/common/verdict.h"
 #include "tests/apps/presa/support.h"
 
 namespace presa {
@@ -36,6 +37,31 @@ TEST(CubeGrasp, IsLiftedHeldLoosenedAndDroppedAsFrictionSays) {
   EXPECT_NEAR(cube.final.z(), 0.035, 0.001);  // at rest on the table again
   EXPECT_TRUE(result.faults.empty());
   for (const auto& point : result.contact_points) EXPECT_EQ(point.summary.pop_through, 0u);
+}
+
+// The object loads the finger once in a step of the dynamics: a slip is found within one step of m g / (2 mu_s) at any
+// rate, and the grip falls by some 3 N/s. Where that is over 1 % of the limit, the verdict says why.
+TEST(CubeGrasp, SlipsWithinAStepOfTheDynamicsAtAnyRate) {
+  for (const auto& [haptic, dynamics] :
+       {std::pair{"1000", "40"}, {"1000", "50"}, {"1000", "100"}, {"1000", "125"}, {"900", "150"}, {"1000", "200"}}) {
+    for (const char* mass : {"0.05", "0.2"}) {
+      const auto run = runScene("config/scenes/cube.xml",
+                                {std::string("rates/haptic=") + haptic, std::string("rates/dynamics=") + dynamics,
+                                 std::string("body/cube/physics/mass=") + mass});
+      const auto grasp = graspFigures(run->result());
+      ASSERT_TRUE(grasp);
+      std::string told;
+      for (const std::string& sentence : verdictOf(run->result()).details) told += sentence + "\n";
+      for (const FingerGrasp& finger : grasp->fingers) {
+        ASSERT_TRUE(finger.slip);
+        const double off = std::abs(finger.slip->normal_force - grasp->slip_limit);
+        EXPECT_LE(off, finger.slip_step) << dynamics << " Hz, " << mass << " kg";
+        EXPECT_NEAR(finger.slip_step, 3.5 / std::stod(dynamics), 1.5 / std::stod(dynamics)) << dynamics;
+        EXPECT_EQ(told.find("% off that: its grip fell by") != std::string::npos, off > 0.01 * grasp->slip_limit)
+            << told;
+      }
+    }
+  }
 }
 
 // A mesh of 35 000 triangles, rendered through local patches from the collision thread, behaves like the cube: same

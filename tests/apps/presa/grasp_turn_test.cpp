@@ -55,7 +55,7 @@ TEST(GraspTurn, BeginsWithTheGraspThatIsHeld) {
   EXPECT_NEAR(turn->hand, 0, 1e-12);
 }
 
-// A user who walks takes the hand along: the frame turns, and the hand in it does not. On the tool of another device the
+// A user who walks takes the hand along: the frame turns, and the hand in it does not. On the tool of a device the
 // frame is not known.
 TEST(GraspTurn, IsSeenFromTheFrameOfTheDevices) {
   const auto world = pinchWorld();
