@@ -1,4 +1,5 @@
 #include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/convex/cylinder.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
@@ -25,6 +26,10 @@ void BodySet::createGeom(Entry& entry, const Geometry& geometry, const TriMesh* 
     }
   };
   if (const Box* box = std::get_if<Box>(&geometry.shape)) entry.hull = boxHull(box->size);
+  if (const Sphere* sphere = std::get_if<Sphere>(&geometry.shape)) entry.hull = sphereHull(sphere->radius);
+  if (const Cylinder* cylinder = std::get_if<Cylinder>(&geometry.shape)) {
+    entry.hull = cylinderHull(cylinder->radius, cylinder->length);
+  }
   if (const Capsule* capsule = std::get_if<Capsule>(&geometry.shape)) {
     entry.hull = capsuleHull(capsule->radius, capsule->length);
   }

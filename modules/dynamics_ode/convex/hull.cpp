@@ -1,7 +1,6 @@
 #include "modules/dynamics_ode/convex/hull.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -74,22 +73,32 @@ void dropStraightCorners(Hull& hull) {
 
 }  // namespace
 
-Hull boxHull(const Vec3& size) {
+Hull polyhedron(const std::vector<Vec3>& corners, const std::vector<std::vector<std::int32_t>>& loops) {
   Hull hull;
-  for (int i = 0; i < 8; ++i) {
-    hull.vertices.push_back(
-        Vec3((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5).cwiseProduct(size));
-  }
-  const std::array<std::array<std::int32_t, 4>, 6> loops{
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  for (int f = 0; f < 6; ++f) {
-    Hull::Face face;
-    face.nhat = Vec3::Unit(f / 2) * (f % 2 == 0 ? -1 : 1);
-    face.offset = size[f / 2] / 2;
-    face.loop.assign(loops[static_cast<std::size_t>(f)].begin(), loops[static_cast<std::size_t>(f)].end());
-    hull.faces.push_back(face);
+  hull.vertices = corners;
+  for (const std::vector<std::int32_t>& loop : loops) {
+    const Vec3 &a = corners[index(loop[0])], &b = corners[index(loop[1])], &c = corners[index(loop[2])];
+    const Vec3 nhat = (b - a).cross(c - b).normalized();
+    hull.faces.push_back({nhat, nhat.dot(a), loop});
   }
   joinFaces(hull);
+  for (const Vec3& v : corners) hull.centre += v / static_cast<double>(corners.size());
+  return hull;
+}
+
+Hull boxHull(const Vec3& size) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.push_back(
+        Vec3((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5).cwiseProduct(size));
+  }
+  return polyhedron(corners, {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
+}
+
+Hull sphereHull(double radius) {
+  Hull hull;
+  hull.radius = radius;
+  hull.vertices = {Vec3::Zero()};
   return hull;
 }
 

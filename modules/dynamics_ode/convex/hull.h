@@ -26,9 +26,17 @@ struct Hull {
   std::vector<Vec3> directions;  ///< of edges, unit, parallel ones once
   Vec3 centre = Vec3::Zero();
   double radius = 0;
+  struct Cylinder {
+    double radius, length;  // [m]
+  };
+  std::optional<Cylinder> cylinder;  ///< the polyhedron is a prism in this cylinder (cylinder.h)
 };
 
+/// `loops`: the corners of each face, counter-clockwise from outside. Their planes must be convex.
+Hull polyhedron(const std::vector<Vec3>& corners, const std::vector<std::vector<std::int32_t>>& loops);
+
 Hull boxHull(const Vec3& size);
+Hull sphereHull(double radius);
 /// Along z, like Presa's capsules: `length` between the centres of its ends [m].
 Hull capsuleHull(double radius, double length);
 /// A pair costs the product of their edges: a mesh with more faces is no hull.

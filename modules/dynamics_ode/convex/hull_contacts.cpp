@@ -40,10 +40,16 @@ const Hull& HullContacts::placed(const BodySet& bodies, std::size_t i) {
 
 const Manifold* HullContacts::find(const BodySet& bodies, std::size_t A, std::size_t B, double margin) {
   if (bodies.hull(A) == nullptr || bodies.hull(B) == nullptr) return nullptr;
-  Memory memory{std::minmax(A, B), {}};
+  Memory memory{std::minmax(A, B), {}, {}};
   while (recalled_ < past_.size() && past_[recalled_].pair < memory.pair) ++recalled_;
-  if (recalled_ < past_.size() && past_[recalled_].pair == memory.pair) memory.axis = past_[recalled_].axis;
-  maker_.collide(placed(bodies, A), placed(bodies, B), margin, memory.axis, manifold_);
+  if (recalled_ < past_.size() && past_[recalled_].pair == memory.pair) memory = past_[recalled_];
+  const auto side = [&](std::size_t i, CylinderTurn& turn) {
+    const Hull& hull = *bodies.hull(i);
+    return FacingHulls::Side{hull, bodies.geomPose(i), hull.cylinder ? nullptr : &placed(bodies, i), &turn};
+  };
+  const bool ascending = A < B;
+  const auto [a, b] = facing_.of(side(A, memory.turns[ascending ? 0 : 1]), side(B, memory.turns[ascending ? 1 : 0]));
+  maker_.collide(*a, *b, margin, memory.axis, manifold_);
   if (memory.axis.kind != ContactAxis::Kind::kNone) memories_.push_back(memory);
   return &manifold_;
 }

@@ -1,21 +1,23 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/convex/cylinder.h"
 #include "modules/dynamics_ode/convex/manifold.h"
 
 namespace presa::ode {
 
-/// The contacts of bodies whose physics geometries are convex polyhedra (BodySet::hull), with a memory from step to
+/// The contacts of bodies whose physics geometries are convex (BodySet::hull), with a memory from step to
 /// step. Pairs must be asked for in ascending order within a step.
 class HullContacts {
  public:
   explicit HullContacts(const BodySet& bodies);
 
   void beginStep();
-  /// The contact of A and B within `margin` [m]; null when they are not both polyhedra. Valid until the next call.
+  /// The contact of A and B within `margin` [m]; null when they are not both convex. Valid until the next call.
   const Manifold* find(const BodySet& bodies, std::size_t A, std::size_t B, double margin);
 
  private:
@@ -26,11 +28,13 @@ class HullContacts {
   struct Memory {
     std::pair<std::size_t, std::size_t> pair;
     ContactAxis axis;
+    std::array<CylinderTurn, 2> turns;  // of A and B
   };
   const Hull& placed(const BodySet& bodies, std::size_t i);
 
   ManifoldMaker maker_;
   Manifold manifold_;
+  FacingHulls facing_;
   std::vector<Placed> placed_;           // by body: its hull in W
   std::vector<Memory> memories_, past_;  // of this step and of the last, sorted by pair
   std::size_t recalled_ = 0;             // into past_

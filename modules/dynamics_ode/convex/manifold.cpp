@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "modules/dynamics_ode/convex/nearest.h"
 #include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
@@ -130,7 +131,8 @@ Polygon outlineAlong(const Hull& hull, const Vec3& nhat) {
   return polygon;
 }
 
-/// Four of many points: the deepest, the one farthest from it, and the two that make the largest area with these.
+/// kMaxPoints of many points, among them the deepest, the one farthest from it, and the two that make the largest area
+/// with these.
 void reduce(std::array<Manifold::Point, kMaxPolygon>& points, std::size_t& count, const Vec3& nhat, double same_depth) {
   if (count <= Manifold::kMaxPoints) return;
   const Vec3 along = nhat.unitOrthogonal();
@@ -180,21 +182,6 @@ void clipAlong(const Hull& reference, const Hull& other, const Vec3& nhat, doubl
   std::copy_n(points.begin(), count, out.points.begin());
 }
 
-Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double length = ab.squaredNorm();
-  return length > 0 ? Vec3(a + std::clamp((p - a).dot(ab) / length, 0.0, 1.0) * ab) : a;
-}
-
-/// Nearest points of two segments.
-std::pair<Vec3, Vec3> nearestOf(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) {
-  const Vec3 u = a1 - a0, v = b1 - b0, w = a0 - b0;
-  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
-  double s = det > 1e-12 * uu * vv ? std::clamp((uv * v.dot(w) - vv * u.dot(w)) / det, 0.0, 1.0) : 0.5;
-  const Vec3 on_b = closestOnSegment(a0 + s * u, b0, b1);
-  return {closestOnSegment(on_b, a0, a1), on_b};
-}
-
 void setPoint(const Vec3& on_a, const Vec3& on_b, double radius_a, double radius_b, double margin, const Vec3& nhat,
               Manifold& out) {
   const double apart = nhat.dot(on_b - on_a), gap = apart - radius_a - radius_b;
@@ -202,48 +189,6 @@ void setPoint(const Vec3& on_a, const Vec3& on_b, double radius_a, double radius
   out.nhat_AB_W = nhat;
   out.points[0] = {(on_a + radius_a * nhat + on_b - radius_b * nhat) / 2, gap};
   out.count = 1;
-}
-
-Vec3 nearestOnFace(const Hull& hull, const Hull::Face& face, const Vec3& p) {
-  const Vec3 on_plane = p - (face.nhat.dot(p) - face.offset) * face.nhat;
-  Vec3 nearest = on_plane;
-  double distance = 1e300;
-  bool inside = true;
-  for (std::size_t i = 0; i < face.loop.size(); ++i) {
-    const Vec3 &a = hull.vertices[index(face.loop[i])],
-               &b = hull.vertices[index(face.loop[(i + 1) % face.loop.size()])];
-    if ((b - a).cross(face.nhat).dot(on_plane - a) <= 0) continue;
-    inside = false;
-    const Vec3 q = closestOnSegment(p, a, b);
-    if ((q - p).squaredNorm() >= distance) continue;
-    distance = (q - p).squaredNorm();
-    nearest = q;
-  }
-  return inside ? on_plane : nearest;
-}
-
-/// Nearest points of a polyhedron and a point or segment outside it. False when they meet.
-bool nearestOutside(const Hull& hull, const Hull& core, Vec3& on_hull, Vec3& on_core) {
-  double best = 1e300;
-  const auto offer = [&](const Vec3& a, const Vec3& b) {
-    if ((a - b).squaredNorm() >= best) return;
-    best = (a - b).squaredNorm();
-    on_hull = a;
-    on_core = b;
-  };
-  for (const Vec3& v : core.vertices) {
-    for (const Hull::Face& face : hull.faces) {
-      if (face.nhat.dot(v) > face.offset) offer(nearestOnFace(hull, face, v), v);
-    }
-  }
-  if (core.vertices.size() == 2) {
-    for (const Hull::Edge& edge : hull.edges) {
-      const auto [a, b] =
-          nearestOf(hull.vertices[index(edge.from)], hull.vertices[index(edge.to)], core.vertices[0], core.vertices[1]);
-      offer(a, b);
-    }
-  }
-  return best < 1e300 && best > 0;
 }
 
 /// Two segments or points with radii.
@@ -268,14 +213,15 @@ void collideRound(const Hull& A, const Hull& B, double margin, Manifold& out) {
   out = both;
 }
 
-// A round body near an edge or a corner: the normal points from there to its core. False where a face or a pair of edges
-// is nearest, too.
+// A round body outside a polyhedron touches it with one point, at the end of the shortest way to its core. False where a
+// segment lies along a face, and thus touches with more points.
 bool besideFaces(const Hull& A, const Hull& B, const Vec3& nhat_face, double margin, Manifold& out) {
   Vec3 on_a, on_b;
   const bool apart = A.faces.empty() ? nearestOutside(B, A, on_b, on_a) : nearestOutside(A, B, on_a, on_b);
   if (!apart) return false;
   const Vec3 nhat = (on_b - on_a).normalized();
-  if (std::abs(nhat.dot(nhat_face)) > 1 - kOblique) return false;
+  const bool is_sphere = (A.faces.empty() ? A : B).vertices.size() == 1;
+  if (!is_sphere && std::abs(nhat.dot(nhat_face)) > 1 - kOblique) return false;
   setPoint(on_a, on_b, A.radius, B.radius, margin, nhat, out);
   return true;
 }
@@ -292,6 +238,36 @@ void ManifoldMaker::separateByEdges(const Hull& A, const Hull& B, EdgePair& best
       best = {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), axis.nhat, axis.gap};
     }
   }
+}
+
+Separation ManifoldMaker::separate(const Hull& A, const Hull& B) {
+  const double radii = A.radius + B.radius;
+  if (A.faces.empty() && B.faces.empty()) {
+    const auto [on_a, on_b] = nearestOf(A.vertices.front(), A.vertices.back(), B.vertices.front(), B.vertices.back());
+    const double apart = (on_b - on_a).norm();
+    return {apart > 0 ? Vec3((on_b - on_a) / apart) : Vec3::UnitZ(), apart - radii};
+  }
+  const FaceAxis a = separateByFaces(A, B), b = separateByFaces(B, A);
+  Separation best;
+  if (a.gap > b.gap) {
+    best = {A.faces[a.face].nhat, a.gap};
+  } else {
+    best = {-B.faces[b.face].nhat, b.gap};
+  }
+  if (best.gap < radii) {
+    project(A, B, a_on_b_);
+    project(B, A, b_on_a_);
+    EdgePair edges;
+    separateByEdges(A, B, edges);
+    if (edges.gap > best.gap) best = {edges.nhat, edges.gap};
+    Vec3 on_a, on_b;
+    if (radii > 0 && best.gap > 0 &&
+        (A.faces.empty() ? nearestOutside(B, A, on_b, on_a) : nearestOutside(A, B, on_a, on_b))) {
+      best = {(on_b - on_a).normalized(), (on_b - on_a).norm()};
+    }
+  }
+  best.gap -= radii;
+  return best;
 }
 
 void ManifoldMaker::collide(const Hull& A, const Hull& B, double margin, ContactAxis& memory, Manifold& out) {

@@ -20,6 +20,12 @@ struct Manifold {
   int count = 0;
 };
 
+/// The direction in which two hulls are apart most, or overlap least.
+struct Separation {
+  Vec3 nhat_AB_W = Vec3::UnitZ();
+  double gap = 0;  ///< negative: overlap [m]
+};
+
 /// What a contact's normal comes from.
 struct ContactAxis {
   enum class Kind : std::uint8_t { kNone, kFaceOfA, kFaceOfB, kEdges } kind = Kind::kNone;
@@ -39,6 +45,8 @@ class ManifoldMaker {
   /// Points at which A and B (both in W) overlap or come within `margin` [m] of each other. `memory` is the axis of the
   /// step before; it is kept as long as it is nearly the best, since a normal that jumps sets a pile trembling.
   void collide(const Hull& A, const Hull& B, double margin, ContactAxis& memory, Manifold& out);
+  /// Exact where A and B overlap; where they are apart, no more than their distance.
+  Separation separate(const Hull& A, const Hull& B);
 
  private:
   struct EdgePair {

@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <array>
 #include <random>
 
 #include "modules/dynamics_ode/contact_solver/block_cholesky.h"
@@ -240,7 +241,7 @@ TEST(Friction, HoldsWithoutCreep) {
 
 class Shot : public testing::TestWithParam<std::tuple<double, double>> {};
 
-// Cubes and capsules shot at a thin plate, with spin, from any side: none passes, at any speed.
+// Cubes, capsules, balls and coins shot at a thin plate, with spin, from any side: none passes, at any speed.
 TEST_P(Shot, DoesNotPassAThinPlate) {
   const auto [speed, thickness] = GetParam();
   std::mt19937 generator(11);
@@ -253,8 +254,9 @@ TEST_P(Shot, DoesNotPassAThinPlate) {
     const double size = 0.01;
     const Pose start{{0, 0, 0.02 + 0.001 * n}, q};
     const BodyInertia inertia{0.01, Vec3::Zero(), boxInertia(0.01, Vec3::Constant(size))};
-    n % 2 == 0 ? maker.add(Box{Vec3::Constant(size)}, start, inertia)
-               : maker.add(Capsule{size / 2, size}, start, inertia);
+    const std::array<Shape, 4> shapes{Box{Vec3::Constant(size)}, Capsule{size / 2, size}, Sphere{size / 2},
+                                      Cylinder{size / 2, size / 10}};
+    maker.add(shapes[static_cast<std::size_t>(n % 4)], start, inertia);
     Runner runner(maker.world());
     runner.bodies.setVelocity(1, {0, 0, -speed}, 20 * Vec3(normal(generator), normal(generator), normal(generator)));
     for (int k = 0; k < 200 && runner.time * speed < 1; ++k) runner.step();

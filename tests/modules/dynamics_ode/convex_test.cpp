@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <random>
 
-#include "modules/dynamics_ode/convex/manifold.h"
+#include "tests/modules/dynamics_ode/hull_support.h"
 #include "tests/modules/dynamics_ode/support.h"
 
 // Contacts of convex polyhedra. Oracle of the gap: the separating axis test by brute force, over all face normals and all
@@ -13,20 +13,6 @@ Hull placedAt(const Hull& hull, const Pose& X) {
   Hull out;
   place(hull, X, out);
   return out;
-}
-
-Manifold contactOf(const Hull& A, const Hull& B, double margin) {
-  ManifoldMaker maker;
-  ContactAxis memory;
-  Manifold manifold;
-  maker.collide(A, B, margin, memory, manifold);
-  return manifold;
-}
-
-double deepest(const Manifold& manifold) {
-  double gap = 1e300;
-  for (int i = 0; i < manifold.count; ++i) gap = std::min(gap, manifold.points[static_cast<std::size_t>(i)].gap);
-  return gap;
 }
 
 double gapAlong(const Hull& A, const Hull& B, const Vec3& nhat) {
@@ -66,7 +52,9 @@ TEST(Manifold, DepthIsThatOfTheAxisOfLeastOverlap) {
     const Hull B = placedAt(boxHull(Vec3::Constant(0.5)), {p, turned()});
     const double best = bestGap(A, B);
     const Manifold manifold = contactOf(A, B, 0.05);
-    if (best > 0.05) ASSERT_EQ(manifold.count, 0) << n;
+    if (best > 0.05) {
+      ASSERT_EQ(manifold.count, 0) << n;
+    }
     if (best > 0) continue;  // beside an edge the distance is larger than along every axis
     ++overlaps;
     ASSERT_GT(manifold.count, 0) << n;
@@ -143,6 +131,30 @@ TEST(Hull, AMeshWithADentOrAHoleIsNone) {
   TriMesh open = twelveTriangles();
   open.triangles.pop_back();
   EXPECT_FALSE(meshHull(open));
+}
+
+// Oracle: the signed distance of a point from a box. Centres inside, outside, and a hair beside an edge.
+TEST(Sphere, TouchesABoxAsFarAsItsSignedDistance) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Hull box = placedAt(boxHull(kCube), {});
+  const double radius = 0.01;
+  for (int n = 0; n < 3000; ++n) {
+    Vec3 p = 0.8 * kEdge * Vec3(uniform(generator), uniform(generator), uniform(generator));
+    if (n % 3 == 0) p.head<2>() = Vec3(kEdge / 2 + 0.009, kEdge / 2 + 1e-4 * uniform(generator), 0).head<2>();
+    const Vec3 q = p.cwiseAbs() - 0.5 * kCube;
+    const double distance = q.cwiseMax(0).norm() + std::min(0.0, q.maxCoeff());
+    const Hull ball = placedAt(sphereHull(radius), {p, Quat::Identity()});
+    for (const bool ball_first : {false, true}) {
+      const Manifold manifold = ball_first ? contactOf(ball, box, 1) : contactOf(box, ball, 1);
+      ASSERT_EQ(manifold.count, 1) << p.transpose();
+      EXPECT_NEAR(manifold.points[0].gap, distance - radius, 1e-12);
+      const Vec3 away = (p - p.cwiseMin(0.5 * kCube).cwiseMax(-0.5 * kCube)).normalized();
+      if (distance > 1e-6) {
+        EXPECT_NEAR(manifold.nhat_AB_W.dot(away), ball_first ? -1 : 1, 1e-9);
+      }
+    }
+  }
 }
 
 // Rests on the ends of its axis.
