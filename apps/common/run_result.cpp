@@ -31,6 +31,7 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
   result.state_hash = monitor.hash();
   result.solver_fallbacks = monitor.solverFallbacks();
   result.energy_created = monitor.energyCreated();
+  result.stopped_short = monitor.stoppedShort();
   result.simulated_seconds = monitor.simulatedTime();
 }
 

@@ -175,6 +175,16 @@ void BodySet::setMotion(std::size_t i, const Motion& motion) {
   entry.rotated = true;
 }
 
+// The kinetic energy stays, whatever the moments of inertia.
+void BodySet::stopAt(std::size_t i, const Vec3& p_WCm, const Quat& q_WB) {
+  const Entry& entry = bodies_[i];
+  const State end = read(entry);
+  const Vec3 w_WB = q_WB * (end.q_WB.conjugate() * end.w_WB);
+  dBodySetPosition(entry.body, p_WCm.x(), p_WCm.y(), p_WCm.z());
+  dBodySetQuaternion(entry.body, toOde(q_WB).data());
+  dBodySetAngularVel(entry.body, w_WB.x(), w_WB.y(), w_WB.z());
+}
+
 BodySet::Load BodySet::load(std::size_t i, const Vec3& gravity_W) const {
   const Entry& entry = bodies_[i];
   Load load{entry.mass, entry.inertia, entry.inverse_inertia, entry.force_W, entry.torque_W};

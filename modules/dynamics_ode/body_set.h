@@ -57,9 +57,10 @@ class BodySet {
     Vec3 p_WCm = Vec3::Zero(), v_WCm = Vec3::Zero(), w_WB = Vec3::Zero();
     Quat q_WB = Quat::Identity();
   };
-  Motion motion(std::size_t i) const { return read(bodies_[i]); }           ///< current; only for bodies that move
-  Pose pose(std::size_t i) const { return poseOf(bodies_[i], motion(i)); }  ///< current X_WB; not for fixed bodies
-  double mass(std::size_t i) const noexcept { return bodies_[i].mass; }     ///< [kg]
+  Motion motion(std::size_t i) const { return read(bodies_[i]); }                ///< current; only for bodies that move
+  const Motion& motionAtBegin(std::size_t i) const { return bodies_[i].begin; }  ///< only for awake bodies
+  Pose pose(std::size_t i) const { return poseOf(bodies_[i], motion(i)); }       ///< current X_WB; not for fixed bodies
+  double mass(std::size_t i) const noexcept { return bodies_[i].mass; }          ///< [kg]
   /// About the centre of mass, in the axes of B [kg m^2].
   const Mat3& inertia(std::size_t i) const noexcept { return bodies_[i].inertia; }
   /// Pose of the centre of mass, with the body's axes, for a body at X_WB.
@@ -86,6 +87,8 @@ class BodySet {
   void resetForces();
   /// Sets the state of awake body `i` at the end of the step; driftRotations then leaves it alone.
   void setMotion(std::size_t i, const Motion& motion);
+  /// Moves awake body `i` back on its way in this step; its angular velocity keeps its value in the axes of B.
+  void stopAt(std::size_t i, const Vec3& p_WCm, const Quat& q_WB);
   /// What the solvers see of moving body `i` in this step: with added inertia, forces at the centre of mass.
   struct Load {
     double mass = 0;

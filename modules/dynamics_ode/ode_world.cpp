@@ -9,6 +9,7 @@
 #include "modules/dynamics_ode/body_effect_forces.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/contact_solver/own_solvers.h"
+#include "modules/dynamics_ode/convex/sweep.h"
 #include "modules/dynamics_ode/effect_forces.h"
 #include "modules/dynamics_ode/energy_book.h"
 #include "modules/dynamics_ode/engine.h"
@@ -61,6 +62,7 @@ struct OdeWorld::Impl {
     contacts.reserve(kContactsPerBody * bodies.size());
     if (usesOwnSolvers(options.method)) {
       own_solvers.emplace(world->scene, engine.gravity(), bodies, options);
+      sweep.emplace(bodies);
     } else {
       engine_solvers.emplace(world->scene, engine, bodies, options);
     }
@@ -89,6 +91,7 @@ struct OdeWorld::Impl {
   BodyContacts collider;
   std::optional<OwnSolvers> own_solvers;  // one of these two, as the scene says
   std::optional<StepSolver> engine_solvers;
+  std::optional<Sweep> sweep;            // with Presa's own solvers
   std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
   std::optional<SnapDrive> snap_drive_;  // empty without an assembly
   EffectForces effects;
@@ -163,6 +166,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   }
   impulses.add(fingers, h, substeps);
   bodies.driftRotations(h);
+  if (sweep) sweep->stopShort(bodies, h);
   energy.settle(bodies, islands, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr);
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
 }
@@ -253,6 +257,7 @@ void OdeWorld::write(double time, ObjectState& out) noexcept {
   out.fallback_steps = impl_->fallback_steps;
   out.penetration = penetrationOf(impl_->contacts);
   out.energy = {impl_->energy.created(), impl_->energy.worstStep()};
+  if (impl_->sweep) out.stopped_short = impl_->sweep->stops();
   impl_->impulses.write(out);
 }
 

@@ -85,6 +85,7 @@ struct Monitor::Impl {
   ActionReaction reaction;
   std::uint64_t solver_fallbacks = 0;
   EnergyCreated energy_created;
+  std::uint64_t stopped_short = 0;
   std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
   std::uint64_t objects_version = 0;
   double simulated_time = 0;
@@ -233,6 +234,7 @@ void Monitor::Impl::observe(const HapticSample& sample) noexcept {
   if (fresh) {
     solver_fallbacks = state->fallback_steps;
     energy_created = state->energy;
+    stopped_short = state->stopped_short;
   }
   sumObjects(tick, contact, state, fresh);
   simulated_time = static_cast<double>(tick.index + 1) * tick.period;
@@ -264,6 +266,7 @@ std::uint32_t Monitor::objectFaults() const noexcept { return impl_->object_faul
 double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_time; }
 std::uint64_t Monitor::solverFallbacks() const noexcept { return impl_->solver_fallbacks; }
 const EnergyCreated& Monitor::energyCreated() const noexcept { return impl_->energy_created; }
+std::uint64_t Monitor::stoppedShort() const noexcept { return impl_->stopped_short; }
 double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
 
 }  // namespace presa

@@ -93,6 +93,8 @@ class Monitor final : public HapticObserver {
   std::uint64_t solverFallbacks() const noexcept;
   /// Energy that appeared from nothing in the dynamics; NaN where the engine does not say.
   const EnergyCreated& energyCreated() const noexcept;
+  /// Dynamics steps in which a body was stopped short of passing through another, summed over the bodies.
+  std::uint64_t stoppedShort() const noexcept;
 
  private:
   struct Impl;

@@ -31,7 +31,9 @@ void SmallSteps::prepare() {
   for (const ContactProblem::Contact& c : problem_->contacts) {
     const Vec3 friction = c.f_B_W - c.f_B_W.dot(c.nhat_AB_W) * c.nhat_AB_W;
     const double length = friction.norm();
-    ContactRow& row = contacts_.emplace_back(ContactRow{{c.A, c.B}});
+    ContactRow& row = contacts_.emplace_back();
+    row.A = c.A;
+    row.B = c.B;
     connect(row, c.p_W, c.nhat_AB_W, length > 1e-12 ? Vec3(friction / length) : c.nhat_AB_W.unitOrthogonal());
     row.gap_begin = row.gap = c.gap;
     row.mu = c.mu;
@@ -41,7 +43,9 @@ void SmallSteps::prepare() {
   fingers_.clear();
   for (const ContactProblem::Finger& finger : problem_->fingers) {
     const FingerConstraint& c = *finger.constraint;
-    FingerRow& row = fingers_.emplace_back(FingerRow{{ContactProblem::kFixed, finger.body}, &c});
+    FingerRow& row = fingers_.emplace_back();
+    row.B = finger.body;
+    row.constraint = &c;
     connect(row, c.p_WP, c.n_in, c.t1);
     row.depth = c.spring.depth;
     row.u1 = c.spring.stretch;

@@ -46,9 +46,10 @@ class SmallSteps {
     double impulse = 0;  // on B [N s]
   };
   struct Row {  // of a contact or a finger
-    std::int32_t A, B;
+    std::int32_t A = ContactProblem::kFixed, B = 0;
     double inverse_mass_A = 0, inverse_mass_B = 0;
-    Vec3 rA_W, rB_W, rA_A, rB_B;  // lever arms at the start, in W and in the axes of the bodies
+    Vec3 rA_W = Vec3::Zero(), rB_W = Vec3::Zero(), rA_A = Vec3::Zero(),
+         rB_B = Vec3::Zero();  // lever arms at the start, in W and in the axes of the bodies
     Axis n, t1, t2;
     double mu = 0;
   };

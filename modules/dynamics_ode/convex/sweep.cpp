@@ -1,0 +1,145 @@
+#include "modules/dynamics_ode/convex/sweep.h"
+
+#include <algorithm>
+
+namespace presa::ode {
+namespace {
+
+// in relation to the thinner body
+constexpr double kShortWay = 0.25;    // movement that its contacts cover
+constexpr double kMaxOverlap = 0.3;   // at which bodies stop
+constexpr double kMinAdvance = 0.15;  // between two looks, when they are as close as that
+constexpr int kMaxLooks = 64;         // then they stop where they were seen apart last
+constexpr int kRounds = 8;            // a body that stops is in the way of those behind it
+
+double widthOf(const Hull& hull) {
+  if (hull.cylinder) return std::min(2 * hull.cylinder->radius, hull.cylinder->length);
+  if (hull.faces.empty()) return 2 * hull.radius;
+  double width = 1e300;
+  for (const Hull::Face& face : hull.faces) {
+    double lowest = 1e300;
+    for (const Vec3& v : hull.vertices) lowest = std::min(lowest, face.nhat.dot(v));
+    width = std::min(width, face.offset - lowest);
+  }
+  return width;
+}
+
+double rimOf(const Hull& hull, const Pose& X_CmG) {
+  double rim = 0;
+  for (const Vec3& v : hull.vertices) rim = std::max(rim, (X_CmG * v).norm());
+  return rim + hull.radius;
+}
+
+Vec3 rotationVector(const Quat& q) {
+  const Eigen::AngleAxisd turn(q.w() < 0 ? Quat(-q.coeffs()) : q);
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+Sweep::Sweep(const BodySet& bodies) : shapes_(bodies.size()), ways_(bodies.size()), broad_phase_(bodies) {
+  std::size_t edges = 0, faces = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.hull(i) == nullptr) continue;
+    const Hull& hull = *bodies.hull(i);
+    const Pose X_CmG = bodies.moves(i) ? bodies.centrePose(i).inverse() * bodies.geomPose(i) : Pose();
+    shapes_[i] = {&hull, X_CmG, widthOf(hull), bodies.moves(i) ? rimOf(hull, X_CmG) : 0};
+    edges = std::max(edges, hull.edges.size());
+    faces = std::max(faces, hull.faces.size());
+    for (Hull& placed : placed_) presa::ode::place(hull, Pose(), placed);  // takes its memory
+  }
+  maker_.makeRoom(edges, faces);
+}
+
+// False when all bodies move little.
+bool Sweep::measureWays(const BodySet& bodies) {
+  double thinnest = 1e300, longest = 0;
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    Way& way = ways_[i] = Way();
+    if (shapes_[i].hull == nullptr) continue;
+    thinnest = std::min(thinnest, shapes_[i].width);
+    if (!bodies.awake(i)) continue;
+    const BodySet::Motion &begin = bodies.motionAtBegin(i), end = bodies.motion(i);
+    way.begin = {begin.p_WCm, begin.q_WB};
+    way.shift = end.p_WCm - begin.p_WCm;
+    way.turn = rotationVector(end.q_WB * begin.q_WB.conjugate());
+    longest = std::max(longest, way.shift.norm() + shapes_[i].rim * way.turn.norm());
+  }
+  return 2 * longest > kShortWay * thinnest;
+}
+
+double Sweep::travel(std::size_t A, std::size_t B) const {
+  return (ways_[B].shift - ways_[A].shift).norm() + shapes_[A].rim * ways_[A].turn.norm() +
+         shapes_[B].rim * ways_[B].turn.norm();
+}
+
+Pose Sweep::geomPose(const BodySet& bodies, std::size_t i, double s) const {
+  if (!bodies.awake(i)) return bodies.geomPose(i);
+  const Way& way = ways_[i];
+  s = std::min(s, way.end);
+  const double angle = way.turn.norm();
+  const Quat turned = angle > 0 ? Quat(Eigen::AngleAxisd(s * angle, way.turn / angle)) : Quat(Quat::Identity());
+  return Pose{way.begin.p + s * way.shift, turned * way.begin.q} * shapes_[i].X_CmG;
+}
+
+Separation Sweep::separation(const BodySet& bodies, std::size_t A, std::size_t B, double s) {
+  const Pose X_A = geomPose(bodies, A, s), X_B = geomPose(bodies, B, s);
+  std::array<CylinderTurn, 2> turns;
+  const Hull &a = *shapes_[A].hull, &b = *shapes_[B].hull;
+  if (!a.cylinder) presa::ode::place(a, X_A, placed_[0]);
+  if (!b.cylinder) presa::ode::place(b, X_B, placed_[1]);
+  const auto [facing_a, facing_b] = facing_.of({a, X_A, &placed_[0], &turns[0]}, {b, X_B, &placed_[1], &turns[1]});
+  return maker_.separate(*facing_a, *facing_b);
+}
+
+// The part of their ways that both may go. Along the normal of one look the gap shrinks no faster than `closing`, and
+// the gap along the best normal is at least that.
+double Sweep::follow(const BodySet& bodies, std::size_t A, std::size_t B) {
+  const double width = std::min(shapes_[A].width, shapes_[B].width), turning =
+      shapes_[A].rim * ways_[A].turn.norm() + shapes_[B].rim * ways_[B].turn.norm();
+  const double end = std::max(ways_[A].end, ways_[B].end);
+  Separation apart = separation(bodies, A, B, 0);
+  // those that overlap more already may not go deeper
+  const double lowest = std::min(-kMaxOverlap * width, apart.gap - 0.5 * kMinAdvance * width);
+  double s = 0, good = 0;
+  for (int look = 0; look < kMaxLooks; ++look) {
+    const double closing = std::max(0.0, -(ways_[B].shift - ways_[A].shift).dot(apart.nhat_AB_W)) + turning;
+    const double free = apart.gap - lowest;
+    if (free >= closing * (end - s)) return end;
+    good = s + free / closing;
+    s = std::min(end, s + std::max(free, kMinAdvance * width) / closing);
+    apart = separation(bodies, A, B, s);
+    if (apart.gap < lowest) return good;
+    good = s;
+    if (s >= end) return end;
+  }
+  return good;
+}
+
+void Sweep::stopShort(BodySet& bodies, double h) {
+  if (!measureWays(bodies)) return;
+  const std::vector<BroadPhase::Pair>& pairs = broad_phase_.find(bodies, h, 0);
+  bool stopped = true;
+  for (int round = 0; stopped && round < kRounds; ++round) {
+    stopped = false;
+    for (const auto& [A, B] : pairs) {
+      if (shapes_[A].hull == nullptr || shapes_[B].hull == nullptr) continue;
+      if (travel(A, B) <= kShortWay * std::min(shapes_[A].width, shapes_[B].width)) continue;
+      const double end = follow(bodies, A, B);
+      for (const std::size_t i : {A, B}) {
+        if (!bodies.awake(i) || ways_[i].end <= end) continue;
+        ways_[i].end = end;
+        stopped = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    if (ways_[i].end >= 1) continue;
+    const Pose X_WG = geomPose(bodies, i, 1);
+    const Pose X_WCm = X_WG * shapes_[i].X_CmG.inverse();
+    bodies.stopAt(i, X_WCm.p, X_WCm.q);
+    ++stops_;
+  }
+}
+
+}  // namespace presa::ode
