@@ -239,32 +239,51 @@ TEST(Friction, HoldsWithoutCreep) {
   }
 }
 
-class Shot : public testing::TestWithParam<std::tuple<double, double>> {};
+struct Shooting {
+  double speed, thickness;
+  bool plate_moves;
+};
+class Shot : public testing::TestWithParam<Shooting> {};
 
-// Cubes, capsules, balls and coins shot at a thin plate, with spin, from any side: none passes, at any speed.
+// Cubes, capsules, balls, coins and tiles shot at a thin plate, or hit by it, with spin, from any side: none passes.
 TEST_P(Shot, DoesNotPassAThinPlate) {
-  const auto [speed, thickness] = GetParam();
+  const auto [speed, thickness, plate_moves] = GetParam();
   std::mt19937 generator(11);
   std::normal_distribution<double> normal;
   int through = 0;
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; n < 1000; ++n) {
     WorldMaker maker;
-    maker.gravity(Vec3::Zero()).fixedBox({1, 1, thickness}, {{0, 0, -thickness / 2}, Quat::Identity()});
+    maker.gravity(Vec3::Zero());
+    const Vec3 plate(1, 1, thickness);
+    const Pose X_plate{{0, 0, -thickness / 2}, Quat::Identity()};
+    if (plate_moves) {
+      maker.box(plate, 1000, X_plate);
+    } else {
+      maker.fixedBox(plate, X_plate);
+    }
     const Quat q = Quat(normal(generator), normal(generator), normal(generator), normal(generator)).normalized();
     const double size = 0.01;
-    const Pose start{{0, 0, 0.02 + 0.001 * n}, q};
+    const Pose start{{0, 0, 0.02 + 0.00025 * n}, q};
     const BodyInertia inertia{0.01, Vec3::Zero(), boxInertia(0.01, Vec3::Constant(size))};
-    const std::array<Shape, 4> shapes{Box{Vec3::Constant(size)}, Capsule{size / 2, size}, Sphere{size / 2},
-                                      Cylinder{size / 2, size / 10}};
-    maker.add(shapes[static_cast<std::size_t>(n % 4)], start, inertia);
+    const std::array<Shape, 5> shapes{Box{Vec3::Constant(size)}, Capsule{size / 2, size}, Sphere{size / 2},
+                                      Cylinder{size / 2, size / 10}, Box{{size, size, size / 10}}};
+    maker.add(shapes[static_cast<std::size_t>(n % 5)], start, inertia);
     Runner runner(maker.world());
-    runner.bodies.setVelocity(1, {0, 0, -speed}, 20 * Vec3(normal(generator), normal(generator), normal(generator)));
+    const Vec3 spin = 20 * Vec3(normal(generator), normal(generator), normal(generator));
+    runner.bodies.setVelocity(1, {0, 0, plate_moves ? 0 : -speed}, spin);
+    if (plate_moves) runner.bodies.setVelocity(0, {0, 0, speed}, Vec3::Zero());
     for (int k = 0; k < 200 && runner.time * speed < 1; ++k) runner.step();
-    if (runner[1].X_WB_end.p.z() < 0) ++through;
+    const double above = (runner[1].X_WB_end.p - runner[0].X_WB_end.p).z();
+    if (above < 0) ++through;
   }
   EXPECT_EQ(through, 0);
 }
-INSTANTIATE_TEST_SUITE_P(At, Shot, testing::Combine(testing::Values(0.5, 2.0, 20.0), testing::Values(0.0005, 0.1)));
+INSTANTIATE_TEST_SUITE_P(AtAFixedPlate, Shot,
+                         testing::Values(Shooting{0.5, 0.0005, false}, Shooting{2, 0.0005, false},
+                                         Shooting{20, 0.0005, false}, Shooting{20, 0.1, false}));
+INSTANTIATE_TEST_SUITE_P(ByAMovingPlate, Shot,
+                         testing::Values(Shooting{0.5, 0.0005, true}, Shooting{2, 0.0005, true},
+                                         Shooting{20, 0.0005, true}, Shooting{20, 0.1, true}));
 
 }  // namespace
 }  // namespace presa::ode
