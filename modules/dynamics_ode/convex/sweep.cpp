@@ -95,8 +95,8 @@ Separation Sweep::separation(const BodySet& bodies, std::size_t A, std::size_t B
 // The part of their ways that both may go. Along the normal of one look the gap shrinks no faster than `closing`, and
 // the gap along the best normal is at least that.
 double Sweep::follow(const BodySet& bodies, std::size_t A, std::size_t B) {
-  const double width = std::min(shapes_[A].width, shapes_[B].width), turning =
-      shapes_[A].rim * ways_[A].turn.norm() + shapes_[B].rim * ways_[B].turn.norm();
+  const double width = std::min(shapes_[A].width, shapes_[B].width),
+               turning = shapes_[A].rim * ways_[A].turn.norm() + shapes_[B].rim * ways_[B].turn.norm();
   const double end = std::max(ways_[A].end, ways_[B].end);
   Separation apart = separation(bodies, A, B, 0);
   // those that overlap more already may not go deeper
