@@ -82,6 +82,9 @@ Case make();
 namespace capsule_lying {
 Case make();
 }
+namespace spinning_coin {
+Case make();
+}
 namespace poured_heap {
 Case make();
 }
