@@ -6,6 +6,21 @@ namespace presa::ode {
 namespace {
 
 constexpr std::size_t kPairsPerBody = 16;
+constexpr double kBroad = 8;  // size of a body on which a cylinder meets faces, not corners, in relation to it
+
+double radiusOf(const Hull& hull) {
+  double radius = 0;
+  for (const Vec3& v : hull.vertices) radius = std::max(radius, (v - hull.centre).norm());
+  return radius + hull.radius;
+}
+
+// Between the corner that it turns to the other body and the next a prism is flatter than its cylinder, by up to 8 % of
+// the radius: a block's corner would sink in there.
+bool fits(const Hull& A, const Hull& B) {
+  if (A.cylinder && B.cylinder) return false;
+  if (A.cylinder) return radiusOf(B) > kBroad * radiusOf(A);
+  return !B.cylinder || radiusOf(A) > kBroad * radiusOf(B);
+}
 
 }  // namespace
 
@@ -39,7 +54,7 @@ const Hull& HullContacts::placed(const BodySet& bodies, std::size_t i) {
 }
 
 const Manifold* HullContacts::find(const BodySet& bodies, std::size_t A, std::size_t B, double margin) {
-  if (bodies.hull(A) == nullptr || bodies.hull(B) == nullptr) return nullptr;
+  if (bodies.hull(A) == nullptr || bodies.hull(B) == nullptr || !fits(*bodies.hull(A), *bodies.hull(B))) return nullptr;
   Memory memory{std::minmax(A, B), {}, {}};
   while (recalled_ < past_.size() && past_[recalled_].pair < memory.pair) ++recalled_;
   if (recalled_ < past_.size() && past_[recalled_].pair == memory.pair) memory = past_[recalled_];

@@ -17,7 +17,8 @@ class HullContacts {
   explicit HullContacts(const BodySet& bodies);
 
   void beginStep();
-  /// The contact of A and B within `margin` [m]; null when they are not both convex. Valid until the next call.
+  /// The contact of A and B within `margin` [m]; null when they are not both convex, or a
+  /// cylinder meets a body that is not much larger. Valid until the next call.
   const Manifold* find(const BodySet& bodies, std::size_t A, std::size_t B, double margin);
 
  private:

@@ -89,6 +89,14 @@ EdgeAxis axisOf(const Hull& A, const Hull& B, const Hull::Edge& a, const Hull::E
   return {&a, &b, normal, normal.dot(B.vertices[index(b.from)] - p_a)};
 }
 
+// A cylinder may have had another stand-in in the step before, with other faces and edges.
+bool isOf(const ContactAxis& axis, const Hull& A, const Hull& B) {
+  using Kind = ContactAxis::Kind;
+  if (axis.kind == Kind::kFaceOfA) return index(axis.a) < A.faces.size();
+  if (axis.kind == Kind::kFaceOfB) return index(axis.b) < B.faces.size();
+  return axis.kind == Kind::kEdges && index(axis.a) < A.edges.size() && index(axis.b) < B.edges.size();
+}
+
 double faceGap(const Hull& A, const Hull& B, std::int32_t face) {
   double lowest = 1e300;
   for (const Vec3& v : B.vertices) lowest = std::min(lowest, A.faces[index(face)].nhat.dot(v));
@@ -272,7 +280,8 @@ Separation ManifoldMaker::separate(const Hull& A, const Hull& B) {
 
 void ManifoldMaker::collide(const Hull& A, const Hull& B, double margin, ContactAxis& memory, Manifold& out) {
   using Kind = ContactAxis::Kind;
-  const ContactAxis before = std::exchange(memory, {});
+  ContactAxis before = std::exchange(memory, {});
+  if (!isOf(before, A, B)) before = {};
   out.count = 0;
   const double radii = A.radius + B.radius;
   if (A.faces.empty() && B.faces.empty()) return collideRound(A, B, margin, out);
