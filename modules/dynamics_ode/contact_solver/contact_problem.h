@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "framework/core/math/spatial.h"
+#include "modules/dynamics_ode/contact_solver/rim.h"
 #include "modules/dynamics_ode/finger_constraint.h"
 
 namespace presa::ode {
@@ -26,6 +27,7 @@ struct ContactProblem {
     double gap = 0;  ///< negative: overlap [m]
     double mu = 0;
     Vec3 f_B_W = Vec3::Zero();  ///< in: force in the last step; out: at the end of this one [N]
+    Rim rim_A, rim_B;           ///< of what moves
   };
   /// A finger as a spring-damper (finger_constraint.h).
   struct Finger {

@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kAnyWork = static_cast<std::size_t>(-1);
 // rows of contacts for which the small steps reserve memory; more allocate once
 constexpr std::size_t kMostRows = 8192;
+// within a step, of a body on its rim, up to which its contact counts as staying where it is [rad]
+constexpr double kMaxRimTurn = 1e-3;
 
 // No bound on the cost when the scene asks for Newton's method.
 NewtonSolver::Options newtonOptions(const OdeOptions& options) {
@@ -78,8 +80,9 @@ void OwnSolvers::gather(std::size_t island, const FingerJoints& fingers) {
   for (std::size_t k = contacts_.first[island]; k < contacts_.first[island + 1]; ++k) {
     const BodyContact& c = joints_.contact(contacts_.items[k]);
     const ContactJoints::Joint& joint = joints_[contacts_.items[k]];
-    problem_.contacts.push_back(
-        {place_[index(c.A)], place_[index(c.B)], c.p_W, c.nhat_AB_W, -c.depth, joint.mu, joint.f_B_W});
+    problem_.contacts.push_back({place_[index(c.A)], place_[index(c.B)], c.p_W, c.nhat_AB_W, -c.depth, joint.mu,
+                                 joint.f_B_W, rimAt(bodies_, index(c.A), c, c.nhat_AB_W),
+                                 rimAt(bodies_, index(c.B), c, -c.nhat_AB_W)});
   }
   for (std::size_t k = fingers_.first[island]; k < fingers_.first[island + 1]; ++k) {
     const std::size_t i = fingers_.items[k];
@@ -96,6 +99,16 @@ bool OwnSolvers::isRough(std::size_t island) const {
     if (back_off_[members_.items[k]].steps > 0) return true;
   }
   return false;
+}
+
+// Newton's method takes contacts to be where they were at the start of the step.
+bool OwnSolvers::wobbles(double h) const {
+  if (problem_.bodies.size() > options_.small_steps.max_wobbling || !problem_.fingers.empty()) return false;
+  const auto turns = [&](const Rim& rim, std::int32_t body) {
+    return rim && h * problem_.bodies[index(body)].w_WB.norm() > kMaxRimTurn;
+  };
+  return std::any_of(problem_.contacts.begin(), problem_.contacts.end(),
+                     [&](const ContactProblem::Contact& c) { return turns(c.rim_A, c.A) || turns(c.rim_B, c.B); });
 }
 
 void OwnSolvers::backOff(std::size_t island) {
@@ -119,7 +132,7 @@ void OwnSolvers::solveProblem(std::size_t island, double h) {
   using Solver = DynamicsSettings::Solver;
   const Solver solver = options_.method.solver;
   const std::size_t max_work = solver == Solver::kNewton ? kAnyWork : options_.newton_work;
-  if (solver != Solver::kSmallSteps && !isRough(island) && newton_.analyse(problem_, max_work)) {
+  if (solver != Solver::kSmallSteps && !isRough(island) && !wobbles(h) && newton_.analyse(problem_, max_work)) {
     if (newton_.solve(problem_, h)) {
       ++counts.newton;
       forgive(island);

@@ -43,6 +43,7 @@ class OwnSolvers {
   void giveBack(std::size_t island, FingerJoints& fingers);
   ContactProblem::Body bodyOf(std::size_t i) const;
   bool isRough(std::size_t island) const;
+  bool wobbles(double h) const;
   void backOff(std::size_t island);
   void forgive(std::size_t island);
 

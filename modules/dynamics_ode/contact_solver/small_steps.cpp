@@ -18,13 +18,17 @@ void push(ContactProblem::Body& body, double inverse_mass, const Vec3& d, const 
 
 }  // namespace
 
+void SmallSteps::turnInertia(std::size_t i) {
+  const Mat3 R = problem_->bodies[i].q_WB.toRotationMatrix();
+  inverse_inertia_W_[i] = R * problem_->bodies[i].inverse_inertia_B * R.transpose();
+}
+
 void SmallSteps::prepare() {
   const std::vector<Body>& bodies = problem_->bodies;
   inverse_inertia_W_.resize(bodies.size());
   begin_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Mat3 R = bodies[i].q_WB.toRotationMatrix();
-    inverse_inertia_W_[i] = R * bodies[i].inverse_inertia_B * R.transpose();
+    turnInertia(i);
     begin_[i] = bodies[i].p_WCm;
   }
   contacts_.clear();
@@ -36,6 +40,9 @@ void SmallSteps::prepare() {
     row.B = c.B;
     connect(row, c.p_W, c.nhat_AB_W, length > 1e-12 ? Vec3(friction / length) : c.nhat_AB_W.unitOrthogonal());
     row.gap_begin = row.gap = c.gap;
+    if (c.rim_A) row.rim_A = &c.rim_A;
+    if (c.rim_B) row.rim_B = &c.rim_B;
+    row.reach_begin = reachOf(row);
     row.mu = c.mu;
     row.n.impulse = std::max(0.0, h_ * c.f_B_W.dot(c.nhat_AB_W));
     row.t1.impulse = h_ * length;
@@ -146,11 +153,11 @@ double SmallSteps::speedOf(const Row& row, const Axis& axis) const {
 }
 
 void SmallSteps::solveContact(ContactRow& row, bool feedback) {
-  double bias = 0, mass_scale = 1, impulse_scale = 0;
+  double bias = row.n.d.dot(row.drift_W), mass_scale = 1, impulse_scale = 0;
   if (row.gap > 0) {
-    bias = row.gap / h_;
+    bias += row.gap / h_;
   } else if (feedback) {
-    bias = std::max(row.soft.bias_rate * row.gap, -options_.max_push);
+    bias += std::max(row.soft.bias_rate * row.gap, -options_.max_push);
     mass_scale = row.soft.mass_scale;
     impulse_scale = row.soft.impulse_scale;
   }
@@ -159,8 +166,8 @@ void SmallSteps::solveContact(ContactRow& row, bool feedback) {
       std::max(0.0, before - row.n.mass * mass_scale * (speedOf(row, row.n) + bias) - impulse_scale * before);
   apply(row, row.n, row.n.impulse - before);
 
-  const double f1 = row.t1.impulse - row.t1.mass * speedOf(row, row.t1);
-  const double f2 = row.t2.impulse - row.t2.mass * speedOf(row, row.t2);
+  const double f1 = row.t1.impulse - row.t1.mass * (speedOf(row, row.t1) + row.t1.d.dot(row.drift_W));
+  const double f2 = row.t2.impulse - row.t2.mass * (speedOf(row, row.t2) + row.t2.d.dot(row.drift_W));
   const double limit = row.mu * row.n.impulse, length = std::sqrt(f1 * f1 + f2 * f2);
   const double shrink = length > limit ? limit / length : 1;
   apply(row, row.t1, shrink * f1 - row.t1.impulse);
@@ -234,7 +241,68 @@ void SmallSteps::advance() {
     body.p_WCm += h_ * body.v_WCm;
     driftRotation(body.q_WB, body.w_WB, body.inertia_B, body.inverse_inertia_B, h_);
   }
-  for (ContactRow& row : contacts_) row.gap = row.gap_begin + row.n.d.dot(movedAt(row));
+  for (ContactRow& row : contacts_) row.gap = gapOf(row);
+}
+
+// How far the surfaces of the bodies reach along the normal, B's less A's, from where the bodies began.
+double SmallSteps::reachOf(const ContactRow& row) const {
+  const auto reach = [&](std::int32_t body, const Rim* rim, const Vec3& r_B, double sign) {
+    const Body& at = problem_->bodies[index(body)];
+    const Vec3 r_W = rim != nullptr ? rim->farthest(at.q_WB, -sign * row.n.d) : at.q_WB * r_B;
+    return sign * row.n.d.dot(at.p_WCm - begin_[index(body)] + r_W);
+  };
+  const double of_B = reach(row.B, row.rim_B, row.rB_B, 1);
+  return row.A == ContactProblem::kFixed ? of_B : of_B + reach(row.A, row.rim_A, row.rA_A, -1);
+}
+
+double SmallSteps::gapOf(const ContactRow& row) const {
+  if (row.rim_A == nullptr && row.rim_B == nullptr) return row.gap_begin + row.n.d.dot(movedAt(row));
+  return row.gap_begin + reachOf(row) - row.reach_begin;
+}
+
+// Contacts on rims act where they will be `ahead` [s] from now: in the middle of a small step, so that its motion is
+// followed to second order, or at its end, where no velocity may be left that lets the rim sink in.
+void SmallSteps::followRims(double ahead) {
+  for (ContactRow& row : contacts_) {
+    if (row.rim_A == nullptr && row.rim_B == nullptr) continue;
+    row.drift_W = Vec3::Zero();
+    for (const std::int32_t body : {row.A, row.B}) {
+      if (body != ContactProblem::kFixed) turnInertia(index(body));
+    }
+    if (row.rim_B != nullptr) row.rB_W = armAhead(row, *row.rim_B, row.B, 1, ahead);
+    if (row.rim_A != nullptr) row.rA_W = armAhead(row, *row.rim_A, row.A, -1, ahead);
+    for (Axis* axis : {&row.n, &row.t1, &row.t2}) {
+      const double impulse = axis->impulse;
+      *axis = axisOf(row, axis->d);
+      axis->impulse = impulse;
+    }
+  }
+}
+
+// `sign`: 1 for B, -1 for A. Adds to the drift of the row.
+Vec3 SmallSteps::armAhead(ContactRow& row, const Rim& rim, std::int32_t body, double sign, double ahead) const {
+  Body later = problem_->bodies[index(body)];
+  if (ahead > 0) {  // with the impulses of the warm start
+    for (const Axis* axis : {&row.n, &row.t1, &row.t2}) {
+      later.w_WB += sign * axis->impulse * (sign > 0 ? axis->iB : axis->iA);
+    }
+  }
+  const Vec3 w_WB = later.w_WB;
+  driftRotation(later.q_WB, later.w_WB, later.inertia_B, later.inverse_inertia_B, ahead);
+  const Vec3 r_W = rim.farthest(later.q_WB, -sign * row.n.d);
+  row.drift_W += sign * (later.w_WB - w_WB).cross(r_W);
+  return r_W;
+}
+
+int SmallSteps::countFor(double period) const {
+  double turn = 0;
+  for (const ContactProblem::Contact& c : problem_->contacts) {
+    if (c.rim_A) turn = std::max(turn, period * problem_->bodies[index(c.A)].w_WB.norm());
+    if (c.rim_B) turn = std::max(turn, period * problem_->bodies[index(c.B)].w_WB.norm());
+  }
+  const bool affordable = problem_->bodies.size() <= options_.max_wobbling;
+  return affordable ? std::clamp(static_cast<int>(turn / options_.rim_turn), options_.count, options_.max_count)
+                    : options_.count;
 }
 
 void SmallSteps::followFingers(double time) {
@@ -259,14 +327,17 @@ void SmallSteps::giveBack(double period) {
 
 void SmallSteps::solve(ContactProblem& problem, double period) {
   problem_ = &problem;
-  h_ = period / options_.count;
+  const int count = countFor(period);
+  h_ = period / count;
   prepare();
   soften();
-  for (int step = 0; step < options_.count; ++step) {
+  for (int step = 0; step < count; ++step) {
     addForces();
+    followRims(h_ / 2);
     warmStart();
     sweep(true);
     advance();
+    followRims(0);
     sweep(false);
     followFingers((step + 1) * h_);
   }

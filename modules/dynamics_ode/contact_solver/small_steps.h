@@ -17,9 +17,12 @@ class SmallSteps {
  public:
   struct Options {
     int count = 8;           ///< per period
-    double max_push = 1;     ///< maximum speed at which overlapping bodies are pushed apart [m/s]
-    double stiffness = 0.7;  ///< of a contact: omega h of its spring-damper
-    double damping = 5;      ///< its relative damping
+    double rim_turn = 0.01;  ///< within a small step, of a body that wobbles on its rim [rad]: then there are more
+    int max_count = 64;
+    std::size_t max_wobbling = 8;  ///< bodies of an island up to which that is affordable
+    double max_push = 1;           ///< maximum speed at which overlapping bodies are pushed apart [m/s]
+    double stiffness = 0.7;        ///< of a contact: omega h of its spring-damper
+    double damping = 5;            ///< its relative damping
     /// The same in an island that a finger touches, and the min stiffness of a contact of the touched body [N/m].
     double touched = 1.5, min_touched = 2e4;
   };
@@ -57,7 +60,9 @@ class SmallSteps {
     double bias_rate = 0, mass_scale = 1, impulse_scale = 0;
   };
   struct ContactRow : Row {
-    double gap_begin = 0, gap = 0;
+    double gap_begin = 0, gap = 0, reach_begin = 0;
+    Vec3 drift_W = Vec3::Zero();  // velocity at the contact that the bodies gain as they turn freely [m/s]
+    const Rim *rim_A = nullptr, *rim_B = nullptr;  // null: the contact stays where it is on the body
     Softness soft;
   };
   struct FingerRow : Row {
@@ -86,6 +91,12 @@ class SmallSteps {
   double springImpulse(const FingerRow& row, const Axis& axis, double k, double d, double stretch) const;
   void advance();
   Vec3 movedAt(const Row& row) const;
+  void followRims(double ahead);
+  double reachOf(const ContactRow& row) const;
+  double gapOf(const ContactRow& row) const;
+  int countFor(double period) const;
+  Vec3 armAhead(ContactRow& row, const Rim& rim, std::int32_t body, double sign, double ahead) const;
+  void turnInertia(std::size_t i);
   void followFingers(double time);
   void giveBack(double period);
 
