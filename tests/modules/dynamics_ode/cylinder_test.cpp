@@ -1,5 +1,6 @@
 #include "modules/dynamics_ode/convex/cylinder.h"
 
+#include <numbers>
 #include <random>
 
 #include "tests/modules/dynamics_ode/hull_support.h"
@@ -52,6 +53,25 @@ TEST(CylinderContact, TouchesAPlaneWithItsTrueRim) {
     ASSERT_GT(manifold.count, 0) << n;
     ASSERT_NEAR(deepest(manifold), gap, 1e-4 * kRadius) << n;
     ASSERT_LT((manifold.nhat_AB_W - Vec3::UnitZ()).norm(), 1e-9) << n;
+  }
+}
+
+// A cylinder that comes to lie on its side is an axis where it was a prism: what is remembered of the prism's edges and
+// faces is of no use then.
+TEST(CylinderContact, ForgetsWhatItsStandInDoesNotHave) {
+  const Hull table = ground(), cylinder = cylinderHull(kRadius, 0.05);
+  CylinderStandIn stand_in;
+  CylinderTurn turn;
+  const Pose X{{0, 0, kRadius}, Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()))};
+  const Hull& side = stand_in.facing(cylinder, X, -Vec3::UnitZ(), turn);
+  ASSERT_TRUE(side.faces.empty());
+  ManifoldMaker maker;
+  maker.makeRoom(cylinder.edges.size(), cylinder.faces.size());
+  for (const auto kind : {ContactAxis::Kind::kEdges, ContactAxis::Kind::kFaceOfB}) {
+    ContactAxis memory{kind, 3, static_cast<std::int32_t>(cylinder.edges.size()) - 1};
+    Manifold manifold;
+    maker.collide(table, side, 0.001, memory, manifold);
+    EXPECT_EQ(manifold.count, 2);
   }
 }
 
