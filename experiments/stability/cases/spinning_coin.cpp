@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "experiments/stability/bodies.h"
@@ -14,8 +13,8 @@ constexpr double kGravity = 9.81, kDuration = 5, kWindow = 0.5;
 /// A coin or disk on its rim, as it is watched.
 class Watched {
  public:
-  Watched(const std::vector<std::string>& sets, double duration)
-      : run_(specOf("spinning_coin.xml", sets, duration)), coin_(bodyNamed(run_.world(), "coin")) {
+  explicit Watched(const std::vector<std::string>& sets)
+      : run_(specOf("spinning_coin.xml", sets, kDuration)), coin_(bodyNamed(run_.world(), "coin")) {
     run_.observe(atEachStep([this](const ObjectState& state) { see(state); }));
   }
   void run() { run_.run(); }
@@ -67,7 +66,7 @@ class Watched {
 };
 
 std::vector<Finding> spinCoin(double rate, double spin) {
-  Watched coin({"rates/dynamics=" + number(rate), "body/coin/angular_velocity=0 0 " + number(spin)}, kDuration);
+  Watched coin({"rates/dynamics=" + number(rate), "body/coin/angular_velocity=0 0 " + number(spin)});
   coin.run();
   return {coin.energyRise()};
 }
@@ -81,8 +80,7 @@ std::vector<Finding> rollDisk(double rate, double tilt_deg) {
   Watched disk({"rates/dynamics=" + number(rate), "body/coin/physics/cylinder/radius=" + shape,
                 "body/coin/physics/cylinder/length=" + length, "body/coin/euler_deg=" + number(tilt_deg) + " 0 0",
                 "body/coin/pos=0 0 " + number(kRadius * sine + kThickness / 2 * cosine),
-                "body/coin/angular_velocity=0 " + number(turn * cosine) + " " + number(turn * sine)},
-               kDuration);
+                "body/coin/angular_velocity=0 " + number(turn * cosine) + " " + number(turn * sine)});
   disk.run();
   return {disk.eulersDisk(kRadius), disk.energyRise()};
 }
@@ -102,11 +100,9 @@ Case make() {
   result.name = "spinning_coin";
   result.title = "A coin of 24 x 2 mm is spun on its rim; a thin disk of 75 mm rolls round and round";
   result.source =
-      "The lowest point of a rim runs around faster than the body turns, and the axis leaves its cone at second order "
-      "in "
-      "the step: where contacts stay in place within a step, the rim sinks in and the energy rises by up to 11 %. "
-      "Euler's "
-      "disk: H. K. Moffatt, Nature 404 (2000), 833.";
+      "The lowest point of a rim runs around faster than the body turns: where contacts stay in place within a step, "
+      "the "
+      "rim sinks in and the energy rises by up to 11 %. Euler's disk: H. K. Moffatt, Nature 404 (2000), 833.";
   result.oracle = "The energy never rises; a disk that rolls with its centre at rest keeps W^2 sin(tilt) = 4 g / a.";
   result.scene = "spinning_coin.xml";
   for (const double rate : {200.0, 1000.0}) {

@@ -10,9 +10,9 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kSideways =
-    1e-3;                          // sine of the angle between the side and the tangent plane up to which it lies on it
-constexpr double kUpright = 1e-3;  // the same of a flat end, which then keeps the corners that it had
+// sines
+constexpr double kSideways = 1e-3;  // between the side and the tangent plane, up to which it lies on it
+constexpr double kUpright = 1e-3;   // the same of a flat end, which then keeps the corners that it had
 
 /// The part of the axis within `half` of the centre, with `radius`.
 void placeAxis(double half, double radius, const Pose& X_WC, Hull& out) {
