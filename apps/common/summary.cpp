@@ -160,6 +160,7 @@ std::string summaryJson(const RunResult& result) {
   json["energy_created"] = {{"sum_j", known(result.energy_created.sum)},
                             {"worst_step_j", known(result.energy_created.worst_step)}};
   json["stopped_short"] = result.stopped_short;
+  json["far_lag_s"] = result.far_lag;
   json["faults"] = Json::array();
   for (const RunResult::Fault& fault : result.faults)
     json["faults"].push_back({{"time_s", fault.time}, {"what", fault.text}});

@@ -99,6 +99,27 @@ std::optional<std::string> impulseSentence(const RunResult& result) {
          " s). A higher rate of the dynamics follows the force better.";
 }
 
+constexpr double kEnergyTold = 1e-3;  // [J], a grain of rice that falls 5 m
+constexpr double kLagTold = 0.02;     // [s], below it nobody sees
+
+/// What the dynamics did that nature does not.
+std::vector<std::string> dynamicsSentences(const RunResult& result) {
+  std::vector<std::string> all;
+  if (result.stopped_short > 0) {
+    all.push_back(std::to_string(result.stopped_short) + (result.stopped_short == 1 ? " time" : " times") +
+                  " a body was stopped short of passing through another within a step.");
+  }
+  if (result.energy_created.sum > kEnergyTold) {
+    all.push_back("The dynamics created " + fixed(1e3 * result.energy_created.sum, 1) + " mJ from nothing, " +
+                  fixed(1e3 * result.energy_created.worst_step, 1) + " mJ in the worst step.");
+  }
+  if (result.far_lag > kLagTold) {
+    all.push_back("Objects that no finger reached stood still for " + fixed(result.far_lag, 2) + " of " +
+                  fixed(result.simulated_seconds, 2) + " s, as the dynamics were late: what was touched came first.");
+  }
+  return all;
+}
+
 Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {
   const RunResult::Object& object = result.objects[figures.object];
   Verdict verdict;
@@ -141,6 +162,7 @@ Verdict verdictOf(const RunResult& result) {
   if (result.interrupted)
     verdict.details.push_back("Stopped by the user at " + fixed(result.simulated_seconds, 3) + " s.");
   if (const auto sentence = impulseSentence(result)) verdict.details.push_back(*sentence);
+  for (std::string& sentence : dynamicsSentences(result)) verdict.details.push_back(std::move(sentence));
   verdict.warnings = lossesOf(result);
   if (!verdict.warnings.empty() && verdict.outcome == Verdict::Outcome::kGood)
     verdict.outcome = Verdict::Outcome::kNeutral;

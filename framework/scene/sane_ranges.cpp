@@ -39,6 +39,7 @@ constexpr std::array kSaneRanges{
     SaneRange{"changed", "static", 0, 10, "", "sticky rubber has 4"},
     SaneRange{"changed", "dynamic", 0, 10, "", "sticky rubber has 4"},
     SaneRange{"friction", "torsion", 0, 0.1, "m", "the contact patch of a hand"},
+    SaneRange{"friction", "rolling", 0, 0.02, "m", "a soft tyre in sand"},
     SaneRange{"box", "size", kSmallest, kLargest, kSizeUnit, kSizes},
     SaneRange{"sphere", "radius", kSmallest, kLargest, kSizeUnit, kSizes},
     SaneRange{"cylinder", "radius", kSmallest, kLargest, kSizeUnit, kSizes},

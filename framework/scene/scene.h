@@ -65,6 +65,8 @@ struct Material {
   double friction_static = 0;   ///< [-], >= dynamic
   double friction_dynamic = 0;  ///< [-]
   double torsional_radius = 0;  ///< torsional friction radius of a soft fingertip about the contact normal [m]
+  double rolling = 0;  ///< rolling resistance between bodies: moment over normal force [m], >= 0; a pair has the sum
+  double restitution = 0;  ///< between bodies [-], in [0, 1]; a pair has the geometric mean
   std::optional<FrictionCoefficients>
       changed_friction;       ///< friction under a finger after the surface change of an experiment; none: no change
   Vec3 color{0.7, 0.7, 0.7};  ///< linear RGB in [0, 1]

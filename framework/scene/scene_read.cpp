@@ -67,6 +67,7 @@ Material readMaterial(const Element& element) {
   material.name = element.attribute("name");
   material.stiffness = element.number("stiffness", 0);
   material.damping = element.number("damping", 0);
+  material.restitution = element.number("restitution", 0);
   material.color = readVec3(element, "color", material.color);
   const std::string texture = element.attribute("texture");
   material.texture = texture == "stone"   ? Material::Texture::kStone
@@ -76,6 +77,7 @@ Material readMaterial(const Element& element) {
     material.friction_static = friction.number("static", 0);
     material.friction_dynamic = friction.number("dynamic", 0);
     material.torsional_radius = friction.number("torsion", 0);
+    material.rolling = friction.number("rolling", 0);
     for (const Element& changed : friction.children("changed"))
       material.changed_friction = {changed.number("static", 0), changed.number("dynamic", 0)};
   }

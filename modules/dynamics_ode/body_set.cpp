@@ -153,8 +153,13 @@ void BodySet::sleep(std::size_t i) {
   dBodySetAngularVel(entry.body, 0, 0, 0);
 }
 
+void BodySet::pause(std::size_t i) {
+  enable(i, false);
+  bodies_[i].asleep = bodies_[i].paused = true;
+}
+
 void BodySet::wake(std::size_t i) {
-  bodies_[i].asleep = false;
+  bodies_[i].asleep = bodies_[i].paused = false;
   bodies_[i].begin = read(bodies_[i]);
   enable(i, true);
 }
@@ -380,7 +385,7 @@ void BodySet::write(ObjectState& out) {
     motion.X_WB_begin = entry.X_WB;
     motion.v_WB.setZero();
     motion.w_WB.setZero();
-    motion.asleep = entry.asleep;
+    motion.asleep = entry.asleep && !entry.paused;
     if (awake(i) || isPut(i)) {
       const State state = read(entry);
       entry.X_WB = poseOf(entry, state);

@@ -80,6 +80,9 @@ class BodySet {
 
   void sleep(std::size_t i);  ///< sets the velocity to zero, too
   void wake(std::size_t i);
+  /// Leaves awake body `i` out of this step as if it slept, but with its velocity, until wake().
+  void pause(std::size_t i);
+  bool paused(std::size_t i) const noexcept { return bodies_[i].paused; }
 
   /// Shows awake body `i` to the solvers or hides it; a hidden body keeps its state, and its contacts are ignored.
   void enable(std::size_t i, bool on);
@@ -150,6 +153,7 @@ class BodySet {
     bool still = false;                        // an obstacle: frozen or put
     bool frozen = false;                       // permanently still after a fault
     bool asleep = false, enabled = true;
+    bool paused = false;   // asleep, but with its velocity
     bool rotated = false;  // by the solver of this step
     Pose X_CmG;            // geometry frame in the centre-of-mass frame
     Vec3 constant_force_W = Vec3::Zero();

@@ -7,6 +7,14 @@
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
+namespace {
+
+template <class Contact>
+auto bodiesOf(const Contact& c) {
+  return std::minmax(c.A, c.B);
+}
+
+}  // namespace
 
 double pairFriction(const Material& a, const Material& b, double slip_speed) {
   return slip_speed < kRestSpeed ? std::sqrt(a.friction_static * b.friction_static)
@@ -26,18 +34,23 @@ ContactJoints::ContactJoints(const Scene& scene, const OdeOptions& options, std:
   joints_.reserve(contacts);
   feedback_.reserve(contacts);
   past_.reserve(contacts);
+  next_.reserve(contacts);
   for (const Material& a : scene.materials) {
     for (const Material& b : scene.materials) {
-      coefficients_.push_back({pairFriction(a, b, 0), pairFriction(a, b, 2 * kRestSpeed)});
+      coefficients_.push_back({pairFriction(a, b, 0), pairFriction(a, b, 2 * kRestSpeed), a.rolling + b.rolling,
+                               std::sqrt(a.restitution * b.restitution)});
     }
   }
 }
 
-double ContactJoints::coefficient(std::size_t i, const BodySet& bodies) const {
-  const std::size_t a = scene_.bodies[index(contact(i).A)].material, b = scene_.bodies[index(contact(i).B)].material;
-  const Coefficients& mu = coefficients_[a * scene_.materials.size() + b];
-  if (mu.at_rest == mu.sliding) return mu.at_rest;
-  return slip(i, bodies).norm() < kRestSpeed ? mu.at_rest : mu.sliding;
+const ContactJoints::Pair& ContactJoints::pairOf(const BodyContact& c) const {
+  const std::size_t a = scene_.bodies[index(c.A)].material, b = scene_.bodies[index(c.B)].material;
+  return coefficients_[a * scene_.materials.size() + b];
+}
+
+double ContactJoints::frictionOf(const Pair& pair, std::size_t i, const BodySet& bodies) const {
+  if (pair.at_rest == pair.sliding) return pair.at_rest;
+  return slip(i, bodies).norm() < kRestSpeed ? pair.at_rest : pair.sliding;
 }
 
 Vec3 ContactJoints::slip(std::size_t i, const BodySet& bodies) const {
@@ -52,7 +65,10 @@ void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySe
   joints_.assign(contacts.size(), {});
   feedback_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    joints_[i].mu = coefficient(i, bodies);
+    const Pair& pair = pairOf(contact(i));
+    joints_[i].mu = frictionOf(pair, i, bodies);
+    joints_[i].rolling = pair.rolling;
+    joints_[i].restitution = pair.restitution;
   }
   recall(bodies);
 }
@@ -60,16 +76,15 @@ void ContactJoints::begin(const std::vector<BodyContact>& contacts, const BodySe
 // Warm start from the last step. Both lists are sorted by pair; within a pair each contact takes the nearest past one
 // that is not taken yet, relative to the centre of B.
 void ContactJoints::recall(const BodySet& bodies) {
-  const auto pairOf = [](const auto& x) { return std::minmax(x.A, x.B); };
   auto run = past_.begin();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const BodyContact& c = contact(i);
-    while (run != past_.end() && pairOf(*run) < pairOf(c)) ++run;
+    while (run != past_.end() && bodiesOf(*run) < bodiesOf(c)) ++run;
     const Vec3 p_CmC = c.p_W - bodies.centreAtBegin(index(c.B));
     double nearest = 0.1 * bodies.extent(index(c.B));
     nearest *= nearest;
     Past* same = nullptr;
-    for (auto past = run; past != past_.end() && pairOf(*past) == pairOf(c); ++past) {
+    for (auto past = run; past != past_.end() && bodiesOf(*past) == bodiesOf(c); ++past) {
       const double distance = (past->p_CmC_W - p_CmC).squaredNorm();
       if (distance > nearest || past->taken) continue;
       nearest = distance;
@@ -77,6 +92,7 @@ void ContactJoints::recall(const BodySet& bodies) {
     }
     if (same == nullptr) continue;
     joints_[i].f_B_W = same->f_B_W;
+    joints_[i].m_B_W = same->m_B_W;
     same->taken = true;
   }
 }
@@ -94,6 +110,11 @@ dContact ContactJoints::make(const BodyContact& c, const Joint& joint, bool fric
   assign(contact.geom.pos, c.p_W);
   assign(contact.geom.normal, c.nhat_AB_W);
   contact.geom.depth = std::max(0.0, c.depth);
+  if (joint.restitution > 0) {
+    surface.mode |= dContactBounce;
+    surface.bounce = joint.restitution;
+    surface.bounce_vel = kMinBounce;
+  }
   if (c.depth < 0) {  // the bodies may close the gap within the step, but not overlap
     surface.mode |= dContactMotionN;
     surface.motionN = c.depth / h_;
@@ -119,12 +140,22 @@ void ContactJoints::readForces(Islands& islands, const std::vector<char>& solved
   }
 }
 
+// Forces of paused bodies are kept for the step in which they go on.
 void ContactJoints::end(const BodySet& bodies) {
-  past_.clear();
+  next_.clear();
+  auto past = past_.begin();
+  const auto keepPaused = [&](auto before) {
+    for (; past != past_.end() && before(*past); ++past) {
+      if (bodies.paused(index(past->B))) next_.push_back(*past);
+    }
+  };
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const BodyContact& c = contact(i);
-    past_.push_back({c.A, c.B, c.p_W - bodies.centreAtBegin(index(c.B)), joints_[i].f_B_W});
+    keepPaused([&](const Past& p) { return bodiesOf(p) < bodiesOf(c); });
+    next_.push_back({c.A, c.B, c.p_W - bodies.centreAtBegin(index(c.B)), joints_[i].f_B_W, joints_[i].m_B_W});
   }
+  keepPaused([](const Past&) { return true; });
+  std::swap(past_, next_);
 }
 
 }  // namespace presa::ode

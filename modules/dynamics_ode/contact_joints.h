@@ -14,6 +14,8 @@ namespace presa::ode {
 double pairFriction(const Material& a, const Material& b, double slip_speed);
 /// Slip speed below which surfaces count as resting [m/s].
 inline constexpr double kRestSpeed = 1e-3;
+/// Closing speed up to which bodies do not bounce [m/s].
+inline constexpr double kMinBounce = 0.01;
 
 /// First friction direction for unit normal nhat_AB, given the slip velocity predicted without friction [m/s]. ODE
 /// bounds friction in two directions separately (a box, up to 41 % too strong diagonally); aligned with the predicted
@@ -26,10 +28,12 @@ class ContactJoints {
  public:
   struct Joint {
     double cfm = 0, mu = 0;
-    Vec3 direction = Vec3::Zero();  ///< first of the two friction directions; zero: chosen by ODE
-    bool slides = false;            ///< slides so fast along `direction` that friction acts along it alone
-    double limit = -1;              ///< friction bound [N]; < 0: mu times the normal force of the same solve
-    Vec3 f_B_W = Vec3::Zero();      ///< force on B [N]: before the solve that of the last step, after it the new one
+    double rolling = 0, restitution = 0;  // ContactProblem::Contact
+    Vec3 direction = Vec3::Zero();        ///< first of the two friction directions; zero: chosen by ODE
+    bool slides = false;                  ///< slides so fast along `direction` that friction acts along it alone
+    double limit = -1;                    ///< friction bound [N]; < 0: mu times the normal force of the same solve
+    Vec3 f_B_W = Vec3::Zero();  ///< force on B [N]: before the solve that of the last step, after it the new one
+    Vec3 m_B_W = Vec3::Zero();  ///< the same for the moment of rolling resistance [N m]
   };
 
   /// Reserves memory for `contacts`; more allocate once.
@@ -54,25 +58,26 @@ class ContactJoints {
  private:
   struct Past {
     std::int32_t A, B;
-    Vec3 p_CmC_W, f_B_W;
+    Vec3 p_CmC_W, f_B_W, m_B_W;
     bool taken = false;
   };
   void recall(const BodySet& bodies);
   dContact make(const BodyContact& contact, const Joint& joint, bool friction) const;
 
-  double coefficient(std::size_t i, const BodySet& bodies) const;
+  struct Pair {
+    double at_rest, sliding, rolling, restitution;
+  };
+  const Pair& pairOf(const BodyContact& contact) const;
+  double frictionOf(const Pair& pair, std::size_t i, const BodySet& bodies) const;
 
   const Scene& scene_;
   const OdeOptions options_;
-  struct Coefficients {
-    double at_rest, sliding;
-  };
-  std::vector<Coefficients> coefficients_;  // by pair of materials
+  std::vector<Pair> coefficients_;  // by pair of materials
   const std::vector<BodyContact>* contacts_ = nullptr;
   double h_ = 0;
   std::vector<Joint> joints_;  // as contacts
   std::vector<dJointFeedback> feedback_;
-  std::vector<Past> past_;  // sorted by pair
+  std::vector<Past> past_, next_;  // sorted by pair
 };
 
 }  // namespace presa::ode

@@ -25,6 +25,12 @@ struct OdeOptions {
   std::size_t newton_work = 2000;
   NewtonSolver::Options newton;
   SmallSteps::Options small_steps;
+  /// A body that spins between fingers by more than `spin_turn` in a period gets that many steps more, up to
+  /// `max_spin_steps`, where at most `max_spinning` bodies are awake: beside its axis by a hair, it would lose its spin
+  /// to lever arms and inertia that stay as they were for a step.
+  double spin_turn = 0.0125;  // [rad]
+  int max_spin_steps = 40;
+  std::size_t max_spinning = 8;
 
   // ODE's own solvers:
   /// Iterations unless the scene sets them: `max_iterations`, reduced so that contacts * iterations stays within the

@@ -1,6 +1,7 @@
 #include "modules/dynamics_ode/ode_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -23,6 +24,8 @@
 
 namespace presa::ode {
 namespace {
+
+constexpr double kSpins = 0.05;  // turn within a period from which a body counts as spinning between fingers [rad]
 
 // Contacts with a gap (negative depth) are not counted.
 BodyPenetration penetrationOf(const std::vector<BodyContact>& contacts) noexcept {
@@ -58,6 +61,7 @@ struct OdeWorld::Impl {
         collider(bodies, world->scene.gravity, foresightOf(options.method)),
         islands(bodies.size()),
         energy(engine.gravity(), bodies.size()),
+        held(bodies.size()),
         layers(bodies.size()) {
     contacts.reserve(kContactsPerBody * bodies.size());
     if (usesOwnSolvers(options.method)) {
@@ -69,7 +73,8 @@ struct OdeWorld::Impl {
     if (options.method.sleeping) sleep.emplace(bodies);
   }
 
-  void step(const ContactExchange& exchange, double time, double period);
+  void step(const ContactExchange& exchange, double time, double period, bool late);
+  void pauseFar(const ContactExchange& exchange, double period);
   void substep(const ContactExchange& exchange, double time, double h, int substeps);
   void pushBodyEffects(double time, double h);
   void wakeStirred(double time, double period);
@@ -78,7 +83,8 @@ struct OdeWorld::Impl {
   void wakeTouched(const ContactExchange& exchange);
   bool anyIsland(const std::function<bool(const Islands::Island&)>& is) const;
   int layersThatMatter(int substeps);
-  int substepsNow();
+  int substepsNow(const ContactExchange& exchange, double period);
+  int stepsOfSpin(const ContactExchange& exchange, double period);
   void fault(Faults::Bit bit, std::uint64_t count = 1);
   void giveUp();
 
@@ -98,6 +104,8 @@ struct OdeWorld::Impl {
   std::optional<BodyEffectForces> body_effects;  // empty when the scene has none
   Islands islands;
   EnergyBook energy;
+  std::vector<char> held;  // by island of the last step: a finger touches it
+  double far_lag = 0;      // [s]
   Layers layers;
   std::vector<BodyContact> contacts;
   Faults faults;
@@ -141,8 +149,20 @@ int OdeWorld::Impl::layersThatMatter(int substeps) {
   return layers.count(contacts, bodies);
 }
 
-int OdeWorld::Impl::substepsNow() {
+int OdeWorld::Impl::stepsOfSpin(const ContactExchange& exchange, double period) {
+  double turn = 0;
+  std::size_t awake = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) awake += bodies.awake(i) ? 1 : 0;
+  if (awake > options.max_spinning) return 1;
+  forEachTouch(exchange, bodies, [&](std::size_t, const FingerContact&, std::size_t body) {
+    turn = std::max(turn, period * bodies.motion(body).w_WB.norm());
+  });
+  return turn > kSpins ? std::min(static_cast<int>(std::ceil(turn / options.spin_turn)), options.max_spin_steps) : 1;
+}
+
+int OdeWorld::Impl::substepsNow(const ContactExchange& exchange, double period) {
   if (options.method.substeps > 0) return static_cast<int>(options.method.substeps);
+  if (own_solvers) return stepsOfSpin(exchange, period);
   const bool iterative = options.method.solver == DynamicsSettings::Solver::kIterative;
   if (!iterative || options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
   if (anyIsland([](const Islands::Island& island) { return island.touched; })) return options.large_substeps;
@@ -192,8 +212,22 @@ void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
   if (invalid > 0) fault(Faults::kBadFinger, invalid);
 }
 
-void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period) {
+// What people hold is stepped in time; what they do not reach stands still for a step. Decided by the tick alone, so
+// that a recording replays to the bit.
+void OdeWorld::Impl::pauseFar(const ContactExchange& exchange, double period) {
+  std::fill(held.begin(), held.end(), 0);
+  bool any = false;
+  forEachTouch(exchange, bodies, [&](std::size_t, const FingerContact&, std::size_t body) {
+    held[islands.of(body)] = 1;
+    any = true;
+  });
+  if (any && sleep->pauseOthers(bodies, islands, held) > 0) far_lag += period;
+}
+
+void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period, bool late) {
   impulses.makeRoom(exchange.fingers.size());
+  if (sleep) sleep->resume(bodies);
+  if (sleep && late) pauseFar(exchange, period);
   impulses.begin(time);
   wakeTouched(exchange);
   if (snap_drive_) snap_drive_->carry(bodies, sleep ? &*sleep : nullptr, period);
@@ -207,7 +241,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
     bodies.beginStep();
     collider.find(bodies, period / substeps, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
-    if (s == 0) substeps = substepsNow();
+    if (s == 0) substeps = substepsNow(exchange, period);
     substep(exchange, time + s * period / substeps, period / substeps, substeps);
   }
   impulses.end();
@@ -219,11 +253,11 @@ OdeWorld::OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options
 
 OdeWorld::~OdeWorld() = default;
 
-void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out) noexcept {
+void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out, bool late) noexcept {
   Impl& impl = *impl_;
   if (!impl.failed) {
     try {
-      impl.step(fingers, time, period);
+      impl.step(fingers, time, period, late);
     } catch (const std::exception&) {
       impl.giveUp();
     }
@@ -257,6 +291,7 @@ void OdeWorld::write(double time, ObjectState& out) noexcept {
   out.fallback_steps = impl_->fallback_steps;
   out.penetration = penetrationOf(impl_->contacts);
   out.energy = {impl_->energy.created(), impl_->energy.worstStep()};
+  out.far_lag = impl_->far_lag;
   if (impl_->sweep) out.stopped_short = impl_->sweep->stops();
   impl_->impulses.write(out);
 }

@@ -29,6 +29,7 @@ void Sleep::watch(const BodySet& bodies, std::size_t i) {
   Stillness& body = stillness_[i];
   const Displacement u = displacement(body.reference, bodies.centrePose(i), bodies.extent(i));
   body.sum += u;
+  ++body.samples;
   body.farthest = std::max(body.farthest, u.norm());
 }
 
@@ -36,20 +37,20 @@ void Sleep::watch(const BodySet& bodies, std::size_t i) {
 void Sleep::closeWindow(const BodySet& bodies, std::size_t i, bool in_a_heap) {
   const MotionLimits& allowed = in_a_heap ? kInAHeap : kFew;
   Stillness& body = stillness_[i];
-  const Displacement mean = body.sum / std::max(1, window_steps_);
+  const Displacement mean = body.sum / std::max(1, body.samples);
   body.still = body.farthest < allowed.trembles && (mean - body.last_mean).norm() < allowed.mean_moves;
   const Pose now = bodies.centrePose(i);
   body.last_mean = mean - displacement(body.reference, now, bodies.extent(i));
   body.reference = now;
   body.sum.setZero();
   body.farthest = 0;
+  body.samples = 0;
 }
 
 void Sleep::afterStep(BodySet& bodies, Islands& islands, double h) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies.awake(i)) watch(bodies, i);
   }
-  ++window_steps_;
   window_time_ += h;
   if (window_time_ < kWindow) return;
   may_sleep_.assign(bodies.size(), 1);
@@ -65,13 +66,32 @@ void Sleep::afterStep(BodySet& bodies, Islands& islands, double h) {
     bodies.sleep(i);
   }
   window_time_ = 0;
-  window_steps_ = 0;
 }
 
 void Sleep::wake(BodySet& bodies, std::size_t i) {
   for (std::size_t j = 0; j < bodies.size(); ++j) {
     if (bodies.asleep(j) && group_[j] == group_[i]) bodies.wake(j);
   }
+}
+
+std::size_t Sleep::pauseOthers(BodySet& bodies, Islands& islands, const std::vector<char>& wanted) {
+  std::size_t paused = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies.awake(i) || wanted[islands.of(i)] != 0) continue;
+    group_[i] = islands.of(i);
+    bodies.pause(i);
+    ++paused;
+  }
+  any_paused_ = any_paused_ || paused > 0;
+  return paused;
+}
+
+void Sleep::resume(BodySet& bodies) {
+  if (!any_paused_) return;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.paused(i)) bodies.wake(i);
+  }
+  any_paused_ = false;
 }
 
 }  // namespace presa::ode

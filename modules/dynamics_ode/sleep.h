@@ -24,8 +24,13 @@ class Sleep {
 
   /// Call after each step of `h` [s]: observes awake bodies and puts resting islands to sleep.
   void afterStep(BodySet& bodies, Islands& islands, double h);
-  /// Wakes the whole island of sleeping body `i`.
+  /// Wakes the whole island of sleeping or paused body `i`.
   void wake(BodySet& bodies, std::size_t i);
+
+  /// Leaves every awake body out of this step whose island of the last step is not `wanted`. Returns their number.
+  std::size_t pauseOthers(BodySet& bodies, Islands& islands, const std::vector<char>& wanted);
+  /// Wakes all paused bodies.
+  void resume(BodySet& bodies);
 
  private:
   using Displacement = Eigen::Matrix<double, 6, 1>;  // centre of mass, and rotation times extent [m]
@@ -33,6 +38,7 @@ class Sleep {
     Pose reference;
     Displacement sum = Displacement::Zero(), last_mean = Displacement::Constant(1);
     double farthest = 0;  // maximum distance from the reference in this window [m]
+    int samples = 0;      // in this window
     bool still = false;   // rested in the last window
   };
   void watch(const BodySet& bodies, std::size_t i);
@@ -42,7 +48,7 @@ class Sleep {
   std::vector<char> may_sleep_;     // by island, while a window closes
   std::vector<std::size_t> group_;  // by sleeping body: the island in which it fell asleep
   double window_time_ = 0;
-  int window_steps_ = 0;
+  bool any_paused_ = false;
 };
 
 }  // namespace presa::ode

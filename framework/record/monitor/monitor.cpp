@@ -86,6 +86,7 @@ struct Monitor::Impl {
   std::uint64_t solver_fallbacks = 0;
   EnergyCreated energy_created;
   std::uint64_t stopped_short = 0;
+  double far_lag = 0;
   std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
   std::uint64_t objects_version = 0;
   double simulated_time = 0;
@@ -235,6 +236,7 @@ void Monitor::Impl::observe(const HapticSample& sample) noexcept {
     solver_fallbacks = state->fallback_steps;
     energy_created = state->energy;
     stopped_short = state->stopped_short;
+    far_lag = state->far_lag;
   }
   sumObjects(tick, contact, state, fresh);
   simulated_time = static_cast<double>(tick.index + 1) * tick.period;
@@ -267,6 +269,7 @@ double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_ti
 std::uint64_t Monitor::solverFallbacks() const noexcept { return impl_->solver_fallbacks; }
 const EnergyCreated& Monitor::energyCreated() const noexcept { return impl_->energy_created; }
 std::uint64_t Monitor::stoppedShort() const noexcept { return impl_->stopped_short; }
+double Monitor::farLag() const noexcept { return impl_->far_lag; }
 double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
 
 }  // namespace presa

@@ -95,6 +95,7 @@ class Monitor final : public HapticObserver {
   const EnergyCreated& energyCreated() const noexcept;
   /// Dynamics steps in which a body was stopped short of passing through another, summed over the bodies.
   std::uint64_t stoppedShort() const noexcept;
+  double farLag() const noexcept;  ///< ObjectState::far_lag [s]
 
  private:
   struct Impl;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,8 +27,15 @@ struct ContactProblem {
     Vec3 p_W = Vec3::Zero(), nhat_AB_W = Vec3::UnitZ();
     double gap = 0;  ///< negative: overlap [m]
     double mu = 0;
+    double rolling = 0;         ///< moment of rolling resistance over normal force [m]
+    double restitution = 0;     ///< [-]
     Vec3 f_B_W = Vec3::Zero();  ///< in: force in the last step; out: at the end of this one [N]
+    Vec3 m_B_W = Vec3::Zero();  ///< the same for the moment of rolling resistance [N m]
     Rim rim_A, rim_B;           ///< of what moves
+
+    /// Where the forces act. On something fixed the touched point of B's surface: friction acts there once a gap has
+    /// closed. Between two bodies one point for both, so that angular momentum is kept.
+    Vec3 point() const { return A == kFixed ? Vec3(p_W + std::max(0.0, gap) / 2 * nhat_AB_W) : p_W; }
   };
   /// A finger as a spring-damper (finger_constraint.h).
   struct Finger {

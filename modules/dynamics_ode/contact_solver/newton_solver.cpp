@@ -17,7 +17,6 @@ namespace {
 constexpr double kConverged = 1e-7;      // last step [m/s, rad/s]
 constexpr double kConesStand = 1e-3;     // last change of a normal impulse, in relation to the largest
 constexpr double kTouches = 1e-3;        // a gap that this closing speed closes within the step touches [m/s]
-constexpr double kSticks = 0.98;         // friction relative to its limit below which a contact is expected to stick
 constexpr double kFlatEnough = 1e-3;     // slope at the end of a line search, in relation to that at its start
 constexpr double kMotorSoftness = 1e-8;  // as Options::softness
 constexpr int kSearchSteps = 20;
@@ -42,6 +41,7 @@ NewtonSolver::NewtonSolver(const Options& options, std::size_t bodies, std::size
     : options_(options), matrix_(bodies) {
   pairs_.reserve(contacts);
   rows_.reserve(contacts);
+  rolls_.reserve(contacts);
   mass_.reserve(bodies);
   inertia_W_.reserve(bodies);
   for (Vector* vector : {&free_, &v_, &gradient_, &step_, &other_}) vector->reserve(bodies);
@@ -73,6 +73,7 @@ void NewtonSolver::makeMasses(const ContactProblem& problem, double h) {
 
 void NewtonSolver::makeRows(const ContactProblem& problem, double h) {
   rows_.clear();
+  rolls_.clear();
   motors_.clear();
   for (const ContactProblem::Contact& contact : problem.contacts) addContact(problem, contact, h);
   for (const ContactProblem::Finger& finger : problem.fingers) addFinger(problem, finger, h);
@@ -81,99 +82,52 @@ void NewtonSolver::makeRows(const ContactProblem& problem, double h) {
 
 void NewtonSolver::addContact(const ContactProblem& problem, const ContactProblem::Contact& c, double h) {
   const ContactProblem::Body& B = problem.bodies[index(c.B)];
-  Row row{c.A, c.B, Vec3::Zero(), c.p_W - B.p_WCm, frame(c.nhat_AB_W, c.nhat_AB_W.unitOrthogonal())};
+  Row row{c.A, c.B, Vec3::Zero(), c.point() - B.p_WCm, frame(c.nhat_AB_W, c.nhat_AB_W.unitOrthogonal())};
   double inverse_mass = 1 / B.mass;
   if (c.A != ContactProblem::kFixed) {
-    row.rA = c.p_W - problem.bodies[index(c.A)].p_WCm;
+    row.rA = c.point() - problem.bodies[index(c.A)].p_WCm;
     inverse_mass += 1 / problem.bodies[index(c.A)].mass;
   }
   row.k_n = row.k_t = 1 / std::min(options_.softness * inverse_mass, options_.max_compliance / h);
   row.mu = row.mu_slip = c.mu;
-  startFrom(row, h * c.f_B_W);
+  row.startFrom(h * c.f_B_W);
   row.goal = row.impulse / row.k_t;
   row.goal.x() = c.gap > 0 ? -c.gap / h : std::min(-options_.erp * c.gap / h, options_.max_push);
+  if (c.rolling > 0) addRoll(problem, c, row.R);
   rows_.push_back(row);
+}
+
+// Of the contact that becomes the next row.
+void NewtonSolver::addRoll(const ContactProblem& problem, const ContactProblem::Contact& c, const Mat3& R) {
+  const auto inverseInertia = [&](std::int32_t body) {
+    return body == ContactProblem::kFixed ? 0 : problem.bodies[index(body)].inverse_inertia_B.trace() / 3;
+  };
+  const double k = 1 / (options_.softness * (inverseInertia(c.A) + inverseInertia(c.B)));
+  rolls_.push_back({c.A, c.B, rows_.size(), R.bottomRows<2>(), k, c.rolling});
 }
 
 void NewtonSolver::addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h) {
   const FingerConstraint& c = *finger.constraint;
-  Row row{ContactProblem::kFixed, finger.body, Vec3::Zero(), c.p_WP - problem.bodies[index(finger.body)].p_WCm,
-          frame(c.n_in, c.t1)};
+  const ContactProblem::Body& body = problem.bodies[index(finger.body)];
+  Row row{ContactProblem::kFixed, finger.body, Vec3::Zero(), c.p_WP - body.p_WCm, frame(c.n_in, c.t1)};
   row.k_n = h / c.cfm;
   row.k_t = h / c.slip;
   row.goal = {c.erp / h * c.depth + c.motion_n, c.motion_1, c.motion_2};
   row.mu = c.mu;
   row.mu_slip = c.mu_dynamic;
-  startFrom(row, h * c.expected_force_W);
+  row.startFrom(h * c.expected_force_W);
   rows_.push_back(row);
 }
 
 void NewtonSolver::addMotor(const ContactProblem& problem, const ContactProblem::Motor& motor, double h) {
   const ContactProblem::Body& body = problem.bodies[index(motor.body)];
-  MotorRow row{motor.body, Eigen::Matrix<double, 6, 1>::Zero()};
+  newton::Motor row{motor.body, Vec6::Zero()};
   row.axis.segment<3>(motor.turns ? 3 : 0) = motor.axis_W;
   const double inertia = motor.turns ? body.inertia_B.trace() / 3 : body.mass;
   row.k = 1 / (kMotorSoftness / inertia + motor.compliance / h);
   row.goal = motor.velocity;
   row.limit = h * motor.max_force;
   motors_.push_back(row);
-}
-
-void NewtonSolver::startFrom(Row& row, const Vec3& impulse_W) {
-  row.impulse = row.R * impulse_W;
-  row.normal = std::max(0.0, row.impulse.x());
-  row.sticks = row.impulse.tail<2>().norm() < kSticks * row.mu * row.normal;
-}
-
-Vec3 NewtonSolver::velocityOf(const Row& row, const Vector& v) {
-  const Vec6& B = v[index(row.B)];
-  Vec3 u = B.head<3>() + Vec3(B.tail<3>()).cross(row.rB);
-  if (row.A != ContactProblem::kFixed) {
-    const Vec6& A = v[index(row.A)];
-    u -= A.head<3>() + Vec3(A.tail<3>()).cross(row.rA);
-  }
-  return row.R * u;
-}
-
-Vec3 NewtonSolver::springOf(const Row& row, const Vec3& u) {
-  return Vec3(row.k_n, row.k_t, row.k_t).cwiseProduct(row.goal - u);
-}
-
-Vec3 NewtonSolver::impulseOf(const Row& row, const Vec3& u) {
-  Vec3 impulse = springOf(row, u);
-  impulse.x() = std::max(0.0, impulse.x());
-  const double limit = row.mu * row.normal, length = impulse.tail<2>().norm();
-  if (length > limit) impulse.tail<2>() *= limit / length;
-  return impulse;
-}
-
-NewtonSolver::Response NewtonSolver::responseOf(const Row& row, const Vec3& u) {
-  const Vec3 spring = springOf(row, u);
-  Mat3 k = Mat3::Zero();
-  if (spring.x() > 0) k(0, 0) = row.k_n;
-  const double limit = row.mu * row.normal, length = spring.tail<2>().norm();
-  if (length <= limit) {
-    k(1, 1) = k(2, 2) = row.k_t;
-  } else {
-    const Eigen::Vector2d along = spring.tail<2>() / length;
-    k.bottomRightCorner<2, 2>() = row.k_t * limit / length * (Eigen::Matrix2d::Identity() - along * along.transpose());
-  }
-  return {impulseOf(row, u), k};
-}
-
-// What the contact does if its state is the expected one: linear.
-NewtonSolver::Response NewtonSolver::expectedOf(const Row& row, const Vec3& u) {
-  Vec3 impulse = Vec3::Zero(), k = Vec3::Zero();
-  if (row.closes) {
-    k.x() = row.k_n;
-    if (row.sticks) {
-      k.y() = k.z() = row.k_t;
-    } else {
-      impulse.tail<2>() = row.impulse.tail<2>();
-    }
-    impulse += k.cwiseProduct(row.goal - u);
-  }
-  return {impulse, Mat3(k.asDiagonal())};
 }
 
 NewtonSolver::Vec6 NewtonSolver::massTimes(std::size_t body, const Vec6& v) const {
@@ -188,22 +142,16 @@ double NewtonSolver::valueAt(const Vector& v) const {
     const Vec6 dv = v[i] - free_[i];
     value += massTimes(i, dv).dot(dv) / 2;
   }
-  const auto huber = [](double spring, double limit, double k) {
-    return spring <= limit ? spring * spring / (2 * k) : limit * (spring - limit / 2) / k;
-  };
-  for (const Row& row : rows_) {
-    const Vec3 spring = springOf(row, velocityOf(row, v));
-    if (spring.x() > 0) value += spring.x() * spring.x() / (2 * row.k_n);
-    value += huber(spring.tail<2>().norm(), row.mu * row.normal, row.k_t);
+  for (const Row& row : rows_) row.addPotential(row.velocityIn(v), value);
+  for (const newton::Roll& roll : rolls_) {
+    value += newton::huber(roll.k * roll.velocityIn(v).norm(), limitOf(roll), roll.k);
   }
-  for (const MotorRow& row : motors_) {
-    value += huber(row.k * std::abs(row.goal - row.axis.dot(v[index(row.body)])), row.limit, row.k);
-  }
+  for (const newton::Motor& row : motors_) value += newton::huber(std::abs(row.springIn(v)), row.limit, row.k);
   return value;
 }
 
 // Gradient and factorised second derivative at v_, with contacts as `respond` says.
-bool NewtonSolver::assemble(Response (*respond)(const Row&, const Vec3&)) {
+bool NewtonSolver::assemble(newton::Response (*respond)(const Row&, const Vec3&)) {
   matrix_.setZero();
   for (std::size_t i = 0; i < v_.size(); ++i) {
     gradient_[i] = massTimes(i, v_[i] - free_[i]);
@@ -213,7 +161,7 @@ bool NewtonSolver::assemble(Response (*respond)(const Row&, const Vec3&)) {
     matrix_.add(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i), block);
   }
   for (const Row& row : rows_) {
-    const auto [impulse, stiffness] = respond(row, velocityOf(row, v_));
+    const auto [impulse, stiffness] = respond(row, row.velocityIn(v_));
     const Vec3 f = row.R.transpose() * impulse;
     const Mat3 K = row.R.transpose() * stiffness * row.R;
     Eigen::Matrix<double, 3, 6> J;
@@ -227,12 +175,26 @@ bool NewtonSolver::assemble(Response (*respond)(const Row&, const Vec3&)) {
     matrix_.add(row.A, row.B, J.transpose() * KJ);
     matrix_.add(row.A, row.A, J.transpose() * (K * J));
   }
-  for (const MotorRow& row : motors_) {
-    const double spring = row.k * (row.goal - row.axis.dot(v_[index(row.body)]));
+  for (const newton::Roll& roll : rolls_) assembleRoll(roll);
+  for (const newton::Motor& row : motors_) {
+    const double spring = row.springIn(v_);
     gradient_[index(row.body)] -= std::clamp(spring, -row.limit, row.limit) * row.axis;
     if (std::abs(spring) < row.limit) matrix_.add(row.body, row.body, row.k * row.axis * row.axis.transpose());
   }
   return matrix_.factorise();
+}
+
+void NewtonSolver::assembleRoll(const newton::Roll& roll) {
+  const Eigen::Vector2d w = roll.velocityIn(v_);
+  const Vec3 moment = roll.T.transpose() * roll.impulseAt(w, limitOf(roll));
+  BlockCholesky::Block block = BlockCholesky::Block::Zero();
+  block.bottomRightCorner<3, 3>() = roll.T.transpose() * roll.stiffnessAt(w, limitOf(roll)) * roll.T;
+  gradient_[index(roll.B)].tail<3>() -= moment;
+  matrix_.add(roll.B, roll.B, block);
+  if (roll.A == ContactProblem::kFixed) return;
+  gradient_[index(roll.A)].tail<3>() += moment;
+  matrix_.add(roll.A, roll.A, block);
+  matrix_.add(roll.A, roll.B, -block);
 }
 
 // Where every contact does what it did in the step before, and a new one that would close sticks, the problem is linear.
@@ -240,14 +202,14 @@ bool NewtonSolver::assemble(Response (*respond)(const Row&, const Vec3&)) {
 bool NewtonSolver::guess() {
   for (Row& row : rows_) {
     row.is_new = row.normal <= 0;
-    row.closes = !row.is_new || row.goal.x() > -kTouches || velocityOf(row, free_).x() < row.goal.x();
+    row.closes = !row.is_new || row.goal.x() > -kTouches || row.velocityIn(free_).x() < row.goal.x();
     row.sticks = row.sticks || row.is_new;
   }
-  if (!assemble(expectedOf)) return false;
+  if (!assemble(newton::expectedOf)) return false;
   newtonStep();
   for (std::size_t i = 0; i < v_.size(); ++i) other_[i] = v_[i] + step_[i];
   for (Row& row : rows_) {
-    if (row.is_new && row.closes) row.normal = impulseOf(row, velocityOf(row, other_)).x();
+    if (row.is_new && row.closes) row.normal = row.impulseAt(row.velocityIn(other_)).x();
   }
   if (valueAt(other_) < valueAt(v_)) std::swap(v_, other_);
   return true;
@@ -268,12 +230,17 @@ double NewtonSolver::slopeAt(double alpha, const Vector& v, const Vector& dv, do
   }
   slope += alpha * curvature;
   for (const Row& row : rows_) {
-    const Vec3 du = velocityOf(row, dv);
-    const auto [impulse, stiffness] = responseOf(row, velocityOf(row, v) + alpha * du);
+    const Vec3 du = row.velocityIn(dv);
+    const auto [impulse, stiffness] = newton::responseOf(row, row.velocityIn(v) + alpha * du);
     slope -= impulse.dot(du);
     curvature += du.dot(stiffness * du);
   }
-  for (const MotorRow& row : motors_) {
+  for (const newton::Roll& roll : rolls_) {
+    const Eigen::Vector2d dw = roll.velocityIn(dv), w = roll.velocityIn(v) + alpha * dw;
+    slope -= roll.impulseAt(w, limitOf(roll)).dot(dw);
+    curvature += dw.dot(roll.stiffnessAt(w, limitOf(roll)) * dw);
+  }
+  for (const newton::Motor& row : motors_) {
     const double du = row.axis.dot(dv[index(row.body)]);
     const double spring = row.k * (row.goal - row.axis.dot(v[index(row.body)]) - alpha * du);
     slope -= std::clamp(spring, -row.limit, row.limit) * du;
@@ -302,7 +269,7 @@ bool NewtonSolver::minimise() {
   const std::size_t iterations = std::clamp(affordable, kMinIterations, options_.max_iterations);
   for (std::size_t i = 0; i < iterations; ++i) {
     ++counts.iterations;
-    if (!assemble(responseOf)) return false;
+    if (!assemble(newton::responseOf)) return false;
     newtonStep();
     double largest = 0;
     for (const Vec6& dv : step_) largest = std::max(largest, dv.lpNorm<Eigen::Infinity>());
@@ -318,7 +285,7 @@ bool NewtonSolver::minimise() {
 double NewtonSolver::standCones() {
   double change = 0, largest = 0;
   for (Row& row : rows_) {
-    const Vec3 impulse = impulseOf(row, velocityOf(row, v_));
+    const Vec3 impulse = row.impulseAt(row.velocityIn(v_));
     const bool slips = impulse.x() > 0 && impulse.tail<2>().norm() >= (1 - 1e-6) * row.mu * row.normal;
     if (slips && row.mu_slip < row.mu) {
       row.mu = row.mu_slip;
@@ -328,7 +295,7 @@ double NewtonSolver::standCones() {
     largest = std::max(largest, impulse.x());
     row.normal = impulse.x();
   }
-  return largest > 0 ? change / largest : 0;
+  return change > 0 ? change / largest : 0;  // infinite where all contacts part
 }
 
 void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
@@ -339,8 +306,11 @@ void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
     body.p_WCm += h * body.v_WCm;
     driftRotation(body.q_WB, body.w_WB, body.inertia_B, body.inverse_inertia_B, h);
   }
-  const auto force = [&](const Row& row) { return Vec3(row.R.transpose() * impulseOf(row, velocityOf(row, v_)) / h); };
+  const auto force = [&](const Row& row) { return Vec3(row.R.transpose() * row.impulseAt(row.velocityIn(v_)) / h); };
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) problem.contacts[i].f_B_W = force(rows_[i]);
+  for (const newton::Roll& roll : rolls_) {
+    problem.contacts[roll.row].m_B_W = roll.T.transpose() * roll.impulseAt(roll.velocityIn(v_), limitOf(roll)) / h;
+  }
   for (std::size_t i = 0; i < problem.fingers.size(); ++i) {
     problem.fingers[i].f_B_W = force(rows_[problem.contacts.size() + i]);
   }

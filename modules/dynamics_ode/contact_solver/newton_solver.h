@@ -3,8 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "modules/dynamics_ode/contact_solver/block_cholesky.h"
-#include "modules/dynamics_ode/contact_solver/contact_problem.h"
+#include "modules/dynamics_ode/contact_solver/newton_rows.h"
 
 namespace presa::ode {
 
@@ -15,7 +14,8 @@ namespace presa::ode {
 ///
 /// A contact is a stiff spring-damper along its normal; along its tangents a stiff spring whose state is the friction of
 /// the last step, so that nothing creeps, inside a round Coulomb cone. The cone stands on the normal impulse of the
-/// minimisation before. A gap counts as a spring that starts at its end.
+/// minimisation before. A gap counts as a spring that starts at its end. Rolling resistance is a stiff rotational damper
+/// with a moment of at most a length times that impulse.
 class NewtonSolver {
  public:
   struct Options {
@@ -49,44 +49,24 @@ class NewtonSolver {
   } counts;
 
  private:
-  using Vec6 = Eigen::Matrix<double, 6, 1>;
-  using Vector = BlockCholesky::Vector;
-  struct Row {  // of a contact or a finger
-    std::int32_t A, B;
-    Vec3 rA, rB;                                         // from the centres of mass [m]
-    Mat3 R;                                              // rows: normal into B, two tangents
-    Vec3 goal = Vec3::Zero();                            // velocity in R at which the springs are relaxed [m/s]
-    double k_n = 0, k_t = 0;                             // impulse per velocity [kg]
-    double mu = 0, mu_slip = 0;                          // from rest, and once it slips
-    double normal = 0;                                   // normal impulse on which the cone stands [N s]
-    Vec3 impulse = Vec3::Zero();                         // in R, on B
-    bool is_new = false, closes = false, sticks = true;  // expected, see guess()
-  };
-  struct MotorRow {
-    std::int32_t body;
-    Vec6 axis;
-    double goal = 0, k = 0, limit = 0;  // impulse k (goal - u), at most limit
-  };
-  /// Impulse on B in R, and minus its derivative by the velocity.
-  using Response = std::pair<Vec3, Mat3>;
+  using Vec6 = newton::Vec6;
+  using Vector = newton::Vector;
+  using Row = newton::Row;
 
   void makeMasses(const ContactProblem& problem, double h);
   void makeRows(const ContactProblem& problem, double h);
   void addContact(const ContactProblem& problem, const ContactProblem::Contact& contact, double h);
   void addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h);
+  void addRoll(const ContactProblem& problem, const ContactProblem::Contact& contact, const Mat3& R);
   void addMotor(const ContactProblem& problem, const ContactProblem::Motor& motor, double h);
-  void startFrom(Row& row, const Vec3& impulse_W);
-  static Vec3 velocityOf(const Row& row, const Vector& v);
-  static Vec3 springOf(const Row& row, const Vec3& u);
-  static Vec3 impulseOf(const Row& row, const Vec3& u);
-  static Response responseOf(const Row& row, const Vec3& u);
-  static Response expectedOf(const Row& row, const Vec3& u);
   Vec6 massTimes(std::size_t body, const Vec6& v) const;
   double valueAt(const Vector& v) const;
   double slopeAt(double alpha, const Vector& v, const Vector& dv, double& curvature) const;
   double lineSearch(const Vector& v, const Vector& dv) const;
   void newtonStep();
-  bool assemble(Response (*respond)(const Row&, const Vec3&));
+  bool assemble(newton::Response (*respond)(const Row&, const Vec3&));
+  void assembleRoll(const newton::Roll& roll);
+  double limitOf(const newton::Roll& roll) const { return roll.length * rows_[roll.row].normal; }
   bool guess();
   bool minimise();
   double standCones();
@@ -95,8 +75,9 @@ class NewtonSolver {
   Options options_;
   BlockCholesky matrix_;
   std::vector<BlockCholesky::Pair> pairs_;
-  std::vector<Row> rows_;  // contacts, then fingers
-  std::vector<MotorRow> motors_;
+  std::vector<Row> rows_;            // contacts, then fingers
+  std::vector<newton::Roll> rolls_;  // of contacts with rolling resistance
+  std::vector<newton::Motor> motors_;
   std::vector<double> mass_;
   std::vector<Mat3> inertia_W_;
   Vector free_, v_, gradient_, step_, other_;  // free_: v*

@@ -33,6 +33,8 @@ OwnSolvers::OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodie
       place_(bodies.size(), ContactProblem::kFixed),
       back_off_(bodies.size()) {
   const std::size_t contacts = kContactsPerBody * bodies.size();
+  const auto bounces = [](const Material& material) { return material.restitution > 0; };
+  if (std::ranges::any_of(scene.materials, bounces)) bounce_.emplace(bodies.size(), contacts);
   problem_.bodies.reserve(bodies.size());
   problem_.contacts.reserve(contacts);
   for (Members* members : {&members_, &contacts_, &fingers_, &motors_}) members->first.reserve(bodies.size() + 2);
@@ -81,7 +83,8 @@ void OwnSolvers::gather(std::size_t island, const FingerJoints& fingers) {
     const BodyContact& c = joints_.contact(contacts_.items[k]);
     const ContactJoints::Joint& joint = joints_[contacts_.items[k]];
     problem_.contacts.push_back({place_[index(c.A)], place_[index(c.B)], c.p_W, c.nhat_AB_W, -c.depth, joint.mu,
-                                 joint.f_B_W, rimAt(bodies_, index(c.A), c, c.nhat_AB_W),
+                                 joint.rolling, joint.restitution, joint.f_B_W, joint.m_B_W,
+                                 rimAt(bodies_, index(c.A), c, c.nhat_AB_W),
                                  rimAt(bodies_, index(c.B), c, -c.nhat_AB_W)});
   }
   for (std::size_t k = fingers_.first[island]; k < fingers_.first[island + 1]; ++k) {
@@ -153,7 +156,9 @@ void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers) {
     if (back_off_[i].steps > 0) --back_off_[i].steps;
   }
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
-    joints_[contacts_.items[contacts_.first[island] + k]].f_B_W = problem_.contacts[k].f_B_W;
+    ContactJoints::Joint& joint = joints_[contacts_.items[contacts_.first[island] + k]];
+    joint.f_B_W = problem_.contacts[k].f_B_W;
+    joint.m_B_W = problem_.contacts[k].m_B_W;
   }
   for (std::size_t k = 0; k < problem_.fingers.size(); ++k) {
     fingers.setForce(fingers_.items[fingers_.first[island] + k], problem_.fingers[k].f_B_W);
@@ -174,7 +179,9 @@ void OwnSolvers::solve(const std::vector<BodyContact>& contacts, FingerJoints& f
   for (std::size_t island = 0; island < count; ++island) {
     if (members_.first[island] == members_.first[island + 1]) continue;
     gather(island, fingers);
+    if (bounce_) bounce_->before(problem_, h);
     solveProblem(island, h);
+    if (bounce_) bounce_->after(problem_);
     giveBack(island, fingers);
   }
   joints_.end(bodies_);

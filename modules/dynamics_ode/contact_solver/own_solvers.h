@@ -1,8 +1,10 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/contact_joints.h"
+#include "modules/dynamics_ode/contact_solver/bounce.h"
 #include "modules/dynamics_ode/contact_solver/newton_solver.h"
 #include "modules/dynamics_ode/contact_solver/small_steps.h"
 #include "modules/dynamics_ode/finger_joints.h"
@@ -52,6 +54,7 @@ class OwnSolvers {
   const Vec3 gravity_W_;
   NewtonSolver newton_;
   SmallSteps small_steps_;
+  std::optional<Bounce> bounce_;  // empty where no material bounces
   ContactJoints joints_;
   std::vector<ContactProblem::Motor> all_motors_;
   ContactProblem problem_;

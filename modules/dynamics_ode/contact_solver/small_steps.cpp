@@ -32,13 +32,14 @@ void SmallSteps::prepare() {
     begin_[i] = bodies[i].p_WCm;
   }
   contacts_.clear();
+  rolls_.clear();
   for (const ContactProblem::Contact& c : problem_->contacts) {
     const Vec3 friction = c.f_B_W - c.f_B_W.dot(c.nhat_AB_W) * c.nhat_AB_W;
     const double length = friction.norm();
     ContactRow& row = contacts_.emplace_back();
     row.A = c.A;
     row.B = c.B;
-    connect(row, c.p_W, c.nhat_AB_W, length > 1e-12 ? Vec3(friction / length) : c.nhat_AB_W.unitOrthogonal());
+    connect(row, c.point(), c.nhat_AB_W, length > 1e-12 ? Vec3(friction / length) : c.nhat_AB_W.unitOrthogonal());
     row.gap_begin = row.gap = c.gap;
     if (c.rim_A) row.rim_A = &c.rim_A;
     if (c.rim_B) row.rim_B = &c.rim_B;
@@ -46,6 +47,9 @@ void SmallSteps::prepare() {
     row.mu = c.mu;
     row.n.impulse = std::max(0.0, h_ * c.f_B_W.dot(c.nhat_AB_W));
     row.t1.impulse = h_ * length;
+    if (c.rolling > 0)
+      rolls_.push_back(
+          {contacts_.size() - 1, c.rolling, h_ * Eigen::Vector2d(c.m_B_W.dot(row.t1.d), c.m_B_W.dot(row.t2.d))});
   }
   fingers_.clear();
   for (const ContactProblem::Finger& finger : problem_->fingers) {
@@ -141,6 +145,7 @@ void SmallSteps::warmStart() {
   };
   for (ContactRow& row : contacts_) start(row);
   for (FingerRow& row : fingers_) start(row);
+  for (const RollRow& row : rolls_) turn(row, row.impulse);
   for (MotorRow& row : motors_) row.impulse = 0;
 }
 
@@ -174,6 +179,32 @@ void SmallSteps::solveContact(ContactRow& row, bool feedback) {
   apply(row, row.t2, shrink * f2 - row.t2.impulse);
   row.t1.impulse = shrink * f1;
   row.t2.impulse = shrink * f2;
+}
+
+// Adds to the angular impulse.
+void SmallSteps::turn(const RollRow& row, const Eigen::Vector2d& impulse) {
+  const ContactRow& contact = contacts_[row.contact];
+  const Vec3 impulse_W = impulse.x() * contact.t1.d + impulse.y() * contact.t2.d;
+  problem_->bodies[index(contact.B)].w_WB += inverse_inertia_W_[index(contact.B)] * impulse_W;
+  if (contact.A == ContactProblem::kFixed) return;
+  problem_->bodies[index(contact.A)].w_WB -= inverse_inertia_W_[index(contact.A)] * impulse_W;
+}
+
+void SmallSteps::solveRoll(RollRow& row) {
+  const ContactRow& contact = contacts_[row.contact];
+  Mat3 inverse = inverse_inertia_W_[index(contact.B)];
+  Vec3 w = problem_->bodies[index(contact.B)].w_WB;
+  if (contact.A != ContactProblem::kFixed) {
+    inverse += inverse_inertia_W_[index(contact.A)];
+    w -= problem_->bodies[index(contact.A)].w_WB;
+  }
+  Eigen::Vector2d wanted = row.impulse;
+  wanted.x() -= w.dot(contact.t1.d) / contact.t1.d.dot(inverse * contact.t1.d);
+  wanted.y() -= w.dot(contact.t2.d) / contact.t2.d.dot(inverse * contact.t2.d);
+  const double limit = row.length * contact.n.impulse, size = wanted.norm();
+  if (size > limit) wanted *= limit / size;
+  turn(row, wanted - row.impulse);
+  row.impulse = wanted;
 }
 
 // u + impulse / (h (hk + d)) = k stretch / (hk + d), with u the velocity of the touched point against the finger.
@@ -226,6 +257,7 @@ void SmallSteps::sweep(bool feedback) {
   } else {
     for (auto row = contacts_.rbegin(); row != contacts_.rend(); ++row) solveContact(*row, false);
   }
+  for (RollRow& row : rolls_) solveRoll(row);
 }
 
 Vec3 SmallSteps::movedAt(const Row& row) const {
@@ -321,6 +353,10 @@ void SmallSteps::giveBack(double period) {
     const ContactRow& row = contacts_[i];
     problem_->contacts[i].f_B_W =
         (row.n.impulse * row.n.d + row.t1.impulse * row.t1.d + row.t2.impulse * row.t2.d) / h_;
+  }
+  for (const RollRow& row : rolls_) {
+    const ContactRow& contact = contacts_[row.contact];
+    problem_->contacts[row.contact].m_B_W = (row.impulse.x() * contact.t1.d + row.impulse.y() * contact.t2.d) / h_;
   }
   for (std::size_t i = 0; i < fingers_.size(); ++i) problem_->fingers[i].f_B_W = fingers_[i].sum_W / period;
 }

@@ -12,7 +12,8 @@ namespace presa::ode {
 ///
 /// A small step of length h: velocities take the external forces and the last impulses; a sweep with feedback of the
 /// gaps; positions advance; a sweep without feedback, which takes out again what the feedback added to velocities and
-/// thus to energy. Friction is a round Coulomb cone on the normal impulse of the same sweep.
+/// thus to energy. Friction is a round Coulomb cone on the normal impulse of the same sweep, rolling resistance a moment
+/// of at most a length times that.
 class SmallSteps {
  public:
   struct Options {
@@ -29,6 +30,7 @@ class SmallSteps {
   /// Reserves memory for `bodies` and `contacts`; more allocate once.
   SmallSteps(const Options& options, std::size_t bodies, std::size_t contacts) : options_(options) {
     contacts_.reserve(contacts);
+    rolls_.reserve(contacts);
     inverse_inertia_W_.reserve(bodies);
     begin_.reserve(bodies);
     touched_.reserve(bodies);
@@ -70,6 +72,11 @@ class SmallSteps {
     double depth = 0, u1 = 0, u2 = 0;  // stretch of the springs at the start of the small step [m]
     Vec3 sum_W = Vec3::Zero();         // of impulses [N s]
   };
+  struct RollRow {  // rolling resistance of a contact
+    std::size_t contact = 0;
+    double length = 0;                                  // [m]
+    Eigen::Vector2d impulse = Eigen::Vector2d::Zero();  // angular, along t1 and t2 of the contact, on B [N m s]
+  };
   struct MotorRow {
     ContactProblem::Motor motor;
     double mass = 0, impulse = 0;
@@ -86,6 +93,8 @@ class SmallSteps {
   double speedOf(const Row& row, const Axis& axis) const;
   void sweep(bool feedback);
   void solveContact(ContactRow& row, bool feedback);
+  void turn(const RollRow& row, const Eigen::Vector2d& impulse);
+  void solveRoll(RollRow& row);
   void solveFinger(FingerRow& row);
   void solveMotor(MotorRow& row);
   double springImpulse(const FingerRow& row, const Axis& axis, double k, double d, double stretch) const;
@@ -104,6 +113,7 @@ class SmallSteps {
   ContactProblem* problem_ = nullptr;
   double h_ = 0;
   std::vector<ContactRow> contacts_;
+  std::vector<RollRow> rolls_;
   std::vector<FingerRow> fingers_;
   std::vector<MotorRow> motors_;
   std::vector<Mat3> inverse_inertia_W_;

@@ -59,6 +59,15 @@ class WorldMaker {
     return *this;
   }
   WorldMaker& friction(double mu) { return friction(mu, mu); }
+  /// Of the bodies with the last material: restitution, and rolling resistance [m].
+  WorldMaker& bouncing(double restitution) {
+    world_.scene.materials.back().restitution = restitution;
+    return *this;
+  }
+  WorldMaker& rolling(double length) {
+    world_.scene.materials.back().rolling = length;
+    return *this;
+  }
   WorldMaker& add(const Shape& shape, const Pose& X_WB, const BodyInertia& inertia, const Pose& X_BG = {},
                   std::shared_ptr<const TriMesh> mesh = nullptr) {
     Body body;
@@ -73,6 +82,10 @@ class WorldMaker {
     return *this;
   }
   WorldMaker& fixedBox(const Vec3& size, const Pose& X_WB) { return add(Box{size}, X_WB, {}); }
+  WorldMaker& ball(double radius, double mass, const Vec3& p_WB) {
+    return add(Sphere{radius}, {p_WB, Quat::Identity()},
+               {mass, Vec3::Zero(), 0.4 * mass * radius * radius * Mat3::Identity()});
+  }
   WorldMaker& box(const Vec3& size, double mass, const Pose& X_WB) {
     return add(Box{size}, X_WB, {mass, Vec3::Zero(), boxInertia(mass, size)});
   }
@@ -98,8 +111,8 @@ class Runner {
       : bodies(std::move(world), options) {
     bodies.write(0, state);
   }
-  void step(const ContactExchange& fingers = {}, double h = kStep) {
-    bodies.step(fingers, time, h, state);
+  void step(const ContactExchange& fingers = {}, double h = kStep, bool late = false) {
+    bodies.step(fingers, time, h, state, late);
     time = state.time_end;
   }
   void run(double duration) {

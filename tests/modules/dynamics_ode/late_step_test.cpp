@@ -1,0 +1,77 @@
+#include "tests/modules/dynamics_ode/support.h"
+
+// When the dynamics are late, what fingers hold is stepped and the rest stands still.
+namespace presa::ode {
+namespace {
+
+/// A cube at the origin between two fingers, and another one that falls beside it.
+std::shared_ptr<const World> heldAndLoose(double aside = 0.5) {
+  return WorldMaker()
+      .box(kCube, 0.1, {Vec3::Zero(), Quat::Identity()})
+      .box(kCube, 0.1, {{aside, 0, 0}, Quat::Identity()})
+      .world();
+}
+
+TEST(LateStep, ALooseBodyStandsStillAndGoesOnAsBefore) {
+  Runner late(heldAndLoose()), in_time(heldAndLoose());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, 1000, 1);
+  for (int i = 0; i < 40; ++i) {
+    const ContactExchange exchange = exchangeOf(fingers, late);
+    const bool is_late = i % 4 == 3;
+    const Vec3 loose = late[1].X_WB_end.p, held = late[0].X_WB_end.p;
+    late.step(exchange, kStep, is_late);
+    EXPECT_EQ(late[1].X_WB_end.p == loose, is_late);
+    EXPECT_NE(late[0].X_WB_end.p, held);
+    EXPECT_FALSE(late[1].asleep);
+    if (!is_late) in_time.step();
+    EXPECT_EQ(late[1].X_WB_end.p, in_time[1].X_WB_end.p);
+    EXPECT_EQ(late[1].X_WB_end.q.coeffs(), in_time[1].X_WB_end.q.coeffs());
+  }
+  EXPECT_NEAR(late.state.far_lag, 10 * kStep, 1e-12);
+}
+
+TEST(LateStep, NothingStandsStillWhileNothingIsTouched) {
+  Runner runner(heldAndLoose());
+  for (int i = 0; i < 10; ++i) runner.step({}, kStep, true);
+  EXPECT_NEAR(runner[1].v_WB.z(), -kGravity * 10 * kStep, 1e-9);
+  EXPECT_EQ(runner.state.far_lag, 0);
+}
+
+// A held body that arrives at one that stands still takes it along in the same step.
+TEST(LateStep, AHeldBodyWakesWhatItMeets) {
+  Runner runner(WorldMaker()
+                    .gravity(Vec3::Zero())
+                    .box(kCube, 0.1, {Vec3::Zero(), Quat::Identity()})
+                    .box(kCube, 0.1, {{kEdge + 0.001, 0, 0}, Quat::Identity()})
+                    .world());
+  std::vector<ReferenceFinger> fingers{{0, {-kEdge / 2, 0, 0}, -Vec3::UnitX()}};
+  fingers[0].p_WH = fingers[0].p_BP + 0.003 * Vec3::UnitX();
+  for (int i = 0; i < 20; ++i) {
+    fingers[0].v_WH = 0.1 * Vec3::UnitX();
+    fingers[0].p_WH += kStep * fingers[0].v_WH;
+    runner.step(exchangeOf(fingers, runner), kStep, true);
+    EXPECT_LT(runner[0].X_WB_end.p.x(), runner[1].X_WB_end.p.x() - kEdge + 1e-5);
+  }
+  EXPECT_GT(runner[1].v_WB.x(), 0.05);
+}
+
+// A pile that stood still keeps the forces of its contacts: it goes on resting.
+TEST(LateStep, ATowerRestsOn) {
+  WorldMaker maker;
+  maker.table();
+  for (int i = 0; i < 10; ++i) maker.box(kCube, 0.1, {{0.5, 0, kEdge / 2 + i * kEdge}, Quat::Identity()});
+  maker.box(kCube, 0.1, {{0, 0, 0.5}, Quat::Identity()});
+  Runner runner(maker.world(), awake());
+  std::vector<ReferenceFinger> fingers = pinch(11, kEdge, 0.002, 1000, 1);
+  for (ReferenceFinger& finger : fingers) finger.p_WH += Vec3(0, 0, 0.5);
+  runner.run(0.5);
+  const Vec3 top = runner[10].X_WB_end.p;
+  OdeOptions options;
+  Runner sleeping(maker.world(), options);
+  for (int i = 0; i < 60; ++i) sleeping.step(exchangeOf(fingers, sleeping), kStep, i % 2 == 0);
+  EXPECT_GT(sleeping.state.far_lag, 0);
+  EXPECT_LT((sleeping[10].X_WB_end.p - top).norm(), 1e-5);
+}
+
+}  // namespace
+}  // namespace presa::ode
