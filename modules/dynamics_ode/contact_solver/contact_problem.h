@@ -33,9 +33,9 @@ struct ContactProblem {
     Vec3 m_B_W = Vec3::Zero();  ///< the same for the moment of rolling resistance [N m]
     Rim rim_A, rim_B;           ///< of what moves
 
-    /// Where the forces act. On something fixed the touched point of B's surface: friction acts there once a gap has
-    /// closed. Between two bodies one point for both, so that angular momentum is kept.
-    Vec3 point() const { return A == kFixed ? Vec3(p_W + std::max(0.0, gap) / 2 * nhat_AB_W) : p_W; }
+    /// Where the forces act [m]. Where a body bounces off something fixed, the touched point of its surface: friction
+    /// acts there once the gap has closed. Between two bodies one point for both keeps angular momentum.
+    Vec3 point() const { return restitution > 0 && A == kFixed ? Vec3(p_W + std::max(0.0, gap) / 2 * nhat_AB_W) : p_W; }
   };
   /// A finger as a spring-damper (finger_constraint.h).
   struct Finger {

@@ -295,7 +295,7 @@ double NewtonSolver::standCones() {
     largest = std::max(largest, impulse.x());
     row.normal = impulse.x();
   }
-  return change > 0 ? change / largest : 0;  // infinite where all contacts part
+  return change > 0 ? change / largest : 0;  // infinite where all contacts part: friction must part, too
 }
 
 void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
