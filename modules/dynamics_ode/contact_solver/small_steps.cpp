@@ -11,6 +11,8 @@
 namespace presa::ode {
 namespace {
 
+constexpr double kMinSine = 0.02;  // of a rim's axis, sine
+
 void push(ContactProblem::Body& body, double inverse_mass, const Vec3& d, const Vec3& i, double impulse) {
   body.v_WCm += inverse_mass * impulse * d;
   body.w_WB += impulse * i;
@@ -326,15 +328,23 @@ Vec3 SmallSteps::armAhead(ContactRow& row, const Rim& rim, std::int32_t body, do
   return r_W;
 }
 
+// How far the lowest point of a rim runs around it in `period`: as the axis goes round the normal, faster than the body
+// turns [rad].
+double SmallSteps::runOf(const Rim& rim, std::int32_t body, const Vec3& nhat_W, double period) const {
+  if (!rim) return 0;
+  const Body& of = problem_->bodies[index(body)];
+  const Vec3 axis = of.q_WB * rim.axis_B;
+  return period * of.w_WB.cross(axis).norm() / std::max(kMinSine, axis.cross(nhat_W).norm());
+}
+
 int SmallSteps::countFor(double period) const {
-  double turn = 0;
+  if (problem_->bodies.size() > options_.max_wobbling) return options_.count;
+  double run = 0;
   for (const ContactProblem::Contact& c : problem_->contacts) {
-    if (c.rim_A) turn = std::max(turn, period * problem_->bodies[index(c.A)].w_WB.norm());
-    if (c.rim_B) turn = std::max(turn, period * problem_->bodies[index(c.B)].w_WB.norm());
+    run = std::max({run, runOf(c.rim_A, c.A, c.nhat_AB_W, period), runOf(c.rim_B, c.B, c.nhat_AB_W, period)});
   }
-  const bool affordable = problem_->bodies.size() <= options_.max_wobbling;
-  return affordable ? std::clamp(static_cast<int>(turn / options_.rim_turn), options_.count, options_.max_count)
-                    : options_.count;
+  const double count = std::clamp(run / options_.rim_run, double(options_.count), double(options_.max_count));
+  return static_cast<int>(count);
 }
 
 void SmallSteps::followFingers(double time) {

@@ -17,9 +17,10 @@ namespace presa::ode {
 class SmallSteps {
  public:
   struct Options {
-    int count = 8;           ///< per period
-    double rim_turn = 0.01;  ///< within a small step, of a body that wobbles on its rim [rad]: then there are more
-    int max_count = 64;
+    int count = 8;  ///< per period
+    /// Way of a contact around a rim within a small step [rad]: with a longer one there are more steps.
+    double rim_run = 0.005;
+    int max_count = 128;
     std::size_t max_wobbling = 8;  ///< bodies of an island up to which that is affordable
     double max_push = 1;           ///< maximum speed at which overlapping bodies are pushed apart [m/s]
     double stiffness = 0.7;        ///< of a contact: omega h of its spring-damper
@@ -103,6 +104,7 @@ class SmallSteps {
   void followRims(double ahead);
   double reachOf(const ContactRow& row) const;
   double gapOf(const ContactRow& row) const;
+  double runOf(const Rim& rim, std::int32_t body, const Vec3& nhat_W, double period) const;
   int countFor(double period) const;
   Vec3 armAhead(ContactRow& row, const Rim& rim, std::int32_t body, double sign, double ahead) const;
   void turnInertia(std::size_t i);
