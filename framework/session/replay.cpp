@@ -128,6 +128,7 @@ class Replayer {
     Tick tick = rates_.tick(group, row.index);
     tick.catch_up = (row.catch_up & 1U) != 0;
     tick.resumed = (row.catch_up & 2U) != 0;
+    tick.late = (row.catch_up & 4U) != 0;
     if (!session_.graph().replayStep(group, tick, row)) return false;
     if (group == RateGroup::kHaptic) compare(next_[g]);
     ++next_[g];

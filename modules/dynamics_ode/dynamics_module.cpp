@@ -98,7 +98,7 @@ void DynamicsModule::setSnapConstraints() noexcept {
 void DynamicsModule::step(const Tick& tick) noexcept {
   setSnapConstraints();
   if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
-  bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, tick.catch_up);
+  bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, tick.late);
 }
 
 void DynamicsModule::stop() {

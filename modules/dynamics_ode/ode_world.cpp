@@ -88,6 +88,16 @@ struct OdeWorld::Impl {
   void fault(Faults::Bit bit, std::uint64_t count = 1);
   void giveUp();
 
+  /// Which steps leave out what no finger reaches.
+  struct Patience {
+    static constexpr int kMaxLate = 2;                   // steps after a whole one that may be late
+    static constexpr int kMinWait = 10, kMaxWait = 400;  // steps
+    bool leavesOut(bool late);
+    int late_since = 0;      // since the last whole step
+    int wait = 0, left = 0;  // steps
+    bool was_whole = false;  // the last step that was not late
+  } patience;
+
   std::shared_ptr<const World> world;
   const OdeOptions options;
   Engine engine;
@@ -224,10 +234,26 @@ void OdeWorld::Impl::pauseFar(const ContactExchange& exchange, double period) {
   if (any && sleep->pauseOthers(bodies, islands, held) > 0) far_lag += period;
 }
 
+// A whole step after which many are late takes too long for what is held: the next one waits, twice as long each time.
+bool OdeWorld::Impl::Patience::leavesOut(bool late) {
+  if (late) {
+    ++late_since;
+    return true;
+  }
+  if (left > 0 && --left > 0) return true;
+  if (was_whole) {
+    wait = late_since > kMaxLate ? std::min(2 * std::max(wait, kMinWait), kMaxWait) : 0;
+    left = wait;
+  }
+  was_whole = left == 0;
+  late_since = 0;
+  return !was_whole;
+}
+
 void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period, bool late) {
   impulses.makeRoom(exchange.fingers.size());
   if (sleep) sleep->resume(bodies);
-  if (sleep && late) pauseFar(exchange, period);
+  if (sleep && patience.leavesOut(late)) pauseFar(exchange, period);
   impulses.begin(time);
   wakeTouched(exchange);
   if (snap_drive_) snap_drive_->carry(bodies, sleep ? &*sleep : nullptr, period);

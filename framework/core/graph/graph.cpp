@@ -21,7 +21,7 @@ void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
   }
   if (row != nullptr) {
     row->index = tick.index;
-    row->catch_up = (tick.catch_up ? 1U : 0U) | (tick.resumed ? 2U : 0U);
+    row->catch_up = (tick.catch_up ? 1U : 0U) | (tick.resumed ? 2U : 0U) | (tick.late ? 4U : 0U);
   }
   for (std::size_t i = 0; i < g.modules.size(); ++i) stepModule(g, i, tick);
 }

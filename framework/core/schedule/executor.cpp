@@ -2,11 +2,12 @@
 
 namespace presa {
 
-void Executor::stepTimed(RateGroup group, std::uint64_t index, bool catch_up, bool resumed) noexcept {
+void Executor::stepTimed(RateGroup group, std::uint64_t index, Delay delay) noexcept {
   GroupTiming& timing = timings_[static_cast<std::size_t>(group)];
   Tick tick = rates_.tick(group, index);
-  tick.catch_up = catch_up;
-  tick.resumed = resumed;
+  tick.late = delay.late;
+  tick.catch_up = delay.catch_up;
+  tick.resumed = delay.resumed;
   const std::int64_t begin = clock_();
   if (schedule_ == nullptr || !isScheduled(group)) {
     graph_.step(group, tick);

@@ -57,8 +57,12 @@ class Executor {
   static constexpr double kGap = 1;
 
  protected:
+  /// Flags of a tick that did not run when it was due, see Tick.
+  struct Delay {
+    bool late = false, catch_up = false, resumed = false;
+  };
   /// One tick of one group with its timing and its row in the schedule.
-  void stepTimed(RateGroup group, std::uint64_t index, bool catch_up = false, bool resumed = false) noexcept;
+  void stepTimed(RateGroup group, std::uint64_t index, Delay delay) noexcept;
 
   Graph& graph_;
   RateTable rates_;

@@ -22,7 +22,7 @@ void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double 
   }
   timing.missed.fetch_add(index - done, std::memory_order_relaxed);
   const bool resumed = late > rates_.ticksWithin(group, kGap);  // all but the newest tick have been skipped
-  for (; done <= index; ++done) stepTimed(group, done, done < index, resumed);
+  for (; done <= index; ++done) stepTimed(group, done, {done < index, done < index, resumed});
 }
 
 void LockstepExecutor::run(double duration) {
@@ -41,7 +41,7 @@ void LockstepExecutor::run(double duration) {
       if (held_up_) {
         stepDelayed(group, i / divisor, rates_.tick(RateGroup::kHaptic, i).time);
       } else {
-        stepTimed(group, i / divisor);
+        stepTimed(group, i / divisor, {});
       }
     }
     control_.time.store(rates_.tick(RateGroup::kHaptic, i + 1).time, std::memory_order_relaxed);

@@ -140,7 +140,7 @@ void RealtimeExecutor::loop(RateGroup group, double duration, Shared& shared) {
     }
     if (previous != 0) timing.period.add(now - previous);
     previous = now;
-    stepTimed(group, i, catch_up.isCatchUp(now, late) && !resumed, resumed);
+    stepTimed(group, i, {late >= period, catch_up.isCatchUp(now, late) && !resumed, resumed});
     if (group == RateGroup::kHaptic) {
       control_.time.store(rates_.tick(group, i + 1).time, std::memory_order_relaxed);
     }

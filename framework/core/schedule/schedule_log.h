@@ -16,7 +16,7 @@ namespace presa {
 struct ScheduleRow {
   static constexpr int kMaxBridges = 12;
   std::uint64_t index = 0;
-  std::uint64_t catch_up = 0;  ///< bit 0: Tick::catch_up, bit 1: Tick::resumed
+  std::uint64_t catch_up = 0;  ///< bit 0: Tick::catch_up, bit 1: Tick::resumed, bit 2: Tick::late
   std::array<std::uint64_t, kMaxBridges> versions{};
 };
 

@@ -30,6 +30,30 @@ TEST(LateStep, ALooseBodyStandsStillAndGoesOnAsBefore) {
   EXPECT_NEAR(late.state.far_lag, 10 * kStep, 1e-12);
 }
 
+// A whole step that makes many late is not taken again at once.
+TEST(LateStep, AHeapThatTakesTooLongWaits) {
+  Runner runner(heldAndLoose());
+  std::vector<ReferenceFinger> fingers = pinch(0, kEdge, 0.002, 1000, 1);
+  const auto moves = [&](bool late) {
+    const Vec3 before = runner[1].X_WB_end.p;
+    runner.step(exchangeOf(fingers, runner), kStep, late);
+    return runner[1].X_WB_end.p != before;
+  };
+  const auto waits = [&] {
+    int steps = 0;
+    while (!moves(false)) ++steps;
+    return steps;
+  };
+  EXPECT_TRUE(moves(false));
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(moves(true));
+  EXPECT_EQ(waits(), 20);
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(moves(true));
+  EXPECT_EQ(waits(), 40);
+  EXPECT_FALSE(moves(true));  // not for long this time
+  EXPECT_EQ(waits(), 0);
+  EXPECT_EQ(waits(), 0);
+}
+
 TEST(LateStep, NothingStandsStillWhileNothingIsTouched) {
   Runner runner(heldAndLoose());
   for (int i = 0; i < 10; ++i) runner.step({}, kStep, true);
