@@ -9,7 +9,8 @@ std::vector<Case> allCases() {
           block_tower::make(),      free_rotation::make(),       coulomb_slide::make(), coulomb_stick::make(),
           rolling::make(),          haptic_wall::make(),         thin_plate::make(),    grooves::make(),
           texture_loops::make(),    tall_tower::make(),          falling_tower::make(), tower_on_tower::make(),
-          mesh_stack::make(),       capsule_lying::make(),       poured_heap::make(),   spinning_coin::make()};
+          mesh_stack::make(),       capsule_lying::make(),       poured_heap::make(),   spinning_coin::make(),
+          mesh_arch::make()};
 }
 
 }  // namespace presa::stability

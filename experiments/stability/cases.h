@@ -88,5 +88,8 @@ Case make();
 namespace poured_heap {
 Case make();
 }
+namespace mesh_arch {
+Case make();
+}
 
 }  // namespace presa::stability
