@@ -91,5 +91,11 @@ Case make();
 namespace mesh_arch {
 Case make();
 }
+namespace card_house {
+Case make();
+}
+namespace overhang {
+Case make();
+}
 
 }  // namespace presa::stability
