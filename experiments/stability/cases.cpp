@@ -10,7 +10,7 @@ std::vector<Case> allCases() {
           rolling::make(),          haptic_wall::make(),         thin_plate::make(),    grooves::make(),
           texture_loops::make(),    tall_tower::make(),          falling_tower::make(), tower_on_tower::make(),
           mesh_stack::make(),       capsule_lying::make(),       poured_heap::make(),   spinning_coin::make(),
-          mesh_arch::make(),        card_house::make(),          overhang::make()};
+          mesh_arch::make(),        card_house::make(),          overhang::make(),      domino_row::make()};
 }
 
 }  // namespace presa::stability

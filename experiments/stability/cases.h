@@ -97,5 +97,8 @@ Case make();
 namespace overhang {
 Case make();
 }
+namespace domino_row {
+Case make();
+}
 
 }  // namespace presa::stability
