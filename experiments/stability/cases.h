@@ -100,5 +100,14 @@ Case make();
 namespace domino_row {
 Case make();
 }
+namespace gravity_five_and_zero {
+Case make();
+}
+namespace far_from_origin {
+Case make();
+}
+namespace tiny_and_huge {
+Case make();
+}
 
 }  // namespace presa::stability
