@@ -37,7 +37,8 @@ std::vector<Case> allCases() {
           domino_row::make(),
           gravity_five_and_zero::make(),
           far_from_origin::make(),
-          tiny_and_huge::make()};
+          tiny_and_huge::make(),
+          painleve_rod::make()};
 }
 
 }  // namespace presa::stability

@@ -109,5 +109,8 @@ Case make();
 namespace tiny_and_huge {
 Case make();
 }
+namespace painleve_rod {
+Case make();
+}
 
 }  // namespace presa::stability
