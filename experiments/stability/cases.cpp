@@ -38,7 +38,11 @@ std::vector<Case> allCases() {
           gravity_five_and_zero::make(),
           far_from_origin::make(),
           tiny_and_huge::make(),
-          painleve_rod::make()};
+          painleve_rod::make(),
+          three_fingers::make(),
+          five_fingers::make(),
+          two_hands::make(),
+          hand_over::make()};
 }
 
 }  // namespace presa::stability

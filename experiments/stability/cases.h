@@ -112,5 +112,17 @@ Case make();
 namespace painleve_rod {
 Case make();
 }
+namespace three_fingers {
+Case make();
+}
+namespace five_fingers {
+Case make();
+}
+namespace two_hands {
+Case make();
+}
+namespace hand_over {
+Case make();
+}
 
 }  // namespace presa::stability
