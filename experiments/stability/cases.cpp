@@ -42,7 +42,8 @@ std::vector<Case> allCases() {
           three_fingers::make(),
           five_fingers::make(),
           two_hands::make(),
-          hand_over::make()};
+          hand_over::make(),
+          peg_in_hole::make()};
 }
 
 }  // namespace presa::stability

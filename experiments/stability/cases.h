@@ -124,5 +124,8 @@ Case make();
 namespace hand_over {
 Case make();
 }
+namespace peg_in_hole {
+Case make();
+}
 
 }  // namespace presa::stability
