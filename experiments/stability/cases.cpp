@@ -43,7 +43,9 @@ std::vector<Case> allCases() {
           five_fingers::make(),
           two_hands::make(),
           hand_over::make(),
-          peg_in_hole::make()};
+          peg_in_hole::make(),
+          wall_of_343::make(),
+          random_grasping::make()};
 }
 
 }  // namespace presa::stability

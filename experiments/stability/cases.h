@@ -127,5 +127,11 @@ Case make();
 namespace peg_in_hole {
 Case make();
 }
+namespace wall_of_343 {
+Case make();
+}
+namespace random_grasping {
+Case make();
+}
 
 }  // namespace presa::stability

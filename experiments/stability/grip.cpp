@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/held_body.h"
@@ -65,6 +66,10 @@ DeviceList gripFingers(const Grip& grip) {
   for (std::size_t f = 0; f < grip.points.size(); ++f) {
     fingers.push_back(std::make_unique<PrescribedFinger>([grip, f](double time) { return gripState(grip, f, time); }));
   }
+  for (std::size_t f = 0; f < grip.waiting; ++f) {
+    const Vec3 away(0.2 * static_cast<double>(f), 0, 1);
+    fingers.push_back(std::make_unique<PrescribedFinger>([away](double) { return PrescribedFinger::State{away}; }));
+  }
   return fingers;
 }
 
@@ -78,6 +83,9 @@ PrescribedFinger::State shaken(const Vec3& direction, double frequency, double t
 std::vector<Finding> carry(const Carried& carried) {
   const double end = Grip::kMoveBegin + kMoving;
   StudyRun run(specOf(carried.scene, carried.sets, end), gripFingers(carried.grip));
+  if (run.world().scene.devices.size() != carried.grip.points.size() + carried.grip.waiting) {
+    throw std::logic_error("not one finger for each device of " + carried.scene);
+  }
   const std::size_t body = bodyNamed(run.world(), carried.body);
   std::optional<HeldBody> reference;
   double force = 0, sum = 0;

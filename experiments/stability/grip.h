@@ -19,6 +19,7 @@ struct Grip {
   double depth = 0.002;       ///< of each fingertip, once closed [m]
   double open = 0.003;        ///< gap before closing [m]
   double lift = 0.03;         ///< [m]
+  std::size_t waiting = 0;    ///< further fingers of the scene, which stay away
   /// Motion that is added to a finger from kMoveBegin on.
   std::function<PrescribedFinger::State(std::size_t finger, double time)> move{};
 
