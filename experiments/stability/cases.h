@@ -88,5 +88,50 @@ Case make();
 namespace poured_heap {
 Case make();
 }
+namespace mesh_arch {
+Case make();
+}
+namespace card_house {
+Case make();
+}
+namespace overhang {
+Case make();
+}
+namespace domino_row {
+Case make();
+}
+namespace gravity_five_and_zero {
+Case make();
+}
+namespace far_from_origin {
+Case make();
+}
+namespace tiny_and_huge {
+Case make();
+}
+namespace painleve_rod {
+Case make();
+}
+namespace three_fingers {
+Case make();
+}
+namespace five_fingers {
+Case make();
+}
+namespace two_hands {
+Case make();
+}
+namespace hand_over {
+Case make();
+}
+namespace peg_in_hole {
+Case make();
+}
+namespace wall_of_343 {
+Case make();
+}
+namespace random_grasping {
+Case make();
+}
 
 }  // namespace presa::stability

@@ -39,7 +39,9 @@ void Pile::see(const ObjectState& state) {
   bool asleep = true;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].fixed) continue;
-    fastest_ = std::max(fastest_, state.bodies[i].v_WB.norm());
+    const double speed = state.bodies[i].v_WB.norm();
+    fastest_ = std::max(fastest_, speed);
+    if (2 * state.time_end > run_.duration()) late_ = std::max(late_, speed);
     upward_ = std::max(upward_, state.bodies[i].v_WB.z());
     asleep = asleep && state.bodies[i].asleep;
   }
@@ -50,13 +52,16 @@ void Pile::see(const ObjectState& state) {
   height_.y.push_back(1000 * p.z());
 }
 
+Finding Pile::withHeight(Finding finding) const {
+  finding.plot_x = "time [s]";
+  finding.plot_y = height_.label + " [mm]";
+  finding.curves = {decimated(height_)};
+  return finding;
+}
+
 Finding Pile::energy(double released, double bound_percent) const {
-  Finding result = finding("energy from nothing", 100 * created_ / released, "%", bound_percent,
-                           "contacts and friction only take energy; in relation to the energy that can be set free");
-  result.plot_x = "time [s]";
-  result.plot_y = height_.label + " [mm]";
-  result.curves = {decimated(height_)};
-  return result;
+  return withHeight(finding("energy from nothing", 100 * created_ / released, "%", bound_percent,
+                            "contacts and friction only take energy; in relation to the energy that can be set free"));
 }
 
 Finding Pile::fastest(double bound, const std::string& oracle) const {
@@ -68,11 +73,17 @@ Finding Pile::upward(double bound) const {
 }
 
 Finding Pile::displacement(double bound_mm) const {
-  Finding result = finding("displacement", 1000 * farthest_, "mm", bound_mm, "the pile stands where it was put");
-  result.plot_x = "time [s]";
-  result.plot_y = height_.label + " [mm]";
-  result.curves = {decimated(height_)};
-  return result;
+  return withHeight(finding("displacement", 1000 * farthest_, "mm", bound_mm, "the pile stands where it was put"));
+}
+
+Finding Pile::heightLeft(const std::string& oracle) const {
+  const double start = 1000 * run_.world().scene.bodies[body_].X_WB.p.z();
+  return withHeight(finding("height left", std::max(0.0, 100 * height_.y.back() / start), "%", 50, oracle));
+}
+
+Finding Pile::restSpeed() const {
+  return finding("fastest body at rest", failed_ ? std::numeric_limits<double>::quiet_NaN() : 1000 * late_, "mm/s", 1,
+                 "in the second half nothing moves");
 }
 
 Finding Pile::restsWithin(double bound) const {

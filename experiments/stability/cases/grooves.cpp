@@ -1,16 +1,13 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numbers>
 
 #include "experiments/stability/cases.h"
 #include "experiments/stability/fingers.h"
+#include "experiments/stability/folder.h"
 #include "experiments/stability/polyhedra.h"
 #include "framework/geometry/rotation_between.h"
-#include "framework/input/folders.h"
 
 namespace presa::stability::grooves {
 namespace {
@@ -22,25 +19,6 @@ constexpr double kPress = 0.002;     // how far the finger's target lies below t
 constexpr double kSway = 0.003;      // lateral amplitude there [m]
 constexpr double kNear = 0.75;       // distance of the finger's target from a convex body, in radii
 constexpr double kArrived = 0.5;     // [s]
-
-/// A temporary folder for the meshes, deleted with this object.
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("presa_grooves_" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(path_);
-    input::allowFolder(path_.string());  // the scene, in a folder of its own, names the mesh
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The planes that bound the free space of the fingertip's centre in a hollow.
 std::vector<Plane> movedIn(std::vector<Plane> planes) {
@@ -79,7 +57,7 @@ double larger(double a, double b) {
 }
 
 std::vector<Finding> drag(const Solid& solid, bool penalty) {
-  const Folder folder;
+  const Folder folder("grooves");
   const std::string mesh = folder.file("solid.obj");
   writeObj(solid, mesh);
   const std::vector<Plane> free = movedIn(solid.planes);

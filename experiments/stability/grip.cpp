@@ -1,0 +1,121 @@
+#include "experiments/stability/grip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "experiments/stability/bodies.h"
+#include "experiments/stability/held_body.h"
+
+namespace presa::stability {
+namespace {
+
+constexpr double kMoving = 3.5;  // how long the body is moved [s]
+
+HeldBody referenceOf(const Carried& carried, const World& world, const HapticSample& sample, std::size_t body) {
+  HeldBody::Parameters parameters;
+  parameters.mass = world.inertias[body].mass;
+  parameters.inertia = world.inertias[body].inertia.diagonal();
+  parameters.stiffness = carried.stiffness;
+  parameters.gravity = world.scene.gravity;
+  for (std::size_t f = 0; f < carried.grip.points.size(); ++f) {
+    parameters.attachments.push_back(sample.contact.fingers[f].p_BP);
+  }
+  parameters.fingertip = [&carried](std::size_t finger, double time) {
+    return gripState(carried.grip, finger, time).p_WH;
+  };
+  const BodyMotion& motion = sample.objects->bodies[body];
+  return {std::move(parameters), sample.tick.time,
+          sample.objects->poseAt(static_cast<std::int32_t>(body), sample.tick.time), motion.v_WB, motion.w_WB};
+}
+
+/// Mean squared distance between two poses [m^2], of the ends of three axes.
+double squaredDistance(const Pose& a, const Pose& b) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double end : {-0.05, 0.05}) {
+      const Vec3 p = end * Vec3::Unit(axis);
+      sum += (a * p - b * p).squaredNorm() / 6;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+PrescribedFinger::State gripState(const Grip& grip, std::size_t finger, double time) {
+  const Ramp close = ramp(time, Grip::kCloseBegin, Grip::kCloseEnd),
+             lift = ramp(time, Grip::kLiftBegin, Grip::kLiftEnd);
+  const double travel = grip.open + grip.depth;
+  const Vec3& nhat = grip.normals[finger];
+  PrescribedFinger::State state{grip.points[finger] + (grip.radius + grip.open - travel * close.value) * nhat +
+                                    grip.lift * lift.value * Vec3::UnitZ(),
+                                -travel * close.rate * nhat + grip.lift * lift.rate * Vec3::UnitZ()};
+  if (grip.move && time > Grip::kMoveBegin) {
+    const PrescribedFinger::State more = grip.move(finger, time - Grip::kMoveBegin);
+    state.p_WH += more.p_WH;
+    state.v_WH += more.v_WH;
+  }
+  return state;
+}
+
+DeviceList gripFingers(const Grip& grip) {
+  DeviceList fingers;
+  for (std::size_t f = 0; f < grip.points.size(); ++f) {
+    fingers.push_back(std::make_unique<PrescribedFinger>([grip, f](double time) { return gripState(grip, f, time); }));
+  }
+  for (std::size_t f = 0; f < grip.waiting; ++f) {
+    const Vec3 away(0.2 * static_cast<double>(f), 0, 1);
+    fingers.push_back(std::make_unique<PrescribedFinger>([away](double) { return PrescribedFinger::State{away}; }));
+  }
+  return fingers;
+}
+
+PrescribedFinger::State shaken(const Vec3& direction, double frequency, double time) {
+  const double omega = 2 * std::numbers::pi * frequency;
+  const Ramp grow = ramp(time, 0, 0.5);
+  return {direction * grow.value * std::sin(omega * time),
+          direction * (grow.rate * std::sin(omega * time) + grow.value * omega * std::cos(omega * time))};
+}
+
+std::vector<Finding> carry(const Carried& carried) {
+  const double end = Grip::kMoveBegin + kMoving;
+  StudyRun run(specOf(carried.scene, carried.sets, end), gripFingers(carried.grip));
+  if (run.world().scene.devices.size() != carried.grip.points.size() + carried.grip.waiting) {
+    throw std::logic_error("not one finger for each device of " + carried.scene);
+  }
+  const std::size_t body = bodyNamed(run.world(), carried.body);
+  std::optional<HeldBody> reference;
+  double force = 0, sum = 0;
+  std::size_t count = 0;
+  Curve error{"distance from the reference", {}, {}};
+  run.observe([&](const HapticSample& sample) {
+    if (sample.tick.time < Grip::kMoveBegin) return;
+    if (!reference) {
+      reference.emplace(referenceOf(carried, run.world(), sample, body));
+      for (std::size_t f = 0; f < carried.forces.size(); ++f) {
+        const double normal = sample.contact.fingers[f].normal_force;
+        force = std::max(force, std::abs(normal / carried.forces[f] - 1));
+      }
+    }
+    reference->advance(sample.tick.time);
+    const Pose X_WB = sample.objects->poseAt(static_cast<std::int32_t>(body), sample.tick.time);
+    const double squared = squaredDistance(X_WB, reference->pose());
+    sum += squared;
+    ++count;
+    error.x.push_back(sample.tick.time);
+    error.y.push_back(1000 * std::sqrt(squared));
+  });
+  run.run();
+
+  Finding distance = finding("distance from the reference", 1000 * std::sqrt(sum / static_cast<double>(count)), "mm",
+                             0.2, "RMS against the springs alone, integrated at 10 us");
+  distance.plot_x = "time [s]";
+  distance.plot_y = "distance from the reference [mm]";
+  distance.curves.push_back(decimated(std::move(error)));
+  return {finding("normal force error at rest", 100 * force, "%", 0.1, carried.oracle), distance};
+}
+
+}  // namespace presa::stability
