@@ -44,6 +44,7 @@ std::optional<GraspStrength> graspStrength(const RunResult& result, const GraspF
   strength.time = sample->time;
   strength.grasp.centre = sample->bodies[static_cast<std::size_t>(object.trace_slot)] * inertia.p_BCm;
   strength.grasp.length = gyrationLength(inertia.mass, inertia.inertia);
+  if (!(strength.grasp.length > 0)) return std::nullopt;
   std::vector<std::string> names;
   for (const FingerGrasp& held : figures.fingers) {
     const FingerContact& finger = sample->fingers[held.contact_point];
@@ -60,13 +61,13 @@ std::optional<GraspStrength> graspStrength(const RunResult& result, const GraspF
   return strength;
 }
 
-const char* toString(Closure closure) {
+const char* toString(GraspClosure closure) {
   switch (closure) {
-    case Closure::kFull:
+    case GraspClosure::kFull:
       return "full";
-    case Closure::kPartial:
+    case GraspClosure::kPartial:
       return "partial";
-    case Closure::kNone:
+    case GraspClosure::kNone:
       break;
   }
   return "none";

@@ -121,7 +121,7 @@ void addStrength(const std::optional<GraspStrength>& strength, Json& json) {
   json["closure"] = toString(quality.closure);
   json["quality"] = quality.epsilon.at_least;
   json["quality_at_most"] = quality.epsilon.at_most;
-  if (quality.closure == Closure::kPartial) json["quality_otherwise"] = quality.within_span.at_least;
+  if (quality.closure == GraspClosure::kPartial) json["quality_otherwise"] = quality.within_span.at_least;
   json["weakest"] = strength->weakest;
   json["slip_margin"] = finite(strength->slip_margin.at_least);
   json["min_grip_N"] = finite(strength->min_grip.at_most);

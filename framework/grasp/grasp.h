@@ -17,7 +17,7 @@ struct GraspContact {
 };
 
 /// Snapshot of a grasp, all in one frame of any choice.
-struct Grasp {
+struct GraspSnapshot {
   Vec3 centre = Vec3::Zero();  ///< the body's centre of mass; wrenches are taken about it [m]
   double length = 1;           ///< characteristic length that turns torques into forces [m]
   std::vector<GraspContact> contacts;

@@ -19,7 +19,7 @@ constexpr double kRounding = 1e-9;  // of the same
 /// A space in the coordinates of its basis.
 class Reduced {
  public:
-  Reduced(const WrenchSpace& space, const Basis& basis) : space_(space), basis_(basis) {
+  Reduced(const WrenchSpace& space, const WrenchBasis& basis) : space_(space), basis_(basis) {
     Vec6 wrench;
     for (Eigen::Index i = 0; i < 6; ++i) {
       for (const double sign : {-1.0, 1.0}) widest_ = std::max(widest_, space.support(sign * Vec6::Unit(i), wrench));
@@ -36,7 +36,7 @@ class Reduced {
 
  private:
   const WrenchSpace& space_;
-  const Basis& basis_;
+  const WrenchBasis& basis_;
   double widest_ = 0;
 };
 
@@ -148,7 +148,7 @@ std::vector<Ranked> lowest(const std::vector<HullFacet>& facets, const FacetFigu
 /// Points of the space beyond the facets that are too low, at most `most`. A facet that another of them lifts by half
 /// or more has to wait.
 std::vector<Eigen::VectorXd> growth(const std::vector<Ranked>& order, UpperBound& upper, std::size_t most) {
-  constexpr double kAim = Bounds::kMeet / 2;
+  constexpr double kAim = ProvenBounds::kMeet / 2;
   std::vector<Eigen::VectorXd> more;
   for (const Ranked& ranked : order) {
     if (more.size() >= most || ranked.figure >= (1 - kAim) * upper.value()) break;
@@ -166,7 +166,7 @@ std::vector<Eigen::VectorXd> growth(const std::vector<Ranked>& order, UpperBound
 
 }  // namespace
 
-HullFigure smallestFigure(const WrenchSpace& space, const Basis& basis, const FacetFigure& figure) {
+HullFigure smallestFigure(const WrenchSpace& space, const WrenchBasis& basis, const FacetFigure& figure) {
   const Reduced reduced(space, basis);
   std::vector<Eigen::VectorXd> points = firstPoints(reduced);
   UpperBound upper(reduced, figure);

@@ -6,7 +6,7 @@
 
 namespace presa {
 
-using Basis = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using WrenchBasis = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// A half space that bounds the hull: the wrenches x inside of it have normal . x <= offset; all within the span.
 struct HullFacet {
@@ -19,13 +19,13 @@ struct HullFacet {
 using FacetFigure = std::function<double(const Eigen::VectorXd& normal, double offset)>;
 
 struct HullFigure {
-  Bounds bounds;
+  ProvenBounds bounds;
   Eigen::VectorXd normal;  ///< of the half space that sets the upper bound
 };
 
 /// Lower and upper bound of the smallest figure over all supporting half spaces of the space, in the basis of its span.
 /// A hull of wrenches of the space is inside of it and gives the lower bound; at each facet that is too low, the hull
 /// grows by the space's own wrench in the facet's direction, and the support there gives the upper bound.
-HullFigure smallestFigure(const WrenchSpace& space, const Basis& basis, const FacetFigure& figure);
+HullFigure smallestFigure(const WrenchSpace& space, const WrenchBasis& basis, const FacetFigure& figure);
 
 }  // namespace presa

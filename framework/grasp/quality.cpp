@@ -31,7 +31,7 @@ std::optional<Vec6> pushedTo(const WrenchSpace& space) {
 
 /// Of the motions across the span, the one that a person would name: a turn about a line between two contacts, or else
 /// the part of one axis that lies across most.
-Vec6 namedAcross(const Grasp& grasp, const Basis& span) {
+Vec6 namedAcross(const GraspSnapshot& grasp, const WrenchBasis& span) {
   const Eigen::Matrix<double, 6, 6> across = Eigen::Matrix<double, 6, 6>::Identity() - span * span.transpose();
   Vec6 best = Vec6::Zero();
   const auto offer = [&](const Vec6& motion) {
@@ -57,16 +57,16 @@ struct Load {
   bool held = false;
 };
 
-Load loadWithin(const Grasp& grasp, const Basis& basis, const Wrench& load) {
+Load loadWithin(const GraspSnapshot& grasp, const WrenchBasis& basis, const Wrench& load) {
   Vec6 all;
   all << load.f, load.t / grasp.length;
   const Eigen::VectorXd within = basis.transpose() * -all;
   return {within, (all + basis * within).norm() <= kLeftOut * all.norm()};
 }
 
-Bounds factorOf(const Grasp& grasp, const Wrench& load) {
+ProvenBounds factorOf(const GraspSnapshot& grasp, const Wrench& load) {
   const WrenchSpace space(grasp, GripBound::kEach);
-  const Basis basis = space.span();
+  const WrenchBasis basis = space.span();
   const Load wanted = loadWithin(grasp, basis, load);
   if (!wanted.held) return {};
   const double size = wanted.within.norm();
@@ -80,9 +80,9 @@ Bounds factorOf(const Grasp& grasp, const Wrench& load) {
 
 }  // namespace
 
-GraspQuality graspQuality(const Grasp& grasp, GripBound bound) {
+GraspQuality graspQuality(const GraspSnapshot& grasp, GripBound bound) {
   const WrenchSpace space(grasp, bound);
-  const Basis basis = space.span();
+  const WrenchBasis basis = space.span();
   GraspQuality quality;
   quality.unopposed = 6 - static_cast<int>(basis.cols());
   if (const std::optional<Vec6> pushed = pushedTo(space)) {
@@ -95,18 +95,18 @@ GraspQuality graspQuality(const Grasp& grasp, GripBound bound) {
     quality.weakest = -(basis * radius.normal);
     return quality;
   }
-  quality.closure = quality.unopposed > 0 ? Closure::kPartial : Closure::kFull;
-  if (quality.closure == Closure::kFull) quality.epsilon = radius.bounds;
+  quality.closure = quality.unopposed > 0 ? GraspClosure::kPartial : GraspClosure::kFull;
+  if (quality.closure == GraspClosure::kFull) quality.epsilon = radius.bounds;
   quality.weakest = quality.unopposed > 0 ? namedAcross(grasp, basis) : Vec6(-(basis * radius.normal));
   return quality;
 }
 
-Bounds loadFactor(const Grasp& grasp, const Wrench& load) { return factorOf(grasp, load); }
+ProvenBounds loadFactor(const GraspSnapshot& grasp, const Wrench& load) { return factorOf(grasp, load); }
 
-Bounds minGrip(const Grasp& grasp, const Wrench& load) {
-  Grasp alike = grasp;
+ProvenBounds minGrip(const GraspSnapshot& grasp, const Wrench& load) {
+  GraspSnapshot alike = grasp;
   for (GraspContact& contact : alike.contacts) contact.max_normal = 1;
-  const Bounds factor = factorOf(alike, load);
+  const ProvenBounds factor = factorOf(alike, load);
   const auto inverse = [](double x) { return x > 0 ? 1 / x : kNever; };
   return {inverse(factor.at_most), inverse(factor.at_least)};
 }

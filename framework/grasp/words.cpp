@@ -23,14 +23,14 @@ double distance(const Vec3& point, const Vec3& on_line, const Vec3& direction) {
   return (point - on_line).cross(direction).norm();
 }
 
-std::string pairWords(const Grasp& grasp, const std::vector<std::string>& names, std::size_t a, std::size_t b) {
+std::string pairWords(const GraspSnapshot& grasp, const std::vector<std::string>& names, std::size_t a, std::size_t b) {
   if (grasp.contacts.size() == 2) return "the line between the fingers";
   return "the line between " + names[a] + " and " + names[b];
 }
 
 /// The line between two contacts that the axis runs along; also one that passes them by, if `anywhere`.
-std::optional<std::string> lineOfFingers(const Grasp& grasp, const std::vector<std::string>& names, const Vec3& through,
-                                         const Vec3& axis, bool anywhere) {
+std::optional<std::string> lineOfFingers(const GraspSnapshot& grasp, const std::vector<std::string>& names,
+                                         const Vec3& through, const Vec3& axis, bool anywhere) {
   for (std::size_t a = 0; a < grasp.contacts.size(); ++a) {
     for (std::size_t b = a + 1; b < grasp.contacts.size(); ++b) {
       const Vec3 line = grasp.contacts[b].p - grasp.contacts[a].p;
@@ -45,7 +45,8 @@ std::optional<std::string> lineOfFingers(const Grasp& grasp, const std::vector<s
 }
 
 /// "up", "along the line between the fingers", "sideways", "along (0.6, 0.0, 0.8)".
-std::string direction(const Grasp& grasp, const Vec3& v, const std::vector<std::string>& names, const Vec3& up) {
+std::string direction(const GraspSnapshot& grasp, const Vec3& v, const std::vector<std::string>& names,
+                      const Vec3& up) {
   if (v.dot(up) > kAlong) return "up";
   if (v.dot(up) < -kAlong) return "down";
   if (const auto line = lineOfFingers(grasp, names, grasp.centre, v, true)) return "along " + *line;
@@ -54,8 +55,8 @@ std::string direction(const Grasp& grasp, const Vec3& v, const std::vector<std::
 }
 
 /// "the upright axis", "the horizontal axis (1, 0, 0)", with the point that it passes.
-std::string axisWords(const Grasp& grasp, const Vec3& through, const Vec3& axis, const std::vector<std::string>& names,
-                      const Vec3& up) {
+std::string axisWords(const GraspSnapshot& grasp, const Vec3& through, const Vec3& axis,
+                      const std::vector<std::string>& names, const Vec3& up) {
   if (const auto line = lineOfFingers(grasp, names, through, axis, false)) return *line;
   std::string words = "the axis " + coordinates(axis);
   if (std::abs(axis.dot(up)) > kAlong) words = "an upright axis";
@@ -68,7 +69,8 @@ std::string axisWords(const Grasp& grasp, const Vec3& through, const Vec3& axis,
 
 }  // namespace
 
-std::string motionWords(const Grasp& grasp, const Vec6& motion, const std::vector<std::string>& names, const Vec3& up) {
+std::string motionWords(const GraspSnapshot& grasp, const Vec6& motion, const std::vector<std::string>& names,
+                        const Vec3& up) {
   const Vec3 v = motion.head<3>(), w = motion.tail<3>() / grasp.length;
   const double turning = grasp.length * w.norm(), upright = up.norm() > 0 ? 1 / up.norm() : 0;
   if (turning < kNear * motion.norm()) return "slides " + direction(grasp, v.normalized(), names, upright * up);

@@ -8,7 +8,7 @@ namespace presa {
 
 double gyrationLength(double mass, const Mat3& inertia) { return std::sqrt(inertia.trace() / (2 * mass)); }
 
-WrenchSpace::WrenchSpace(const Grasp& grasp, GripBound bound) : grasp_(grasp), bound_(bound) {}
+WrenchSpace::WrenchSpace(const GraspSnapshot& grasp, GripBound bound) : grasp_(grasp), bound_(bound) {}
 
 // With f_n = 1 the contact's force is n + mu d, d in the unit disc across n, and its torque r mu t n, |t| <= 1. Their
 // power on the motion u is largest where d follows the velocity of the contact point across n, and t the spin about n.

@@ -13,7 +13,7 @@ enum class GripBound {
 /// its support function, which is exact for round friction cones. Thread: any.
 class WrenchSpace {
  public:
-  WrenchSpace(const Grasp& grasp, GripBound bound);
+  WrenchSpace(const GraspSnapshot& grasp, GripBound bound);
 
   /// max of u . w over all wrenches w of the space; `point` gets a wrench that attains it.
   double support(const Vec6& u, Vec6& point) const;
@@ -30,7 +30,7 @@ class WrenchSpace {
  private:
   double ofContact(const GraspContact& contact, const Vec6& u, Vec6& point) const;
 
-  Grasp grasp_;
+  GraspSnapshot grasp_;
   GripBound bound_;
 };
 

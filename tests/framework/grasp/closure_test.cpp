@@ -11,7 +11,7 @@ TEST(Closure, TwoPointFingersLetTheBodyTurnAboutTheLineBetweenThem) {
   for (const double friction : {0.1, 0.8, 3.0}) {
     for (const GripBound bound : {GripBound::kSum, GripBound::kEach}) {
       const GraspQuality quality = graspQuality(pinchGrasp(friction), bound);
-      EXPECT_EQ(quality.closure, Closure::kPartial);
+      EXPECT_EQ(quality.closure, GraspClosure::kPartial);
       EXPECT_EQ(quality.unopposed, 1);
       EXPECT_EQ(quality.epsilon.at_least, 0);  // exactly: from the rank, not from a small number
       EXPECT_EQ(quality.epsilon.at_most, 0);
@@ -21,8 +21,8 @@ TEST(Closure, TwoPointFingersLetTheBodyTurnAboutTheLineBetweenThem) {
 }
 
 /// Two fingers on parallel faces, the line between them `angle` off the normals.
-Grasp skewPinch(double angle, double friction, double torsion) {
-  Grasp grasp;
+GraspSnapshot skewPinch(double angle, double friction, double torsion) {
+  GraspSnapshot grasp;
   const double aside = std::tan(angle);
   grasp.contacts = {{Vec3(-1, -aside, 0), Vec3::UnitX(), friction, torsion, 1},
                     {Vec3(1, aside, 0), -Vec3::UnitX(), friction, torsion, 1}};
@@ -34,10 +34,10 @@ TEST(Closure, TwoSoftFingersNeedTheLineBetweenThemInBothCones) {
   for (const double friction : {0.2, 0.5, 1.0}) {
     const double cone = std::atan(friction);
     for (const double share : {0.0, 0.5, 0.99, 1.01, 1.5}) {
-      const Closure soft = graspQuality(skewPinch(share * cone, friction, 0.1), GripBound::kSum).closure;
-      EXPECT_EQ(soft, share < 1 ? Closure::kFull : Closure::kNone) << friction << ' ' << share;
-      const Closure point = graspQuality(skewPinch(share * cone, friction, 0), GripBound::kSum).closure;
-      EXPECT_EQ(point, share < 1 ? Closure::kPartial : Closure::kNone) << friction << ' ' << share;
+      const GraspClosure soft = graspQuality(skewPinch(share * cone, friction, 0.1), GripBound::kSum).closure;
+      EXPECT_EQ(soft, share < 1 ? GraspClosure::kFull : GraspClosure::kNone) << friction << ' ' << share;
+      const GraspClosure point = graspQuality(skewPinch(share * cone, friction, 0), GripBound::kSum).closure;
+      EXPECT_EQ(point, share < 1 ? GraspClosure::kPartial : GraspClosure::kNone) << friction << ' ' << share;
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(Closure, TheLineMayLeaveNeitherCone) {
   int in_both = 0;
   for (int i = 0; i < 200; ++i) {
     const double friction = random.uniform(0.2, 1);
-    Grasp grasp = pinchGrasp(friction, 0.1);
+    GraspSnapshot grasp = pinchGrasp(friction, 0.1);
     bool inside = true, clear = true;
     for (GraspContact& contact : grasp.contacts) {
       const Vec3 along = contact.inward;
@@ -59,7 +59,7 @@ TEST(Closure, TheLineMayLeaveNeitherCone) {
     }
     if (!clear) continue;
     in_both += inside ? 1 : 0;
-    EXPECT_EQ(graspQuality(grasp, GripBound::kSum).closure, inside ? Closure::kFull : Closure::kNone) << i;
+    EXPECT_EQ(graspQuality(grasp, GripBound::kSum).closure, inside ? GraspClosure::kFull : GraspClosure::kNone) << i;
   }
   EXPECT_GT(in_both, 50);
   EXPECT_LT(in_both, 150);
@@ -67,10 +67,10 @@ TEST(Closure, TheLineMayLeaveNeitherCone) {
 
 // Fingers on one side push the body away, along the mean of their normals.
 TEST(Closure, FingersOnOneSidePushTheBodyAway) {
-  Grasp grasp;
+  GraspSnapshot grasp;
   grasp.contacts = {{Vec3(-1, -0.5, 0), Vec3::UnitX(), 0.8, 0, 1}, {Vec3(-1, 0.5, 0), Vec3::UnitX(), 0.8, 0, 1}};
   const GraspQuality quality = graspQuality(grasp, GripBound::kSum);
-  EXPECT_EQ(quality.closure, Closure::kNone);
+  EXPECT_EQ(quality.closure, GraspClosure::kNone);
   EXPECT_EQ(quality.epsilon.at_most, 0);
   // the nearest wrench to 0 is found by steps that end at 1e-9 of its square
   EXPECT_GT(quality.weakest[0], 0.999);
@@ -79,16 +79,16 @@ TEST(Closure, FingersOnOneSidePushTheBodyAway) {
 // Without friction forces through one point have no torque: three motions of a ball are not opposed.
 TEST(Closure, WithoutFrictionABallTurnsFreely) {
   const GraspQuality quality = graspQuality(tetrahedronGrasp(0), GripBound::kSum);
-  EXPECT_EQ(quality.closure, Closure::kPartial);
+  EXPECT_EQ(quality.closure, GraspClosure::kPartial);
   EXPECT_EQ(quality.unopposed, 3);
   EXPECT_NEAR(quality.weakest.tail<3>().norm(), 1, 1e-9);
 }
 
 TEST(Closure, ASingleFingerHoldsNothing) {
-  Grasp grasp = pinchGrasp(0.8, 0.1);
+  GraspSnapshot grasp = pinchGrasp(0.8, 0.1);
   grasp.contacts.pop_back();
   const GraspQuality quality = graspQuality(grasp, GripBound::kSum);
-  EXPECT_EQ(quality.closure, Closure::kNone);
+  EXPECT_EQ(quality.closure, GraspClosure::kNone);
   EXPECT_NEAR(quality.weakest[0], 1, 1e-4);
 }
 

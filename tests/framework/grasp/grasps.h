@@ -10,18 +10,18 @@
 namespace presa::test {
 
 /// Point fingers on a ball of radius 1 around its centre, each pushing to the middle from the direction given.
-inline Grasp ballGrasp(const std::vector<Vec3>& from, double friction, double torsion = 0) {
-  Grasp grasp;
+inline GraspSnapshot ballGrasp(const std::vector<Vec3>& from, double friction, double torsion = 0) {
+  GraspSnapshot grasp;
   for (const Vec3& d : from) grasp.contacts.push_back({d.normalized(), -d.normalized(), friction, torsion, 1});
   return grasp;
 }
 
-inline Grasp pinchGrasp(double friction, double torsion = 0) {
+inline GraspSnapshot pinchGrasp(double friction, double torsion = 0) {
   return ballGrasp({-Vec3::UnitX(), Vec3::UnitX()}, friction, torsion);
 }
 
 /// Fingers around the upright axis, at equal angles.
-inline Grasp ringGrasp(int fingers, double friction, double torsion = 0) {
+inline GraspSnapshot ringGrasp(int fingers, double friction, double torsion = 0) {
   std::vector<Vec3> from;
   for (int i = 0; i < fingers; ++i) {
     const double angle = 2 * std::numbers::pi * i / fingers;
@@ -30,11 +30,11 @@ inline Grasp ringGrasp(int fingers, double friction, double torsion = 0) {
   return ballGrasp(from, friction, torsion);
 }
 
-inline Grasp tetrahedronGrasp(double friction) {
+inline GraspSnapshot tetrahedronGrasp(double friction) {
   return ballGrasp({Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)}, friction);
 }
 
-inline Grasp moved(Grasp grasp, const Pose& X) {
+inline GraspSnapshot moved(GraspSnapshot grasp, const Pose& X) {
   grasp.centre = X * grasp.centre;
   for (GraspContact& contact : grasp.contacts) {
     contact.p = X * contact.p;
@@ -52,8 +52,8 @@ inline Vec3 anyUnit(RandomStream& random) {
 }
 
 /// Fingers all over a ball, normals up to 20 degrees off the middle, some soft; centre of mass beside the middle.
-inline Grasp anyGrasp(RandomStream& random, int fingers) {
-  Grasp grasp;
+inline GraspSnapshot anyGrasp(RandomStream& random, int fingers) {
+  GraspSnapshot grasp;
   grasp.centre = 0.2 * anyUnit(random);
   for (int i = 0; i < fingers; ++i) {
     const Vec3 d = anyUnit(random);

@@ -9,7 +9,7 @@ namespace presa::test {
 namespace {
 
 /// Both bounds hold, and they meet.
-void expectBounds(const Bounds& bounds, double exact) {
+void expectBounds(const ProvenBounds& bounds, double exact) {
   // a hull's facets and supports are a few hundred roundings of numbers near 1
   EXPECT_LE(bounds.at_least, exact * (1 + 1e-9));
   EXPECT_GE(bounds.at_most, exact * (1 - 1e-9));
@@ -19,7 +19,7 @@ void expectBounds(const Bounds& bounds, double exact) {
 /// An independent oracle: each cone has many edges and is tried edge by edge; polygons are inside by 1 - cos(pi /
 /// edges).
 constexpr int kEdges = 720;
-double supportByEdges(const Grasp& grasp, GripBound bound, const Vec6& u) {
+double supportByEdges(const GraspSnapshot& grasp, GripBound bound, const Vec6& u) {
   double most = 0, sum = 0;
   for (const GraspContact& contact : grasp.contacts) {
     const Vec3 t1 = contact.inward.unitOrthogonal(), t2 = contact.inward.cross(t1);
@@ -55,7 +55,7 @@ TEST(Quality, OfASoftPinchIsItsTorsion) {
   for (const double radius : {0.01, 0.1, 0.2}) {
     const double mu = 0.8, s = mu * radius;
     const GraspQuality sum = graspQuality(pinchGrasp(mu, radius), GripBound::kSum);
-    EXPECT_EQ(sum.closure, Closure::kFull);
+    EXPECT_EQ(sum.closure, GraspClosure::kFull);
     expectBounds(sum.epsilon, s);
     EXPECT_GT(std::abs(sum.weakest[3]), 0.95);
     expectBounds(graspQuality(pinchGrasp(mu, radius), GripBound::kEach).epsilon, 2 * s / std::sqrt(1 + s * s));
@@ -86,20 +86,18 @@ TEST(Quality, BoundsHoldAndMeetForAnyGrasp) {
   RandomStream random(11, "quality");
   int full = 0;
   for (int i = 0; i < 40; ++i) {
-    const Grasp grasp = anyGrasp(random, 2 + i % 4);
+    const GraspSnapshot grasp = anyGrasp(random, 2 + i % 4);
     const GripBound bound = i % 2 == 0 ? GripBound::kSum : GripBound::kEach;
     const GraspQuality quality = graspQuality(grasp, bound);
-    if (quality.closure == Closure::kNone) {
+    if (quality.closure == GraspClosure::kNone) {
       EXPECT_LT(supportByEdges(grasp, bound, -quality.weakest), 1e-6) << i;
       continue;
     }
-    if (quality.closure != Closure::kFull) continue;
+    if (quality.closure != GraspClosure::kFull) continue;
     ++full;
     EXPECT_TRUE(quality.epsilon.met()) << i << ' ' << quality.epsilon.at_least << ' ' << quality.epsilon.at_most;
     EXPECT_LE(quality.epsilon.at_least, quality.epsilon.at_most * (1 + 1e-9)) << i;
     const double weakest = supportByEdges(grasp, bound, -quality.weakest);
-    const double reach =
-        4 * (1 + 1.5);  // four fingers of 2 N at most 1.2 from the centre, friction 1.2: wrenches below
     EXPECT_NEAR(weakest, quality.epsilon.at_most, coarse) << i;
     for (int k = 0; k < 300; ++k) {
       Vec6 u;
@@ -123,11 +121,11 @@ void expectSame(const GraspQuality& a, const GraspQuality& b) {
 TEST(Quality, DependsNeitherOnTheFrameNorOnTheUnitOfLength) {
   RandomStream random(13, "frames");
   for (int i = 0; i < 20; ++i) {
-    const Grasp grasp = anyGrasp(random, 2 + i % 3);
+    const GraspSnapshot grasp = anyGrasp(random, 2 + i % 3);
     const GraspQuality quality = graspQuality(grasp, GripBound::kSum);
     const Pose X{3 * anyUnit(random), Quat(Eigen::AngleAxisd(random.uniform(0, 3), anyUnit(random)))};
     expectSame(quality, graspQuality(moved(grasp, X), GripBound::kSum));
-    Grasp in_mm = grasp;
+    GraspSnapshot in_mm = grasp;
     in_mm.centre *= 1000;
     in_mm.length *= 1000;
     for (GraspContact& contact : in_mm.contacts) {
@@ -142,10 +140,10 @@ TEST(Quality, DependsNeitherOnTheFrameNorOnTheUnitOfLength) {
 TEST(Quality, IsNeverLoweredByAnotherFinger) {
   RandomStream random(17, "fingers");
   for (int i = 0; i < 20; ++i) {
-    Grasp grasp = anyGrasp(random, 3);
+    GraspSnapshot grasp = anyGrasp(random, 3);
     for (const GripBound bound : {GripBound::kSum, GripBound::kEach}) {
       const GraspQuality before = graspQuality(grasp, bound);
-      Grasp more = grasp;
+      GraspSnapshot more = grasp;
       more.contacts.push_back(anyGrasp(random, 1).contacts[0]);
       EXPECT_GE(graspQuality(more, bound).epsilon.at_most, before.epsilon.at_least * (1 - 1e-9)) << i;
     }

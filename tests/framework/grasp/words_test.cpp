@@ -18,7 +18,7 @@ Vec6 motion(const Vec3& v, const Vec3& w) {
 }
 
 TEST(MotionWords, NameTurns) {
-  const auto words = [](const Grasp& grasp, const Vec6& m) { return motionWords(grasp, m, kNames, kUp); };
+  const auto words = [](const GraspSnapshot& grasp, const Vec6& m) { return motionWords(grasp, m, kNames, kUp); };
   const Vec3 o = Vec3::Zero();
   EXPECT_EQ(words(pinchGrasp(1), motion(o, Vec3(-1, 0, 0))), "turns about the line between the fingers");
   EXPECT_EQ(words(pinchGrasp(1), motion(o, Vec3(0, 0, 1))), "turns about an upright axis through the centre of mass");
@@ -31,7 +31,7 @@ TEST(MotionWords, NameTurns) {
 }
 
 TEST(MotionWords, NameTheLineOfTwoOfThreeFingers) {
-  const Grasp grasp = ringGrasp(3, 1);
+  const GraspSnapshot grasp = ringGrasp(3, 1);
   const Vec3 line = grasp.contacts[2].p - grasp.contacts[1].p;
   EXPECT_EQ(motionWords(grasp, motion(line.cross(-grasp.contacts[1].p), line), kNames, kUp),
             "turns about the line between index and middle");
@@ -39,7 +39,7 @@ TEST(MotionWords, NameTheLineOfTwoOfThreeFingers) {
 
 // A pinch above the centre of mass still lets the body turn about the line between the fingers.
 TEST(MotionWords, NameTheLineThatMissesTheCentre) {
-  Grasp grasp = pinchGrasp(0.8);
+  GraspSnapshot grasp = pinchGrasp(0.8);
   grasp.centre = Vec3(0, 0, -0.4);
   EXPECT_EQ(motionWords(grasp, graspQuality(grasp, GripBound::kSum).weakest, kNames, kUp),
             "turns about the line between the fingers");
