@@ -8,6 +8,7 @@
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/grasp_figures.h"
+#include "apps/common/grasp_strength.h"
 #include "apps/common/losses.h"
 
 namespace presa {
@@ -108,6 +109,24 @@ Json turn(const GraspTurn& turn) {
           {"hand_buckled", turn.handBuckled()}};
 }
 
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Of each pair of bounds, the one that is on the safe side.
+void addStrength(const std::optional<GraspStrength>& strength, Json& json) {
+  for (const char* key :
+       {"closure", "quality", "quality_at_most", "quality_otherwise", "weakest", "slip_margin", "min_grip_N"})
+    json[key] = nullptr;
+  if (!strength) return;
+  const GraspQuality& quality = strength->quality;
+  json["closure"] = toString(quality.closure);
+  json["quality"] = quality.epsilon.at_least;
+  json["quality_at_most"] = quality.epsilon.at_most;
+  if (quality.closure == GraspClosure::kPartial) json["quality_otherwise"] = quality.within_span.at_least;
+  json["weakest"] = strength->weakest;
+  json["slip_margin"] = finite(strength->slip_margin.at_least);
+  json["min_grip_N"] = finite(strength->min_grip.at_most);
+}
+
 Json grasp(const RunResult& result, const GraspFigures& figures) {
   Json fingers = Json::array();
   for (const FingerGrasp& finger : figures.fingers) {
@@ -120,14 +139,16 @@ Json grasp(const RunResult& result, const GraspFigures& figures) {
                        {"slip_onset", finger.slip ? slipOnset(*finger.slip) : Json(nullptr)},
                        {"slip_known_to_N", finger.slip ? Json(finger.slip_step) : Json(nullptr)}});
   }
-  return {{"object", result.objects[figures.object].name},
-          {"hold_s", {figures.hold_begin, figures.hold_end}},
-          {"loosen_s", figures.loosen_begin},
-          {"lift_height_m", figures.lift_height},
-          {"held_in_stick_s", figures.held_in_stick},
-          {"turn", figures.turn ? turn(*figures.turn) : Json(nullptr)},
-          {"slip_limit_N", figures.slip_limit},
-          {"fingers", fingers}};
+  Json json = {{"object", result.objects[figures.object].name},
+               {"hold_s", {figures.hold_begin, figures.hold_end}},
+               {"loosen_s", figures.loosen_begin},
+               {"lift_height_m", figures.lift_height},
+               {"held_in_stick_s", figures.held_in_stick},
+               {"turn", figures.turn ? turn(*figures.turn) : Json(nullptr)},
+               {"slip_limit_N", figures.slip_limit}};
+  addStrength(graspStrength(result, figures), json);
+  json["fingers"] = fingers;
+  return json;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ find_package(CycloneDDS REQUIRED)
 find_program(IDLC idlc REQUIRED) # its types from IDL
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 find_library(MUJOCO_LIBRARY mujoco REQUIRED) # Debian's CMake package of it names a folder that does not exist
+pkg_check_modules(QHULL REQUIRED IMPORTED_TARGET qhull_r)
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)
 pkg_check_modules(CRYPTO REQUIRED IMPORTED_TARGET libcrypto)

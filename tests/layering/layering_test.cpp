@@ -96,8 +96,9 @@ TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
       {"libosg", "presa_view_osg.so"},       {"libEGL", "presa_view_osg.so"},
       {"libX11", "presa_view_osg.so"},       {"libhdf5", "presa_record.so"},
       {"libassimp", "presa_mesh_import.so"}, {"libmeshoptimizer", "presa_mesh_decimate.so"},
-      {"libcrypto", "presa_checksum.so"},    {"libusb", "presa_novint_falcon.so"},
-      {"libddsc", "presa_bus_dds.so"},       {"libpng", "presa_texture_image.so"},
+      {"libqhull", "presa_hull.so"},         {"libcrypto", "presa_checksum.so"},
+      {"libusb", "presa_novint_falcon.so"},  {"libddsc", "presa_bus_dds.so"},
+      {"libpng", "presa_texture_image.so"},
   };
   const std::filesystem::path build = PRESA_BINARY_DIR;
   std::vector<std::filesystem::path> binaries{build / "bin/presa", build / "lib/presa/libpresa_framework.so"};

@@ -6,6 +6,7 @@
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/explain/cost.h"
 #include "apps/presa/explain/description.h"
+#include "apps/presa/explain/grasp.h"
 #include "apps/presa/explain/printout.h"
 #include "framework/core/diagnostics/printable.h"
 
@@ -16,6 +17,7 @@ struct ExplainArguments {
   Inputs inputs;
   std::string format = "text";
   bool cost = false;
+  bool grasp = false;
   bool record = false;
   std::string view = "none";
   std::optional<BusSettings> bus;
@@ -46,6 +48,11 @@ int explain(const ExplainArguments& arguments) {
   Loaded loaded = loadWorld(arguments.inputs, optionsOf(arguments, scratch), diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
+  if (arguments.grasp && arguments.format == "dot") {
+    std::fputs("--format: error[E123]: --grasp prints text or json, found dot\n", stderr);
+    return kExitBadInput;
+  }
+  if (arguments.grasp) return explainGrasp(std::move(loaded), arguments.format == "json");
   RunControl control;
   Session::Options options;
   options.open_devices = arguments.cost;
@@ -64,20 +71,30 @@ int explain(const ExplainArguments& arguments) {
 
 void addExplain(Command app, int& status) {
   auto arguments = std::make_shared<ExplainArguments>();
-  Command command = app.command("explain", "Show which parts a scene needs, why, and which are left out");
+  Command command =
+      app.command("explain", "Show which parts a scene needs and why, what they cost, how good its grasp is");
   command.option("SCENE", arguments->inputs.scene, "scene file").required();
   command.option("--rig", arguments->inputs.rig, "rig file instead of the scene's own");
   command.option("--set", arguments->inputs.sets, "PATH=VALUE; may be repeated").oneValueEach();
   command.option("--format", arguments->format, "text, json or dot (for graphviz)").oneOf({"text", "json", "dot"});
-  command.flag("--record", arguments->record, "explain a run that is recorded (to a file that is thrown away)");
+  Option record =
+      command.flag("--record", arguments->record, "explain a run that is recorded (to a file that is thrown away)");
   command.option("--view", arguments->view, "explain a run with this view: window, offscreen or none (default)")
       .oneOf({"window", "offscreen", "none"});
   addBusOptions(command, arguments->bus, "explain a run that is published");
-  command.flag("--cost", arguments->cost,
-               "play the scene with its devices (10 s of it at most) and tell for each module the wall time of\n"
-               "one step, median and p99.9, and the median's share of its thread's period");
+  Option cost =
+      command.flag("--cost", arguments->cost,
+                   "play the scene with its devices (10 s of it at most) and tell for each module the wall time of\n"
+                   "one step, median and p99.9, and the median's share of its thread's period");
+  command
+      .flag("--grasp", arguments->grasp,
+            "play the scene to the end of its scripted hold and tell how good the grasp is: what the fingers resist,\n"
+            "what least, and by how much the weight may grow before a finger slips (text or json)")
+      .excludes(cost)
+      .excludes(record);
   command.footer(
       "Examples:  presa explain config/scenes/cube.xml --cost\n"
+      "           presa explain config/scenes/cube.xml --grasp\n"
       "           presa explain config/scenes/cube.xml --cost --record --view offscreen\n"
       "           presa explain config/scenes/cube.xml --format dot | dot -Tsvg > cube.svg");
   command.action([arguments, &status] { status = explain(*arguments); });
