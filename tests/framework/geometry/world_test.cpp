@@ -43,25 +43,25 @@ TEST(Inertia, FollowsTheGeometryInTheBody) {
   const Pose X_BG{Vec3(0.1, 0, -0.2), Quat(Eigen::AngleAxisd(pi / 2, Vec3::UnitX()))};
   Diagnostics diagnostics;
   Body body = freeBody(Box{{0.1, 0.2, 0.4}}, 0.6, X_BG);
-  const BodyInertia by_mass = inertiaOf(body, nullptr, diagnostics);
+  const BodyInertia by_mass = inertiaOf(body, {}, diagnostics);
   EXPECT_LT((by_mass.p_BCm - X_BG.p).norm(), 1e-15);
   EXPECT_LT((by_mass.inertia - Mat3(Vec3(0.05 * 0.20, 0.05 * 0.05, 0.05 * 0.17).asDiagonal())).norm(), 1e-15);
   body.mass.reset();
   body.density = 0.6 / (0.1 * 0.2 * 0.4);
-  EXPECT_LT((inertiaOf(body, nullptr, diagnostics).inertia - by_mass.inertia).norm(), 1e-15);
+  EXPECT_LT((inertiaOf(body, {}, diagnostics).inertia - by_mass.inertia).norm(), 1e-15);
   EXPECT_TRUE(diagnostics.all().empty());
 }
 
 TEST(Inertia, RefusesWhatCannotMove) {
   for (const Body& body : {freeBody(Box{{0.1, 0, 0.1}}, 1), freeBody(Sphere{0.1}, -1), freeBody(Sphere{0.1}, 0)}) {
     Diagnostics diagnostics;
-    inertiaOf(body, nullptr, diagnostics);
+    inertiaOf(body, {}, diagnostics);
     ASSERT_EQ(diagnostics.errorCount(), 1u);
     EXPECT_EQ(diagnostics.all()[0].code, 321);
   }
   Diagnostics diagnostics;
   Body ghost;
-  inertiaOf(ghost, nullptr, diagnostics);
+  inertiaOf(ghost, {}, diagnostics);
   EXPECT_EQ(diagnostics.all().at(0).code, 320);
 }
 
