@@ -2,7 +2,6 @@
 // the hull of what is left in every cell fills no hollow. Cells are half spaces, so that no cut needs a new surface: the
 // corners of solid and cell are those of the clipped triangles, and corners of the cell inside the solid.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "framework/geometry/closest_point.h"
@@ -17,7 +16,9 @@ constexpr std::size_t kSamples = 300;       // patches of a cell that are looked
 constexpr std::size_t kCandidates = 10;     // planes that are tried for a cut
 constexpr std::size_t kHullVertices = 160;  // of a cell, while it is cut
 constexpr std::size_t kFewVertices = kMaxPieceFaces / 2 + 2;  // a hull of so many has no more faces (Euler)
-constexpr double kFinished = 0.3;           // what a finished piece is worth, in relation to its volume
+constexpr double kLess = 1 - 1e-6;          // volume left by a cut that takes a hollow away
+constexpr double kUneven = 0.3;             // what an unfinished part costs, by its share of the surface squared
+constexpr double kShareOfMean = 0.3;        // surface of a piece worth a cut of its own, by the mean of those still possible
 
 struct Plane {
   Vec3 nhat = Vec3::UnitX();
@@ -36,7 +37,8 @@ struct Cell {
   std::vector<Vec3> corners;  // of the cell, where three cuts meet
   std::vector<Vec3> points;   // of the solid in the cell
   TriMesh hull;
-  double volume = 0, hollow = 0;
+  double volume = 0, hollow = 0;  // of the hull
+  double area = 0;                // of the patches
   struct Deep {
     double hollow;
     std::size_t patch;
@@ -57,6 +59,12 @@ Vec3 centreOf(const std::vector<Vec3>& points) {
   return sum / static_cast<double>(points.size());
 }
 
+double areaOf(const std::vector<Vec3>& corners) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+  return sum.norm() / 2;
+}
+
 class Cutter {
  public:
   Cutter(const TriMesh& mesh, double max_error) : mesh_(mesh), tree_(mesh), max_error_(max_error) {
@@ -66,18 +74,13 @@ class Cutter {
   }
 
   std::optional<Cell> whole() const;
-  /// The two parts of a cell by the best plane: of a face if that finishes a piece, else also square to an axis. None
-  /// when no plane divides it.
-  std::optional<std::array<Cell, 2>> cut(const Cell& cell) const;
+  /// The parts of a cell by the best of some planes; none when no plane divides it. A plane that finishes at least
+  /// `min_share` of the cell's surface comes first.
+  std::vector<Cell> cut(const Cell& cell, double min_share) const;
   bool isFinished(const Cell& cell) const { return cell.hollow <= max_error_; }
 
  private:
-  struct Cut {
-    std::optional<std::array<Cell, 2>> parts;
-    double score = 0;  // volume of their hulls, less what a finished piece is worth
-    bool finishes = false;
-  };
-  Cut bestOf(const Cell& cell, const std::vector<Plane>& planes) const;
+  std::vector<Cell> partsBy(const Cell& cell, const Plane& plane) const;
   bool measure(Cell& cell) const;
   double hollowAt(const std::vector<Plane>& hull, const Vec3& p, const Vec3& nhat) const;
   std::vector<Plane> candidates(const Cell& cell) const;
@@ -118,6 +121,7 @@ double Cutter::hollowAt(const std::vector<Plane>& hull, const Vec3& p, const Vec
 /// Hull and hollows of a new cell. False when there is nothing of the solid in it.
 bool Cutter::measure(Cell& cell) const {
   cell.points.clear();
+  for (const Patch& patch : cell.patches) cell.area += areaOf(patch.corners);
   for (const Patch& patch : cell.patches) cell.points.insert(cell.points.end(), patch.corners.begin(), patch.corners.end());
   for (const Vec3& corner : cell.corners) {
     if (tree_.isInside(corner)) cell.points.push_back(corner);
@@ -215,32 +219,48 @@ std::vector<Plane> Cutter::candidates(const Cell& cell) const {
   return planes;
 }
 
-Cutter::Cut Cutter::bestOf(const Cell& cell, const std::vector<Plane>& planes) const {
-  Cut best;
-  for (const Plane& plane : planes) {
-    std::optional<Cell> behind = part(cell, plane), before = part(cell, {-plane.nhat, -plane.offset});
-    if (!behind || !before) continue;
-    double score = behind->volume + before->volume;
-    bool finishes = false;
-    for (const Cell* one : {&*behind, &*before}) {
-      if (!isFinished(*one)) continue;
-      score -= kFinished * one->volume * (1 - one->hollow / max_error_);
-      finishes = true;
-    }
-    if (best.parts && score >= best.score - 1e-9 * cell.volume) continue;
-    best = {{{std::move(*behind), std::move(*before)}}, score, finishes};
+/// The parts on both sides of a plane; one where the plane takes only a hollow away; none where it changes nothing.
+std::vector<Cell> Cutter::partsBy(const Cell& cell, const Plane& plane) const {
+  std::vector<Cell> parts;
+  for (const Plane& side : {plane, Plane{-plane.nhat, -plane.offset}}) {
+    if (std::optional<Cell> one = part(cell, side)) parts.push_back(std::move(*one));
   }
-  return best;
+  if (parts.size() == 1 && parts[0].volume > kLess * cell.volume) parts.clear();
+  return parts;
 }
 
-std::optional<std::array<Cell, 2>> Cutter::cut(const Cell& cell) const {
-  Cut by_face = bestOf(cell, candidates(cell));
-  if (by_face.finishes) return std::move(by_face.parts);
-  std::vector<Plane> square;
-  for (int axis = 0; axis < 3; ++axis) square.push_back({Vec3::Unit(axis), cell.deep.front().p[axis]});
-  Cut across = bestOf(cell, square);
-  if (!by_face.parts) return std::move(across.parts);
-  return across.parts && across.score < by_face.score ? std::move(across.parts) : std::move(by_face.parts);
+/// A face whose plane finishes a piece comes first, as long as pieces of that size are few enough; among others a plane
+/// that takes hollows away and leaves parts of one size.
+std::vector<Cell> Cutter::cut(const Cell& cell, double min_share) const {
+  std::vector<Cell> best, finishing;
+  double best_score = 1e300, most_finished = 0;
+  const auto look = [&](const Plane& plane) {
+    std::vector<Cell> parts = partsBy(cell, plane);
+    if (parts.empty()) return;
+    double score = 0, finished = 0, share_finished = 0;
+    for (const Cell& one : parts) {
+      const double share = one.area / cell.area;
+      score += one.volume / cell.volume;
+      if (isFinished(one)) {
+        finished += one.volume;
+        share_finished += share;
+      } else {
+        score += kUneven * share * share;
+      }
+    }
+    if (share_finished >= min_share && finished > (1 + 1e-9) * most_finished) {
+      most_finished = finished;
+      finishing = parts;
+    }
+    if (score >= best_score - 1e-9) return;
+    best_score = score;
+    best = std::move(parts);
+  };
+  for (const Plane& plane : candidates(cell)) look(plane);
+  if (!finishing.empty()) return finishing;
+  const AxisBox bounds = boundsOf(cell.hull);
+  for (int axis = 0; axis < 3; ++axis) look({Vec3::Unit(axis), (bounds.low[axis] + bounds.high[axis]) / 2});
+  return best;
 }
 
 /// Coplanar triangles counted once.
@@ -266,17 +286,23 @@ std::vector<TriMesh> decompose(const TriMesh& mesh, std::size_t max_pieces, doub
   std::vector<Cell> cells, done;
   if (std::optional<Cell> whole = cutter.whole()) cells.push_back(std::move(*whole));
   while (!cells.empty()) {
+    double area = 0;
+    for (const Cell& cell : cells) area += cell.area;
     const auto deepest = std::max_element(cells.begin(), cells.end(),
                                           [](const Cell& a, const Cell& b) { return a.hollow < b.hollow; });
     Cell cell = std::move(*deepest);
     cells.erase(deepest);
-    std::optional<std::array<Cell, 2>> parts;
-    if (!cutter.isFinished(cell) && cells.size() + done.size() + 2 <= max_pieces) parts = cutter.cut(cell);
-    if (!parts) {
+    const std::size_t pieces = cells.size() + done.size() + 1;
+    std::vector<Cell> parts;
+    if (!cutter.isFinished(cell) && pieces < max_pieces) {
+      const double its_pieces = static_cast<double>(max_pieces - done.size()) * cell.area / area;
+      parts = cutter.cut(cell, kShareOfMean / its_pieces);
+    }
+    if (parts.empty()) {
       done.push_back(std::move(cell));
       continue;
     }
-    for (Cell& part : *parts) cells.push_back(std::move(part));
+    for (Cell& part : parts) cells.push_back(std::move(part));
   }
   std::vector<TriMesh> pieces;
   for (const Cell& cell : done) pieces.push_back(pieceOf(cell));

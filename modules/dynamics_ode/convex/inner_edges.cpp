@@ -53,6 +53,7 @@ InnerEdges::InnerEdges(const BodySet& bodies) {
   if (most == 1) return;
   meetings_.reserve(kMeetingsPerShape * most);
   candidates_.reserve(kContactsPerBody * most);
+  outline_.makeRoom(kContactsPerBody * most);
 }
 
 // All contacts of one manifold go or stay together.
@@ -115,6 +116,7 @@ void InnerEdges::remove(const BodySet& bodies, std::vector<BodyContact>& contact
   }
   const auto begin = contacts.begin() + static_cast<std::ptrdiff_t>(first);
   contacts.erase(std::remove_if(begin, contacts.end(), [](const BodyContact& c) { return c.B < 0; }), contacts.end());
+  outline_.remove(contacts, first, near);
 }
 
 }  // namespace presa::ode
