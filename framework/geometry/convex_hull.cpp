@@ -11,7 +11,7 @@ namespace {
 constexpr double kOutside = 1e-7;   // a point nearer than this to the hull adds nothing to it
 constexpr double kVisible = 1e-11;  // a face is seen from a point this far in front of it
 constexpr double kBulge = 1e-5;
-constexpr double kFlat = 1e-9;      // volume of the first tetrahedron
+constexpr double kFlat = 1e-9;  // volume of the first tetrahedron
 
 struct HullFace {
   std::array<std::int32_t, 3> corners;

@@ -11,14 +11,14 @@
 namespace presa {
 namespace {
 
-constexpr double kOnPlane = 1e-7;           // in relation to the size of the mesh
-constexpr std::size_t kSamples = 300;       // patches of a cell that are looked at
-constexpr std::size_t kCandidates = 10;     // planes that are tried for a cut
-constexpr std::size_t kHullVertices = 160;  // of a cell, while it is cut
+constexpr double kOnPlane = 1e-7;                             // in relation to the size of the mesh
+constexpr std::size_t kSamples = 300;                         // patches of a cell that are looked at
+constexpr std::size_t kCandidates = 10;                       // planes that are tried for a cut
+constexpr std::size_t kHullVertices = 160;                    // of a cell, while it is cut
 constexpr std::size_t kFewVertices = kMaxPieceFaces / 2 + 2;  // a hull of so many has no more faces (Euler)
-constexpr double kLess = 1 - 1e-6;          // volume left by a cut that takes a hollow away
-constexpr double kUneven = 0.3;             // what an unfinished part costs, by its share of the surface squared
-constexpr double kShareOfMean = 0.3;        // surface of a piece worth a cut of its own, by the mean of those still possible
+constexpr double kLess = 1 - 1e-6;                            // volume left by a cut that takes a hollow away
+constexpr double kUneven = 0.3;       // what an unfinished part costs, by its share of the surface squared
+constexpr double kShareOfMean = 0.3;  // surface of a piece worth a cut of its own, by the mean of those still possible
 
 struct Plane {
   Vec3 nhat = Vec3::UnitX();
@@ -61,8 +61,17 @@ Vec3 centreOf(const std::vector<Vec3>& points) {
 
 double areaOf(const std::vector<Vec3>& corners) {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
   return sum.norm() / 2;
+}
+
+/// Patches share their corners.
+void dropEqual(std::vector<Vec3>& points) {
+  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
 class Cutter {
@@ -99,7 +108,8 @@ std::optional<Cell> Cutter::whole() const {
   Cell cell;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     Patch patch{{}, t};
-    for (const std::int32_t v : mesh_.triangles[t]) patch.corners.push_back(mesh_.vertices[static_cast<std::size_t>(v)]);
+    for (const std::int32_t v : mesh_.triangles[t])
+      patch.corners.push_back(mesh_.vertices[static_cast<std::size_t>(v)]);
     cell.patches.push_back(std::move(patch));
   }
   if (!measure(cell)) return std::nullopt;
@@ -114,7 +124,7 @@ double Cutter::hollowAt(const std::vector<Plane>& hull, const Vec3& p, const Vec
     if (along > 0) out = std::min(out, (plane.offset - plane.nhat.dot(p)) / along);
   }
   if (!(out > kOnPlane * size_)) return 0;
-  const double across = tree_.firstHit(p + kOnPlane * size_ * nhat, nhat);
+  const double across = tree_.firstHit(p + kOnPlane * size_ * nhat, nhat, out);
   return across < out ? across / 2 : out;
 }
 
@@ -122,10 +132,12 @@ double Cutter::hollowAt(const std::vector<Plane>& hull, const Vec3& p, const Vec
 bool Cutter::measure(Cell& cell) const {
   cell.points.clear();
   for (const Patch& patch : cell.patches) cell.area += areaOf(patch.corners);
-  for (const Patch& patch : cell.patches) cell.points.insert(cell.points.end(), patch.corners.begin(), patch.corners.end());
+  for (const Patch& patch : cell.patches)
+    cell.points.insert(cell.points.end(), patch.corners.begin(), patch.corners.end());
   for (const Vec3& corner : cell.corners) {
     if (tree_.isInside(corner)) cell.points.push_back(corner);
   }
+  dropEqual(cell.points);
   std::optional<TriMesh> hull = convexHull(cell.points, kHullVertices);
   if (!hull) return false;
   cell.hull = std::move(*hull);
@@ -186,8 +198,8 @@ void Cutter::addCorners(Cell& cell, const Cell& of) const {
       const Vec3 across = a.nhat.cross(b.nhat);
       const double volume = last.nhat.dot(across);
       if (std::abs(volume) < 1e-9) continue;
-      const Vec3 p = (last.offset * across + a.offset * b.nhat.cross(last.nhat) + b.offset * last.nhat.cross(a.nhat)) /
-                     volume;
+      const Vec3 p =
+          (last.offset * across + a.offset * b.nhat.cross(last.nhat) + b.offset * last.nhat.cross(a.nhat)) / volume;
       if (in_cell(p)) cell.corners.push_back(p);
     }
   }
@@ -288,8 +300,8 @@ std::vector<TriMesh> decompose(const TriMesh& mesh, std::size_t max_pieces, doub
   while (!cells.empty()) {
     double area = 0;
     for (const Cell& cell : cells) area += cell.area;
-    const auto deepest = std::max_element(cells.begin(), cells.end(),
-                                          [](const Cell& a, const Cell& b) { return a.hollow < b.hollow; });
+    const auto deepest =
+        std::max_element(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.hollow < b.hollow; });
     Cell cell = std::move(*deepest);
     cells.erase(deepest);
     const std::size_t pieces = cells.size() + done.size() + 1;
@@ -323,36 +335,39 @@ void forEachSample(const TriMesh& mesh, Look look) {
   }
 }
 
-/// Of a point from a convex mesh, 0 inside.
-double distanceFrom(const TriMesh& convex, const SurfaceTree& tree, const Vec3& p) {
-  for (std::size_t t = 0; t < convex.triangles.size(); ++t) {
-    const Plane plane = planeOf(convex, t);
-    if (plane.nhat.dot(p) > plane.offset) return std::sqrt(tree.squaredDistance(p, 1e300));
+/// A convex mesh, to measure from.
+struct Piece {
+  explicit Piece(const TriMesh& mesh) : tree(mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) planes.push_back(planeOf(mesh, t));
   }
-  return 0;
-}
+  bool holds(const Vec3& p) const {
+    return std::all_of(planes.begin(), planes.end(),
+                       [&](const Plane& plane) { return plane.nhat.dot(p) <= plane.offset; });
+  }
+  SurfaceTree tree;
+  std::vector<Plane> planes;
+};
 
 }  // namespace
 
 double hausdorffDistance(const TriMesh& mesh, const std::vector<TriMesh>& pieces) {
   if (pieces.empty()) return 0;
-  const SurfaceTree tree(mesh);
-  std::vector<SurfaceTree> trees;
-  for (const TriMesh& piece : pieces) trees.emplace_back(piece);
-  double largest = 0;
+  const std::vector<Piece> all(pieces.begin(), pieces.end());
+  double largest = 0;  // squared
   forEachSample(mesh, [&](const Vec3& p) {
+    if (std::any_of(all.begin(), all.end(), [&](const Piece& piece) { return piece.holds(p); })) return;
     double nearest = 1e300;
-    for (std::size_t i = 0; i < pieces.size() && nearest > largest; ++i)
-      nearest = std::min(nearest, distanceFrom(pieces[i], trees[i], p));
+    for (const Piece& piece : all) nearest = piece.tree.squaredDistance(p, nearest);
     largest = std::max(largest, nearest);
   });
+  const SurfaceTree tree(mesh);
   for (const TriMesh& piece : pieces) {
     forEachSample(piece, [&](const Vec3& p) {
-      const double distance = std::sqrt(tree.squaredDistance(p, 1e300));
-      if (distance > largest && !tree.isInside(p)) largest = distance;
+      if (tree.isInside(p)) return;
+      largest = std::max(largest, tree.squaredDistance(p, 1e300));
     });
   }
-  return largest;
+  return std::sqrt(largest);
 }
 
 }  // namespace presa

@@ -82,7 +82,8 @@ void SurfaceTree::follow(std::size_t index, Ray& ray) const {
   const Node& node = nodes_[index];
   const Vec3 to_low = (node.box.low - ray.p).cwiseProduct(ray.inverse),
              to_high = (node.box.high - ray.p).cwiseProduct(ray.inverse);
-  if (to_low.cwiseMax(to_high).minCoeff() < std::max(0.0, to_low.cwiseMin(to_high).maxCoeff())) return;
+  const double enter = std::max(0.0, to_low.cwiseMin(to_high).maxCoeff());
+  if (to_low.cwiseMax(to_high).minCoeff() < enter || enter > ray.end) return;
   if (node.right != 0) {
     follow(index + 1, ray);
     follow(node.right, ray);
@@ -92,22 +93,22 @@ void SurfaceTree::follow(std::size_t index, Ray& ray) const {
     const std::size_t t = order_[i];
     const double hit = hitOf(ray.p, ray.direction, corner(t, 0), corner(t, 1), corner(t, 2));
     if (hit == kNowhere) continue;
-    ray.first = std::min(ray.first, hit);
     ++ray.crossings;
+    if (ray.ends_at_hit) ray.end = std::min(ray.end, hit);
   }
 }
 
-double SurfaceTree::firstHit(const Vec3& p, const Vec3& direction) const {
-  Ray ray{p, direction, direction.cwiseInverse(), kNowhere};
+double SurfaceTree::firstHit(const Vec3& p, const Vec3& direction, double bound) const {
+  Ray ray{p, direction, direction.cwiseInverse(), bound, true};
   follow(0, ray);
-  return ray.first;
+  return ray.end;
 }
 
 bool SurfaceTree::isInside(const Vec3& p) const {
   int inside = 0;
   // along no axis, so that they seldom run through an edge
   for (const Vec3& direction : {Vec3(0.62, 0.41, 0.67), Vec3(-0.53, 0.71, 0.46), Vec3(0.37, -0.58, -0.73)}) {
-    Ray ray{p, direction, direction.cwiseInverse(), kNowhere};
+    Ray ray{p, direction, direction.cwiseInverse(), kNowhere, false};
     follow(0, ray);
     inside += static_cast<int>(ray.crossings % 2);
   }

@@ -13,8 +13,8 @@ class SurfaceTree {
 
   /// Squared distance of p from the mesh [m^2], or `bound` when it is larger.
   double squaredDistance(const Vec3& p, double bound) const { return search(0, p, bound); }
-  /// Distance along `direction` (unit) at which a ray from p first meets the mesh [m]; infinity: nowhere.
-  double firstHit(const Vec3& p, const Vec3& direction) const;
+  /// Distance along `direction` (unit) at which a ray from p first meets the mesh [m]; `bound` when it is larger.
+  double firstHit(const Vec3& p, const Vec3& direction, double bound) const;
   /// Whether p is inside of a closed mesh: most of three rays cross it an odd number of times.
   bool isInside(const Vec3& p) const;
 
@@ -26,7 +26,8 @@ class SurfaceTree {
   };
   struct Ray {
     Vec3 p, direction, inverse;
-    double first;
+    double end;  // what lies beyond is not looked at
+    bool ends_at_hit;
     std::size_t crossings = 0;
   };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <map>
 #include <tuple>
 
@@ -13,7 +14,7 @@
 namespace presa {
 namespace {
 
-enum Code { kNotConvex = 322 };
+enum Code { kNotConvex = 322, kFarFromMesh = 323 };
 
 using MeshPointer = std::shared_ptr<const TriMesh>;
 
@@ -83,24 +84,44 @@ class Decomposer {
   std::map<std::tuple<const TriMesh*, std::size_t, double>, ConvexPieces> known_;
 };
 
+std::string millimetres(double length) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * length);
+  return text;
+}
+
+void warnIfFar(const Body& body, const MeshRef& mesh, const SourceLocation& where, const ConvexPieces& found,
+               Diagnostics& diagnostics) {
+  const Decomposition& wanted = *mesh.decompose;
+  if (found.error <= wanted.max_error) return;
+  diagnostics.warning(kFarFromMesh, where,
+                      "body '" + body.name + "': " + std::to_string(found.pieces.size()) +
+                          " convex pieces differ from " + mesh.file + " by " + millimetres(found.error) +
+                          ", wanted: up to " + millimetres(wanted.max_error),
+                      "more max_pieces (found " + std::to_string(wanted.max_pieces) +
+                          ", up to 256), a larger max_error, or a mesh of fewer and larger faces");
+}
+
 /// Decomposes the meshes of a physics geometry that ask for it; of several shapes each must be convex then (E322).
 void makeConvex(const Body& body, BodyMeshes& meshes, Decomposer& decomposer, Diagnostics& diagnostics) {
   if (!body.physics) return;
-  const auto look = [&](const Shape& shape, const MeshPointer& mesh, std::size_t index, std::size_t count) {
+  const auto look = [&](const Shape& shape, const SourceLocation& where, const MeshPointer& mesh, std::size_t index,
+                        std::size_t count) {
     const auto* ref = std::get_if<MeshRef>(&shape);
     if (ref == nullptr || !ref->decompose) return false;
     meshes.decomposed.resize(count);
     meshes.decomposed[index] = decomposer.cut(mesh, *ref->decompose);
+    warnIfFar(body, *ref, where, meshes.decomposed[index], diagnostics);
     return true;
   };
   const auto* compound = std::get_if<Compound>(&body.physics->shape);
   if (compound == nullptr) {
-    look(body.physics->shape, meshes.physics, 0, 1);
+    look(body.physics->shape, body.physics->where, meshes.physics, 0, 1);
     return;
   }
   for (std::size_t k = 0; k < compound->parts.size(); ++k) {
     const ShapePart& part = compound->parts[k];
-    if (look(part.shape, meshes.parts[k], k, compound->parts.size())) continue;
+    if (look(part.shape, part.where, meshes.parts[k], k, compound->parts.size())) continue;
     if (!meshes.parts[k] || isConvex(*meshes.parts[k])) continue;
     diagnostics.error(kNotConvex, part.where,
                       "body '" + body.name + "': mesh " + std::get<MeshRef>(part.shape).file +

@@ -17,7 +17,7 @@ struct ConvexPieces {
 /// Meshes of one body; null where the geometry is a primitive or absent.
 struct BodyMeshes {
   std::shared_ptr<const TriMesh> visual, haptic, physics;
-  std::shared_ptr<const MeshTree> haptic_tree;  ///< hierarchy over `haptic`; null when no finger can touch it
+  std::shared_ptr<const MeshTree> haptic_tree;          ///< hierarchy over `haptic`; null when no finger can touch it
   std::vector<std::shared_ptr<const TriMesh>> parts{};  ///< physics, of a Compound: by part; else empty
   std::vector<ConvexPieces> decomposed{};  ///< physics, by shape, no pieces: as it is; empty: none is decomposed
 };

@@ -30,7 +30,8 @@ std::unique_ptr<btCollisionShape> shapeOf(const Shape& shape, const Body& body) 
   if (const auto* rod = std::get_if<Capsule>(&shape))
     return std::make_unique<btCapsuleShapeZ>(rod->radius, rod->length);
   Diagnostics diagnostics;
-  diagnostics.error(582, body.physics->where, "body '" + body.name + "': dynamics_bullet has no mesh as physics geometry",
+  diagnostics.error(582, body.physics->where,
+                    "body '" + body.name + "': dynamics_bullet has no mesh as physics geometry",
                     "use a box, sphere, cylinder or capsule, or engine=\"ode\"");
   throw InputError(diagnostics);
 }

@@ -22,8 +22,7 @@ std::string pose(const Pose& X) {
 }
 
 std::string shape(const Shape& shape, const Body& body) {
-  if (const auto* box = std::get_if<Box>(&shape))
-    return "type=\"box\" size=\"" + numbers(box->size / 2) + "\"";
+  if (const auto* box = std::get_if<Box>(&shape)) return "type=\"box\" size=\"" + numbers(box->size / 2) + "\"";
   if (const auto* sphere = std::get_if<Sphere>(&shape))
     return "type=\"sphere\" size=\"" + number(sphere->radius) + "\"";
   if (const auto* rod = std::get_if<Cylinder>(&shape))
@@ -31,7 +30,8 @@ std::string shape(const Shape& shape, const Body& body) {
   if (const auto* rod = std::get_if<Capsule>(&shape))
     return "type=\"capsule\" size=\"" + number(rod->radius) + number(rod->length / 2) + "\"";
   Diagnostics diagnostics;
-  diagnostics.error(580, body.physics->where, "body '" + body.name + "': dynamics_mujoco has no mesh as physics geometry",
+  diagnostics.error(580, body.physics->where,
+                    "body '" + body.name + "': dynamics_mujoco has no mesh as physics geometry",
                     "use a box, sphere, cylinder or capsule, or engine=\"ode\"");
   throw InputError(diagnostics);
 }

@@ -109,7 +109,8 @@ bool BodyContacts::collideHulls(const BodySet& bodies, const Meeting& of, double
                                 std::vector<BodyContact>& contacts) {
   const std::size_t A = of.A, B = of.B;
   const double near = h > 0 ? kNear * std::min(bodies.extent(A), bodies.extent(B)) : 0;
-  const Manifold* manifold = hull_contacts_.find(bodies, of.shape_A, of.shape_B, std::max(near, reach(bodies, A, B, h)));
+  const Manifold* manifold =
+      hull_contacts_.find(bodies, of.shape_A, of.shape_B, std::max(near, reach(bodies, A, B, h)));
   if (manifold == nullptr) return false;
   const bool all = foresight_ == Foresight::kAround && !bodies.asleep(A) && !bodies.asleep(B);
   for (int i = 0; i < manifold->count; ++i) {

@@ -152,8 +152,7 @@ Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
 double BodySet::reach(std::size_t i, double h) const {
   if (!moves(i)) return 0;
   const Entry& entry = bodies_[i];
-  return h *
-         (toVec3(dBodyGetLinearVel(entry.body)).norm() + toVec3(dBodyGetAngularVel(entry.body)).norm() * entry.rim);
+  return h * (toVec3(dBodyGetLinearVel(entry.body)).norm() + toVec3(dBodyGetAngularVel(entry.body)).norm() * entry.rim);
 }
 
 void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {

@@ -168,7 +168,7 @@ class BodySet {
     Shapes shapes;           ///< none: no collisions
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
-    double mass = 0, extent = 0, rim = 0;  // rim: for reach(), about the centre of mass
+    double mass = 0, extent = 0, rim = 0;      // rim: for reach(), about the centre of mass
     double added_mass = 0, added_inertia = 0;  // in the solves alone
     bool still = false;                        // an obstacle: frozen or put
     bool frozen = false;                       // permanently still after a fault

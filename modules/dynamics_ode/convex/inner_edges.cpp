@@ -9,8 +9,8 @@ namespace presa::ode {
 namespace {
 
 constexpr std::size_t kMeetingsPerShape = 4;
-constexpr double kNearby = 1e-3;          // in relation to the smaller body: steps of a seam, distance of equal points
-constexpr double kSameDirection = 1e-9;   // 1 - cosine of the normals of contacts in one plane
+constexpr double kNearby = 1e-3;           // in relation to the smaller body: steps of a seam, distance of equal points
+constexpr double kSameDirection = 1e-9;    // 1 - cosine of the normals of contacts in one plane
 constexpr double kMergedDirection = 1e-3;  // of equal contacts
 
 /// Support in the unit direction nhat_W: max of nhat_W . p_W.
@@ -31,7 +31,8 @@ double distanceFrom(const Hull& hull, const Pose& X_WG, const Vec3& p_W) {
   if (hull.cylinder) {
     return std::max(std::hypot(p.x(), p.y()) - hull.cylinder->radius, std::abs(p.z()) - hull.cylinder->length / 2);
   }
-  if (hull.faces.empty()) return (p - closestOnSegment(p, hull.vertices.front(), hull.vertices.back())).norm() - hull.radius;
+  if (hull.faces.empty())
+    return (p - closestOnSegment(p, hull.vertices.front(), hull.vertices.back())).norm() - hull.radius;
   double farthest = -1e300;
   for (const Hull::Face& face : hull.faces) farthest = std::max(farthest, face.nhat.dot(p) - face.offset);
   return farthest;
@@ -41,7 +42,8 @@ double distanceFrom(const Hull& hull, const Pose& X_WG, const Vec3& p_W) {
 bool keepsApart(const BodySet& bodies, const BodyContact& with, std::size_t A, std::size_t B, double near) {
   const Hull *a = bodies.hullOf(A), *b = bodies.hullOf(B);
   if (a == nullptr || b == nullptr) return false;
-  const double gap = -supportIn(*b, bodies.poseOf(B), -with.nhat_AB_W) - supportIn(*a, bodies.poseOf(A), with.nhat_AB_W);
+  const double gap =
+      -supportIn(*b, bodies.poseOf(B), -with.nhat_AB_W) - supportIn(*a, bodies.poseOf(A), with.nhat_AB_W);
   return gap >= -with.depth - near;
 }
 

@@ -38,10 +38,7 @@ Vec3 rotationVector(const Quat& q) {
 }  // namespace
 
 Sweep::Sweep(const BodySet& bodies)
-    : shapes_(bodies.shapeCount()),
-      first_convex_(bodies.size(), kNone),
-      ways_(bodies.size()),
-      broad_phase_(bodies) {
+    : shapes_(bodies.shapeCount()), first_convex_(bodies.size(), kNone), ways_(bodies.size()), broad_phase_(bodies) {
   std::size_t edges = 0, faces = 0;
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     if (bodies.hullOf(i) == nullptr) continue;

@@ -28,7 +28,7 @@ class Sweep {
     const Hull* hull = nullptr;  // null: not convex, not followed
     Pose X_CmG;                  // of a body that moves
     std::size_t body = 0;
-    double width = 0, rim = 0;   // [m]; rim: farthest point from the centre of mass
+    double width = 0, rim = 0;  // [m]; rim: farthest point from the centre of mass
   };
   struct Way {
     Pose begin;  // of the centre of mass

@@ -74,8 +74,8 @@ TEST(Decompose, LeavesAConvexMeshInOnePiece) {
 
 // An L comes apart into two boxes, and a square frame into four, without a remainder: volume and distance are exact.
 TEST(Decompose, CutsPolyhedraExactly) {
-  const std::vector<TriMesh> corner = decompose(test::extruded({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}, 1), 64,
-                                                0.001);
+  const std::vector<TriMesh> corner =
+      decompose(test::extruded({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}, 1), 64, 0.001);
   EXPECT_EQ(corner.size(), 2U);
   EXPECT_NEAR(volumeOf(corner), 4, 1e-6);
   const TriMesh cup = test::cup(4, 0.03 * std::numbers::sqrt2, 0.04 * std::numbers::sqrt2, 0.01, 0.08);

@@ -126,7 +126,8 @@ TEST(SeveralShapes, ATrayKeepsACube) {
     tray.parts.push_back({Box{{0.22, 0.01, 0.03}}, at(0, side * 0.105, 0.005), {}});
   }
   Runner runner(
-      WorldMaker().friction(0).add(tray, Pose{}, {}).box(Vec3::Constant(0.04), 0.1, at(-0.07, 0, 0.02)).world(), awake());
+      WorldMaker().friction(0).add(tray, Pose{}, {}).box(Vec3::Constant(0.04), 0.1, at(-0.07, 0, 0.02)).world(),
+      awake());
   runner.run(0.1);
   runner.bodies.setVelocity(1, Vec3(0.5, 0, 0), Vec3::Zero());
   double highest = 0;
