@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "framework/scene/physics_shapes.h"
+
 namespace presa::assembling {
 namespace {
 
@@ -18,31 +20,12 @@ Vec3 level(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }
 }  // namespace
 
 double halfWidth(const Shape& shape, const TriMesh* mesh, const Vec3& n_G) {
-  struct Measure {
-    const TriMesh* mesh;
-    Vec3 n;
-    double operator()(const Box& box) const { return n.cwiseAbs().dot(box.size) / 2; }
-    double operator()(const Sphere& sphere) const { return sphere.radius; }
-    double operator()(const Cylinder& rod) const {
-      return rod.radius * std::hypot(n.x(), n.y()) + rod.length / 2 * std::abs(n.z());
-    }
-    double operator()(const Capsule& rod) const { return rod.radius + rod.length / 2 * std::abs(n.z()); }
-    double operator()(const MeshRef&) const {
-      if (mesh == nullptr || mesh->vertices.empty()) return 0;
-      double min = mesh->vertices[0].dot(n), max = min;
-      for (const Vec3& v : mesh->vertices) {
-        min = std::min(min, v.dot(n));
-        max = std::max(max, v.dot(n));
-      }
-      return (max - min) / 2;
-    }
-  };
-  return std::visit(Measure{mesh, n_G}, shape);
+  return (supportOf(shape, mesh, n_G) + supportOf(shape, mesh, -n_G)) / 2;
 }
 
 double halfWidth(const World& world, std::size_t i, const Vec3& n_B) {
-  const Geometry& physics = *world.scene.bodies[i].physics;
-  return halfWidth(physics.shape, world.meshes[i].physics.get(), physics.X_BG.q.conjugate() * n_B);
+  const Body& body = world.scene.bodies[i];
+  return (supportOf(body, world.meshes[i], n_B) + supportOf(body, world.meshes[i], -n_B)) / 2;
 }
 
 double outTo(const World& world, std::size_t i, const Vec3& n_B) {

@@ -49,7 +49,7 @@ Planner::Planner(std::shared_ptr<const World> world, double fingertip)
     const Body& body = world_->scene.bodies[i];
     Vec3 half = Vec3::Zero();
     for (int axis = 0; axis < 3 && body.physics; ++axis)
-      half[axis] = halfWidth(body.physics->shape, world_->meshes[i].physics.get(), Vec3::Unit(axis));
+      half[axis] = halfWidth(*world_, i, body.physics->X_BG.q * Vec3::Unit(axis));
     size_.push_back(half.norm());
   }
   trials_.resize(world_->scene.bodies.size());

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "devices/assembling_hand/grasp.h"
+#include "framework/scene/physics_shapes.h"
 
 namespace presa::assembling {
 namespace {
@@ -18,12 +19,23 @@ constexpr double kLiftedBy = 0.012, kLiftedRadius = 0.004;  // [m]
 
 }  // namespace
 
-Surroundings::Bounds Surroundings::boundsOf(const Body& body, const TriMesh* mesh) {
+// Along the axes of its one shape, or of the body when it has several.
+Surroundings::Bounds Surroundings::boundsOf(const Body& body, const BodyMeshes& meshes) {
   Bounds bounds;
   if (!body.physics) return bounds;
   bounds.solid = true;
   bounds.fixed = body.fixed;
+  if (hasSeveralShapes(body, meshes)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double high = supportOf(body, meshes, Vec3::Unit(axis)), low = -supportOf(body, meshes, -Vec3::Unit(axis));
+      bounds.half[axis] = (high - low) / 2;
+      bounds.X_BG.p[axis] = (high + low) / 2;
+    }
+    bounds.radius = bounds.half.norm();
+    return bounds;
+  }
   bounds.X_BG = body.physics->X_BG;
+  const TriMesh* mesh = meshes.physics.get();
   for (int axis = 0; axis < 3; ++axis) bounds.half[axis] = halfWidth(body.physics->shape, mesh, Vec3::Unit(axis));
   if (mesh != nullptr && std::holds_alternative<MeshRef>(body.physics->shape)) {
     Vec3 low = mesh->vertices.front();
@@ -36,7 +48,7 @@ Surroundings::Bounds Surroundings::boundsOf(const Body& body, const TriMesh* mes
 
 Surroundings::Surroundings(const World& world) {
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i)
-    bounds_.push_back(boundsOf(world.scene.bodies[i], world.meshes[i].physics.get()));
+    bounds_.push_back(boundsOf(world.scene.bodies[i], world.meshes[i]));
   if (world.scene.assembly) workspace_ = world.scene.assembly->workspace;
 }
 

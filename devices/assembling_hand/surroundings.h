@@ -35,7 +35,7 @@ class Surroundings {
     double radius = 0;  ///< of the bounding ball [m]
   };
   bool isRoom(const ObjectState& objects, const Vec3& p_W, double radius, std::size_t but) const noexcept;
-  static Bounds boundsOf(const Body& body, const TriMesh* mesh);
+  static Bounds boundsOf(const Body& body, const BodyMeshes& meshes);
 
   std::vector<Bounds> bounds_;  // by body
   std::optional<Assembly::Workspace> workspace_;

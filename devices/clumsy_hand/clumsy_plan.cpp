@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/scene/physics_shapes.h"
+
 namespace presa::clumsy {
 namespace {
 
@@ -11,21 +13,13 @@ constexpr double kHalfField = 0.45, kHighest = 0.5;  // bounds of the random pos
 constexpr double kOver = 0.06;                       // height above a body before going down [m]
 
 /// Distance from a body's origin to its farthest point [m].
-double sizeOf(const Geometry& geometry, const TriMesh* mesh) {
-  struct Reach {
-    const TriMesh* mesh;
-    double operator()(const Box& box) const { return box.size.norm() / 2; }
-    double operator()(const Sphere& ball) const { return ball.radius; }
-    double operator()(const Cylinder& rod) const { return std::hypot(rod.radius, rod.length / 2); }
-    double operator()(const Capsule& rod) const { return rod.radius + rod.length / 2; }
-    double operator()(const MeshRef&) const {
-      double reach = 0;
-      if (mesh != nullptr)
-        for (const Vec3& vertex : mesh->vertices) reach = std::max(reach, vertex.norm());
-      return reach;
-    }
-  };
-  return geometry.X_BG.p.norm() + std::visit(Reach{mesh}, geometry.shape);
+double sizeOf(const Body& body, const BodyMeshes& meshes) {
+  double size = 0;
+  for (const PhysicsShape& shape : physicsShapes(body, meshes)) {
+    const double radius = shape.mesh != nullptr ? radiusOf(*shape.mesh) : boundingRadius(*shape.shape);
+    size = std::max(size, shape.X_BG.p.norm() + radius);
+  }
+  return size;
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ ClumsyPlan::ClumsyPlan(std::shared_ptr<const World> world, double fingertip, std
       random_(seed, "clumsy hand") {
   for (std::size_t i = 0; i < world_->scene.bodies.size(); ++i) {
     const Body& body = world_->scene.bodies[i];
-    size_.push_back(body.physics ? sizeOf(*body.physics, world_->meshes[i].physics.get()) : 0);
+    size_.push_back(sizeOf(body, world_->meshes[i]));
     if (body.physics && !body.fixed) movable_.push_back(i);
   }
 }

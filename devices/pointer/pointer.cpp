@@ -86,20 +86,7 @@ class PointedStylus final : public PointedTool {
 
 /// Distance from a body's origin to its farthest point [m].
 double reachOf(const Geometry& geometry, const TriMesh* mesh) {
-  struct Reach {
-    const TriMesh* mesh;
-    double operator()(const Box& box) const { return box.size.norm() / 2; }
-    double operator()(const Sphere& sphere) const { return sphere.radius; }
-    double operator()(const Cylinder& rod) const { return std::hypot(rod.radius, rod.length / 2); }
-    double operator()(const Capsule& rod) const { return rod.radius + rod.length / 2; }
-    double operator()(const MeshRef&) const {
-      double reach = 0;
-      if (mesh != nullptr)
-        for (const Vec3& v : mesh->vertices) reach = std::max(reach, v.norm());
-      return reach;
-    }
-  };
-  return geometry.X_BG.p.norm() + std::visit(Reach{mesh}, geometry.shape);
+  return geometry.X_BG.p.norm() + (mesh != nullptr ? radiusOf(*mesh) : boundingRadius(geometry.shape));
 }
 
 /// Start position: above the first free body, clear of all free ones; without free bodies, above the world's origin.

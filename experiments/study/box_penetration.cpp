@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/scene/physics_shapes.h"
+
 namespace presa {
 namespace {
 
@@ -42,9 +44,10 @@ double boxPenetration(const Vec3& size_A, const Pose& X_WA, const Vec3& size_B, 
 PenetrationCheck::PenetrationCheck(const World& world) {
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
     const Body& body = world.scene.bodies[i];
-    if (!body.physics) continue;
-    if (const auto* box = std::get_if<Box>(&body.physics->shape)) {
-      boxes_.push_back({i, box->size, body.physics->X_BG, body.fixed, box->size.norm() / 2});
+    for (const PhysicsShape& shape : physicsShapes(body, world.meshes[i])) {
+      if (const auto* box = std::get_if<Box>(shape.shape)) {
+        boxes_.push_back({i, box->size, shape.X_BG, body.fixed, box->size.norm() / 2});
+      }
     }
   }
 }
@@ -62,7 +65,7 @@ PenetrationCheck::Result PenetrationCheck::measure(const ObjectState& objects) c
   for (const BoxBody& box : boxes_) poses.push_back(objects.bodies[box.body].X_WB_end * box.X_BG);
   for (std::size_t a = 0; a < boxes_.size(); ++a) {
     for (std::size_t b = a + 1; b < boxes_.size(); ++b) {
-      if (boxes_[a].fixed && boxes_[b].fixed) continue;
+      if ((boxes_[a].fixed && boxes_[b].fixed) || boxes_[a].body == boxes_[b].body) continue;
       if ((poses[a].p - poses[b].p).norm() > boxes_[a].radius + boxes_[b].radius) continue;
       const double depth = boxPenetration(boxes_[a].size, poses[a], boxes_[b].size, poses[b]);
       if (!(depth > 0)) continue;

@@ -10,6 +10,7 @@
 #include "framework/input/folders.h"
 #include "framework/record/checksum/checksum.h"
 #include "framework/scene/manifest.h"
+#include "framework/scene/physics_shapes.h"
 
 namespace presa::bus {
 namespace {
@@ -60,19 +61,6 @@ class MeshStore {
   std::vector<std::string> unread_;
   std::map<std::string, std::string> found_;
 };
-
-/// Of a Scene or a const Scene, in the order of RunInfo::mesh_sums.
-template <class SceneOrConst>
-auto meshesOf(SceneOrConst& scene) {
-  std::vector<decltype(std::get_if<MeshRef>(&scene.bodies[0].visual->shape))> meshes;
-  for (auto& body : scene.bodies) {
-    for (auto* geometry : {&body.visual, &body.haptic, &body.physics}) {
-      if (!geometry->has_value()) continue;
-      if (auto* mesh = std::get_if<MeshRef>(&(*geometry)->shape)) meshes.push_back(mesh);
-    }
-  }
-  return meshes;
-}
 
 /// A viewer makes no effects, so it needs none of the files that elements of plug-ins name.
 void forgetPluginFiles(Scene& scene) {

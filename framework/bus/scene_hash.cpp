@@ -42,11 +42,23 @@ struct AddShape {
   void operator()(const Sphere& sphere) const { hash.add(sphere.radius); }
   void operator()(const Cylinder& rod) const { addRod(rod.radius, rod.length); }
   void operator()(const Capsule& rod) const { addRod(rod.radius, rod.length); }
+  void operator()(const Compound&) const {}  // addParts
   void addRod(double radius, double length) const {
     hash.add(radius);
     hash.add(length);
   }
 };
+
+void addParts(Hash& hash, const Compound& compound, const BodyMeshes& meshes) {
+  hash.add(std::uint64_t{compound.parts.size()});
+  for (std::size_t k = 0; k < compound.parts.size(); ++k) {
+    const ShapePart& part = compound.parts[k];
+    hash.add(std::uint64_t{part.shape.index() + 1});
+    hash.add(part.X_GP);
+    std::visit(AddShape{hash}, part.shape);
+    if (meshes.parts[k]) hash.add(*meshes.parts[k]);
+  }
+}
 
 void addGeometry(Hash& hash, const std::optional<Geometry>& geometry, const TriMesh* mesh) {
   hash.add(std::uint64_t{geometry ? geometry->shape.index() + 1 : 0});
@@ -68,6 +80,8 @@ std::uint64_t sceneHash(const World& world) {
     addGeometry(hash, body.visual, world.meshes[b].visual.get());
     addGeometry(hash, body.haptic, world.meshes[b].haptic.get());
     addGeometry(hash, body.physics, world.meshes[b].physics.get());
+    const auto* compound = body.physics ? std::get_if<Compound>(&body.physics->shape) : nullptr;
+    if (compound != nullptr) addParts(hash, *compound, world.meshes[b]);
   }
   for (const DeviceRole& device : world.scene.devices) {
     hash.add(device.role);

@@ -47,6 +47,39 @@ bool physical(const BodyInertia& inertia) {
   return moments[0] > 0 && moments[0] + moments[1] >= moments[2] * (1 - kInequalitySlack);
 }
 
+/// In the frame of `part`'s geometry.
+MassProperties placed(const MassProperties& part, const Pose& X_GP) {
+  const Mat3 R = X_GP.q.toRotationMatrix();
+  return {part.volume, X_GP * part.center, R * part.inertia * R.transpose()};
+}
+
+/// The sum, about the common centroid (parallel axis theorem).
+MassProperties sumOf(const std::vector<MassProperties>& parts) {
+  MassProperties sum;
+  for (const MassProperties& part : parts) {
+    sum.volume += part.volume;
+    sum.center += part.volume * part.center;
+  }
+  sum.center /= sum.volume;
+  for (const MassProperties& part : parts) {
+    const Vec3 r = part.center - sum.center;
+    sum.inertia += part.inertia + part.volume * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  return sum;
+}
+
+MassProperties massPropertiesOf(const Geometry& physics, const BodyMeshes& meshes) {
+  const auto* compound = std::get_if<Compound>(&physics.shape);
+  if (compound == nullptr) return massPropertiesOf(physics.shape, meshes.physics.get());
+  std::vector<MassProperties> parts;
+  for (std::size_t k = 0; k < compound->parts.size(); ++k) {
+    const ShapePart& part = compound->parts[k];
+    const TriMesh* mesh = k < meshes.parts.size() ? meshes.parts[k].get() : nullptr;
+    parts.push_back(placed(massPropertiesOf(part.shape, mesh), part.X_GP));
+  }
+  return sumOf(parts);
+}
+
 }  // namespace
 
 MassProperties massPropertiesOf(const Shape& shape, const TriMesh* mesh) {
@@ -54,6 +87,8 @@ MassProperties massPropertiesOf(const Shape& shape, const TriMesh* mesh) {
       [&](const auto& concrete) {
         if constexpr (std::is_same_v<std::decay_t<decltype(concrete)>, MeshRef>) {
           return mesh != nullptr ? massProperties(*mesh) : MassProperties{};
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(concrete)>, Compound>) {
+          return MassProperties{};
         } else {
           return of(concrete);
         }
@@ -61,14 +96,14 @@ MassProperties massPropertiesOf(const Shape& shape, const TriMesh* mesh) {
       shape);
 }
 
-BodyInertia inertiaOf(const Body& body, const TriMesh* physics_mesh, Diagnostics& diagnostics) {
+BodyInertia inertiaOf(const Body& body, const BodyMeshes& meshes, Diagnostics& diagnostics) {
   if (body.fixed) return {};
   if (!body.physics) {
     diagnostics.error(320, body.where, "body '" + body.name + "' is free but has no physics geometry",
                       "add <physics> with a mass or density, or make it fixed=\"true\"");
     return {};
   }
-  const MassProperties unit = massPropertiesOf(body.physics->shape, physics_mesh);
+  const MassProperties unit = massPropertiesOf(*body.physics, meshes);
   const Mat3 R_BG = body.physics->X_BG.q.toRotationMatrix();
   const double density = body.mass ? *body.mass / unit.volume : body.density.value_or(0.0);
   BodyInertia result;

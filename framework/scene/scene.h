@@ -16,9 +16,15 @@
 /// Immutable after loading. Every module reads it; no module keeps a second copy of a value.
 namespace presa {
 
+/// How a physics mesh that is not convex is cut into convex pieces at load.
+struct Decomposition {
+  std::size_t max_pieces = 64;
+  double max_error = 0.001;  ///< depth to which a piece may bridge a hollow of the mesh [m]
+};
 struct MeshRef {
   std::string file;  ///< resolved path: absolute, or relative to the working directory
   Vec3 scale = Vec3::Ones();
+  std::optional<Decomposition> decompose{};  ///< physics only; none: the mesh as it is
 };
 struct Box {
   Vec3 size = Vec3::Zero();
@@ -34,9 +40,20 @@ struct Capsule {
   double radius = 0;
   double length = 0;
 };  ///< axis z, centred; length without the caps [m]
-using Shape = std::variant<MeshRef, Box, Sphere, Cylinder, Capsule>;
+struct ShapePart;
+/// Several shapes that together are one physics geometry (framework/scene/physics_shapes.h lists them).
+struct Compound {
+  std::vector<ShapePart> parts;
+};
+using Shape = std::variant<MeshRef, Box, Sphere, Cylinder, Capsule, Compound>;
+struct ShapePart {
+  Shape shape;  ///< no Compound
+  Pose X_GP;    ///< in the frame of the geometry
+  SourceLocation where;
+};
 
-/// Radius of the bounding sphere of a primitive about its own origin [m]; 0 for a mesh, whose size is not known here.
+/// Radius of the bounding sphere of a primitive about its own origin [m]; 0 for a mesh, whose size is not known here, and
+/// for a Compound.
 inline double boundingRadius(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return (box->size / 2).norm();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;

@@ -239,7 +239,10 @@ class SceneCheck {
 
   void checkBody(const Element& body) {
     checkOrientation(body, diagnostics_);
-    for (const Element& geometry : body.children()) checkOrientation(geometry, diagnostics_);
+    for (const Element& geometry : body.children()) {
+      checkOrientation(geometry, diagnostics_);
+      for (const Element& shape : geometry.children()) checkOrientation(shape, diagnostics_);
+    }
     checkMaterial(body);
     const std::vector<Element> physics = body.children("physics");
     if (body.boolean("fixed", false)) {

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "framework/scene/manifest.h"
+#include "framework/scene/physics_shapes.h"
 #include "framework/scene/scene_parts.h"
 
 namespace presa {
@@ -111,12 +112,7 @@ Scene parseScene(const std::string& xml, const std::string& name, const std::str
 
 std::vector<std::string> filesNamedBy(const Scene& scene) {
   std::vector<std::string> files;
-  for (const Body& body : scene.bodies) {
-    for (const auto* geometry : {&body.visual, &body.haptic, &body.physics}) {
-      if (!geometry->has_value()) continue;
-      if (const auto* mesh = std::get_if<MeshRef>(&(*geometry)->shape)) files.push_back(mesh->file);
-    }
-  }
+  for (const MeshRef* mesh : meshesOf(scene)) files.push_back(mesh->file);
   for (const PluginElement& element : scene.plugin_elements) {
     const std::vector<std::string> named = filesNamedBy(element);
     files.insert(files.end(), named.begin(), named.end());

@@ -132,11 +132,15 @@ class PathWalk {
   bool enter(const ElementRule& next) {
     const std::vector<Element> found = element_.children(next.name);
     if (!identityAttribute(next).empty()) return enterNamed(next, found);
+    const xml::ContentRule& content = *rule_->contentOf(next.name);
+    if (found.size() > 1 && content.options.size() > 1) {
+      return fail(element_.label() + " holds " + std::to_string(found.size()) + " <" + next.name + ">",
+                  "a path cannot tell them apart; change the file");
+    }
     if (!found.empty()) {
       step(found.front(), next, 1);
       return true;
     }
-    const xml::ContentRule& content = *rule_->contentOf(next.name);
     if (content.options.size() > 1) {
       const std::vector<Element> others = element_.children();
       return fail(

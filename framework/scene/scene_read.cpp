@@ -51,7 +51,12 @@ Shape readShape(const Element& shape, const std::string& directory) {
   if (kind == "sphere") return Sphere{radius};
   if (kind == "cylinder") return Cylinder{radius, length};
   if (kind == "capsule") return Capsule{radius, length};
-  return MeshRef{resolvePath(shape.attribute("file"), directory), readVec3(shape, "scale", Vec3::Ones())};
+  MeshRef mesh{resolvePath(shape.attribute("file"), directory), readVec3(shape, "scale", Vec3::Ones())};
+  if (!shape.boolean("decompose", false)) return mesh;
+  const Decomposition usual;
+  mesh.decompose = {static_cast<std::size_t>(shape.number("max_pieces", static_cast<double>(usual.max_pieces))),
+                    shape.number("max_error", usual.max_error)};
+  return mesh;
 }
 
 std::optional<Geometry> readGeometry(const Element& body, const std::string& role, const std::string& directory) {
@@ -60,6 +65,25 @@ std::optional<Geometry> readGeometry(const Element& body, const std::string& rol
   const Element& geometry = geometries[0];
   return Geometry{readShape(geometry.children().at(0), directory), readPose(geometry), geometry.where(),
                   geometry.attribute("shading") == "smooth"};
+}
+
+bool isPlaced(const Element& shape) {
+  return shape.hasAttribute("pos") || shape.hasAttribute("euler_deg") || shape.hasAttribute("quat");
+}
+
+std::optional<Geometry> readPhysics(const Element& body, const std::string& directory) {
+  std::optional<Geometry> geometry = readGeometry(body, "physics", directory);
+  if (!geometry) return std::nullopt;
+  const std::vector<Element> shapes = body.children("physics")[0].children();
+  if (shapes.size() == 1) {
+    if (isPlaced(shapes[0])) geometry->X_BG = geometry->X_BG * readPose(shapes[0]);
+    return geometry;
+  }
+  Compound compound;
+  for (const Element& shape : shapes)
+    compound.parts.push_back({readShape(shape, directory), readPose(shape), shape.where()});
+  geometry->shape = std::move(compound);
+  return geometry;
 }
 
 Material readMaterial(const Element& element) {
@@ -109,7 +133,7 @@ Body readBody(const Element& element, const IndexByName& materials, const std::s
   body.material = materials.at(element.attribute("material"));
   body.visual = readGeometry(element, "visual", directory);
   body.haptic = readGeometry(element, "haptic", directory);
-  body.physics = readGeometry(element, "physics", directory);
+  body.physics = readPhysics(element, directory);
   for (const Element& physics : element.children("physics")) {
     if (body.fixed) continue;
     body.mass = optionalNumber(physics, "mass");

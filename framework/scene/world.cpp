@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <map>
+#include <tuple>
 
+#include "framework/geometry/convex.h"
 #include "framework/input/folders.h"
 #include "framework/scene/inertia.h"
 #include "framework/scene/scene_parts.h"
 
 namespace presa {
 namespace {
+
+enum Code { kNotConvex = 322, kFarFromMesh = 323 };
 
 using MeshPointer = std::shared_ptr<const TriMesh>;
 
@@ -25,19 +31,22 @@ int strictness(const ImportOptions& options) { return options.display_only ? 0 :
 class MeshLibrary {
  public:
   /// Registers the mesh of a geometry; returns the index of the request, or -1 for primitives and absent geometry.
-  int request(const std::optional<Geometry>& geometry, ImportOptions options) {
-    const auto* ref = geometry ? std::get_if<MeshRef>(&geometry->shape) : nullptr;
+  int request(const std::optional<Geometry>& geometry, const ImportOptions& options) {
+    return geometry ? request(geometry->shape, geometry->where, options) : -1;
+  }
+  int request(const Shape& shape, const SourceLocation& where, ImportOptions options) {
+    const auto* ref = std::get_if<MeshRef>(&shape);
     if (ref == nullptr) return -1;
     options.scale = ref->scale;
     const auto same = [&](const MeshRequest& r) { return r.ref.file == ref->file && r.ref.scale == ref->scale; };
     const auto found = std::ranges::find_if(requests_, same);
     if (found == requests_.end()) {
-      requests_.push_back({*ref, options, geometry->where, nullptr});
+      requests_.push_back({*ref, options, where, nullptr});
       return static_cast<int>(requests_.size()) - 1;
     }
     if (strictness(options) > strictness(found->options)) {
       found->options = options;
-      found->where = geometry->where;
+      found->where = where;
     }
     return static_cast<int>(found - requests_.begin());
   }
@@ -59,19 +68,88 @@ class MeshLibrary {
   std::vector<MeshRequest> requests_;
 };
 
+/// Cuts meshes into convex pieces, equal ones once.
+class Decomposer {
+ public:
+  const ConvexPieces& cut(const MeshPointer& mesh, const Decomposition& wanted) {
+    const auto [found, is_new] = known_.try_emplace({mesh.get(), wanted.max_pieces, wanted.max_error});
+    if (!is_new) return found->second;
+    const std::vector<TriMesh> pieces = decompose(*mesh, wanted.max_pieces, wanted.max_error);
+    found->second.error = hausdorffDistance(*mesh, pieces);
+    for (const TriMesh& piece : pieces) found->second.pieces.push_back(std::make_shared<const TriMesh>(piece));
+    return found->second;
+  }
+
+ private:
+  std::map<std::tuple<const TriMesh*, std::size_t, double>, ConvexPieces> known_;
+};
+
+std::string millimetres(double length) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * length);
+  return text;
+}
+
+void warnIfFar(const Body& body, const MeshRef& mesh, const SourceLocation& where, const ConvexPieces& found,
+               Diagnostics& diagnostics) {
+  const Decomposition& wanted = *mesh.decompose;
+  if (found.error <= wanted.max_error) return;
+  diagnostics.warning(kFarFromMesh, where,
+                      "body '" + body.name + "': " + std::to_string(found.pieces.size()) +
+                          " convex pieces differ from " + mesh.file + " by " + millimetres(found.error) +
+                          ", wanted: up to " + millimetres(wanted.max_error),
+                      "more max_pieces (found " + std::to_string(wanted.max_pieces) +
+                          ", up to 256), a larger max_error, or a mesh of fewer and larger faces");
+}
+
+/// Decomposes the meshes of a physics geometry that ask for it; of several shapes each must be convex then (E322).
+void makeConvex(const Body& body, BodyMeshes& meshes, Decomposer& decomposer, Diagnostics& diagnostics) {
+  if (!body.physics) return;
+  const auto look = [&](const Shape& shape, const SourceLocation& where, const MeshPointer& mesh, std::size_t index,
+                        std::size_t count) {
+    const auto* ref = std::get_if<MeshRef>(&shape);
+    if (ref == nullptr || !ref->decompose) return false;
+    meshes.decomposed.resize(count);
+    meshes.decomposed[index] = decomposer.cut(mesh, *ref->decompose);
+    warnIfFar(body, *ref, where, meshes.decomposed[index], diagnostics);
+    return true;
+  };
+  const auto* compound = std::get_if<Compound>(&body.physics->shape);
+  if (compound == nullptr) {
+    look(body.physics->shape, body.physics->where, meshes.physics, 0, 1);
+    return;
+  }
+  for (std::size_t k = 0; k < compound->parts.size(); ++k) {
+    const ShapePart& part = compound->parts[k];
+    if (look(part.shape, part.where, meshes.parts[k], k, compound->parts.size())) continue;
+    if (!meshes.parts[k] || isConvex(*meshes.parts[k])) continue;
+    diagnostics.error(kNotConvex, part.where,
+                      "body '" + body.name + "': mesh " + std::get<MeshRef>(part.shape).file +
+                          " is one of several physics shapes, but not convex",
+                      "decompose=\"true\" cuts it into convex pieces; or give a convex mesh, or primitives");
+  }
+}
+
 }  // namespace
 
 World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
   World world{std::move(scene), std::move(rig), {}, {}};
   MeshLibrary library;
   std::vector<std::array<int, 3>> requests;
+  std::vector<std::vector<int>> part_requests;
   for (const Body& body : world.scene.bodies) {
     const ImportOptions drawn{.must_be_closed = false, .display_only = true};
     const ImportOptions solid{.must_be_closed = !body.fixed};
     requests.push_back({library.request(body.visual, drawn), library.request(body.haptic, solid),
                         library.request(body.physics, solid)});
+    part_requests.emplace_back();
+    const auto* compound = body.physics ? std::get_if<Compound>(&body.physics->shape) : nullptr;
+    if (compound == nullptr) continue;
+    for (const ShapePart& part : compound->parts)
+      part_requests.back().push_back(library.request(part.shape, part.where, {.must_be_closed = true}));
   }
   library.importAll(diagnostics);
+  Decomposer decomposer;
   // the plug-ins read them, when a run makes their objects
   for (const PluginElement& element : world.scene.plugin_elements) {
     for (const std::string& file : filesNamedBy(element)) input::checkNamed(element.where, file, diagnostics);
@@ -80,9 +158,13 @@ World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
     const Body& body = world.scene.bodies[b];
     const auto& [visual, haptic, physics] = requests[b];
     world.meshes.push_back({library.get(visual), library.get(haptic), library.get(physics), nullptr});
+    BodyMeshes& meshes = world.meshes.back();
+    for (const int part : part_requests[b]) meshes.parts.push_back(library.get(part));
     // an unreadable physics mesh has been reported; checking its mass would only add a second finding
-    const bool unread = physics >= 0 && !world.meshes.back().physics;
-    world.inertias.push_back(unread ? BodyInertia{} : inertiaOf(body, world.meshes.back().physics.get(), diagnostics));
+    const bool unread = (physics >= 0 && !meshes.physics) ||
+                        std::ranges::any_of(part_requests[b], [&](int r) { return r >= 0 && !library.get(r); });
+    world.inertias.push_back(unread ? BodyInertia{} : inertiaOf(body, meshes, diagnostics));
+    if (!unread) makeConvex(body, meshes, decomposer, diagnostics);
   }
   if (!diagnostics.hasErrors()) indexHapticMeshes(world);
   return world;

@@ -8,10 +8,18 @@
 
 namespace presa {
 
+/// A mesh cut into convex pieces.
+struct ConvexPieces {
+  std::vector<std::shared_ptr<const TriMesh>> pieces;
+  double error = 0;  ///< Hausdorff distance between the mesh and the union of the pieces, as solids [m]
+};
+
 /// Meshes of one body; null where the geometry is a primitive or absent.
 struct BodyMeshes {
   std::shared_ptr<const TriMesh> visual, haptic, physics;
-  std::shared_ptr<const MeshTree> haptic_tree;  ///< hierarchy over `haptic`; null when no finger can touch it
+  std::shared_ptr<const MeshTree> haptic_tree;          ///< hierarchy over `haptic`; null when no finger can touch it
+  std::vector<std::shared_ptr<const TriMesh>> parts{};  ///< physics, of a Compound: by part; else empty
+  std::vector<ConvexPieces> decomposed{};  ///< physics, by shape, no pieces: as it is; empty: none is decomposed
 };
 
 /// Mass [kg], centre of mass in the body frame [m], inertia about it in body axes [kg m^2]. Zero mass: fixed body.

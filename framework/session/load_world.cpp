@@ -4,10 +4,12 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "framework/input/folders.h"
 #include "framework/scene/bus_settings.h"
 #include "framework/scene/load.h"
+#include "framework/scene/physics_shapes.h"
 #include "framework/session/realtime_policy.h"
 #include "framework/session/session.h"
 #include "framework/session/stiffness_bound.h"
@@ -121,12 +123,7 @@ std::vector<std::string> plugInsFor(const Inputs& inputs, const RunOptions& opti
   for (const PlannedModule& module : plan.modules) names.insert(module.plugin);
   for (const PlannedEffect& effect : plan.effects) names.insert(effect.plugin);
   for (const PlannedDevice& device : plan.devices) names.insert(device.driver);
-  const auto isMesh = [](const std::optional<Geometry>& geometry) {
-    return geometry && std::holds_alternative<MeshRef>(geometry->shape);
-  };
-  for (const Body& body : read->scene.bodies) {
-    if (isMesh(body.visual) || isMesh(body.haptic) || isMesh(body.physics)) names.insert("mesh_import");
-  }
+  if (!meshesOf(std::as_const(read->scene)).empty()) names.insert("mesh_import");
   if (plan.has("record")) names.insert("checksum");  // a recording carries one
   return {names.begin(), names.end()};
 }

@@ -6,6 +6,7 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/physics_shapes.h"
 #include "framework/session/module_plugin.h"
 
 namespace presa::bullet {
@@ -21,15 +22,16 @@ Pose fromBullet(const btTransform& X) {
   return {fromBullet(X.getOrigin()), Quat(q.w(), q.x(), q.y(), q.z())};
 }
 
-std::unique_ptr<btCollisionShape> shapeOf(const Geometry& geometry, const Body& body) {
-  if (const auto* box = std::get_if<Box>(&geometry.shape)) return std::make_unique<btBoxShape>(toBullet(box->size / 2));
-  if (const auto* sphere = std::get_if<Sphere>(&geometry.shape)) return std::make_unique<btSphereShape>(sphere->radius);
-  if (const auto* rod = std::get_if<Cylinder>(&geometry.shape))
+std::unique_ptr<btCollisionShape> shapeOf(const Shape& shape, const Body& body) {
+  if (const auto* box = std::get_if<Box>(&shape)) return std::make_unique<btBoxShape>(toBullet(box->size / 2));
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return std::make_unique<btSphereShape>(sphere->radius);
+  if (const auto* rod = std::get_if<Cylinder>(&shape))
     return std::make_unique<btCylinderShapeZ>(btVector3(rod->radius, rod->radius, rod->length / 2));
-  if (const auto* rod = std::get_if<Capsule>(&geometry.shape))
+  if (const auto* rod = std::get_if<Capsule>(&shape))
     return std::make_unique<btCapsuleShapeZ>(rod->radius, rod->length);
   Diagnostics diagnostics;
-  diagnostics.error(582, geometry.where, "body '" + body.name + "': dynamics_bullet has no mesh as physics geometry",
+  diagnostics.error(582, body.physics->where,
+                    "body '" + body.name + "': dynamics_bullet has no mesh as physics geometry",
                     "use a box, sphere, cylinder or capsule, or engine=\"ode\"");
   throw InputError(diagnostics);
 }
@@ -74,7 +76,7 @@ class DynamicsBullet final : public Module {
 
  private:
   struct Entry {
-    std::unique_ptr<btCollisionShape> shape;
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;
     std::unique_ptr<btCompoundShape> compound;
     std::unique_ptr<btRigidBody> body;
     btVector3 force{0, 0, 0};
@@ -95,11 +97,15 @@ class DynamicsBullet final : public Module {
           "body '" + body.name + "': dynamics_bullet needs its frame at the centre of mass, along the principal axes");
       throw InputError(diagnostics);
     }
-    entry.shape = shapeOf(*body.physics, body);
     entry.compound = std::make_unique<btCompoundShape>();
-    entry.compound->addChildShape(toBullet(body.physics->X_BG), entry.shape.get());
-    const bool centred = body.physics->X_BG.p.isZero() && body.physics->X_BG.q.isApprox(Quat::Identity());
-    btCollisionShape* shape = centred ? entry.shape.get() : entry.compound.get();
+    bool centred = false;
+    for (const PhysicsShape& one : physicsShapes(body, scene_world_->meshes[i])) {
+      entry.shapes.push_back(shapeOf(*one.shape, body));
+      entry.compound->addChildShape(toBullet(one.X_BG), entry.shapes.back().get());
+      centred = one.X_BG.p.isZero() && one.X_BG.q.isApprox(Quat::Identity());
+    }
+    centred = centred && entry.shapes.size() == 1;
+    btCollisionShape* shape = centred ? entry.shapes.front().get() : entry.compound.get();
     btRigidBody::btRigidBodyConstructionInfo info(inertia.mass, nullptr, shape,
                                                   toBullet(Vec3(inertia.inertia.diagonal())));
     info.m_startWorldTransform = toBullet(body.X_WB);

@@ -1,6 +1,9 @@
 #include "modules/dynamics_mujoco/mjcf.h"
 
+#include <algorithm>
 #include <cstdio>
+
+#include "framework/scene/physics_shapes.h"
 
 namespace presa::mujoco {
 namespace {
@@ -18,25 +21,29 @@ std::string pose(const Pose& X) {
          number(X.q.z()) + "\"";
 }
 
-std::string shape(const Geometry& geometry, const Body& body) {
-  if (const auto* box = std::get_if<Box>(&geometry.shape))
-    return "type=\"box\" size=\"" + numbers(box->size / 2) + "\"";
-  if (const auto* sphere = std::get_if<Sphere>(&geometry.shape))
+std::string shape(const Shape& shape, const Body& body) {
+  if (const auto* box = std::get_if<Box>(&shape)) return "type=\"box\" size=\"" + numbers(box->size / 2) + "\"";
+  if (const auto* sphere = std::get_if<Sphere>(&shape))
     return "type=\"sphere\" size=\"" + number(sphere->radius) + "\"";
-  if (const auto* rod = std::get_if<Cylinder>(&geometry.shape))
+  if (const auto* rod = std::get_if<Cylinder>(&shape))
     return "type=\"cylinder\" size=\"" + number(rod->radius) + number(rod->length / 2) + "\"";
-  if (const auto* rod = std::get_if<Capsule>(&geometry.shape))
+  if (const auto* rod = std::get_if<Capsule>(&shape))
     return "type=\"capsule\" size=\"" + number(rod->radius) + number(rod->length / 2) + "\"";
   Diagnostics diagnostics;
-  diagnostics.error(580, geometry.where, "body '" + body.name + "': dynamics_mujoco has no mesh as physics geometry",
+  diagnostics.error(580, body.physics->where,
+                    "body '" + body.name + "': dynamics_mujoco has no mesh as physics geometry",
                     "use a box, sphere, cylinder or capsule, or engine=\"ode\"");
   throw InputError(diagnostics);
 }
 
-std::string geom(const World& world, const Body& body) {
-  if (!body.physics) return {};
-  return "<geom " + shape(*body.physics, body) + pose(body.physics->X_BG) + " friction=\"" +
-         number(world.scene.materialOf(body).friction_dynamic) + " 0 0\"/>\n";
+std::string geoms(const World& world, std::size_t i) {
+  const Body& body = world.scene.bodies[i];
+  std::string text;
+  for (const PhysicsShape& one : physicsShapes(body, world.meshes[i])) {
+    text += "<geom " + shape(*one.shape, body) + pose(one.X_BG) + " friction=\"" +
+            number(world.scene.materialOf(body).friction_dynamic) + " 0 0\"/>\n";
+  }
+  return text;
 }
 
 std::string inertial(const BodyInertia& inertia) {
@@ -55,14 +62,17 @@ std::string mjcfOf(const World& world, double step) {
     const Body& body = scene.bodies[i];
     bodies += "<body name=\"" + body.name + "\"" + pose(body.X_WB) + ">\n";
     if (!body.fixed) bodies += "<freejoint/>" + inertial(world.inertias[i]);
-    bodies += geom(world, body) + "</body>\n";
+    bodies += geoms(world, i) + "</body>\n";
   }
   const std::string iterations =
       scene.dynamics.iterations > 0 ? " iterations=\"" + std::to_string(scene.dynamics.iterations) + "\"" : "";
   const std::string solver = scene.dynamics.solver == DynamicsSettings::Solver::kIterative ? "CG" : "Newton";
-  // capacity for six neighbours with four contacts each, of three rows; MuJoCo's default stack grows with the square of
-  // the rows, to 19 GB for 125 bodies
-  const std::size_t contacts = 100 + 24 * scene.bodies.size();
+  // capacity for six neighbours with four contacts each, of three rows, for each shape; MuJoCo's default stack grows
+  // with the square of the rows, to 19 GB for 125 bodies
+  std::size_t shapes = 0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    shapes += std::max<std::size_t>(1, physicsShapes(scene.bodies[i], world.meshes[i]).size());
+  const std::size_t contacts = 100 + 24 * shapes;
   const std::size_t unknowns = 6 * scene.bodies.size();
   const std::size_t stack = 100000 + 6 * contacts * 200 + 4 * unknowns * unknowns;
   return "<mujoco model=\"" + scene.name +

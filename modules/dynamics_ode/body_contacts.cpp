@@ -69,11 +69,35 @@ void BodyContacts::collidePair(const BodySet& bodies, const BroadPhase::Pair& pa
   // ODE's normal points into the first geometry; make that B, which must be a free body
   const std::size_t B = bodies.moves(pair.second) ? pair.second : pair.first;
   const std::size_t A = B == pair.second ? pair.first : pair.second;
+  if (bodies.shapes(A).count > 1 || bodies.shapes(B).count > 1) return collideSeveral(bodies, A, B, h, contacts);
+  collideShapes(bodies, {A, B, bodies.shapes(A).first, bodies.shapes(B).first}, h, contacts);
+}
+
+void BodyContacts::collideSeveral(const BodySet& bodies, std::size_t A, std::size_t B, double h,
+                                  std::vector<BodyContact>& contacts) {
+  const double margin = std::max(kNear * std::min(bodies.extent(A), bodies.extent(B)), reach(bodies, A, B, h));
   const std::size_t before = contacts.size();
-  if (collideHulls(bodies, A, B, h, contacts)) return;
-  const double same = kSamePoint * std::min(bodies.extent(A), bodies.extent(B));
-  report(bodies, A, B, same, contacts);
-  if (h > 0 && contacts.size() < before + kSupported) reportNearing(bodies, A, B, h, contacts, before);
+  const BodySet::Shapes low = bodies.shapes(std::min(A, B)), high = bodies.shapes(std::max(A, B));
+  inner_edges_.begin();
+  for (std::size_t s = low.first; s < low.first + low.count; ++s) {
+    for (std::size_t t = high.first; t < high.first + high.count; ++t) {
+      if (!bodies.shapesAreNear(s, t, margin)) continue;
+      const Meeting of{A, B, A < B ? s : t, A < B ? t : s};
+      const std::size_t first = contacts.size();
+      collideShapes(bodies, of, h, contacts);
+      inner_edges_.add(of.shape_A, of.shape_B, contacts.size() - first);
+    }
+  }
+  inner_edges_.remove(bodies, contacts, before);
+}
+
+void BodyContacts::collideShapes(const BodySet& bodies, const Meeting& of, double h,
+                                 std::vector<BodyContact>& contacts) {
+  const std::size_t before = contacts.size();
+  if (collideHulls(bodies, of, h, contacts)) return;
+  const double same = kSamePoint * std::min(bodies.extentOf(of.shape_A), bodies.extentOf(of.shape_B));
+  report(bodies, of, same, contacts);
+  if (h > 0 && contacts.size() < before + kSupported) reportNearing(bodies, of, h, contacts, before);
 }
 
 double BodyContacts::reach(const BodySet& bodies, std::size_t A, std::size_t B, double h) const {
@@ -81,10 +105,12 @@ double BodyContacts::reach(const BodySet& bodies, std::size_t A, std::size_t B, 
 }
 
 // False when they are not both polyhedra.
-bool BodyContacts::collideHulls(const BodySet& bodies, std::size_t A, std::size_t B, double h,
+bool BodyContacts::collideHulls(const BodySet& bodies, const Meeting& of, double h,
                                 std::vector<BodyContact>& contacts) {
+  const std::size_t A = of.A, B = of.B;
   const double near = h > 0 ? kNear * std::min(bodies.extent(A), bodies.extent(B)) : 0;
-  const Manifold* manifold = hull_contacts_.find(bodies, A, B, std::max(near, reach(bodies, A, B, h)));
+  const Manifold* manifold =
+      hull_contacts_.find(bodies, of.shape_A, of.shape_B, std::max(near, reach(bodies, A, B, h)));
   if (manifold == nullptr) return false;
   const bool all = foresight_ == Foresight::kAround && !bodies.asleep(A) && !bodies.asleep(B);
   for (int i = 0; i < manifold->count; ++i) {
@@ -96,10 +122,9 @@ bool BodyContacts::collideHulls(const BodySet& bodies, std::size_t A, std::size_
   return true;
 }
 
-void BodyContacts::report(const BodySet& bodies, std::size_t A, std::size_t B, double same,
-                          std::vector<BodyContact>& contacts) {
-  const dGeomID b = parallel_boxes_.standIn(bodies.geom(B), bodies.geom(A));
-  int count = dCollide(b, bodies.geom(A), kMaxReported, reported_, sizeof(dContactGeom));
+void BodyContacts::report(const BodySet& bodies, const Meeting& of, double same, std::vector<BodyContact>& contacts) {
+  const dGeomID b = parallel_boxes_.standIn(bodies.geom(of.shape_B), bodies.geom(of.shape_A));
+  int count = dCollide(b, bodies.geom(of.shape_A), kMaxReported, reported_, sizeof(dContactGeom));
   const auto useless = [](const dContactGeom& contact) {
     return !(contact.depth >= 0) || !(toVec3(contact.normal).squaredNorm() > 0.25) || !toVec3(contact.pos).allFinite();
   };
@@ -108,7 +133,7 @@ void BodyContacts::report(const BodySet& bodies, std::size_t A, std::size_t B, d
   count = thin(reported_, count, kMaxPerPair, same);
   for (int i = 0; i < count; ++i) {
     const dContactGeom& contact = reported_[i];
-    contacts.push_back({static_cast<std::int32_t>(A), static_cast<std::int32_t>(B), toVec3(contact.pos),
+    contacts.push_back({static_cast<std::int32_t>(of.A), static_cast<std::int32_t>(of.B), toVec3(contact.pos),
                         toVec3(contact.normal).normalized(), contact.depth});
   }
 }
@@ -124,15 +149,15 @@ double BodyContacts::mayClose(const BodySet& bodies, const BodyContact& c, doubl
 
 // Adds contacts with a gap for surfaces that do not touch yet but may within the step, so that the approach ends at the
 // surface.
-void BodyContacts::reportNearing(const BodySet& bodies, std::size_t A, std::size_t B, double h,
-                                 std::vector<BodyContact>& contacts, std::size_t first) {
-  const std::size_t grown = GrownGeom::possible(bodies.geom(B)) ? B : A;
+void BodyContacts::reportNearing(const BodySet& bodies, const Meeting& of, double h, std::vector<BodyContact>& contacts,
+                                 std::size_t first) {
+  const std::size_t B = of.shape_B, grown = GrownGeom::possible(bodies.geom(B)) ? B : of.shape_A;
   if (!GrownGeom::possible(bodies.geom(grown))) return;
-  const double extent = std::min(bodies.extent(A), bodies.extent(B));
-  const double margin = std::min(reach(bodies, A, B, h), kMaxGrowth * extent);
+  const double extent = std::min(bodies.extentOf(of.shape_A), bodies.extentOf(B));
+  const double margin = std::min(reach(bodies, of.A, of.B, h), kMaxGrowth * extent);
   const std::size_t touching = contacts.size();
   const GrownGeom geom(bodies.geom(grown), margin);
-  report(bodies, A, B, kSamePoint * extent, contacts);
+  report(bodies, of, kSamePoint * extent, contacts);
   const auto nearing = [&](BodyContact& c) {
     geom.takeBack(c.p_W, c.depth, grown == B ? Vec3(-c.nhat_AB_W) : c.nhat_AB_W);
     if (c.depth > kRounding * extent) return false;

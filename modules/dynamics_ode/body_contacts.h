@@ -9,6 +9,7 @@
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/broad_phase.h"
 #include "modules/dynamics_ode/convex/hull_contacts.h"
+#include "modules/dynamics_ode/convex/inner_edges.h"
 #include "modules/dynamics_ode/stand_in_geoms.h"
 
 namespace presa::ode {
@@ -22,12 +23,13 @@ enum class Foresight : std::uint8_t {
 
 /// Narrow-phase collision between bodies: convex polyhedra among each other by HullContacts, other shapes by ODE,
 /// converted from its convention (normal from the second geometry into the first) to Presa's. Pairs are processed in
-/// scene order whatever the broad phase returns, so that equal states give equal contacts, to the bit.
+/// scene order whatever the broad phase returns, and the shapes of two bodies in theirs, so that equal states give equal
+/// contacts, to the bit.
 class BodyContacts {
  public:
   static constexpr int kMaxPerPair = 8;
   BodyContacts(const BodySet& bodies, const Vec3& gravity, Foresight foresight)
-      : broad_phase_(bodies), hull_contacts_(bodies), gravity_(gravity), foresight_(foresight) {}
+      : broad_phase_(bodies), hull_contacts_(bodies), inner_edges_(bodies), gravity_(gravity), foresight_(foresight) {}
   /// Fills `contacts` with every contact of an awake body. A sleeping body that is touched is passed to `wake(i)`,
   /// which must wake it; collision is then repeated with that body awake.
   template <class Wake>
@@ -40,9 +42,16 @@ class BodyContacts {
   /// Returns at the first sleeping body that is touched.
   std::optional<std::size_t> collideAwake(const BodySet& bodies, double h, std::vector<BodyContact>& contacts);
   void collidePair(const BodySet& bodies, const BroadPhase::Pair& pair, double h, std::vector<BodyContact>& contacts);
-  bool collideHulls(const BodySet& bodies, std::size_t A, std::size_t B, double h, std::vector<BodyContact>& contacts);
-  void report(const BodySet& bodies, std::size_t A, std::size_t B, double same, std::vector<BodyContact>& contacts);
-  void reportNearing(const BodySet& bodies, std::size_t A, std::size_t B, double h, std::vector<BodyContact>& contacts,
+  /// Two bodies and one shape of each.
+  struct Meeting {
+    std::size_t A, B, shape_A, shape_B;
+  };
+  void collideSeveral(const BodySet& bodies, std::size_t A, std::size_t B, double h,
+                      std::vector<BodyContact>& contacts);
+  void collideShapes(const BodySet& bodies, const Meeting& of, double h, std::vector<BodyContact>& contacts);
+  bool collideHulls(const BodySet& bodies, const Meeting& of, double h, std::vector<BodyContact>& contacts);
+  void report(const BodySet& bodies, const Meeting& of, double same, std::vector<BodyContact>& contacts);
+  void reportNearing(const BodySet& bodies, const Meeting& of, double h, std::vector<BodyContact>& contacts,
                      std::size_t first);
   /// Distance that two bodies may travel within `h` [m].
   double reach(const BodySet& bodies, std::size_t A, std::size_t B, double h) const;
@@ -51,6 +60,7 @@ class BodyContacts {
 
   BroadPhase broad_phase_;
   HullContacts hull_contacts_;
+  InnerEdges inner_edges_;
   ParallelBoxes parallel_boxes_;
   const Vec3 gravity_;
   const Foresight foresight_;

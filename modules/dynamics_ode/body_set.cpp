@@ -51,14 +51,16 @@ BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorld
       dBodySetAngularVel(entry.body, body.w_WB.x(), body.w_WB.y(), body.w_WB.z());
       entry.constant_force_W = body.force_W;
     }
-    if (body.physics) createGeom(entry, *body.physics, world.meshes[i].physics.get());
+    createShapes(i, physicsShapes(body, world.meshes[i]));
   }
 }
 
 BodySet::~BodySet() {
+  for (ShapeEntry& shape : shapes_) {
+    dGeomDestroy(shape.geom);
+    if (shape.mesh_data != nullptr) dGeomTriMeshDataDestroy(shape.mesh_data);
+  }
   for (Entry& entry : bodies_) {
-    if (entry.geom != nullptr) dGeomDestroy(entry.geom);
-    if (entry.mesh_data != nullptr) dGeomTriMeshDataDestroy(entry.mesh_data);
     if (entry.body != nullptr) dBodyDestroy(entry.body);
   }
 }
@@ -97,21 +99,47 @@ Pose BodySet::centrePose(std::size_t i) const {
   return {state.p_WCm, state.q_WB};
 }
 
-Pose BodySet::geomPose(std::size_t i) const {
+Pose BodySet::poseOf(std::size_t shape) const {
   dQuaternion q;
-  dGeomGetQuaternion(geom(i), q);
-  return {toVec3(dGeomGetPosition(geom(i))), toQuat(q)};
+  dGeomGetQuaternion(geom(shape), q);
+  return {toVec3(dGeomGetPosition(geom(shape))), toQuat(q)};
 }
 
-bool BodySet::areNear(std::size_t i, std::size_t j, double distance) const {
-  if (geom(i) == nullptr || geom(j) == nullptr) return false;
-  dReal a[6], b[6];
-  dGeomGetAABB(geom(i), a);
-  dGeomGetAABB(geom(j), b);
+namespace {
+
+bool within(const dReal* a, const dReal* b, double distance) {
   for (int low = 0; low < 6; low += 2) {
     if (a[low] - distance > b[low + 1] || b[low] - distance > a[low + 1]) return false;
   }
   return true;
+}
+
+}  // namespace
+
+bool BodySet::shapesAreNear(std::size_t a, std::size_t b, double distance) const {
+  dReal box_a[6], box_b[6];
+  dGeomGetAABB(geom(a), box_a);
+  dGeomGetAABB(geom(b), box_b);
+  return within(box_a, box_b, distance);
+}
+
+BodySet::Bounds BodySet::bounds(std::size_t i) const {
+  Bounds bounds;
+  dGeomGetAABB(geom(shapes(i).first), bounds.side);
+  for (std::size_t k = 1; k < shapes(i).count; ++k) {
+    dReal box[6];
+    dGeomGetAABB(geom(shapes(i).first + k), box);
+    for (int low = 0; low < 6; low += 2) {
+      bounds.side[low] = std::min(bounds.side[low], box[low]);
+      bounds.side[low + 1] = std::max(bounds.side[low + 1], box[low + 1]);
+    }
+  }
+  return bounds;
+}
+
+bool BodySet::areNear(std::size_t i, std::size_t j, double distance) const {
+  if (shapes(i).count == 0 || shapes(j).count == 0) return false;
+  return within(bounds(i).side, bounds(j).side, distance);
 }
 
 Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
@@ -124,8 +152,7 @@ Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
 double BodySet::reach(std::size_t i, double h) const {
   if (!moves(i)) return 0;
   const Entry& entry = bodies_[i];
-  return h *
-         (toVec3(dBodyGetLinearVel(entry.body)).norm() + toVec3(dBodyGetAngularVel(entry.body)).norm() * entry.extent);
+  return h * (toVec3(dBodyGetLinearVel(entry.body)).norm() + toVec3(dBodyGetAngularVel(entry.body)).norm() * entry.rim);
 }
 
 void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
@@ -313,11 +340,12 @@ void BodySet::driftRotations(double h) {
 
 // Turns the body into an obstacle that ODE's solvers ignore until take().
 void BodySet::detach(Entry& entry) {
-  if (entry.geom != nullptr && !entry.still) {
+  for (ShapeEntry& shape : shapesOf(entry)) {
+    if (entry.still) break;
     dQuaternion q;
-    dGeomGetOffsetQuaternion(entry.geom, q);
-    entry.X_CmG = {toVec3(dGeomGetOffsetPosition(entry.geom)), toQuat(q)};
-    dGeomSetBody(entry.geom, nullptr);
+    dGeomGetOffsetQuaternion(shape.geom, q);
+    shape.X_CmG = {toVec3(dGeomGetOffsetPosition(shape.geom)), toQuat(q)};
+    dGeomSetBody(shape.geom, nullptr);
   }
   dBodySetLinearVel(entry.body, 0, 0, 0);
   dBodySetAngularVel(entry.body, 0, 0, 0);
@@ -329,10 +357,11 @@ void BodySet::detach(Entry& entry) {
 void BodySet::moveTo(Entry& entry, const Pose& X_WCm) {
   dBodySetPosition(entry.body, X_WCm.p.x(), X_WCm.p.y(), X_WCm.p.z());
   dBodySetQuaternion(entry.body, toOde(X_WCm.q).data());
-  if (entry.geom == nullptr) return;
-  const Pose X_WG = X_WCm * entry.X_CmG;
-  dGeomSetPosition(entry.geom, X_WG.p.x(), X_WG.p.y(), X_WG.p.z());
-  dGeomSetQuaternion(entry.geom, toOde(X_WG.q).data());
+  for (const ShapeEntry& shape : shapesOf(entry)) {
+    const Pose X_WG = X_WCm * shape.X_CmG;
+    dGeomSetPosition(shape.geom, X_WG.p.x(), X_WG.p.y(), X_WG.p.z());
+    dGeomSetQuaternion(shape.geom, toOde(X_WG.q).data());
+  }
 }
 
 void BodySet::freeze(Entry& entry) {
@@ -350,10 +379,10 @@ void BodySet::put(std::size_t i) {
 void BodySet::take(std::size_t i) {
   Entry& entry = bodies_[i];
   entry.still = false;
-  if (entry.geom != nullptr) {
-    dGeomSetBody(entry.geom, entry.body);
-    dGeomSetOffsetPosition(entry.geom, entry.X_CmG.p.x(), entry.X_CmG.p.y(), entry.X_CmG.p.z());
-    dGeomSetOffsetQuaternion(entry.geom, toOde(entry.X_CmG.q).data());
+  for (const ShapeEntry& shape : shapesOf(entry)) {
+    dGeomSetBody(shape.geom, entry.body);
+    dGeomSetOffsetPosition(shape.geom, shape.X_CmG.p.x(), shape.X_CmG.p.y(), shape.X_CmG.p.z());
+    dGeomSetOffsetQuaternion(shape.geom, toOde(shape.X_CmG.q).data());
   }
   entry.begin = read(entry);
   enable(i, true);

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "framework/core/state/object_state.h"
-#include "framework/scene/world.h"
+#include "framework/scene/physics_shapes.h"
+#include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/convex/hull.h"
 #include "modules/dynamics_ode/finger_constraint.h"
 
@@ -30,14 +32,39 @@ class BodySet {
   bool awake(std::size_t i) const noexcept { return moves(i) && !bodies_[i].asleep; }
   bool anyAwake() const noexcept;
   dBodyID body(std::size_t i) const noexcept { return moves(i) ? bodies_[i].body : nullptr; }
-  dGeomID geom(std::size_t i) const noexcept { return bodies_[i].geom; }
-  /// The physics geometry as a convex polyhedron in the frame of `geom`; null: it is none.
-  const Hull* hull(std::size_t i) const noexcept { return bodies_[i].hull ? &*bodies_[i].hull : nullptr; }
-  Pose geomPose(std::size_t i) const;
+
+  /// The shapes of body `i`'s physics geometry: `count` indices from `first`, none for a body that others pass through.
+  /// Indices of shapes ascend with those of bodies.
+  struct Shapes {
+    std::size_t first = 0, count = 0;
+  };
+  Shapes shapes(std::size_t i) const noexcept { return bodies_[i].shapes; }
+  std::size_t shapeCount() const noexcept { return shapes_.size(); }
+  std::size_t bodyOf(std::size_t shape) const noexcept { return shapes_[shape].body; }
+  dGeomID geom(std::size_t shape) const noexcept { return shapes_[shape].geom; }
+  /// The shape as a convex polyhedron in the frame of `geom`; null: it is none.
+  const Hull* hullOf(std::size_t shape) const noexcept { return shapes_[shape].hull ? &*shapes_[shape].hull : nullptr; }
+  Pose poseOf(std::size_t shape) const;
+  /// Half the diagonal of the shape's bounds at the start [m].
+  double extentOf(std::size_t shape) const noexcept { return shapes_[shape].extent; }
+  /// Whether the bounding boxes of two shapes in W come within `distance` of each other [m].
+  bool shapesAreNear(std::size_t a, std::size_t b, double distance) const;
+
+  /// Of a body of one shape: that shape as a convex polyhedron, and the pose of its frame. Null: it has several, or none
+  /// that is convex.
+  const Hull* hull(std::size_t i) const noexcept { return shapes(i).count == 1 ? hullOf(shapes(i).first) : nullptr; }
+  Pose geomPose(std::size_t i) const { return poseOf(shapes(i).first); }
+  /// Bounding box of the physics geometry in W [m]; only for a body that has one.
+  struct Bounds {
+    dReal side[6];  ///< low x, high x, low y, …
+  };
+  Bounds bounds(std::size_t i) const;
   /// Half the diagonal of the physics geometry's bounds at the start [m].
   double extent(std::size_t i) const noexcept { return bodies_[i].extent; }
   /// Whether the bounding boxes of two physics geometries in W come within `distance` of each other [m].
   bool areNear(std::size_t i, std::size_t j, double distance) const;
+  /// Contacts for which memory is reserved at the start; more allocate once.
+  std::size_t contactRoom() const noexcept { return kContactsPerBody * (bodies_.size() + more_shapes_); }
 
   /// Inertia and pose at the start of the step, inverse inertia in W. Only for bodies that move.
   BodyInertiaState inertiaState(std::size_t i) const;
@@ -141,37 +168,48 @@ class BodySet {
   using State = Motion;
   struct Entry {
     dBodyID body = nullptr;  ///< null: a fixed body of the scene
-    dGeomID geom = nullptr;  ///< null: no collisions
-    dTriMeshDataID mesh_data = nullptr;
-    std::optional<Hull> hull;
-    std::vector<double> vertices;  // ODE keeps pointers to these
-    std::vector<dTriIndex> indices;
+    Shapes shapes;           ///< none: no collisions
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
-    double mass = 0, extent = 0;
+    double mass = 0, extent = 0, rim = 0;      // rim: for reach(), about the centre of mass
     double added_mass = 0, added_inertia = 0;  // in the solves alone
     bool still = false;                        // an obstacle: frozen or put
     bool frozen = false;                       // permanently still after a fault
     bool asleep = false, enabled = true;
     bool paused = false;   // asleep, but with its velocity
     bool rotated = false;  // by the solver of this step
-    Pose X_CmG;            // geometry frame in the centre-of-mass frame
     Vec3 constant_force_W = Vec3::Zero();
     Vec3 force_W = Vec3::Zero(), torque_W = Vec3::Zero();  // external load of this step, at the centre of mass
     State begin;
     Pose X_WB;  ///< pose last written
   };
-  void createGeom(Entry& entry, const Geometry& geometry, const TriMesh* mesh);
+  struct ShapeEntry {
+    std::size_t body = 0;
+    dGeomID geom = nullptr;
+    dTriMeshDataID mesh_data = nullptr;
+    std::optional<Hull> hull;
+    std::vector<double> vertices;  // ODE keeps pointers to these
+    std::vector<dTriIndex> indices;
+    double extent = 0;
+    Pose X_CmG;  // frame of `geom` in the centre-of-mass frame, while it is detached
+  };
+  void createShapes(std::size_t i, const std::vector<PhysicsShape>& shapes);
+  void createGeom(const Entry& entry, const PhysicsShape& shape);
+  std::span<ShapeEntry> shapesOf(const Entry& entry) {
+    return std::span(shapes_).subspan(entry.shapes.first, entry.shapes.count);
+  }
   static State read(const Entry& entry);
   static Pose poseOf(const Entry& entry, const State& state);
   static bool sane(const State& state);
   void rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const;
-  static void detach(Entry& entry);
-  static void moveTo(Entry& entry, const Pose& X_WCm);
+  void detach(Entry& entry);
+  void moveTo(Entry& entry, const Pose& X_WCm);
   void freeze(Entry& entry);
 
   DynamicsSettings::Rotation rotation_;
   std::vector<Entry> bodies_;
+  std::vector<ShapeEntry> shapes_;
+  std::size_t more_shapes_ = 0;  // beyond one a body
 };
 
 }  // namespace presa::ode

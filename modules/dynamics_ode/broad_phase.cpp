@@ -12,9 +12,8 @@ BroadPhase::BroadPhase(const BodySet& bodies) {
 void BroadPhase::measure(const BodySet& bodies, double h, double margin) {
   bounds_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies.geom(i) == nullptr) continue;
-    dReal box[6];
-    dGeomGetAABB(bodies.geom(i), box);
+    if (bodies.shapes(i).count == 0) continue;
+    const auto [box] = bodies.bounds(i);
     const double wider = bodies.reach(i, h) + margin / 2;
     bounds_.push_back({{box[0] - wider, box[2] - wider, box[4] - wider},
                        {box[1] + wider, box[3] + wider, box[5] + wider},

@@ -63,7 +63,7 @@ struct OdeWorld::Impl {
         energy(engine.gravity(), bodies.size()),
         held(bodies.size()),
         layers(bodies.size()) {
-    contacts.reserve(kContactsPerBody * bodies.size());
+    contacts.reserve(bodies.contactRoom());
     if (usesOwnSolvers(options.method)) {
       own_solvers.emplace(world->scene, engine.gravity(), bodies, options);
       sweep.emplace(bodies);

@@ -31,7 +31,7 @@ StepSolver::StepSolver(const Scene& scene, Engine& engine, BodySet& bodies, cons
       bodies_(bodies),
       options_(options),
       solver_(engine, bodies, options),
-      joints_(scene, options, kContactsPerBody * bodies.size()),
+      joints_(scene, options, bodies.contactRoom()),
       all_(bodies.size()),
       sliding_(bodies.size()),
       wrong_(bodies.size()),

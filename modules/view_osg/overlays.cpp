@@ -3,6 +3,7 @@
 #include <osg/LineWidth>
 #include <osg/PolygonMode>
 
+#include "framework/scene/physics_shapes.h"
 #include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/scene_nodes.h"
@@ -39,6 +40,8 @@ osg::ref_ptr<osg::Node> linesOf(ShownPart part, const Body& body, const BodyMesh
   const auto& geometry = haptic ? body.haptic : physics ? body.physics : body.visual;
   const Geometry* shape = haptic || physics ? (geometry ? &*geometry : nullptr) : shownGeometry(body);
   if (shape == nullptr) return nullptr;
+  if ((physics && hasSeveralShapes(body, meshes)) || std::holds_alternative<Compound>(shape->shape))
+    return physicsNode(body, meshes, physics ? kPhysicsColor : kSleepColor);
   const TriMesh* mesh = haptic ? meshes.haptic.get() : physics ? meshes.physics.get() : shownMesh(body, meshes);
   const Vec3& color = haptic ? kHapticColor : physics ? kPhysicsColor : kSleepColor;
   const auto surface = surfaceOf(shape->shape, mesh, color);

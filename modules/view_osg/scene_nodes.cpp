@@ -10,6 +10,7 @@
 #include <osg/Geode>
 #include <osgUtil/LineSegmentIntersector>
 
+#include "framework/scene/physics_shapes.h"
 #include "modules/view_osg/crease_normals.h"
 #include "modules/view_osg/fewer_facets.h"
 #include "modules/view_osg/geometry_nodes.h"
@@ -35,6 +36,8 @@ osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick)
   const BodyMeshes meshes = i < world.meshes.size() ? world.meshes[i] : BodyMeshes{};
   const Geometry* shown = shownGeometry(body);
   if (shown == nullptr) return nullptr;
+  if (std::holds_alternative<Compound>(shown->shape))
+    return physicsNode(body, meshes, world.scene.materialOf(body).color);
   const TriMesh* mesh = shownMesh(body, meshes);
   if (quick && mesh != nullptr && meshes.haptic && meshes.haptic->triangles.size() < mesh->triangles.size()) {
     shown = &*body.haptic;
@@ -93,8 +96,21 @@ osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, c
                [&](const Box& box) { return boxGeometry(box.size, color); },
                [&](const Sphere& sphere) { return sphereGeometry(sphere.radius, color); },
                [&](const Cylinder& cylinder) { return cylinderGeometry(cylinder.radius, cylinder.length, color); },
-               [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color); }},
+               [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color); },
+               [](const Compound&) { return osg::ref_ptr<osg::Geometry>(); }},
       shape);
+}
+
+osg::ref_ptr<osg::Group> physicsNode(const Body& body, const BodyMeshes& meshes, const Vec3& color) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  for (const PhysicsShape& shape : physicsShapes(body, meshes)) {
+    const auto surface = surfaceOf(*shape.shape, shape.mesh, color);
+    if (!surface) continue;
+    osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shape.X_BG));
+    X_BG->addChild(surface);
+    group->addChild(X_BG);
+  }
+  return group;
 }
 
 const Geometry* shownGeometry(const Body& body) {

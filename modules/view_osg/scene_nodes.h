@@ -49,6 +49,9 @@ const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes);
 /// A shape in its own frame; null for a missing mesh.
 osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color);
 
+/// All shapes of a body's physics geometry, in the body frame.
+osg::ref_ptr<osg::Group> physicsNode(const Body& body, const BodyMeshes& meshes, const Vec3& color);
+
 /// A rectangle over the whole picture, from (-1, -1) to (1, 1), for shaders with positions in clip space; texture
 /// coordinates from 0 to 1. `rows`: number of subdivisions in height.
 osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/presa/commands/commands.h"
+#include "framework/scene/decompositions.h"
 #include "framework/session/load_world.h"
 
 namespace presa {
@@ -24,6 +25,10 @@ nlohmann::json toJson(const Diagnostic& diagnostic) {
           {"help", diagnostic.help}};
 }
 
+nlohmann::json toJson(const DecomposedMesh& mesh) {
+  return {{"body", mesh.body}, {"file", mesh.file}, {"pieces", mesh.pieces}, {"hausdorff_mm", 1e3 * mesh.error}};
+}
+
 int check(const CheckArguments& arguments) {
   bool good = true;
   nlohmann::json report = nlohmann::json::array();
@@ -36,7 +41,12 @@ int check(const CheckArguments& arguments) {
     if (arguments.format == "json") {
       nlohmann::json findings = nlohmann::json::array();
       for (const Diagnostic& diagnostic : diagnostics.all()) findings.push_back(toJson(diagnostic));
-      report.push_back({{"scene", scene}, {"valid", !diagnostics.hasErrors()}, {"findings", findings}});
+      nlohmann::json decomposed = nlohmann::json::array();
+      if (loaded.world) {
+        for (const DecomposedMesh& mesh : decompositionsOf(*loaded.world)) decomposed.push_back(toJson(mesh));
+      }
+      report.push_back(
+          {{"scene", scene}, {"valid", !diagnostics.hasErrors()}, {"findings", findings}, {"decomposed", decomposed}});
       continue;
     }
     std::fputs(diagnostics.text().c_str(), stderr);
@@ -51,6 +61,7 @@ int check(const CheckArguments& arguments) {
     std::printf("%s: good (%zu bodies, %zu materials, %zu devices, %zu haptic triangles)\n", scene.c_str(),
                 loaded.world->scene.bodies.size(), loaded.world->scene.materials.size(),
                 loaded.world->scene.devices.size(), triangles);
+    for (const DecomposedMesh& mesh : decompositionsOf(*loaded.world)) std::printf("  %s\n", textOf(mesh).c_str());
   }
   if (arguments.format == "json") std::printf("%s\n", report.dump(2).c_str());
   return good ? kExitOk : kExitBadInput;

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "framework/core/schedule/rates.h"
+#include "framework/scene/decompositions.h"
 
 namespace presa {
 namespace {
@@ -69,7 +70,8 @@ json describeSession(Session& session, const std::set<std::string>& before) {
   const RateTable rates(session.world()->scene.rates);
   json out;
   out["scene"] = session.world()->scene.name;
-  for (const char* key : {"threads", "modules", "stages", "connections", "effects", "devices", "left_out", "libraries"})
+  for (const char* key :
+       {"threads", "modules", "stages", "connections", "effects", "devices", "left_out", "libraries", "decomposed"})
     out[key] = json::array();
   for (const LeftOut& left_out : session.plan().left_out)
     out["left_out"].push_back({{"what", left_out.what}, {"why", left_out.why}});
@@ -89,6 +91,7 @@ json describeSession(Session& session, const std::set<std::string>& before) {
     out["effects"].push_back({{"plugin", effect.plugin}, {"reason", effect.reason}});
   for (const PlannedDevice& device : session.plan().devices)
     out["devices"].push_back({{"role", device.role}, {"driver", device.driver}, {"frames", device.frames}});
+  for (const DecomposedMesh& mesh : decompositionsOf(*session.world())) out["decomposed"].push_back(textOf(mesh));
   for (const std::string& library : mappedLibraries()) {
     out["libraries"].push_back({{"name", library},
                                 {"plugin", library.starts_with("presa_")},

@@ -94,6 +94,8 @@ std::string explainText(const json& run) {
     for (const json& frame : device["frames"]) out += " in " + text(frame);
     out += '\n';
   }
+  if (!run["decomposed"].empty()) out += "\nMeshes cut into convex pieces\n";
+  for (const json& mesh : run["decomposed"]) out += "  " + text(mesh) + '\n';
   out += "\nValues that cross threads\n";
   crossings(out, run);
   out += "\nLeft out\n";

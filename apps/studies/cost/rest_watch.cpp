@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "framework/scene/physics_shapes.h"
+
 namespace presa::cost {
 
 RestWatch::RestWatch(const World& world, const Evidence& evidence)
@@ -68,9 +70,13 @@ void RestWatch::finish(Evidence& evidence) const {
 std::string RestWatch::lost() const {
   const Vec3 down = world_.scene.gravity.normalized();
   double lowest = -std::numeric_limits<double>::infinity();
-  for (const Body& body : world_.scene.bodies) {
-    const auto* box = body.fixed && body.physics ? std::get_if<Box>(&body.physics->shape) : nullptr;
-    if (box != nullptr) lowest = std::max(lowest, down.dot(body.X_WB * body.physics->X_BG.p) + box->size.norm() / 2);
+  for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
+    const Body& body = world_.scene.bodies[i];
+    if (!body.fixed) continue;
+    for (const PhysicsShape& shape : physicsShapes(body, world_.meshes[i])) {
+      const auto* box = std::get_if<Box>(shape.shape);
+      if (box != nullptr) lowest = std::max(lowest, down.dot(body.X_WB * shape.X_BG.p) + box->size.norm() / 2);
+    }
   }
   if (!std::isfinite(lowest)) return {};
   for (std::size_t i = 0; i < last_.size(); ++i) {

@@ -23,6 +23,7 @@ Bounds boundsOf(const Block& block) {
     std::vector<Vec3> operator()(const MeshRef&) const { return mesh.vertices; }
     std::vector<Vec3> operator()(const Box& box) const { return of(box.size / 2); }
     std::vector<Vec3> operator()(const Cylinder& rod) const { return of({rod.radius, rod.radius, rod.length / 2}); }
+    std::vector<Vec3> operator()(const Compound&) const { return {}; }
     std::vector<Vec3> operator()(const Sphere& s) const { return of(Vec3::Constant(s.radius)); }
     std::vector<Vec3> operator()(const Capsule& rod) const {
       return of({rod.radius, rod.radius, rod.length / 2 + rod.radius});

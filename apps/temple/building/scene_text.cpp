@@ -37,6 +37,7 @@ std::string physicsText(const Block& block) {
     std::string operator()(const MeshRef&) const { return "<mesh file=\"" + meshName(block, "physics") + "\"/>"; }
     std::string operator()(const Sphere&) const { return {}; }
     std::string operator()(const Capsule&) const { return {}; }
+    std::string operator()(const Compound&) const { return {}; }
   };
   return std::visit(Text{block}, block.physics);
 }

@@ -102,7 +102,8 @@ class Checker {
       if (present.count(allowed.name) == 0) free_names.push_back(allowed.name);
     }
     const SourceLocation where = data_.locate(attribute);
-    const std::vector<std::string> owners = ownersOfAttribute(name);
+    std::vector<std::string> owners = ownersOfAttribute(name);
+    std::erase(owners, tag(rule.name));  // an element of this name, but in another place
     if (rule.child(name)) {
       diagnostics_.error(kUnknownAttribute, where, quote(name) + " is no attribute of " + labelOf(node),
                          "it is an element of its own within it: " + tag(name));
@@ -159,7 +160,8 @@ class Checker {
     for (const ElementRule* option : content.options) names.push_back(tag(option->name));
     for (std::size_t i = content.max; i < found.size(); ++i) {
       const SourceLocation first = data_.locate(found.front());
-      const std::string limit = names.size() > 1 ? "only one of " + joined(names) : "only one " + names.front();
+      const std::string one = content.max == 1 ? "only one " : "up to " + std::to_string(content.max) + " ";
+      const std::string limit = names.size() > 1 ? one + "of " + joined(names) : one + names.front();
       diagnostics_.error(kTooMany, data_.locate(found[i]),
                          labelOf(node) + " may hold " + limit + ", this is another one",
                          "the first is in line " + std::to_string(first.line));

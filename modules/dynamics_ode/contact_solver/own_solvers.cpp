@@ -27,12 +27,12 @@ OwnSolvers::OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodie
     : bodies_(bodies),
       options_(options),
       gravity_W_(gravity_W),
-      newton_(newtonOptions(options), bodies.size(), kContactsPerBody * bodies.size()),
-      small_steps_(options.small_steps, bodies.size(), std::min(kMostRows, kContactsPerBody * bodies.size())),
-      joints_(scene, options, kContactsPerBody * bodies.size()),
+      newton_(newtonOptions(options), bodies.size(), bodies.contactRoom()),
+      small_steps_(options.small_steps, bodies.size(), std::min(kMostRows, bodies.contactRoom())),
+      joints_(scene, options, bodies.contactRoom()),
       place_(bodies.size(), ContactProblem::kFixed),
       back_off_(bodies.size()) {
-  const std::size_t contacts = kContactsPerBody * bodies.size();
+  const std::size_t contacts = bodies.contactRoom();
   const auto bounces = [](const Material& material) { return material.restitution > 0; };
   if (std::ranges::any_of(scene.materials, bounces)) bounce_.emplace(bodies.size(), contacts);
   problem_.bodies.reserve(bodies.size());

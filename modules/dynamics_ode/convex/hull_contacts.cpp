@@ -5,7 +5,7 @@
 namespace presa::ode {
 namespace {
 
-constexpr std::size_t kPairsPerBody = 16;
+constexpr std::size_t kPairsPerShape = 16;
 constexpr double kBroad = 8;  // size of a body on which a cylinder meets faces, not corners, in relation to it
 
 double radiusOf(const Hull& hull) {
@@ -24,17 +24,17 @@ bool fits(const Hull& A, const Hull& B) {
 
 }  // namespace
 
-HullContacts::HullContacts(const BodySet& bodies) : placed_(bodies.size()) {
+HullContacts::HullContacts(const BodySet& bodies) : placed_(bodies.shapeCount()) {
   std::size_t edges = 0, faces = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies.hull(i) == nullptr) continue;
-    edges = std::max(edges, bodies.hull(i)->edges.size());
-    faces = std::max(faces, bodies.hull(i)->faces.size());
+  for (std::size_t i = 0; i < bodies.shapeCount(); ++i) {
+    if (bodies.hullOf(i) == nullptr) continue;
+    edges = std::max(edges, bodies.hullOf(i)->edges.size());
+    faces = std::max(faces, bodies.hullOf(i)->faces.size());
     placed(bodies, i);  // takes its memory
   }
   maker_.makeRoom(edges, faces);
-  memories_.reserve(kPairsPerBody * bodies.size());
-  past_.reserve(kPairsPerBody * bodies.size());
+  memories_.reserve(kPairsPerShape * bodies.shapeCount());
+  past_.reserve(kPairsPerShape * bodies.shapeCount());
 }
 
 void HullContacts::beginStep() {
@@ -47,20 +47,28 @@ void HullContacts::beginStep() {
 const Hull& HullContacts::placed(const BodySet& bodies, std::size_t i) {
   Placed& placed = placed_[i];
   if (placed.step != step_) {
-    place(*bodies.hull(i), bodies.geomPose(i), placed.hull);
+    place(*bodies.hullOf(i), bodies.poseOf(i), placed.hull);
     placed.step = step_;
   }
   return placed.hull;
 }
 
+// Shapes ascend with bodies, so the lower shape is of the lower body.
+HullContacts::Pair HullContacts::pairOf(const BodySet& bodies, std::size_t A, std::size_t B) {
+  const auto joined = [](std::uint64_t a, std::uint64_t b) { return a << 32U | b; };
+  const auto [low, high] = std::minmax(A, B);
+  return {joined(bodies.bodyOf(low), bodies.bodyOf(high)), joined(low, high)};
+}
+
 const Manifold* HullContacts::find(const BodySet& bodies, std::size_t A, std::size_t B, double margin) {
-  if (bodies.hull(A) == nullptr || bodies.hull(B) == nullptr || !fits(*bodies.hull(A), *bodies.hull(B))) return nullptr;
-  Memory memory{std::minmax(A, B), {}, {}};
+  const Hull *hull_A = bodies.hullOf(A), *hull_B = bodies.hullOf(B);
+  if (hull_A == nullptr || hull_B == nullptr || !fits(*hull_A, *hull_B)) return nullptr;
+  Memory memory{pairOf(bodies, A, B), {}, {}};
   while (recalled_ < past_.size() && past_[recalled_].pair < memory.pair) ++recalled_;
   if (recalled_ < past_.size() && past_[recalled_].pair == memory.pair) memory = past_[recalled_];
   const auto side = [&](std::size_t i, CylinderTurn& turn) {
-    const Hull& hull = *bodies.hull(i);
-    return FacingHulls::Side{hull, bodies.geomPose(i), hull.cylinder ? nullptr : &placed(bodies, i), &turn};
+    const Hull& hull = *bodies.hullOf(i);
+    return FacingHulls::Side{hull, bodies.poseOf(i), hull.cylinder ? nullptr : &placed(bodies, i), &turn};
   };
   const bool ascending = A < B;
   const auto [a, b] = facing_.of(side(A, memory.turns[ascending ? 0 : 1]), side(B, memory.turns[ascending ? 1 : 0]));

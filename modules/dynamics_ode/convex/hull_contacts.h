@@ -10,15 +10,15 @@
 
 namespace presa::ode {
 
-/// The contacts of bodies whose physics geometries are convex (BodySet::hull), with a memory from step to
-/// step. Pairs must be asked for in ascending order within a step.
+/// The contacts of convex shapes of bodies (BodySet::hullOf), with a memory from step to step. Within a step pairs must
+/// be asked for in ascending order of their bodies, then of their shapes.
 class HullContacts {
  public:
   explicit HullContacts(const BodySet& bodies);
 
   void beginStep();
-  /// The contact of A and B within `margin` [m]; null when they are not both convex, or a
-  /// cylinder meets a body that is not much larger. Valid until the next call.
+  /// The contact of shapes A and B within `margin` [m]; null when they are not both convex, or a
+  /// cylinder meets a shape that is not much larger. Valid until the next call.
   const Manifold* find(const BodySet& bodies, std::size_t A, std::size_t B, double margin);
 
  private:
@@ -26,8 +26,10 @@ class HullContacts {
     std::uint64_t step = 0;
     Hull hull;
   };
+  using Pair = std::pair<std::uint64_t, std::uint64_t>;  // of bodies, of shapes
+  static Pair pairOf(const BodySet& bodies, std::size_t A, std::size_t B);
   struct Memory {
-    std::pair<std::size_t, std::size_t> pair;
+    Pair pair;
     ContactAxis axis;
     std::array<CylinderTurn, 2> turns;  // of A and B
   };
@@ -36,7 +38,7 @@ class HullContacts {
   ManifoldMaker maker_;
   Manifold manifold_;
   FacingHulls facing_;
-  std::vector<Placed> placed_;           // by body: its hull in W
+  std::vector<Placed> placed_;           // by shape: its hull in W
   std::vector<Memory> memories_, past_;  // of this step and of the last, sorted by pair
   std::size_t recalled_ = 0;             // into past_
   std::uint64_t step_ = 1;

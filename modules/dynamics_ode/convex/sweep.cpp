@@ -37,13 +37,16 @@ Vec3 rotationVector(const Quat& q) {
 
 }  // namespace
 
-Sweep::Sweep(const BodySet& bodies) : shapes_(bodies.size()), ways_(bodies.size()), broad_phase_(bodies) {
+Sweep::Sweep(const BodySet& bodies)
+    : shapes_(bodies.shapeCount()), first_convex_(bodies.size(), kNone), ways_(bodies.size()), broad_phase_(bodies) {
   std::size_t edges = 0, faces = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies.hull(i) == nullptr) continue;
-    const Hull& hull = *bodies.hull(i);
-    const Pose X_CmG = bodies.moves(i) ? bodies.centrePose(i).inverse() * bodies.geomPose(i) : Pose();
-    shapes_[i] = {&hull, X_CmG, widthOf(hull), bodies.moves(i) ? rimOf(hull, X_CmG) : 0};
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    if (bodies.hullOf(i) == nullptr) continue;
+    const std::size_t body = bodies.bodyOf(i);
+    const Hull& hull = *bodies.hullOf(i);
+    const Pose X_CmG = bodies.moves(body) ? bodies.centrePose(body).inverse() * bodies.poseOf(i) : Pose();
+    shapes_[i] = {&hull, X_CmG, body, widthOf(hull), bodies.moves(body) ? rimOf(hull, X_CmG) : 0};
+    if (first_convex_[body] == kNone) first_convex_[body] = i;
     edges = std::max(edges, hull.edges.size());
     faces = std::max(faces, hull.faces.size());
     for (Hull& placed : placed_) presa::ode::place(hull, Pose(), placed);  // takes its memory
@@ -56,26 +59,30 @@ bool Sweep::measureWays(const BodySet& bodies) {
   double thinnest = 1e300, longest = 0;
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     Way& way = ways_[i] = Way();
-    if (shapes_[i].hull == nullptr) continue;
-    thinnest = std::min(thinnest, shapes_[i].width);
-    if (!bodies.awake(i)) continue;
+    if (first_convex_[i] == kNone || !bodies.awake(i)) continue;
     const BodySet::Motion &begin = bodies.motionAtBegin(i), end = bodies.motion(i);
     way.begin = {begin.p_WCm, begin.q_WB};
     way.shift = end.p_WCm - begin.p_WCm;
     way.turn = rotationVector(end.q_WB * begin.q_WB.conjugate());
-    longest = std::max(longest, way.shift.norm() + shapes_[i].rim * way.turn.norm());
+  }
+  for (const Shape& shape : shapes_) {
+    if (shape.hull == nullptr) continue;
+    thinnest = std::min(thinnest, shape.width);
+    const Way& way = ways_[shape.body];
+    longest = std::max(longest, way.shift.norm() + shape.rim * way.turn.norm());
   }
   return 2 * longest > kShortWay * thinnest;
 }
 
 double Sweep::travel(std::size_t A, std::size_t B) const {
-  return (ways_[B].shift - ways_[A].shift).norm() + shapes_[A].rim * ways_[A].turn.norm() +
-         shapes_[B].rim * ways_[B].turn.norm();
+  const Way &way_A = ways_[shapes_[A].body], &way_B = ways_[shapes_[B].body];
+  return (way_B.shift - way_A.shift).norm() + shapes_[A].rim * way_A.turn.norm() + shapes_[B].rim * way_B.turn.norm();
 }
 
 Pose Sweep::geomPose(const BodySet& bodies, std::size_t i, double s) const {
-  if (!bodies.awake(i)) return bodies.geomPose(i);
-  const Way& way = ways_[i];
+  const std::size_t body = shapes_[i].body;
+  if (!bodies.awake(body)) return bodies.poseOf(i);
+  const Way& way = ways_[body];
   s = std::min(s, way.end);
   const double angle = way.turn.norm();
   const Quat turned = angle > 0 ? Quat(Eigen::AngleAxisd(s * angle, way.turn / angle)) : Quat(Quat::Identity());
@@ -95,15 +102,16 @@ Separation Sweep::separation(const BodySet& bodies, std::size_t A, std::size_t B
 // The part of their ways that both may go. Along the normal of one look the gap shrinks no faster than `closing`, and
 // the gap along the best normal is at least that.
 double Sweep::follow(const BodySet& bodies, std::size_t A, std::size_t B) {
+  const Way &way_A = ways_[shapes_[A].body], &way_B = ways_[shapes_[B].body];
   const double width = std::min(shapes_[A].width, shapes_[B].width),
-               turning = shapes_[A].rim * ways_[A].turn.norm() + shapes_[B].rim * ways_[B].turn.norm();
-  const double end = std::max(ways_[A].end, ways_[B].end);
+               turning = shapes_[A].rim * way_A.turn.norm() + shapes_[B].rim * way_B.turn.norm();
+  const double end = std::max(way_A.end, way_B.end);
   Separation apart = separation(bodies, A, B, 0);
   // those that overlap more already may not go deeper
   const double lowest = std::min(-kMaxOverlap * width, apart.gap - 0.5 * kMinAdvance * width);
   double s = 0, good = 0;
   for (int look = 0; look < kMaxLooks; ++look) {
-    const double closing = std::max(0.0, -(ways_[B].shift - ways_[A].shift).dot(apart.nhat_AB_W)) + turning;
+    const double closing = std::max(0.0, -(way_B.shift - way_A.shift).dot(apart.nhat_AB_W)) + turning;
     const double free = apart.gap - lowest;
     if (free >= closing * (end - s)) return end;
     good = s + free / closing;
@@ -116,27 +124,46 @@ double Sweep::follow(const BodySet& bodies, std::size_t A, std::size_t B) {
   return good;
 }
 
+// True when one of them goes less far than it would have.
+bool Sweep::stopShapes(const BodySet& bodies, std::size_t A, std::size_t B) {
+  if (shapes_[A].hull == nullptr || shapes_[B].hull == nullptr) return false;
+  if (travel(A, B) <= kShortWay * std::min(shapes_[A].width, shapes_[B].width)) return false;
+  const double end = follow(bodies, A, B);
+  bool stopped = false;
+  for (const std::size_t i : {shapes_[A].body, shapes_[B].body}) {
+    if (!bodies.awake(i) || ways_[i].end <= end) continue;
+    ways_[i].end = end;
+    stopped = true;
+  }
+  return stopped;
+}
+
+bool Sweep::stopPair(const BodySet& bodies, const BroadPhase::Pair& pair) {
+  const BodySet::Shapes a = bodies.shapes(pair.first), b = bodies.shapes(pair.second);
+  const bool several = a.count * b.count > 1;
+  bool stopped = false;
+  for (std::size_t s = a.first; s < a.first + a.count; ++s) {
+    for (std::size_t t = b.first; t < b.first + b.count; ++t) {
+      if (several && !bodies.shapesAreNear(s, t, travel(s, t))) continue;
+      stopped = stopShapes(bodies, s, t) || stopped;
+    }
+  }
+  return stopped;
+}
+
 void Sweep::stopShort(BodySet& bodies, double h) {
   if (!measureWays(bodies)) return;
   const std::vector<BroadPhase::Pair>& pairs = broad_phase_.find(bodies, h, 0);
   bool stopped = true;
   for (int round = 0; stopped && round < kRounds; ++round) {
     stopped = false;
-    for (const auto& [A, B] : pairs) {
-      if (shapes_[A].hull == nullptr || shapes_[B].hull == nullptr) continue;
-      if (travel(A, B) <= kShortWay * std::min(shapes_[A].width, shapes_[B].width)) continue;
-      const double end = follow(bodies, A, B);
-      for (const std::size_t i : {A, B}) {
-        if (!bodies.awake(i) || ways_[i].end <= end) continue;
-        ways_[i].end = end;
-        stopped = true;
-      }
-    }
+    for (const BroadPhase::Pair& pair : pairs) stopped = stopPair(bodies, pair) || stopped;
   }
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (ways_[i].end >= 1) continue;
-    const Pose X_WG = geomPose(bodies, i, 1);
-    const Pose X_WCm = X_WG * shapes_[i].X_CmG.inverse();
+    const std::size_t shape = first_convex_[i];
+    const Pose X_WG = geomPose(bodies, shape, 1);
+    const Pose X_WCm = X_WG * shapes_[shape].X_CmG.inverse();
     bodies.stopAt(i, X_WCm.p, X_WCm.q);
     ++stops_;
   }

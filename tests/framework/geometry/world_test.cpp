@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "framework/scene/inertia.h"
+#include "framework/scene/physics_shapes.h"
 
 namespace presa {
 namespace {
@@ -43,25 +44,54 @@ TEST(Inertia, FollowsTheGeometryInTheBody) {
   const Pose X_BG{Vec3(0.1, 0, -0.2), Quat(Eigen::AngleAxisd(pi / 2, Vec3::UnitX()))};
   Diagnostics diagnostics;
   Body body = freeBody(Box{{0.1, 0.2, 0.4}}, 0.6, X_BG);
-  const BodyInertia by_mass = inertiaOf(body, nullptr, diagnostics);
+  const BodyInertia by_mass = inertiaOf(body, {}, diagnostics);
   EXPECT_LT((by_mass.p_BCm - X_BG.p).norm(), 1e-15);
   EXPECT_LT((by_mass.inertia - Mat3(Vec3(0.05 * 0.20, 0.05 * 0.05, 0.05 * 0.17).asDiagonal())).norm(), 1e-15);
   body.mass.reset();
   body.density = 0.6 / (0.1 * 0.2 * 0.4);
-  EXPECT_LT((inertiaOf(body, nullptr, diagnostics).inertia - by_mass.inertia).norm(), 1e-15);
+  EXPECT_LT((inertiaOf(body, {}, diagnostics).inertia - by_mass.inertia).norm(), 1e-15);
+  EXPECT_TRUE(diagnostics.all().empty());
+}
+
+// A dumbbell: closed forms of its balls, moved by the parallel axis theorem, and of its bar. Equal density everywhere, and
+// each shape counts in full, where they overlap, too.
+TEST(Inertia, OfADumbbellIsTheSumOfItsShapes) {
+  const double r = 0.03, d = 0.1, bar = 0.01, length = 0.18;
+  const Quat q(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  const Pose X_BG{Vec3(0.1, -0.2, 0.3), q};
+  Compound dumbbell;
+  dumbbell.parts.push_back({Sphere{r}, {Vec3(0, 0, d), Quat::Identity()}, {}});
+  dumbbell.parts.push_back({Sphere{r}, {Vec3(0, 0, -d), Quat::Identity()}, {}});
+  dumbbell.parts.push_back({Cylinder{bar, length}, {}, {}});
+  const double density = 2000, ball = density * 4.0 / 3.0 * pi * r * r * r, rod = density * pi * bar * bar * length;
+  const double along = 2 * 0.4 * ball * r * r + rod * bar * bar / 2;
+  const double across = 2 * (0.4 * ball * r * r + ball * d * d) + rod * (bar * bar / 4 + length * length / 12);
+  const Mat3 R = q.toRotationMatrix(), expected = R * Vec3(across, across, along).asDiagonal() * R.transpose();
+  Body body = freeBody(dumbbell, 2 * ball + rod, X_BG);
+  Diagnostics diagnostics;
+  for (const bool by_density : {false, true}) {
+    if (by_density) {
+      body.mass.reset();
+      body.density = density;
+    }
+    const BodyInertia found = inertiaOf(body, {}, diagnostics);
+    EXPECT_NEAR(found.mass, 2 * ball + rod, 1e-14);
+    EXPECT_LT((found.p_BCm - X_BG.p).norm(), 1e-15);
+    EXPECT_LT((found.inertia - expected).norm(), 1e-15);
+  }
   EXPECT_TRUE(diagnostics.all().empty());
 }
 
 TEST(Inertia, RefusesWhatCannotMove) {
   for (const Body& body : {freeBody(Box{{0.1, 0, 0.1}}, 1), freeBody(Sphere{0.1}, -1), freeBody(Sphere{0.1}, 0)}) {
     Diagnostics diagnostics;
-    inertiaOf(body, nullptr, diagnostics);
+    inertiaOf(body, {}, diagnostics);
     ASSERT_EQ(diagnostics.errorCount(), 1u);
     EXPECT_EQ(diagnostics.all()[0].code, 321);
   }
   Diagnostics diagnostics;
   Body ghost;
-  inertiaOf(ghost, nullptr, diagnostics);
+  inertiaOf(ghost, {}, diagnostics);
   EXPECT_EQ(diagnostics.all().at(0).code, 320);
 }
 
@@ -81,6 +111,33 @@ TEST(BuildWorld, ReadsEachFileOncePerScale) {
   EXPECT_NEAR(radiusOf(*world.meshes[1].haptic), 2 * radiusOf(*world.meshes[0].haptic), 1e-15);
   EXPECT_FALSE(world.meshes[0].physics);
   EXPECT_EQ(world.inertias[1].mass, 0.25);
+}
+
+// The cup of the scene: alone it may have a hollow; beside another shape it has to be cut.
+TEST(BuildWorld, WantsConvexMeshesAmongSeveralShapes) {
+  const std::string cup = PRESA_SOURCE_DIR "/config/meshes/cup.obj";
+  Compound with_handle;
+  with_handle.parts.push_back({MeshRef{cup}, {}, {"scene.xml", 7, 5}});
+  with_handle.parts.push_back({Capsule{0.005, 0.05}, {Vec3(0.05, 0, 0.05), Quat::Identity()}, {}});
+  Scene scene;
+  scene.bodies = {freeBody(with_handle, 0.2)};
+  Diagnostics refused;
+  buildWorld(scene, {}, refused);
+  ASSERT_EQ(refused.errorCount(), 1U) << refused.text();
+  EXPECT_EQ(refused.all()[0].code, 322);
+  EXPECT_EQ(refused.all()[0].where.line, 7);
+  std::get<MeshRef>(std::get<Compound>(scene.bodies[0].physics->shape).parts[0].shape).decompose.emplace();
+  Diagnostics diagnostics;
+  const World world = buildWorld(scene, {}, diagnostics);
+  EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
+  EXPECT_EQ(physicsShapes(world.scene.bodies[0], world.meshes[0]).size(), 26U);
+  EXPECT_LT(world.meshes[0].decomposed.at(0).error, 1e-7);
+  // in one piece the mouth is closed, and the warning says how far
+  scene.bodies = {freeBody(MeshRef{cup, Vec3::Ones(), Decomposition{1, 0.001}}, 0.2)};
+  Diagnostics far;
+  buildWorld(scene, {}, far);
+  ASSERT_EQ(far.all().size(), 1U) << far.text();
+  EXPECT_EQ(far.all()[0].code, 323);
 }
 
 TEST(BuildWorld, ReportsAMissingMeshOnce) {

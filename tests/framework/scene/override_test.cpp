@@ -29,6 +29,22 @@ TEST(Override, ReachesEveryKindOfValue) {
   EXPECT_EQ(load({{"name", "other"}}).name, "other");
 }
 
+// Of several shapes of one kind a path cannot name one; of one of each kind it can.
+TEST(Override, DoesNotGuessAmongSeveralShapes) {
+  const std::string one = "<cylinder radius=\"0.03\" length=\"0.07\"/>";
+  const std::vector<Override> change{{"body/cube/physics/sphere/radius", "0.04"}};
+  Diagnostics good;
+  const std::string mixed = edited(kScene, one, one + "<sphere radius=\"0.02\"/>");
+  const Scene scene = parseScene(mixed, "scene.xml", "/lab", change, good);
+  ASSERT_TRUE(good.all().empty()) << good.text();
+  EXPECT_EQ(std::get<Sphere>(std::get<Compound>(scene.bodies[1].physics->shape).parts[1].shape).radius, 0.04);
+  const Diagnostics findings =
+      findingsOf(edited(kScene, one, "<sphere radius=\"0.02\"/><sphere radius=\"0.03\"/>"), change);
+  ASSERT_EQ(findings.all().size(), 1U) << findings.text();
+  EXPECT_EQ(findings.all()[0].code, 202);
+  EXPECT_NE(findings.text().find("holds 2 <sphere>"), std::string::npos) << findings.text();
+}
+
 TEST(Override, ListsMayBeWrittenOrSkipped) {
   EXPECT_EQ(load({{"materials/material/wood/stiffness", "700"}}).materials[1].stiffness, 700);
   EXPECT_EQ(load({{"devices/device/index/fingertip_radius", "0.01"}}).devices[1].fingertip_radius, 0.01);

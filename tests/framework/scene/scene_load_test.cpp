@@ -14,23 +14,27 @@ Scene load(const std::string& text, const std::vector<Override>& overrides = {})
   return scene;
 }
 
+std::string poseText(const Pose& pose) {
+  std::ostringstream text;
+  text.precision(17);
+  text << pose.p.transpose() << " | " << pose.q.coeffs().transpose();
+  return text.str();
+}
+
 std::string shapeText(const Shape& shape) {
   std::ostringstream text;
   text.precision(17);
   if (const auto* mesh = std::get_if<MeshRef>(&shape)) text << "mesh " << mesh->file << " " << mesh->scale.transpose();
+  if (const auto* compound = std::get_if<Compound>(&shape)) {
+    for (const ShapePart& part : compound->parts)
+      text << shapeText(part.shape) << " at " << poseText(part.X_GP) << "; ";
+  }
   if (const auto* box = std::get_if<Box>(&shape)) text << "box " << box->size.transpose();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) text << "sphere " << sphere->radius;
   if (const auto* cylinder = std::get_if<Cylinder>(&shape))
     text << "cylinder " << cylinder->radius << " " << cylinder->length;
   if (const auto* capsule = std::get_if<Capsule>(&shape))
     text << "capsule " << capsule->radius << " " << capsule->length;
-  return text.str();
-}
-
-std::string poseText(const Pose& pose) {
-  std::ostringstream text;
-  text.precision(17);
-  text << pose.p.transpose() << " | " << pose.q.coeffs().transpose();
   return text.str();
 }
 
@@ -107,6 +111,35 @@ TEST(SceneLoad, ReadsEveryValue) {
   ASSERT_EQ(scene.devices.size(), 2U);
   EXPECT_EQ(scene.devices[0].role, "thumb");
   EXPECT_EQ(scene.devices[0].limits.force, 10);
+}
+
+// One shape with a place of its own is a geometry at that place; several are a Compound in the place of <physics>.
+TEST(SceneLoad, PhysicsHoldsSeveralShapes) {
+  const std::string one = "<cylinder radius=\"0.03\" length=\"0.07\"/>", place = "<physics mass=\"0.2\">";
+  const std::string at = "<physics mass=\"0.2\" pos=\"0 0 0.1\" euler_deg=\"0 0 90\">";
+  const std::string placed = "<cylinder radius=\"0.03\" length=\"0.07\" pos=\"0.01 0 0\" euler_deg=\"90 0 0\"/>";
+  const Scene single = load(edited(edited(kScene, place, at), one, placed));
+  const Pose expected = Pose{Vec3(0, 0, 0.1), Quat(Eigen::AngleAxisd(EIGEN_PI / 2, Vec3::UnitZ()))} *
+                        Pose{Vec3(0.01, 0, 0), Quat(Eigen::AngleAxisd(EIGEN_PI / 2, Vec3::UnitX()))};
+  EXPECT_LT((single.bodies[1].physics->X_BG.p - expected.p).norm(), 1e-15);
+  EXPECT_LT(single.bodies[1].physics->X_BG.q.angularDistance(expected.q), 1e-7);  // arc cosine near 1
+  const std::string mesh = "<mesh file=\"a.obj\" decompose=\"true\" max_pieces=\"12\" max_error=\"0.002\"/>";
+  const Scene scene = load(edited(edited(kScene, place, at), one, placed + mesh + "<sphere radius=\"0.02\"/>"));
+  const Geometry& physics = *scene.bodies[1].physics;
+  EXPECT_EQ(physics.X_BG.p, Vec3(0, 0, 0.1));
+  const auto& parts = std::get<Compound>(physics.shape).parts;
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_EQ(parts[0].X_GP.p, Vec3(0.01, 0, 0));
+  EXPECT_EQ(std::get<MeshRef>(parts[1].shape).file, "/lab/a.obj");
+  EXPECT_EQ(std::get<MeshRef>(parts[1].shape).decompose.value().max_pieces, 12U);
+  EXPECT_EQ(std::get<MeshRef>(parts[1].shape).decompose.value().max_error, 0.002);
+  EXPECT_EQ(std::get<Sphere>(parts[2].shape).radius, 0.02);
+  EXPECT_EQ(parts[2].X_GP.p, Vec3(Vec3::Zero()));
+  // the resolved text, which recordings keep, is the same scene
+  Diagnostics again;
+  const Scene reread = parseScene(scene.resolved_xml, "scene.xml", "/elsewhere", {}, again);
+  EXPECT_TRUE(again.all().empty()) << again.text();
+  EXPECT_EQ(contentOf(reread), contentOf(scene));
 }
 
 // Defaults are stated in the XSD and in scene.h: an omitted value must be the same from both.

@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "framework/scene/world.h"
+
+namespace presa {
+
+/// One of the shapes that a body's physics geometry consists of, in the body frame. `shape` is no Compound; `mesh` is its
+/// mesh, or one convex piece of it, and null for a primitive. Valid as long as the body and its meshes are.
+struct PhysicsShape {
+  const Shape* shape = nullptr;
+  const TriMesh* mesh = nullptr;
+  Pose X_BG;
+};
+
+/// The shapes of a body's physics geometry in document order, the pieces of a decomposed mesh in its place; none without
+/// physics geometry.
+std::vector<PhysicsShape> physicsShapes(const Body& body, const BodyMeshes& meshes);
+bool hasSeveralShapes(const Body& body, const BodyMeshes& meshes);
+
+/// Support of a shape in the unit direction `nhat_G` of its own frame: max of nhat_G . p over its points [m]. 0 for a
+/// mesh that is absent, and for a Compound.
+double supportOf(const Shape& shape, const TriMesh* mesh, const Vec3& nhat_G);
+/// The same of a body's physics geometry, in the body frame [m]; 0 without one.
+double supportOf(const Body& body, const BodyMeshes& meshes, const Vec3& nhat_B);
+
+/// All meshes that a scene names: of each body, visual, haptic and physics ones.
+std::vector<MeshRef*> meshesOf(Scene& scene);
+std::vector<const MeshRef*> meshesOf(const Scene& scene);
+
+}  // namespace presa
