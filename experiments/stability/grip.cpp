@@ -14,21 +14,46 @@ namespace {
 
 constexpr double kMoving = 3.5;  // how long the body is moved [s]
 
-HeldBody referenceOf(const Carried& carried, const World& world, const HapticSample& sample, std::size_t body) {
+/// The body on its springs, without its attachments.
+HeldBody::Parameters parametersOf(const Carried& carried, const World& world, std::size_t body) {
   HeldBody::Parameters parameters;
   parameters.mass = world.inertias[body].mass;
   parameters.inertia = world.inertias[body].inertia.diagonal();
   parameters.stiffness = carried.stiffness;
   parameters.gravity = world.scene.gravity;
-  for (std::size_t f = 0; f < carried.grip.points.size(); ++f) {
-    parameters.attachments.push_back(sample.contact.fingers[f].p_BP);
-  }
   parameters.fingertip = [&carried](std::size_t finger, double time) {
     return gripState(carried.grip, finger, time).p_WH;
   };
+  return parameters;
+}
+
+/// The reference of the motion, from the body as it is when the motion begins.
+HeldBody movingFrom(const Carried& carried, const World& world, const HapticSample& sample, std::size_t body) {
+  HeldBody::Parameters parameters = parametersOf(carried, world, body);
+  for (std::size_t f = 0; f < carried.grip.points.size(); ++f) {
+    parameters.attachments.push_back(sample.contact.fingers[f].p_BP);
+  }
   const BodyMotion& motion = sample.objects->bodies[body];
   return {std::move(parameters), sample.tick.time,
           sample.objects->poseAt(static_cast<std::int32_t>(body), sample.tick.time), motion.v_WB, motion.w_WB};
+}
+
+/// Normal forces of the lifted body at rest on the springs [N], from the geometry of the grip alone.
+std::vector<double> restForces(const Carried& carried, const World& world, std::size_t body) {
+  const Grip& grip = carried.grip;
+  const Pose& X_WB = world.scene.bodies[body].X_WB;
+  HeldBody::Parameters parameters = parametersOf(carried, world, body);
+  for (std::size_t f = 0; f < grip.points.size(); ++f) {
+    parameters.attachments.push_back(X_WB.inverseTimes(grip.points[f] + grip.radius * grip.normals[f]));
+  }
+  parameters.fingertip = [&grip](std::size_t finger, double) { return gripState(grip, finger, Grip::kMoveBegin).p_WH; };
+  HeldBody rest(std::move(parameters), 0, {X_WB.p + grip.lift * Vec3::UnitZ(), X_WB.q}, Vec3::Zero(), Vec3::Zero());
+  rest.relax(2);
+  std::vector<double> forces;
+  for (std::size_t f = 0; f < grip.points.size(); ++f) {
+    forces.push_back(-rest.force(f).dot(rest.pose().q * (X_WB.q.conjugate() * grip.normals[f])));
+  }
+  return forces;
 }
 
 /// Mean squared distance between two poses [m^2], of the ends of three axes.
@@ -87,6 +112,7 @@ std::vector<Finding> carry(const Carried& carried) {
     throw std::logic_error("not one finger for each device of " + carried.scene);
   }
   const std::size_t body = bodyNamed(run.world(), carried.body);
+  const std::vector<double> forces = carried.forces.empty() ? restForces(carried, run.world(), body) : carried.forces;
   std::optional<HeldBody> reference;
   double force = 0, sum = 0;
   std::size_t count = 0;
@@ -94,10 +120,10 @@ std::vector<Finding> carry(const Carried& carried) {
   run.observe([&](const HapticSample& sample) {
     if (sample.tick.time < Grip::kMoveBegin) return;
     if (!reference) {
-      reference.emplace(referenceOf(carried, run.world(), sample, body));
-      for (std::size_t f = 0; f < carried.forces.size(); ++f) {
+      reference.emplace(movingFrom(carried, run.world(), sample, body));
+      for (std::size_t f = 0; f < forces.size(); ++f) {
         const double normal = sample.contact.fingers[f].normal_force;
-        force = std::max(force, std::abs(normal / carried.forces[f] - 1));
+        force = std::max(force, std::abs(normal / forces[f] - 1));
       }
     }
     reference->advance(sample.tick.time);

@@ -37,9 +37,10 @@ struct Carried {
   std::vector<std::string> sets;
   std::string body;
   Grip grip;
-  double stiffness = 0;        ///< of each finger, in contact with the body [N/m]
-  std::vector<double> forces;  ///< normal force of each finger at rest [N]
-  std::string oracle;          ///< of these forces
+  double stiffness = 0;  ///< of each finger, in contact with the body [N/m]
+  /// Normal force of each finger at rest [N]; empty: that of the body at rest on the same springs, which may tilt.
+  std::vector<double> forces;
+  std::string oracle;  ///< of these forces
 };
 /// Judges the normal forces just before the motion begins (0.1 %), and the distance of the body from a HeldBody on the
 /// same springs while it moves (0.2 mm RMS over 3.5 s and the ends of three axes 50 mm long).

@@ -13,22 +13,41 @@ Vec3 HeldBody::angularVelocity() const {
   return X_WB_.q * (X_WB_.q.conjugate() * L_).cwiseQuotient(parameters_.inertia);
 }
 
+Vec3 HeldBody::force(std::size_t finger) const {
+  return parameters_.stiffness *
+         (parameters_.fingertip(finger, time()) - X_WB_.p - X_WB_.q * parameters_.attachments[finger]);
+}
+
+double HeldBody::kineticEnergy() const {
+  return parameters_.mass * v_.squaredNorm() / 2 + L_.dot(angularVelocity()) / 2;
+}
+
 void HeldBody::step() {
-  const double time = begin_ + static_cast<double>(steps_) * kStep;
-  Vec3 force = parameters_.mass * parameters_.gravity, torque = Vec3::Zero();
+  Vec3 total = parameters_.mass * parameters_.gravity, torque = Vec3::Zero();
   for (std::size_t i = 0; i < parameters_.attachments.size(); ++i) {
     const Vec3 arm = X_WB_.q * parameters_.attachments[i];
-    const Vec3 f = parameters_.stiffness * (parameters_.fingertip(i, time) - X_WB_.p - arm);
-    force += f;
+    const Vec3 f = force(i);
+    total += f;
     torque += arm.cross(f);
   }
-  v_ += kStep / parameters_.mass * force;
+  v_ += kStep / parameters_.mass * total;
   L_ += kStep * torque;
   X_WB_.p += kStep * v_;
   const Vec3 turn = kStep * angularVelocity();
   const double angle = turn.norm();
   if (angle > 0) X_WB_.q = (Quat(Eigen::AngleAxisd(angle, turn / angle)) * X_WB_.q).normalized();
   ++steps_;
+}
+
+void HeldBody::relax(double duration) {
+  double before = kineticEnergy();
+  for (auto left = std::llround(duration / kStep); left > 0; --left) {
+    step();
+    const double now = kineticEnergy();
+    const bool slower = now < before;
+    before = slower ? 0 : now;
+    if (slower) v_ = L_ = Vec3::Zero();
+  }
 }
 
 void HeldBody::advance(double time) {

@@ -28,12 +28,19 @@ class HeldBody {
 
   /// Advances to `time` [s] in steps of `kStep`.
   void advance(double time);
+  /// Lets the body come to rest for `duration` [s] in steps of `kStep`, by stopping it whenever it slows down. The
+  /// fingertips must not move.
+  void relax(double duration);
+  /// Force of a fingertip on the body, W [N].
+  Vec3 force(std::size_t finger) const;
   const Pose& pose() const noexcept { return X_WB_; }
 
   static constexpr double kStep = 1e-5;  ///< [s]
 
  private:
   void step();
+  double time() const { return begin_ + static_cast<double>(steps_) * kStep; }
+  double kineticEnergy() const;
   Vec3 angularVelocity() const;
 
   Parameters parameters_;

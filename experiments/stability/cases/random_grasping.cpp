@@ -74,11 +74,7 @@ Carried drawn(Draws& draw, const Method& method) {
   const double frequency = draw.uniform(1, 4), omega = 2 * std::numbers::pi * frequency;
   const Vec3 amplitude = std::min(kMaxAmplitude, kMaxShake / (omega * omega)) * draw.direction();
   grip.move = [=](std::size_t, double time) { return shaken(amplitude, frequency, time); };
-  // the brick gives way until both sides balance: low (d + u) = high (d - u)
-  const double force = carried.stiffness * grip.depth, balance = static_cast<double>(high - low) / fingers;
-  carried.forces.assign(grip.points.size(), force * (1 - balance));
-  for (int i = 0; i < low; ++i) carried.forces[static_cast<std::size_t>(i)] = force * (1 + balance);
-  carried.oracle = "k depth from each finger, or 4/3 and 2/3 of it where one finger balances two";
+  carried.oracle = "the brick at rest on its springs, from the geometry of the grasp";
   carried.sets = std::vector<std::string>{"body/brick/pos=0 0 " + number(size.z() / 2),
                                           "body/brick/haptic/box/size=" + text(size),
                                           "body/brick/physics/box/size=" + text(size),

@@ -37,6 +37,18 @@ TEST(HeldBody, HangsByItsWeight) {
   EXPECT_NEAR(body.pose().p.z(), -sag, 1e-12);
 }
 
+// From anywhere near: below the fingers by its weight, and straight; each spring then carries half of it.
+TEST(HeldBody, RelaxesToWhereItHangs) {
+  HeldBody::Parameters parameters = cube(0.1, 2000);
+  parameters.gravity = {0, 0, -9.81};
+  const double weight = 0.1 * 9.81, sag = weight / (2 * 2000);
+  HeldBody body(parameters, 0, {Vec3(1e-3, -1e-3, 1e-3), Quat(Eigen::AngleAxisd(0.02, Vec3::UnitY()))}, Vec3::Zero(),
+                Vec3::Zero());
+  body.relax(2);
+  EXPECT_LT((body.pose().p - Vec3(0, 0, -sag)).norm(), 1e-9);
+  EXPECT_LT((body.force(0) - Vec3(2000 * 0.002, 0, weight / 2)).norm(), 1e-5);
+}
+
 // No torque acts about the line between the fingers: the body keeps spinning about it. Across it the springs have the
 // stiffness c = 2 k a (a - depth), so the body swings at sqrt(c / J).
 TEST(HeldBody, TurnsFreelyAboutTheLineAndSwingsAcrossIt) {
