@@ -13,8 +13,8 @@ constexpr std::size_t kMostPoints = 1200;
 constexpr std::size_t kMostHull = 60'000;  // facets of a hull that may still grow: the next takes some seconds
 constexpr std::size_t kFirstBatch = 8;     // points by which it grows in the first round
 constexpr std::size_t kMostFacets = 4000;  // facets that are looked at in one round
-constexpr double kZero = 1e-6;      // a support below this share of the widest wrench is none: see WrenchSpace::span
-constexpr double kRounding = 1e-9;  // of the same
+constexpr double kZero = 1e-6;  // a support below this share of the widest wrench is none: see WrenchSpace::span
+constexpr double kGraspRounding = 1e-9;  // of the same
 
 /// A space in the coordinates of its basis.
 class Reduced {
@@ -92,7 +92,7 @@ class UpperBound {
   UpperBound(const Reduced& space, const FacetFigure& figure) : space_(space), figure_(figure) {}
   double value() const { return value_; }
   const Eigen::VectorXd& normal() const { return normal_; }
-  double rounding() const { return kRounding * space_.widest(); }
+  double rounding() const { return kGraspRounding * space_.widest(); }
 
   /// Support of the space at u, with a point there.
   double look(const Eigen::VectorXd& u, Eigen::VectorXd& point) {

@@ -149,7 +149,7 @@ struct CollisionSettings {
 
 /// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.
 struct DynamicsSettings {
-  enum class Coupling { kSoft, kExplicit };
+  enum class Coupling { kSoft, kExplicit, kAveraged };
   /// kDirect, kIterative: of the engine; kNewton, kSmallSteps: Presa's own (modules/dynamics_ode).
   enum class Solver { kAuto, kDirect, kIterative, kNewton, kSmallSteps };
   enum class Friction { kIsotropic, kPyramid };

@@ -225,7 +225,8 @@ DynamicsSettings readDynamics(const Element& element) {
   using D = DynamicsSettings;
   D settings;
   settings.engine = element.attribute("engine");
-  settings.coupling = choose(element, "coupling", settings.coupling, {{"explicit", D::Coupling::kExplicit}});
+  settings.coupling = choose(element, "coupling", settings.coupling,
+                             {{"explicit", D::Coupling::kExplicit}, {"averaged", D::Coupling::kAveraged}});
   settings.solver = choose(element, "solver", settings.solver,
                            {{"direct", D::Solver::kDirect},
                             {"iterative", D::Solver::kIterative},

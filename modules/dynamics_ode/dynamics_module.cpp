@@ -36,7 +36,9 @@ std::vector<std::string> listStages(const OdeOptions& options) {
       "extrapolate each finger with its velocity and acceleration; a finger without a sample for 20 ms fades");
   all.emplace_back(method.coupling == D::Coupling::kSoft
                        ? "fingers as implicit spring-dampers (soft contact joints) inside their friction cone"
-                       : "fingers as forces that act for one step");
+                   : method.coupling == D::Coupling::kExplicit
+                       ? "fingers as forces that act for one step"
+                       : "fingers as the mean of the forces that they felt since the last step");
   if (usesOwnSolvers(method)) {
     const std::string small_steps =
         std::to_string(options.small_steps.count) + " small steps of projected Gauss-Seidel, warm-started";

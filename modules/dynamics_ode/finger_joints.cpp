@@ -37,7 +37,7 @@ constexpr double kTorsionCfm = 1;  // [rad/s / (N m)]
 FingerJoints::FingerJoints(DynamicsSettings::Coupling coupling, const Scene& scene, dWorldID ode_world)
     : coupling_(coupling), old_after_(ages::fingers(scene.rates)) {
   const auto soft = [](const Material& material) { return material.torsional_radius > 0; };
-  if (coupling == DynamicsSettings::Coupling::kExplicit || scene.devices.empty()) return;
+  if (coupling != DynamicsSettings::Coupling::kSoft || scene.devices.empty()) return;
   if (std::ranges::none_of(scene.materials, soft)) return;
   for (const Body& body : scene.bodies) torsional_radius_.push_back(scene.materialOf(body).torsional_radius);
   for (std::size_t finger = 0; finger < scene.devices.size(); ++finger) {
@@ -72,7 +72,7 @@ void FingerJoints::twist(std::size_t finger, std::size_t body, const FingerConta
   const Vec3 nhat_W = bodies.pose(body).q * contact.nhat_B;
   const double k = contact.twist_stiffness, w_B = bodies.motion(body).w_WB.dot(nhat_W);
   const double twist = contact.twist + std::clamp(age, 0.0, old_after_) * (contact.spin - w_B);
-  if (coupling_ == DynamicsSettings::Coupling::kExplicit) {
+  if (areForces()) {
     bodies.addAtCentre(body, Vec3::Zero(), k * contact.twist * nhat_W);
     return;
   }
@@ -88,6 +88,7 @@ void FingerJoints::twist(std::size_t finger, std::size_t body, const FingerConta
 
 void FingerJoints::makeRoom(const ContactExchange& exchange) {
   if (motions_.size() < exchange.fingers.size()) motions_.resize(exchange.fingers.size());
+  given_.resize(motions_.size(), Vec3::Zero());
   const std::size_t contacts = std::max(exchange.fingers.size(), exchange.contacts.capacity());
   if (feedback_.size() >= contacts) return;
   feedback_.resize(contacts);
@@ -110,30 +111,54 @@ void FingerJoints::estimateMotion(const ContactExchange& exchange) {
   }
 }
 
+// What the body got for what the finger felt since the last step [N].
+Vec3 FingerJoints::meanForce(std::size_t finger, const FingerContact& contact, double h) {
+  Vec3& given = given_[finger];
+  const Vec3 mean = -(contact.impulse_H_W - given) / h;
+  given = contact.impulse_H_W;
+  return mean;
+}
+
 std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
   active_.clear();
   makeRoom(exchange);
   estimateMotion(exchange);
   for (const dJointID motor : motors_) dJointAttach(motor, nullptr, nullptr);
   torsion_.clear();
-  return forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
-    const auto row =
-        makeFingerConstraint(contact, motions_[f].a_WH, bodies.inertiaState(body), time - exchange.time, old_after_, h);
-    if (!row) return;
-    const bool first = active_.empty() || active_.back().finger != f;
-    feedback_[active_.size()] = {};
-    active_.push_back({f, body, *row});
-    if (contact.twist_stiffness > 0) {
-      if (exchange.fingers[f].body == contact.body) twist(f, body, contact, time - exchange.time, h, bodies);
-    } else if (!motors_.empty() && first) {  // a soft fingertip's motor acts on the first body that the finger touches
-      resistTurning(f, body, *row, bodies);
-    }
-    if (coupling_ == DynamicsSettings::Coupling::kExplicit) bodies.addForce(body, row->expected_force_W, row->p_WP);
-  });
+  const std::size_t invalid =
+      forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
+        const auto row = makeFingerConstraint(contact, motions_[f].a_WH, bodies.inertiaState(body),
+                                              time - exchange.time, old_after_, h);
+        if (!row) return;
+        const bool first = active_.empty() || active_.back().finger != f;
+        feedback_[active_.size()] = {};
+        active_.push_back({f, body, *row});
+        if (contact.twist_stiffness > 0) {
+          if (exchange.fingers[f].body == contact.body) twist(f, body, contact, time - exchange.time, h, bodies);
+        } else if (!motors_.empty() &&
+                   first) {  // a soft fingertip's motor acts on the first body that the finger touches
+          resistTurning(f, body, *row, bodies);
+        }
+        FingerConstraint& last = active_.back().row;
+        if (coupling_ == DynamicsSettings::Coupling::kAveraged && contact.contact_count < 2) {
+          last.expected_force_W = meanForce(f, contact, h);
+        }
+        if (areForces()) bodies.addForce(body, last.expected_force_W, last.p_WP);
+      });
+  if (coupling_ == DynamicsSettings::Coupling::kAveraged) forgetOthers(exchange);
+  return invalid;
+}
+
+// What fingers felt of something fixed is not passed on to what they touch next.
+void FingerJoints::forgetOthers(const ContactExchange& exchange) {
+  for (std::size_t f = 0; f < exchange.fingers.size(); ++f) {
+    const auto is = [&](const Active& active) { return active.finger == f; };
+    if (std::ranges::none_of(active_, is)) given_[f] = exchange.fingers[f].impulse_H_W;
+  }
 }
 
 void FingerJoints::addTo(Engine& engine, BodySet& bodies, Islands& islands, const std::vector<char>& wanted) {
-  if (coupling_ == DynamicsSettings::Coupling::kExplicit) return;
+  if (areForces()) return;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const Active& active = active_[i];
     if (wanted[islands.of(active.body)] == 0) continue;
@@ -144,7 +169,7 @@ void FingerJoints::addTo(Engine& engine, BodySet& bodies, Islands& islands, cons
 bool FingerJoints::stickToSlip(Islands& islands, std::vector<char>& wanted) {
   constexpr double kAtBound = 1 - 1e-6;
   std::fill(wanted.begin(), wanted.end(), 0);
-  if (coupling_ == DynamicsSettings::Coupling::kExplicit) return false;
+  if (areForces()) return false;
   bool any = false;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     FingerConstraint& row = active_[i].row;
@@ -162,8 +187,7 @@ bool FingerJoints::stickToSlip(Islands& islands, std::vector<char>& wanted) {
 void FingerJoints::setForce(std::size_t i, const Vec3& f_W) { assign(feedback_[i].f1, f_W); }
 
 Vec3 FingerJoints::force(std::size_t i) const {
-  const bool external = coupling_ == DynamicsSettings::Coupling::kExplicit;
-  return external ? active_[i].row.expected_force_W : toVec3(feedback_[i].f1);
+  return areForces() ? active_[i].row.expected_force_W : toVec3(feedback_[i].f1);
 }
 
 }  // namespace presa::ode

@@ -12,7 +12,9 @@
 
 namespace presa::ode {
 
-/// The finger contacts of one step: contact constraints (soft coupling) or external forces (explicit coupling).
+/// The finger contacts of one step: contact constraints (soft coupling) or external forces (explicit coupling: the
+/// force of the newest sample; averaged: the mean of what was felt since the last step, so that bodies get the impulse
+/// that fingers felt, a step late. Of a finger between two bodies each gets the force of the newest sample).
 class FingerJoints {
  public:
   /// Owns the motors of soft fingertips in `ode_world`: destroy it before `ode_world`. No motors if no material has
@@ -24,8 +26,8 @@ class FingerJoints {
 
   /// Makes room for as many contacts as the exchange has room for.
   void makeRoom(const ContactExchange& exchange);
-  /// Builds the rows of every finger that touches a moving body, for a step of `h` [s] starting at `time`. Forces of
-  /// the explicit coupling are added to `bodies` at once. Returns the number of invalid finger contacts, which are
+  /// Builds the rows of every finger that touches a moving body, for a step of `h` [s] starting at `time`. External
+  /// forces are added to `bodies` at once. Returns the number of invalid finger contacts, which are
   /// ignored.
   std::size_t read(const ContactExchange& exchange, double time, double h, BodySet& bodies);
   /// Creates joints for the fingers on `wanted` islands.
@@ -37,7 +39,7 @@ class FingerJoints {
   /// The torsional friction of this step, as motors of ContactProblem; bodies by their indices in the scene.
   const std::vector<ContactProblem::Motor>& motors() const noexcept { return torsion_; }
   /// Whether the fingers are external forces of the step and no constraints.
-  bool areForces() const noexcept { return coupling_ == DynamicsSettings::Coupling::kExplicit; }
+  bool areForces() const noexcept { return coupling_ != DynamicsSettings::Coupling::kSoft; }
   std::size_t count() const noexcept { return active_.size(); }
   /// Finger and moving body of contact i, 0 <= i < count().
   std::size_t finger(std::size_t i) const noexcept { return active_[i].finger; }
@@ -49,6 +51,8 @@ class FingerJoints {
   Vec3 force(std::size_t i) const;
 
  private:
+  Vec3 meanForce(std::size_t finger, const FingerContact& contact, double h);
+  void forgetOthers(const ContactExchange& exchange);
   void estimateMotion(const ContactExchange& exchange);
   void resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies);
   void twist(std::size_t finger, std::size_t body, const FingerContact& contact, double age, double h, BodySet& bodies);
@@ -65,6 +69,7 @@ class FingerJoints {
   const DynamicsSettings::Coupling coupling_;
   const double old_after_;       ///< maximum age of a finger sample before it fades [s]
   std::vector<Motion> motions_;  // by finger
+  std::vector<Vec3> given_;      // by finger: of the impulse that it felt, what has been passed on [N s]
   std::vector<Active> active_;
   std::vector<dJointFeedback> feedback_;  // as active_, with room for all contacts of the exchange
   std::vector<double> torsional_radius_;  // torsional friction radius by body [m]; empty if no material has torsion

@@ -174,7 +174,7 @@ int OdeWorld::Impl::substepsNow(const ContactExchange& exchange, double period) 
   if (options.method.substeps > 0) return static_cast<int>(options.method.substeps);
   if (own_solvers) return stepsOfSpin(exchange, period);
   const bool iterative = options.method.solver == DynamicsSettings::Solver::kIterative;
-  if (!iterative || options.method.coupling == DynamicsSettings::Coupling::kExplicit) return 1;
+  if (!iterative || options.method.coupling != DynamicsSettings::Coupling::kSoft) return 1;
   if (anyIsland([](const Islands::Island& island) { return island.touched; })) return options.large_substeps;
   if (!anyIsland([&](const Islands::Island& island) { return island.contacts > options.large_island; })) return 1;
   // a heap without finger contact gets as many sub-steps as fit

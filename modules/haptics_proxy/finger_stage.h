@@ -21,9 +21,10 @@ struct RenderedFinger {
   bool alive = false;
   std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
   ProxyState tip;
-  double radius = 0;         ///< radius of the moved sphere [m]
-  double lift = 0;           ///< excess of `radius` over the fingertip radius, not 0 for a point [m]
-  Vec3 p_WH = Vec3::Zero();  ///< HIP of the last tick [m]
+  double radius = 0;              ///< radius of the moved sphere [m]
+  double lift = 0;                ///< excess of `radius` over the fingertip radius, not 0 for a point [m]
+  Vec3 p_WH = Vec3::Zero();       ///< HIP of the last tick [m]
+  Vec3 impulse_W = Vec3::Zero();  ///< of all forces on it so far [N s]
   std::unique_ptr<Surroundings> near;
 };
 

@@ -110,6 +110,8 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
   for (const auto& stage : finger_stages_) stage->apply(tick);
   if (tick.next_frame != finger.frame) changeFrame(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
+  finger.impulse_W += now.period * out.f_H_W;
+  out.impulse_H_W = finger.impulse_W;
   finishContacts(tick);
   if (tick.broken) out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (const auto& added : force_effects_)
