@@ -316,5 +316,33 @@ TEST(Finger, GivesNoForceAcrossAGap) {
   }
 }
 
+// The mean of what the finger felt in the ticks since the step before: momentum follows the impulse to rounding.
+TEST(AveragedCoupling, GivesTheImpulseThatWasFelt) {
+  constexpr double kPushedMass = 0.5, kTick = 0.001;
+  OdeOptions options;
+  options.method.coupling = DynamicsSettings::Coupling::kAveraged;
+  Runner runner(WorldMaker().gravity(Vec3::Zero()).box(kCube, kPushedMass, {Vec3::Zero(), Quat::Identity()}).world(),
+                options);
+  std::vector<ReferenceFinger> fingers{{0, {-kEdge / 2, 0, 0}, -Vec3::UnitX()}};
+  fingers[0].p_WH = fingers[0].p_BP + 0.002 * Vec3::UnitX();
+  Vec3 felt = Vec3::Zero();
+  int steps = 0;
+  for (; steps < 100; ++steps) {
+    ContactExchange exchange = exchangeOf(fingers, runner);
+    for (int tick = 0; tick < 5; ++tick) {
+      const double time = runner.state.time_begin + (tick + 1) * kTick;
+      const FingerContact contact = fingers[0].contact(runner.state.poseAt(0, time));
+      if (contact.mode != ContactMode::kNone) felt += kTick * contact.f_H_W;
+      fingers[0].p_WH += Vec3(0, 0, 1e-6);  // drags along the face
+    }
+    if (exchange.fingers[0].mode == ContactMode::kNone) break;
+    exchange.fingers[0].impulse_H_W = felt;
+    runner.step(exchange);
+    ASSERT_LT((kPushedMass * runner[0].v_WB + felt).norm(), 1e-9) << steps;
+  }
+  EXPECT_GT(steps, 5);
+  EXPECT_GT(felt.norm(), 0.01);
+}
+
 }  // namespace
 }  // namespace presa::ode
