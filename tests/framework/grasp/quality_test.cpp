@@ -92,6 +92,21 @@ TEST(Quality, OfThreeFingersInAPlaneWithoutFriction) {
   expectBounds(graspQuality(ringGrasp(3, 0), GripBound::kEach).within_span, std::sqrt(3) / 2);
 }
 
+// With friction: a body that moves by -a along the line to one finger and turns by b about it, a^2 + b^2 = 1, moves
+// against that finger with a, and at the two others with -a / 2 along the normal and sqrt(3) / 2 across. At a = mu /
+// sqrt(3) all three do as much work.
+TEST(Quality, OfThreeFingersInAPlaneIsAtMostWhatOneMotionAllows) {
+  for (const double mu : {0.1, 0.3, 0.8, 1.2}) {
+    const ProvenBounds epsilon = graspQuality(ringGrasp(3, mu), GripBound::kSum).epsilon;
+    EXPECT_TRUE(epsilon.met());
+    EXPECT_GT(epsilon.at_least, 0);
+    EXPECT_LE(epsilon.at_least, mu / std::sqrt(3) * (1 + 1e-9)) << mu;
+  }
+  // less friction has a weaker motion; from here on there is none
+  for (const double mu : {0.6, 0.8, 1.2})
+    expectBounds(graspQuality(ringGrasp(3, mu), GripBound::kSum).epsilon, mu / std::sqrt(3));
+}
+
 // L1: a regular tetrahedron of corners at 1, inradius 1/3. L-infinity: the sum of four segments is a rhombic
 // dodecahedron; along a normal (1, 0, 0) two of the four fingers push with 1 / sqrt(3) each, along (1, 1, 0) / sqrt(2)
 // one with sqrt(2 / 3).
