@@ -51,26 +51,24 @@ std::string closureWords(const GraspQuality& quality) {
   return "none: the fingers push the body to one side";
 }
 
-std::string qualityWords(const GraspStrength& strength) {
-  const GraspQuality& quality = strength.quality;
+std::string qualityWords(const GraspQuality& quality) {
   std::string words = quality.closure == GraspClosure::kFull ? between(quality.epsilon, "%.3g") : "0";
   if (quality.closure == GraspClosure::kPartial)
     words += ", but " + between(quality.within_span, "%.3g") + " for all motions that are opposed";
-  return words +
-         format(
-             "\n                   (the push [N], or turn [N times %.3g mm], that is resisted in every direction "
-             "with 1 N of grip in all)",
-             1000 * strength.grasp.length);
+  return words;
+}
+
+std::string qualityUnit(const GraspStrength& strength) {
+  return format("(push [N], or turn [N times %.3g mm], that is resisted in every direction with 1 N of grip in all)",
+                1000 * strength.grasp.length);
 }
 
 std::string marginWords(const GraspStrength& strength) {
   const ProvenBounds& margin = strength.slip_margin;
   if (std::isinf(margin.at_least)) return "there is no weight";
   if (!(margin.at_most > 0)) return "0: this grasp does not hold the weight, however hard it is";
-  const std::string factor = between(margin, "%.3g");
-  if (margin.at_most < 1) return factor + format(": too little for the weight of %.4g N", strength.weight);
-  return factor +
-         format(": the weight of %.4g N may grow to so many times before a finger slips at this grip", strength.weight);
+  const std::string held = between(margin, "%.3g") + format(" times the weight of %.4g N", strength.weight);
+  return held + (margin.at_most < 1 ? " is all that this grip holds" : " before a finger slips, none pressing harder");
 }
 
 std::string minGripWords(const GraspStrength& strength) {
@@ -121,7 +119,8 @@ std::string graspText(const RunResult& result, const GraspStrength& strength) {
   out += '\n';
   row("force closure", closureWords(strength.quality));
   row("weakest", strength.weakest + (strength.quality.closure == GraspClosure::kFull ? "" : ": nothing opposes it"));
-  row("quality", qualityWords(strength));
+  row("quality", qualityWords(strength.quality));
+  row("", qualityUnit(strength));
   row("slip margin", marginWords(strength));
   row("min grip", minGripWords(strength));
   return out;
