@@ -33,8 +33,8 @@ Case make() {
   result.name = "mesh_arch";
   result.title = "A semicircular arch of fifteen stones, each a mesh, stands or falls by its thickness";
   result.source =
-      "Min thickness of a semicircular arch, 0.1075 of its radius: M. Milankovitch, Z. Math. Phys. 55 (1907), 1; "
-      "G. Cocchetti, G. Colasante, E. Rizzi, Appl. Mech. Rev. 64 (2011), 050802.";
+      "Min thickness of a semicircular arch, 0.1075 of its radius: M. Milankovitch, Z. Math. Phys. 55 (1907), 1; G. "
+      "Cocchetti, G. Colasante, E. Rizzi, Appl. Mech. Rev. 64 (2011), 050802.";
   result.oracle = "The arch stands when a line of thrust fits in it; for fifteen straight stones from 0.1061 on.";
   result.scene = "mesh_arch.xml";
   const double limit = minThickness(kStones);
