@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-/// Reference for a row of falling dominoes: plates that turn about their lower front edges, meet without restitution and
-/// then push each other, with friction between them [vanLeeuwen2010]. One degree of freedom, that of the front domino; it
-/// shares nothing with a rigid-body engine.
+/// Reference for a row of falling dominoes: plates that turn about their lower front edges, meet without restitution
+/// and then push each other, with friction between them [vanLeeuwen2010]. One degree of freedom, that of the front
+/// domino; it shares nothing with a rigid-body engine.
 namespace presa::stability {
 
 struct DominoRow {

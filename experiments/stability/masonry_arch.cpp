@@ -46,8 +46,8 @@ std::vector<Joint> jointsOf(const MasonryArch& arch) {
 }  // namespace
 
 // The resultant of the thrust H, at height h of the crown, and of the weights W passes inside of the outer end O of a
-// joint when z_O H - h H >= M - x_O W, and outside of its inner end I when h H - z_I H >= -(M - x_I W). The sum of one of
-// the first kind and one of the second has no h H: every pair of joints bounds H.
+// joint when z_O H - h H >= M - x_O W, and outside of its inner end I when h H - z_I H >= -(M - x_I W). The sum of one
+// of the first kind and one of the second has no h H: every pair of joints bounds H.
 bool thrustLineFits(const MasonryArch& arch) {
   const std::vector<Joint> joints = jointsOf(arch);
   const double inner = arch.radius - arch.thickness / 2, outer = arch.radius + arch.thickness / 2;

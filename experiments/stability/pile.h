@@ -14,7 +14,8 @@ class Pile {
   Pile(const StudySpec& spec, const std::string& body);
   void run() { run_.run(); }
 
-  /// Energy that appeared from nothing, in relation to `released`, the energy in gravity that the pile can set free [J].
+  /// Energy that appeared from nothing, in relation to `released`, the energy in gravity that the pile can set free
+  /// [J].
   Finding energy(double released, double bound_percent) const;
   Finding fastest(double bound, const std::string& oracle) const;  ///< speed of any body [m/s]
   Finding upward(double bound) const;                              ///< upward speed of any body [m/s]

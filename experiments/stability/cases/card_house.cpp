@@ -53,8 +53,8 @@ Case make() {
   result.name = "card_house";
   result.title = "A house of playing cards stands; two cards stand or slide by the friction at their feet";
   result.source =
-      "Statics of two leaning plates: the foot needs tan(lean) <= 2 mu + thickness / length; thin plates that meet in "
-      "edges are hard for contacts.";
+      "Statics of two leaning plates: the foot needs tan(lean) <= 2 mu + thickness / length; thin plates that meet "
+      "in edges are hard for contacts.";
   result.oracle = "At 20 degrees two cards stand from a friction of 0.1803 on and the house from 0.2576 on.";
   result.scene = "card_house.xml";
   const auto add = [&result](bool house, double share, const Method& method) {

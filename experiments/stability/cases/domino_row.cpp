@@ -81,8 +81,8 @@ Case make() {
   result.name = "domino_row";
   result.title = "A row of thirty dominoes falls";
   result.source =
-      "The steady wave in a row of dominoes that lean on each other, with friction: J. M. J. van Leeuwen, Am. J. Phys. "
-      "78 (2010), 721.";
+      "The steady wave in a row of dominoes that lean on each other, with friction: J. M. J. van Leeuwen, Am. J. "
+      "Phys. 78 (2010), 721.";
   result.oracle = "The wave runs at 1.077 m/s, by equations of motion with one degree of freedom.";
   result.scene = "domino_row.xml";
   for (const double rate : {200.0, 500.0, 1000.0}) {
@@ -92,7 +92,7 @@ Case make() {
       trial.method = method.name;
       if (!method.own() && rate > 400) trial.expected = Verdict::kDrift;
       trial.run = [=] { return topple(rate, method); };
-      trial.quick = method.own();
+      trial.quick = method.own() && rate < 300;
       result.trials.push_back(std::move(trial));
     }
   }

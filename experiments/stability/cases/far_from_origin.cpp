@@ -17,7 +17,8 @@ struct Place {
 struct Played {
   std::string scene, name;
   double duration = 0;  ///< [s]
-  /// How far a body may be from the run at the origin [m]. 1 nm: ten thousand times the rounding of a coordinate of 1 km.
+  /// How far a body may be from the run at the origin [m]. 1 nm: ten thousand times the rounding of a coordinate of 1
+  /// km.
   double bound = 1e-9;
 };
 
@@ -94,8 +95,8 @@ Case make() {
       "here.";
   result.oracle = "Every body keeps its place beside the run at the origin, to what rounding grows to.";
   result.scene = "falling_tower.xml";
-  // an arch whose stones touch by rounding settles by up to its yield, 7 um; dominoes until the last one falls: where all
-  // slide on each other, the least difference grows without bound
+  // an arch whose stones touch by rounding settles by up to its yield, 7 um; dominoes until the last one falls: where
+  // all slide on each other, the least difference grows without bound
   for (const Played& played :
        {Played{"falling_tower.xml", "tower of 20 cubes", 10}, Played{"card_house.xml", "cards", 5},
         Played{"mesh_arch.xml", "arch of meshes", 5, 7e-6}, Played{"overhang.xml", "overhang", 5},

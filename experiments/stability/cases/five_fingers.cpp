@@ -42,8 +42,7 @@ Case make() {
   result.title = "A thumb and four fingers hold a brick and shake it at 3 Hz, 15 mm to each side";
   result.source =
       "Statics of one spring against four, and equations of motion of a rigid body on five springs; nothing of the "
-      "engine "
-      "takes part.";
+      "engine takes part.";
   result.oracle =
       "The thumb presses with 8/5 of k times its depth, a finger with 2/5; the brick follows these equations.";
   result.scene = "five_fingers.xml";

@@ -47,8 +47,8 @@ Case make() {
   result.name = "overhang";
   result.title = "Blocks reach over the edge of a table, by up to 1.46 lengths";
   result.source =
-      "The harmonic stack: R. T. Coffin, Am. Math. Monthly 30 (1923), 76; the balance of each edge leaves no "
-      "room for contacts that yield or creep.";
+      "The harmonic stack: R. T. Coffin, Am. Math. Monthly 30 (1923), 76; the balance of each edge leaves no room "
+      "for contacts that yield or creep.";
   result.oracle =
       "n blocks reach 1/2 (1 + 1/2 + ... + 1/n) lengths: with 1 % less they stand, with 1 % more they fall.";
   result.scene = "overhang.xml";

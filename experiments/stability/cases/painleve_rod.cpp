@@ -38,7 +38,8 @@ std::vector<std::string> setsOf(const Push& push) {
   return sets;
 }
 
-/// In the paradox the end jams at once and the rod turns about it with the angular momentum that it had about this point.
+/// In the paradox the end jams at once and the rod turns about it with the angular momentum that it had about this
+/// point.
 Finding jam(const Push& push) {
   constexpr double kStep = 0.005;  // [s]
   const double s = std::sin(push.lean()), c = std::cos(push.lean());
@@ -74,9 +75,8 @@ Case make() {
   result.name = "painleve_rod";
   result.title = "A rod is pushed and pulled over a table at friction beyond Painleve's paradox";
   result.source =
-      "P. Painleve, C. R. Acad. Sci. 121 (1895), 112: from a friction of 4/3 on, rigid sliding has no solution or two "
-      "at "
-      "some angles; nature jams, a solver may explode.";
+      "P. Painleve, C. R. Acad. Sci. 121 (1895), 112: from a friction of 4/3 on, rigid sliding has no solution or "
+      "two at some angles; nature jams, a solver may explode.";
   result.oracle = "The energy never rises, no speed exceeds it, and the rod comes to rest.";
   result.scene = "painleve_rod.xml";
   for (const double friction : {0.5, 1.3, 2.0, 5.0}) {

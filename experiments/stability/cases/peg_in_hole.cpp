@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <vector>
 
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/cases.h"
+#include "experiments/stability/grip.h"
 #include "experiments/stability/methods.h"
 
 namespace presa::stability::peg_in_hole {
@@ -13,9 +16,10 @@ namespace {
 constexpr double kHalf = 0.01, kLength = 0.06, kIn = 0.01, kHole = 0.04;
 constexpr double kClearance = 50e-6, kFriction = 0.3, kGravity = 9.81;
 
-/// Gravity across the hole over gravity along it, from which on the peg jams. Inclined, it touches the mouth of the hole
-/// on one side (N1) and the wall with its lower end on the other (N2 = N1 - m g_x). The moments about the axis at the
-/// mouth are l N2 + r mu m g_x = a m g_x, with the centre of mass at a height a; it slides when m g_z > mu (N1 + N2).
+/// Gravity across the hole over gravity along it, from which on the peg jams. Inclined, it touches the mouth of the
+/// hole on one side (N1) and the wall with its lower end on the other (N2 = N1 - m g_x). The moments about the axis at
+/// the mouth are l N2 + r mu m g_x = a m g_x, with the centre of mass at a height a; it slides when m g_z > mu (N1 +
+/// N2).
 double jamRatio() {
   const double a = kLength / 2 - kIn;
   return 1 / (kFriction * (1 + 2 * (a - kHalf * kFriction) / kIn));
@@ -91,6 +95,77 @@ std::vector<Finding> slide(double share, int heading, const Method& method) {
           finding("rise of the energy", 100 * rise / released, "%", 0.1, "walls and friction only take energy")};
 }
 
+/// Energy of a push from rest to rest: the work of the fingertips goes into their springs or is lost in friction.
+class PushLedger {
+ public:
+  explicit PushLedger(double stiffness) : stiffness_(stiffness) {}
+  void see(const HapticSample& sample) {
+    const bool first = tip_.empty();
+    if (first) {
+      tip_.resize(2);
+      force_.resize(2);
+    }
+    stored_ = 0;
+    for (std::size_t f = 0; f < 2; ++f) {
+      const FingerContact& contact = sample.contact.fingers[f];
+      stored_ += stiffness_ * (contact.p_WP - contact.p_WH).squaredNorm() / 2;
+      // a spring's work over a tick is that of its mean force
+      if (!first) work_ -= (force_[f] + contact.f_H_W).dot(contact.p_WH - tip_[f]) / 2;
+      force_[f] = contact.f_H_W;
+      tip_[f] = contact.p_WH;
+    }
+    if (first) stored_first_ = stored_;
+  }
+  /// Energy in the springs beyond the work [J].
+  double created() const { return std::max(0.0, stored_ - stored_first_ - work_); }
+
+ private:
+  double stiffness_, work_ = 0, stored_ = 0, stored_first_ = 0;
+  std::vector<Vec3> force_, tip_;
+};
+
+/// Without gravity two fingertips hold the peg 40 mm above the mouth, move `aside` [m] and push it in. Fingers and peg
+/// rub with friction 1.
+std::vector<Finding> push(double aside, double stiffness, const Method& method) {
+  constexpr double kWay = kHole - kIn, kYield = 2.5e-6;  // of a contact [m/N]
+  Grip grip;
+  grip.lift = 0;
+  for (const double side : {-1.0, 1.0}) {
+    grip.points.emplace_back(side * kHalf, 0, 0.04);
+    grip.normals.emplace_back(side * Vec3::UnitX());
+  }
+  grip.move = [aside](std::size_t, double time) {
+    const Ramp over = ramp(time, 0, 0.3), down = ramp(time, 0.4, 2.4);
+    return PrescribedFinger::State{Vec3(0, aside * over.value, -kWay * down.value),
+                                   Vec3(0, aside * over.rate, -kWay * down.rate)};
+  };
+  const std::vector<std::string> sets{"material/skin/stiffness=" + number(stiffness)};
+  StudyRun run(specOf("peg_pushed.xml", sets + method, Grip::kMoveBegin + 3), gripFingers(grip));
+  const std::size_t peg = bodyNamed(run.world(), "peg");
+  PushLedger ledger(stiffness);
+  double left = NAN;
+  Curve depth{"depth of the peg", {}, {}};
+  run.observe([&](const HapticSample& sample) {
+    if (sample.tick.time >= Grip::kMoveBegin) ledger.see(sample);
+    const double now = kLength / 2 - sample.objects->bodies[peg].X_WB_end.p.z();
+    left = kHole - now;
+    depth.x.push_back(sample.tick.time);
+    depth.y.push_back(1000 * now);
+  });
+  run.run();
+
+  // at the end: friction of N1 + N2 by the springs that are aside, with the fingers 10 mm above the mouth
+  const double across = 2 * stiffness * aside, height = 0.04 - kWay;
+  const double friction = kFriction * across * (1 + 2 * (height - kHalf * kFriction) / kHole);
+  Finding result = finding("depth beside that of the hand", 1e6 * std::abs(left), "um",
+                           1e6 * (friction / (2 * stiffness) + kYield), "two springs push: friction over 2 k");
+  result.plot_x = "time [s]";
+  result.plot_y = "depth of the peg [mm]";
+  result.curves = {decimated(std::move(depth))};
+  return {result, finding("energy from nothing", 100 * ledger.created() / (stiffness * grip.depth * grip.depth), "%",
+                          0.1, "beyond the work of the hand; in relation to the energy of the squeezed springs")};
+}
+
 }  // namespace
 
 Case make() {
@@ -98,8 +173,8 @@ Case make() {
   result.name = "peg_in_hole";
   result.title = "A peg of 20 mm slides into a hole with 50 um of clearance, or jams";
   result.source =
-      "Jamming of a peg: D. E. Whitney, J. Dyn. Sys. Meas. Control 104 (1982), 65; two opposed contacts of a clearance "
-      "far below the contact margins of most engines.";
+      "Jamming of a peg: D. E. Whitney, J. Dyn. Sys. Meas. Control 104 (1982), 65; two opposed contacts of a "
+      "clearance far below the contact margins of most engines.";
   result.oracle = "Inclined by less than the jamming angle it slides to the bottom; inclined by more it stays.";
   result.scene = "peg_in_hole.xml";
   for (const double share : {0.0, 0.5, 0.95, 1.05, 2.0}) {
@@ -114,6 +189,21 @@ Case make() {
         if (!method.own()) trial.expected = Verdict::kUnstable;
         trial.run = [=] { return slide(share, heading, method); };
         trial.quick = method.own();
+        result.trials.push_back(std::move(trial));
+      }
+    }
+  }
+  for (const double stiffness : {2000.0, 10'000.0}) {
+    for (const double aside : {0.0, 0.0001, 0.0003}) {
+      for (const Method& method : {ours(), explicitCoupling()}) {
+        Trial trial;
+        trial.parameters = {{"pushed beside the hole by", number(1000 * aside) + " mm"},
+                            {"stiffness", number(stiffness / 1000) + " N/mm"}};
+        trial.method = method.name;
+        // explicit coupling holds 50 g on soft springs
+        if (!method.own() && stiffness > 5000) trial.expected = Verdict::kUnstable;
+        trial.run = [=] { return push(aside, stiffness, method); };
+        trial.quick = method.own() && aside > 0;
         result.trials.push_back(std::move(trial));
       }
     }

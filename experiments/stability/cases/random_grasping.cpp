@@ -108,8 +108,8 @@ Case make() {
   result.title =
       "Bricks of random size, mass and friction in two to four fingers, shaken at random, five minutes in all";
   result.source =
-      "Hand-picked cases miss what nobody thought of; the reference, equations of motion on springs, knows the answer "
-      "for any draw.";
+      "Hand-picked cases miss what nobody thought of; the reference, equations of motion on springs, knows the "
+      "answer for any draw.";
   result.oracle =
       "The brick follows its equations of motion, integrated at 10 us, and each finger presses as statics says.";
   result.scene = "random_grasping.xml";

@@ -39,8 +39,7 @@ Case make() {
   result.title = "Three fingers hold a can and shake it at 3 Hz, 15 mm to each side";
   result.source =
       "Statics of three equal springs 120 degrees apart, and equations of motion of a rigid body on them; nothing of "
-      "the "
-      "engine takes part.";
+      "the engine takes part.";
   result.oracle = "Each finger presses with k times its depth; the can follows these equations, integrated at 10 us.";
   result.scene = "three_fingers.xml";
   for (const double stiffness : {2000.0, 10'000.0}) {

@@ -54,8 +54,8 @@ Case make() {
   result.name = "two_hands";
   result.title = "Two hands hold a bar of 400 mm at its ends, shake, tilt and turn it at 3 Hz";
   result.source =
-      "Equations of motion of a rigid body on four springs whose far ends move as prescribed; two stiff grasps on one "
-      "body constrain it more than it has freedoms.";
+      "Equations of motion of a rigid body on four springs whose far ends move as prescribed; two stiff grasps on "
+      "one body constrain it more than it has freedoms.";
   result.oracle = "Each finger presses with k times its depth; the bar follows these equations, integrated at 10 us.";
   result.scene = "two_hands.xml";
   const std::vector<std::pair<Motion, std::string>> motions{
