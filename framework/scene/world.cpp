@@ -26,6 +26,11 @@ struct MeshRequest {
   MeshPointer mesh;
 };
 
+bool isDecomposed(const std::optional<Geometry>& geometry) {
+  const auto* mesh = geometry ? std::get_if<MeshRef>(&geometry->shape) : nullptr;
+  return mesh != nullptr && mesh->decompose;
+}
+
 int strictness(const ImportOptions& options) { return options.display_only ? 0 : options.must_be_closed ? 2 : 1; }
 
 class MeshLibrary {
@@ -140,8 +145,9 @@ World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
   for (const Body& body : world.scene.bodies) {
     const ImportOptions drawn{.must_be_closed = false, .display_only = true};
     const ImportOptions solid{.must_be_closed = !body.fixed};
+    const ImportOptions moved{.must_be_closed = !body.fixed || isDecomposed(body.physics)};
     requests.push_back({library.request(body.visual, drawn), library.request(body.haptic, solid),
-                        library.request(body.physics, solid)});
+                        library.request(body.physics, moved)});
     part_requests.emplace_back();
     const auto* compound = body.physics ? std::get_if<Compound>(&body.physics->shape) : nullptr;
     if (compound == nullptr) continue;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSameNormal = 1e-9;  // 1 - cosine
 constexpr double kSameDepth = 1e-3;   // in relation to `near`
-constexpr std::size_t kFew = 2;       // contacts of which none is between others
+constexpr std::size_t kBetweenNone = 2;       // contacts of which none is between others
 
 /// Twice the area of a, b, c; positive: counter-clockwise.
 template <class Point>
@@ -80,7 +80,7 @@ void Outline::removeFrom(std::vector<BodyContact>& contacts, std::size_t first, 
     const Vec3& p = contacts[i].p_W;
     points_.push_back({x_W.dot(p), y_W.dot(p), contacts[i].depth, i});
   }
-  if (points_.size() <= kFew) return;
+  if (points_.size() <= kBetweenNone) return;
   findCorners(near);
   if (!inOnePlane(near)) return;
   for (const Point& p : points_) contacts[p.contact].B = -1 - contacts[p.contact].B;
