@@ -85,8 +85,10 @@ void SurfaceTree::follow(std::size_t index, Ray& ray) const {
   const double enter = std::max(0.0, to_low.cwiseMin(to_high).maxCoeff());
   if (to_low.cwiseMax(to_high).minCoeff() < enter || enter > ray.end) return;
   if (node.right != 0) {
-    follow(index + 1, ray);
-    follow(node.right, ray);
+    const Vec3 between = nodes_[node.right].box.low - nodes_[index + 1].box.low;
+    const bool left_first = between.dot(ray.direction) >= 0;
+    follow(left_first ? index + 1 : node.right, ray);
+    follow(left_first ? node.right : index + 1, ray);
     return;
   }
   for (std::size_t i = node.begin; i < node.end; ++i) {

@@ -124,6 +124,8 @@ void SchemaReader::readGroup(const xmlNode* node, ElementRule& rule) {
   if (kind == "group") {
     for (const xmlNode* child : childElements(global(kind, attributeOf(node, "ref").value_or("")))) {
       readGroup(child, rule);
+      // XSD has the number of a choice on the reference to its group
+      if (attributeOf(node, "maxOccurs")) rule.content.back().max = occurrence(node, "maxOccurs");
     }
   } else if (kind == "choice" && occurrence(node, "maxOccurs") == kUnbounded) {
     readRepeatedChoice(node, rule);

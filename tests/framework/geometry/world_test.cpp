@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <numbers>
 
 #include "framework/scene/inertia.h"
 #include "framework/scene/physics_shapes.h"
+#include "framework/scene/piece_cache.h"
 
 namespace presa {
 namespace {
@@ -138,6 +141,32 @@ TEST(BuildWorld, WantsConvexMeshesAmongSeveralShapes) {
   buildWorld(scene, {}, far);
   ASSERT_EQ(far.all().size(), 1U) << far.text();
   EXPECT_EQ(far.all()[0].code, 323);
+}
+
+// What was kept reads back to the bit; a file that is cut off, or has a piece with a hollow, is none.
+TEST(PieceCache, GivesBackWhatItKeeps) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "piece_cache";
+  std::filesystem::remove_all(folder);
+  ASSERT_EQ(setenv("XDG_CACHE_HOME", folder.c_str(), 1), 0);
+  const TriMesh box = makeBox({0.1, 0.2, 0.3});
+  const std::string file = pieceCacheFile(box, {}), other = pieceCacheFile(box, {12, 0.001});
+  EXPECT_NE(file, other);
+  EXPECT_NE(file, pieceCacheFile(makeBox({0.1, 0.2, 0.31}), {}));
+  EXPECT_FALSE(readPieces(file));
+  keepPieces(file, {{std::make_shared<TriMesh>(box), std::make_shared<TriMesh>(makeSphere(0.1, 2))}, 0.25});
+  const std::optional<ConvexPieces> kept = readPieces(file);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->error, 0.25);
+  ASSERT_EQ(kept->pieces.size(), 2U);
+  EXPECT_EQ(kept->pieces[0]->vertices, box.vertices);
+  EXPECT_EQ(kept->pieces[0]->triangles, box.triangles);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  EXPECT_FALSE(readPieces(file));
+  TriMesh dented = box;
+  dented.vertices[0] *= 0.1;
+  keepPieces(other, {{std::make_shared<TriMesh>(dented)}, 0});
+  EXPECT_FALSE(readPieces(other));
+  unsetenv("XDG_CACHE_HOME");
 }
 
 TEST(BuildWorld, ReportsAMissingMeshOnce) {

@@ -1,0 +1,124 @@
+#include "framework/scene/piece_cache.h"
+
+#include <unistd.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "framework/core/math/fnv.h"
+#include "framework/geometry/convex.h"
+
+namespace presa {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kKind = 0x3165636569507250;  // "PrPiece1": also the version of decompose()
+constexpr std::uint64_t kMostPieces = 256, kMostCorners = 100000;
+
+void add(Fnv1a& hash, double value) { hash.addWord(std::bit_cast<std::uint64_t>(value)); }
+
+template <class Value>
+void put(std::ofstream& out, const Value& value) {
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class Value>
+bool get(std::ifstream& in, Value& value) {
+  return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
+}
+
+bool getPiece(std::ifstream& in, TriMesh& piece) {
+  std::uint64_t vertices = 0, triangles = 0;
+  if (!get(in, vertices) || !get(in, triangles) || vertices > kMostCorners || triangles > kMostCorners) return false;
+  piece.vertices.resize(vertices);
+  piece.triangles.resize(triangles);
+  for (Vec3& v : piece.vertices) {
+    for (double& x : v) {
+      if (!get(in, x)) return false;
+    }
+  }
+  for (TriMesh::Triangle& triangle : piece.triangles) {
+    for (std::int32_t& corner : triangle) {
+      if (!get(in, corner) || corner < 0 || static_cast<std::uint64_t>(corner) >= vertices) return false;
+    }
+  }
+  buildAdjacency(piece);
+  const MeshReport report = checkMesh(piece);
+  return report.non_finite == 0 && report.closed() && !report.inverted && isConvex(piece);
+}
+
+}  // namespace
+
+std::string pieceCacheFile(const TriMesh& mesh, const Decomposition& wanted) {
+  const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+  fs::path folder;
+  if (cache != nullptr && *cache == '/') {
+    folder = cache;
+  } else if (home != nullptr && *home == '/') {
+    folder = fs::path(home) / ".cache";
+  } else {
+    return {};
+  }
+  Fnv1a hash;
+  hash.addWord(kKind);
+  hash.addWord(std::uint64_t{wanted.max_pieces});
+  add(hash, wanted.max_error);
+  for (const Vec3& v : mesh.vertices) {
+    for (const double x : v) add(hash, x);
+  }
+  for (const TriMesh::Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t corner : triangle) hash.addWord(static_cast<std::uint32_t>(corner));
+  }
+  char name[40];
+  std::snprintf(name, sizeof name, "%016llx.pieces", static_cast<unsigned long long>(hash.value()));
+  return (folder / "presa" / "convex" / name).string();
+}
+
+std::optional<ConvexPieces> readPieces(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::uint64_t kind = 0, count = 0;
+  ConvexPieces pieces;
+  if (!in || !get(in, kind) || kind != kKind || !get(in, pieces.error) || !get(in, count)) return std::nullopt;
+  if (count == 0 || count > kMostPieces || !(pieces.error >= 0)) return std::nullopt;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    auto piece = std::make_shared<TriMesh>();
+    if (!getPiece(in, *piece)) return std::nullopt;
+    pieces.pieces.push_back(std::move(piece));
+  }
+  return in.peek() == std::ifstream::traits_type::eof() ? std::optional(std::move(pieces)) : std::nullopt;
+}
+
+void keepPieces(const std::string& file, const ConvexPieces& pieces) {
+  if (file.empty()) return;
+  std::error_code failure;
+  fs::create_directories(fs::path(file).parent_path(), failure);
+  const std::string part = file + "." + std::to_string(getpid());
+  {
+    std::ofstream out(part, std::ios::binary);
+    put(out, kKind);
+    put(out, pieces.error);
+    put(out, std::uint64_t{pieces.pieces.size()});
+    for (const auto& piece : pieces.pieces) {
+      put(out, std::uint64_t{piece->vertices.size()});
+      put(out, std::uint64_t{piece->triangles.size()});
+      for (const Vec3& v : piece->vertices) {
+        for (const double x : v) put(out, x);
+      }
+      for (const TriMesh::Triangle& triangle : piece->triangles) {
+        for (const std::int32_t corner : triangle) put(out, corner);
+      }
+    }
+    out.close();
+    if (out) {
+      fs::rename(part, file, failure);
+      if (!failure) return;
+    }
+  }
+  fs::remove(part, failure);
+}
+
+}  // namespace presa

@@ -1,0 +1,20 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "framework/scene/world.h"
+
+namespace presa {
+
+/// Convex pieces of meshes that took long to cut, kept in the user's cache by the content of mesh and settings:
+/// $XDG_CACHE_HOME/presa/convex, or ~/.cache/presa/convex. A cache that cannot be read or written is none; deleting it
+/// costs time only. Thread: before a run.
+
+/// The file for a mesh; "" when the user has no cache folder.
+std::string pieceCacheFile(const TriMesh& mesh, const Decomposition& wanted);
+/// None when there is no such file, or it is damaged.
+std::optional<ConvexPieces> readPieces(const std::string& file);
+/// Replaces the file at once, so that a reader never sees a part of it.
+void keepPieces(const std::string& file, const ConvexPieces& pieces);
+
+}  // namespace presa
