@@ -28,8 +28,18 @@ PinchRun makePinchRun(RunOptions::View view, const std::string& screenshot) {
   auto world = std::make_shared<World>();
   Scene& scene = world->scene;
   scene.name = "cube";
-  scene.materials = {{"wood", 2000, 2, 0.6, 0.5, 0, {}, {0.55, 0.42, 0.30}, {}, {}},
-                     {"rubber", 1000, 1, 0.8, 0.6, 0, {}, {0.75, 0.25, 0.2}, {}, {}}};
+  scene.materials = {{.name = "wood",
+                      .stiffness = 2000,
+                      .damping = 2,
+                      .friction_static = 0.6,
+                      .friction_dynamic = 0.5,
+                      .color = {0.55, 0.42, 0.30}},
+                     {.name = "rubber",
+                      .stiffness = 1000,
+                      .damping = 1,
+                      .friction_static = 0.8,
+                      .friction_dynamic = 0.6,
+                      .color = {0.75, 0.25, 0.2}}};
   scene.bodies = {makeBox("table", {0.6, 0.4, 0.04}, {0, 0, -0.02}, true, 0),
                   makeBox("cube", Vec3::Constant(kCubeEdge), {0, 0, kCubeEdge / 2}, false, 1)};
   scene.bodies[1].mass = 0.2;
