@@ -5,11 +5,14 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "framework/core/math/fnv.h"
 #include "framework/geometry/convex.h"
+#include "framework/input/input.h"
 
 namespace presa {
 namespace {
@@ -17,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kKind = 0x3165636569507250;  // "PrPiece1": also the version of decompose()
-constexpr std::uint64_t kMostPieces = 256, kMostCorners = 100000;
+constexpr std::uint64_t kMostPieces = 256, kMostCorners = 100000, kMostBytes = 1U << 28U;
 
 void add(Fnv1a& hash, double value) { hash.addWord(std::bit_cast<std::uint64_t>(value)); }
 
@@ -26,24 +29,37 @@ void put(std::ofstream& out, const Value& value) {
   out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-template <class Value>
-bool get(std::ifstream& in, Value& value) {
-  return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
-}
+/// What is left to read.
+class Bytes {
+ public:
+  explicit Bytes(std::string_view left) : left_(left) {}
+  template <class Value>
+  bool get(Value& value) {
+    if (left_.size() < sizeof value) return false;
+    std::memcpy(&value, left_.data(), sizeof value);
+    left_.remove_prefix(sizeof value);
+    return true;
+  }
+  std::size_t size() const { return left_.size(); }
 
-bool getPiece(std::ifstream& in, TriMesh& piece) {
+ private:
+  std::string_view left_;
+};
+
+bool getPiece(Bytes& in, TriMesh& piece) {
   std::uint64_t vertices = 0, triangles = 0;
-  if (!get(in, vertices) || !get(in, triangles) || vertices > kMostCorners || triangles > kMostCorners) return false;
+  if (!in.get(vertices) || !in.get(triangles) || vertices > kMostCorners || triangles > kMostCorners) return false;
+  if (24 * vertices + 12 * triangles > in.size()) return false;
   piece.vertices.resize(vertices);
   piece.triangles.resize(triangles);
   for (Vec3& v : piece.vertices) {
     for (double& x : v) {
-      if (!get(in, x)) return false;
+      if (!in.get(x)) return false;
     }
   }
   for (TriMesh::Triangle& triangle : piece.triangles) {
     for (std::int32_t& corner : triangle) {
-      if (!get(in, corner) || corner < 0 || static_cast<std::uint64_t>(corner) >= vertices) return false;
+      if (!in.get(corner) || corner < 0 || static_cast<std::uint64_t>(corner) >= vertices) return false;
     }
   }
   buildAdjacency(piece);
@@ -79,17 +95,20 @@ std::string pieceCacheFile(const TriMesh& mesh, const Decomposition& wanted) {
 }
 
 std::optional<ConvexPieces> readPieces(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
+  input::Refusal refusal;
+  const std::optional<std::string> bytes = input::read(file, kMostBytes, refusal);
+  if (!bytes) return std::nullopt;
+  Bytes in(*bytes);
   std::uint64_t kind = 0, count = 0;
   ConvexPieces pieces;
-  if (!in || !get(in, kind) || kind != kKind || !get(in, pieces.error) || !get(in, count)) return std::nullopt;
+  if (!in.get(kind) || kind != kKind || !in.get(pieces.error) || !in.get(count)) return std::nullopt;
   if (count == 0 || count > kMostPieces || !(pieces.error >= 0)) return std::nullopt;
   for (std::uint64_t i = 0; i < count; ++i) {
     auto piece = std::make_shared<TriMesh>();
     if (!getPiece(in, *piece)) return std::nullopt;
     pieces.pieces.push_back(std::move(piece));
   }
-  return in.peek() == std::ifstream::traits_type::eof() ? std::optional(std::move(pieces)) : std::nullopt;
+  return in.size() == 0 ? std::optional(std::move(pieces)) : std::nullopt;
 }
 
 void keepPieces(const std::string& file, const ConvexPieces& pieces) {
