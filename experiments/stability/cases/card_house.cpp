@@ -10,13 +10,13 @@
 namespace presa::stability::card_house {
 namespace {
 
-// as in the scene
-constexpr double kLength = 0.088, kThickness = 0.0003, kLean_deg = 20, kCardFriction = 0.9, kMass = 0.0018;
+// as in the scene; the lean in degrees
+constexpr double kLength = 0.088, kThickness = 0.0003, kLean = 20, kCardFriction = 0.9, kMass = 0.0018;
 constexpr double kStands = 30, kFalls = 5;  // [s]
 
 /// Friction at the feet from which on two leaning cards stand. Each card turns about its foot under its weight, held by
 /// the horizontal force H at the other end: H L cos a = m g (L/2 sin a - t/2 cos a), and H <= mu m g.
-double pairLimit() { return (std::tan(kLean_deg * std::numbers::pi / 180) - kThickness / kLength) / 2; }
+double pairLimit() { return (std::tan(kLean * std::numbers::pi / 180) - kThickness / kLength) / 2; }
 /// The same for the lower cards of the house, each of which carries 3/4 of a card more at its upper end.
 double houseLimit() { return 2 * pairLimit() * (0.5 + 0.75) / (1 + 0.75); }
 

@@ -47,6 +47,7 @@ double steadySpeed() {
 std::vector<Finding> topple(double rate, const Method& method) {
   StudyRun run(specOf("domino_row.xml", std::vector<std::string>{"rates/dynamics=" + number(rate)} + method, 2));
   std::vector<std::size_t> dominoes;
+  dominoes.reserve(kDominoes);
   for (int i = 0; i < kDominoes; ++i) dominoes.push_back(bodyNamed(run.world(), "d" + std::to_string(i)));
   const auto angle = [&](const ObjectState& state, int i) {
     const Vec3 up = state.bodies[dominoes[static_cast<std::size_t>(i)]].X_WB_end.q * Vec3::UnitZ();

@@ -44,7 +44,7 @@ Poses play(StudyRun& run, const Vec3& place) {
   Poses all;
   run.observe(atEachStep([&](const ObjectState& state) {
     std::vector<Pose> now;
-    for (const BodyMotion& body : state.bodies) now.emplace_back(body.X_WB_end.p - place, body.X_WB_end.q);
+    for (const BodyMotion& body : state.bodies) now.push_back({body.X_WB_end.p - place, body.X_WB_end.q});
     all.push_back(std::move(now));
   }));
   run.run();
