@@ -24,22 +24,23 @@ In<T>& port(Module& module, const std::string& name) {
 
 }  // namespace
 
+Material material(const char* name, double stiffness, double mu_static, double mu_dynamic, const Vec3& color) {
+  Material material;
+  material.name = name;
+  material.stiffness = stiffness;
+  material.damping = stiffness / 1000;
+  material.friction_static = mu_static;
+  material.friction_dynamic = mu_dynamic;
+  material.color = color;
+  return material;
+}
+
 PinchRun makePinchRun(RunOptions::View view, const std::string& screenshot) {
   auto world = std::make_shared<World>();
   Scene& scene = world->scene;
   scene.name = "cube";
-  scene.materials = {{.name = "wood",
-                      .stiffness = 2000,
-                      .damping = 2,
-                      .friction_static = 0.6,
-                      .friction_dynamic = 0.5,
-                      .color = {0.55, 0.42, 0.30}},
-                     {.name = "rubber",
-                      .stiffness = 1000,
-                      .damping = 1,
-                      .friction_static = 0.8,
-                      .friction_dynamic = 0.6,
-                      .color = {0.75, 0.25, 0.2}}};
+  scene.materials = {material("wood", 2000, 0.6, 0.5, {0.55, 0.42, 0.30}),
+                     material("rubber", 1000, 0.8, 0.6, {0.75, 0.25, 0.2})};
   scene.bodies = {makeBox("table", {0.6, 0.4, 0.04}, {0, 0, -0.02}, true, 0),
                   makeBox("cube", Vec3::Constant(kCubeEdge), {0, 0, kCubeEdge / 2}, false, 1)};
   scene.bodies[1].mass = 0.2;
