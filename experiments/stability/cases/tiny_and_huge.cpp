@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "experiments/stability/cases.h"
 #include "experiments/stability/methods.h"
@@ -34,9 +35,11 @@ std::vector<std::string> setsOf(const Stack& stack) {
     if (used) end += stack.share * l / (2 * k);
     const Vec3 p = used ? Vec3(end - l / 2, 0, block.z() * (kBlocks - k + 0.5)) : s * Vec3(5 + k, 0, -0.29);
     const std::string body = "body/b" + std::to_string(k - 1);
-    sets.push_back(body + "/pos=" + text(p));
-    sets.push_back(body + "/physics/box/size=" + text(block));
-    sets.push_back(body + "/physics/mass=" + mass);
+    for (const auto& [path, value] :
+         {std::pair{"/pos=", text(p)}, std::pair{"/physics/box/size=", text(block)}, {"/physics/mass=", mass}}) {
+      sets.push_back(body);
+      sets.back().append(path).append(value);
+    }
   }
   return sets;
 }

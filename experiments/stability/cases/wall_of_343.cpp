@@ -13,7 +13,8 @@ std::vector<std::string> setsOf(double gap) {
   std::vector<std::string> sets;
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
     const double x = (i % kSide - 3) * (kEdge + gap), y = (i / kSide % kSide - 3) * (kEdge + gap);
-    const double z = kEdge * (i / (kSide * kSide) + 0.5);
+    const int layer = i / (kSide * kSide);
+    const double z = kEdge * (layer + 0.5);
     sets.push_back("body/c" + std::to_string(i) + "/pos=" + number(x) + " " + number(y) + " " + number(z));
   }
   return sets;
