@@ -61,7 +61,7 @@ std::vector<Rule> fingerRules(std::uint64_t scene_bodies) {
           {"body", -1, static_cast<std::int64_t>(scene_bodies) - 1}};
 }
 
-std::vector<Rule> scheduleRules() { return {{"made_up", 0, 3}}; }
+std::vector<Rule> scheduleRules() { return {{"made_up", 0, 7}}; }
 
 RowCheck::RowCheck(std::string path, const Table& table, const std::vector<Rule>& rules) : path_(std::move(path)) {
   for (const Rule& rule : rules) {

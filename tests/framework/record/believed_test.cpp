@@ -105,7 +105,7 @@ TEST_F(Believed, ValuesOfARowAreInTheirRange) {
   expectRefused([&](Damage& d) { d.cell(finger, "body", 9, std::int64_t{2}); }, {"body", "-1 to 1"});
   expectRefused([](Damage& d) { d.cell("haptic/ticks", "commanded", 9, std::int64_t{97}); }, {"commanded"});
   expectRefused([](Damage& d) { d.cell("haptic/ticks", "stop_requested", 9, std::int64_t{2}); }, {"stop_requested"});
-  expectRefused([](Damage& d) { d.cell("schedule/haptic", "made_up", 9, std::int64_t{4}); }, {"made_up"});
+  expectRefused([](Damage& d) { d.cell("schedule/haptic", "made_up", 9, std::int64_t{8}); }, {"made_up"});
 }
 
 TEST_F(Believed, AttributesAreInTheirRange) {
