@@ -118,8 +118,8 @@ TEST(SeveralShapes, NothingPassesThroughACup) {
   }
 }
 
-// Sliding over the seams of a tray's floor a cube neither jumps nor slows down, and its rim stops it: x = inner width / 2
-// minus half its edge.
+// Sliding over the seams of a tray's floor a cube neither jumps nor slows down, and its rim stops it: x = inner width
+// / 2 minus half its edge.
 TEST(SeveralShapes, ATrayKeepsACube) {
   Compound tray;
   for (int i = -2; i < 2; ++i) tray.parts.push_back({Box{{0.05, 0.2, 0.01}}, at(0.05 * i + 0.025, 0, -0.005), {}});
@@ -205,8 +205,8 @@ Compound pairOf(const Shape& a, const Shape& b, double apart) {
   return pair;
 }
 
-// Spinning at 20 m/s, or hit at 20 m/s, none of these bodies passes a plate of 0.5 mm: cubes of eight, tiles of two halves,
-// dumbbells, hammers.
+// Spinning at 20 m/s, or hit at 20 m/s, none of these bodies passes a plate of 0.5 mm: cubes of eight, tiles of two
+// halves, dumbbells, hammers.
 TEST(SeveralShapes, DoNotPassAThinPlate) {
   constexpr double kSize = 0.01, kSpeed = 20, kThick = 0.0005;
   const std::array<Compound, 4> bodies{
