@@ -3,7 +3,7 @@
 
     python3 config/meshes/make_cup.py > config/meshes/cup.obj
 
-One closed surface. Metres, z up, origin in the middle of the lower side of the floor. Python's standard library only; the
+One closed surface. Metres, z up, origin in the middle of the lower side of the floor. Python's standard library only;
 coordinates are rounded to 0.1 um, so that the file is the same to the bit on every machine.
 """
 from math import cos, pi, sin

@@ -1,6 +1,7 @@
-// The solid is cut by planes, each of a face that looks into the deepest hollow (as a binary space partition does), until
-// the hull of what is left in every cell fills no hollow. Cells are half spaces, so that no cut needs a new surface: the
-// corners of solid and cell are those of the clipped triangles, and corners of the cell inside the solid.
+// The solid is cut by planes, each of a face that looks into the deepest hollow (as a binary space partition does),
+// until the hull of what is left in every cell fills no hollow. Cells are half spaces, so that no cut needs a new
+// surface: the corners of solid and cell are those of the clipped triangles, and corners of the cell inside the
+// solid.
 #include <algorithm>
 #include <cmath>
 

@@ -5,16 +5,16 @@
 
 namespace presa {
 
-/// One of the shapes that a body's physics geometry consists of, in the body frame. `shape` is no Compound; `mesh` is its
-/// mesh, or one convex piece of it, and null for a primitive. Valid as long as the body and its meshes are.
+/// One of the shapes that a body's physics geometry consists of, in the body frame. `shape` is no Compound; `mesh` is
+/// its mesh, or one convex piece of it, and null for a primitive. Valid as long as the body and its meshes are.
 struct PhysicsShape {
   const Shape* shape = nullptr;
   const TriMesh* mesh = nullptr;
   Pose X_BG;
 };
 
-/// The shapes of a body's physics geometry in document order, the pieces of a decomposed mesh in its place; none without
-/// physics geometry.
+/// The shapes of a body's physics geometry in document order, the pieces of a decomposed mesh in its place; none
+/// without physics geometry.
 std::vector<PhysicsShape> physicsShapes(const Body& body, const BodyMeshes& meshes);
 bool hasSeveralShapes(const Body& body, const BodyMeshes& meshes);
 

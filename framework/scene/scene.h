@@ -52,8 +52,8 @@ struct ShapePart {
   SourceLocation where;
 };
 
-/// Radius of the bounding sphere of a primitive about its own origin [m]; 0 for a mesh, whose size is not known here, and
-/// for a Compound.
+/// Radius of the bounding sphere of a primitive about its own origin [m]; 0 for a mesh, whose size is not known here,
+/// and for a Compound.
 inline double boundingRadius(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return (box->size / 2).norm();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;

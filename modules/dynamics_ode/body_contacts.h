@@ -23,8 +23,8 @@ enum class Foresight : std::uint8_t {
 
 /// Narrow-phase collision between bodies: convex polyhedra among each other by HullContacts, other shapes by ODE,
 /// converted from its convention (normal from the second geometry into the first) to Presa's. Pairs are processed in
-/// scene order whatever the broad phase returns, and the shapes of two bodies in theirs, so that equal states give equal
-/// contacts, to the bit.
+/// scene order whatever the broad phase returns, and the shapes of two bodies in theirs, so that equal states give
+/// equal contacts, to the bit.
 class BodyContacts {
  public:
   static constexpr int kMaxPerPair = 8;

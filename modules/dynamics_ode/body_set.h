@@ -50,8 +50,8 @@ class BodySet {
   /// Whether the bounding boxes of two shapes in W come within `distance` of each other [m].
   bool shapesAreNear(std::size_t a, std::size_t b, double distance) const;
 
-  /// Of a body of one shape: that shape as a convex polyhedron, and the pose of its frame. Null: it has several, or none
-  /// that is convex.
+  /// Of a body of one shape: that shape as a convex polyhedron, and the pose of its frame. Null: it has several, or
+  /// none that is convex.
   const Hull* hull(std::size_t i) const noexcept { return shapes(i).count == 1 ? hullOf(shapes(i).first) : nullptr; }
   Pose geomPose(std::size_t i) const { return poseOf(shapes(i).first); }
   /// Bounding box of the physics geometry in W [m]; only for a body that has one.

@@ -11,8 +11,8 @@ namespace presa::ode {
 /// Takes contacts away that only the joints between the shapes of one body make. A ball that rolls over the seam of two
 /// boxes in line meets the next box's edge, a block its side, although that edge and side lie inside the body: both
 /// would be thrown up or stopped. A contact goes when its point lies at another shape of the same body and the contact
-/// with that shape, in another direction, keeps the two shapes as far apart already. Of equal contacts the deepest stays,
-/// and of those in one plane the outline (outline.h).
+/// with that shape, in another direction, keeps the two shapes as far apart already. Of equal contacts the deepest
+/// stays, and of those in one plane the outline (outline.h).
 class InnerEdges {
  public:
   explicit InnerEdges(const BodySet& bodies);

@@ -6,9 +6,9 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kSameNormal = 1e-9;  // 1 - cosine
-constexpr double kSameDepth = 1e-3;   // in relation to `near`
-constexpr std::size_t kBetweenNone = 2;       // contacts of which none is between others
+constexpr double kSameNormal = 1e-9;     // 1 - cosine
+constexpr double kSameDepth = 1e-3;      // in relation to `near`
+constexpr std::size_t kBetweenNone = 2;  // contacts of which none is between others
 
 /// Twice the area of a, b, c; positive: counter-clockwise.
 template <class Point>

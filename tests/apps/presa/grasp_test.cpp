@@ -80,8 +80,8 @@ TEST(AmphoraGrasp, IsLiftedByItsMesh) {
   for (const auto& point : run->result().contact_points) EXPECT_EQ(point.summary.pop_through, 0u);
 }
 
-// A cup of 25 convex pieces is lifted with a ball in it. The ball lies on its floor, 5 mm thick, and comes along: it ends
-// where the cup ends, on the table.
+// A cup of 25 convex pieces is lifted with a ball in it. The ball lies on its floor, 5 mm thick, and comes along: it
+// ends where the cup ends, on the table.
 TEST(CupGrasp, IsLiftedWithTheBallInIt) {
   const auto run = runScene("config/scenes/cup_and_ball.xml");
   const auto grasp = graspFigures(run->result());
@@ -90,7 +90,7 @@ TEST(CupGrasp, IsLiftedWithTheBallInIt) {
   EXPECT_NEAR(grasp->held_in_stick, 4.0, 0.002);
   const ObjectSummary &cup = run->result().objects.at(0).summary, &ball = run->result().objects.at(1).summary;
   EXPECT_FALSE(cup.dropped);
-  EXPECT_GT(ball.highest.z(), 0.1);  // from 20 mm
+  EXPECT_GT(ball.highest.z(), 0.1);                                            // from 20 mm
   EXPECT_LT((ball.final - cup.final).head<2>().norm(), 0.036 - 0.015 + 1e-3);  // within the walls
   EXPECT_NEAR(ball.final.z() - cup.final.z(), 0.005 + 0.015, 1e-4);
 }

@@ -40,6 +40,26 @@ TEST_P(Engines, FallRestAndSlideAsTheTextbookSays) {
   EXPECT_NEAR(slide, 1 / (2 * 0.5 * 9.81), 0.0025 + 0.02 * 0.102);
 }
 
+// A bench of two separate feet: it stands at half their height, level. With one foot it would fall over.
+TEST_P(Engines, StandOnAllShapesOfABody) {
+  const auto file = std::filesystem::temp_directory_path() / ("presa_bench_" + std::to_string(::getpid()) + ".xml");
+  std::ofstream(file) << R"(<scene version="1.0" name="bench"><world gravity="0 0 -9.81"/>
+  <materials><material name="wood" stiffness="2000"><friction static="0.5"/></material></materials>
+  <body name="floor" fixed="true" pos="0 0 -0.5"><physics><box size="4 4 1"/></physics></body>
+  <body name="bench" pos="0 0 0.11"><physics mass="1">
+    <box size="0.1 0.2 0.2" pos="-0.3 0 0"/><box size="0.1 0.2 0.2" pos="0.3 0 0"/></physics></body>
+</scene>)";
+  StudyRun run({.scene = file.string(), .sets = {std::string("dynamics/engine=") + GetParam()}, .duration = 2});
+  Pose X_WB;
+  run.observe([&](const HapticSample& sample) {
+    if (sample.objects != nullptr) X_WB = sample.objects->bodies[1].X_WB_end;
+  });
+  run.run();
+  std::filesystem::remove(file);
+  EXPECT_NEAR(X_WB.p.z(), 0.1, 0.0005);
+  EXPECT_LT(X_WB.q.angularDistance(Quat::Identity()), 0.002);  // the same, over half the bench
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Engines, testing::Values("ode", "mujoco", "bullet"),
                          [](const auto& param) { return std::string(param.param); });
 

@@ -97,7 +97,8 @@ TEST(Decompose, OpensACup) {
 }
 
 // The trap: one piece closes the mouth, and the distance says so. The middle of the mouth is a radius of the inner
-// polygon, 30 mm cos(pi / 24), from the rim; samples are corners and middles of the hull's triangles, which may be nearer.
+// polygon, 30 mm cos(pi / 24), from the rim; samples are corners and middles of the hull's triangles, which may be
+// nearer.
 TEST(Decompose, TooFewPiecesCloseTheMouthAndTheDistanceSaysSo) {
   const TriMesh cup = test::cup(24, 0.03, 0.033, 0.004, 0.08);
   const double distance = hausdorffDistance(cup, decompose(cup, 1, 0.001));

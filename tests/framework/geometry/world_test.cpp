@@ -56,8 +56,8 @@ TEST(Inertia, FollowsTheGeometryInTheBody) {
   EXPECT_TRUE(diagnostics.all().empty());
 }
 
-// A dumbbell: closed forms of its balls, moved by the parallel axis theorem, and of its bar. Equal density everywhere, and
-// each shape counts in full, where they overlap, too.
+// A dumbbell: closed forms of its balls, moved by the parallel axis theorem, and of its bar. Equal density
+// everywhere, and each shape counts in full, where they overlap, too.
 TEST(Inertia, OfADumbbellIsTheSumOfItsShapes) {
   const double r = 0.03, d = 0.1, bar = 0.01, length = 0.18;
   const Quat q(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
