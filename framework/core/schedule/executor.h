@@ -57,8 +57,7 @@ class Executor {
   static constexpr double kGap = 1;
 
  protected:
-  /// Flags of a tick that did not run when it was due, see Tick.
-  struct Delay {
+  struct Delay {  // of a tick, see Tick
     bool late = false, catch_up = false, resumed = false;
   };
   /// One tick of one group with its timing and its row in the schedule.

@@ -14,10 +14,9 @@ struct Tick {
   std::uint64_t index = 0;
   double time = 0;    ///< [s]
   double period = 0;  ///< [s]
-  /// The tick runs late: a newer tick of its group is already due. A module may leave out work that can wait.
-  bool late = false;
+  bool late = false;  ///< a newer tick of the group is already due: a module may leave out work that can wait
   /// Catch-up tick, a late one: modules advance their state but send nothing to the world outside, which would receive
-  /// all catch-up ticks at one instant. A group that is late for long still has one tick a period that is none.
+  /// all of them at one instant. A group that is late for long still has one tick a period that is none.
   bool catch_up = false;
   /// First tick after a gap longer than Executor::kGap: the process was stopped or the machine was suspended, and the
   /// devices held their last forces meanwhile.

@@ -66,9 +66,7 @@ struct ObjectState {
   EnergyCreated energy;
   /// Steps since the start in which a body was stopped short of passing through another, summed over the bodies.
   std::uint64_t stopped_short = 0;
-  /// Time since the start for which bodies that no finger reaches stood still, because the dynamics were late while a
-  /// finger touched others [s].
-  double far_lag = 0;
+  double far_lag = 0;  ///< since the start, for which bodies stood still that no finger reaches: late dynamics [s]
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
   std::vector<Vec3> finger_impulse_W;
   BoundedList<FingerImpulse> touches;  ///< the same by finger and moving body, of the contacts of the step just solved
