@@ -17,7 +17,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Of all wrenches that pressing contacts exert, about the one nearest to 0 [Gilbert1966]: the body evades along it
 /// most. None unless it proves that the contacts push to one side: no wrench of theirs works against it.
 std::optional<Vec6> pushedTo(const WrenchSpace& space) {
-  Vec6 nearest, next;
+  Vec6 nearest = Vec6::Zero(), next = Vec6::Zero();
   space.pressing(Vec6::UnitX(), nearest);
   for (int i = 0; i < 2000 && nearest.norm() > 0; ++i) {
     space.pressing(-nearest, next);
