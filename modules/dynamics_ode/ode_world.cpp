@@ -74,7 +74,7 @@ struct OdeWorld::Impl {
   }
 
   void step(const ContactExchange& exchange, double time, double period, bool late);
-  void pauseFar(const ContactExchange& exchange, double period);
+  void pauseFar(const ContactExchange& exchange, double period, bool late);
   void substep(const ContactExchange& exchange, double time, double h, int substeps);
   void pushBodyEffects(double time, double h);
   void wakeStirred(double time, double period);
@@ -92,7 +92,7 @@ struct OdeWorld::Impl {
   struct Patience {
     static constexpr int kMaxLate = 2;                   // steps after a whole one that may be late
     static constexpr int kMinWait = 10, kMaxWait = 400;  // steps
-    bool leavesOut(bool late);
+    bool leavesOut(bool late, bool held);
     int late_since = 0;      // since the last whole step
     int wait = 0, left = 0;  // steps
     bool was_whole = false;  // the last step that was not late
@@ -222,29 +222,30 @@ void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
   if (invalid > 0) fault(Faults::kBadFinger, invalid);
 }
 
-// What people hold is stepped in time; what they do not reach stands still for a step. Decided by the tick alone, so
-// that a recording replays to the bit.
-void OdeWorld::Impl::pauseFar(const ContactExchange& exchange, double period) {
+// What people hold is stepped in time; what they do not reach stands still for a step, so that the state of what they
+// touch next is fresh, too. Decided by the ticks alone, so that a recording replays to the bit.
+void OdeWorld::Impl::pauseFar(const ContactExchange& exchange, double period, bool late) {
   std::fill(held.begin(), held.end(), 0);
   bool any = false;
   forEachTouch(exchange, bodies, [&](std::size_t, const FingerContact&, std::size_t body) {
     held[islands.of(body)] = 1;
     any = true;
   });
-  if (any && sleep->pauseOthers(bodies, islands, held) > 0) far_lag += period;
+  if (patience.leavesOut(late, any) && sleep->pauseOthers(bodies, islands, held) > 0) far_lag += period;
 }
 
 // A whole step after which many are late takes too long for what is held: the next one waits, twice as long each time.
-bool OdeWorld::Impl::Patience::leavesOut(bool late) {
+bool OdeWorld::Impl::Patience::leavesOut(bool late, bool held) {
   if (late) {
     ++late_since;
     return true;
   }
-  if (left > 0 && --left > 0) return true;
+  if (held && left > 0 && --left > 0) return true;
   if (was_whole) {
     wait = late_since > kMaxLate ? std::min(2 * std::max(wait, kMinWait), kMaxWait) : 0;
     left = wait;
   }
+  if (!held) left = 0;
   was_whole = left == 0;
   late_since = 0;
   return !was_whole;
@@ -253,7 +254,7 @@ bool OdeWorld::Impl::Patience::leavesOut(bool late) {
 void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double period, bool late) {
   impulses.makeRoom(exchange.fingers.size());
   if (sleep) sleep->resume(bodies);
-  if (sleep && patience.leavesOut(late)) pauseFar(exchange, period);
+  if (sleep) pauseFar(exchange, period, late);
   impulses.begin(time);
   wakeTouched(exchange);
   if (snap_drive_) snap_drive_->carry(bodies, sleep ? &*sleep : nullptr, period);

@@ -38,7 +38,7 @@ class OdeWorld {
 
   /// Advances all bodies from `time` to time + period [s]. `fingers` is the last contact exchange with its time; it is
   /// extrapolated to `time` and fades when older than ages::fingers. In a `late` step islands that no finger touches
-  /// stand still while one touches others. Never throws.
+  /// stand still. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out, bool late = false) noexcept;
   /// Allocates for the fingers and contacts that this exchange has room for. Not called: the first step allocates.
   void makeRoom(const ContactExchange& fingers);
