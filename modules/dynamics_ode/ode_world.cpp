@@ -90,7 +90,7 @@ struct OdeWorld::Impl {
 
   /// Which steps leave out what no finger reaches.
   struct Patience {
-    static constexpr int kMaxLate = 2;                   // steps after a whole one that may be late
+    static constexpr int kMaxLate = 1;                   // steps after a whole one that may be late
     static constexpr int kMinWait = 10, kMaxWait = 400;  // steps
     bool leavesOut(bool late, bool held);
     int late_since = 0;      // since the last whole step
