@@ -144,4 +144,27 @@ std::vector<Finding> carry(const Carried& carried) {
   return {finding("normal force error at rest", 100 * force, "%", 0.1, carried.oracle), distance};
 }
 
+std::vector<Trial> carriedTrials(
+    const std::function<std::vector<Finding>(double mass, double stiffness, int axis, const Method&)>& run) {
+  std::vector<Trial> trials;
+  for (const double stiffness : {2000.0, 10'000.0}) {
+    for (const double mass : {0.01, 0.1}) {
+      for (const int axis : {0, 1, 2}) {
+        for (const Method& method : {ours(), explicitCoupling()}) {
+          Trial trial;
+          trial.parameters = {{"stiffness", number(stiffness / 1000) + " N/mm"},
+                              {"mass", number(mass * 1000) + " g"},
+                              {"along", std::string(1, "xyz"[axis])}};
+          trial.method = method.name;
+          if (!method.own()) trial.expected = Verdict::kUnstable;
+          trial.run = [=] { return run(mass, stiffness, axis, method); };
+          trial.quick = stiffness > 5000 && mass < 0.05;
+          trials.push_back(std::move(trial));
+        }
+      }
+    }
+  }
+  return trials;
+}
+
 }  // namespace presa::stability

@@ -5,6 +5,7 @@
 
 #include "experiments/stability/case.h"
 #include "experiments/stability/fingers.h"
+#include "experiments/stability/methods.h"
 #include "experiments/study/prescribed_finger.h"
 #include "framework/device/device_modules.h"
 
@@ -45,5 +46,8 @@ struct Carried {
 /// Judges the normal forces just before the motion begins (0.1 %), and the distance of the body from a HeldBody on the
 /// same springs while it moves (0.2 mm RMS over 3.5 s and the ends of three axes 50 mm long).
 std::vector<Finding> carry(const Carried& carried);
+/// Trials for 10 and 100 g under fingers of 2 and 10 N/mm, shaken along each axis, with each coupling.
+std::vector<Trial> carriedTrials(
+    const std::function<std::vector<Finding>(double mass, double stiffness, int axis, const Method&)>& run);
 
 }  // namespace presa::stability

@@ -111,12 +111,20 @@ void FingerJoints::estimateMotion(const ContactExchange& exchange) {
   }
 }
 
-// What the body got for what the finger felt since the last step [N].
-Vec3 FingerJoints::meanForce(std::size_t finger, const FingerContact& contact, double h) {
-  Vec3& given = given_[finger];
-  const Vec3 mean = -(contact.impulse_H_W - given) / h;
-  given = contact.impulse_H_W;
-  return mean;
+void FingerJoints::add(std::size_t f, std::size_t body, const FingerContact& contact, FingerConstraint row,
+                       const ContactExchange& exchange, double time, double h, BodySet& bodies) {
+  const bool first = active_.empty() || active_.back().finger != f;
+  feedback_[active_.size()] = {};
+  if (contact.twist_stiffness > 0) {
+    if (exchange.fingers[f].body == contact.body) twist(f, body, contact, time - exchange.time, h, bodies);
+  } else if (!motors_.empty() && first) {  // a soft fingertip's motor acts on the first body that the finger touches
+    resistTurning(f, body, row, bodies);
+  }
+  if (coupling_ == DynamicsSettings::Coupling::kAveraged && contact.contact_count < 2) {
+    row.expected_force_W = (given_[f] - contact.impulse_H_W) / h;
+  }
+  if (areForces()) bodies.addForce(body, row.expected_force_W, row.p_WP);
+  active_.push_back({f, body, row});
 }
 
 std::size_t FingerJoints::read(const ContactExchange& exchange, double time, double h, BodySet& bodies) {
@@ -129,32 +137,11 @@ std::size_t FingerJoints::read(const ContactExchange& exchange, double time, dou
       forEachTouch(exchange, bodies, [&](std::size_t f, const FingerContact& contact, std::size_t body) {
         const auto row = makeFingerConstraint(contact, motions_[f].a_WH, bodies.inertiaState(body),
                                               time - exchange.time, old_after_, h);
-        if (!row) return;
-        const bool first = active_.empty() || active_.back().finger != f;
-        feedback_[active_.size()] = {};
-        active_.push_back({f, body, *row});
-        if (contact.twist_stiffness > 0) {
-          if (exchange.fingers[f].body == contact.body) twist(f, body, contact, time - exchange.time, h, bodies);
-        } else if (!motors_.empty() &&
-                   first) {  // a soft fingertip's motor acts on the first body that the finger touches
-          resistTurning(f, body, *row, bodies);
-        }
-        FingerConstraint& last = active_.back().row;
-        if (coupling_ == DynamicsSettings::Coupling::kAveraged && contact.contact_count < 2) {
-          last.expected_force_W = meanForce(f, contact, h);
-        }
-        if (areForces()) bodies.addForce(body, last.expected_force_W, last.p_WP);
+        if (row) add(f, body, contact, *row, exchange, time, h, bodies);
       });
-  if (coupling_ == DynamicsSettings::Coupling::kAveraged) forgetOthers(exchange);
+  // what fingers felt of something fixed, or of two bodies, is not passed on to what they touch next
+  for (std::size_t f = 0; f < exchange.fingers.size(); ++f) given_[f] = exchange.fingers[f].impulse_H_W;
   return invalid;
-}
-
-// What fingers felt of something fixed is not passed on to what they touch next.
-void FingerJoints::forgetOthers(const ContactExchange& exchange) {
-  for (std::size_t f = 0; f < exchange.fingers.size(); ++f) {
-    const auto is = [&](const Active& active) { return active.finger == f; };
-    if (std::ranges::none_of(active_, is)) given_[f] = exchange.fingers[f].impulse_H_W;
-  }
 }
 
 void FingerJoints::addTo(Engine& engine, BodySet& bodies, Islands& islands, const std::vector<char>& wanted) {

@@ -51,8 +51,8 @@ class FingerJoints {
   Vec3 force(std::size_t i) const;
 
  private:
-  Vec3 meanForce(std::size_t finger, const FingerContact& contact, double h);
-  void forgetOthers(const ContactExchange& exchange);
+  void add(std::size_t finger, std::size_t body, const FingerContact& contact, FingerConstraint row,
+           const ContactExchange& exchange, double time, double h, BodySet& bodies);
   void estimateMotion(const ContactExchange& exchange);
   void resistTurning(std::size_t finger, std::size_t body, const FingerConstraint& row, const BodySet& bodies);
   void twist(std::size_t finger, std::size_t body, const FingerContact& contact, double age, double h, BodySet& bodies);
@@ -69,7 +69,7 @@ class FingerJoints {
   const DynamicsSettings::Coupling coupling_;
   const double old_after_;       ///< maximum age of a finger sample before it fades [s]
   std::vector<Motion> motions_;  // by finger
-  std::vector<Vec3> given_;      // by finger: of the impulse that it felt, what has been passed on [N s]
+  std::vector<Vec3> given_;      // by finger: impulse that it had felt at the last step [N s]
   std::vector<Active> active_;
   std::vector<dJointFeedback> feedback_;  // as active_, with room for all contacts of the exchange
   std::vector<double> torsional_radius_;  // torsional friction radius by body [m]; empty if no material has torsion

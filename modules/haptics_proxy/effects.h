@@ -20,6 +20,7 @@ struct HapticEffects {
   bool surface_effects = false;  ///< force shading and those of plug-ins
   bool damping = false;
   bool torsion = false;  ///< torsional friction of oriented tools
+  bool impulse = false;  ///< summed for dynamics with averaged coupling
 };
 
 /// The effects that the scene uses: only those that some touchable body needs.

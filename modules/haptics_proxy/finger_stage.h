@@ -21,10 +21,9 @@ struct RenderedFinger {
   bool alive = false;
   std::int32_t frame = kNoBody;  ///< body whose coordinates hold `tip`; kNoBody: world
   ProxyState tip;
-  double radius = 0;              ///< radius of the moved sphere [m]
-  double lift = 0;                ///< excess of `radius` over the fingertip radius, not 0 for a point [m]
-  Vec3 p_WH = Vec3::Zero();       ///< HIP of the last tick [m]
-  Vec3 impulse_W = Vec3::Zero();  ///< of all forces on it so far [N s]
+  double radius = 0;         ///< radius of the moved sphere [m]
+  double lift = 0;           ///< excess of `radius` over the fingertip radius, not 0 for a point [m]
+  Vec3 p_WH = Vec3::Zero();  ///< HIP of the last tick [m]
   std::unique_ptr<Surroundings> near;
 };
 
@@ -99,7 +98,9 @@ std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);
 /// The same for scenes with surface effects, which may leave less than the material's stiffness.
 std::unique_ptr<FingerStage> makeSoftSpring(const SurfacesInForce& surfaces);
 std::unique_ptr<FingerStage> makeDamping(const SurfacesInForce& surfaces);
-/// Last of all: it needs the spring's depth and the coefficients of friction.
+/// It needs the spring's depth and the coefficients of friction.
 std::unique_ptr<FingerStage> makeTorsion(const SurfacesInForce& surfaces);
+/// Sums the force of a finger on one body. Last of all.
+std::unique_ptr<FingerStage> makeImpulse(std::size_t fingers);
 
 }  // namespace presa

@@ -48,6 +48,7 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   finger_stages_.push_back(effects.surface_effects ? makeSoftSpring(in_force) : makeSpring(in_force));
   if (effects.damping) finger_stages_.push_back(makeDamping(in_force));
   if (effects.torsion) finger_stages_.push_back(makeTorsion(in_force));
+  if (effects.impulse) finger_stages_.push_back(makeImpulse(fingers_.size()));
   if (world_->scene.hasForceEffects()) force_effects_.push_back(std::make_unique<Effects>(*this, *world_));
 }
 
@@ -110,8 +111,6 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
   for (const auto& stage : finger_stages_) stage->apply(tick);
   if (tick.next_frame != finger.frame) changeFrame(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
-  finger.impulse_W += now.period * out.f_H_W;
-  out.impulse_H_W = finger.impulse_W;
   finishContacts(tick);
   if (tick.broken) out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (const auto& added : force_effects_)

@@ -126,8 +126,23 @@ class Damping final : public FingerStage {
   const SurfacesInForce surfaces_;
 };
 
+class Impulse final : public FingerStage {
+ public:
+  explicit Impulse(std::size_t fingers) : sums_(fingers, Vec3::Zero()) {}
+  void apply(FingerTick& tick) noexcept override {
+    FingerContact& out = tick.out;
+    sums_[tick.index] += tick.period * (out.normal_force * out.nhat_W + out.tangential_force_W);
+    out.impulse_H_W = sums_[tick.index];
+  }
+  std::string what() const override { return "sum the impulse on each finger, for the averaged coupling"; }
+
+ private:
+  std::vector<Vec3> sums_;  // by finger [N s]
+};
+
 }  // namespace
 
+std::unique_ptr<FingerStage> makeImpulse(std::size_t fingers) { return std::make_unique<Impulse>(fingers); }
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces) { return std::make_unique<Spring>(surfaces); }
 std::unique_ptr<FingerStage> makeSoftSpring(const SurfacesInForce& surfaces) {
   return std::make_unique<SoftSpring>(surfaces);

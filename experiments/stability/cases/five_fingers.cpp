@@ -3,7 +3,6 @@
 
 #include "experiments/stability/cases.h"
 #include "experiments/stability/grip.h"
-#include "experiments/stability/methods.h"
 
 namespace presa::stability::five_fingers {
 namespace {
@@ -46,23 +45,7 @@ Case make() {
   result.oracle =
       "The thumb presses with 8/5 of k times its depth, a finger with 2/5; the brick follows these equations.";
   result.scene = "five_fingers.xml";
-  for (const double stiffness : {2000.0, 10'000.0}) {
-    for (const double mass : {0.01, 0.1}) {
-      for (const int axis : {0, 1, 2}) {
-        for (const Method& method : {ours(), explicitCoupling()}) {
-          Trial trial;
-          trial.parameters = {{"stiffness", number(stiffness / 1000) + " N/mm"},
-                              {"mass", number(mass * 1000) + " g"},
-                              {"along", std::string(1, "xyz"[axis])}};
-          trial.method = method.name;
-          if (!method.own()) trial.expected = Verdict::kUnstable;
-          trial.run = [=] { return shake(mass, stiffness, axis, method); };
-          trial.quick = stiffness > 5000 && mass < 0.05;
-          result.trials.push_back(std::move(trial));
-        }
-      }
-    }
-  }
+  result.trials = carriedTrials(shake);
   return result;
 }
 

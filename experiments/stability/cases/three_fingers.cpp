@@ -3,7 +3,6 @@
 
 #include "experiments/stability/cases.h"
 #include "experiments/stability/grip.h"
-#include "experiments/stability/methods.h"
 
 namespace presa::stability::three_fingers {
 namespace {
@@ -42,23 +41,7 @@ Case make() {
       "the engine takes part.";
   result.oracle = "Each finger presses with k times its depth; the can follows these equations, integrated at 10 us.";
   result.scene = "three_fingers.xml";
-  for (const double stiffness : {2000.0, 10'000.0}) {
-    for (const double mass : {0.01, 0.1}) {
-      for (const int axis : {0, 1, 2}) {
-        for (const Method& method : {ours(), explicitCoupling()}) {
-          Trial trial;
-          trial.parameters = {{"stiffness", number(stiffness / 1000) + " N/mm"},
-                              {"mass", number(mass * 1000) + " g"},
-                              {"along", std::string(1, "xyz"[axis])}};
-          trial.method = method.name;
-          if (!method.own()) trial.expected = Verdict::kUnstable;
-          trial.run = [=] { return shake(mass, stiffness, axis, method); };
-          trial.quick = stiffness > 5000 && mass < 0.05;
-          result.trials.push_back(std::move(trial));
-        }
-      }
-    }
-  }
+  result.trials = carriedTrials(shake);
   return result;
 }
 

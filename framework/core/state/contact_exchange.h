@@ -57,7 +57,7 @@ struct FingerContact {
   double normal_force = 0;                 ///< f_H_W . nhat_W [N], >= 0
   Vec3 tangential_force_W = Vec3::Zero();  ///< f_H_W without its normal part [N]
   Vec3 f_H_W = Vec3::Zero();               ///< rendered force on the finger, before the output stage [N]
-  Vec3 impulse_H_W = Vec3::Zero();         ///< of f_H_W on the finger, since the start [N s]
+  Vec3 impulse_H_W = Vec3::Zero();         ///< of f_H_W since the start; averaged coupling only [N s]
   Vec3 t_H_W = Vec3::Zero();               ///< rendered torque about H on an oriented tool [N m]; 0 on others
   // Torsional friction of an oriented tool on a soft fingertip's material: torque -twist_stiffness * twist about nhat_W.
   double twist = 0;                 ///< turn of the tool over `body` about nhat_W that the contact holds [rad]

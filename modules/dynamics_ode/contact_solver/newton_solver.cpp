@@ -41,7 +41,6 @@ NewtonSolver::NewtonSolver(const Options& options, std::size_t bodies, std::size
     : options_(options), matrix_(bodies) {
   pairs_.reserve(contacts);
   rows_.reserve(contacts);
-  rolls_.reserve(contacts);
   mass_.reserve(bodies);
   inertia_W_.reserve(bodies);
   for (Vector* vector : {&free_, &v_, &gradient_, &step_, &other_}) vector->reserve(bodies);

@@ -34,6 +34,8 @@ class NewtonSolver {
   /// Reserves memory for `bodies` and `contacts` in all.
   NewtonSolver(const Options& options, std::size_t bodies, std::size_t contacts);
 
+  /// Reserves memory for rolling resistance of `contacts`.
+  void makeRollsRoom(std::size_t contacts) { rolls_.reserve(contacts); }
   void makeRoom(std::size_t fingers, std::size_t motors) {
     rows_.reserve(pairs_.capacity() + fingers);
     motors_.reserve(motors);

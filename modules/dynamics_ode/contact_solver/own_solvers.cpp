@@ -35,6 +35,10 @@ OwnSolvers::OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodie
   const std::size_t contacts = bodies.contactRoom();
   const auto bounces = [](const Material& material) { return material.restitution > 0; };
   if (std::ranges::any_of(scene.materials, bounces)) bounce_.emplace(bodies.size(), contacts);
+  if (std::ranges::any_of(scene.materials, [](const Material& material) { return material.rolling > 0; })) {
+    newton_.makeRollsRoom(contacts);
+    small_steps_.makeRollsRoom(std::min(kMostRows, contacts));
+  }
   problem_.bodies.reserve(bodies.size());
   problem_.contacts.reserve(contacts);
   for (Members* members : {&members_, &contacts_, &fingers_, &motors_}) members->first.reserve(bodies.size() + 2);

@@ -31,11 +31,12 @@ class SmallSteps {
   /// Reserves memory for `bodies` and `contacts`; more allocate once.
   SmallSteps(const Options& options, std::size_t bodies, std::size_t contacts) : options_(options) {
     contacts_.reserve(contacts);
-    rolls_.reserve(contacts);
     inverse_inertia_W_.reserve(bodies);
     begin_.reserve(bodies);
     touched_.reserve(bodies);
   }
+  /// Reserves memory for rolling resistance of `contacts`.
+  void makeRollsRoom(std::size_t contacts) { rolls_.reserve(contacts); }
   void makeRoom(std::size_t fingers, std::size_t motors) {
     fingers_.reserve(fingers);
     motors_.reserve(motors);
