@@ -149,7 +149,8 @@ struct CollisionSettings {
 
 /// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.
 struct DynamicsSettings {
-  enum class Coupling { kSoft, kExplicit, kAveraged };
+  /// kHapticRate: soft, and at the haptic rate for bodies that fingers hold, up to `max_held` together.
+  enum class Coupling { kSoft, kExplicit, kAveraged, kHapticRate };
   /// kDirect, kIterative: of the engine; kNewton, kSmallSteps: Presa's own (modules/dynamics_ode).
   enum class Solver { kAuto, kDirect, kIterative, kNewton, kSmallSteps };
   enum class Friction { kIsotropic, kPyramid };
@@ -163,6 +164,7 @@ struct DynamicsSettings {
   Friction friction = Friction::kIsotropic;
   Rotation rotation = Rotation::kExact;
   bool sleeping = true;
+  std::size_t max_held = 3;
 };
 
 /// A goal of an assembly: a target pose and the bodies that may fill it.

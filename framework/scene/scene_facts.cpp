@@ -51,6 +51,11 @@ SceneFact assembly(const Run& run) {
   return {"", true, "bodies are to be put together"};
 }
 
+SceneFact hapticRate(const Run& run) {
+  const bool is = run.scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
+  return {"", is, is ? "<dynamics coupling=\"haptic_rate\">" : "the scene's coupling is not 'haptic_rate'"};
+}
+
 SceneFact recording(const Run& run) {
   if (!run.options.record.empty()) return {"", true, "the run is recorded"};
   if (!run.options.flight.empty()) return {"", true, "the last two seconds are kept for a fault"};
@@ -80,6 +85,7 @@ constexpr Rule kRules[] = {{"fingers", fingers},
                            {"touchable_mesh", touchableMesh},
                            {"many_touchables", manyTouchables},
                            {"free_body", freeBody},
+                           {"haptic_rate", hapticRate},
                            {"assembly", assembly},
                            {"recording", recording},
                            {"view", view},

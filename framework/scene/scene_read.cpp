@@ -226,7 +226,9 @@ DynamicsSettings readDynamics(const Element& element) {
   D settings;
   settings.engine = element.attribute("engine");
   settings.coupling = choose(element, "coupling", settings.coupling,
-                             {{"explicit", D::Coupling::kExplicit}, {"averaged", D::Coupling::kAveraged}});
+                             {{"explicit", D::Coupling::kExplicit},
+                              {"averaged", D::Coupling::kAveraged},
+                              {"haptic_rate", D::Coupling::kHapticRate}});
   settings.solver = choose(element, "solver", settings.solver,
                            {{"direct", D::Solver::kDirect},
                             {"iterative", D::Solver::kIterative},
@@ -241,6 +243,7 @@ DynamicsSettings readDynamics(const Element& element) {
                               {"euler", D::Rotation::kEuler},
                               {"matrix", D::Rotation::kMatrix}});
   settings.sleeping = element.boolean("sleeping", settings.sleeping);
+  settings.max_held = static_cast<std::size_t>(element.number("max_held", static_cast<double>(settings.max_held)));
   return settings;
 }
 

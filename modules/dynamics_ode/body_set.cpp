@@ -156,8 +156,10 @@ double BodySet::reach(std::size_t i, double h) const {
 }
 
 void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
-  if (!moves(i)) return;
-  const Entry& entry = bodies_[i];
+  if (moves(i)) setVelocity(bodies_[i], v_WB, w_WB);
+}
+
+void BodySet::setVelocity(const Entry& entry, const Vec3& v_WB, const Vec3& w_WB) {
   const Vec3 v_WCm = v_WB + w_WB.cross(toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm);
   dBodySetLinearVel(entry.body, v_WCm.x(), v_WCm.y(), v_WCm.z());
   dBodySetAngularVel(entry.body, w_WB.x(), w_WB.y(), w_WB.z());
@@ -390,6 +392,11 @@ void BodySet::take(std::size_t i) {
 
 void BodySet::place(std::size_t i, const Pose& X_WB) { moveTo(bodies_[i], centreOf(i, X_WB)); }
 
+void BodySet::carry(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) {
+  place(i, X_WB);
+  setVelocity(bodies_[i], v_WB, w_WB);
+}
+
 std::size_t BodySet::freezeBroken() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -406,22 +413,29 @@ void BodySet::freezeAll() {
   }
 }
 
+BodyMotion BodySet::now(std::size_t i) const {
+  const Entry& entry = bodies_[i];
+  const State state = read(entry);
+  BodyMotion motion;
+  motion.X_WB_begin = motion.X_WB_end = poseOf(entry, state);
+  motion.v_WB = state.v_WCm - state.w_WB.cross(state.q_WB * entry.p_BCm);
+  motion.w_WB = state.w_WB;
+  return motion;
+}
+
 void BodySet::write(ObjectState& out) {
   out.bodies.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Entry& entry = bodies_[i];
-    BodyMotion& motion = out.bodies[i];
-    motion.X_WB_begin = entry.X_WB;
-    motion.v_WB.setZero();
-    motion.w_WB.setZero();
-    motion.asleep = entry.asleep && !entry.paused;
+    BodyMotion motion;
     if (awake(i) || isPut(i)) {
-      const State state = read(entry);
-      entry.X_WB = poseOf(entry, state);
-      motion.v_WB = state.v_WCm - state.w_WB.cross(state.q_WB * entry.p_BCm);
-      motion.w_WB = state.w_WB;
+      motion = now(i);
+      motion.X_WB_begin = std::exchange(entry.X_WB, motion.X_WB_end);
+    } else {
+      motion.X_WB_begin = motion.X_WB_end = entry.X_WB;
     }
-    motion.X_WB_end = entry.X_WB;
+    motion.asleep = entry.asleep && !entry.paused;
+    out.bodies[i] = motion;
   }
 }
 

@@ -99,6 +99,8 @@ class BodySet {
   bool isPut(std::size_t i) const noexcept { return bodies_[i].still && !bodies_[i].frozen; }
   /// Sets the pose of a put body.
   void place(std::size_t i, const Pose& X_WB);
+  /// The same with velocities to report: of B's origin [m/s], and angular [rad/s]. What it touches does not feel them.
+  void carry(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB);
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; only if it moves
 
@@ -161,6 +163,8 @@ class BodySet {
   /// Freezes all moving bodies.
   void freezeAll();
 
+  /// Current pose, at both ends, and velocities of free body `i`.
+  BodyMotion now(std::size_t i) const;
   /// Writes all bodies in scene order; each pose interval starts where the last one written ended.
   void write(ObjectState& out);
 
@@ -199,6 +203,7 @@ class BodySet {
     return std::span(shapes_).subspan(entry.shapes.first, entry.shapes.count);
   }
   static State read(const Entry& entry);
+  static void setVelocity(const Entry& entry, const Vec3& v_WB, const Vec3& w_WB);
   static Pose poseOf(const Entry& entry, const State& state);
   static bool sane(const State& state);
   void rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const;

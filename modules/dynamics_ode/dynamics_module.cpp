@@ -18,6 +18,8 @@ static_assert(std::uint32_t{Faults::kBodyFrozen} == kFaultBodyFrozen &&
 OdeOptions optionsOf(const World& world, std::uint64_t seed) {
   OdeOptions options;
   options.method = world.scene.dynamics;
+  using Coupling = DynamicsSettings::Coupling;
+  if (options.method.coupling == Coupling::kHapticRate) options.method.coupling = Coupling::kSoft;
   options.seed = seed;
   return options;
 }
@@ -60,6 +62,24 @@ std::vector<std::string> listStages(const OdeOptions& options) {
   return all;
 }
 
+/// Adds what the steps of the held bodies counted to what those of the others did.
+void addCounts(const HeldBodies& held, ObjectState& out) noexcept {
+  const ObjectState& counted = held.counted;
+  out.held_time = held.time;
+  out.faults |= counted.faults;
+  out.stopped_short += counted.stopped_short;
+  out.energy.sum += counted.energy.sum;
+  out.energy.worst_step = std::max(out.energy.worst_step, counted.energy.worst_step);
+  const BodyPenetration &a = out.penetration, &b = counted.penetration;
+  const int points = a.points + b.points;
+  if (points > 0) out.penetration = {points, (a.points * a.mean + b.points * b.mean) / points, std::max(a.worst, b.worst)};
+  const std::size_t fingers = std::min(out.finger_impulse_W.size(), counted.finger_impulse_W.size());
+  for (std::size_t f = 0; f < fingers; ++f) out.finger_impulse_W[f] += counted.finger_impulse_W[f];
+  for (const FingerImpulse& touch : counted.touches) {
+    if (FingerImpulse* const added = out.touches.add(touch)) added->until = held.time;
+  }
+}
+
 std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
   return std::make_unique<DynamicsModule>(std::move(world), options.seed);
 }
@@ -80,6 +100,10 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
   FingerImpulses(world_->scene).write(objects_.value);
   if (world_->scene.assembly) snap_constraints_.emplace(*this, "attractions", In<SnapConstraints>::Optional{});
   if (world_->scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::Optional{});
+  if (world_->scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate) {
+    held_.emplace(*this, kHeldBodiesPort, In<HeldBodies>::Optional{});
+    released_.resize(world_->scene.bodies.size(), -1);
+  }
   if (hasBodyEffects(world_->scene)) body_effects_.emplace(*world_);
 }
 
@@ -97,10 +121,28 @@ void DynamicsModule::setSnapConstraints() noexcept {
   bodies_->setSnapConstraints(snap_constraints_->value());
 }
 
+// A held body stands where it will be at the end of the step. One that leaves moves on from where it is now.
+void DynamicsModule::follow(const HeldBodies& held, const Tick& tick) noexcept {
+  constexpr double kOldest = 0.02;  // a body whose pose is older stands still [s]
+  const double age = std::clamp(tick.time - held.time, 0.0, kOldest);
+  for (const HeldBody& one : held.bodies) {
+    const auto body = static_cast<std::size_t>(one.body);
+    if (one.phase == HeldBody::Phase::kHeld) {
+      bodies_->hold(body, one.poseAfter(age + tick.period), one.v_WB, one.w_WB);
+    } else if (one.phase == HeldBody::Phase::kLeaving && released_[body] != one.since) {
+      bodies_->hold(body, one.X_WB, one.v_WB, one.w_WB);
+      bodies_->release(body, one.poseAfter(age), one.v_WB, one.w_WB);
+      released_[body] = one.since;
+    }
+  }
+}
+
 void DynamicsModule::step(const Tick& tick) noexcept {
   setSnapConstraints();
   if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
+  if (held_ && held_->hasValue()) follow(held_->value(), tick);
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, tick.late);
+  if (held_ && held_->hasValue()) addCounts(held_->value(), objects_.value);
 }
 
 void DynamicsModule::stop() {

@@ -7,6 +7,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/haptics/body_effects.h"
 #include "framework/haptics/effect_reactions.h"
+#include "framework/haptics/held_bodies.h"
 #include "framework/haptics/plugin_host.h"
 #include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/ode_world.h"
@@ -29,11 +30,14 @@ class DynamicsModule final : public Module, public PluginHost {
 
  private:
   void setSnapConstraints() noexcept;
+  void follow(const HeldBodies& held, const Tick& tick) noexcept;
 
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
   std::optional<In<SnapConstraints>> snap_constraints_;  // only in scenes with an assembly
   std::optional<In<EffectReactions>> reactions_;         // only if force effects act on free bodies
+  std::optional<In<HeldBodies>> held_;                   // only if the haptic thread moves what fingers hold
+  std::vector<double> released_;                         // by body: HeldBody::since when it was taken back
   std::optional<BodyEffects> body_effects_;              // only if they act on free bodies
   std::uint64_t snap_constraints_seen_ = 0;
   std::shared_ptr<const World> world_;

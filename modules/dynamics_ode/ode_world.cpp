@@ -280,17 +280,35 @@ OdeWorld::OdeWorld(std::shared_ptr<const World> world, const OdeOptions& options
 
 OdeWorld::~OdeWorld() = default;
 
-void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out, bool late) noexcept {
+void OdeWorld::step(const ContactExchange& fingers, double time, double period, bool late) noexcept {
   Impl& impl = *impl_;
-  if (!impl.failed) {
-    try {
-      impl.step(fingers, time, period, late);
-    } catch (const std::exception&) {
-      impl.giveUp();
-    }
+  if (impl.failed) return;
+  try {
+    impl.step(fingers, time, period, late);
+  } catch (const std::exception&) {
+    impl.giveUp();
   }
+}
+
+void OdeWorld::step(const ContactExchange& fingers, double time, double period, ObjectState& out, bool late) noexcept {
+  step(fingers, time, period, late);
   write(time, out);
   out.time_end = time + period;
+}
+
+void OdeWorld::hold(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept {
+  BodySet& bodies = impl_->bodies;
+  if (bodies.asleep(i)) impl_->sleep->wake(bodies, i);
+  if (bodies.moves(i)) bodies.put(i);
+  if (bodies.isPut(i)) bodies.carry(i, X_WB, v_WB, w_WB);
+}
+
+void OdeWorld::release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept {
+  BodySet& bodies = impl_->bodies;
+  if (!bodies.isPut(i)) return;
+  bodies.place(i, X_WB);
+  bodies.take(i);
+  bodies.setVelocity(i, v_WB, w_WB);
 }
 
 void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
@@ -314,6 +332,10 @@ void OdeWorld::addReactions(const EffectReactions& reactions, double period) noe
 void OdeWorld::write(double time, ObjectState& out) noexcept {
   impl_->bodies.write(out);
   out.time_begin = out.time_end = time;
+  writeCounts(out);
+}
+
+void OdeWorld::writeCounts(ObjectState& out) const noexcept {
   out.faults = impl_->faults.bits;
   out.fallback_steps = impl_->fallback_steps;
   out.penetration = penetrationOf(impl_->contacts);
@@ -322,6 +344,8 @@ void OdeWorld::write(double time, ObjectState& out) noexcept {
   if (impl_->sweep) out.stopped_short = impl_->sweep->stops();
   impl_->impulses.write(out);
 }
+
+BodyMotion OdeWorld::motion(std::size_t i) const noexcept { return impl_->bodies.now(i); }
 
 void OdeWorld::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) noexcept {
   if (impl_->bodies.asleep(i)) impl_->sleep->wake(impl_->bodies, i);

@@ -8,6 +8,7 @@
 #include "framework/core/state/object_state.h"
 #include "framework/haptics/body_effects.h"
 #include "framework/haptics/effect_reactions.h"
+#include "framework/haptics/held_bodies.h"
 #include "framework/scene/world.h"
 #include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/ode_options.h"
@@ -40,6 +41,14 @@ class OdeWorld {
   /// extrapolated to `time` and fades when older than ages::fingers. In a `late` step islands that no finger touches
   /// stand still. Never throws.
   void step(const ContactExchange& fingers, double time, double period, ObjectState& out, bool late = false) noexcept;
+  /// The same, written nowhere.
+  void step(const ContactExchange& fingers, double time, double period, bool late = false) noexcept;
+  /// Makes free body `i` an obstacle at this pose until release(); velocities are only reported.
+  void hold(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept;
+  /// Lets body `i` move on from this pose with these velocities.
+  void release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept;
+  /// Pose and velocities of free body `i`.
+  BodyMotion motion(std::size_t i) const noexcept;
   /// Allocates for the fingers and contacts that this exchange has room for. Not called: the first step allocates.
   void makeRoom(const ContactExchange& fingers);
   /// Sets the snap constraints from the next step on. Never called: none.
@@ -50,6 +59,8 @@ class OdeWorld {
   void use(BodyEffects& effects);
   /// Writes the current poses as a state valid from `time` on [s].
   void write(double time, ObjectState& out) noexcept;
+  /// Writes everything but bodies and times.
+  void writeCounts(ObjectState& out) const noexcept;
 
   /// Sets the velocity of moving body `i` at its origin and its angular velocity [m/s, rad/s, in W].
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) noexcept;

@@ -34,6 +34,8 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
   effects.damping = any_touchable([&](const Body& body) { return scene.materialOf(body).damping > 0; });
   effects.torsion =
       effects.friction && any_touchable([&](const Body& body) { return scene.materialOf(body).torsional_radius > 0; });
+  effects.held = effects.poses != HapticEffects::Poses::kNone &&
+                 scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
   effects.impulse = scene.dynamics.coupling == DynamicsSettings::Coupling::kAveraged;
   return effects;
 }

@@ -20,6 +20,7 @@ struct HapticEffects {
   bool surface_effects = false;  ///< force shading and those of plug-ins
   bool damping = false;
   bool torsion = false;  ///< torsional friction of oriented tools
+  bool held = false;     ///< the haptic thread moves what fingers hold
   bool impulse = false;  ///< summed for dynamics with averaged coupling
 };
 

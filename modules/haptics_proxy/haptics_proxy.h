@@ -75,6 +75,7 @@ class HapticsProxy final : public Module, public PluginHost {
   std::optional<In<SurfaceChange>> surface_change_;      // only if friction can change
   std::vector<std::unique_ptr<Commanded>> commanded_;    // none or one
   std::vector<std::unique_ptr<Effects>> force_effects_;  // none or one
+  std::vector<std::unique_ptr<In<HeldBodies>>> held_;    // none, or one if the haptic thread moves what fingers hold
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };
 

@@ -102,7 +102,7 @@ std::vector<Module*> GraphBuilder::order(RateGroup group) {
   std::vector<Module*> done;
   const auto waits_for = [&](const Module* module) -> const Link* {
     for (const Link& link : links_) {
-      if (&link.to->owner() != module || link.from->owner().group() != group) continue;
+      if (&link.to->owner() != module || link.from->owner().group() != group || link.to->ofLastTick()) continue;
       if (std::find(done.begin(), done.end(), &link.from->owner()) == done.end()) return &link;
     }
     return nullptr;

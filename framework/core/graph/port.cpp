@@ -19,19 +19,9 @@ InPortBase::InPortBase(Module& owner, std::string name, std::type_index type, bo
 }
 
 const char* toString(RateGroup group) noexcept {
-  switch (group) {
-    case RateGroup::kHaptic:
-      return "haptic";
-    case RateGroup::kCollision:
-      return "collision";
-    case RateGroup::kDynamics:
-      return "dynamics";
-    case RateGroup::kView:
-      return "view";
-    case RateGroup::kBus:
-      return "bus";
-  }
-  return "?";
+  static constexpr const char* kNames[kRateGroupCount] = {"haptic", "collision", "dynamics", "view", "bus"};
+  const auto index = static_cast<std::size_t>(group);
+  return index < kRateGroupCount ? kNames[index] : "?";
 }
 
 }  // namespace presa

@@ -60,6 +60,7 @@ class InPortBase {
   /// Age above which the value counts as old [s].
   double oldAfter() const noexcept { return old_after_; }
   bool connected() const noexcept { return connected_; }
+  bool ofLastTick() const noexcept { return of_last_tick_; }
 
  protected:
   friend class GraphBuilder;
@@ -70,6 +71,7 @@ class InPortBase {
   WhenOld when_old_;
   double old_after_;
   bool connected_ = false;
+  bool of_last_tick_ = false;
 };
 
 template <ExchangedData T>
@@ -86,6 +88,9 @@ class In final : public InPortBase {
   struct Optional {};
   In(Module& owner, std::string name, Optional, WhenOld when_old = WhenOld::kHold, double old_after = kNever)
       : InPortBase(owner, std::move(name), typeid(T), true, when_old, old_after) {}
+  /// Feedback: within a group the reader steps before the writer, and sees what it wrote in the last tick.
+  struct OfLastTick {};
+  In(Module& owner, std::string name, OfLastTick) : In(owner, std::move(name), Optional{}) { of_last_tick_ = true; }
 
   /// Before the writer's first step: across groups a default T, within a group the output's initial value.
   const T& value() const noexcept { return *value_; }

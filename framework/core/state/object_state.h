@@ -49,6 +49,8 @@ struct FingerImpulse {
   std::int32_t finger = 0, body = kNoBody;
   double since = 0;               ///< time_begin of the first step with this contact [s]
   Vec3 impulse_W = Vec3::Zero();  ///< on the body [N s]
+  double until = kNoEnd;          ///< up to which it is counted [s]; kNoEnd: to time_end
+  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 };
 
 /// Object State: motion of every body of the scene (fixed ones too, in scene order) over the step just solved.
@@ -66,6 +68,7 @@ struct ObjectState {
   EnergyCreated energy;
   /// Steps since the start in which a body was stopped short of passing through another, summed over the bodies.
   std::uint64_t stopped_short = 0;
+  double held_time = -1;  ///< of the HeldBodies (framework/haptics) that this state follows [s]; -1: of none
   double far_lag = 0;  ///< since the start, for which bodies stood still that no finger reaches: late dynamics [s]
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
   std::vector<Vec3> finger_impulse_W;

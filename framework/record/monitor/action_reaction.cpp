@@ -14,32 +14,47 @@ auto* find(List& list, std::int32_t finger, std::int32_t body) noexcept {
 
 }  // namespace
 
+ActionReaction::Giver::Giver(std::size_t span, const BoundedList<Touch>& touches) : ring(span + 1) {
+  for (Sums& sums : ring) sums.touches = touches;
+  for (Given& given : pending) given.impulses = BoundedList<FingerImpulse>(touches.capacity());
+}
+
 ActionReaction::ActionReaction(const Scene& scene)
     : span_(static_cast<std::size_t>(std::max(1.0, std::round(kWindow * scene.rates.dynamics)))),
-      ring_(span_ + 1),
       touches_(scene.devices.size() * std::min<std::size_t>(scene.bodies.size(), kMaxNearBodies)),
       results_(scene.devices.size()) {
   for (const Body& body : scene.bodies) free_.push_back(body.fixed ? 0 : 1);
-  for (Sums& sums : ring_) sums.touches = touches_;
-  for (Given& given : pending_) given.impulses = BoundedList<FingerImpulse>(touches_.capacity());
+  const bool held = scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
+  givers_.assign(held ? 2 : 1, Giver(span_, touches_));
 }
 
 bool ActionReaction::moves(std::int32_t body) const noexcept {
   return body >= 0 && static_cast<std::size_t>(body) < free_.size() && free_[static_cast<std::size_t>(body)] != 0;
 }
 
+// Room for what was given up to `time`; null: none left.
+ActionReaction::Given* ActionReaction::giveAt(Giver& giver, double time) noexcept {
+  if (giver.pending_count == giver.pending.size()) return nullptr;
+  Given& given = giver.pending[(giver.pending_begin + giver.pending_count++) % giver.pending.size()];
+  given.time = time;
+  given.impulses.clear();
+  return &given;
+}
+
 void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const ObjectState& objects,
                          bool fresh) noexcept {
   // a late dynamics thread may publish a step that has already ended; its sums are not comparable, so the step is
   // skipped
-  if (fresh && objects.time_end >= tick.time && pending_count_ < pending_.size()) {
+  if (fresh && objects.time_end >= tick.time) {
     const double half_step = (objects.time_end - objects.time_begin) / 2;
-    Given& given = pending_[(pending_begin_ + pending_count_++) % pending_.size()];
-    given.time = objects.time_end + half_step + tick.period / 2;
-    given.impulses.clear();
-    for (const FingerImpulse& one : objects.touches) given.impulses.add(one);
+    Given* const own = giveAt(givers_[0], objects.time_end + half_step + tick.period / 2);
+    // a held body's step is as long as a tick
+    Given* const held = givers_.size() > 1 ? giveAt(givers_[1], objects.held_time + tick.period) : nullptr;
+    for (const FingerImpulse& one : objects.touches) {
+      if (Given* const given = one.until == FingerImpulse::kNoEnd ? own : held) given->impulses.add(one);
+    }
   }
-  pair(tick);
+  for (Giver& giver : givers_) pair(tick, giver);
   sum(tick, contact);
 }
 
@@ -68,10 +83,10 @@ void ActionReaction::sum(const Tick& tick, std::int32_t finger, const ToolContac
 }
 
 // Compares every step end that the rendered sums have reached by this tick.
-void ActionReaction::pair(const Tick& tick) noexcept {
-  while (pending_count_ > 0 && pending_[pending_begin_].time <= tick.time + 1e-3 * tick.period) {
-    const Given& given = pending_[pending_begin_];
-    Sums& now = ring_[count_ % ring_.size()];
+void ActionReaction::pair(const Tick& tick, Giver& giver) noexcept {
+  while (giver.pending_count > 0 && giver.pending[giver.pending_begin].time <= tick.time + 1e-3 * tick.period) {
+    const Given& given = giver.pending[giver.pending_begin];
+    Sums& now = giver.ring[giver.count % giver.ring.size()];
     now.time = given.time;
     now.touches.clear();
     for (const Touch& touch : touches_) {
@@ -83,16 +98,16 @@ void ActionReaction::pair(const Tick& tick) noexcept {
       sums->given = impulse->impulse_W;
       sums->given_since = impulse->since;
     }
-    compare(now);
-    ++count_;
-    pending_begin_ = (pending_begin_ + 1) % pending_.size();
-    --pending_count_;
+    compare(giver, now);
+    ++giver.count;
+    giver.pending_begin = (giver.pending_begin + 1) % giver.pending.size();
+    --giver.pending_count;
   }
 }
 
-void ActionReaction::compare(const Sums& now) noexcept {
-  if (count_ < span_) return;
-  const Sums& before = ring_[(count_ - span_) % ring_.size()];
+void ActionReaction::compare(const Giver& giver, const Sums& now) noexcept {
+  if (giver.count < span_) return;
+  const Sums& before = giver.ring[(giver.count - span_) % giver.ring.size()];
   for (const Touch& end : now.touches) {
     const Touch* begin = find(before.touches, end.finger, end.body);
     if (begin == nullptr || begin->since != end.since || begin->given_since != end.given_since) continue;

@@ -52,19 +52,25 @@ class ActionReaction {
     double time = 0;
     BoundedList<FingerImpulse> impulses;
   };
+  /// What one integrator gave: the dynamics, or the haptic thread.
+  struct Giver {
+    Giver(std::size_t span, const BoundedList<Touch>& touches);
+    std::vector<Sums> ring;         // at the ends of dynamics steps
+    std::uint64_t count = 0;        // entries put into the ring so far
+    std::array<Given, 64> pending;  // impulses whose time the haptic side has not reached
+    std::size_t pending_begin = 0, pending_count = 0;
+  };
+  Given* giveAt(Giver& giver, double time) noexcept;
   void sum(const Tick& tick, const ContactExchange& contact) noexcept;
   void sum(const Tick& tick, std::int32_t finger, const ToolContact& contact) noexcept;
-  void pair(const Tick& tick) noexcept;
-  void compare(const Sums& now) noexcept;
+  void pair(const Tick& tick, Giver& giver) noexcept;
+  void compare(const Giver& giver, const Sums& now) noexcept;
   bool moves(std::int32_t body) const noexcept;
 
-  std::vector<char> free_;         // by body
-  std::size_t span_;               // dynamics steps in a window
-  std::vector<Sums> ring_;         // at the ends of dynamics steps
-  std::uint64_t count_ = 0;        // entries put into ring_ so far
-  std::array<Given, 64> pending_;  // impulses whose time the haptic side has not reached
-  std::size_t pending_begin_ = 0, pending_count_ = 0;
+  std::vector<char> free_;  // by body
+  std::size_t span_;        // dynamics steps in a window
   BoundedList<Touch> touches_;
+  std::vector<Giver> givers_;  // the dynamics, then the haptic thread if it moves what fingers hold
   std::vector<Result> results_;  // by finger
 };
 

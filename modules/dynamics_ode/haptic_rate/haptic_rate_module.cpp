@@ -1,0 +1,268 @@
+#include "modules/dynamics_ode/haptic_rate/haptic_rate_module.h"
+
+#include <algorithm>
+
+#include "framework/session/module_plugin.h"
+#include "modules/dynamics_ode/engine.h"
+#include "modules/dynamics_ode/finger_impulses.h"
+#include "modules/dynamics_ode/index.h"
+
+namespace presa::ode {
+namespace {
+
+OdeOptions optionsOf(const World& world, std::uint64_t seed) {
+  OdeOptions options;
+  options.method = world.scene.dynamics;
+  options.method.coupling = DynamicsSettings::Coupling::kSoft;
+  options.method.sleeping = false;
+  options.seed = seed;
+  return options;
+}
+
+std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
+  return std::make_unique<HapticRateModule>(std::move(world), options.seed);
+}
+
+const ModulePlugin kPlugin{.name = "haptic_rate", .create = create};
+
+}  // namespace
+
+HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint64_t seed)
+    : Module("haptic_rate", RateGroup::kHaptic), world_(std::move(world)), options_(optionsOf(*world_, seed)) {
+  const Scene& scene = world_->scene;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    is_free_.push_back(!scene.bodies[i].fixed && world_->inertias[i].mass > 0);
+    if (is_free_.back() != 0) free_.push_back(i);
+  }
+  waits_.resize(scene.bodies.size());
+  // every finger holds a group at most, and as many may be on their way back
+  const std::size_t room = std::min(2 * scene.devices.size() * scene.dynamics.max_held, free_.size());
+  entries_ = BoundedList<Entry>(room);
+  groups_.resize(room);
+  out_.value.bodies = BoundedList<HeldBody>(room);
+  FingerImpulses(scene).write(out_.value.counted);
+  if (scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::OfLastTick{});
+  if (hasBodyEffects(scene)) body_effects_.emplace(*world_);
+}
+
+void HapticRateModule::start() {
+  attachThread();
+  bodies_ = std::make_unique<OdeWorld>(world_, options_);
+  if (body_effects_) bodies_->use(*body_effects_);
+  bodies_->makeRoom(fingers_.sized());
+  for (const std::size_t i : free_) bodies_->hold(i, world_->scene.bodies[i].X_WB, Vec3::Zero(), Vec3::Zero());
+  bodies_->writeCounts(out_.value.counted);
+}
+
+void HapticRateModule::step(const Tick& tick) noexcept {
+  if (!objects_.hasValue()) return;
+  now_ = tick.time;
+  placeOthers();
+  if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
+  bodies_->step(fingers_.value(), tick.time - tick.period, tick.period);
+  readBack();
+  completeReturns();
+  markTouched(fingers_.value());
+  findGroups();
+  growGroups();
+  leaveUntouched();
+  write();
+}
+
+void HapticRateModule::stop() {
+  bodies_.reset();
+  detachThread();
+}
+
+HapticRateModule::Entry* HapticRateModule::find(std::size_t body) noexcept {
+  const auto is = [&](const Entry& entry) { return index(entry.held.body) == body; };
+  Entry* const found = std::find_if(entries_.begin(), entries_.end(), is);
+  return found == entries_.end() ? nullptr : found;
+}
+
+// The body in the dynamics, with its pose now.
+BodyMotion HapticRateModule::inDynamics(std::size_t body) const noexcept {
+  BodyMotion motion = objects_->bodies[body];
+  motion.X_WB_end = objects_->poseAt(static_cast<std::int32_t>(body), now_);
+  return motion;
+}
+
+// The body as the haptic thread shows it now, unless it moves it itself.
+BodyMotion HapticRateModule::shown(std::size_t body) noexcept {
+  const Entry* entry = find(body);
+  return entry == nullptr ? inDynamics(body) : entry->way.at(inDynamics(body), now_);
+}
+
+void HapticRateModule::placeOthers() noexcept {
+  for (const std::size_t i : free_) {
+    if (const Entry* entry = find(i); entry != nullptr && moves(*entry)) continue;
+    if (objects_->bodies[i].asleep && entries_.empty()) continue;
+    const BodyMotion motion = shown(i);
+    bodies_->hold(i, motion.X_WB_end, motion.v_WB, motion.w_WB);
+  }
+}
+
+void HapticRateModule::readBack() noexcept {
+  for (Entry& entry : entries_) {
+    if (!moves(entry)) continue;
+    const BodyMotion motion = bodies_->motion(index(entry.held.body));
+    entry.held.X_WB = motion.X_WB_end;
+    entry.held.v_WB = motion.v_WB;
+    entry.held.w_WB = motion.w_WB;
+  }
+}
+
+// Hands bodies over to the dynamics that have taken them, and forgets those that have arrived.
+void HapticRateModule::completeReturns() noexcept {
+  for (std::size_t e = entries_.size(); e-- > 0;) {
+    Entry& entry = entries_[e];
+    HeldBody& held = entry.held;
+    const std::size_t body = index(held.body);
+    if (held.phase == HeldBody::Phase::kLeaving && objects_->held_time >= entry.leaving_since) {
+      entry.way = GentleReturn(bodies_->motion(body), inDynamics(body), now_);
+      held.phase = HeldBody::Phase::kGivenBack;
+      bodies_->hold(body, held.X_WB, held.v_WB, held.w_WB);
+    }
+    if (held.phase != HeldBody::Phase::kGivenBack) continue;
+    const BodyMotion motion = entry.way.at(inDynamics(body), now_);
+    held.X_WB = motion.X_WB_end;
+    held.v_WB = motion.v_WB;
+    held.w_WB = motion.w_WB;
+    if (entry.way.isOver(now_)) entries_.remove(e);
+  }
+}
+
+void HapticRateModule::markTouched(const ContactExchange& fingers) noexcept {
+  for (Entry& entry : entries_) entry.finger = false;
+  for (const FingerContact& finger : fingers.fingers) {
+    if (finger.mode == ContactMode::kNone) continue;
+    if (finger.contact_count < 2) {
+      touch(finger.body);
+    } else {
+      for (const ToolContact& contact : fingers.contactsOf(finger)) touch(contact.body);
+    }
+  }
+}
+
+void HapticRateModule::touch(std::int32_t body) noexcept {
+  const std::size_t i = index(body);
+  if (body < 0 || i >= is_free_.size() || is_free_[i] == 0) return;
+  Entry* entry = find(i);
+  const bool moved = entry != nullptr && entry->held.phase == HeldBody::Phase::kHeld;
+  if (!moved && now_ >= waits_[i].until) entry = take(i);
+  if (entry != nullptr) entry->finger = true;
+}
+
+// Takes body `i` over as it is shown; null: no room.
+HapticRateModule::Entry* HapticRateModule::take(std::size_t i) noexcept {
+  Entry* entry = find(i);
+  const bool leaving = entry != nullptr && entry->held.phase == HeldBody::Phase::kLeaving;
+  const BodyMotion motion = leaving ? bodies_->motion(i) : shown(i);
+  if (entry == nullptr) entry = entries_.add();
+  if (entry == nullptr) return nullptr;
+  *entry = {};
+  entry->held = {static_cast<std::int32_t>(i), HeldBody::Phase::kHeld, now_, motion.X_WB_end, motion.v_WB, motion.w_WB};
+  entry->touched = now_;
+  if (!leaving) bodies_->release(i, motion.X_WB_end, motion.v_WB, motion.w_WB);
+  ++out_.value.taken;
+  return entry;
+}
+
+// Groups of held bodies in contact, by their least entry.
+void HapticRateModule::findGroups() noexcept {
+  for (std::size_t e = 0; e < entries_.size(); ++e) entries_[e].group = e;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const BodyContact& contact : bodies_->contacts()) {
+      Entry *a = find(index(contact.A)), *b = find(index(contact.B));
+      if (a == nullptr || b == nullptr || !moves(*a) || !moves(*b) || a->group == b->group) continue;
+      a->group = b->group = std::min(a->group, b->group);
+      changed = true;
+    }
+  }
+  std::fill(groups_.begin(), groups_.end(), Group{});
+  for (const Entry& entry : entries_) {
+    if (!moves(entry)) continue;
+    Group& group = groups_[entry.group];
+    ++group.size;
+    group.touched = group.touched || entry.finger;
+  }
+}
+
+// Takes over what a group that fingers hold has met.
+void HapticRateModule::growGroups() noexcept {
+  for (const BodyContact& contact : bodies_->contacts()) {
+    for (const auto& [one, other] : {std::pair(contact.A, contact.B), std::pair(contact.B, contact.A)}) {
+      const Entry* holder = find(index(one));
+      if (holder == nullptr || !moves(*holder) || is_free_[index(other)] == 0) continue;
+      const std::size_t group = holder->group;
+      if (!groups_[group].touched || !groups_[group].grows) continue;
+      if (const Entry* met = find(index(other)); met != nullptr && moves(*met)) continue;
+      Entry* taken = groups_[group].size < world_->scene.dynamics.max_held ? take(index(other)) : nullptr;
+      if (taken == nullptr) {
+        groups_[group].grows = false;
+        continue;
+      }
+      taken->group = group;
+      ++groups_[group].size;
+    }
+  }
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (groups_[g].size > world_->scene.dynamics.max_held || !groups_[g].grows) giveBack(g);
+  }
+}
+
+void HapticRateModule::leave(Entry& entry) noexcept {
+  entry.held.phase = HeldBody::Phase::kLeaving;
+  entry.leaving_since = now_;
+}
+
+// A group that is too large goes back as a whole, and is tried again later.
+void HapticRateModule::giveBack(std::size_t group) noexcept {
+  ++out_.value.too_many;
+  for (Entry& entry : entries_) {
+    if (entry.held.phase != HeldBody::Phase::kHeld || entry.group != group) continue;
+    leave(entry);
+    Wait& wait = waits_[index(entry.held.body)];
+    wait = {now_ + wait.next, std::min(2 * wait.next, kLastWait)};
+  }
+}
+
+void HapticRateModule::leaveUntouched() noexcept {
+  for (Entry& entry : entries_) {
+    if (entry.held.phase != HeldBody::Phase::kHeld) continue;
+    if (groups_[entry.group].touched) {
+      entry.touched = now_;
+    } else if (now_ - entry.touched > kLetGo) {
+      leave(entry);
+      waits_[index(entry.held.body)] = {};
+    }
+  }
+}
+
+void HapticRateModule::write() noexcept {
+  HeldBodies& out = out_.value;
+  out.time = now_;
+  out.bodies.clear();
+  for (const Entry& entry : entries_) out.bodies.add(entry.held);
+  bodies_->writeCounts(out.counted);
+}
+
+std::vector<std::string> HapticRateModule::stages() const {
+  std::vector<std::string> stages;
+  if (body_effects_) {
+    for (const std::string& name : body_effects_->names()) stages.push_back("body effect " + name);
+  }
+  stages.push_back("move what fingers touched in the last tick, with what it touches, up to " +
+                   std::to_string(world_->scene.dynamics.max_held) + " bodies in contact");
+  stages.emplace_back("take bodies over from the dynamics, and give them back without a step in pose or velocity");
+  return stages;
+}
+
+std::optional<std::string> HapticRateModule::brokenPlugin() const {
+  return body_effects_ ? body_effects_->brokenName() : std::nullopt;
+}
+
+}  // namespace presa::ode
+
+PRESA_MODULE_PLUGIN(presa::ode::kPlugin)

@@ -1,0 +1,86 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/core/graph/port.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/haptics/body_effects.h"
+#include "framework/haptics/effect_reactions.h"
+#include "framework/haptics/held_bodies.h"
+#include "framework/haptics/plugin_host.h"
+#include "modules/dynamics_ode/haptic_rate/gentle_return.h"
+#include "modules/dynamics_ode/ode_world.h"
+
+namespace presa::ode {
+
+/// Moves the bodies that fingers hold, and what stands on them, in the haptic tick: object state and the contact
+/// exchange of the last tick in, held bodies out (Harwin and Barrow, section 6.2). A body is taken over from the
+/// dynamics when a finger touches it, or when it meets such a body; it is given back when no finger holds its group for
+/// kLetGo, or when the group grows beyond DynamicsSettings::max_held. Thread: haptic; nonblocking after start().
+class HapticRateModule final : public Module, public PluginHost {
+ public:
+  HapticRateModule(std::shared_ptr<const World> world, std::uint64_t seed);
+
+  void start() override;
+  void step(const Tick& tick) noexcept override;
+  void stop() override;
+  std::vector<std::string> stages() const override;
+  std::optional<std::string> brokenPlugin() const override;
+
+ private:
+  static constexpr double kLetGo = 0.05;                      // [s]
+  static constexpr double kFirstWait = 0.5, kLastWait = 8.0;  // before a group that was too large is tried again [s]
+
+  struct Entry {
+    HeldBody held;
+    double touched = 0;       // when a finger last held its group [s]
+    double leaving_since = 0;  // [s]
+    GentleReturn way;         // of a body that was given back
+    std::size_t group = 0;    // least index of an entry in contact with it
+    bool finger = false;      // a finger touches it
+  };
+  struct Wait {
+    double until = 0, next = kFirstWait;  // [s]
+  };
+  /// Of the entries of one group.
+  struct Group {
+    std::size_t size = 0;
+    bool touched = false, grows = true;
+  };
+
+  bool moves(const Entry& entry) const noexcept { return entry.held.phase != HeldBody::Phase::kGivenBack; }
+  Entry* find(std::size_t body) noexcept;
+  BodyMotion inDynamics(std::size_t body) const noexcept;
+  BodyMotion shown(std::size_t body) noexcept;
+  void placeOthers() noexcept;
+  void readBack() noexcept;
+  void completeReturns() noexcept;
+  void markTouched(const ContactExchange& fingers) noexcept;
+  void touch(std::int32_t body) noexcept;
+  Entry* take(std::size_t body) noexcept;
+  void findGroups() noexcept;
+  void growGroups() noexcept;
+  void leave(Entry& entry) noexcept;
+  void giveBack(std::size_t group) noexcept;
+  void leaveUntouched() noexcept;
+  void write() noexcept;
+
+  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+  In<ContactExchange> fingers_{*this, "contact_exchange", In<ContactExchange>::OfLastTick{}};
+  Out<HeldBodies> out_{*this, kHeldBodiesPort};
+  std::optional<In<EffectReactions>> reactions_;  // only if force effects act on free bodies
+  std::optional<BodyEffects> body_effects_;       // only if they act on free bodies
+  std::shared_ptr<const World> world_;
+  const OdeOptions options_;
+  std::unique_ptr<OdeWorld> bodies_;  // all that is not held is an obstacle
+  std::vector<std::size_t> free_;     // bodies of the scene that are not fixed
+  std::vector<char> is_free_;         // by body
+  std::vector<Wait> waits_;           // by body
+  BoundedList<Entry> entries_;
+  std::vector<Group> groups_;  // by least entry
+  double now_ = 0;             // [s]
+};
+
+}  // namespace presa::ode
